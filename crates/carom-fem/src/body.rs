@@ -1,0 +1,321 @@
+use std::sync::Arc;
+
+use carom_mesh::{Matrix, Mesh, Surface, Vector, tensor};
+use serde::{Deserialize, Serialize};
+
+use crate::elements::{CellState, Elements, add_mass, elements};
+use crate::material::{Confined, LawSpec, LinearElastic, Material, PointLaw, SaintVenantKirchhoff};
+use crate::sparse::{NodalMatrix, NodeGraph};
+use crate::FemError;
+
+/// How the mass of a body is shared among its nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MassKind {
+    /// ∫ρ N_a N_b dV.
+    #[default]
+    Consistent,
+    /// Row sums of the consistent mass.
+    Lumped,
+}
+
+/// Rayleigh damping C = α M + β K₀, with K₀ the stiffness of the reference configuration turning with the body.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct RayleighDamping {
+    /// α [1/s].
+    pub mass: f64,
+    /// β [s].
+    pub stiffness: f64,
+}
+
+impl RayleighDamping {
+    /// Whether there is any damping.
+    #[must_use]
+    pub fn is_active(&self) -> bool {
+        self.mass != 0.0 || self.stiffness != 0.0
+    }
+}
+
+/// What a body is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodySpec {
+    /// Material law.
+    pub law: LawSpec,
+    /// Density ρ [kg/m³].
+    pub density: f64,
+    /// Damping.
+    pub damping: RayleighDamping,
+    /// Mass matrix.
+    pub mass: MassKind,
+    /// Thickness in 2D [m]; 1 in 3D.
+    pub thickness: f64,
+}
+
+/// A deformable body: mesh, elements, mass and damping. It is never written after it is built.
+///
+/// Slices of vectors hold one entry per node of the body.
+#[derive(Debug)]
+pub struct Body<const D: usize> {
+    mesh: Mesh<D>,
+    surface: Surface,
+    graph: Arc<NodeGraph>,
+    elements: Vec<Box<dyn Elements<D>>>,
+    mass: NodalMatrix<f64>,
+    nodal_mass: Vec<f64>,
+    total_mass: f64,
+    volume: f64,
+    damping: RayleighDamping,
+    damping_stiffness: Option<NodalMatrix<Matrix<D>>>,
+    objective: bool,
+    wave_speed: f64,
+}
+
+impl<const D: usize> Body<D> {
+    /// Builds the body.
+    ///
+    /// # Errors
+    /// If a material constant is out of range, or a cell is inverted or degenerate.
+    pub fn new(mesh: Mesh<D>, spec: &BodySpec) -> Result<Self, FemError> {
+        match &spec.law {
+            LawSpec::SaintVenantKirchhoff(c) => Self::of_law(mesh, spec, SaintVenantKirchhoff::new(c)?),
+            LawSpec::LinearElastic(c) => Self::of_law(mesh, spec, LinearElastic::new(c)?),
+        }
+    }
+
+    fn of_law<M: Material + Clone + 'static>(mesh: Mesh<D>, spec: &BodySpec, law: M) -> Result<Self, FemError> {
+        let positive = |name, value: f64, remedy| {
+            if value.is_finite() && value > 0.0 {
+                Ok(value)
+            } else {
+                Err(FemError::MaterialConstant { name, value, remedy })
+            }
+        };
+        positive("density", spec.density, "the density must be greater than 0 kg/m³")?;
+        positive("thickness", spec.thickness, "the thickness must be greater than 0 m")?;
+        for (name, value) in
+            [("damping.mass", spec.damping.mass), ("damping.stiffness", spec.damping.stiffness)]
+        {
+            if !(value.is_finite() && value >= 0.0) {
+                return Err(FemError::MaterialConstant { name, value, remedy: "damping cannot be negative" });
+            }
+        }
+        let objective = law.is_objective();
+        let law = Confined(law);
+        let graph = Arc::new(NodeGraph::of(&mesh));
+        let mut blocks = Vec::new();
+        let mut mass = NodalMatrix::filled(&graph, 0.0);
+        let mut first_cell = 0;
+        for block in mesh.blocks() {
+            blocks.push(elements(&law, &mesh, block, first_cell, spec.thickness, &graph)?);
+            add_mass(&mesh, block, first_cell, spec.density * spec.thickness, &mut mass)?;
+            first_cell += block.cells().len();
+        }
+        let nodal_mass: Vec<f64> =
+            (0..graph.node_count()).map(|n| graph.row(n).map(|(e, _)| mass.values[e]).sum()).collect();
+        if spec.mass == MassKind::Lumped {
+            for node in 0..graph.node_count() {
+                for (entry, neighbour) in graph.row(node) {
+                    mass.values[entry] = if neighbour == node { nodal_mass[node] } else { 0.0 };
+                }
+            }
+        }
+        let (_, tangent) = PointLaw::<D>::stress_and_tangent(&law, &Matrix::identity());
+        let total_mass: f64 = nodal_mass.iter().sum();
+        let mut body = Self {
+            surface: Surface::of(&mesh),
+            total_mass,
+            volume: total_mass / spec.density,
+            wave_speed: (tangent[0][0][0][0] / spec.density).sqrt(),
+            damping: spec.damping,
+            damping_stiffness: None,
+            mesh,
+            graph,
+            elements: blocks,
+            mass,
+            nodal_mass,
+            objective,
+        };
+        if spec.damping.stiffness > 0.0 {
+            body.damping_stiffness = Some(body.stiffness(&vec![Vector::zeros(); body.node_count()]));
+        }
+        Ok(body)
+    }
+
+    /// The mesh in the reference configuration.
+    #[must_use]
+    pub fn mesh(&self) -> &Mesh<D> {
+        &self.mesh
+    }
+
+    /// The boundary.
+    #[must_use]
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// The graph of the nodes.
+    #[must_use]
+    pub fn graph(&self) -> &Arc<NodeGraph> {
+        &self.graph
+    }
+
+    /// Number of nodes.
+    #[must_use]
+    pub fn node_count(&self) -> usize {
+        self.mesh.nodes().len()
+    }
+
+    /// Mass matrix [kg], one number per pair of nodes (mass is isotropic).
+    #[must_use]
+    pub fn mass(&self) -> &NodalMatrix<f64> {
+        &self.mass
+    }
+
+    /// Row sums of the mass matrix [kg].
+    #[must_use]
+    pub fn nodal_mass(&self) -> &[f64] {
+        &self.nodal_mass
+    }
+
+    /// Mass [kg].
+    #[must_use]
+    pub fn total_mass(&self) -> f64 {
+        self.total_mass
+    }
+
+    /// Volume of the reference configuration [m³].
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        self.volume
+    }
+
+    /// Speed of pressure waves in the reference configuration [m/s].
+    #[must_use]
+    pub fn wave_speed(&self) -> f64 {
+        self.wave_speed
+    }
+
+    /// Damping coefficients.
+    #[must_use]
+    pub fn damping(&self) -> RayleighDamping {
+        self.damping
+    }
+
+    /// Stored energy [J].
+    #[must_use]
+    pub fn strain_energy(&self, u: &[Vector<D>]) -> f64 {
+        self.elements.iter().map(|e| e.energy(u)).sum()
+    }
+
+    /// Writes the internal force ∂E/∂u [N] to `f`.
+    pub fn internal_force(&self, u: &[Vector<D>], f: &mut [Vector<D>]) {
+        f.fill(Vector::zeros());
+        self.elements.iter().for_each(|e| e.add_internal_force(u, f));
+    }
+
+    /// The stiffness ∂²E/∂u² [N/m] at `u`.
+    #[must_use]
+    pub fn stiffness(&self, u: &[Vector<D>]) -> NodalMatrix<Matrix<D>> {
+        let mut k = NodalMatrix::filled(&self.graph, Matrix::zeros());
+        self.elements.iter().for_each(|e| e.add_stiffness(u, &mut k));
+        k
+    }
+
+    /// The stiffness K₀ that damping is made of, if there is any.
+    #[must_use]
+    pub fn damping_stiffness(&self) -> Option<&NodalMatrix<Matrix<D>>> {
+        self.damping_stiffness.as_ref()
+    }
+
+    /// Mean stress and energy density of every cell, in the order of the mesh.
+    #[must_use]
+    pub fn cell_states(&self, u: &[Vector<D>]) -> Vec<CellState> {
+        let mut out = Vec::with_capacity(self.mesh.cell_count());
+        self.elements.iter().for_each(|e| e.cell_states(u, &mut out));
+        out
+    }
+
+    /// The viscous force C v [N], written to `f`; `frame` is the rotation of the body and `scratch` as long as `v`.
+    pub fn damping_force(&self, frame: &Matrix<D>, v: &[Vector<D>], f: &mut [Vector<D>], scratch: &mut [Vector<D>]) {
+        match &self.damping_stiffness {
+            Some(k0) => {
+                for (s, v) in scratch.iter_mut().zip(v) {
+                    *s = frame.tr_mul(v);
+                }
+                k0.multiply(scratch, f);
+                f.iter_mut().for_each(|f| *f = frame * *f * self.damping.stiffness);
+            }
+            None => f.fill(Vector::zeros()),
+        }
+        if self.damping.mass > 0.0 {
+            self.mass.multiply(v, scratch);
+            for (f, mv) in f.iter_mut().zip(scratch.iter()) {
+                *f += mv * self.damping.mass;
+            }
+        }
+    }
+
+    /// Centre of mass of the deformed body [m].
+    #[must_use]
+    pub fn centre(&self, u: &[Vector<D>]) -> Vector<D> {
+        self.mean(u) + self.mean(self.mesh.nodes())
+    }
+
+    /// Mean of a nodal vector, weighted by mass: the velocity of the centre of mass for `v`.
+    #[must_use]
+    pub fn mean(&self, v: &[Vector<D>]) -> Vector<D> {
+        self.nodal_mass.iter().zip(v).fold(Vector::zeros(), |s, (&m, v)| s + v * m) / self.total_mass
+    }
+
+    /// The mean rotation R of the body: the polar factor of Σ m (x − c) ⊗ (X − C).
+    ///
+    /// It is the identity for a law of small displacements, whose forces do not turn with the body, and where the body is
+    /// so deformed that there is no rotation to find.
+    #[must_use]
+    pub fn frame(&self, u: &[Vector<D>]) -> Matrix<D> {
+        if !self.objective {
+            return Matrix::identity();
+        }
+        let (centre, reference_centre) = (self.centre(u), self.mean(self.mesh.nodes()));
+        let mut moment = Matrix::zeros();
+        let mut inertia = Matrix::zeros();
+        for ((u, x), &m) in u.iter().zip(self.mesh.nodes()).zip(&self.nodal_mass) {
+            let arm = x - reference_centre;
+            moment += (x + u - centre) * arm.transpose() * m;
+            inertia += arm * arm.transpose() * m;
+        }
+        tensor::closest_rotation(&(moment * tensor::inverse(&inertia).0)).unwrap_or_else(Matrix::identity)
+    }
+
+    /// Mean spin [rad/s] about the centre of mass, as (z) in 2D and (x, y, z) in 3D: the inertia tensor's inverse times the
+    /// angular momentum about the centre.
+    #[must_use]
+    pub fn spin(&self, u: &[Vector<D>], v: &[Vector<D>]) -> [f64; 3] {
+        let (centre, drift) = (self.centre(u), self.mean(v));
+        let mut momentum = [0.0; 3];
+        let mut inertia = Matrix::<3>::zeros();
+        let mut polar = 0.0;
+        for (((u, v), x), &m) in u.iter().zip(v).zip(self.mesh.nodes()).zip(&self.nodal_mass) {
+            let arm = x + u - centre;
+            let moment = tensor::cross(&arm, &(v - drift));
+            let arm3 = Vector::<3>::from_fn(|i, _| if i < D { arm[i] } else { 0.0 });
+            (0..3).for_each(|i| momentum[i] += m * moment[i]);
+            polar += m * arm3.norm_squared();
+            inertia -= arm3 * arm3.transpose() * m;
+        }
+        inertia += Matrix::<3>::identity() * polar;
+        let spin = tensor::inverse(&inertia).0 * Vector::<3>::from(momentum);
+        [spin[0], spin[1], spin[2]]
+    }
+
+    /// Angular momentum [kg m²/s] about the origin of a body with momentum density `mv` = M v [kg m/s] per node.
+    #[must_use]
+    pub fn angular_momentum(&self, u: &[Vector<D>], mv: &[Vector<D>]) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for ((u, mv), x) in u.iter().zip(mv).zip(self.mesh.nodes()) {
+            let moment = tensor::cross(&(x + u), mv);
+            (0..3).for_each(|i| sum[i] += moment[i]);
+        }
+        sum
+    }
+}

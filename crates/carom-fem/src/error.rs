@@ -1,0 +1,42 @@
+use thiserror::Error;
+
+/// What can go wrong in building or using a body.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum FemError {
+    /// A cell is inverted or has no volume in the reference configuration.
+    #[error(
+        "cell {cell} with nodes {nodes:?} near {at:?} is {}; \
+         list its nodes counter-clockwise and give it a volume",
+        if *.volume < 0.0 { "inverted" } else { "degenerate" }
+    )]
+    InvertedCell {
+        /// Index of the cell in its mesh.
+        cell: usize,
+        /// Its nodes.
+        nodes: Vec<u32>,
+        /// Position of its first node [m].
+        at: Vec<f64>,
+        /// Jacobian determinant relative to the size of the cell.
+        volume: f64,
+    },
+    /// A material constant is out of range.
+    #[error("{name} = {value}: {remedy}")]
+    MaterialConstant {
+        /// Name as in the case file.
+        name: &'static str,
+        /// The value that was given.
+        value: f64,
+        /// What is allowed.
+        remedy: &'static str,
+    },
+    /// A matrix that should be positive definite is not.
+    #[error("the iteration matrix is not positive definite (pivot {pivot}); a smaller time step makes it so")]
+    NotPositiveDefinite {
+        /// Position of the first pivot that is not positive, in elimination order.
+        pivot: usize,
+    },
+    /// The ordering of a sparse matrix failed.
+    #[error("the symbolic factorisation failed: {0}")]
+    Symbolic(String),
+}

@@ -1,0 +1,16 @@
+//! The continuum: what a deformable body stores, how it resists and how it moves, by total Lagrangian finite elements.
+//!
+//! A [`Body`] is built once from a mesh and a [`material`] law; its methods map nodal displacements [m] and velocities [m/s]
+//! to forces [N], energies [J] and matrices. Nothing here knows of contact.
+
+mod body;
+mod elements;
+mod error;
+pub mod material;
+mod quadrature;
+mod shape_table;
+pub mod sparse;
+
+pub use body::{Body, BodySpec, MassKind, RayleighDamping};
+pub use elements::{CellState, Elements};
+pub use error::FemError;

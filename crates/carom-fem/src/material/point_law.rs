@@ -1,0 +1,63 @@
+use std::fmt::Debug;
+
+use carom_mesh::Matrix;
+
+use super::{Mat3, Material, Tangent};
+
+/// A law as the elements of a D-dimensional body see it at a quadrature point.
+pub trait PointLaw<const D: usize>: Send + Sync + Debug {
+    /// Stored energy per reference volume [J/m³].
+    fn energy(&self, f: &Matrix<D>) -> f64;
+    /// First Piola–Kirchhoff stress [Pa].
+    fn stress(&self, f: &Matrix<D>) -> Matrix<D>;
+    /// Stress and tangent [Pa].
+    fn stress_and_tangent(&self, f: &Matrix<D>) -> (Matrix<D>, Tangent<D>);
+    /// Cauchy stress in 3D [Pa].
+    fn cauchy_stress(&self, f: &Matrix<D>) -> Mat3;
+}
+
+/// A law whose deformation beyond the D dimensions is held at zero: the law itself in 3D, plane strain in 2D.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Confined<M>(pub M);
+
+#[inline]
+fn embed<const D: usize>(f: &Matrix<D>) -> Mat3 {
+    let mut full = Mat3::identity();
+    for i in 0..D {
+        for j in 0..D {
+            full[(i, j)] = f[(i, j)];
+        }
+    }
+    full
+}
+
+#[inline]
+fn restrict<const D: usize>(full: &Mat3) -> Matrix<D> {
+    Matrix::from_fn(|i, j| full[(i, j)])
+}
+
+impl<const D: usize, M: Material> PointLaw<D> for Confined<M> {
+    #[inline]
+    fn energy(&self, f: &Matrix<D>) -> f64 {
+        self.0.energy(&embed(f))
+    }
+
+    #[inline]
+    fn stress(&self, f: &Matrix<D>) -> Matrix<D> {
+        restrict(&self.0.stress(&embed(f)))
+    }
+
+    #[inline]
+    fn stress_and_tangent(&self, f: &Matrix<D>) -> (Matrix<D>, Tangent<D>) {
+        let (stress, full) = self.0.stress_and_tangent(&embed(f));
+        let tangent = std::array::from_fn(|i| {
+            std::array::from_fn(|j| std::array::from_fn(|k| std::array::from_fn(|l| full[i][j][k][l])))
+        });
+        (restrict(&stress), tangent)
+    }
+
+    fn cauchy_stress(&self, f: &Matrix<D>) -> Mat3 {
+        let f = embed(f);
+        self.0.stress(&f) * f.transpose() / f.determinant()
+    }
+}

@@ -1,0 +1,166 @@
+use carom_mesh::{Matrix, Vector};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{LltError, LltParams, LltRegularization};
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
+use faer::{Conj, MatMut, Par, Side, Spec};
+
+use super::NodeGraph;
+use crate::FemError;
+
+/// Supernodal Cholesky factor of a symmetric matrix of D × D blocks over a node graph.
+///
+/// The ordering and the symbolic factorisation are made once; [`Factor::factorize`] renews the values in place.
+pub struct Factor<const D: usize> {
+    lower: SymbolicSparseColMat<usize>,
+    symbolic: SymbolicCholesky<usize>,
+    /// For every stored value of the lower triangle: its entry in the graph and its place in the block.
+    sources: Vec<(u32, u8, u8)>,
+    lower_values: Vec<f64>,
+    values: Vec<f64>,
+    memory: MemBuffer,
+    factorized: bool,
+}
+
+impl<const D: usize> std::fmt::Debug for Factor<D> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Factor").field("rows", &self.lower.nrows()).field("values", &self.values.len()).finish()
+    }
+}
+
+impl<const D: usize> Factor<D> {
+    /// The most right-hand sides [`Factor::solve`] takes at once.
+    pub const MAX_COLUMNS: usize = 3;
+
+    /// Orders the unknowns (AMD) and finds the structure of the factor.
+    ///
+    /// # Errors
+    /// If the symbolic factorisation fails, in practice for lack of memory.
+    pub fn new(graph: &NodeGraph) -> Result<Self, FemError> {
+        let n = graph.node_count() * D;
+        let mut column_starts = vec![0];
+        let mut rows = Vec::new();
+        let mut sources = Vec::new();
+        for node in 0..graph.node_count() {
+            for column in 0..D {
+                // Column (node, column) of the lower triangle; by symmetry its blocks are those of the node's row, transposed.
+                for (entry, neighbour) in graph.row(node).filter(|&(_, m)| m >= node) {
+                    for row in (if neighbour == node { column } else { 0 })..D {
+                        rows.push(neighbour * D + row);
+                        sources.push((entry as u32, column as u8, row as u8));
+                    }
+                }
+                column_starts.push(rows.len());
+            }
+        }
+        let lower = SymbolicSparseColMat::new_checked(n, n, column_starts, None, rows);
+        let symbolic = factorize_symbolic_cholesky(
+            lower.as_ref(),
+            Side::Lower,
+            SymmetricOrdering::Amd,
+            CholeskySymbolicParams {
+                supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+                ..Default::default()
+            },
+        )
+        .map_err(|e| FemError::Symbolic(format!("{e:?}")))?;
+        let request = symbolic
+            .factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::<LltParams, f64>::default())
+            .or(symbolic.solve_in_place_scratch::<f64>(Self::MAX_COLUMNS, Par::Seq));
+        Ok(Self {
+            lower_values: vec![0.0; sources.len()],
+            values: vec![0.0; symbolic.len_val()],
+            memory: MemBuffer::new(request),
+            lower,
+            symbolic,
+            sources,
+            factorized: false,
+        })
+    }
+
+    /// Factorises the matrix whose block at a graph entry is `block(entry)`.
+    ///
+    /// # Errors
+    /// If the matrix is not positive definite.
+    pub fn factorize(&mut self, block: impl Fn(usize) -> Matrix<D>) -> Result<(), FemError> {
+        self.factorized = false;
+        for (value, &(entry, i, j)) in self.lower_values.iter_mut().zip(&self.sources) {
+            *value = block(entry as usize)[(i as usize, j as usize)];
+        }
+        self.symbolic
+            .factorize_numeric_llt(
+                &mut self.values,
+                SparseColMatRef::new(self.lower.as_ref(), &self.lower_values),
+                Side::Lower,
+                LltRegularization::default(),
+                Par::Seq,
+                MemStack::new(&mut self.memory),
+                Spec::default(),
+            )
+            .map_err(|LltError::NonPositivePivot { index }| FemError::NotPositiveDefinite { pivot: index })?;
+        self.factorized = true;
+        Ok(())
+    }
+
+    /// Whether there is a factor to solve with.
+    #[must_use]
+    pub fn is_factorized(&self) -> bool {
+        self.factorized
+    }
+
+    /// Overwrites `columns` right-hand sides, stored one after the other in `x`, with the solution.
+    ///
+    /// # Panics
+    /// If the lengths do not fit or nothing was factorised.
+    pub fn solve(&mut self, x: &mut [Vector<D>], columns: usize) {
+        assert!(self.factorized, "solve needs a factor");
+        assert!(columns <= Self::MAX_COLUMNS, "at most {} right-hand sides at once", Self::MAX_COLUMNS);
+        let flat: &mut [f64] = bytemuck::cast_slice_mut(x);
+        let rhs = MatMut::from_column_major_slice_mut(flat, self.lower.nrows(), columns);
+        LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
+            Conj::No,
+            rhs,
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::super::NodalMatrix;
+    use super::*;
+    use carom_mesh::generate;
+
+    #[test]
+    fn solution_times_matrix_is_the_right_hand_side() {
+        let mesh = generate::grid([0.0; 2], [1.0, 1.0], [5, 4]).expect("valid");
+        let graph = Arc::new(NodeGraph::of(&mesh));
+        let mut a = NodalMatrix::filled(&graph, Matrix::<2>::zeros());
+        for node in 0..graph.node_count() {
+            for (entry, neighbour) in graph.row(node) {
+                let coupling = Matrix::<2>::new(-0.3, 0.1, 0.1, -0.2);
+                a.values[entry] = if node == neighbour { Matrix::<2>::new(5.0, 0.4, 0.4, 6.0) } else { coupling };
+            }
+        }
+        let x: Vec<Vector<2>> = (0..graph.node_count())
+            .map(|n| Vector::<2>::new((n as f64).sin(), (n as f64 * 0.7).cos()))
+            .collect();
+        let mut b = vec![Vector::zeros(); x.len()];
+        a.multiply(&x, &mut b);
+        let mut factor = Factor::new(&graph).expect("symbolic");
+        factor.factorize(|entry| a.values[entry]).expect("positive definite");
+        b.extend(b.clone());
+        factor.solve(&mut b, 2);
+        for (b, x) in b.iter().zip(x.iter().chain(&x)) {
+            assert!((b - x).norm() < 1e-13);
+        }
+        assert!(factor.factorize(|entry| -a.values[entry]).is_err());
+        assert!(!factor.is_factorized());
+    }
+}

@@ -1,0 +1,61 @@
+use carom_mesh::Mesh;
+
+/// Which nodes share a cell, each with itself; rows ascending.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NodeGraph {
+    starts: Vec<usize>,
+    neighbours: Vec<u32>,
+}
+
+impl NodeGraph {
+    /// The graph of `mesh`.
+    #[must_use]
+    pub fn of<const D: usize>(mesh: &Mesh<D>) -> Self {
+        let mut rows: Vec<Vec<u32>> = vec![Vec::new(); mesh.nodes().len()];
+        for block in mesh.blocks() {
+            for cell in block.cells() {
+                for &a in cell {
+                    rows[a as usize].extend_from_slice(cell);
+                }
+            }
+        }
+        let mut starts = vec![0];
+        let mut neighbours = Vec::new();
+        for row in &mut rows {
+            row.sort_unstable();
+            row.dedup();
+            neighbours.append(row);
+            starts.push(neighbours.len());
+        }
+        Self { starts, neighbours }
+    }
+
+    /// Number of nodes.
+    #[must_use]
+    pub fn node_count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Number of node pairs.
+    #[must_use]
+    pub fn entry_count(&self) -> usize {
+        self.neighbours.len()
+    }
+
+    /// The entries and neighbours of a node.
+    pub fn row(&self, node: usize) -> impl ExactSizeIterator<Item = (usize, usize)> {
+        let range = self.starts[node]..self.starts[node + 1];
+        range.clone().zip(self.neighbours[range].iter().map(|&n| n as usize))
+    }
+
+    /// Where the pair (a, b) stands.
+    ///
+    /// # Panics
+    /// If the nodes share no cell.
+    #[must_use]
+    pub fn entry(&self, a: u32, b: u32) -> usize {
+        let start = self.starts[a as usize];
+        let row = &self.neighbours[start..self.starts[a as usize + 1]];
+        start + row.binary_search(&b).expect("the nodes of a cell are neighbours in the graph of its mesh")
+    }
+}

@@ -1,0 +1,9 @@
+//! Sparse matrices over the graph of the nodes, and their Cholesky factors.
+
+mod factor;
+mod graph;
+mod nodal_matrix;
+
+pub use factor::Factor;
+pub use graph::NodeGraph;
+pub use nodal_matrix::NodalMatrix;

@@ -1,0 +1,42 @@
+use std::ops::Mul;
+use std::sync::Arc;
+
+use carom_mesh::Vector;
+
+use super::NodeGraph;
+
+/// A matrix with one value per pair of neighbouring nodes: `f64` for mass, a D × D block for stiffness.
+#[derive(Debug, Clone)]
+pub struct NodalMatrix<T> {
+    graph: Arc<NodeGraph>,
+    /// One value per entry of the graph.
+    pub values: Vec<T>,
+}
+
+impl<T: Copy> NodalMatrix<T> {
+    /// The matrix with every entry equal to `value`.
+    #[must_use]
+    pub fn filled(graph: &Arc<NodeGraph>, value: T) -> Self {
+        Self { graph: Arc::clone(graph), values: vec![value; graph.entry_count()] }
+    }
+
+    /// The graph of its nodes.
+    #[must_use]
+    pub fn graph(&self) -> &NodeGraph {
+        &self.graph
+    }
+
+    /// Writes A x to `y`.
+    pub fn multiply<const D: usize>(&self, x: &[Vector<D>], y: &mut [Vector<D>])
+    where
+        T: Mul<Vector<D>, Output = Vector<D>>,
+    {
+        for (node, y) in y.iter_mut().enumerate() {
+            let mut sum = Vector::zeros();
+            for (entry, neighbour) in self.graph.row(node) {
+                sum += self.values[entry] * x[neighbour];
+            }
+            *y = sum;
+        }
+    }
+}

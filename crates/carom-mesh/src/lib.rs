@@ -1,0 +1,16 @@
+//! Geometry that the other crates share: small tensors, reference cells, meshes, their boundary surfaces and generators.
+//!
+//! Nothing here knows of forces. `D` is the dimension of space (2 or 3); coordinates are in metres.
+
+pub mod cell;
+mod error;
+pub mod generate;
+mod mesh;
+mod surface;
+pub mod tensor;
+
+pub use cell::CellKind;
+pub use error::MeshError;
+pub use mesh::{CellBlock, Mesh};
+pub use surface::{Facet, Surface};
+pub use tensor::{Matrix, Vector};

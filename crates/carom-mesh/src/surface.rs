@@ -1,0 +1,89 @@
+use std::collections::BTreeMap;
+
+use crate::{CellKind, Mesh};
+
+/// A facet of the boundary.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Facet {
+    /// Kind of the facet, one dimension below that of the cells.
+    pub kind: CellKind,
+    /// Its nodes, outward normal by the right-hand rule (in 2D: the body is on the left).
+    pub nodes: Vec<u32>,
+}
+
+/// The boundary of a mesh: the facets that belong to one cell only.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surface {
+    facets: Vec<Facet>,
+    nodes: Vec<u32>,
+}
+
+impl Surface {
+    /// The boundary of `mesh`, facets in the order of its cells.
+    #[must_use]
+    pub fn of<const D: usize>(mesh: &Mesh<D>) -> Self {
+        let mut seen: BTreeMap<Vec<u32>, usize> = BTreeMap::new();
+        let mut all = Vec::new();
+        for block in mesh.blocks() {
+            for cell in block.cells() {
+                for &(kind, local) in block.kind.reference().facets {
+                    let nodes: Vec<u32> = local.iter().map(|&a| cell[a]).collect();
+                    let mut key = nodes.clone();
+                    key.sort_unstable();
+                    *seen.entry(key.clone()).or_default() += 1;
+                    all.push((key, Facet { kind, nodes }));
+                }
+            }
+        }
+        let facets: Vec<Facet> = all
+            .into_iter()
+            .filter(|(key, _)| seen[key] == 1)
+            .map(|(_, facet)| facet)
+            .collect();
+        let mut nodes: Vec<u32> = facets.iter().flat_map(|f| f.nodes.iter().copied()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        Self { facets, nodes }
+    }
+
+    /// The facets.
+    #[must_use]
+    pub fn facets(&self) -> &[Facet] {
+        &self.facets
+    }
+
+    /// The nodes on the boundary, ascending.
+    #[must_use]
+    pub fn nodes(&self) -> &[u32] {
+        &self.nodes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate;
+
+    #[test]
+    fn boundary_of_a_grid_has_its_sides_and_no_more() {
+        let mesh = generate::grid([0.0, 0.0], [3.0, 2.0], [3, 2]).expect("valid");
+        let surface = Surface::of(&mesh);
+        assert_eq!(surface.facets().len(), 10);
+        assert_eq!(surface.nodes().len(), 10);
+        let mesh = generate::grid([0.0; 3], [1.0; 3], [2, 2, 2]).expect("valid");
+        let surface = Surface::of(&mesh);
+        assert_eq!(surface.facets().len(), 24);
+        assert_eq!(surface.nodes().len(), 26);
+    }
+
+    #[test]
+    fn facets_of_a_disc_turn_counter_clockwise() {
+        let disc = generate::Disc { centre: [1.0, 2.0], radius: 0.5, divisions: 4, rings: None };
+        let mesh = disc.quadrilaterals().expect("valid");
+        for facet in Surface::of(&mesh).facets() {
+            let [a, b] = [0, 1].map(|k| mesh.nodes()[facet.nodes[k] as usize]);
+            let (t, x) = (b - a, a - crate::Vector::from([1.0, 2.0]));
+            assert!(x[0] * t[1] - x[1] * t[0] > 0.0);
+        }
+    }
+}
