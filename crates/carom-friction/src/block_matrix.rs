@@ -1,0 +1,82 @@
+use crate::{Matrix, Vector};
+
+/// A square sparse matrix of D × D blocks, row by row; a dense one is the special case with every block stored.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockMatrix<const D: usize> {
+    starts: Vec<usize>,
+    columns: Vec<u32>,
+    blocks: Vec<Matrix<D>>,
+    diagonal: Vec<usize>,
+}
+
+impl<const D: usize> Default for BlockMatrix<D> {
+    fn default() -> Self {
+        Self { starts: vec![0], columns: Vec::new(), blocks: Vec::new(), diagonal: Vec::new() }
+    }
+}
+
+impl<const D: usize> BlockMatrix<D> {
+    /// The identity with `rows` block rows.
+    #[must_use]
+    pub fn identity(rows: usize) -> Self {
+        let mut matrix = Self::default();
+        for i in 0..rows {
+            matrix.push_row(std::iter::once((i, Matrix::identity())));
+        }
+        matrix
+    }
+
+    /// Forgets all rows but keeps the memory.
+    pub fn clear(&mut self) {
+        self.starts.truncate(1);
+        self.columns.clear();
+        self.blocks.clear();
+        self.diagonal.clear();
+    }
+
+    /// Appends the next row: its blocks by ascending column, the diagonal one among them.
+    ///
+    /// # Panics
+    /// If the diagonal block is missing.
+    pub fn push_row(&mut self, row: impl IntoIterator<Item = (usize, Matrix<D>)>) {
+        let i = self.row_count();
+        for (column, block) in row {
+            if column == i {
+                self.diagonal.push(self.blocks.len());
+            }
+            self.columns.push(column as u32);
+            self.blocks.push(block);
+        }
+        assert_eq!(self.diagonal.len(), i + 1, "row {i} of a contact problem needs its diagonal block, once");
+        self.starts.push(self.blocks.len());
+    }
+
+    /// Number of block rows.
+    #[must_use]
+    pub fn row_count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The diagonal block of row `i`.
+    #[must_use]
+    pub fn diagonal(&self, i: usize) -> &Matrix<D> {
+        &self.blocks[self.diagonal[i]]
+    }
+
+    /// The blocks of row `i` with their columns.
+    pub fn row(&self, i: usize) -> impl ExactSizeIterator<Item = (usize, &Matrix<D>)> {
+        let range = self.starts[i]..self.starts[i + 1];
+        self.columns[range.clone()].iter().map(|&c| c as usize).zip(&self.blocks[range])
+    }
+
+    /// Row `i` times `x`.
+    #[inline]
+    #[must_use]
+    pub fn row_times(&self, i: usize, x: &[Vector<D>]) -> Vector<D> {
+        let mut sum = Vector::zeros();
+        for (j, block) in self.row(i) {
+            sum += block * x[j];
+        }
+        sum
+    }
+}

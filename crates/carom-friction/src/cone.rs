@@ -1,0 +1,89 @@
+//! Coulomb's cone K_μ = {r : |r_t| ≤ μ r_n} and the bi-potential of contact with friction.
+
+use crate::Vector;
+
+/// |x_t|, the length of the tangential part.
+#[inline]
+#[must_use]
+pub fn tangential_norm<const D: usize>(x: &Vector<D>) -> f64 {
+    match D {
+        1 => 0.0,
+        2 => x[1].abs(),
+        _ => x.rows_range(1..).norm(),
+    }
+}
+
+/// Orthogonal projection of τ on K_μ [de Saxcé & Feng 1998]: stick, separation or slip.
+#[inline]
+#[must_use]
+pub fn project<const D: usize>(tau: &Vector<D>, mu: f64) -> Vector<D> {
+    let (normal, tangential) = (tau[0], tangential_norm(tau));
+    // The polar cone first: without friction its border and that of the cone meet where there is no tangential part.
+    if mu * tangential <= -normal {
+        return Vector::zeros();
+    }
+    if tangential <= mu * normal {
+        return *tau;
+    }
+    let excess = (tangential - mu * normal) / (1.0 + mu * mu);
+    let mut r = *tau;
+    r[0] += mu * excess;
+    let shrink = if tangential > 0.0 { 1.0 - excess / tangential } else { 0.0 };
+    for t in 1..D {
+        r[t] *= shrink;
+    }
+    r
+}
+
+/// One step of the bi-potential fixed point r ← proj(r − ρ (w + μ |w_t| n)), whose fixed points are the solutions.
+#[inline]
+#[must_use]
+pub fn fixed_point<const D: usize>(r: &Vector<D>, w: &Vector<D>, mu: f64, rho: f64) -> Vector<D> {
+    let mut tau = r - w * rho;
+    tau[0] -= rho * mu * tangential_norm(w);
+    project(&tau, mu)
+}
+
+/// The bi-potential gap μ r_n |w_t| + w·r [J] for r in K_μ: zero exactly where the law holds.
+///
+/// A normal motion that penetrates counts with its absolute value, so that it cannot hide a violation elsewhere.
+#[inline]
+#[must_use]
+pub fn bipotential_gap<const D: usize>(w: &Vector<D>, r: &Vector<D>, mu: f64) -> f64 {
+    let tangential_power: f64 = (1..D).map(|t| w[t] * r[t]).sum();
+    (w[0] * r[0]).abs() + (mu * r[0] * tangential_norm(w) + tangential_power).abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// The projection p of τ is in the cone, and τ − p makes an obtuse angle with every direction p' − p into it.
+        #[test]
+        fn projection_is_the_closest_point_of_the_cone(
+            tau in proptest::array::uniform3(-2.0..2.0),
+            other in proptest::array::uniform3(-2.0..2.0),
+            mu in 0.0..1.5,
+        ) {
+            let tau = Vector::<3>::from(tau);
+            let p = project(&tau, mu);
+            prop_assert!(tangential_norm(&p) <= mu * p[0] + 1e-14);
+            let q = project(&Vector::<3>::from(other), mu);
+            prop_assert!((tau - p).dot(&(q - p)) <= 1e-13);
+            prop_assert!((project(&p, mu) - p).norm() < 1e-14);
+        }
+
+        #[test]
+        fn bipotential_gap_is_never_negative(
+            w in proptest::array::uniform3(-2.0..2.0),
+            tau in proptest::array::uniform3(-2.0..2.0),
+            mu in 0.0..1.5,
+        ) {
+            let r = project(&Vector::<3>::from(tau), mu);
+            prop_assert!(bipotential_gap(&Vector::<3>::from(w), &r, mu) >= 0.0);
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! Exact Signorini–Coulomb contact on a reduced system, without penalty or regularisation.
+//!
+//! Find reactions r and relative motions w = W r + q of n contacts such that, contact by contact,
+//! w_n ≥ 0, r_n ≥ 0, w_n r_n = 0, |r_t| ≤ μ r_n, and r_t = −μ r_n w_t/|w_t| where w_t ≠ 0.
+//! W is the Delassus operator, component 0 of a contact vector is normal and the rest tangential, so that one implementation
+//! serves D = 1, 2, 3. With w in m and r in N everything called an energy is in J.
+//!
+//! ```
+//! use carom_friction::{BlockMatrix, ContactProblem, SolverKind, StoppingRule, Vector};
+//!
+//! // A unit mass pressed down with 1 and pushed sideways with 2, friction 0.5: it slips.
+//! let problem = ContactProblem::<2> {
+//!     w: BlockMatrix::identity(1),
+//!     q: vec![Vector::<2>::new(-1.0, 2.0)],
+//!     mu: vec![0.5],
+//! };
+//! let mut r = vec![Vector::zeros()];
+//! let report = SolverKind::GaussSeidel.solver().solve(&problem, &mut r, &StoppingRule::default());
+//! assert!(report.is_converged());
+//! assert!((r[0] - Vector::<2>::new(1.0, -0.5)).norm() < 1e-12);
+//! ```
+//!
+//! References: G. de Saxcé, Z.-Q. Feng, *The bipotential method: a constructive approach to design the complete contact law with
+//! friction and improved numerical algorithms*, Math. Comput. Modelling 28 (1998) 225–245; M. Jean, *The non-smooth contact
+//! dynamics method*, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235–257.
+
+mod block_matrix;
+pub mod cone;
+#[cfg(test)]
+mod contract;
+mod gauss_seidel;
+mod problem;
+mod residual;
+mod solver;
+mod uzawa;
+
+pub use block_matrix::BlockMatrix;
+pub use gauss_seidel::GaussSeidel;
+pub use problem::ContactProblem;
+pub use residual::{Measure, measure};
+pub use solver::{FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule};
+pub use uzawa::Uzawa;
+
+/// A contact vector: component 0 normal, the rest tangential.
+pub type Vector<const D: usize> = nalgebra::SVector<f64, D>;
+/// A block of the Delassus operator.
+pub type Matrix<const D: usize> = nalgebra::SMatrix<f64, D, D>;
