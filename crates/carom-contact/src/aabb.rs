@@ -1,0 +1,43 @@
+use carom_mesh::Vector;
+
+/// An axis-aligned box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Aabb<const D: usize> {
+    low: Vector<D>,
+    high: Vector<D>,
+}
+
+impl<const D: usize> Aabb<D> {
+    /// The box around points; empty (and touching nothing) if there are none.
+    pub fn of(points: impl IntoIterator<Item = Vector<D>>) -> Self {
+        let empty =
+            Self { low: Vector::repeat(f64::INFINITY), high: Vector::repeat(f64::NEG_INFINITY) };
+        points.into_iter().fold(empty, |b, x| Self { low: b.low.inf(&x), high: b.high.sup(&x) })
+    }
+
+    /// The box grown by `margin` on all sides.
+    pub fn inflated(&self, margin: f64) -> Self {
+        Self { low: self.low.add_scalar(-margin), high: self.high.add_scalar(margin) }
+    }
+
+    pub fn overlaps(&self, other: &Self) -> bool {
+        (0..D).all(|i| self.low[i] <= other.high[i] && other.low[i] <= self.high[i])
+    }
+
+    pub fn contains(&self, x: &Vector<D>) -> bool {
+        (0..D).all(|i| self.low[i] <= x[i] && x[i] <= self.high[i])
+    }
+
+    /// Distance of a point to the box, zero inside.
+    pub fn distance(&self, x: &Vector<D>) -> f64 {
+        (0..D)
+            .map(|i| (self.low[i] - x[i]).max(x[i] - self.high[i]).max(0.0).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    }
+
+    /// Length of the diagonal.
+    pub fn diameter(&self) -> f64 {
+        (self.high - self.low).norm()
+    }
+}

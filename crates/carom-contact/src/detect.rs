@@ -1,0 +1,129 @@
+use carom_mesh::Vector;
+
+use crate::aabb::Aabb;
+use crate::frame::frame;
+use crate::project::project;
+use crate::{Contact, ContactModel, Target};
+
+/// A source node that may touch its target within a step. Ordered by pair, then node: this is the order of the contacts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Candidate {
+    /// Index of the pair.
+    pub pair: u32,
+    /// The source node.
+    pub node: u32,
+    /// The facet of a target surface that the node faces; `None` for an obstacle.
+    pub facet: Option<u32>,
+}
+
+impl<const D: usize> ContactModel<D> {
+    /// Finds the nodes that come within `margin` [m] of their target, and the facets they face.
+    ///
+    /// `start` and `end` are the positions at the start of the step and those predicted for its end. A node keeps its facet for
+    /// the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
+    /// the closest facet alone is ambiguous.
+    pub fn detect(
+        &self,
+        start: &impl Fn(u32) -> Vector<D>,
+        end: &impl Fn(u32) -> Vector<D>,
+        margin: f64,
+        out: &mut Vec<Candidate>,
+    ) {
+        out.clear();
+        for (p, pair) in self.pairs.iter().enumerate() {
+            let pair_index = p as u32;
+            let source = &self.surfaces[pair.source];
+            match pair.target {
+                Target::Obstacle(o) => {
+                    let obstacle = &self.obstacles[o];
+                    let near = |&&node: &&u32| {
+                        obstacle.gap(&start(node)).0.min(obstacle.gap(&end(node)).0) <= margin
+                    };
+                    out.extend(source.nodes.iter().filter(near).map(|&node| Candidate {
+                        pair: pair_index,
+                        node,
+                        facet: None,
+                    }));
+                }
+                Target::Surface(t) => self.detect_facets(pair_index, t, start, end, margin, out),
+            }
+        }
+    }
+
+    fn detect_facets(
+        &self,
+        pair: u32,
+        target: usize,
+        start: &impl Fn(u32) -> Vector<D>,
+        end: &impl Fn(u32) -> Vector<D>,
+        margin: f64,
+        out: &mut Vec<Candidate>,
+    ) {
+        let source = &self.surfaces[self.pairs[pair as usize].source];
+        let target = &self.surfaces[target];
+        let swept = |nodes: &[u32]| Aabb::of(nodes.iter().flat_map(|&n| [start(n), end(n)]));
+        let source_box = swept(&source.nodes).inflated(margin);
+        let target_box = swept(&target.nodes).inflated(margin);
+        if !source_box.overlaps(&target_box) {
+            return;
+        }
+        let middle = |n: u32| (start(n) + end(n)) * 0.5;
+        let facets: Vec<(u32, Aabb<D>)> = target
+            .facets
+            .iter()
+            .enumerate()
+            .map(|(f, facet)| (f as u32, swept(&facet.nodes).inflated(margin)))
+            .filter(|(_, b)| b.overlaps(&source_box))
+            .collect();
+        for (k, &node) in source.nodes.iter().enumerate() {
+            let (x0, x1) = (start(node), end(node));
+            if !(target_box.contains(&x0) || target_box.contains(&x1)) {
+                continue;
+            }
+            let node_box = Aabb::of([x0, x1]);
+            let x = middle(node);
+            let outward = Self::node_normal(source, k, &middle);
+            let mut best: Option<(f64, f64, u32)> = None;
+            for (f, facet_box) in &facets {
+                if !facet_box.overlaps(&node_box) {
+                    continue;
+                }
+                let p = project(&x, &target.facets[*f as usize], &middle);
+                if p.normal.dot(&outward) >= 0.0 {
+                    continue;
+                }
+                let (distance, gap) = ((x - p.point).norm(), p.normal.dot(&(x - p.point)));
+                // Facets that share the closest point: the one the node is farthest in front of.
+                let tie = 1e-12 * facet_box.diameter();
+                let better = best.is_none_or(|(d, g, _)| {
+                    distance < d - tie || (distance <= d + tie && gap > g)
+                });
+                if better {
+                    best = Some((distance, gap, *f));
+                }
+            }
+            if let Some((_, _, facet)) = best {
+                out.push(Candidate { pair, node, facet: Some(facet) });
+            }
+        }
+    }
+
+    /// Gap, frame and stencil of a candidate where the nodes are at `position`.
+    #[must_use]
+    pub fn evaluate(&self, candidate: &Candidate, position: &impl Fn(u32) -> Vector<D>) -> Contact<D> {
+        let x = position(candidate.node);
+        match (self.pairs[candidate.pair as usize].target, candidate.facet) {
+            (Target::Surface(t), Some(f)) => {
+                let facet = &self.surfaces[t].facets[f as usize];
+                let p = project(&x, facet, position);
+                let gap = p.normal.dot(&(x - p.point));
+                Contact::new(gap, frame(&p.normal), candidate.node, &facet.nodes, &p.weights)
+            }
+            (Target::Obstacle(o), _) => {
+                let (gap, normal) = self.obstacles[o].gap(&x);
+                Contact::new(gap, frame(&normal), candidate.node, &[], &[])
+            }
+            (Target::Surface(_), None) => unreachable!("detect gives candidates on a surface their facet"),
+        }
+    }
+}

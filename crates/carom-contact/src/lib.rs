@@ -1,0 +1,22 @@
+//! Touch: which nodes may meet which facets or obstacles, how far apart they are, and in which frame.
+//!
+//! A [`ContactModel`] lists surfaces, rigid [`Obstacle`]s and [`Pair`]s. [`ContactModel::detect`] finds the [`Candidate`]s of a
+//! step, [`ContactModel::evaluate`] turns a candidate into a [`Contact`]: gap [m] (negative = penetration), frame (rows n, t₁,
+//! t₂, with n from target to source) and the stencil that maps nodal to relative motion. Positions are passed as functions
+//! of the node, so that only the nodes in question are ever evaluated. Nothing here knows of materials, forces or friction
+//! laws.
+
+mod aabb;
+mod contact;
+mod detect;
+mod distance;
+mod frame;
+mod model;
+mod obstacle;
+mod project;
+
+pub use contact::Contact;
+pub use detect::Candidate;
+pub use distance::Proximity;
+pub use model::{ContactModel, ContactSurface, Pair, Target};
+pub use obstacle::Obstacle;
