@@ -1,0 +1,274 @@
+//! From a scenario to a model, a method and the state at t = 0. Everything that can be wrong is found here.
+
+use carom_contact::{ContactModel, ContactSurface, Obstacle, Pair, Target};
+use carom_fem::{Body, BodySpec, FemError};
+use carom_friction::StoppingRule;
+use carom_mesh::{Mesh, MeshError, Vector, generate, tensor};
+
+use crate::error::InputError;
+use crate::model::{Group, Method, Model, ModelBody, NewtonRule};
+use crate::scenario::{BodyEntry, MeshSpec, ObstacleShape, PlaneCell, Scenario, Sources};
+use crate::{Scheme, State};
+
+/// Overlaps at the start deeper than this, relative to the smallest edge, are an error.
+const TOUCHING: f64 = 1e-9;
+
+/// Builds what a scenario in the plane describes.
+///
+/// # Errors
+/// If a value is out of range, a mesh has an inverted cell, or bodies overlap or are outside their obstacles at the start.
+pub fn build(scenario: &Scenario) -> Result<(Model<2>, Method<2>, State<2>), InputError> {
+    let method = method(scenario)?;
+    let mut bodies: Vec<ModelBody<2>> = Vec::new();
+    for (i, entry) in scenario.bodies.iter().enumerate() {
+        let first_node = bodies.last().map_or(0, |b| b.nodes().end);
+        bodies.push(ModelBody { name: entry.name.clone(), body: body(scenario, i, entry)?, first_node });
+    }
+    if bodies.is_empty() {
+        return Err(InputError::new("bodies", "there is no body; add one [[bodies]] table at least"));
+    }
+    let (contact, groups) = contact(scenario, &bodies)?;
+    let model = Model {
+        gravity: match &scenario.analysis.gravity {
+            Some(g) => vector("analysis.gravity", g)?,
+            None => Vector::zeros(),
+        },
+        reference: bodies.iter().flat_map(|b| b.body.mesh().nodes().iter().copied()).collect(),
+        body_of_node: bodies
+            .iter()
+            .enumerate()
+            .flat_map(|(i, b)| std::iter::repeat_n(i as u32, b.body.node_count()))
+            .collect(),
+        size: bodies.iter().map(|b| b.body.mesh().diameter()).fold(0.0, f64::max),
+        contact,
+        groups,
+        bodies,
+    };
+    check_overlaps(scenario, &model)?;
+    let velocity = initial_velocity(scenario, &model)?;
+    let state = State::initial(&model, velocity);
+    if !state.is_finite() {
+        return Err(InputError::new("bodies", "the initial energy is not finite; check velocities and material constants"));
+    }
+    Ok((model, method, state))
+}
+
+/// Checks that a number is finite and satisfies `valid`.
+fn number(key: &str, value: f64, valid: bool, remedy: &str) -> Result<(), InputError> {
+    if valid && value.is_finite() { Ok(()) } else { Err(InputError::new(key, format!("{value}: {remedy}"))) }
+}
+
+fn vector<const D: usize>(key: &str, values: &[f64]) -> Result<Vector<D>, InputError> {
+    if values.len() != D {
+        return Err(InputError::new(key, format!("{values:?} must have {D} components")));
+    }
+    if !values.iter().all(|v| v.is_finite()) {
+        return Err(InputError::new(key, format!("{values:?} must be finite numbers")));
+    }
+    Ok(Vector::from_column_slice(values))
+}
+
+fn method(scenario: &Scenario) -> Result<Method<2>, InputError> {
+    let analysis = &scenario.analysis;
+    let (dt, end) = (analysis.time_step, analysis.end_time);
+    number("analysis.time_step", dt, dt > 0.0, "the time step must be greater than 0 s")?;
+    number("analysis.end_time", end, end >= dt, "the end time must be at least one time step")?;
+    match analysis.scheme {
+        Scheme::Theta { theta, xi } => {
+            let key = "analysis.scheme.theta";
+            number(key, theta, theta > 0.0 && theta <= 1.0, "theta must be greater than 0 and at most 1")?;
+            number("analysis.scheme.xi", xi, (0.0..=1.0).contains(&xi), "xi must be between 0 and 1")?;
+        }
+    }
+    let newton = analysis.newton;
+    let key = "analysis.newton.tolerance";
+    number(key, newton.tolerance, newton.tolerance > 0.0, "the tolerance must be greater than 0")?;
+    let solver = scenario.contact.solver;
+    let key = "contact.solver.tolerance";
+    number(key, solver.tolerance, solver.tolerance > 0.0, "the tolerance must be greater than 0")?;
+    for (key, count) in [
+        ("analysis.newton.max_iterations", newton.max_iterations),
+        ("contact.solver.max_iterations", solver.max_iterations),
+    ] {
+        number(key, count as f64, count > 0, "at least 1 iteration is needed")?;
+    }
+    let key = "analysis.max_halvings";
+    number(key, f64::from(analysis.max_halvings), analysis.max_halvings <= 30, "at most 30 halvings make sense")?;
+    Ok(Method {
+        scheme: analysis.scheme,
+        condition: scenario.contact.condition,
+        solver: solver.kind.solver(),
+        stopping: StoppingRule { tolerance: solver.tolerance, max_iterations: solver.max_iterations },
+        newton: NewtonRule { tolerance: newton.tolerance, max_iterations: newton.max_iterations },
+        max_halvings: analysis.max_halvings,
+    })
+}
+
+fn body(scenario: &Scenario, index: usize, entry: &BodyEntry) -> Result<Body<2>, InputError> {
+    let key = format!("bodies.{index}");
+    let material = scenario.materials.get(&entry.material).ok_or_else(|| {
+        let known: Vec<&str> = scenario.materials.keys().map(String::as_str).collect();
+        let message = format!("there is no material {:?}; known are {known:?}", entry.material);
+        InputError::new(format!("{key}.material"), message)
+    })?;
+    let mesh = mesh(&entry.mesh).map_err(|e| match e {
+        MeshError::Generator { parameter, .. } => InputError::mesh(format!("{key}.mesh.{parameter}"), e.to_string()),
+        _ => InputError::mesh(format!("{key}.mesh"), e.to_string()),
+    })?;
+    let spec = BodySpec {
+        law: material.law,
+        density: material.density,
+        damping: material.damping,
+        mass: entry.mass,
+        thickness: entry.thickness,
+    };
+    Body::new(mesh, &spec).map_err(|e| match e {
+        FemError::MaterialConstant { name: "thickness", .. } => {
+            InputError::new(format!("{key}.thickness"), e.to_string())
+        }
+        FemError::MaterialConstant { name, .. } => {
+            InputError::new(format!("materials.{}.{name}", entry.material), e.to_string())
+        }
+        _ => InputError::mesh(format!("{key}.mesh"), e.to_string()),
+    })
+}
+
+fn mesh(spec: &MeshSpec) -> Result<Mesh<2>, MeshError> {
+    let (mesh, cell) = match *spec {
+        MeshSpec::Disc { centre, radius, divisions, rings, cell } => {
+            (generate::Disc { centre, radius, divisions, rings }.quadrilaterals()?, cell)
+        }
+        MeshSpec::Rectangle { corner, size, divisions, cell } => (generate::grid(corner, size, divisions)?, cell),
+    };
+    match cell {
+        PlaneCell::Quad4 => Ok(mesh),
+        PlaneCell::Tri3 => generate::triangulate(&mesh),
+    }
+}
+
+/// Every pair of a body with another body or an obstacle, less the exceptions of the scenario.
+fn contact(
+    scenario: &Scenario,
+    bodies: &[ModelBody<2>],
+) -> Result<(ContactModel<2>, Vec<Group>), InputError> {
+    let mut model = ContactModel::default();
+    for b in bodies {
+        model.surfaces.push(ContactSurface::new(b.body.surface(), b.first_node as u32));
+    }
+    for (i, entry) in scenario.obstacles.iter().enumerate() {
+        let key = format!("obstacles.{i}");
+        match &entry.shape {
+            ObstacleShape::Plane { point, normal } => {
+                let normal: Vector<2> = vector(&format!("{key}.normal"), normal)?;
+                let length = normal.norm();
+                let remedy = "the normal must not be zero and points to the free side";
+                number(&format!("{key}.normal"), length, length > 0.0, remedy)?;
+                model
+                    .obstacles
+                    .push(Obstacle::Plane { point: vector(&format!("{key}.point"), point)?, normal: normal / length });
+            }
+        }
+    }
+    let default = scenario.contact.friction;
+    number("contact.friction", default, default >= 0.0, "friction cannot be negative")?;
+    let mut groups = Vec::new();
+    let names: Vec<&str> = bodies.iter().map(|b| b.name.as_str()).collect();
+    let obstacle_names: Vec<&str> = scenario.obstacles.iter().map(|o| o.name.as_str()).collect();
+    for (a, &first) in names.iter().enumerate() {
+        let others = names.iter().enumerate().skip(a + 1).map(|(b, &name)| (Target::Surface(b), name));
+        let obstacles = obstacle_names.iter().enumerate().map(|(o, &name)| (Target::Obstacle(o), name));
+        for (target, second) in others.chain(obstacles) {
+            let found = scenario.contact.pairs.iter().enumerate().find(|(_, p)| {
+                let [x, y] = &p.between;
+                (x == first && y == second) || (x == second && y == first)
+            });
+            let (mut friction, mut sources, mut swapped) = (default, scenario.contact.sources, false);
+            if let Some((k, entry)) = found {
+                if !entry.enabled {
+                    continue;
+                }
+                friction = entry.friction.unwrap_or(friction);
+                sources = entry.sources.unwrap_or(sources);
+                swapped = entry.between[0] == second;
+                let key = format!("contact.pairs.{k}.friction");
+                number(&key, friction, friction >= 0.0, "friction cannot be negative")?;
+            }
+            let group = groups.len();
+            groups.push(Group { between: [first.to_string(), second.to_string()], friction });
+            let forward = Pair { source: a, target, friction, group };
+            match target {
+                Target::Obstacle(_) => model.pairs.push(forward),
+                Target::Surface(b) => {
+                    let backward = Pair { source: b, target: Target::Surface(a), ..forward };
+                    match (sources, swapped) {
+                        (Sources::Both, _) => model.pairs.extend([forward, backward]),
+                        (Sources::First, false) | (Sources::Second, true) => model.pairs.push(forward),
+                        (Sources::First, true) | (Sources::Second, false) => model.pairs.push(backward),
+                    }
+                }
+            }
+        }
+    }
+    Ok((model, groups))
+}
+
+/// Refuses bodies that overlap one another or an obstacle before anything has moved.
+fn check_overlaps(scenario: &Scenario, model: &Model<2>) -> Result<(), InputError> {
+    let at = |n: u32| model.reference[n as usize];
+    for pair in &model.contact.pairs {
+        // Both directions are checked, whichever the contact condition uses.
+        let mut directions = vec![*pair];
+        if let Target::Surface(b) = pair.target {
+            directions.push(Pair { source: b, target: Target::Surface(pair.source), ..*pair });
+        }
+        for direction in directions {
+            let Some(closest) = model.contact.proximity(&direction, &at) else { continue };
+            let source = &model.bodies[direction.source];
+            if closest.gap >= -TOUCHING * source.body.mesh().smallest_edge() {
+                continue;
+            }
+            let [a, b] = &model.groups[pair.group].between;
+            let place = format!("({:.6}, {:.6})", closest.at[0], closest.at[1]);
+            let index = direction.source;
+            return Err(match direction.target {
+                Target::Surface(_) => InputError::new(
+                    format!("bodies.{index}.mesh"),
+                    format!(
+                        "bodies {a:?} and {b:?} overlap at the start: a node of {:?} at {place} is {:.6} m inside; \
+                         move one of them",
+                        source.name, -closest.gap
+                    ),
+                ),
+                Target::Obstacle(o) => {
+                    let plane = &model.contact.obstacles[o];
+                    let outside = source.nodes().all(|n| plane.gap(&model.reference[n]).0 < 0.0);
+                    let fact = if outside { "lies outside, behind" } else { "overlaps" };
+                    InputError::new(
+                        format!("bodies.{index}.mesh"),
+                        format!(
+                            "body {a:?} {fact} obstacle {b:?} at the start: its node at {place} is {:.6} m behind it; \
+                             move the body or turn the normal of obstacles.{} ({:?})",
+                            -closest.gap, o, scenario.obstacles[o].name
+                        ),
+                    )
+                }
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Translation and spin about the centre of mass of every body.
+fn initial_velocity(scenario: &Scenario, model: &Model<2>) -> Result<Vec<Vector<2>>, InputError> {
+    let mut velocity = Vec::with_capacity(model.reference.len());
+    for (i, (entry, b)) in scenario.bodies.iter().zip(&model.bodies).enumerate() {
+        let drift: Vector<2> = vector(&format!("bodies.{i}.velocity"), &entry.velocity)?;
+        number(&format!("bodies.{i}.spin"), entry.spin, true, "the spin must be a finite number")?;
+        let nodes = b.body.mesh().nodes();
+        let centre = b.body.mean(nodes);
+        velocity.extend(
+            nodes.iter().map(|x| drift + tensor::rotation_velocity(&[0.0, 0.0, entry.spin], &(x - centre))),
+        );
+    }
+    Ok(velocity)
+}

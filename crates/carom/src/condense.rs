@@ -1,0 +1,122 @@
+//! The reduced problem of the contact points alone: W = H K̄⁻¹ Hᵀ and q.
+
+use carom_contact::Contact;
+use carom_fem::Body;
+use carom_friction::ContactProblem;
+use carom_mesh::{Matrix, Vector};
+
+use crate::Model;
+use crate::linearise::BodyOperator;
+
+/// Columns of K̄⁻¹ of one body at boundary nodes, computed when a node first comes into contact and kept with the factor.
+#[derive(Debug)]
+pub(crate) struct Compliance<const D: usize> {
+    /// Place of each node on the boundary, or `u32::MAX` inside.
+    boundary_index: Vec<u32>,
+    boundary: Vec<u32>,
+    /// For a boundary node: the blocks (K̄⁻¹)_ab for every boundary node a, in the frame of the factor.
+    columns: Vec<Option<Vec<Matrix<D>>>>,
+    generation: u64,
+    scratch: Vec<Vector<D>>,
+}
+
+impl<const D: usize> Compliance<D> {
+    pub fn new(body: &Body<D>) -> Self {
+        let boundary = body.surface().nodes().to_vec();
+        let mut boundary_index = vec![u32::MAX; body.node_count()];
+        for (k, &node) in boundary.iter().enumerate() {
+            boundary_index[node as usize] = k as u32;
+        }
+        Self {
+            columns: vec![None; boundary.len()],
+            scratch: vec![Vector::zeros(); body.node_count() * D],
+            boundary_index,
+            boundary,
+            generation: 0,
+        }
+    }
+
+    /// Makes sure that the column of a boundary node is there and belongs to the present factor.
+    pub fn prepare(&mut self, operator: &mut BodyOperator<D>, node: usize) {
+        if self.generation != operator.generation {
+            self.columns.fill(None);
+            self.generation = operator.generation;
+        }
+        let b = self.boundary_index[node] as usize;
+        if self.columns[b].is_some() {
+            return;
+        }
+        let n = self.boundary_index.len();
+        self.scratch.fill(Vector::zeros());
+        for j in 0..D {
+            self.scratch[j * n + node][j] = 1.0;
+        }
+        operator.solve_in_factor_frame(&mut self.scratch);
+        let column = self
+            .boundary
+            .iter()
+            .map(|&a| Matrix::from_fn(|i, j| self.scratch[j * n + a as usize][i]))
+            .collect();
+        self.columns[b] = Some(column);
+    }
+
+    /// The block (K̄⁻¹)_ab of two boundary nodes in the frame of the factor; that of `b` was prepared.
+    #[inline]
+    fn block(&self, a: usize, b: usize) -> Matrix<D> {
+        let (a, b) = (self.boundary_index[a] as usize, self.boundary_index[b] as usize);
+        self.columns[b].as_ref().map_or_else(Matrix::zeros, |column| column[a])
+    }
+}
+
+/// Writes W, q and μ of `contacts` to `problem`.
+///
+/// `motion` is the nodal motion d that the step would make without reactions, `offsets` what the normal components lack of the
+/// contact condition's variable.
+pub(crate) fn condense<const D: usize>(
+    model: &Model<D>,
+    operators: &mut [BodyOperator<D>],
+    compliances: &mut [Compliance<D>],
+    contacts: &[Contact<D>],
+    friction: &[f64],
+    offsets: &[f64],
+    motion: &[Vector<D>],
+    problem: &mut ContactProblem<D>,
+) {
+    let body_of = |node: usize| model.body_of_node[node] as usize;
+    for contact in contacts {
+        for (node, _) in contact.stencil() {
+            let b = body_of(node);
+            compliances[b].prepare(&mut operators[b], node - model.bodies[b].first_node);
+        }
+    }
+    problem.w.clear();
+    problem.q.clear();
+    problem.mu.clear();
+    problem.mu.extend_from_slice(friction);
+    for (i, row) in contacts.iter().enumerate() {
+        let mut q = row.relative(|n| motion[n]);
+        q[0] += offsets[i];
+        problem.q.push(q);
+        problem.w.push_row(contacts.iter().enumerate().filter_map(|(j, column)| {
+            // Nodes of one body respond to one another; contacts that share no body do not couple.
+            let mut block = Matrix::zeros();
+            let mut coupled = i == j;
+            for (m, column_weight) in column.stencil() {
+                let b = body_of(m);
+                let first = model.bodies[b].first_node;
+                let mut response = Matrix::zeros();
+                let mut touched = false;
+                for (n, row_weight) in row.stencil().filter(|&(n, _)| body_of(n) == b) {
+                    response += compliances[b].block(n - first, m - first) * (row_weight * column_weight);
+                    touched = true;
+                }
+                if touched {
+                    let turn = operators[b].turn();
+                    block += row.frame * turn * response * turn.transpose() * column.frame.transpose();
+                    coupled = true;
+                }
+            }
+            coupled.then_some((j, block))
+        }));
+    }
+}

@@ -1,0 +1,62 @@
+use carom_contact::Contact;
+use carom_mesh::Vector;
+use serde::{Deserialize, Serialize};
+
+use crate::StepMap;
+
+/// Where in time the unilateral condition is written. It decides what impact does to the energy.
+///
+/// The variants differ only in the configuration where contacts are evaluated, in which of them are active, and in an offset of
+/// the normal motion; no solver hears of them. Tangentially the slip is always the relative motion of the step, so that
+/// friction dissipates exactly −Σ r_t·Δu_t.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactCondition {
+    /// The gap at the end of the step, as in the paper: never penetrates.
+    #[default]
+    Gap,
+    /// The normal relative motion of the step, of contacts closed at its start: normal reactions do no work.
+    Midpoint,
+    /// The normal relative velocity at the end of the step, of contacts closed at its start (Moreau): a plastic impact.
+    Endpoint,
+}
+
+impl ContactCondition {
+    /// The configuration where contacts are evaluated, as a weight between start (0) and end (1) of the step.
+    #[must_use]
+    pub fn evaluation_weight(self) -> f64 {
+        match self {
+            ContactCondition::Gap => 1.0,
+            ContactCondition::Midpoint | ContactCondition::Endpoint => 0.5,
+        }
+    }
+
+    /// Whether a contact takes part in a step that it starts with this gap [m].
+    #[must_use]
+    pub fn is_active(self, start_gap: f64) -> bool {
+        match self {
+            ContactCondition::Gap => true,
+            ContactCondition::Midpoint | ContactCondition::Endpoint => start_gap <= 0.0,
+        }
+    }
+
+    /// What the normal motion (H d)_n lacks of the variable w_n of the condition [m].
+    ///
+    /// `d` is the current motion of the step and `v` the velocity at its start.
+    pub fn normal_offset<const D: usize>(
+        self,
+        contact: &Contact<D>,
+        map: &StepMap,
+        d: impl Fn(usize) -> Vector<D>,
+        v: impl Fn(usize) -> Vector<D>,
+    ) -> f64 {
+        match self {
+            ContactCondition::Gap => contact.gap - contact.relative(d)[0],
+            ContactCondition::Midpoint => 0.0,
+            // v₊ = a v + b d, so w_n = v₊/b = d + (a/b) v: ½Δt v₊ for θ = ½.
+            ContactCondition::Endpoint => {
+                map.velocity_of_velocity / map.velocity_of_motion * contact.relative(v)[0]
+            }
+        }
+    }
+}

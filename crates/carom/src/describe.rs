@@ -1,0 +1,105 @@
+use serde::Serialize;
+
+use crate::{Model, State};
+
+/// What would run: the answer of `carom check`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Description {
+    /// Unknown displacements.
+    pub dofs: usize,
+    /// Nominal steps.
+    pub steps: u64,
+    /// Initial energy [J].
+    pub energy: f64,
+    /// Time that a pressure wave needs through the smallest edge of all bodies [s].
+    pub suggested_time_step: f64,
+    /// The bodies.
+    pub bodies: Vec<BodyDescription>,
+    /// The pairs that may touch.
+    pub pairs: Vec<PairDescription>,
+}
+
+/// A body as it would run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BodyDescription {
+    /// Name.
+    pub name: String,
+    /// Nodes.
+    pub nodes: usize,
+    /// Cells.
+    pub cells: usize,
+    /// Unknown displacements.
+    pub dofs: usize,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Volume [m³].
+    pub volume: f64,
+    /// Speed of pressure waves [m/s].
+    pub wave_speed: f64,
+    /// Shortest edge [m].
+    pub smallest_edge: f64,
+    /// Time of a pressure wave through it [s].
+    pub suggested_time_step: f64,
+}
+
+/// A pair before anything has moved.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PairDescription {
+    /// The two names.
+    pub between: [String; 2],
+    /// Friction coefficient.
+    pub friction: f64,
+    /// Smallest distance [m].
+    pub initial_gap: f64,
+    /// Where it is [m].
+    pub at: Vec<f64>,
+}
+
+/// Describes a model and its initial state.
+pub(crate) fn describe<const D: usize>(model: &Model<D>, state: &State<D>, steps: u64) -> Description {
+    let bodies: Vec<BodyDescription> = model
+        .bodies
+        .iter()
+        .map(|b| {
+            let (wave_speed, smallest_edge) = (b.body.wave_speed(), b.body.mesh().smallest_edge());
+            BodyDescription {
+                name: b.name.clone(),
+                nodes: b.body.node_count(),
+                cells: b.body.mesh().cell_count(),
+                dofs: D * b.body.node_count(),
+                mass: b.body.total_mass(),
+                volume: b.body.volume(),
+                wave_speed,
+                smallest_edge,
+                suggested_time_step: smallest_edge / wave_speed,
+            }
+        })
+        .collect();
+    let at = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
+    let mut pairs: Vec<PairDescription> = Vec::new();
+    for (g, group) in model.groups.iter().enumerate() {
+        let closest = model
+            .contact
+            .pairs
+            .iter()
+            .filter(|p| p.group == g)
+            .filter_map(|p| model.contact.proximity(p, &at))
+            .min_by(|a, b| a.gap.total_cmp(&b.gap));
+        if let Some(closest) = closest {
+            pairs.push(PairDescription {
+                between: group.between.clone(),
+                friction: group.friction,
+                initial_gap: closest.gap,
+                at: closest.at.iter().copied().collect(),
+            });
+        }
+    }
+    Description {
+        dofs: model.dofs(),
+        steps,
+        energy: state.energies.total(),
+        suggested_time_step: bodies.iter().map(|b| b.suggested_time_step).fold(f64::INFINITY, f64::min),
+        bodies,
+        pairs,
+    }
+}

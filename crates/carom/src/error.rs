@@ -1,0 +1,70 @@
+use carom_fem::FemError;
+use carom_friction::SolveReport;
+use thiserror::Error;
+
+/// A scenario that cannot be run, found before anything is computed.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{message}")]
+pub struct InputError {
+    /// Where in the scenario, as a dotted path such as `bodies.1.mesh.radius`.
+    pub key: String,
+    /// What is wrong and what to do.
+    pub message: String,
+    /// Whether it is the mesh that is wrong.
+    pub is_mesh: bool,
+}
+
+impl InputError {
+    /// An error at `key`.
+    pub fn new(key: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { key: key.into(), message: message.into(), is_mesh: false }
+    }
+
+    /// An error of the mesh at `key`.
+    pub fn mesh(key: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { is_mesh: true, ..Self::new(key, message) }
+    }
+}
+
+/// Why a step has no result. The state it started from is intact.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum StepError {
+    /// The iterations on the equations of motion did not converge.
+    #[error("Newton's iterations stopped after {iterations} with a last correction of {correction:.3e} m (wanted {wanted:.3e} m)")]
+    Newton {
+        /// Iterations made.
+        iterations: usize,
+        /// Largest displacement in the last correction [m].
+        correction: f64,
+        /// What would have been small enough [m].
+        wanted: f64,
+    },
+    /// The friction solver did not reach its tolerance.
+    #[error("the contact problem of {contacts} contacts stopped after {} sweeps at a residual of {:.3e}", report.iterations, report.measure.residual)]
+    Friction {
+        /// Number of contacts.
+        contacts: usize,
+        /// What the solver said.
+        report: SolveReport,
+    },
+    /// Something was not a finite number.
+    #[error("the {0} is not finite")]
+    NotFinite(&'static str),
+    /// The iteration matrix could not be factorised.
+    #[error(transparent)]
+    Matrix(#[from] FemError),
+}
+
+/// Why a run stopped early.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("step at t = {time:.9} s failed, also with the time step halved {halvings} times to {time_step:.3e} s: {reason}")]
+pub struct RunError {
+    /// Start of the step that failed [s].
+    pub time: f64,
+    /// Shortest step tried [s].
+    pub time_step: f64,
+    /// How often the step was halved.
+    pub halvings: u32,
+    /// Why the shortest one failed.
+    pub reason: StepError,
+}

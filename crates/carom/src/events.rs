@@ -1,0 +1,98 @@
+use serde::Serialize;
+
+use crate::workspace::GroupReport;
+use crate::{Group, Model};
+
+/// A contact of a pair from its first reaction to its last, flickers merged.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ContactEvent {
+    /// The two names.
+    pub pair: [String; 2],
+    /// End of the first step with a reaction [s].
+    pub onset: f64,
+    /// End of the last step with a reaction [s]; none while the pair may still be touching.
+    pub release: Option<f64>,
+    /// Largest sum of the normal reactions [N].
+    pub peak_force: f64,
+    /// Dissipated by friction [J].
+    pub friction_work: f64,
+}
+
+/// Follows the contacts of all groups.
+#[derive(Debug)]
+pub(crate) struct EventLog {
+    merge: f64,
+    events: Vec<ContactEvent>,
+    /// For each group: its last event and the end of the last step with a reaction.
+    last: Vec<Option<(usize, f64)>>,
+}
+
+impl EventLog {
+    /// A log that takes contacts less than `merge` [s] apart for one.
+    pub fn new<const D: usize>(model: &Model<D>, merge: f64) -> Self {
+        Self { merge, events: Vec::new(), last: vec![None; model.groups.len()] }
+    }
+
+    /// Records what the groups did in a step from `start` to `end` [s].
+    pub fn record(&mut self, groups: &[Group], reports: &[GroupReport], start: f64, end: f64) {
+        for (g, report) in reports.iter().enumerate() {
+            if report.normal_force <= 0.0 {
+                continue;
+            }
+            let event = match self.last[g] {
+                Some((event, until)) if start - until < self.merge => event,
+                _ => {
+                    self.events.push(ContactEvent {
+                        pair: groups[g].between.clone(),
+                        onset: end,
+                        release: None,
+                        peak_force: 0.0,
+                        friction_work: 0.0,
+                    });
+                    self.events.len() - 1
+                }
+            };
+            self.last[g] = Some((event, end));
+            let event = &mut self.events[event];
+            event.peak_force = event.peak_force.max(report.normal_force);
+            event.friction_work += report.friction_work;
+            event.release = Some(end);
+        }
+    }
+
+    /// The events so far; those that had a reaction in the step that ended at `now` are still open.
+    pub fn events(&self, now: f64) -> Vec<ContactEvent> {
+        let mut events = self.events.clone();
+        for &(event, until) in self.last.iter().flatten() {
+            if until >= now {
+                events[event].release = None;
+            }
+        }
+        events
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(log: &mut EventLog, groups: &[Group], force: f64, start: f64, end: f64) {
+        log.record(groups, &[GroupReport { normal_force: force, friction_work: 0.5 }], start, end);
+    }
+
+    #[test]
+    fn flickers_are_one_event_and_a_later_impact_is_another() {
+        let groups = vec![Group { between: ["a".into(), "b".into()], friction: 0.0 }];
+        let mut log = EventLog { merge: 0.03, events: vec![], last: vec![None] };
+        record(&mut log, &groups, 3.0, 0.99, 1.00);
+        record(&mut log, &groups, 0.0, 1.00, 1.01);
+        record(&mut log, &groups, 5.0, 1.01, 1.02);
+        record(&mut log, &groups, 4.0, 2.00, 2.01);
+        let events = log.events(2.01);
+        assert_eq!(events.len(), 2);
+        assert_eq!((events[0].onset, events[0].release), (1.00, Some(1.02)));
+        assert_eq!((events[0].peak_force, events[0].friction_work), (5.0, 1.0));
+        assert_eq!((events[1].onset, events[1].release), (2.01, None));
+        assert_eq!(log.events(3.0)[1].release, Some(2.01));
+    }
+}

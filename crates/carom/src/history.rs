@@ -1,0 +1,154 @@
+use carom_mesh::Vector;
+
+use crate::workspace::StepReport;
+use crate::{Ledger, Model, State};
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// A node whose motion is in the history.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Track {
+    pub name: String,
+    pub node: usize,
+}
+
+/// Rows of numbers over time, recorded natively.
+#[derive(Debug)]
+pub(crate) struct History<const D: usize> {
+    tracks: Vec<Track>,
+    columns: Vec<String>,
+    rows: Vec<f64>,
+    since: Since,
+}
+
+/// What is gathered between two rows.
+#[derive(Debug, Default)]
+struct Since {
+    steps: usize,
+    iterations: usize,
+    certificate: f64,
+    residual: f64,
+    last: StepReport,
+    last_dt: f64,
+}
+
+impl<const D: usize> History<D> {
+    pub fn new(model: &Model<D>, tracks: Vec<Track>) -> Self {
+        let axes = &AXES[..D];
+        let mut columns: Vec<String> = [
+            "time", "kinetic", "strain", "total", "friction", "viscous", "scheme", "normal_contact", "external",
+            "defect",
+        ]
+        .map(String::from)
+        .to_vec();
+        columns.extend(axes.iter().map(|a| format!("momentum_{a}")));
+        if D == 2 {
+            columns.push("angular_momentum".to_string());
+        } else {
+            columns.extend(axes.iter().map(|a| format!("angular_momentum_{a}")));
+        }
+        for b in &model.bodies {
+            columns.extend(axes.iter().map(|a| format!("{}.{a}", b.name)));
+            columns.extend(axes.iter().map(|a| format!("{}.v_{a}", b.name)));
+            if D == 2 {
+                columns.push(format!("{}.spin", b.name));
+            } else {
+                columns.extend(axes.iter().map(|a| format!("{}.spin_{a}", b.name)));
+            }
+        }
+        columns.extend(
+            ["contacts", "min_gap", "normal_force", "newton_iterations", "certificate", "residual"].map(String::from),
+        );
+        for t in &tracks {
+            for quantity in ["u", "v", "vmid"] {
+                columns.extend(axes.iter().map(|a| format!("{}.{quantity}_{a}", t.name)));
+            }
+        }
+        Self { tracks, columns, rows: Vec::new(), since: Since::default() }
+    }
+
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// Hands over the rows recorded so far, one after the other.
+    pub fn take(&mut self) -> Vec<f64> {
+        std::mem::take(&mut self.rows)
+    }
+
+    /// Notes a step for the next row.
+    pub fn observe(&mut self, report: &StepReport, dt: f64) {
+        let since = &mut self.since;
+        since.steps += 1;
+        since.iterations += report.newton_iterations;
+        since.certificate = since.certificate.max(report.certificate);
+        since.residual = since.residual.max(report.residual);
+        since.last = *report;
+        since.last_dt = dt;
+    }
+
+    /// Writes a row; returns the smallest gap of all pairs [m].
+    pub fn record(&mut self, model: &Model<D>, state: &State<D>, before: &State<D>, ledger: &Ledger) -> f64 {
+        let e = &state.energies;
+        self.rows.extend([
+            state.time,
+            e.kinetic,
+            e.strain,
+            e.total(),
+            ledger.friction,
+            ledger.viscous,
+            ledger.scheme,
+            ledger.normal_contact,
+            ledger.external,
+            ledger.defect(),
+        ]);
+        let mut momentum = Vector::<D>::zeros();
+        let mut moment = [0.0; 3];
+        for b in &model.bodies {
+            let (u, v) = (&state.displacement[b.nodes()], &state.velocity[b.nodes()]);
+            let mut mv = vec![Vector::zeros(); v.len()];
+            b.body.mass().multiply(v, &mut mv);
+            momentum += mv.iter().sum::<Vector<D>>();
+            let l = b.body.angular_momentum(u, &mv);
+            (0..3).for_each(|i| moment[i] += l[i]);
+        }
+        self.rows.extend(momentum.iter());
+        self.rows.extend(rotational::<D>(&moment));
+        for b in &model.bodies {
+            let (u, v) = (&state.displacement[b.nodes()], &state.velocity[b.nodes()]);
+            self.rows.extend(b.body.centre(u).iter());
+            self.rows.extend(b.body.mean(v).iter());
+            self.rows.extend(rotational::<D>(&b.body.spin(u, v)));
+        }
+        let since = std::mem::take(&mut self.since);
+        let at = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
+        let min_gap = model
+            .contact
+            .pairs
+            .iter()
+            .filter_map(|p| model.contact.proximity(p, &at))
+            .map(|p| p.gap)
+            .fold(f64::INFINITY, f64::min);
+        self.rows.extend([
+            since.last.contacts as f64,
+            min_gap,
+            since.last.normal_force,
+            if since.steps > 0 { since.iterations as f64 / since.steps as f64 } else { 0.0 },
+            since.certificate,
+            since.residual,
+        ]);
+        for t in &self.tracks {
+            let (u, v) = (state.displacement[t.node], state.velocity[t.node]);
+            let mean = if since.last_dt > 0.0 { (u - before.displacement[t.node]) / since.last_dt } else { v };
+            self.rows.extend(u.iter());
+            self.rows.extend(v.iter());
+            self.rows.extend(mean.iter());
+        }
+        min_gap
+    }
+}
+
+/// The components of a rotational quantity that exist in D dimensions: z in 2D, all in 3D.
+fn rotational<const D: usize>(v: &[f64; 3]) -> &[f64] {
+    if D == 2 { &v[2..] } else { v }
+}

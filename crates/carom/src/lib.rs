@@ -1,0 +1,48 @@
+//! Frictional impact of deformable bodies by the bi-potential method and a first-order time scheme.
+//!
+//! Continuum (`carom-fem`), touch (`carom-contact`) and friction (`carom-friction`) do not know one another; they meet in
+//! [`step`]. A [`Scenario`] is plain data; from it a [`Model`] is built once; a step maps one [`State`] to the next; the
+//! [`Workspace`] may be dropped at any moment; the [`Simulation`] walks through time and keeps the books.
+//!
+//! ```text
+//! State ─ scheme ─► StepMap ─ predict ─► detect ─► candidates
+//!     ┌──────────────────────── until converged ─────────────────────────┐
+//!     │ linearise: K̄, residual ─► condense: W, q ─► friction: r ─► correct │
+//!     └──────────────────────────────────────────────────────────────────┘
+//! commit ─► State + StepReport (iterations, certificate, ledger terms)
+//! ```
+//!
+//! Source of the method: B. Magnain, Z.-Q. Feng, J.-M. Cros, *Modélisation des problèmes d'impact avec dissipation d'énergie par
+//! frottement*, C. R. Mécanique 333 (2005) 419–424; its equations are cited as (1)–(4).
+
+mod build;
+mod condense;
+mod condition;
+mod describe;
+mod error;
+mod events;
+mod history;
+mod ledger;
+mod linearise;
+mod model;
+mod scenario;
+mod scheme;
+mod simulation;
+mod state;
+mod step;
+mod step_control;
+mod workspace;
+
+pub use build::build;
+pub use condition::ContactCondition;
+pub use describe::{BodyDescription, Description, PairDescription};
+pub use error::{InputError, RunError, StepError};
+pub use events::ContactEvent;
+pub use ledger::{Energies, Ledger};
+pub use model::{Group, Method, Model, ModelBody, NewtonRule};
+pub use scenario::Scenario;
+pub use scheme::{Scheme, StepMap};
+pub use simulation::{Fields, Outcome, Progress, Simulation, Summary};
+pub use state::State;
+pub use step::step;
+pub use workspace::{GroupReport, StepReport, Workspace};

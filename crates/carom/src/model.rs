@@ -1,0 +1,86 @@
+use carom_contact::ContactModel;
+use carom_fem::Body;
+use carom_friction::{FrictionSolver, StoppingRule};
+use carom_mesh::Vector;
+
+use crate::{ContactCondition, Scheme};
+
+/// A body in its place in the model.
+#[derive(Debug)]
+pub struct ModelBody<const D: usize> {
+    /// Name.
+    pub name: String,
+    /// The body itself.
+    pub body: Body<D>,
+    /// Number of its first node; nodes are numbered body after body.
+    pub first_node: usize,
+}
+
+impl<const D: usize> ModelBody<D> {
+    /// The numbers of its nodes.
+    #[must_use]
+    pub fn nodes(&self) -> std::ops::Range<usize> {
+        self.first_node..self.first_node + self.body.node_count()
+    }
+}
+
+/// A named pair of bodies, or of a body and an obstacle, that may touch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Group {
+    /// The two names.
+    pub between: [String; 2],
+    /// Friction coefficient.
+    pub friction: f64,
+}
+
+/// Everything that does not change during a run.
+#[derive(Debug)]
+pub struct Model<const D: usize> {
+    /// The bodies.
+    pub bodies: Vec<ModelBody<D>>,
+    /// Who may touch whom; surface i is that of body i.
+    pub contact: ContactModel<D>,
+    /// The named pairs that the pairs of `contact` belong to.
+    pub groups: Vec<Group>,
+    /// Gravity [m/s²].
+    pub gravity: Vector<D>,
+    /// Reference positions of all nodes [m].
+    pub reference: Vec<Vector<D>>,
+    /// The body that each node belongs to.
+    pub body_of_node: Vec<u32>,
+    /// Diameter of the largest body [m].
+    pub size: f64,
+}
+
+impl<const D: usize> Model<D> {
+    /// Number of unknown displacements.
+    #[must_use]
+    pub fn dofs(&self) -> usize {
+        D * self.reference.len()
+    }
+}
+
+/// When Newton's iterations stop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NewtonRule {
+    /// Largest correction of a displacement, relative to the largest motion of a node in the step.
+    pub tolerance: f64,
+    /// Iterations after which the step fails.
+    pub max_iterations: usize,
+}
+
+/// How a model is taken through time.
+pub struct Method<const D: usize> {
+    /// Time scheme.
+    pub scheme: Scheme,
+    /// Contact condition.
+    pub condition: ContactCondition,
+    /// Solver of the reduced contact problem.
+    pub solver: Box<dyn FrictionSolver<D>>,
+    /// When that solver stops.
+    pub stopping: StoppingRule,
+    /// When Newton's iterations stop.
+    pub newton: NewtonRule,
+    /// How often a step that fails is halved.
+    pub max_halvings: u32,
+}

@@ -1,0 +1,258 @@
+//! The scenario as data: what the case file and the Python objects describe. Field names are those of the case file.
+
+use std::collections::BTreeMap;
+
+use carom_fem::material::LawSpec;
+use carom_fem::{MassKind, RayleighDamping};
+use carom_friction::SolverKind;
+use serde::{Deserialize, Serialize};
+
+use crate::{ContactCondition, Scheme};
+
+/// A complete case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Scenario {
+    /// Title.
+    #[serde(default)]
+    pub title: String,
+    /// What is computed.
+    pub analysis: Analysis,
+    /// What is kept.
+    pub output: Output,
+    /// Materials by name.
+    pub materials: BTreeMap<String, MaterialSpec>,
+    /// Deformable bodies.
+    pub bodies: Vec<BodyEntry>,
+    /// Rigid obstacles.
+    #[serde(default)]
+    pub obstacles: Vec<ObstacleEntry>,
+    /// Contact.
+    pub contact: ContactSpec,
+}
+
+/// Time, scheme and iterations.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Analysis {
+    /// Kind of analysis.
+    pub kind: AnalysisKind,
+    /// End of the run [s].
+    pub end_time: f64,
+    /// Length of a step [s].
+    pub time_step: f64,
+    /// Time scheme.
+    pub scheme: Scheme,
+    /// Newton's iterations.
+    pub newton: NewtonSpec,
+    /// How often a step that fails is halved.
+    pub max_halvings: u32,
+    /// Gravity [m/s²].
+    pub gravity: Option<Vec<f64>>,
+}
+
+/// Kinds of analysis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AnalysisKind {
+    /// Motion in time.
+    Dynamic,
+}
+
+/// When Newton's iterations stop.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct NewtonSpec {
+    /// Largest correction of a displacement, relative to the largest motion of a node in the step.
+    pub tolerance: f64,
+    /// Iterations after which the step fails.
+    pub max_iterations: usize,
+}
+
+/// What is kept of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Output {
+    /// Interval of the fields [s].
+    pub fields_every: f64,
+    /// Interval of the history [s].
+    pub history_every: f64,
+    /// Contact events of a pair that are closer than this are one [s].
+    pub merge_contacts: f64,
+    /// Points whose motion is in the history.
+    #[serde(default)]
+    pub track: Vec<TrackEntry>,
+}
+
+/// A point of a body to follow.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TrackEntry {
+    /// Name, the prefix of its columns in the history.
+    pub name: String,
+    /// Body.
+    pub body: String,
+    /// Reference position [m]; the nearest node is followed.
+    pub point: Vec<f64>,
+}
+
+/// A material.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MaterialSpec {
+    /// The law.
+    #[serde(flatten)]
+    pub law: LawSpec,
+    /// Density [kg/m³].
+    pub density: f64,
+    /// Damping.
+    #[serde(default)]
+    pub damping: RayleighDamping,
+}
+
+/// A deformable body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BodyEntry {
+    /// Name.
+    pub name: String,
+    /// Name of its material.
+    pub material: String,
+    /// What holds it in the third direction, in 2D.
+    pub hypothesis: Hypothesis,
+    /// Thickness in 2D [m].
+    pub thickness: f64,
+    /// Mass matrix.
+    pub mass: MassKind,
+    /// Mesh.
+    pub mesh: MeshSpec,
+    /// Initial velocity [m/s].
+    pub velocity: Vec<f64>,
+    /// Initial spin about the centre of mass [rad/s].
+    pub spin: f64,
+}
+
+/// Hypotheses of 2D bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Hypothesis {
+    /// No strain across the plane.
+    PlaneStrain,
+}
+
+/// Cells of generated 2D meshes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PlaneCell {
+    /// Bilinear quadrilaterals.
+    #[default]
+    Quad4,
+    /// Linear triangles.
+    Tri3,
+}
+
+/// Where a mesh comes from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum MeshSpec {
+    /// A disc meshed by an O-grid.
+    Disc {
+        /// Centre [m].
+        centre: [f64; 2],
+        /// Radius [m].
+        radius: f64,
+        /// Cells along a side of the core.
+        divisions: usize,
+        /// Rings around the core; half of `divisions` if not given.
+        rings: Option<usize>,
+        /// Cells.
+        #[serde(default)]
+        cell: PlaneCell,
+    },
+    /// A rectangle of equal cells.
+    Rectangle {
+        /// Lower left corner [m].
+        corner: [f64; 2],
+        /// Sides [m].
+        size: [f64; 2],
+        /// Cells per side.
+        divisions: [usize; 2],
+        /// Cells.
+        #[serde(default)]
+        cell: PlaneCell,
+    },
+}
+
+/// A rigid obstacle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ObstacleEntry {
+    /// Name.
+    pub name: String,
+    /// Shape.
+    #[serde(flatten)]
+    pub shape: ObstacleShape,
+}
+
+/// Shapes of rigid obstacles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum ObstacleShape {
+    /// A half space.
+    Plane {
+        /// A point of the plane [m].
+        point: Vec<f64>,
+        /// Normal towards the free side, of any length.
+        normal: Vec<f64>,
+    },
+}
+
+/// Contact.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ContactSpec {
+    /// Where in time the unilateral condition is written.
+    pub condition: ContactCondition,
+    /// Friction coefficient of every pair that names none.
+    pub friction: f64,
+    /// Solver of the reduced problem.
+    pub solver: SolverSpec,
+    /// Whose nodes are checked in pairs of bodies that say nothing else.
+    pub sources: Sources,
+    /// Exceptions for pairs.
+    #[serde(default)]
+    pub pairs: Vec<PairEntry>,
+}
+
+/// The friction solver and when it stops.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct SolverSpec {
+    /// Solver.
+    pub kind: SolverKind,
+    /// Residual at which it stops.
+    pub tolerance: f64,
+    /// Sweeps after which it gives up.
+    pub max_iterations: usize,
+}
+
+/// Whose nodes are checked against whose facets in a pair of bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sources {
+    /// Nodes of the first body against facets of the second.
+    #[default]
+    First,
+    /// Nodes of the second body against facets of the first.
+    Second,
+    /// Both.
+    Both,
+}
+
+/// What is different for a pair.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PairEntry {
+    /// The two names.
+    pub between: [String; 2],
+    /// Friction coefficient.
+    pub friction: Option<f64>,
+    /// Whose nodes are checked.
+    pub sources: Option<Sources>,
+    /// Whether the two may touch at all.
+    #[serde(default = "yes")]
+    pub enabled: bool,
+}
+
+fn yes() -> bool {
+    true
+}

@@ -1,0 +1,66 @@
+//! What a time scheme says about a step: how the new velocity follows from the displacement, and how forces are weighted.
+//! The solver never learns the name of the scheme.
+
+mod theta;
+
+use serde::{Deserialize, Serialize};
+
+/// A time scheme and its parameters, as the case file names them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Scheme {
+    /// The paper's first-order scheme.
+    Theta {
+        /// θ in (0, 1]: weight of the new velocity in the displacement.
+        theta: f64,
+        /// ξ in [0, 1]: weight of the new forces in the balance.
+        xi: f64,
+    },
+}
+
+impl Scheme {
+    /// The map of a step of length `dt` [s].
+    #[must_use]
+    pub fn step_map(&self, dt: f64) -> StepMap {
+        match *self {
+            Scheme::Theta { theta, xi } => theta::step_map(theta, xi, dt),
+        }
+    }
+}
+
+/// The affine relations of one step, with d = u₊ − u the unknown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepMap {
+    /// Length of the step [s].
+    pub dt: f64,
+    /// v₊ = `velocity_of_velocity`·v + `velocity_of_motion`·d; the second [1/s].
+    pub velocity_of_velocity: f64,
+    /// See `velocity_of_velocity`.
+    pub velocity_of_motion: f64,
+    /// Forces count (1 − ξ) at the start and ξ at the end of the step.
+    pub xi: f64,
+    /// (v₊ − v)/Δt·d and the change of kinetic energy differ by this times |v₊ − v|²_M.
+    pub kinetic_dissipation: f64,
+    /// The work of the weighted internal force and its trapezoidal mean differ by this times d·(f₊ − f).
+    pub strain_dissipation: f64,
+}
+
+impl StepMap {
+    /// Factor of M in the iteration matrix K̄ [1/s²].
+    #[must_use]
+    pub fn mass_coefficient(&self) -> f64 {
+        self.velocity_of_motion / self.dt
+    }
+
+    /// Factor of C in K̄ [1/s].
+    #[must_use]
+    pub fn damping_coefficient(&self) -> f64 {
+        self.xi * self.velocity_of_motion
+    }
+
+    /// Factor of K in K̄.
+    #[must_use]
+    pub fn stiffness_coefficient(&self) -> f64 {
+        self.xi
+    }
+}

@@ -1,0 +1,443 @@
+use std::time::Instant;
+
+use carom_fem::CellState;
+use carom_mesh::Vector;
+use serde::Serialize;
+
+use crate::build::build;
+use crate::describe::{Description, describe};
+use crate::error::{InputError, RunError};
+use crate::events::{ContactEvent, EventLog};
+use crate::history::{History, Track};
+use crate::scenario::{Scenario, TrackEntry};
+use crate::step_control::advance_nominal_step;
+use crate::workspace::Workspace;
+use crate::{Ledger, Method, Model, State};
+
+/// How [`Simulation::advance`] ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// The time asked for is reached.
+    Reached,
+    /// The caller asked for a pause.
+    Paused,
+}
+
+/// A run: the model, its state, and the books.
+pub struct Simulation<const D: usize> {
+    model: Model<D>,
+    method: Method<D>,
+    state: State<D>,
+    spare: State<D>,
+    work: Workspace<D>,
+    description: Description,
+    time_step: f64,
+    end_time: f64,
+    steps: u64,
+    step: u64,
+    history_every: f64,
+    history_rows: u64,
+    last_recorded: Option<u64>,
+    history: History<D>,
+    events: EventLog,
+    initial_energy: (f64, f64),
+    ledger: Ledger,
+    totals: Totals,
+}
+
+/// Extremes and counts over the run.
+#[derive(Debug, Clone, Copy)]
+struct Totals {
+    newton_iterations: u64,
+    substeps: u64,
+    retried: u64,
+    contacts: usize,
+    max_drift: f64,
+    max_defect: f64,
+    max_certificate: f64,
+    max_residual: f64,
+    min_gap: f64,
+}
+
+/// A quick look at a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Progress {
+    /// Steps done.
+    pub step: u64,
+    /// Time [s].
+    pub time: f64,
+    /// Contacts with a reaction in the last step.
+    pub contacts: usize,
+    /// Kinetic energy [J].
+    pub kinetic: f64,
+    /// Strain energy [J].
+    pub strain: f64,
+    /// Dissipated by friction since the start [J].
+    pub friction: f64,
+    /// Kinetic plus strain energy [J].
+    pub total: f64,
+}
+
+/// Energies of a run [J].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct EnergySummary {
+    /// Total at the start.
+    pub initial: f64,
+    /// Total now.
+    #[serde(rename = "final")]
+    pub last: f64,
+    /// Kinetic energy now.
+    pub kinetic: f64,
+    /// Strain energy now.
+    pub strain: f64,
+    /// Dissipated by friction.
+    pub friction: f64,
+    /// Dissipated by damping.
+    pub viscous: f64,
+    /// Dissipated by the time scheme.
+    pub scheme: f64,
+    /// Taken by normal reactions.
+    pub normal_contact: f64,
+    /// Work of gravity and loads.
+    pub external: f64,
+    /// Largest |E(t) − E(0)|.
+    pub max_drift: f64,
+    /// Largest |defect| of the ledger.
+    pub max_defect: f64,
+}
+
+/// How far the run was from Coulomb's law.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CertificateSummary {
+    /// Largest Σ of bi-potential gaps of a step [J].
+    pub max_joule: f64,
+    /// Largest residual of the contact laws.
+    pub max_residual: f64,
+}
+
+/// The native part of summary.json.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// Nominal steps done.
+    pub steps: u64,
+    /// Unknown displacements.
+    pub dofs: usize,
+    /// Time reached [s].
+    pub end_time: f64,
+    /// Length of a nominal step [s].
+    pub time_step: f64,
+    /// Newton iterations.
+    pub newton_iterations: u64,
+    /// Factorisations of iteration matrices.
+    pub factorisations: u64,
+    /// Steps or substeps that failed and were halved.
+    pub retried_steps: u64,
+    /// Energies.
+    pub energy: EnergySummary,
+    /// Distance from Coulomb's law.
+    pub certificate: CertificateSummary,
+    /// Smallest gap seen [m].
+    pub min_gap: f64,
+    /// Contact events.
+    pub contacts: Vec<ContactEvent>,
+}
+
+/// Fields of a state, node by node and cell by cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fields<'a, const D: usize> {
+    /// Displacements [m].
+    pub displacement: &'a [Vector<D>],
+    /// Velocities [m/s].
+    pub velocity: &'a [Vector<D>],
+    /// Contact forces [N].
+    pub reaction: &'a [Vector<D>],
+    /// Mean state of every cell.
+    pub cells: Vec<CellState>,
+}
+
+impl Simulation<2> {
+    /// Builds a run from its scenario.
+    ///
+    /// # Errors
+    /// If the scenario cannot be run; see [`build`].
+    pub fn new(scenario: &Scenario) -> Result<Self, InputError> {
+        let (model, method, state) = build(scenario)?;
+        let mut tracks = Vec::new();
+        for (i, entry) in scenario.output.track.iter().enumerate() {
+            tracks.push(track(&model, i, entry)?);
+        }
+        let (dt, end) = (scenario.analysis.time_step, scenario.analysis.end_time);
+        for (key, every) in [
+            ("output.history_every", scenario.output.history_every),
+            ("output.fields_every", scenario.output.fields_every),
+        ] {
+            if !(every.is_finite() && every > 0.0) {
+                return Err(InputError::new(key, format!("{every}: the interval must be greater than 0 s")));
+            }
+        }
+        // A last step shorter than this fraction of the others would only be round-off of end_time/time_step.
+        let steps = (end / dt - 1e-6).ceil().max(1.0) as u64;
+        let work = Workspace::new(&model).map_err(|e| InputError::new("bodies", e.to_string()))?;
+        let mut simulation = Self {
+            description: describe(&model, &state, steps),
+            events: EventLog::new(&model, scenario.output.merge_contacts),
+            history: History::new(&model, tracks),
+            spare: state.clone(),
+            time_step: dt,
+            end_time: end,
+            steps,
+            step: 0,
+            history_every: scenario.output.history_every,
+            history_rows: 0,
+            last_recorded: None,
+            initial_energy: (state.energies.kinetic, state.energies.strain),
+            ledger: Ledger::default(),
+            totals: Totals {
+                newton_iterations: 0,
+                substeps: 0,
+                retried: 0,
+                contacts: 0,
+                max_drift: 0.0,
+                max_defect: 0.0,
+                max_certificate: 0.0,
+                max_residual: 0.0,
+                min_gap: f64::INFINITY,
+            },
+            model,
+            method,
+            state,
+            work,
+        };
+        simulation.record();
+        Ok(simulation)
+    }
+}
+
+/// The node of a body nearest to a tracked point.
+fn track(model: &Model<2>, index: usize, entry: &TrackEntry) -> Result<Track, InputError> {
+    let key = format!("output.track.{index}");
+    let body = model.bodies.iter().find(|b| b.name == entry.body).ok_or_else(|| {
+        let known: Vec<&str> = model.bodies.iter().map(|b| b.name.as_str()).collect();
+        InputError::new(format!("{key}.body"), format!("there is no body {:?}; known are {known:?}", entry.body))
+    })?;
+    if entry.point.len() != 2 || !entry.point.iter().all(|x| x.is_finite()) {
+        return Err(InputError::new(format!("{key}.point"), format!("{:?} must be 2 finite numbers", entry.point)));
+    }
+    let point = Vector::from_column_slice(&entry.point);
+    let distance = |n: &usize| (model.reference[*n] - point).norm();
+    let nearest = body.nodes().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    match nearest {
+        Some(node) if distance(&node) <= 0.25 * body.body.mesh().diameter() => {
+            Ok(Track { name: entry.name.clone(), node })
+        }
+        _ => Err(InputError::new(
+            format!("{key}.point"),
+            format!("{:?} is far from body {:?}; give a point of it in the reference configuration", entry.point, entry.body),
+        )),
+    }
+}
+
+impl<const D: usize> Simulation<D> {
+    /// What is run.
+    #[must_use]
+    pub fn description(&self) -> &Description {
+        &self.description
+    }
+
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> &Model<D> {
+        &self.model
+    }
+
+    /// The present state.
+    #[must_use]
+    pub fn state(&self) -> &State<D> {
+        &self.state
+    }
+
+    /// Overwrites the velocities [m/s], one per node: initial conditions that no scenario describes. Only before the first step.
+    ///
+    /// # Panics
+    /// If steps were made already or the number of nodes is not that of the model.
+    pub fn set_initial_velocity(&mut self, velocity: Vec<Vector<D>>) {
+        assert_eq!(self.step, 0, "initial velocities belong before the first step");
+        assert_eq!(velocity.len(), self.model.reference.len(), "one velocity per node");
+        self.state = State::initial(&self.model, velocity);
+        self.initial_energy = (self.state.energies.kinetic, self.state.energies.strain);
+        self.history.take();
+        self.last_recorded = None;
+        self.history_rows = 0;
+        self.record();
+    }
+
+    /// Time [s].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// Nominal steps done.
+    #[must_use]
+    pub fn step(&self) -> u64 {
+        self.step
+    }
+
+    /// Nominal steps of the whole run.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The books since the start.
+    #[must_use]
+    pub fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+
+    /// Runs until time `until` [s] (the end of the run at most), or until `pause`, asked after every step, says so.
+    ///
+    /// # Errors
+    /// If a step fails after all retries; the state is then that after the last good step.
+    pub fn advance(&mut self, until: f64, mut pause: impl FnMut() -> bool) -> Result<Outcome, RunError> {
+        while self.step < self.steps && self.state.time < until - 1e-6 * self.time_step {
+            self.one_step()?;
+            if pause() {
+                return Ok(Outcome::Paused);
+            }
+        }
+        Ok(Outcome::Reached)
+    }
+
+    fn one_step(&mut self) -> Result<(), RunError> {
+        // Times are multiples of the step, not sums, so that they do not drift; all steps but a shorter last one have the very
+        // same length, so that they share their factors.
+        let start = self.step as f64 * self.time_step;
+        let rest = self.end_time - start;
+        let length = if rest < (1.0 - 1e-6) * self.time_step { rest } else { self.time_step };
+        let Self { model, method, state, spare, work, events, history, ledger, totals, initial_energy, .. } = self;
+        let mut previous_time = state.time;
+        let initial = initial_energy.0 + initial_energy.1;
+        let retried = advance_nominal_step(model, method, state, spare, start, length, work, |state, report, work| {
+            *ledger += report.ledger;
+            ledger.kinetic = state.energies.kinetic - initial_energy.0;
+            ledger.strain = state.energies.strain - initial_energy.1;
+            events.record(&model.groups, &work.groups, previous_time, state.time);
+            history.observe(report, state.time - previous_time);
+            previous_time = state.time;
+            totals.substeps += 1;
+            totals.newton_iterations += report.newton_iterations as u64;
+            totals.contacts = report.contacts;
+            totals.max_drift = totals.max_drift.max((state.energies.total() - initial).abs());
+            totals.max_defect = totals.max_defect.max(ledger.defect().abs());
+            totals.max_certificate = totals.max_certificate.max(report.certificate);
+            totals.max_residual = totals.max_residual.max(report.residual);
+            totals.min_gap = totals.min_gap.min(report.min_gap);
+        })?;
+        self.totals.retried += retried;
+        self.step += 1;
+        let due = (self.history_rows as f64) * self.history_every;
+        if self.state.time >= due - 1e-6 * self.time_step {
+            self.record();
+        }
+        Ok(())
+    }
+
+    /// Records the last row of the history if it is not there yet.
+    pub fn finish(&mut self) {
+        if self.last_recorded != Some(self.step) {
+            self.record();
+        }
+    }
+
+    fn record(&mut self) {
+        let min_gap = self.history.record(&self.model, &self.state, &self.spare, &self.ledger);
+        self.totals.min_gap = self.totals.min_gap.min(min_gap);
+        self.last_recorded = Some(self.step);
+        // The next multiple of the interval after now.
+        self.history_rows = ((self.state.time + 1e-6 * self.time_step) / self.history_every).floor() as u64 + 1;
+    }
+
+    /// Names of the columns of the history.
+    #[must_use]
+    pub fn history_columns(&self) -> &[String] {
+        self.history.columns()
+    }
+
+    /// The rows recorded since the last call, one after the other.
+    pub fn take_history(&mut self) -> Vec<f64> {
+        self.history.take()
+    }
+
+    /// A quick look.
+    #[must_use]
+    pub fn progress(&self) -> Progress {
+        let e = self.state.energies;
+        Progress {
+            step: self.step,
+            time: self.state.time,
+            contacts: self.totals.contacts,
+            kinetic: e.kinetic,
+            strain: e.strain,
+            friction: self.ledger.friction,
+            total: e.total(),
+        }
+    }
+
+    /// The fields of the present state.
+    #[must_use]
+    pub fn fields(&self) -> Fields<'_, D> {
+        let s = &self.state;
+        Fields {
+            displacement: &s.displacement,
+            velocity: &s.velocity,
+            reaction: &s.contact_force,
+            cells: self.model.bodies.iter().flat_map(|b| b.body.cell_states(&s.displacement[b.nodes()])).collect(),
+        }
+    }
+
+    /// The summary so far.
+    #[must_use]
+    pub fn summary(&self) -> Summary {
+        let (e, t, l) = (self.state.energies, &self.totals, &self.ledger);
+        Summary {
+            steps: self.step,
+            dofs: self.model.dofs(),
+            end_time: self.state.time,
+            time_step: self.time_step,
+            newton_iterations: t.newton_iterations,
+            factorisations: self.work.factorisations,
+            retried_steps: t.retried,
+            energy: EnergySummary {
+                initial: self.initial_energy.0 + self.initial_energy.1,
+                last: e.total(),
+                kinetic: e.kinetic,
+                strain: e.strain,
+                friction: l.friction,
+                viscous: l.viscous,
+                scheme: l.scheme,
+                normal_contact: l.normal_contact,
+                external: l.external,
+                max_drift: t.max_drift,
+                max_defect: t.max_defect,
+            },
+            certificate: CertificateSummary { max_joule: t.max_certificate, max_residual: t.max_residual },
+            min_gap: t.min_gap,
+            contacts: self.events.events(self.state.time),
+        }
+    }
+
+    /// Runs for `budget` seconds of wall time at most; see [`Simulation::advance`].
+    ///
+    /// # Errors
+    /// As [`Simulation::advance`].
+    pub fn advance_for(
+        &mut self,
+        until: f64,
+        budget: std::time::Duration,
+        mut pause: impl FnMut() -> bool,
+    ) -> Result<Outcome, RunError> {
+        let start = Instant::now();
+        self.advance(until, || pause() || start.elapsed() >= budget)
+    }
+}

@@ -1,0 +1,69 @@
+use carom_mesh::Vector;
+
+use crate::{Energies, Model};
+
+/// What a restart needs. Vectors hold one entry per node of the model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State<const D: usize> {
+    /// Time [s].
+    pub time: f64,
+    /// Displacements u [m].
+    pub displacement: Vec<Vector<D>>,
+    /// Velocities v [m/s].
+    pub velocity: Vec<Vector<D>>,
+    /// Reactions [N] of the last step by pair and source node, ascending: the first guess of the next step.
+    pub reactions: Vec<((u32, u32), Vector<D>)>,
+    /// Nodal contact forces Hᵀr [N], mean over the last step.
+    pub contact_force: Vec<Vector<D>>,
+    /// Internal forces ∂E/∂u [N] at `displacement`, kept because every step starts with them.
+    pub internal_force: Vec<Vector<D>>,
+    /// Energies [J] at `displacement` and `velocity`.
+    pub energies: Energies,
+}
+
+impl<const D: usize> State<D> {
+    /// The state at t = 0 with these velocities and the bodies in their reference configuration.
+    #[must_use]
+    pub fn initial(model: &Model<D>, velocity: Vec<Vector<D>>) -> Self {
+        let zeros = vec![Vector::zeros(); velocity.len()];
+        let mut state = Self {
+            time: 0.0,
+            displacement: zeros.clone(),
+            velocity,
+            reactions: Vec::new(),
+            contact_force: zeros.clone(),
+            internal_force: zeros,
+            energies: Energies::default(),
+        };
+        state.refresh(model);
+        state
+    }
+
+    /// Recomputes forces and energies from displacements and velocities.
+    pub(crate) fn refresh(&mut self, model: &Model<D>) {
+        let mut momentum = vec![Vector::zeros(); self.velocity.len()];
+        self.energies = Energies::default();
+        for b in &model.bodies {
+            let nodes = b.nodes();
+            b.body.internal_force(&self.displacement[nodes.clone()], &mut self.internal_force[nodes.clone()]);
+            b.body.mass().multiply(&self.velocity[nodes.clone()], &mut momentum[nodes.clone()]);
+            self.energies.strain += b.body.strain_energy(&self.displacement[nodes.clone()]);
+            self.energies.kinetic += 0.5 * dot(&self.velocity[nodes.clone()], &momentum[nodes]);
+        }
+    }
+
+    /// Whether every number is finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        let finite = |v: &[Vector<D>]| v.iter().all(|v| v.iter().all(|x| x.is_finite()));
+        finite(&self.displacement)
+            && finite(&self.velocity)
+            && self.energies.kinetic.is_finite()
+            && self.energies.strain.is_finite()
+    }
+}
+
+/// Σ a·b over the nodes.
+pub(crate) fn dot<const D: usize>(a: &[Vector<D>], b: &[Vector<D>]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+}

@@ -1,0 +1,55 @@
+//! A nominal step that fails is taken in halves; the time grid stays that of the nominal steps.
+
+use crate::error::RunError;
+use crate::workspace::{StepReport, Workspace};
+use crate::{Method, Model, State, step};
+
+/// Takes `state` over one nominal step of length `dt` from time `start`, in substeps where it must be.
+///
+/// After each substep that succeeds `observe` is told; `spare` is scratch of the same size as `state`. On an error `state` is
+/// where the last good substep left it. Returns how many substeps failed.
+pub(crate) fn advance_nominal_step<const D: usize>(
+    model: &Model<D>,
+    method: &Method<D>,
+    state: &mut State<D>,
+    spare: &mut State<D>,
+    start: f64,
+    dt: f64,
+    work: &mut Workspace<D>,
+    mut observe: impl FnMut(&State<D>, &StepReport, &Workspace<D>),
+) -> Result<u64, RunError> {
+    // Progress is counted in the smallest substep allowed, so that halves always meet the grid.
+    let whole = 1_u64 << method.max_halvings;
+    let mut done = 0;
+    let mut size = whole;
+    let mut failed = 0;
+    while done < whole {
+        let length = dt * (size as f64 / whole as f64);
+        match step(model, method, state, spare, length, work) {
+            Ok(report) => {
+                done += size;
+                spare.time = start + dt * (done as f64 / whole as f64);
+                std::mem::swap(state, spare);
+                observe(state, &report, work);
+                // Grow again where the coarser grid allows.
+                while size < whole && done % (2 * size) == 0 {
+                    size *= 2;
+                }
+            }
+            Err(reason) => {
+                failed += 1;
+                log::debug!("step of {length:.3e} s at t = {:.9} s failed: {reason}", state.time);
+                if size == 1 {
+                    return Err(RunError {
+                        time: state.time,
+                        time_step: length,
+                        halvings: method.max_halvings,
+                        reason,
+                    });
+                }
+                size /= 2;
+            }
+        }
+    }
+    Ok(failed)
+}

@@ -1,0 +1,95 @@
+use carom_contact::{Candidate, Contact};
+use carom_friction::ContactProblem;
+use carom_mesh::{Matrix, Vector};
+
+use crate::condense::Compliance;
+use crate::error::StepError;
+use crate::linearise::{BodyOperator, ResidualScratch};
+use crate::{Ledger, Model};
+
+/// What one group of contacts did in a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct GroupReport {
+    /// Sum of the normal reactions [N].
+    pub normal_force: f64,
+    /// Dissipated by friction [J].
+    pub friction_work: f64,
+}
+
+/// Scratch of a step: factors, tables and vectors. It holds no result and may be dropped at any moment.
+pub struct Workspace<const D: usize> {
+    pub(crate) operators: Vec<BodyOperator<D>>,
+    pub(crate) compliances: Vec<Compliance<D>>,
+    pub(crate) residual_scratch: Vec<ResidualScratch<D>>,
+    pub(crate) frames: Vec<Matrix<D>>,
+    /// d = u₊ − u.
+    pub(crate) motion: Vec<Vector<D>>,
+    /// The correction of d, and before that the residual.
+    pub(crate) correction: Vec<Vector<D>>,
+    pub(crate) residual: Vec<Vector<D>>,
+    pub(crate) momentum: Vec<Vector<D>>,
+    pub(crate) candidates: Vec<Candidate>,
+    pub(crate) missed: Vec<Candidate>,
+    pub(crate) contacts: Vec<Contact<D>>,
+    pub(crate) friction: Vec<f64>,
+    pub(crate) offsets: Vec<f64>,
+    pub(crate) reactions: Vec<Vector<D>>,
+    pub(crate) problem: ContactProblem<D>,
+    pub(crate) touched: Vec<bool>,
+    pub(crate) settled: Vec<bool>,
+    /// What the groups did in the last step, in the order of the model.
+    pub groups: Vec<GroupReport>,
+    /// Factorisations made so far.
+    pub factorisations: u64,
+}
+
+impl<const D: usize> Workspace<D> {
+    /// Scratch for steps of `model`.
+    ///
+    /// # Errors
+    /// If the structure of a factor cannot be found.
+    pub fn new(model: &Model<D>) -> Result<Self, StepError> {
+        let zeros = vec![Vector::zeros(); model.reference.len()];
+        let bodies = model.bodies.len();
+        Ok(Self {
+            operators: model.bodies.iter().map(|b| BodyOperator::new(&b.body)).collect::<Result<_, _>>()?,
+            compliances: model.bodies.iter().map(|b| Compliance::new(&b.body)).collect(),
+            residual_scratch: model.bodies.iter().map(|b| ResidualScratch::new(b.body.node_count())).collect(),
+            frames: vec![Matrix::identity(); bodies],
+            motion: zeros.clone(),
+            correction: zeros.clone(),
+            residual: zeros.clone(),
+            momentum: zeros,
+            candidates: Vec::new(),
+            missed: Vec::new(),
+            contacts: Vec::new(),
+            friction: Vec::new(),
+            offsets: Vec::new(),
+            reactions: Vec::new(),
+            problem: ContactProblem::default(),
+            touched: vec![false; bodies],
+            settled: vec![false; bodies],
+            groups: vec![GroupReport::default(); model.groups.len()],
+            factorisations: 0,
+        })
+    }
+}
+
+/// What a step says about itself.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StepReport {
+    /// Newton iterations.
+    pub newton_iterations: usize,
+    /// Contacts with a reaction.
+    pub contacts: usize,
+    /// Smallest gap of a contact candidate at the end of the step [m]; infinite without candidates.
+    pub min_gap: f64,
+    /// Sum of the normal reactions [N].
+    pub normal_force: f64,
+    /// Residual of the contact laws (see `carom_friction::Measure`).
+    pub residual: f64,
+    /// Σ of the bi-potential gaps [J].
+    pub certificate: f64,
+    /// What happened to the energy.
+    pub ledger: Ledger,
+}
