@@ -10,8 +10,7 @@ pub(crate) struct Aabb<const D: usize> {
 impl<const D: usize> Aabb<D> {
     /// The box around points; empty (and touching nothing) if there are none.
     pub fn of(points: impl IntoIterator<Item = Vector<D>>) -> Self {
-        let empty =
-            Self { low: Vector::repeat(f64::INFINITY), high: Vector::repeat(f64::NEG_INFINITY) };
+        let empty = Self { low: Vector::repeat(f64::INFINITY), high: Vector::repeat(f64::NEG_INFINITY) };
         points.into_iter().fold(empty, |b, x| Self { low: b.low.inf(&x), high: b.high.sup(&x) })
     }
 
@@ -30,10 +29,7 @@ impl<const D: usize> Aabb<D> {
 
     /// Distance of a point to the box, zero inside.
     pub fn distance(&self, x: &Vector<D>) -> f64 {
-        (0..D)
-            .map(|i| (self.low[i] - x[i]).max(x[i] - self.high[i]).max(0.0).powi(2))
-            .sum::<f64>()
-            .sqrt()
+        (0..D).map(|i| (self.low[i] - x[i]).max(x[i] - self.high[i]).max(0.0).powi(2)).sum::<f64>().sqrt()
     }
 
     /// Length of the diagonal.

@@ -95,9 +95,8 @@ impl<const D: usize> ContactModel<D> {
                 let (distance, gap) = ((x - p.point).norm(), p.normal.dot(&(x - p.point)));
                 // Facets that share the closest point: the one the node is farthest in front of.
                 let tie = 1e-12 * facet_box.diameter();
-                let better = best.is_none_or(|(d, g, _)| {
-                    distance < d - tie || (distance <= d + tie && gap > g)
-                });
+                let better =
+                    best.is_none_or(|(d, g, _)| distance < d - tie || (distance <= d + tie && gap > g));
                 if better {
                     best = Some((distance, gap, *f));
                 }

@@ -111,7 +111,8 @@ mod tests {
 
     #[test]
     fn projection_on_a_warped_quadrilateral_is_at_right_angles() {
-        let nodes = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.1], [1.1, 1.0, -0.1], [0.0, 0.9, 0.05]].map(Vector::<3>::from);
+        let nodes =
+            [[0.0, 0.0, 0.0], [1.0, 0.0, 0.1], [1.1, 1.0, -0.1], [0.0, 0.9, 0.05]].map(Vector::<3>::from);
         let facet = Facet { kind: CellKind::Quad4, nodes: vec![0, 1, 2, 3] };
         let x = Vector::<3>::new(0.4, 0.6, 0.5);
         let p = project(&x, &facet, &|n| nodes[n as usize]);

@@ -3,10 +3,10 @@ use std::sync::Arc;
 use carom_mesh::{Matrix, Mesh, Surface, Vector, tensor};
 use serde::{Deserialize, Serialize};
 
+use crate::FemError;
 use crate::elements::{CellState, Elements, add_mass, elements};
 use crate::material::{Confined, LawSpec, LinearElastic, Material, PointLaw, SaintVenantKirchhoff};
 use crate::sparse::{NodalMatrix, NodeGraph};
-use crate::FemError;
 
 /// How the mass of a body is shared among its nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -82,7 +82,11 @@ impl<const D: usize> Body<D> {
         }
     }
 
-    fn of_law<M: Material + Clone + 'static>(mesh: Mesh<D>, spec: &BodySpec, law: M) -> Result<Self, FemError> {
+    fn of_law<M: Material + Clone + 'static>(
+        mesh: Mesh<D>,
+        spec: &BodySpec,
+        law: M,
+    ) -> Result<Self, FemError> {
         let positive = |name, value: f64, remedy| {
             if value.is_finite() && value > 0.0 {
                 Ok(value)
@@ -236,7 +240,13 @@ impl<const D: usize> Body<D> {
     }
 
     /// The viscous force C v [N], written to `f`; `frame` is the rotation of the body and `scratch` as long as `v`.
-    pub fn damping_force(&self, frame: &Matrix<D>, v: &[Vector<D>], f: &mut [Vector<D>], scratch: &mut [Vector<D>]) {
+    pub fn damping_force(
+        &self,
+        frame: &Matrix<D>,
+        v: &[Vector<D>],
+        f: &mut [Vector<D>],
+        scratch: &mut [Vector<D>],
+    ) {
         match &self.damping_stiffness {
             Some(k0) => {
                 for (s, v) in scratch.iter_mut().zip(v) {

@@ -38,7 +38,8 @@ impl<const D: usize, const N: usize> ShapeTable<D, N> {
             (reference.shape)(&point.xi, &mut values[p]);
             (reference.gradient)(&point.xi, &mut local_gradients[p]);
         }
-        let mut table = Self { points_per_cell: points.len(), gradients: Vec::new(), weights: Vec::new(), values };
+        let mut table =
+            Self { points_per_cell: points.len(), gradients: Vec::new(), weights: Vec::new(), values };
         for (cell, nodes) in block.cells().enumerate() {
             let size = nodes
                 .iter()

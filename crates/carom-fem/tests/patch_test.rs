@@ -62,8 +62,11 @@ fn check<const D: usize>(mesh: Mesh<D>) {
     }
 
     // K is the derivative of the force, at a state that is not homogeneous.
-    let u: Vec<Vector<D>> =
-        u.iter().enumerate().map(|(n, u)| u + Vector::from_fn(|i, _| 0.01 * ((n + i) as f64).cos())).collect();
+    let u: Vec<Vector<D>> = u
+        .iter()
+        .enumerate()
+        .map(|(n, u)| u + Vector::from_fn(|i, _| 0.01 * ((n + i) as f64).cos()))
+        .collect();
     let direction: Vec<Vector<D>> =
         (0..u.len()).map(|n| Vector::from_fn(|i, _| ((5 * n + i) as f64).sin())).collect();
     let mut product = vec![Vector::zeros(); u.len()];
@@ -108,7 +111,9 @@ fn the_frame_follows_a_rigid_rotation_and_spin_is_its_rate() {
         .nodes()
         .iter()
         .zip(&u)
-        .map(|(x, u)| Vector::<2>::new(3.0, 1.0) + Vector::<2>::new(-(x + u - centre)[1], (x + u - centre)[0]) * 0.7)
+        .map(|(x, u)| {
+            Vector::<2>::new(3.0, 1.0) + Vector::<2>::new(-(x + u - centre)[1], (x + u - centre)[0]) * 0.7
+        })
         .collect();
     assert!((body.spin(&u, &v)[2] - 0.7).abs() < 1e-13);
     let mut f = vec![Vector::zeros(); u.len()];
@@ -119,7 +124,8 @@ fn the_frame_follows_a_rigid_rotation_and_spin_is_its_rate() {
 #[test]
 fn damping_does_not_see_rigid_motion_of_a_turned_body_and_dissipates_any_other() {
     let damped = BodySpec { damping: RayleighDamping { mass: 0.0, stiffness: 1e-3 }, ..spec() };
-    let body = Body::new(generate::grid([0.0; 2], [2.0, 1.0], [4, 2]).expect("valid"), &damped).expect("valid");
+    let body =
+        Body::new(generate::grid([0.0; 2], [2.0, 1.0], [4, 2]).expect("valid"), &damped).expect("valid");
     let (c, s) = (0.8_f64.cos(), 0.8_f64.sin());
     let q = Matrix::<2>::new(c, -s, s, c);
     let u: Vec<Vector<2>> = body.mesh().nodes().iter().map(|x| q * x - x).collect();
@@ -135,7 +141,8 @@ fn damping_does_not_see_rigid_motion_of_a_turned_body_and_dissipates_any_other()
 
 #[test]
 fn an_inverted_or_flat_cell_is_named() {
-    let nodes = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.0], [2.0, 1.0]].map(Vector::<2>::from);
+    let nodes =
+        [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.0], [2.0, 1.0]].map(Vector::<2>::from);
     for (second, word) in [([1, 2, 5, 4], "inverted"), ([1, 4, 1, 4], "degenerate")] {
         let mut connectivity = vec![0, 1, 2, 3];
         connectivity.extend(second);
@@ -143,7 +150,8 @@ fn an_inverted_or_flat_cell_is_named() {
         if word == "degenerate" {
             nodes.pop();
         }
-        let mesh = Mesh::new(nodes, vec![CellBlock { kind: CellKind::Quad4, connectivity }]).expect("consistent");
+        let mesh =
+            Mesh::new(nodes, vec![CellBlock { kind: CellKind::Quad4, connectivity }]).expect("consistent");
         let message = Body::new(mesh, &spec()).expect_err("bad cell").to_string();
         assert!(message.contains("cell 1") && message.contains(word), "{message}");
     }

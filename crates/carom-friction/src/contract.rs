@@ -5,7 +5,13 @@ use proptest::prelude::*;
 use crate::{BlockMatrix, ContactProblem, Matrix, SolveStatus, SolverKind, StoppingRule, Vector, cone};
 
 /// W = A Aᵀ + ε I of n contacts on `modes` modes, from a list of numbers.
-fn problem<const D: usize>(n: usize, modes: usize, entries: &[f64], shift: f64, mu: f64) -> ContactProblem<D> {
+fn problem<const D: usize>(
+    n: usize,
+    modes: usize,
+    entries: &[f64],
+    shift: f64,
+    mu: f64,
+) -> ContactProblem<D> {
     let rows = nalgebra::DMatrix::from_fn(n * D, modes, |i, k| entries[(i * modes + 7 * k) % entries.len()]);
     let dense = &rows * rows.transpose() + nalgebra::DMatrix::identity(n * D, n * D) * shift;
     let mut w = BlockMatrix::default();
@@ -28,7 +34,10 @@ fn assert_law<const D: usize>(problem: &ContactProblem<D>, r: &[Vector<D>], tole
         if slip > tolerance.sqrt() {
             let expected = -mu * r[i][0];
             for t in 1..D {
-                assert!((r[i][t] - expected * w[t] / slip).abs() <= tolerance.sqrt(), "contact {i} slips askew");
+                assert!(
+                    (r[i][t] - expected * w[t] / slip).abs() <= tolerance.sqrt(),
+                    "contact {i} slips askew"
+                );
             }
         }
     }

@@ -33,7 +33,8 @@ impl<const D: usize> FrictionSolver<D> for GaussSeidel {
             }
             // The full residual costs a sweep: it is measured once the sweep itself hardly moves, and now and then.
             let settled = change <= (10.0 * rule.tolerance).powi(2) * size;
-            if settled || iteration % 50 == 49 || iteration + 1 == rule.max_iterations || !change.is_finite() {
+            if settled || iteration % 50 == 49 || iteration + 1 == rule.max_iterations || !change.is_finite()
+            {
                 best = measure(problem, r);
             }
         }

@@ -39,9 +39,8 @@ pub fn grid<const D: usize>(
         })
     };
     let node_counts = divisions.map(|d| d + 1);
-    let node = |index: [usize; D]| -> u32 {
-        (0..D).rev().fold(0, |n, k| n * node_counts[k] + index[k]) as u32
-    };
+    let node =
+        |index: [usize; D]| -> u32 { (0..D).rev().fold(0, |n, k| n * node_counts[k] + index[k]) as u32 };
     let nodes = (0..node_counts.iter().product())
         .map(|n| {
             let index = unravel(n, node_counts);
@@ -169,9 +168,8 @@ pub fn triangulate(mesh: &Mesh<2>) -> Result<Mesh<2>, MeshError> {
     for block in mesh.blocks() {
         for cell in block.cells() {
             if let &[a, b, c, d] = cell {
-                let length = |p: u32, q: u32| {
-                    (mesh.nodes()[p as usize] - mesh.nodes()[q as usize]).norm_squared()
-                };
+                let length =
+                    |p: u32, q: u32| (mesh.nodes()[p as usize] - mesh.nodes()[q as usize]).norm_squared();
                 connectivity.extend(if length(a, c) <= length(b, d) {
                     [a, b, c, a, c, d]
                 } else {

@@ -37,10 +37,7 @@ impl<const D: usize> Mesh<D> {
         let mut cell = 0;
         for block in &blocks {
             if block.kind.dimension() != D {
-                return Err(MeshError::WrongDimension {
-                    kind: block.kind.reference().name,
-                    dimension: D,
-                });
+                return Err(MeshError::WrongDimension { kind: block.kind.reference().name, dimension: D });
             }
             for cell_nodes in block.cells() {
                 for &node in cell_nodes {

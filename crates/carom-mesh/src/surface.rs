@@ -35,11 +35,8 @@ impl Surface {
                 }
             }
         }
-        let facets: Vec<Facet> = all
-            .into_iter()
-            .filter(|(key, _)| seen[key] == 1)
-            .map(|(_, facet)| facet)
-            .collect();
+        let facets: Vec<Facet> =
+            all.into_iter().filter(|(key, _)| seen[key] == 1).map(|(_, facet)| facet).collect();
         let mut nodes: Vec<u32> = facets.iter().flat_map(|f| f.nodes.iter().copied()).collect();
         nodes.sort_unstable();
         nodes.dedup();

@@ -84,11 +84,7 @@ pub fn closest_rotation<const D: usize>(m: &Matrix<D>) -> Option<Matrix<D>> {
 pub fn cross<const D: usize>(a: &Vector<D>, b: &Vector<D>) -> [f64; 3] {
     match D {
         2 => [0.0, 0.0, a[0] * b[1] - a[1] * b[0]],
-        3 => [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ],
+        3 => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]],
         _ => [0.0; 3],
     }
 }

@@ -13,9 +13,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             "velocity": velocity, "spin": 0.0,
         })
     };
-    let plane = |name: &str, point: [f64; 2], normal: [f64; 2]| {
-        serde_json::json!({"name": name, "kind": "plane", "point": point, "normal": normal})
-    };
+    let plane = |name: &str, point: [f64; 2], normal: [f64; 2]| serde_json::json!({"name": name, "kind": "plane", "point": point, "normal": normal});
     let scenario: Scenario = serde_json::from_value(serde_json::json!({
         "title": "Two cylinders in a rigid box",
         "analysis": {

@@ -1,6 +1,6 @@
 //! From a scenario to a model, a method and the state at t = 0. Everything that can be wrong is found here.
 
-use carom_contact::{ContactModel, ContactSurface, Obstacle, Pair, Target};
+use carom_contact::{ContactModel, ContactSurface, Obstacle, Pair, Samples, Target};
 use carom_fem::{Body, BodySpec, FemError};
 use carom_friction::StoppingRule;
 use carom_mesh::{Mesh, MeshError, Vector, generate, tensor};
@@ -48,7 +48,10 @@ pub fn build(scenario: &Scenario) -> Result<(Model<2>, Method<2>, State<2>), Inp
     let velocity = initial_velocity(scenario, &model)?;
     let state = State::initial(&model, velocity);
     if !state.is_finite() {
-        return Err(InputError::new("bodies", "the initial energy is not finite; check velocities and material constants"));
+        return Err(InputError::new(
+            "bodies",
+            "the initial energy is not finite; check velocities and material constants",
+        ));
     }
     Ok((model, method, state))
 }
@@ -93,7 +96,12 @@ fn method(scenario: &Scenario) -> Result<Method<2>, InputError> {
         number(key, count as f64, count > 0, "at least 1 iteration is needed")?;
     }
     let key = "analysis.max_halvings";
-    number(key, f64::from(analysis.max_halvings), analysis.max_halvings <= 30, "at most 30 halvings make sense")?;
+    number(
+        key,
+        f64::from(analysis.max_halvings),
+        analysis.max_halvings <= 30,
+        "at most 30 halvings make sense",
+    )?;
     Ok(Method {
         scheme: analysis.scheme,
         condition: scenario.contact.condition,
@@ -112,7 +120,9 @@ fn body(scenario: &Scenario, index: usize, entry: &BodyEntry) -> Result<Body<2>,
         InputError::new(format!("{key}.material"), message)
     })?;
     let mesh = mesh(&entry.mesh).map_err(|e| match e {
-        MeshError::Generator { parameter, .. } => InputError::mesh(format!("{key}.mesh.{parameter}"), e.to_string()),
+        MeshError::Generator { parameter, .. } => {
+            InputError::mesh(format!("{key}.mesh.{parameter}"), e.to_string())
+        }
         _ => InputError::mesh(format!("{key}.mesh"), e.to_string()),
     })?;
     let spec = BodySpec {
@@ -138,7 +148,9 @@ fn mesh(spec: &MeshSpec) -> Result<Mesh<2>, MeshError> {
         MeshSpec::Disc { centre, radius, divisions, rings, cell } => {
             (generate::Disc { centre, radius, divisions, rings }.quadrilaterals()?, cell)
         }
-        MeshSpec::Rectangle { corner, size, divisions, cell } => (generate::grid(corner, size, divisions)?, cell),
+        MeshSpec::Rectangle { corner, size, divisions, cell } => {
+            (generate::grid(corner, size, divisions)?, cell)
+        }
     };
     match cell {
         PlaneCell::Quad4 => Ok(mesh),
@@ -163,9 +175,10 @@ fn contact(
                 let length = normal.norm();
                 let remedy = "the normal must not be zero and points to the free side";
                 number(&format!("{key}.normal"), length, length > 0.0, remedy)?;
-                model
-                    .obstacles
-                    .push(Obstacle::Plane { point: vector(&format!("{key}.point"), point)?, normal: normal / length });
+                model.obstacles.push(Obstacle::Plane {
+                    point: vector(&format!("{key}.point"), point)?,
+                    normal: normal / length,
+                });
             }
         }
     }
@@ -222,7 +235,9 @@ fn check_overlaps(scenario: &Scenario, model: &Model<2>) -> Result<(), InputErro
             directions.push(Pair { source: b, target: Target::Surface(pair.source), ..*pair });
         }
         for direction in directions {
-            let Some(closest) = model.contact.proximity(&direction, &at) else { continue };
+            let Some(closest) = model.contact.proximity(&direction, Samples::NodesAndFacets, &at) else {
+                continue;
+            };
             let source = &model.bodies[direction.source];
             if closest.gap >= -TOUCHING * source.body.mesh().smallest_edge() {
                 continue;
@@ -234,7 +249,7 @@ fn check_overlaps(scenario: &Scenario, model: &Model<2>) -> Result<(), InputErro
                 Target::Surface(_) => InputError::new(
                     format!("bodies.{index}.mesh"),
                     format!(
-                        "bodies {a:?} and {b:?} overlap at the start: a node of {:?} at {place} is {:.6} m inside; \
+                        "bodies {a:?} and {b:?} overlap at the start: the boundary of {:?} at {place} is {:.6} m inside; \
                          move one of them",
                         source.name, -closest.gap
                     ),

@@ -1,3 +1,4 @@
+use carom_contact::Samples;
 use serde::Serialize;
 
 use crate::{Model, State};
@@ -5,6 +6,8 @@ use crate::{Model, State};
 /// What would run: the answer of `carom check`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Description {
+    /// Title of the case.
+    pub title: String,
     /// Unknown displacements.
     pub dofs: usize,
     /// Nominal steps.
@@ -56,7 +59,12 @@ pub struct PairDescription {
 }
 
 /// Describes a model and its initial state.
-pub(crate) fn describe<const D: usize>(model: &Model<D>, state: &State<D>, steps: u64) -> Description {
+pub(crate) fn describe<const D: usize>(
+    title: &str,
+    model: &Model<D>,
+    state: &State<D>,
+    steps: u64,
+) -> Description {
     let bodies: Vec<BodyDescription> = model
         .bodies
         .iter()
@@ -83,7 +91,7 @@ pub(crate) fn describe<const D: usize>(model: &Model<D>, state: &State<D>, steps
             .pairs
             .iter()
             .filter(|p| p.group == g)
-            .filter_map(|p| model.contact.proximity(p, &at))
+            .filter_map(|p| model.contact.proximity(p, Samples::Nodes, &at))
             .min_by(|a, b| a.gap.total_cmp(&b.gap));
         if let Some(closest) = closest {
             pairs.push(PairDescription {
@@ -95,6 +103,7 @@ pub(crate) fn describe<const D: usize>(model: &Model<D>, state: &State<D>, steps
         }
     }
     Description {
+        title: title.to_string(),
         dofs: model.dofs(),
         steps,
         energy: state.energies.total(),

@@ -30,7 +30,9 @@ impl InputError {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum StepError {
     /// The iterations on the equations of motion did not converge.
-    #[error("Newton's iterations stopped after {iterations} with a last correction of {correction:.3e} m (wanted {wanted:.3e} m)")]
+    #[error(
+        "Newton's iterations stopped after {iterations} with a last correction of {correction:.3e} m (wanted {wanted:.3e} m)"
+    )]
     Newton {
         /// Iterations made.
         iterations: usize,
@@ -57,7 +59,9 @@ pub enum StepError {
 
 /// Why a run stopped early.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("step at t = {time:.9} s failed, also with the time step halved {halvings} times to {time_step:.3e} s: {reason}")]
+#[error(
+    "step at t = {time:.9} s failed, also with the time step halved {halvings} times to {time_step:.3e} s: {reason}"
+)]
 pub struct RunError {
     /// Start of the step that failed [s].
     pub time: f64,

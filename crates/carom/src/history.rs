@@ -1,3 +1,4 @@
+use carom_contact::Samples;
 use carom_mesh::Vector;
 
 use crate::workspace::StepReport;
@@ -36,7 +37,15 @@ impl<const D: usize> History<D> {
     pub fn new(model: &Model<D>, tracks: Vec<Track>) -> Self {
         let axes = &AXES[..D];
         let mut columns: Vec<String> = [
-            "time", "kinetic", "strain", "total", "friction", "viscous", "scheme", "normal_contact", "external",
+            "time",
+            "kinetic",
+            "strain",
+            "total",
+            "friction",
+            "viscous",
+            "scheme",
+            "normal_contact",
+            "external",
             "defect",
         ]
         .map(String::from)
@@ -57,7 +66,8 @@ impl<const D: usize> History<D> {
             }
         }
         columns.extend(
-            ["contacts", "min_gap", "normal_force", "newton_iterations", "certificate", "residual"].map(String::from),
+            ["contacts", "min_gap", "normal_force", "newton_iterations", "certificate", "residual"]
+                .map(String::from),
         );
         for t in &tracks {
             for quantity in ["u", "v", "vmid"] {
@@ -126,7 +136,7 @@ impl<const D: usize> History<D> {
             .contact
             .pairs
             .iter()
-            .filter_map(|p| model.contact.proximity(p, &at))
+            .filter_map(|p| model.contact.proximity(p, Samples::Nodes, &at))
             .map(|p| p.gap)
             .fold(f64::INFINITY, f64::min);
         self.rows.extend([
@@ -139,7 +149,8 @@ impl<const D: usize> History<D> {
         ]);
         for t in &self.tracks {
             let (u, v) = (state.displacement[t.node], state.velocity[t.node]);
-            let mean = if since.last_dt > 0.0 { (u - before.displacement[t.node]) / since.last_dt } else { v };
+            let mean =
+                if since.last_dt > 0.0 { (u - before.displacement[t.node]) / since.last_dt } else { v };
             self.rows.extend(u.iter());
             self.rows.extend(v.iter());
             self.rows.extend(mean.iter());

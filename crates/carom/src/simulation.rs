@@ -1,5 +1,3 @@
-use std::time::Instant;
-
 use carom_fem::CellState;
 use carom_mesh::Vector;
 use serde::Serialize;
@@ -179,7 +177,7 @@ impl Simulation<2> {
         let steps = (end / dt - 1e-6).ceil().max(1.0) as u64;
         let work = Workspace::new(&model).map_err(|e| InputError::new("bodies", e.to_string()))?;
         let mut simulation = Self {
-            description: describe(&model, &state, steps),
+            description: describe(&scenario.title, &model, &state, steps),
             events: EventLog::new(&model, scenario.output.merge_contacts),
             history: History::new(&model, tracks),
             spare: state.clone(),
@@ -218,10 +216,16 @@ fn track(model: &Model<2>, index: usize, entry: &TrackEntry) -> Result<Track, In
     let key = format!("output.track.{index}");
     let body = model.bodies.iter().find(|b| b.name == entry.body).ok_or_else(|| {
         let known: Vec<&str> = model.bodies.iter().map(|b| b.name.as_str()).collect();
-        InputError::new(format!("{key}.body"), format!("there is no body {:?}; known are {known:?}", entry.body))
+        InputError::new(
+            format!("{key}.body"),
+            format!("there is no body {:?}; known are {known:?}", entry.body),
+        )
     })?;
     if entry.point.len() != 2 || !entry.point.iter().all(|x| x.is_finite()) {
-        return Err(InputError::new(format!("{key}.point"), format!("{:?} must be 2 finite numbers", entry.point)));
+        return Err(InputError::new(
+            format!("{key}.point"),
+            format!("{:?} must be 2 finite numbers", entry.point),
+        ));
     }
     let point = Vector::from_column_slice(&entry.point);
     let distance = |n: &usize| (model.reference[*n] - point).norm();
@@ -232,7 +236,10 @@ fn track(model: &Model<2>, index: usize, entry: &TrackEntry) -> Result<Track, In
         }
         _ => Err(InputError::new(
             format!("{key}.point"),
-            format!("{:?} is far from body {:?}; give a point of it in the reference configuration", entry.point, entry.body),
+            format!(
+                "{:?} is far from body {:?}; give a point of it in the reference configuration",
+                entry.point, entry.body
+            ),
         )),
     }
 }
@@ -315,25 +322,28 @@ impl<const D: usize> Simulation<D> {
         let start = self.step as f64 * self.time_step;
         let rest = self.end_time - start;
         let length = if rest < (1.0 - 1e-6) * self.time_step { rest } else { self.time_step };
-        let Self { model, method, state, spare, work, events, history, ledger, totals, initial_energy, .. } = self;
+        let Self {
+            model, method, state, spare, work, events, history, ledger, totals, initial_energy, ..
+        } = self;
         let mut previous_time = state.time;
         let initial = initial_energy.0 + initial_energy.1;
-        let retried = advance_nominal_step(model, method, state, spare, start, length, work, |state, report, work| {
-            *ledger += report.ledger;
-            ledger.kinetic = state.energies.kinetic - initial_energy.0;
-            ledger.strain = state.energies.strain - initial_energy.1;
-            events.record(&model.groups, &work.groups, previous_time, state.time);
-            history.observe(report, state.time - previous_time);
-            previous_time = state.time;
-            totals.substeps += 1;
-            totals.newton_iterations += report.newton_iterations as u64;
-            totals.contacts = report.contacts;
-            totals.max_drift = totals.max_drift.max((state.energies.total() - initial).abs());
-            totals.max_defect = totals.max_defect.max(ledger.defect().abs());
-            totals.max_certificate = totals.max_certificate.max(report.certificate);
-            totals.max_residual = totals.max_residual.max(report.residual);
-            totals.min_gap = totals.min_gap.min(report.min_gap);
-        })?;
+        let retried =
+            advance_nominal_step(model, method, state, spare, start, length, work, |state, report, work| {
+                *ledger += report.ledger;
+                ledger.kinetic = state.energies.kinetic - initial_energy.0;
+                ledger.strain = state.energies.strain - initial_energy.1;
+                events.record(&model.groups, &work.groups, previous_time, state.time);
+                history.observe(report, state.time - previous_time);
+                previous_time = state.time;
+                totals.substeps += 1;
+                totals.newton_iterations += report.newton_iterations as u64;
+                totals.contacts = report.contacts;
+                totals.max_drift = totals.max_drift.max((state.energies.total() - initial).abs());
+                totals.max_defect = totals.max_defect.max(ledger.defect().abs());
+                totals.max_certificate = totals.max_certificate.max(report.certificate);
+                totals.max_residual = totals.max_residual.max(report.residual);
+                totals.min_gap = totals.min_gap.min(report.min_gap);
+            })?;
         self.totals.retried += retried;
         self.step += 1;
         let due = (self.history_rows as f64) * self.history_every;
@@ -355,7 +365,8 @@ impl<const D: usize> Simulation<D> {
         self.totals.min_gap = self.totals.min_gap.min(min_gap);
         self.last_recorded = Some(self.step);
         // The next multiple of the interval after now.
-        self.history_rows = ((self.state.time + 1e-6 * self.time_step) / self.history_every).floor() as u64 + 1;
+        self.history_rows =
+            ((self.state.time + 1e-6 * self.time_step) / self.history_every).floor() as u64 + 1;
     }
 
     /// Names of the columns of the history.
@@ -392,7 +403,12 @@ impl<const D: usize> Simulation<D> {
             displacement: &s.displacement,
             velocity: &s.velocity,
             reaction: &s.contact_force,
-            cells: self.model.bodies.iter().flat_map(|b| b.body.cell_states(&s.displacement[b.nodes()])).collect(),
+            cells: self
+                .model
+                .bodies
+                .iter()
+                .flat_map(|b| b.body.cell_states(&s.displacement[b.nodes()]))
+                .collect(),
         }
     }
 
@@ -425,19 +441,5 @@ impl<const D: usize> Simulation<D> {
             min_gap: t.min_gap,
             contacts: self.events.events(self.state.time),
         }
-    }
-
-    /// Runs for `budget` seconds of wall time at most; see [`Simulation::advance`].
-    ///
-    /// # Errors
-    /// As [`Simulation::advance`].
-    pub fn advance_for(
-        &mut self,
-        until: f64,
-        budget: std::time::Duration,
-        mut pause: impl FnMut() -> bool,
-    ) -> Result<Outcome, RunError> {
-        let start = Instant::now();
-        self.advance(until, || pause() || start.elapsed() >= budget)
     }
 }

@@ -63,7 +63,8 @@ fn predict<const D: usize>(
     for (i, b) in model.bodies.iter().enumerate() {
         let nodes = b.nodes();
         let middle = &mut work.correction[nodes.clone()];
-        for ((m, u), d) in middle.iter_mut().zip(&state.displacement[nodes.clone()]).zip(&work.motion[nodes]) {
+        for ((m, u), d) in middle.iter_mut().zip(&state.displacement[nodes.clone()]).zip(&work.motion[nodes])
+        {
             *m = u + d * 0.5;
         }
         work.frames[i] = b.body.frame(middle);
@@ -199,7 +200,9 @@ fn react<const D: usize>(
     work.contacts.extend(work.candidates.iter().map(|c| model.contact.evaluate(c, &position)));
     work.offsets.clear();
     work.offsets.extend(
-        work.contacts.iter().map(|c| method.condition.normal_offset(c, map, |n| motion[n], |n| state.velocity[n])),
+        work.contacts
+            .iter()
+            .map(|c| method.condition.normal_offset(c, map, |n| motion[n], |n| state.velocity[n])),
     );
     // The motion without reactions is d plus the correction; `momentum` is free here and holds it.
     for ((free, d), c) in work.momentum.iter_mut().zip(&work.motion).zip(&work.correction) {

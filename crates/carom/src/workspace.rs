@@ -54,7 +54,11 @@ impl<const D: usize> Workspace<D> {
         Ok(Self {
             operators: model.bodies.iter().map(|b| BodyOperator::new(&b.body)).collect::<Result<_, _>>()?,
             compliances: model.bodies.iter().map(|b| Compliance::new(&b.body)).collect(),
-            residual_scratch: model.bodies.iter().map(|b| ResidualScratch::new(b.body.node_count())).collect(),
+            residual_scratch: model
+                .bodies
+                .iter()
+                .map(|b| ResidualScratch::new(b.body.node_count()))
+                .collect(),
             frames: vec![Matrix::identity(); bodies],
             motion: zeros.clone(),
             correction: zeros.clone(),

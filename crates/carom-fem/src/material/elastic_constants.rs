@@ -45,7 +45,9 @@ mod tests {
         let good = ElasticConstants { young: 1.0, poisson: 0.25 };
         let (lambda, mu) = good.lame().expect("valid");
         assert!((lambda - 0.4).abs() < 1e-15 && (mu - 0.4).abs() < 1e-15);
-        for (young, poisson) in [(0.0, 0.3), (-1.0, 0.3), (f64::NAN, 0.3), (1.0, 0.5), (1.0, -1.0), (1.0, f64::NAN)] {
+        for (young, poisson) in
+            [(0.0, 0.3), (-1.0, 0.3), (f64::NAN, 0.3), (1.0, 0.5), (1.0, -1.0), (1.0, f64::NAN)]
+        {
             assert!(ElasticConstants { young, poisson }.lame().is_err(), "{young} {poisson}");
         }
     }

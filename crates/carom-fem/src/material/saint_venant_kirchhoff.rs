@@ -47,8 +47,7 @@ impl Material for SaintVenantKirchhoff {
             for j in 0..3 {
                 for k in 0..3 {
                     for l in 0..3 {
-                        let mut value =
-                            self.lambda * f[(i, j)] * f[(k, l)] + self.mu * f[(i, l)] * f[(k, j)];
+                        let mut value = self.lambda * f[(i, j)] * f[(k, l)] + self.mu * f[(i, l)] * f[(k, j)];
                         if i == k {
                             value += s[(j, l)];
                         }

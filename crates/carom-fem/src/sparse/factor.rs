@@ -1,10 +1,10 @@
 use carom_mesh::{Matrix, Vector};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltError, LltParams, LltRegularization};
+use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
-use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side, Spec};
 
@@ -27,7 +27,10 @@ pub struct Factor<const D: usize> {
 
 impl<const D: usize> std::fmt::Debug for Factor<D> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Factor").field("rows", &self.lower.nrows()).field("values", &self.values.len()).finish()
+        f.debug_struct("Factor")
+            .field("rows", &self.lower.nrows())
+            .field("values", &self.values.len())
+            .finish()
     }
 }
 
@@ -145,7 +148,8 @@ mod tests {
         for node in 0..graph.node_count() {
             for (entry, neighbour) in graph.row(node) {
                 let coupling = Matrix::<2>::new(-0.3, 0.1, 0.1, -0.2);
-                a.values[entry] = if node == neighbour { Matrix::<2>::new(5.0, 0.4, 0.4, 6.0) } else { coupling };
+                a.values[entry] =
+                    if node == neighbour { Matrix::<2>::new(5.0, 0.4, 0.4, 6.0) } else { coupling };
             }
         }
         let x: Vec<Vector<2>> = (0..graph.node_count())

@@ -44,13 +44,8 @@ pub struct Reference {
 
 impl CellKind {
     /// Every kind, for tests and messages.
-    pub const ALL: [CellKind; 5] = [
-        CellKind::Line2,
-        CellKind::Tri3,
-        CellKind::Quad4,
-        CellKind::Tet4,
-        CellKind::Hex8,
-    ];
+    pub const ALL: [CellKind; 5] =
+        [CellKind::Line2, CellKind::Tri3, CellKind::Quad4, CellKind::Tet4, CellKind::Hex8];
 
     /// The reference cell of this kind.
     #[must_use]

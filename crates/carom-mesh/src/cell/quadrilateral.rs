@@ -1,11 +1,6 @@
 use super::{CellKind, Reference};
 
-const NODES: [[f64; 3]; 4] = [
-    [-1.0, -1.0, 0.0],
-    [1.0, -1.0, 0.0],
-    [1.0, 1.0, 0.0],
-    [-1.0, 1.0, 0.0],
-];
+const NODES: [[f64; 3]; 4] = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
 
 /// Square −1 ≤ ξ, η ≤ 1.
 pub(super) static QUAD4: Reference = Reference {

@@ -1,0 +1,51 @@
+# make demo    build, install, and run the paper's two cylinders
+# make test    every test: Rust, Python, examples
+# make check   format, lints, types, spelling
+# make bench   timings (see benchmarks/README.md)
+# make validate  long validations; rewrites docs/validation.md
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+SOURCES := $(shell find crates python -name '*.rs' -o -name '*.py' -o -name '*.pyi' -o -name 'Cargo.toml') \
+	Cargo.toml Cargo.lock pyproject.toml README.md
+
+.PHONY: demo test check bench validate clean
+
+demo: $(VENV)/installed
+	$(BIN)/carom run examples/two_cylinders.toml --out results/two_cylinders
+
+test: $(VENV)/installed-dev
+	cargo test --release --locked --workspace --exclude carom-python
+	$(BIN)/pytest
+
+check: $(VENV)/installed-dev
+	cargo fmt --all --check
+	cargo clippy --release --locked --workspace --all-targets -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --workspace --no-deps --quiet
+	$(BIN)/ruff format --check python tests examples benchmarks
+	$(BIN)/ruff check python tests examples benchmarks
+	$(BIN)/mypy
+	$(BIN)/typos
+
+bench:
+	cargo bench --locked --package carom
+
+validate: $(VENV)/installed-dev
+	$(BIN)/python benchmarks/validate.py
+
+$(BIN)/python:
+	$(PYTHON) -c 'import sys; sys.exit("carom needs Python 3.10 or later") if sys.version_info < (3, 10) else None'
+	$(PYTHON) -m venv $(VENV)
+
+# The wheel in release mode. pip builds in place, so the second build reuses the first one's objects.
+$(VENV)/installed: $(BIN)/python $(SOURCES)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check .
+	touch $@
+
+$(VENV)/installed-dev: $(BIN)/python $(SOURCES)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[dev]'
+	touch $@ $(VENV)/installed
+
+clean:
+	rm -rf $(VENV) target results

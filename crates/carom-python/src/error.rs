@@ -1,0 +1,30 @@
+//! Native errors as the Python exceptions of `carom.errors`.
+
+use carom::{InputError, RunError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// An exception class of `carom.errors`.
+fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    py.import("carom.errors")?.getattr(name)
+}
+
+/// `InputError` or `MeshError` with its key.
+pub fn input_error(py: Python<'_>, error: &InputError) -> PyErr {
+    let name = if error.is_mesh { "MeshError" } else { "InputError" };
+    let make = || class(py, name)?.call1((error.message.as_str(), error.key.as_str()));
+    make().map_or_else(|e| e, PyErr::from_value)
+}
+
+/// `ConvergenceError` with its report.
+pub fn run_error(py: Python<'_>, error: &RunError) -> PyErr {
+    let make = || {
+        let report = PyDict::new(py);
+        report.set_item("time", error.time)?;
+        report.set_item("time_step", error.time_step)?;
+        report.set_item("halvings", error.halvings)?;
+        report.set_item("reason", error.reason.to_string())?;
+        class(py, "ConvergenceError")?.call1((error.to_string(), report))
+    };
+    make().map_or_else(|e| e, PyErr::from_value)
+}

@@ -1,0 +1,123 @@
+use std::time::Instant;
+
+use carom::{Outcome, Scenario};
+use numpy::{PyArray1, PyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde::Serialize;
+
+use crate::arrays;
+use crate::error::{input_error, run_error};
+
+/// Wall time between two looks for Ctrl-C [s]; a step that takes longer is followed by one.
+const SIGNAL_INTERVAL: f64 = 0.02;
+
+/// A scenario built into meshes, matrices and a state that steps through time.
+#[pyclass(module = "carom._carom")]
+pub struct Simulation {
+    inner: carom::Simulation<2>,
+}
+
+/// A serialisable value as Python objects.
+fn to_python<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
+    let json = serde_json::to_string(value).map_err(|e| PyValueError::new_err(e.to_string()))?;
+    py.import("json")?.call_method1("loads", (json,))
+}
+
+#[pymethods]
+impl Simulation {
+    #[new]
+    fn new(py: Python<'_>, scenario: &str) -> PyResult<Self> {
+        let scenario: Scenario = serde_json::from_str(scenario)
+            .map_err(|e| input_error(py, &carom::InputError::new("", format!("not a scenario: {e}"))))?;
+        let inner = py.detach(|| carom::Simulation::new(&scenario)).map_err(|e| input_error(py, &e))?;
+        Ok(Self { inner })
+    }
+
+    #[getter]
+    fn time(&self) -> f64 {
+        self.inner.time()
+    }
+
+    #[getter]
+    fn step(&self) -> u64 {
+        self.inner.step()
+    }
+
+    #[getter]
+    fn steps(&self) -> u64 {
+        self.inner.steps()
+    }
+
+    fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, self.inner.description())
+    }
+
+    fn mesh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let model = self.inner.model();
+        let meshes = model.bodies.iter().map(|b| (b.first_node, b.body.mesh()));
+        arrays::grid(py, &model.reference, meshes)
+    }
+
+    fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let fields = self.inner.fields();
+        let stress = fields
+            .cells
+            .iter()
+            .flat_map(|c| [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|ij| c.stress[ij]))
+            .collect();
+        let density = fields.cells.iter().map(|c| c.energy_density).collect();
+        let out = PyDict::new(py);
+        out.set_item("displacement", arrays::vectors(py, fields.displacement)?)?;
+        out.set_item("velocity", arrays::vectors(py, fields.velocity)?)?;
+        out.set_item("reaction", arrays::vectors(py, fields.reaction)?)?;
+        out.set_item("stress", arrays::table(py, stress, 6)?)?;
+        out.set_item("energy_density", PyArray1::from_vec(py, density))?;
+        Ok(out)
+    }
+
+    fn history_columns(&self) -> Vec<String> {
+        self.inner.history_columns().to_vec()
+    }
+
+    fn take_history<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let width = self.inner.history_columns().len();
+        arrays::table(py, self.inner.take_history(), width)
+    }
+
+    /// Runs to `until` [s] or for `budget` seconds of wall time, one step at least; whether `until` is reached.
+    fn advance(&mut self, py: Python<'_>, until: f64, budget: f64) -> PyResult<bool> {
+        let inner = &mut self.inner;
+        let (outcome, interrupt) = py.detach(|| {
+            let start = Instant::now();
+            let mut last_look = 0.0;
+            let mut interrupt = None;
+            let outcome = inner.advance(until, || {
+                let elapsed = start.elapsed().as_secs_f64();
+                if elapsed - last_look >= SIGNAL_INTERVAL {
+                    last_look = elapsed;
+                    interrupt = Python::attach(|py| py.check_signals()).err();
+                }
+                interrupt.is_some() || elapsed >= budget
+            });
+            (outcome, interrupt)
+        });
+        if let Some(interrupt) = interrupt {
+            return Err(interrupt);
+        }
+        Ok(outcome.map_err(|e| run_error(py, &e))? == Outcome::Reached)
+    }
+
+    fn finish(&mut self) {
+        self.inner.finish();
+    }
+
+    fn progress<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &self.inner.progress())
+    }
+
+    fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        to_python(py, &self.inner.summary())
+    }
+}

@@ -1,0 +1,48 @@
+"""Frictional impact of deformable bodies, every joule accounted for."""
+
+from carom._carom import Simulation, __version__
+from carom.analysis import Dynamic, Newton, Theta
+from carom.body import Body
+from carom.checking import Check, check
+from carom.contact import Contact, GaussSeidel, Pair, Uzawa
+from carom.errors import CaromError, ConvergenceError, InputError, MeshError
+from carom.io.history import read_history
+from carom.material import Damping, LinearElastic, SaintVenantKirchhoff
+from carom.mesh import Disc, Rectangle
+from carom.obstacle import Plane
+from carom.output import Output, Track
+from carom.result import Result
+from carom.scenario import Scenario
+from carom.simulation import Progress, run
+
+__all__ = [
+    "Body",
+    "CaromError",
+    "Check",
+    "Contact",
+    "ConvergenceError",
+    "Damping",
+    "Disc",
+    "Dynamic",
+    "GaussSeidel",
+    "InputError",
+    "LinearElastic",
+    "MeshError",
+    "Newton",
+    "Output",
+    "Pair",
+    "Plane",
+    "Progress",
+    "Rectangle",
+    "Result",
+    "SaintVenantKirchhoff",
+    "Scenario",
+    "Simulation",
+    "Theta",
+    "Track",
+    "Uzawa",
+    "__version__",
+    "check",
+    "read_history",
+    "run",
+]

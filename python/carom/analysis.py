@@ -1,0 +1,89 @@
+"""How the motion is computed."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+from typing_extensions import Self
+
+from carom.description import Count, Description, Number, Positive, Vector
+from carom.messages import problem
+
+
+class Theta(Description):
+    """The paper's first-order scheme.
+
+    θ = ξ = ½ neither creates nor dissipates energy in linear problems; larger values dissipate.
+
+    Parameters
+    ----------
+    theta
+        Weight of the end of the step in the velocity, in (0, 1].
+    xi
+        Weight of the end of the step in the forces, in [0, 1].
+    """
+
+    kind: Literal["theta"] = "theta"
+    theta: Annotated[Number, Field(gt=0, le=1)] = 0.5
+    xi: Annotated[Number, Field(ge=0, le=1)] = 0.5
+
+
+Scheme = Theta
+
+
+class Newton(Description):
+    """Newton's iteration within a step.
+
+    Parameters
+    ----------
+    tolerance
+        Largest correction of a displacement in the last iteration, relative to the largest motion
+        of a node in the step.
+    max_iterations
+        Iterations before the step counts as failed.
+    """
+
+    tolerance: Positive = 1e-9
+    max_iterations: Count = 50
+
+
+class Dynamic(Description):
+    """Motion in time.
+
+    Parameters
+    ----------
+    end_time
+        Time at which the run ends [s].
+    time_step
+        Length of a step [s].
+    scheme
+        Time scheme.
+    newton
+        Newton's iteration.
+    max_halvings
+        How often a step that failed is halved before the run stops.
+    gravity
+        Acceleration of all bodies [m/s²], shape [2]; None is none.
+    """
+
+    kind: Literal["dynamic"] = "dynamic"
+    end_time: Positive
+    time_step: Positive
+    scheme: Scheme = Theta()
+    newton: Newton = Newton()
+    max_halvings: Annotated[int, Field(strict=True, ge=0)] = 8
+    gravity: Vector | None = None
+
+    @model_validator(mode="after")
+    def _at_least_one_step(self) -> Self:
+        if self.end_time < self.time_step:
+            raise problem(
+                f"must be at least one time_step ({self.time_step:g} s)",
+                key="end_time",
+                value=self.end_time,
+            )
+        return self
+
+
+Analysis = Dynamic

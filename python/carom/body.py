@@ -1,0 +1,41 @@
+"""Deformable bodies."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from carom.description import Description, Name, Number, Positive, Vector
+from carom.mesh import Mesh
+
+
+class Body(Description):
+    """A deformable body.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    material
+        Name of one of the scenario's materials.
+    hypothesis
+        What the plane model assumes about the third direction.
+    thickness
+        Thickness in the third direction [m].
+    mass
+        Mass matrix: consistent, or lumped to the nodes.
+    mesh
+        Reference geometry and its cells.
+    velocity
+        Initial velocity of the centre of mass [m/s], shape [2].
+    spin
+        Initial angular velocity about the centre of mass [rad/s].
+    """
+
+    name: Name
+    material: str
+    hypothesis: Literal["plane-strain"] = "plane-strain"
+    thickness: Positive = 1.0
+    mass: Literal["consistent", "lumped"] = "consistent"
+    mesh: Mesh
+    velocity: Vector = (0.0, 0.0)
+    spin: Number = 0.0

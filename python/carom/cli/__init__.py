@@ -1,0 +1,46 @@
+"""The command line: ``carom run``, ``carom check``, ``carom plot``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from carom import __version__
+from carom.cli.check import check
+from carom.cli.plot import plot
+from carom.cli.run import run
+
+app = typer.Typer(
+    help="Frictional impact of deformable bodies, every joule accounted for.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+app.command()(run)
+app.command()(check)
+app.command()(plot)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"carom {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    *,
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_print_version, is_eager=True, help="Print the version."
+        ),
+    ] = False,
+) -> None:
+    pass
+
+
+def main() -> None:
+    """Run the command line."""
+    app(prog_name="carom")

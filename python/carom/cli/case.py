@@ -1,0 +1,29 @@
+"""What the commands that take a case file have in common."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from carom.errors import naming
+from carom.scenario import Scenario
+
+CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).", metavar="CASE")]
+
+Overrides = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        help="Replace a value, such as analysis.end_time=3; can be repeated.",
+    ),
+]
+
+
+def load(case: Path, overrides: list[str] | None) -> Scenario:
+    """Read a case file and put the overrides in place."""
+    scenario = Scenario.from_toml(case)
+    with naming(case):
+        return scenario.with_overrides(overrides or [])

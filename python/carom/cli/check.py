@@ -1,0 +1,57 @@
+"""``carom check``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from carom import checking
+from carom.cli.case import CaseFile, Overrides, load
+from carom.cli.failures import failures
+from carom.errors import naming
+from carom.tables import add, two_columns
+
+
+def check(*, case: CaseFile, overrides: Overrides = None) -> None:
+    """Validate a case and print what would run."""
+    with failures(case):
+        scenario = load(case, overrides)
+        with naming(case):
+            checked = checking.check(scenario)
+    console = Console()
+    console.print(_table(checked.description, time_step=scenario.analysis.time_step))
+    for warning in checked.warnings:
+        console.print(f"warning: {warning}", markup=False, highlight=False, soft_wrap=True)
+
+
+def _table(description: Mapping[str, Any], *, time_step: float) -> Table:
+    table = two_columns(description["title"] or "Check")
+    add(table, "dofs", str(description["dofs"]))
+    add(table, "steps", f"{description['steps']} of {time_step:g} s")
+    add(table, "suggested step", f"{description['suggested_time_step']:.3g} s")
+    add(table, "initial energy", f"{description['energy']:.6g} J")
+    table.add_section()
+    for body in description["bodies"]:
+        add(
+            table,
+            body["name"],
+            f"{body['nodes']} nodes, {body['cells']} cells, {body['dofs']} dofs, "
+            f"mass {body['mass']:.6g} kg, volume {body['volume']:.6g} m³, "
+            f"wave speed {body['wave_speed']:.4g} m/s, "
+            f"smallest edge {body['smallest_edge']:.3g} m, "
+            f"suggested Δt {body['suggested_time_step']:.3g} s",
+        )
+    table.add_section()
+    for pair in description["pairs"]:
+        add(table, " – ".join(pair["between"]), _gap(pair))
+    return table
+
+
+def _gap(pair: Mapping[str, Any]) -> str:
+    gap = pair["initial_gap"]
+    at = ", ".join(f"{coordinate:.4g}" for coordinate in pair["at"])
+    what = f"gap {gap:.4g} m" if gap >= 0 else f"overlap {-gap:.4g} m"
+    return f"{what} at ({at}), friction {pair['friction']:g}"

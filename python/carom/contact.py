@@ -1,0 +1,102 @@
+"""Contact and friction between bodies, and of bodies with obstacles."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+from typing_extensions import Self
+
+from carom.description import Count, Description, NonNegative, Positive
+from carom.messages import problem
+
+Sources = Literal["first", "second", "both"]
+"""Whose nodes are checked against the facets of the other body of a pair."""
+
+
+class _FrictionSolver(Description):
+    tolerance: Positive = 1e-12
+    max_iterations: Count = 10_000
+
+
+class GaussSeidel(_FrictionSolver):
+    """Block Gauss–Seidel: one contact after the other.
+
+    Parameters
+    ----------
+    tolerance
+        Relative residual at which the sweeps stop.
+    max_iterations
+        Sweeps before the step counts as failed.
+    """
+
+    kind: Literal["gauss-seidel"] = "gauss-seidel"
+
+
+class Uzawa(_FrictionSolver):
+    """The paper's simultaneous sweep over all contacts.
+
+    Parameters
+    ----------
+    tolerance
+        Relative residual at which the sweeps stop.
+    max_iterations
+        Sweeps before the step counts as failed.
+    """
+
+    kind: Literal["uzawa"] = "uzawa"
+
+
+FrictionSolver = Annotated[GaussSeidel | Uzawa, Field(discriminator="kind")]
+
+
+class Pair(Description):
+    """What one pair does differently.
+
+    Parameters
+    ----------
+    between
+        Names of two bodies, or of a body and an obstacle.
+    friction
+        Coulomb's coefficient; None takes the default of `Contact`.
+    sources
+        Whose nodes are checked, as seen from `between`; None takes the default of `Contact`.
+    enabled
+        Whether the two can touch at all.
+    """
+
+    between: tuple[str, ...]
+    friction: NonNegative | None = None
+    sources: Sources | None = None
+    enabled: Annotated[bool, Field(strict=True)] = True
+
+    @model_validator(mode="after")
+    def _of_two(self) -> Self:
+        if not len(self.between) == len(set(self.between)) == 2:
+            raise problem("must be two different names", key="between", value=self.between)
+        return self
+
+
+class Contact(Description):
+    """The law of contact.
+
+    Parameters
+    ----------
+    condition
+        Where in time the unilateral condition is written: on the gap at the end of the step (the
+        paper's), on the increment over the step, or on the velocity at its end.
+    friction
+        Coulomb's coefficient of every pair that does not state its own.
+    solver
+        Solver of the reduced contact problem.
+    sources
+        Whose nodes are checked in a pair of bodies that does not state its own.
+    pairs
+        What single pairs do differently.
+    """
+
+    condition: Literal["gap", "midpoint", "endpoint"] = "gap"
+    friction: NonNegative = 0.0
+    solver: FrictionSolver = GaussSeidel()
+    sources: Sources = "first"
+    pairs: tuple[Pair, ...] = ()

@@ -1,0 +1,60 @@
+"""What can go wrong, as one hierarchy.
+
+The native module raises these classes too, so this file imports nothing of carom.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from os import PathLike
+from typing import Any
+
+
+class CaromError(Exception):
+    """Any error that carom raises on purpose."""
+
+
+class InputError(CaromError, ValueError):
+    """What was asked for cannot be run.
+
+    Parameters
+    ----------
+    message
+        One line: the fact, the key and its value, the remedy.
+    key
+        Dotted path of the offending entry, such as ``bodies.1.mesh.radius``.
+    """
+
+    def __init__(self, message: str, key: str | None = None) -> None:
+        super().__init__(message)
+        self.key = key
+
+
+class MeshError(InputError):
+    """A mesh that cannot carry a computation: inverted cells, bodies that overlap at the start."""
+
+
+class ConvergenceError(CaromError, RuntimeError):
+    """A step failed even after all its retries with smaller time steps.
+
+    Parameters
+    ----------
+    message
+        One line: the time, the step and what did not converge.
+    report
+        Numbers about the failed step.
+    """
+
+    def __init__(self, message: str, report: Mapping[str, Any]) -> None:
+        super().__init__(message)
+        self.report = dict(report)
+
+
+@contextmanager
+def naming(file: str | PathLike[str]) -> Iterator[None]:
+    """Put the name of the file in front of every `InputError` that leaves the block."""
+    try:
+        yield
+    except InputError as error:
+        raise type(error)(f"{file}: {error}", error.key) from error

@@ -1,0 +1,50 @@
+"""``history.csv``: one row of numbers per recorded time."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class HistoryWriter:
+    """Writes the history row by row; what has been appended is on disk.
+
+    Numbers are written as the shortest text that reads back as the same float, which takes at
+    most 17 significant digits.
+
+    Parameters
+    ----------
+    path
+        File to write.
+    columns
+        Titles of the columns.
+    """
+
+    def __init__(self, path: Path, columns: Sequence[str]) -> None:
+        self._path = path
+        self._write([list(columns)], mode="w")
+
+    def append(self, rows: NDArray[np.float64]) -> None:
+        """Add rows, shape [row_count, column_count]."""
+        if len(rows):
+            self._write(rows.tolist(), mode="a")
+
+    def _write(self, rows: Sequence[Sequence[object]], *, mode: str) -> None:
+        with self._path.open(mode, encoding="utf-8", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows(rows)
+
+
+def read_history(path: str | Path) -> dict[str, NDArray[np.float64]]:
+    """Read a history into one array per column, each of shape [row_count].
+
+    A last line that a killed run left unfinished is passed over.
+    """
+    with Path(path).open(encoding="utf-8", newline="") as file:
+        lines = [line for line in file if line.endswith("\n")]
+    columns, *rows = csv.reader(lines)
+    values = np.array(rows, dtype=np.float64).reshape(len(rows), len(columns))
+    return {column: values[:, index] for index, column in enumerate(columns)}

@@ -1,0 +1,33 @@
+"""``summary.json``: what came out of a run, in a page."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+
+def write_summary(path: Path, summary: Mapping[str, Any]) -> None:
+    """Write the summary whole or not at all; what is not a finite number is written as null."""
+    text = json.dumps(_json(summary), indent=2, ensure_ascii=False, allow_nan=False)
+    partial = path.with_suffix(".tmp")
+    partial.write_text(text + "\n", encoding="utf-8")
+    partial.replace(path)
+
+
+def read_summary(path: Path) -> dict[str, Any]:
+    """Read a summary."""
+    summary: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+    return summary
+
+
+def _json(value: Any) -> Any:  # noqa: ANN401 (any JSON value)
+    if isinstance(value, Mapping):
+        return {key: _json(member) for key, member in value.items()}
+    if isinstance(value, list | tuple):
+        return [_json(member) for member in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

@@ -1,0 +1,145 @@
+"""``fields.vtkhdf``: a temporal VTKHDF unstructured grid, for ParaView and PyVista.
+
+The layout is that of the VTKHDF file format 2.0 [1]_: mesh and body index are stored once, each
+frame appends its fields, and ``Steps`` says where the fields of each frame begin.
+
+References
+----------
+.. [1] https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/index.html
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+POINT_FIELDS = ("displacement", "velocity", "reaction")
+"""Vectors at the points [m], [m/s], [N]; stored with 3 components."""
+
+CELL_FIELDS = {"stress": 6, "energy_density": 1}
+"""Cauchy stress xx yy zz xy yz xz [Pa] and strain energy density [J/m³], with components."""
+
+_CHUNK_ROWS = 16_384
+
+
+class FieldsWriter:
+    """Writes frames of fields on a mesh that keeps its cells.
+
+    The file is closed between frames, so it can be opened during the run and after a crash.
+
+    Parameters
+    ----------
+    path
+        File to write.
+    mesh
+        ``points`` [m], shape [point_count, D]; ``connectivity``; ``offsets``, shape
+        [cell_count + 1]; ``types``, VTK cell types; ``body``, index of each cell's body.
+    """
+
+    def __init__(self, path: Path, mesh: Mapping[str, NDArray[np.generic]]) -> None:
+        self._path = path
+        points, cells = len(mesh["points"]), len(mesh["types"])
+        with h5py.File(path, "w") as file:
+            root = file.create_group("VTKHDF")
+            root.attrs["Version"] = np.array([2, 0], dtype=np.int64)
+            root.attrs["Type"] = np.bytes_("UnstructuredGrid")
+            root["NumberOfPoints"] = np.array([points], dtype=np.int64)
+            root["NumberOfCells"] = np.array([cells], dtype=np.int64)
+            root["NumberOfConnectivityIds"] = np.array([len(mesh["connectivity"])], dtype=np.int64)
+            root["Points"] = _spatial(mesh["points"])
+            root["Connectivity"] = mesh["connectivity"].astype(np.int64)
+            root["Offsets"] = mesh["offsets"].astype(np.int64)
+            root["Types"] = mesh["types"].astype(np.uint8)
+
+            steps = root.create_group("Steps")
+            steps.attrs["NSteps"] = np.int64(0)
+            _growing(steps, "Values", dtype=np.float64)
+            for name in ("PartOffsets", "NumberOfParts", "PointOffsets"):
+                _growing(steps, name, dtype=np.int64)
+            for name in ("CellOffsets", "ConnectivityIdOffsets"):
+                _growing(steps, name, dtype=np.int64, components=1)
+
+            for name in POINT_FIELDS:
+                _growing(root, f"PointData/{name}", dtype=np.float64, components=3, rows=points)
+                _growing(steps, f"PointDataOffsets/{name}", dtype=np.int64)
+            for name, components in CELL_FIELDS.items():
+                _growing(
+                    root, f"CellData/{name}", dtype=np.float64, components=components, rows=cells
+                )
+                _growing(steps, f"CellDataOffsets/{name}", dtype=np.int64)
+            root["CellData/body"] = mesh["body"].astype(np.int32)
+            _growing(steps, "CellDataOffsets/body", dtype=np.int64)
+
+    def append(self, time: float, fields: Mapping[str, NDArray[np.float64]]) -> None:
+        """Add a frame.
+
+        Parameters
+        ----------
+        time
+            Time of the frame [s].
+        fields
+            Arrays of the names in `POINT_FIELDS`, shape [point_count, D], and `CELL_FIELDS`,
+            shape [cell_count, components].
+        """
+        with h5py.File(self._path, "r+") as file:
+            root = file["VTKHDF"]
+            steps = root["Steps"]
+            entries: dict[str, float] = {
+                "Values": time,
+                "NumberOfParts": 1,
+                "PartOffsets": 0,
+                "PointOffsets": 0,
+                "CellOffsets": 0,
+                "ConnectivityIdOffsets": 0,
+                "CellDataOffsets/body": 0,
+            }
+            for name in POINT_FIELDS:
+                rows = _spatial(fields[name])
+                entries[f"PointDataOffsets/{name}"] = _extend(root[f"PointData/{name}"], rows)
+            for name in CELL_FIELDS:
+                entries[f"CellDataOffsets/{name}"] = _extend(root[f"CellData/{name}"], fields[name])
+            for name, entry in entries.items():
+                _extend(steps[name], entry)
+            steps.attrs["NSteps"] += 1  # last: a frame counts once it is whole
+
+
+def _growing(
+    group: h5py.Group,
+    name: str,
+    *,
+    dtype: type[np.generic],
+    components: int | None = None,
+    rows: int = 256,
+) -> None:
+    """Create an empty dataset that grows along its first axis, in chunks of about `rows`."""
+    width = () if components is None else (components,)
+    group.create_dataset(
+        name,
+        shape=(0, *width),
+        maxshape=(None, *width),
+        chunks=(min(rows, _CHUNK_ROWS), *width),
+        dtype=dtype,
+        compression="gzip",
+        compression_opts=1,
+        shuffle=True,
+    )
+
+
+def _extend(dataset: h5py.Dataset, values: NDArray[np.float64] | float) -> int:
+    """Append one value or rows of values; return the row at which they begin."""
+    start = len(dataset)
+    rows = np.reshape(values, (-1, *dataset.shape[1:]))
+    dataset.resize(start + len(rows), axis=0)
+    dataset[start:] = rows
+    return start
+
+
+def _spatial(vectors: NDArray[np.generic]) -> NDArray[np.float64]:
+    """Return vectors with the missing components as zeros, shape [row_count, 3]."""
+    spatial = np.zeros((len(vectors), 3))
+    spatial[:, : vectors.shape[1]] = vectors
+    return spatial

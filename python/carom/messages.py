@@ -1,0 +1,135 @@
+"""Turns what pydantic finds wrong into one `InputError` with a one-line message."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import tomlkit
+from pydantic_core import PydanticCustomError
+
+from carom.errors import InputError
+
+if TYPE_CHECKING:
+    from pydantic import ValidationError
+    from pydantic_core import ErrorDetails
+
+_PROBLEM = "carom_problem"
+_ABSENT = object()
+
+# pydantic's error type → what carom says, formatted with the numbers pydantic gives.
+_WHAT = {
+    "missing": "required key is missing",
+    "float_type": "must be a number",
+    "finite_number": "must be a finite number",
+    "int_type": "must be an integer",
+    "string_type": "must be a string",
+    "bool_type": "must be true or false",
+    "dict_type": "must be a table",
+    "model_type": "must be a table",
+    "model_attributes_type": "must be a table",
+    "tuple_type": "must be a list",
+    "greater_than": "must be greater than {gt:g}",
+    "greater_than_equal": "must be at least {ge:g}",
+    "less_than": "must be less than {lt:g}",
+    "less_than_equal": "must be at most {le:g}",
+    "too_short": "must have {min_length} or more entries, not {actual_length}",
+    "literal_error": "must be {expected}",
+    "union_tag_invalid": "must be one of {expected_tags}",
+    "union_tag_not_found": "required key is missing",
+    "value_error": "{error}",
+}
+
+
+def problem(what: str, *, key: str | None = None, value: object = _ABSENT) -> PydanticCustomError:
+    """Make the exception that a validator raises.
+
+    Parameters
+    ----------
+    what
+        What is wrong and what would be right.
+    key
+        Dotted path of the entry, relative to the model that is validated; None is the model.
+    value
+        The offending value; without it, only the key is shown.
+    """
+    context: dict[str, Any] = {"what": what, "key": key}
+    if value is not _ABSENT:
+        context["value"] = value
+    return PydanticCustomError(_PROBLEM, "{what}", context)
+
+
+def known(name: str, names: Iterable[str]) -> str:
+    """Return the nearest of the valid names, if one is near, and all of them."""
+    names = list(names)
+    near = difflib.get_close_matches(name, names, n=1)
+    hint = f'did you mean "{near[0]}"? ' if near else ""
+    return f"{hint}(known: {', '.join(names) or 'none'})"
+
+
+def show(value: object) -> str:
+    """Return a value as the case file would write it, cut to a readable length."""
+    if isinstance(value, Mapping):
+        return "{…}"
+    try:
+        text = tomlkit.item(value).as_string()
+    except ValueError:
+        text = repr(value)
+    text = " ".join(text.split())
+    return text if len(text) <= 60 else f"{text[:59]}…"
+
+
+def input_error(error: ValidationError, data: Mapping[str, Any]) -> InputError:
+    """Return the first problem as an `InputError`, and say how many more there are.
+
+    Parameters
+    ----------
+    error
+        What pydantic raised.
+    data
+        What it was given, needed to tell keys from the tags of unions.
+    """
+    first, *others = error.errors(include_url=False)
+    others = [other for other in others if other["loc"] != first["loc"][: len(other["loc"])]]
+    key, value, what = _read(first, data)
+    line = f"{key} = {show(value)}: {what}" if value is not _ABSENT else f"{key}: {what}"
+    if others:
+        line += f" (and {len(others)} more problem{'s' if len(others) > 1 else ''})"
+    return InputError(line, key)
+
+
+def _read(details: ErrorDetails, data: Mapping[str, Any]) -> tuple[str, object, str]:
+    """Return the dotted key, the offending value and what is wrong with it."""
+    kind, context = details["type"], details.get("ctx", {})
+    path = _without_tags(details["loc"], data)
+    value: object = details["input"]
+    what = _WHAT.get(kind, details["msg"]).format_map(context) if kind != _PROBLEM else ""
+    if kind == _PROBLEM:
+        path += [context["key"]] if context["key"] else []
+        value, what = context.get("value", _ABSENT), context["what"]
+    elif kind == "missing":
+        value = _ABSENT
+    elif kind == "union_tag_not_found":
+        path, value = [*path, "kind"], _ABSENT
+    elif kind == "union_tag_invalid":
+        path, value = [*path, "kind"], context["tag"]
+    return ".".join(path) or "scenario", value, what
+
+
+def _without_tags(location: Sequence[int | str], data: object) -> list[str]:
+    """Return pydantic's location without the union tags it inserts.
+
+    A tag stands where a table of that kind was entered: it is the table's ``kind``, not one of
+    its keys.
+    """
+    path: list[str] = []
+    for part in location:
+        if isinstance(data, Mapping):
+            if part not in data and data.get("kind") == part:
+                continue
+            data = data.get(part)
+        elif isinstance(data, Sequence) and isinstance(part, int):
+            data = data[part] if part < len(data) else None
+        path.append(str(part))
+    return [part for part in path if part != "[key]"]

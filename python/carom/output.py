@@ -1,0 +1,66 @@
+"""What a run records, and how often."""
+
+from __future__ import annotations
+
+from typing_extensions import Self
+
+from carom.analysis import Analysis
+from carom.description import Description, Name, NonNegative, Positive, Vector
+
+FRAMES = 200
+"""Frames of fields in a run that does not say how often."""
+
+ROWS = 1000
+"""Rows of history in a run that does not say how often."""
+
+
+class Track(Description):
+    """A point whose motion is recorded in the history.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    body
+        Name of the body.
+    point
+        Reference position [m], shape [2]; the nearest node of the body is taken.
+    """
+
+    name: Name
+    body: str
+    point: Vector
+
+
+class Output(Description):
+    """What a run records.
+
+    Parameters
+    ----------
+    fields_every
+        Time between two frames of fields [s]; None takes a 200th of the run.
+    history_every
+        Time between two rows of history [s]; None takes a 1000th of the run.
+    merge_contacts
+        Contact events of one pair that are closer than this count as one [s].
+    track
+        Points to follow.
+    """
+
+    fields_every: Positive | None = None
+    history_every: Positive | None = None
+    merge_contacts: NonNegative = 0.03
+    track: tuple[Track, ...] = ()
+
+    def resolved(self, analysis: Analysis) -> Self:
+        """Return the same with both intervals as numbers, never less than a time step."""
+
+        def every(parts: int) -> float:
+            return max(analysis.end_time / parts, analysis.time_step)
+
+        return self.model_copy(
+            update={
+                "fields_every": self.fields_every or every(FRAMES),
+                "history_every": self.history_every or every(ROWS),
+            }
+        )

@@ -1,0 +1,69 @@
+"""Replacing single values of a scenario, as ``--set KEY=VALUE`` does."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from copy import deepcopy
+from typing import Any
+
+import tomlkit
+from tomlkit.exceptions import TOMLKitError
+
+from carom.errors import InputError
+from carom.messages import known
+
+_BARE_WORD = re.compile(r"[A-Za-z_][\w-]*")
+
+
+def apply(data: dict[str, Any], assignments: Iterable[str]) -> dict[str, Any]:
+    """Return a copy of the data with each ``KEY=VALUE`` put in its place.
+
+    Only the way to the key must exist: whether the scenario knows the key is for it to say.
+    """
+    data = deepcopy(data)
+    for assignment in assignments:
+        key, equals, text = assignment.partition("=")
+        key = key.strip()
+        if not (key and equals):
+            raise InputError(
+                f"override {assignment!r}: write KEY=VALUE, such as analysis.end_time=3"
+            )
+        _assign(data, key, _value(key, text.strip()))
+    return data
+
+
+def _value(key: str, text: str) -> Any:  # noqa: ANN401 (any TOML value)
+    try:
+        return tomlkit.value(text).unwrap()
+    except TOMLKitError:
+        if _BARE_WORD.fullmatch(text):
+            return text
+        raise InputError(
+            f"{key} = {text}: not a TOML value; a text of several words needs quotes", key
+        ) from None
+
+
+def _assign(data: dict[str, Any], key: str, value: object) -> None:
+    *way, last = key.split(".")
+    parent: Any = data
+    for depth, part in enumerate(way):
+        where = ".".join(way[:depth])
+        if isinstance(parent, dict) and part not in parent:
+            raise InputError(
+                f"{key}: no {part!r} in {where or 'the scenario'}; {known(part, parent)}", key
+            )
+        parent = parent[_place(parent, part, key=key, where=where)]
+    parent[_place(parent, last, key=key, where=".".join(way))] = value
+
+
+def _place(parent: object, part: str, *, key: str, where: str) -> str | int:
+    """Return the key or the index that `part` stands for in `parent`."""
+    if isinstance(parent, dict):
+        return part
+    if not isinstance(parent, list):
+        raise InputError(f"{key}: {where} is a single value and has no {part!r} in it", key)
+    if not (part.isdecimal() and int(part) < len(parent)):
+        entries = f"0 to {len(parent) - 1}" if parent else "none"
+        raise InputError(f"{key}: {where} has no entry {part!r} (entries: {entries})", key)
+    return int(part)

@@ -1,0 +1,51 @@
+"""Energies over time."""
+
+from __future__ import annotations
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from carom.plot.style import BLACK, BLUE, GREEN, ORANGE, PALE_BLUE, PALE_GREY, figure
+from carom.result import Result
+
+CURVES = (
+    ("kinetic", r"$E_c$ kinetic", BLUE, "-"),
+    ("strain", r"$E_e$ strain", ORANGE, "-"),
+    ("total", r"$E_t = E_c + E_e$", BLACK, "-"),
+    ("friction", r"$D_\mathrm{friction}$", GREEN, "--"),
+)
+"""Column of the history, label, colour and line of each curve."""
+
+
+def energy_figure(result: Result) -> Figure:
+    """Draw E_c, E_e, E_t and D_friction [J] over time [s], with the contacts as shades."""
+    time = result.history["time"]
+    with figure(height=3.6) as picture:
+        axes = picture.add_subplot()
+        for column, label, colour, line in CURVES:
+            axes.plot(time, result.history[column], line, color=colour, label=label)
+        _shade_contacts(axes, result)
+        axes.set_xlabel("time $t$ [s]")
+        axes.set_ylabel("energy [J]")
+        axes.set_title(result.summary["title"])
+        picture.legend(loc="outside right center")
+    return picture
+
+
+def _shade_contacts(axes: Axes, result: Result) -> None:
+    """Shade when two bodies touch, and more lightly when a body touches an obstacle."""
+    obstacles = {obstacle.name for obstacle in result.scenario.obstacles}
+    labelled = set()
+    for contact in result.summary["contacts"]:
+        with_obstacle = not obstacles.isdisjoint(contact["pair"])
+        label = "body on obstacle" if with_obstacle else "body on body"
+        release = contact["release"]
+        axes.axvspan(
+            contact["onset"],
+            result.history["time"][-1] if release is None else release,
+            color=PALE_BLUE if with_obstacle else PALE_GREY,
+            linewidth=0,
+            zorder=0 if with_obstacle else 0.5,
+            label=None if label in labelled else label,
+        )
+        labelled.add(label)

@@ -1,0 +1,46 @@
+"""What all pictures share: size, fonts and colours."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+
+# Okabe & Ito's palette, told apart with any colour vision.
+BLUE, ORANGE, GREEN, BLACK, PURPLE = "#0072B2", "#D55E00", "#009E73", "#000000", "#CC79A7"
+PALE_GREY, PALE_BLUE = "#DDDDDD", "#E3EFF8"
+
+_STYLE: dict[Any, Any] = {
+    "font.size": 10,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titlesize": 11,
+    "axes.titlelocation": "left",
+    "axes.xmargin": 0.0,
+    "legend.frameon": False,
+    "lines.linewidth": 1.6,
+    "lines.solid_capstyle": "round",
+}
+
+WIDTH = 7.0
+"""Width of a picture [inch]."""
+
+RESOLUTION = 200
+"""Dots per inch."""
+
+
+@contextmanager
+def figure(*, height: float) -> Iterator[Figure]:
+    """Give an empty figure, `height` inches high, to draw on in carom's style."""
+    with mpl.rc_context(_STYLE):
+        yield Figure(figsize=(WIDTH, height), layout="constrained")
+
+
+def save(figure: Figure, path: Path) -> Path:
+    """Write a figure as a PNG picture and return its path."""
+    figure.savefig(path, dpi=RESOLUTION)
+    return path

@@ -1,0 +1,87 @@
+"""The files of one run, written while it goes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from time import perf_counter
+
+from carom import _carom
+from carom.interrupt import uninterrupted
+from carom.io import layout
+from carom.io.history import HistoryWriter
+from carom.io.summary import write_summary
+from carom.io.vtkhdf import FieldsWriter
+from carom.plot import draw
+from carom.result import Result
+from carom.scenario import Scenario
+
+
+class Recorder:
+    """Writes the results directory of one run, in place of those of an earlier one.
+
+    Ctrl-C waits until what is being written is whole.
+
+    Parameters
+    ----------
+    directory
+        Directory to write, made if need be.
+    scenario
+        What is run.
+    simulation
+        The simulation to record, at its start.
+    """
+
+    def __init__(self, directory: Path, scenario: Scenario, simulation: _carom.Simulation) -> None:
+        directory.mkdir(parents=True, exist_ok=True)
+        layout.clear(directory)
+        (directory / layout.CASE).write_text(scenario.to_toml(), encoding="utf-8")
+        self._directory = directory
+        self._title = scenario.title
+        self._simulation = simulation
+        self._history = HistoryWriter(directory / layout.HISTORY, simulation.history_columns())
+        self._fields = FieldsWriter(directory / layout.FIELDS, simulation.mesh())
+        self._start = perf_counter()
+        self._last_frame: float | None = None
+
+    @uninterrupted()
+    def history(self) -> None:
+        """Write the rows recorded since the last call."""
+        self._history.append(self._simulation.take_history())
+
+    @uninterrupted()
+    def frame(self) -> None:
+        """Write the fields of the current state, once."""
+        time = self._simulation.time
+        if time != self._last_frame:
+            self._fields.append(time, self._simulation.fields())
+            self._last_frame = time
+
+    @uninterrupted()
+    def close(self, *, status: str, reason: str | None = None) -> Result:
+        """Write the last state, the summary and the plots.
+
+        Parameters
+        ----------
+        status
+            ``"completed"``, ``"failed"`` or ``"interrupted"``.
+        reason
+            Why the run stopped before its end.
+        """
+        wall = perf_counter() - self._start
+        self._simulation.finish()
+        self.history()
+        self.frame()
+        native = self._simulation.summary()
+        summary = {
+            "status": status,
+            **({"reason": reason} if reason else {}),
+            "title": self._title,
+            "version": _carom.__version__,
+            **native,
+            "wall_s": wall,
+            "wall_s_per_step": wall / max(native["steps"], 1),
+        }
+        write_summary(self._directory / layout.SUMMARY, summary)
+        result = Result.open(self._directory)
+        draw(result)
+        return result

@@ -1,0 +1,83 @@
+"""The results of a run, read from its directory."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from rich.table import Table
+from typing_extensions import Self
+
+from carom.errors import InputError
+from carom.io import layout
+from carom.io.history import read_history
+from carom.io.summary import read_summary
+from carom.scenario import Scenario
+from carom.tables import summary_table
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a run left in its directory.
+
+    Parameters
+    ----------
+    path
+        The directory.
+    summary
+        What ``summary.json`` says.
+    history
+        The columns of ``history.csv`` by title, SI units, each of shape [row_count].
+    """
+
+    path: Path
+    summary: dict[str, Any]
+    history: dict[str, NDArray[np.float64]] = field(repr=False)
+
+    @classmethod
+    def open(cls, directory: str | Path) -> Self:
+        """Read the results in a directory.
+
+        Raises
+        ------
+        InputError
+            The directory holds no results of a run that has ended.
+        """
+        path = Path(directory)
+        try:
+            return cls(
+                path=path,
+                summary=read_summary(path / layout.SUMMARY),
+                history=read_history(path / layout.HISTORY),
+            )
+        except FileNotFoundError as error:
+            missing = Path(error.filename).name
+            raise InputError(
+                f"{path}: has no {missing}; name a directory that `carom run` has finished"
+            ) from error
+        except json.JSONDecodeError as error:
+            raise InputError(f"{path / layout.SUMMARY}: not JSON: {error}") from error
+
+    @property
+    def fields_path(self) -> Path:
+        """The fields over time, a VTKHDF file for ParaView and PyVista."""
+        return self.path / layout.FIELDS
+
+    @property
+    def scenario(self) -> Scenario:
+        """The scenario as it was run, overrides included."""
+        return Scenario.from_toml(self.path / layout.CASE)
+
+    def __repr__(self) -> str:
+        summary = self.summary
+        return (
+            f"Result({str(self.path)!r}: {summary['status']}, {summary['steps']} steps, "
+            f"t = {summary['end_time']:g} s)"
+        )
+
+    def __rich__(self) -> Table:
+        return summary_table(self.summary, where=self.path)

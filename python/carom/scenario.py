@@ -1,0 +1,170 @@
+"""A scenario: all that a run needs to know."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import Field, model_validator
+from typing_extensions import Self
+
+from carom import case_file, overrides
+from carom.analysis import Analysis
+from carom.body import Body
+from carom.contact import Contact
+from carom.description import Description, Name
+from carom.errors import naming
+from carom.material import Material
+from carom.messages import known, problem
+from carom.obstacle import Obstacle
+from carom.output import Output, Track
+
+
+class Scenario(Description):
+    """All that a run needs to know, in SI units.
+
+    The same object is a TOML file (`from_toml`, `to_toml`), a dictionary (`from_dict`) and, for
+    the native core, JSON (`to_json`).
+
+    Parameters
+    ----------
+    title
+        What the plots and the results are headed with.
+    analysis
+        How the motion is computed.
+    output
+        What is recorded.
+    materials
+        Materials by name.
+    bodies
+        Deformable bodies, at least one.
+    obstacles
+        Rigid obstacles.
+    contact
+        Contact and friction.
+    """
+
+    title: str = ""
+    analysis: Analysis
+    output: Output = Output()
+    materials: dict[Name, Material]
+    bodies: Annotated[tuple[Body, ...], Field(min_length=1)]
+    obstacles: tuple[Obstacle, ...] = ()
+    contact: Contact = Contact()
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Read a case file.
+
+        Raises
+        ------
+        InputError
+            The file cannot be read or describes no scenario that can be run; the message names
+            the file, the key and the value.
+        """
+        with naming(path):
+            return cls.from_dict(case_file.read(Path(path)))
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """Make a scenario of nested dictionaries and lists, laid out as the case file is."""
+        return cls(**data)
+
+    def to_toml(self) -> str:
+        """Return the case file of this scenario; values equal to their defaults are left out."""
+        return case_file.write(self)
+
+    def to_json(self) -> str:
+        """Return the JSON that the native core reads, with every default written out."""
+        output = self.output.resolved(self.analysis)
+        return self.model_copy(update={"output": output}).model_dump_json()
+
+    def with_overrides(self, assignments: Iterable[str]) -> Self:
+        """Return the scenario with some of its values replaced.
+
+        Parameters
+        ----------
+        assignments
+            Each ``KEY=VALUE``: a dotted path with list indices from 0, and a TOML value; a bare
+            word counts as a string. Examples: ``analysis.end_time=3``,
+            ``bodies.0.mesh.divisions=12``, ``contact.condition=midpoint``.
+        """
+        return self.from_dict(overrides.apply(self.model_dump(mode="json"), assignments))
+
+    @model_validator(mode="after")
+    def _names_are_unique(self) -> Self:
+        first_use: dict[str, str] = {}
+        for key, name in self._names():
+            if name in first_use:
+                raise problem(
+                    f"name already used by {first_use[name]}; "
+                    "names are unique over bodies, obstacles and tracked points",
+                    key=key,
+                    value=name,
+                )
+            first_use[name] = key
+        return self
+
+    @model_validator(mode="after")
+    def _materials_exist(self) -> Self:
+        for index, body in enumerate(self.bodies):
+            _require(body.material, self.materials, what="material", key=f"bodies.{index}.material")
+        return self
+
+    @model_validator(mode="after")
+    def _tracked_bodies_exist(self) -> Self:
+        bodies = [body.name for body in self.bodies]
+        for index, track in enumerate(self.output.track):
+            _require(track.body, bodies, what="body", key=f"output.track.{index}.body")
+        return self
+
+    @model_validator(mode="after")
+    def _pairs_exist_once(self) -> Self:
+        obstacles = {obstacle.name for obstacle in self.obstacles}
+        names = [body.name for body in self.bodies] + sorted(obstacles)
+        first_use: dict[frozenset[str], str] = {}
+        for index, pair in enumerate(self.contact.pairs):
+            key = f"contact.pairs.{index}.between"
+            for name in pair.between:
+                _require(name, names, what="body or obstacle", key=key)
+            if obstacles.issuperset(pair.between):
+                raise problem("two obstacles never touch; name a body", key=key, value=pair.between)
+            two = frozenset(pair.between)
+            if two in first_use:
+                raise problem(
+                    f"pair already given by {first_use[two]}", key=key, value=pair.between
+                )
+            first_use[two] = key
+        return self
+
+    @model_validator(mode="after")
+    def _records_no_finer_than_steps(self) -> Self:
+        step = self.analysis.time_step
+        for key in ("fields_every", "history_every"):
+            every = getattr(self.output, key)
+            if every is not None and every < step:
+                raise problem(
+                    f"must be at least one analysis.time_step ({step:g} s)",
+                    key=f"output.{key}",
+                    value=every,
+                )
+        return self
+
+    def _names(self) -> Iterator[tuple[str, str]]:
+        """Yield every name with the dotted path of where it is given."""
+        groups: dict[str, tuple[Body | Obstacle | Track, ...]] = {
+            "bodies": self.bodies,
+            "obstacles": self.obstacles,
+            "output.track": self.output.track,
+        }
+        for group, members in groups.items():
+            for index, member in enumerate(members):
+                yield f"{group}.{index}.name", member.name
+
+
+def _require(name: str, names: Iterable[str], *, what: str, key: str) -> None:
+    """Refuse a name that refers to nothing."""
+    names = list(names)
+    if name not in names:
+        raise problem(f"no such {what}; {known(name, names)}", key=key, value=name)

@@ -1,0 +1,140 @@
+"""Running a scenario."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from carom._carom import Simulation
+from carom.errors import ConvergenceError
+from carom.recorder import Recorder
+from carom.result import Result
+from carom.scenario import Scenario
+
+SLICE = 0.1
+"""Wall time after which native stepping returns to show its progress [s]."""
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a run has come.
+
+    Parameters
+    ----------
+    step, steps
+        Steps done and to do.
+    time, end_time
+        Time reached and to reach [s].
+    contacts
+        Active contacts.
+    kinetic, strain, total
+        Energies [J].
+    friction
+        Energy dissipated by friction so far [J].
+    """
+
+    step: int
+    steps: int
+    time: float
+    end_time: float
+    contacts: int
+    kinetic: float
+    strain: float
+    total: float
+    friction: float
+
+
+Observer = Callable[[Progress], None]
+"""What is called with the progress of a run, every tenth of a second or so."""
+
+
+def build(scenario: Scenario) -> Simulation:
+    """Build meshes, matrices and the initial state.
+
+    Raises
+    ------
+    InputError
+        The scenario cannot be run, such as bodies that overlap at the start.
+    """
+    return Simulation(scenario.to_json())
+
+
+def run(
+    scenario: Scenario, *, out: str | Path | None = None, observer: Observer | None = None
+) -> Result:
+    """Run a scenario and write its results.
+
+    Parameters
+    ----------
+    scenario
+        What to run.
+    out
+        Results directory; by default one in ``results/`` that is named after the title. Results
+        of an earlier run in it are replaced.
+    observer
+        Called with the `Progress` of the run.
+
+    Raises
+    ------
+    InputError
+        The scenario cannot be run; nothing is written.
+    ConvergenceError
+        A step failed; the results up to it are written, with the status ``"failed"``.
+    KeyboardInterrupt
+        Ctrl-C; the results up to it are written, with the status ``"interrupted"``.
+    """
+    simulation = build(scenario)
+    directory = Path("results") / _slug(scenario.title) if out is None else Path(out)
+    return drive(simulation, scenario, directory, observer)
+
+
+def drive(
+    simulation: Simulation, scenario: Scenario, directory: Path, observer: Observer | None
+) -> Result:
+    """Take a simulation to its end, recording as it goes."""
+    recorder = Recorder(directory, scenario, simulation)
+
+    def report() -> None:
+        recorder.history()
+        if observer is not None:
+            observer(
+                Progress(
+                    steps=simulation.steps,
+                    end_time=scenario.analysis.end_time,
+                    **simulation.progress(),
+                )
+            )
+
+    try:
+        recorder.frame()
+        report()
+        for time in _frame_times(scenario):
+            while not simulation.advance(time, SLICE):
+                report()
+            recorder.frame()
+            report()
+    except ConvergenceError as error:
+        recorder.close(status="failed", reason=str(error))
+        raise
+    except KeyboardInterrupt:
+        recorder.close(status="interrupted", reason=f"Ctrl-C at t = {simulation.time:g} s")
+        raise
+    return recorder.close(status="completed")
+
+
+def _frame_times(scenario: Scenario) -> Iterator[float]:
+    """Yield the times of the frames after the first; the last is the end of the run [s]."""
+    end = scenario.analysis.end_time
+    every = scenario.output.resolved(scenario.analysis).fields_every or end
+    frames = math.ceil(end / every * (1 - 1e-9))  # no frame for a rest that is only round-off
+    for frame in range(1, frames):
+        yield frame * every
+    yield end
+
+
+def _slug(title: str) -> str:
+    """Return a title as a directory name."""
+    return re.sub(r"\W+", "-", title.lower()).strip("-") or "run"

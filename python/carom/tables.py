@@ -1,0 +1,64 @@
+"""Tables for the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from rich.table import Table
+from rich.text import Text
+
+SHOWN_CONTACTS = 12
+"""Contact events that fit a screen; `summary.json` has them all."""
+
+
+def two_columns(title: str) -> Table:
+    """Return an empty table of quantities and their values."""
+    table = Table(title=Text(title), title_justify="left", show_header=False)
+    table.add_column(style="bold", no_wrap=True)
+    table.add_column(overflow="fold")
+    return table
+
+
+def add(table: Table, quantity: str, value: str) -> None:
+    """Add a row; brackets in it are text, not markup."""
+    table.add_row(Text(quantity), Text(value))
+
+
+def summary_table(summary: Mapping[str, Any], *, where: Path) -> Table:
+    """Return what came out of a run, its contact events, and where the results are."""
+    energy, certificate = summary["energy"], summary["certificate"]
+    table = two_columns(summary["title"] or "Run")
+    reason = summary.get("reason")
+    add(table, "status", f"{summary['status']}: {reason}" if reason else summary["status"])
+    add(table, "reached", f"{summary['end_time']:g} s in {summary['steps']} steps")
+    add(
+        table,
+        "wall time",
+        f"{summary['wall_s']:.2f} s, {1e3 * summary['wall_s_per_step']:.3g} ms per step "
+        f"({summary['dofs']} dofs)",
+    )
+    add(table, "energy", f"{energy['initial']:.6g} J → {energy['final']:.6g} J")
+    add(table, "friction", f"{energy['friction']:.6g} J dissipated")
+    add(table, "largest drift", f"{energy['max_drift']:.3g} J")
+    add(table, "largest defect", f"{energy['max_defect']:.3g} J, of the energy ledger")
+    add(table, "certificate", f"{certificate['max_joule']:.3g} J, from Coulomb's law in any step")
+    table.add_section()
+    contacts = summary["contacts"]
+    for contact in contacts[:SHOWN_CONTACTS]:
+        add(table, " – ".join(contact["pair"]), _contact(contact))
+    if len(contacts) > SHOWN_CONTACTS:
+        add(table, "…", f"{len(contacts) - SHOWN_CONTACTS} more contacts in summary.json")
+    table.add_section()
+    add(table, "results", str(where))
+    return table
+
+
+def _contact(contact: Mapping[str, Any]) -> str:
+    release = contact["release"]
+    until = "still touching" if release is None else f"{release:.4g} s"
+    return (
+        f"{contact['onset']:.4g} s → {until}, peak {contact['peak_force']:.3g} N, "
+        f"friction {contact['friction_work']:.3g} J"
+    )

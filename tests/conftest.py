@@ -1,0 +1,45 @@
+from pathlib import Path
+
+import pytest
+
+import carom
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+
+
+@pytest.fixture
+def examples():
+    return EXAMPLES
+
+
+@pytest.fixture
+def box():
+    """Two cylinders in a box, as plain data that a test may spoil."""
+    return {
+        "title": "Box",
+        "analysis": {"kind": "dynamic", "end_time": 1.0, "time_step": 0.01},
+        "output": {"track": [{"name": "tip", "body": "left", "point": [1, 4]}]},
+        "materials": {
+            "elastic": {
+                "kind": "saint-venant-kirchhoff",
+                "young": 2700.0,
+                "poisson": 0.33,
+                "density": 1.0,
+            }
+        },
+        "bodies": [
+            {
+                "name": name,
+                "material": "elastic",
+                "mesh": {"kind": "disc", "centre": [x, 4.0], "radius": 1.0, "divisions": 8},
+            }
+            for name, x in (("left", 2.0), ("right", 6.0))
+        ],
+        "obstacles": [{"name": "floor", "kind": "plane", "point": [0, 0], "normal": [0, 1]}],
+        "contact": {"friction": 0.2, "pairs": [{"between": ["left", "right"], "friction": 0.1}]},
+    }
+
+
+@pytest.fixture
+def scenario(box):
+    return carom.Scenario.from_dict(box)

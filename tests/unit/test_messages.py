@@ -1,0 +1,194 @@
+"""Every kind of bad input that can be seen without building a mesh: key, value and remedy."""
+
+import pytest
+
+import carom
+from carom import InputError, Scenario
+
+ABSENT = object()
+
+BAD = [
+    # where, what, the message
+    ("bodies.0.mesh.divsions", 8, "bodies.0.mesh.divsions: unknown key; did you mean"),
+    (
+        "bodies.0.mesh.divsions",
+        8,
+        '"divisions"? (known: kind, centre, radius, divisions, rings, cell)',
+    ),
+    ("contakt", {}, 'contakt: unknown key; did you mean "contact"?'),
+    ("materials.elastic.density", -1, "materials.elastic.density = -1: must be greater than 0"),
+    ("materials.elastic.density", ABSENT, "materials.elastic.density: required key is missing"),
+    ("materials.elastic.poisson", 0.5, "materials.elastic.poisson = 0.5: must be less than 0.5"),
+    ("materials.elastic.poisson", -1, "materials.elastic.poisson = -1: must be greater than -1"),
+    ("materials.elastic.young", "5", 'materials.elastic.young = "5": must be a number'),
+    ("materials.elastic.young", True, "materials.elastic.young = true: must be a number"),
+    ("materials.elastic.kind", "linear", 'materials.elastic.kind = "linear": must be one of'),
+    ("materials.elastic.kind", ABSENT, "materials.elastic.kind: required key is missing"),
+    ("materials", ABSENT, "materials: required key is missing"),
+    ("materials.el astic", {}, "materials.el astic"),
+    ("analysis.scheme", {"theta": 0}, "analysis.scheme.theta = 0: must be greater than 0"),
+    ("analysis.scheme", {"xi": 1.5}, "analysis.scheme.xi = 1.5: must be at most 1"),
+    ("analysis.scheme", 1, "analysis.scheme = 1: must be a table"),
+    ("analysis.time_step", 0.0, "analysis.time_step = 0.0: must be greater than 0"),
+    ("analysis.time_step", -1e-3, "analysis.time_step = -0.001: must be greater than 0"),
+    ("analysis.time_step", 2.0, "analysis.end_time = 1.0: must be at least one time_step (2 s)"),
+    ("analysis.kind", "static", "analysis.kind = \"static\": must be 'dynamic'"),
+    ("analysis.max_halvings", 1.5, "analysis.max_halvings = 1.5: must be an integer"),
+    ("analysis.gravity", [0, -9.81, 0], "must have 2 components, not 3"),
+    ("output.history_every", 1e-3, "output.history_every = 0.001: must be at least one analysis"),
+    ("output.fields_every", 0, "output.fields_every = 0: must be greater than 0"),
+    ("output.track.0.body", "lift", 'output.track.0.body = "lift": no such body; did you mean'),
+    ("output.track.0.name", "left", 'output.track.0.name = "left": name already used by bodies'),
+    ("bodies", [], "bodies = []: must have 1 or more entries, not 0"),
+    ("bodies", ABSENT, "bodies: required key is missing"),
+    ("bodies.0.material", "plastic", 'no such material; did you mean "elastic"? (known: elastic)'),
+    ("bodies.0.velocity", [1.0], "bodies.0.velocity = [1.0]: must have 2 components, not 1"),
+    ("bodies.0.velocity", 1.0, "bodies.0.velocity = 1.0: must be a list"),
+    ("bodies.0.velocity", [1.0, "up"], 'bodies.0.velocity.1 = "up": must be a number'),
+    (
+        "bodies.0.mesh.divisions",
+        7,
+        "bodies.0.mesh.divisions = 7: must be even (take 8), or give rings",
+    ),
+    ("bodies.0.mesh.divisions", 8.0, "bodies.0.mesh.divisions = 8.0: must be an integer"),
+    ("bodies.0.mesh.kind", "disk", 'bodies.0.mesh.kind = "disk": must be one of'),
+    ("bodies.0.mesh.radius", 0, "bodies.0.mesh.radius = 0: must be greater than 0"),
+    ("bodies.1.name", "left", 'bodies.1.name = "left": name already used by bodies.0.name'),
+    ("bodies.1.name", "a.b", 'bodies.1.name = "a.b": a name has'),
+    ("bodies.1.name", "a b", 'bodies.1.name = "a b": a name has'),
+    ("bodies.1.name", "", 'bodies.1.name = "": a name has'),
+    ("obstacles.0.name", "left", 'obstacles.0.name = "left": name already used'),
+    ("obstacles.0.normal", [0, 0], "obstacles.0.normal = [0, 0]: must not be the zero vector"),
+    ("contact.friction", -0.1, "contact.friction = -0.1: must be at least 0"),
+    ("contact.solver", {"kind": "nlgs"}, 'contact.solver.kind = "nlgs": must be one of'),
+    ("contact.pairs.0.between", ["left", "flor"], 'no such body or obstacle; did you mean "floor"'),
+    ("contact.pairs.0.between", ["left", "left"], "must be two different names"),
+    ("contact.pairs.0.enabled", "yes", 'contact.pairs.0.enabled = "yes": must be true or false'),
+]
+
+
+def spoil(data, path, value):
+    *way, last = [int(part) if part.isdecimal() else part for part in path.split(".")]
+    for part in way:
+        data = data[part]
+    if value is ABSENT:
+        del data[last]
+    else:
+        data[last] = value
+
+
+@pytest.mark.parametrize(("path", "value", "message"), BAD)
+def test_bad_input_is_named_in_one_line(box, path, value, message):
+    spoil(box, path, value)
+    with pytest.raises(InputError) as caught:
+        Scenario.from_dict(box)
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
+    assert "more problem" not in str(caught.value)
+    assert caught.value.key == str(caught.value).split(" = ")[0].split(": ")[0]
+
+
+NUMBERS = [
+    "analysis.end_time",
+    "analysis.time_step",
+    "analysis.newton.tolerance",
+    "analysis.scheme.theta",
+    "analysis.scheme.xi",
+    "analysis.gravity.1",
+    "output.fields_every",
+    "output.history_every",
+    "output.merge_contacts",
+    "output.track.0.point.0",
+    "materials.elastic.young",
+    "materials.elastic.poisson",
+    "materials.elastic.density",
+    "materials.elastic.damping.mass",
+    "materials.elastic.damping.stiffness",
+    "bodies.0.thickness",
+    "bodies.0.velocity.0",
+    "bodies.0.spin",
+    "bodies.0.mesh.centre.0",
+    "bodies.0.mesh.radius",
+    "bodies.0.mesh.divisions",
+    "obstacles.0.point.1",
+    "obstacles.0.normal.0",
+    "contact.friction",
+    "contact.solver.tolerance",
+    "contact.pairs.0.friction",
+]
+
+
+@pytest.mark.parametrize("number", [float("nan"), float("inf"), float("-inf")])
+@pytest.mark.parametrize("path", NUMBERS)
+def test_what_is_not_finite_is_refused_everywhere(scenario, path, number):
+    data = scenario.with_overrides(["analysis.gravity=[0, -9.81]"]).model_dump(mode="json")
+    spoil(data, path, number)
+    with pytest.raises(InputError, match=rf"^{path} = [-+]?(nan|inf): must be") as caught:
+        Scenario.from_dict(data)
+    assert caught.value.key == path
+
+
+def test_two_obstacles_are_no_pair(box):
+    box["obstacles"].append({"name": "west", "point": [0, 0], "normal": [1, 0]})
+    box["contact"]["pairs"] = [{"between": ["floor", "west"]}]
+    with pytest.raises(InputError, match=r"contact\.pairs\.0\.between .*two obstacles never touch"):
+        Scenario.from_dict(box)
+
+
+def test_a_pair_is_given_once_whatever_its_order(box):
+    box["contact"]["pairs"].append({"between": ["right", "left"]})
+    with pytest.raises(InputError, match=r"contact\.pairs\.1\.between = .*already given by"):
+        Scenario.from_dict(box)
+
+
+def test_further_problems_are_counted(box):
+    box["materials"]["elastic"].update(young=-1, density=-1)
+    box["contact"]["friction"] = -1
+    with pytest.raises(InputError, match=r"young = -1: .* \(and 2 more problems\)$"):
+        Scenario.from_dict(box)
+
+
+def test_a_part_names_its_own_key():
+    with pytest.raises(InputError, match=r"^radius = -1: must be greater than 0") as caught:
+        carom.Disc(centre=[0, 0], radius=-1, divisions=8)
+    assert caught.value.key == "radius"
+
+
+def test_a_part_of_the_wrong_class_is_refused(box):
+    box["bodies"][0]["mesh"] = carom.Theta()
+    with pytest.raises(InputError, match=r"^bodies\.0\.mesh"):
+        Scenario.from_dict(box)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('title = "no end', "not TOML: Unexpected end of file"),
+        ("title = 'a'\n\ntheta = \n", "line 3, column 9: not TOML: "),
+        ("title = 'a'\ntitle = 'b'\n", 'not TOML: Key "title" already exists'),
+    ],
+)
+def test_toml_syntax_errors_name_file_and_place(tmp_path, text, message):
+    case = tmp_path / "case.toml"
+    case.write_text(text)
+    with pytest.raises(InputError) as caught:
+        Scenario.from_toml(case)
+    assert str(caught.value).startswith(f"{case}: ")
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_case_file_that_cannot_be_read_is_named(tmp_path):
+    with pytest.raises(InputError, match=r"absent\.toml: cannot be read: No such file"):
+        Scenario.from_toml(tmp_path / "absent.toml")
+    binary = tmp_path / "binary.toml"
+    binary.write_bytes(b"title = '\xff'")
+    with pytest.raises(InputError, match=r"binary\.toml: not UTF-8 text, at byte 9"):
+        Scenario.from_toml(binary)
+
+
+def test_errors_in_a_case_file_name_it(tmp_path, scenario):
+    case = tmp_path / "case.toml"
+    case.write_text(scenario.to_toml().replace("radius", "radios"))
+    with pytest.raises(InputError, match=r"case\.toml: bodies\.0\.mesh\.radios: unknown key"):
+        Scenario.from_toml(case)

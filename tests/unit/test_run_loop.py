@@ -1,0 +1,99 @@
+"""The run loop on a simulation that knows no mechanics: what is written, whatever happens."""
+
+import h5py
+import numpy as np
+import pytest
+
+import carom
+from carom import ConvergenceError, InputError, Result
+from carom.simulation import drive
+from stand_in import FallingSimulation
+
+
+@pytest.fixture
+def scenario(scenario):
+    return scenario.with_overrides(["output.fields_every=0.25"])
+
+
+def frames(directory):
+    with h5py.File(directory / "fields.vtkhdf", "r") as file:
+        return file["VTKHDF/Steps/Values"][:].tolist()
+
+
+def test_completed_run_writes_everything(scenario, tmp_path):
+    out = tmp_path / "new" / "results"
+    seen = []
+    result = drive(FallingSimulation(scenario), scenario, out, seen.append)
+
+    assert sorted(file.name for file in out.iterdir()) == [
+        "case.toml",
+        "energy.png",
+        "fields.vtkhdf",
+        "history.csv",
+        "summary.json",
+        "track-tip.png",
+    ]
+    assert result.summary["status"] == "completed"
+    assert result.summary["title"] == "Box"
+    assert result.summary["steps"] == 100
+    assert result.summary["min_gap"] is None
+    assert result.summary["wall_s_per_step"] == result.summary["wall_s"] / 100
+    assert "reason" not in result.summary
+    np.testing.assert_allclose(result.history["time"], np.arange(101) * 0.01)
+    np.testing.assert_allclose(frames(out), [0.0, 0.25, 0.5, 0.75, 1.0])
+    assert result.scenario == scenario
+    assert [progress.step for progress in seen] == sorted(progress.step for progress in seen)
+    assert (seen[0].step, seen[-1].step, seen[-1].steps) == (0, 100, 100)
+    assert len(seen) > 30
+    assert "completed, 100 steps, t = 1 s" in repr(result)
+
+
+def test_the_last_frame_is_the_end_even_off_the_beat(scenario, tmp_path):
+    scenario = scenario.with_overrides(["output.fields_every=0.3"])
+    drive(FallingSimulation(scenario), scenario, tmp_path, None)
+    np.testing.assert_allclose(frames(tmp_path), [0.0, 0.3, 0.6, 0.9, 1.0])
+
+
+@pytest.mark.parametrize(
+    ("stop", "status", "reason"),
+    [
+        (ConvergenceError("step 60 failed at t = 0.6 s", {"step": 60}), "failed", "step 60 failed"),
+        (KeyboardInterrupt(), "interrupted", "Ctrl-C at t = 0.6 s"),
+    ],
+)
+def test_a_run_that_stops_keeps_what_it_has(scenario, tmp_path, stop, status, reason):
+    simulation = FallingSimulation(scenario, stop_at=0.6, stop=stop)
+    with pytest.raises(type(stop)):
+        drive(simulation, scenario, tmp_path, None)
+    result = Result.open(tmp_path)
+    assert result.summary["status"] == status
+    assert result.summary["reason"].startswith(reason)
+    assert result.summary["end_time"] == pytest.approx(0.6)
+    assert result.history["time"][-1] == pytest.approx(0.6)
+    np.testing.assert_allclose(frames(tmp_path), [0.0, 0.25, 0.5, 0.6])
+    assert (tmp_path / "energy.png").exists()
+
+
+def test_nothing_of_an_earlier_run_survives(scenario, tmp_path):
+    drive(FallingSimulation(scenario), scenario, tmp_path, None)
+    (tmp_path / "notes.txt").write_text("mine")
+    untracked = scenario.with_overrides(["output.track=[]", "analysis.end_time=0.5"])
+    result = drive(FallingSimulation(untracked), untracked, tmp_path, None)
+    assert result.summary["end_time"] == 0.5
+    assert not (tmp_path / "track-tip.png").exists()
+    assert (tmp_path / "notes.txt").read_text() == "mine"
+
+
+def test_a_run_that_cannot_go_on_claims_no_results(scenario, tmp_path):
+    drive(FallingSimulation(scenario), scenario, tmp_path, None)
+    simulation = FallingSimulation(scenario, stop_at=0.6, stop=OSError("disk full"))
+    with pytest.raises(OSError, match="disk full"):
+        drive(simulation, scenario, tmp_path, None)
+    with pytest.raises(InputError, match=r"has no summary\.json"):
+        Result.open(tmp_path)
+    assert carom.read_history(tmp_path / "history.csv")["time"][-1] > 0.4
+
+
+def test_a_missing_directory_is_named(tmp_path):
+    with pytest.raises(InputError, match=r"absent: has no summary\.json"):
+        Result.open(tmp_path / "absent")

@@ -1,0 +1,120 @@
+import json
+
+import numpy as np
+import pytest
+
+import carom
+from carom import Scenario
+
+
+@pytest.mark.parametrize(
+    "name", ["two_bars.toml", "two_cylinders.toml", "two_cylinders_frictionless.toml"]
+)
+def test_examples_survive_toml_and_back(examples, tmp_path, name):
+    scenario = Scenario.from_toml(examples / name)
+    copy = tmp_path / name
+    copy.write_text(scenario.to_toml(), encoding="utf-8")
+    assert Scenario.from_toml(copy) == scenario
+    assert Scenario.from_toml(copy).to_toml() == scenario.to_toml()
+
+
+def test_everything_that_can_be_stated_survives_toml_and_back(tmp_path):
+    scenario = Scenario(
+        title='Ünïcode, "quotes" and a \\ backslash',
+        analysis=carom.Dynamic(
+            end_time=0.1 + 0.2,
+            time_step=1e-7,
+            scheme=carom.Theta(theta=1, xi=0.75),
+            newton=carom.Newton(tolerance=1e-9, max_iterations=7),
+            max_halvings=0,
+            gravity=(0, -9.81),
+        ),
+        output=carom.Output(
+            fields_every=0.01,
+            history_every=1 / 300,
+            merge_contacts=0,
+            track=[carom.Track(name="tip", body="a", point=(1 / 3, 0))],
+        ),
+        materials={
+            "soft-one": carom.LinearElastic(
+                young=1e16, poisson=-0.5, density=1e-300, damping=carom.Damping(stiffness=1e-5)
+            ),
+            "hard": carom.SaintVenantKirchhoff(young=2, poisson=0.25, density=3),
+        },
+        bodies=[
+            carom.Body(
+                name="a",
+                material="soft-one",
+                thickness=2,
+                mass="lumped",
+                mesh=carom.Rectangle(corner=(0, 0), size=(1, 2), divisions=(3, 4), cell="tri3"),
+                velocity=(-0.0, 1),
+                spin=-3,
+            ),
+            carom.Body(
+                name="b", material="hard", mesh=carom.Disc(centre=(9, 9), radius=1, divisions=2)
+            ),
+        ],
+        obstacles=[carom.Plane(name="slope", point=(-5, 0), normal=(1, 2))],
+        contact=carom.Contact(
+            condition="midpoint",
+            friction=0.3,
+            solver=carom.Uzawa(max_iterations=5),
+            sources="both",
+            pairs=[
+                carom.Pair(between=("a", "b"), friction=0, sources="second"),
+                carom.Pair(between=("b", "slope"), enabled=False),
+            ],
+        ),
+    )
+    copy = tmp_path / "case.toml"
+    copy.write_text(scenario.to_toml(), encoding="utf-8")
+    assert Scenario.from_toml(copy) == scenario
+
+
+def test_toml_is_laid_out_as_a_person_would(box):
+    text = Scenario.from_dict(box).to_toml()
+    for line in (
+        "[analysis]",
+        "[[output.track]]",
+        "[materials.elastic]",
+        "[[bodies]]",
+        'mesh = {kind = "disc", centre = [2.0, 4.0], radius = 1.0, divisions = 8}',
+        "[[contact.pairs]]",
+    ):
+        assert line in text.splitlines()
+    assert "thickness" not in text  # at its default
+
+
+def test_json_for_the_native_core_has_every_default_as_a_number(box):
+    data = json.loads(Scenario.from_dict(box).to_json())
+    assert data["output"]["fields_every"] == 0.01  # not 1/200: never finer than the steps
+    assert data["output"]["history_every"] == 0.01
+    assert data["contact"]["solver"] == {
+        "kind": "gauss-seidel",
+        "tolerance": 1e-12,
+        "max_iterations": 10000,
+    }
+    assert data["analysis"]["gravity"] is None
+    assert data["bodies"][0]["velocity"] == [0.0, 0.0]
+    assert data["contact"]["pairs"][0]["sources"] is None
+
+
+def test_json_takes_a_200th_and_a_1000th_of_a_long_run(box):
+    box["analysis"]["end_time"] = 100.0
+    output = json.loads(Scenario.from_dict(box).to_json())["output"]
+    assert (output["fields_every"], output["history_every"]) == (0.5, 0.1)
+
+
+def test_integers_and_numpy_numbers_are_numbers(box):
+    box["bodies"][0]["mesh"]["radius"] = 1
+    box["bodies"][0]["spin"] = np.float64(0.5)
+    body = Scenario.from_dict(box).bodies[0]
+    assert body.mesh.radius == 1.0
+    assert isinstance(body.mesh.radius, float)
+    assert body.spin == 0.5
+
+
+def test_a_scenario_cannot_be_changed(scenario):
+    with pytest.raises(ValueError, match="frozen"):
+        scenario.title = "Other"
