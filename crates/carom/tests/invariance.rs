@@ -1,0 +1,136 @@
+//! What must not change the physics: where the scene stands and how it is turned, the units, and the two sides of an impact.
+
+mod common;
+
+use carom::{Simulation, Summary};
+use carom_mesh::Vector;
+use common::{body, disc, parse, plane, scenario};
+use serde_json::{Value, json};
+
+fn run(case: &Value) -> (Simulation<2>, Summary) {
+    let mut simulation = Simulation::new(&parse(case)).expect("valid");
+    simulation.advance(f64::INFINITY, || false).expect("runs");
+    let summary = simulation.summary();
+    (simulation, summary)
+}
+
+/// Two discs that meet and bounce off a floor with friction, turned by `angle` about the origin, lengths × `length`,
+/// times × `time`, masses × `mass`.
+fn scene(angle: f64, shift: [f64; 2], length: f64, time: f64, mass: f64) -> Value {
+    let (c, s) = (angle.cos(), angle.sin());
+    let turn = |v: [f64; 2], scale: f64| [(c * v[0] - s * v[1]) * scale, (s * v[0] + c * v[1]) * scale];
+    let place = |v: [f64; 2]| {
+        let [x, y] = turn(v, length);
+        [x + shift[0] * length, y + shift[1] * length]
+    };
+    let speed = length / time;
+    let discs = [
+        body("left", disc(place([0.0, 1.0003]), length, 4), turn([1.0, -2.0], speed)),
+        body("right", disc(place([2.1, 1.5]), length, 4), turn([-0.5, 0.0], speed)),
+    ];
+    let floor = plane("floor", place([0.0, 0.0]), turn([0.0, 1.0], 1.0));
+    let mut case = scenario(0.25 * time, 1e-3 * time, &discs, &[floor]);
+    let pressure = mass / (length * time * time);
+    let density = mass / length.powi(3);
+    case["contact"]["friction"] = json!(0.2);
+    case["materials"]["elastic"]["young"] = json!(2700.0 * pressure);
+    case["materials"]["elastic"]["density"] = json!(density);
+    case["output"]["merge_contacts"] = json!(0.03 * time);
+    case["output"]["history_every"] = json!(0.01 * time);
+    for b in case["bodies"].as_array_mut().expect("bodies") {
+        b["thickness"] = json!(length);
+    }
+    case
+}
+
+/// Energies in the units of the scene, and the events.
+fn assert_same(a: &Summary, b: &Summary, energy: f64, time: f64, tolerance: f64) {
+    for (x, y) in [
+        (a.energy.last, b.energy.last),
+        (a.energy.strain, b.energy.strain),
+        (a.energy.friction, b.energy.friction),
+        (a.energy.normal_contact, b.energy.normal_contact),
+    ] {
+        assert!((x - y / energy).abs() < tolerance * a.energy.initial, "{x} J became {} J", y / energy);
+    }
+    assert_eq!(a.contacts.len(), b.contacts.len());
+    for (a, b) in a.contacts.iter().zip(&b.contacts) {
+        assert_eq!(a.pair, b.pair);
+        assert!((a.onset - b.onset / time).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn scene_is_eventful_and_lawful() {
+    let (simulation, summary) = run(&scene(0.0, [0.0; 2], 1.0, 1.0, 1.0));
+    assert_eq!(summary.contacts.len(), 2, "{:?}", summary.contacts);
+    assert!(summary.energy.friction > 0.01);
+    assert!(summary.min_gap > -1e-12, "no penetration at the ends of steps: {}", summary.min_gap);
+    assert!(summary.certificate.max_joule < 1e-10 && summary.certificate.max_residual < 1e-11);
+    assert!(summary.energy.max_defect < 1e-3 * summary.energy.initial);
+    assert!(simulation.state().is_finite());
+}
+
+#[test]
+fn turning_and_moving_the_scene_turns_and_moves_the_motion() {
+    let (_, still) = run(&scene(0.0, [0.0; 2], 1.0, 1.0, 1.0));
+    // The mesh of a disc is the same after a quarter turn only.
+    let (_, turned) = run(&scene(std::f64::consts::FRAC_PI_2, [3.0, -1.0], 1.0, 1.0, 1.0));
+    assert_same(&still, &turned, 1.0, 1.0, 1e-8);
+}
+
+/// mm–t–s instead of m–kg–s.
+#[test]
+fn units_do_not_matter() {
+    let (_, si) = run(&scene(0.0, [0.0; 2], 1.0, 1.0, 1.0));
+    let (_, mm) = run(&scene(0.0, [0.0; 2], 1e3, 1.0, 1e-3));
+    assert_same(&si, &mm, 1e-3 * 1e6, 1.0, 1e-9);
+    let (_, fast) = run(&scene(0.0, [0.0; 2], 1e-3, 1e-6, 1.0));
+    assert_same(&si, &fast, 1e-6 / 1e-12, 1e-6, 1e-9);
+}
+
+/// Reactions between bodies cancel: without walls linear momentum is constant to round-off, with or without friction.
+#[test]
+fn action_is_reaction() {
+    for sources in ["first", "second", "both"] {
+        let mut case = scene(0.0, [0.0; 2], 1.0, 1.0, 1.0);
+        case["obstacles"] = json!([]);
+        case["bodies"][0]["velocity"] = json!([1.0, 0.4]);
+        case["contact"]["sources"] = json!(sources);
+        let mut simulation = Simulation::new(&parse(&case)).expect("valid");
+        let momentum = |s: &Simulation<2>| -> Vector<2> {
+            s.model()
+                .bodies
+                .iter()
+                .map(|b| b.body.mean(&s.state().velocity[b.nodes()]) * b.body.total_mass())
+                .sum()
+        };
+        let before = momentum(&simulation);
+        simulation.advance(f64::INFINITY, || false).expect("runs");
+        assert_eq!(simulation.summary().contacts.len(), 1, "the discs meet");
+        assert!((momentum(&simulation) - before).norm() < 1e-11 * before.norm(), "sources = {sources}");
+    }
+}
+
+/// The same state and the same numbers, however the run is cut into slices.
+#[test]
+fn a_run_in_slices_is_bit_identical() {
+    let case = scene(0.0, [0.0; 2], 1.0, 1.0, 1.0);
+    let (whole, _) = run(&case);
+    let mut sliced = Simulation::new(&parse(&case)).expect("valid");
+    for k in 1..=25 {
+        sliced.advance(k as f64 * 0.01, || k % 2 == 0).expect("runs");
+    }
+    sliced.advance(f64::INFINITY, || false).expect("runs");
+    assert_eq!(whole.state(), sliced.state());
+}
+
+/// Both friction solvers, and the workspace thrown away or not, give the same motion.
+#[test]
+fn the_friction_solver_does_not_change_the_motion() {
+    let (_, gauss_seidel) = run(&scene(0.0, [0.0; 2], 1.0, 1.0, 1.0));
+    let mut case = scene(0.0, [0.0; 2], 1.0, 1.0, 1.0);
+    case["contact"]["solver"]["kind"] = json!("uzawa");
+    let (_, uzawa) = run(&case);
+    assert_same(&gauss_seidel, &uzawa, 1.0, 1.0, 1e-7);
+}

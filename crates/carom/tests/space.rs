@@ -1,0 +1,116 @@
+//! The same step in 3D: a cube of hexahedra dropped on a plane and on another cube.
+
+use carom::{ContactCondition, Group, Method, Model, ModelBody, NewtonRule, Scheme, State, Workspace, step};
+use carom_contact::{ContactModel, ContactSurface, Obstacle, Pair, Target};
+use carom_fem::material::{ElasticConstants, LawSpec};
+use carom_fem::{Body, BodySpec, MassKind, RayleighDamping};
+use carom_friction::{SolverKind, StoppingRule};
+use carom_mesh::{Vector, generate};
+
+fn cube(name: &str, corner: [f64; 3], first_node: usize) -> ModelBody<3> {
+    let spec = BodySpec {
+        law: LawSpec::SaintVenantKirchhoff(ElasticConstants { young: 2700.0, poisson: 0.33 }),
+        density: 1.0,
+        damping: RayleighDamping::default(),
+        mass: MassKind::Consistent,
+        thickness: 1.0,
+    };
+    let mesh = generate::grid(corner, [1.0; 3], [3, 3, 3]).expect("valid");
+    ModelBody { name: name.into(), body: Body::new(mesh, &spec).expect("valid"), first_node }
+}
+
+fn model(bodies: Vec<ModelBody<3>>, obstacles: Vec<Obstacle<3>>, pairs: Vec<Pair>) -> Model<3> {
+    let contact = ContactModel {
+        surfaces: bodies.iter().map(|b| ContactSurface::new(b.body.surface(), b.first_node as u32)).collect(),
+        obstacles,
+        pairs,
+    };
+    Model {
+        groups: vec![Group { between: ["a".into(), "b".into()], friction: 0.3 }],
+        gravity: Vector::zeros(),
+        reference: bodies.iter().flat_map(|b| b.body.mesh().nodes().iter().copied()).collect(),
+        body_of_node: bodies
+            .iter()
+            .enumerate()
+            .flat_map(|(i, b)| std::iter::repeat_n(i as u32, b.body.node_count()))
+            .collect(),
+        size: 1.0,
+        contact,
+        bodies,
+    }
+}
+
+fn method(condition: ContactCondition) -> Method<3> {
+    Method {
+        scheme: Scheme::Theta { theta: 0.5, xi: 0.5 },
+        condition,
+        solver: SolverKind::GaussSeidel.solver(),
+        stopping: StoppingRule::default(),
+        newton: NewtonRule { tolerance: 1e-9, max_iterations: 50 },
+        max_halvings: 8,
+    }
+}
+
+/// Steps until `end`; returns the state, the cumulated friction work, the largest |defect|, the smallest gap and whether there was
+/// contact.
+fn run(
+    model: &Model<3>,
+    method: &Method<3>,
+    velocity: Vec<Vector<3>>,
+    end: f64,
+) -> (State<3>, f64, f64, f64, bool) {
+    let mut state = State::initial(model, velocity);
+    let mut next = state.clone();
+    let mut work = Workspace::new(model).expect("structure");
+    let (mut friction, mut defect, mut min_gap, mut touched) = (0.0, 0.0_f64, f64::INFINITY, false);
+    let mut sum = 0.0;
+    while state.time < end {
+        let report = step(model, method, &state, &mut next, 1e-3, &mut work).expect("converges");
+        friction += report.ledger.friction;
+        sum += report.ledger.defect();
+        defect = defect.max(sum.abs());
+        min_gap = min_gap.min(report.min_gap);
+        touched |= report.contacts > 0;
+        assert!(report.ledger.friction > -1e-12);
+        std::mem::swap(&mut state, &mut next);
+    }
+    (state, friction, defect, min_gap, touched)
+}
+
+#[test]
+fn cube_with_friction_on_a_plane_loses_what_friction_and_contact_take() {
+    let floor = Obstacle::Plane { point: Vector::<3>::zeros(), normal: Vector::<3>::new(0.0, 0.0, 1.0) };
+    let pair = Pair { source: 0, target: Target::Obstacle(0), friction: 0.3, group: 0 };
+    let model = model(vec![cube("cube", [0.0, 0.0, 0.00513], 0)], vec![floor], vec![pair]);
+    let speed = Vector::<3>::new(2.0, 1.0, -2.0);
+    let velocity = vec![speed; model.reference.len()];
+    let (state, friction, defect, min_gap, touched) =
+        run(&model, &method(ContactCondition::Gap), velocity, 0.08);
+    let initial = 0.5 * speed.norm_squared();
+    assert!(touched && friction > 0.02 * initial, "friction {friction} J of {initial} J");
+    assert!(defect < 2e-3 * initial, "defect {defect} J of {initial} J");
+    assert!(min_gap > -1e-12);
+    let mean = model.bodies[0].body.mean(&state.velocity);
+    assert!(mean[2] > 0.0, "it bounces");
+    // Friction acts against the sliding, whichever way that points in the plane.
+    let lost = speed - mean;
+    assert!((lost[0] / lost[1] - 2.0).abs() < 0.05, "{lost}");
+}
+
+#[test]
+fn cubes_with_facing_quadrilaterals_exchange_momentum() {
+    let a = cube("a", [0.0, 0.0, 0.0], 0);
+    let b = cube("b", [0.13, 0.21, 1.00513], a.body.node_count());
+    let nodes = a.body.node_count();
+    let pair = Pair { source: 1, target: Target::Surface(0), friction: 0.0, group: 0 };
+    let model = model(vec![a, b], vec![], vec![pair]);
+    let velocity =
+        (0..2 * nodes).map(|n| Vector::<3>::new(0.0, 0.0, if n < nodes { 0.5 } else { -0.5 })).collect();
+    let (state, _, defect, min_gap, touched) = run(&model, &method(ContactCondition::Gap), velocity, 0.1);
+    assert!(touched);
+    assert!(min_gap > -1e-12, "{min_gap}");
+    assert!(defect < 1e-3 * 0.25);
+    let mean: Vec<f64> = model.bodies.iter().map(|b| b.body.mean(&state.velocity[b.nodes()])[2]).collect();
+    assert!((mean[0] + mean[1]).abs() < 1e-12, "momentum is kept: {mean:?}");
+    assert!(mean[0] < -0.2 && mean[1] > 0.2, "they part: {mean:?}");
+}
