@@ -7,7 +7,7 @@ use crate::condense::condense;
 use crate::error::StepError;
 use crate::linearise::{BodyStep, predicted_motion};
 use crate::state::{State, dot};
-use crate::workspace::{GroupReport, StepReport, Workspace};
+use crate::workspace::{BodyProgress, GroupReport, StepReport, Workspace};
 use crate::{ContactCondition, Energies, Ledger, Method, Model, StepMap};
 
 /// Margin of the contact search, in largest predicted motions of a node in the step.
@@ -96,31 +96,42 @@ fn iterate<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
     select_active(model, method, state, work);
-    work.settled.fill(false);
+    work.progress.fill(BodyProgress::default());
     for ((u1, u0), d) in next.displacement.iter_mut().zip(&state.displacement).zip(&work.motion) {
         *u1 = u0 + d;
     }
-    let mut previous: Option<f64> = None;
-    let mut iteration = 0;
-    loop {
-        iteration += 1;
+    for iteration in 1.. {
         residuals(model, state, next, map, work);
         react(model, method, state, map, work)?;
-        let (correction, motion) = correct(model, state, next, work)?;
+        let motion = correct(model, state, next, work)?;
         let wanted = (method.newton.tolerance * motion.max(predicted)).max(ROUND_OFF * model.size);
-        let contraction = previous.map_or(1.0, |p| correction / p);
-        // A correction this small, or one after which the next will surely be.
-        if correction <= wanted || correction * (10.0 * contraction).min(1.0) <= wanted {
+        if settle(work, wanted) {
             return Ok(iteration);
         }
+        let slowest = work.progress.iter().filter(|p| !p.settled);
         if iteration >= method.newton.max_iterations {
+            let correction = slowest.map(|p| p.correction).fold(0.0, f64::max);
             return Err(StepError::Newton { iterations: iteration, correction, wanted });
         }
-        if iteration >= PATIENCE && contraction > SLOW_CONTRACTION {
+        if iteration >= PATIENCE && slowest.map(|p| p.contraction).fold(0.0, f64::max) > SLOW_CONTRACTION {
             refactorize(model, state, next, map, work)?;
         }
-        previous = Some(correction);
     }
+    unreachable!("the loop ends at max_iterations")
+}
+
+/// Marks the bodies that have converged and says whether all have. Bodies in contact depend on one another and settle together.
+fn settle<const D: usize>(work: &mut Workspace<D>, wanted: f64) -> bool {
+    // A correction this small, or one after which the next will surely be.
+    let converged = |p: &BodyProgress| {
+        p.correction <= wanted || p.correction * (10.0 * p.contraction).min(1.0) <= wanted
+    };
+    let in_contact = |(p, &touched): (&BodyProgress, &bool)| !touched || p.settled || converged(p);
+    let contact_converged = work.progress.iter().zip(&work.touched).all(in_contact);
+    for (p, &touched) in work.progress.iter_mut().zip(&work.touched) {
+        p.settled |= if touched { contact_converged } else { converged(p) };
+    }
+    work.progress.iter().all(|p| p.settled)
 }
 
 /// Keeps the candidates that take part in the step and recalls their last reactions.
@@ -157,7 +168,7 @@ fn residuals<const D: usize>(
     work: &mut Workspace<D>,
 ) {
     for (i, b) in model.bodies.iter().enumerate() {
-        if work.settled[i] {
+        if work.progress[i].settled {
             continue;
         }
         let nodes = b.nodes();
@@ -234,24 +245,24 @@ fn react<const D: usize>(
     Ok(())
 }
 
-/// Applies the corrections; returns the largest one and the largest motion of the step so far [m].
+/// Applies the corrections; returns the largest motion of a node in the step so far [m].
 fn correct<const D: usize>(
     model: &Model<D>,
     state: &State<D>,
     next: &mut State<D>,
     work: &mut Workspace<D>,
-) -> Result<(f64, f64), StepError> {
-    let (mut largest, mut motion): (f64, f64) = (0.0, 0.0);
+) -> Result<f64, StepError> {
+    let mut motion: f64 = 0.0;
     for (i, b) in model.bodies.iter().enumerate() {
-        if work.settled[i] {
+        if work.progress[i].settled {
             continue;
         }
-        let mut body_largest: f64 = 0.0;
+        let mut correction: f64 = 0.0;
         let mut sum = 0.0;
         for n in b.nodes() {
             work.motion[n] += work.correction[n];
             next.displacement[n] = state.displacement[n] + work.motion[n];
-            body_largest = body_largest.max(work.correction[n].amax());
+            correction = correction.max(work.correction[n].amax());
             motion = motion.max(work.motion[n].amax());
             sum += work.correction[n].sum();
         }
@@ -259,10 +270,9 @@ fn correct<const D: usize>(
         if !sum.is_finite() {
             return Err(StepError::NotFinite("displacement"));
         }
-        largest = largest.max(body_largest);
-        work.settled[i] = !work.touched[i] && body_largest <= ROUND_OFF * model.size;
+        work.progress[i].note(correction);
     }
-    Ok((largest, motion))
+    Ok(motion)
 }
 
 /// Renews the factors of the bodies that still move, at the present guess.
@@ -273,7 +283,7 @@ fn refactorize<const D: usize>(
     map: &StepMap,
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
-    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !work.settled[i]) {
+    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !work.progress[i].settled) {
         let nodes = b.nodes();
         let middle = &mut work.correction[nodes.clone()];
         for ((m, u0), u1) in

@@ -16,6 +16,31 @@ pub struct GroupReport {
     pub friction_work: f64,
 }
 
+/// How the iterations of one body go within a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct BodyProgress {
+    /// Largest component of the last correction [m].
+    pub correction: f64,
+    /// Its ratio to the one before; 1 while there is none.
+    pub contraction: f64,
+    /// Whether the body needs no further iterations in this step.
+    pub settled: bool,
+}
+
+impl Default for BodyProgress {
+    fn default() -> Self {
+        Self { correction: f64::INFINITY, contraction: 1.0, settled: false }
+    }
+}
+
+impl BodyProgress {
+    /// Takes note of a new correction.
+    pub fn note(&mut self, correction: f64) {
+        self.contraction = if self.correction.is_finite() { correction / self.correction } else { 1.0 };
+        self.correction = correction;
+    }
+}
+
 /// Scratch of a step: factors, tables and vectors. It holds no result and may be dropped at any moment.
 pub struct Workspace<const D: usize> {
     pub(crate) operators: Vec<BodyOperator<D>>,
@@ -36,7 +61,7 @@ pub struct Workspace<const D: usize> {
     pub(crate) reactions: Vec<Vector<D>>,
     pub(crate) problem: ContactProblem<D>,
     pub(crate) touched: Vec<bool>,
-    pub(crate) settled: Vec<bool>,
+    pub(crate) progress: Vec<BodyProgress>,
     /// What the groups did in the last step, in the order of the model.
     pub groups: Vec<GroupReport>,
     /// Factorisations made so far.
@@ -72,7 +97,7 @@ impl<const D: usize> Workspace<D> {
             reactions: Vec::new(),
             problem: ContactProblem::default(),
             touched: vec![false; bodies],
-            settled: vec![false; bodies],
+            progress: vec![BodyProgress::default(); bodies],
             groups: vec![GroupReport::default(); model.groups.len()],
             factorisations: 0,
         })

@@ -1,0 +1,17 @@
+//! Runs a scenario without Python, for profiling: `cargo run --release --example run -- scenario.json`.
+//!
+//! `carom.Scenario.from_toml("case.toml").to_json()` writes such a file.
+
+use carom::{Scenario, Simulation};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let path = std::env::args().nth(1).ok_or("which scenario? give the path of a JSON file")?;
+    let scenario: Scenario = serde_json::from_str(&std::fs::read_to_string(path)?)?;
+    let mut simulation = Simulation::new(&scenario)?;
+    let start = std::time::Instant::now();
+    simulation.advance(f64::INFINITY, || false)?;
+    let elapsed = start.elapsed().as_secs_f64();
+    println!("{}", serde_json::to_string_pretty(&simulation.summary())?);
+    println!("{:.4} ms per step", 1e3 * elapsed / simulation.step() as f64);
+    Ok(())
+}
