@@ -5,6 +5,7 @@
 # make validate  long validations; rewrites docs/validation.md
 
 PYTHON ?= python3
+PYTHON_SOURCES := python tests examples benchmarks docs
 VENV := .venv
 BIN := $(VENV)/bin
 SOURCES := $(shell find crates python -name '*.rs' -o -name '*.py' -o -name '*.pyi' -o -name 'Cargo.toml') \
@@ -23,9 +24,10 @@ check: $(VENV)/installed-dev
 	cargo fmt --all --check
 	cargo clippy --release --locked --workspace --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --workspace --no-deps --quiet
-	$(BIN)/ruff format --check python tests examples benchmarks
-	$(BIN)/ruff check python tests examples benchmarks
+	$(BIN)/ruff format --check $(PYTHON_SOURCES)
+	$(BIN)/ruff check $(PYTHON_SOURCES)
 	$(BIN)/mypy
+	$(BIN)/python docs/make_case_file_reference.py --check
 	$(BIN)/typos
 
 bench:

@@ -72,7 +72,7 @@ class Dynamic(Description):
     time_step: Positive
     scheme: Scheme = Theta()
     newton: Newton = Newton()
-    max_halvings: Annotated[int, Field(strict=True, ge=0)] = 8
+    max_halvings: Annotated[int, Field(strict=True, ge=0, le=30)] = 8
     gravity: Vector | None = None
 
     @model_validator(mode="after")

@@ -64,8 +64,8 @@ def known(name: str, names: Iterable[str]) -> str:
     """Return the nearest of the valid names, if one is near, and all of them."""
     names = list(names)
     near = difflib.get_close_matches(name, names, n=1)
-    hint = f'did you mean "{near[0]}"? ' if near else ""
-    return f"{hint}(known: {', '.join(names) or 'none'})"
+    valid = f"known: {', '.join(names) or 'none'}"
+    return f'did you mean "{near[0]}"? ({valid})' if near else valid
 
 
 def show(value: object) -> str:

@@ -16,12 +16,15 @@ pub struct Candidate {
     pub facet: Option<u32>,
 }
 
+/// How deep inside a target surface a node is still found, in diameters of the facet it faces.
+const DEPTH: f64 = 0.5;
+
 impl<const D: usize> ContactModel<D> {
-    /// Finds the nodes that come within `margin` [m] of their target, and the facets they face.
+    /// Finds the nodes that come within `margin` [m] of their target or are inside it, and the facets they face.
     ///
     /// `start` and `end` are the positions at the start of the step and those predicted for its end. A node keeps its facet for
     /// the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
-    /// the closest facet alone is ambiguous.
+    /// the closest facet alone is ambiguous. Nodes are found inside a target to a depth of `DEPTH` facets.
     pub fn detect(
         &self,
         start: &impl Fn(u32) -> Vector<D>,
@@ -72,7 +75,10 @@ impl<const D: usize> ContactModel<D> {
             .facets
             .iter()
             .enumerate()
-            .map(|(f, facet)| (f as u32, swept(&facet.nodes).inflated(margin)))
+            .map(|(f, facet)| {
+                let facet_box = swept(&facet.nodes);
+                (f as u32, facet_box.inflated(margin + DEPTH * facet_box.diameter()))
+            })
             .filter(|(_, b)| b.overlaps(&source_box))
             .collect();
         for (k, &node) in source.nodes.iter().enumerate() {
@@ -93,6 +99,11 @@ impl<const D: usize> ContactModel<D> {
                     continue;
                 }
                 let (distance, gap) = ((x - p.point).norm(), p.normal.dot(&(x - p.point)));
+                // Near the facet, or behind it and not beside it.
+                let beside = (distance * distance - gap * gap).max(0.0).sqrt();
+                if distance > margin && (gap > 0.0 || beside > margin) {
+                    continue;
+                }
                 // Facets that share the closest point: the one the node is farthest in front of.
                 let tie = 1e-12 * facet_box.diameter();
                 let better =

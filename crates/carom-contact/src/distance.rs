@@ -57,10 +57,13 @@ impl<const D: usize> ContactModel<D> {
                     .map(|facet| Aabb::of(facet.nodes.iter().map(|&n| position(n))))
                     .collect();
                 let whole = Aabb::of(target.nodes.iter().map(|&n| position(n)));
+                // The nearest to the target's box first, so that most points need no closer look.
+                let mut points: Vec<(f64, Vector<D>)> = points.map(|x| (whole.distance(&x), x)).collect();
+                points.sort_by(|a, b| a.0.total_cmp(&b.0));
                 let mut smallest = f64::INFINITY;
-                for x in points {
-                    if whole.distance(&x) > smallest.max(0.0) {
-                        continue;
+                for (distance, x) in points {
+                    if distance > smallest.max(0.0) {
+                        break;
                     }
                     let gap = signed_distance(&x, target, &boxes, position);
                     smallest = smallest.min(gap);

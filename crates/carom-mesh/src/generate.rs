@@ -2,6 +2,21 @@
 
 use crate::{CellBlock, CellKind, Mesh, MeshError, Vector};
 
+/// The most cells a generator makes; more is a slip, and would exhaust the memory before anything else could say so.
+const MAX_CELLS: f64 = 5e6;
+
+/// Refuses `divisions` that make more cells than [`MAX_CELLS`].
+fn check_size(cells: f64, divisions: &dyn std::fmt::Debug) -> Result<(), MeshError> {
+    if cells <= MAX_CELLS {
+        return Ok(());
+    }
+    Err(MeshError::Generator {
+        parameter: "divisions",
+        value: format!("{divisions:?}"),
+        remedy: "it would have more than 5 million cells; take fewer divisions",
+    })
+}
+
 /// A box of `divisions` equal cells per direction, from `corner` [m] over `size` [m]: quad4 in 2D, hex8 in 3D.
 ///
 /// # Errors
@@ -25,6 +40,7 @@ pub fn grid<const D: usize>(
             remedy: "at least 1 cell is needed in every direction",
         });
     }
+    check_size(divisions.iter().map(|&d| d as f64).product(), &divisions)?;
     let kind = match D {
         2 => CellKind::Quad4,
         3 => CellKind::Hex8,
@@ -108,6 +124,7 @@ impl Disc {
                 remedy: "at least 1 ring is needed around the core",
             });
         }
+        check_size(n as f64 * (n as f64 + 4.0 * rings as f64), &n)?;
         let centre = Vector::from(self.centre);
         let parameter = |i: usize| 2.0 * i as f64 / n as f64 - 1.0;
         let core = |i: usize, j: usize| {
@@ -205,6 +222,8 @@ mod tests {
         assert!(Disc { radius: -1.0, ..disc }.quadrilaterals().is_err());
         assert!(Disc { divisions: 7, ..disc }.quadrilaterals().is_err());
         assert!(Disc { rings: Some(0), ..disc }.quadrilaterals().is_err());
+        assert!(Disc { divisions: usize::MAX - 1, ..disc }.quadrilaterals().is_err());
+        assert!(grid([0.0; 2], [1.0; 2], [usize::MAX, 2]).is_err());
         assert!(grid([0.0; 2], [1.0, 0.0], [1, 1]).is_err());
         assert!(grid([0.0; 3], [1.0; 3], [1, 0, 1]).is_err());
     }

@@ -12,7 +12,12 @@ fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
 /// `InputError` or `MeshError` with its key.
 pub fn input_error(py: Python<'_>, error: &InputError) -> PyErr {
     let name = if error.is_mesh { "MeshError" } else { "InputError" };
-    let make = || class(py, name)?.call1((error.message.as_str(), error.key.as_str()));
+    let message = if error.key.is_empty() {
+        error.message.clone()
+    } else {
+        format!("{}: {}", error.key, error.message)
+    };
+    let make = || class(py, name)?.call1((message, error.key.as_str()));
     make().map_or_else(|e| e, PyErr::from_value)
 }
 

@@ -202,7 +202,8 @@ fn contact(
                 }
                 friction = entry.friction.unwrap_or(friction);
                 sources = entry.sources.unwrap_or(sources);
-                swapped = entry.between[0] == second;
+                // An order is only meant where the entry says which side is the source.
+                swapped = entry.sources.is_some() && entry.between[0] == second;
                 let key = format!("contact.pairs.{k}.friction");
                 number(&key, friction, friction >= 0.0, "friction cannot be negative")?;
             }

@@ -49,6 +49,12 @@ pub enum StepError {
         /// What the solver said.
         report: SolveReport,
     },
+    /// A node went through its target outside of the contact search.
+    #[error("a node came into contact outside of a search margin of {margin:.3e} m")]
+    MissedContact {
+        /// The widest margin tried [m].
+        margin: f64,
+    },
     /// Something was not a finite number.
     #[error("the {0} is not finite")]
     NotFinite(&'static str),
@@ -60,7 +66,7 @@ pub enum StepError {
 /// Why a run stopped early.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
-    "step at t = {time:.9} s failed, also with the time step halved {halvings} times to {time_step:.3e} s: {reason}"
+    "step at t = {time:.9} s failed with a length of {time_step:.3e} s, after {halvings} halvings: {reason}"
 )]
 pub struct RunError {
     /// Start of the step that failed [s].

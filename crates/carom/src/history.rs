@@ -13,10 +13,18 @@ pub(crate) struct Track {
     pub node: usize,
 }
 
+/// Where a tracked node was and how fast it moved on average in the last step.
+#[derive(Debug, Clone, Copy)]
+struct Trail<const D: usize> {
+    displacement: Vector<D>,
+    mean_velocity: Vector<D>,
+}
+
 /// Rows of numbers over time, recorded natively.
 #[derive(Debug)]
 pub(crate) struct History<const D: usize> {
     tracks: Vec<Track>,
+    trails: Vec<Trail<D>>,
     columns: Vec<String>,
     rows: Vec<f64>,
     since: Since,
@@ -30,11 +38,11 @@ struct Since {
     certificate: f64,
     residual: f64,
     last: StepReport,
-    last_dt: f64,
 }
 
 impl<const D: usize> History<D> {
-    pub fn new(model: &Model<D>, tracks: Vec<Track>) -> Self {
+    /// A history of a run that starts from `state`.
+    pub fn new(model: &Model<D>, state: &State<D>, tracks: Vec<Track>) -> Self {
         let axes = &AXES[..D];
         let mut columns: Vec<String> = [
             "time",
@@ -74,7 +82,24 @@ impl<const D: usize> History<D> {
                 columns.extend(axes.iter().map(|a| format!("{}.{quantity}_{a}", t.name)));
             }
         }
-        Self { tracks, columns, rows: Vec::new(), since: Since::default() }
+        let mut history =
+            Self { trails: Vec::new(), tracks, columns, rows: Vec::new(), since: Since::default() };
+        history.restart(state);
+        history
+    }
+
+    /// Forgets what was recorded and starts again from `state`.
+    pub fn restart(&mut self, state: &State<D>) {
+        self.rows.clear();
+        self.since = Since::default();
+        self.trails = self
+            .tracks
+            .iter()
+            .map(|t| Trail {
+                displacement: state.displacement[t.node],
+                mean_velocity: state.velocity[t.node],
+            })
+            .collect();
     }
 
     pub fn columns(&self) -> &[String] {
@@ -86,19 +111,22 @@ impl<const D: usize> History<D> {
         std::mem::take(&mut self.rows)
     }
 
-    /// Notes a step for the next row.
-    pub fn observe(&mut self, report: &StepReport, dt: f64) {
+    /// Notes a step of length `dt` [s] that ended in `state` for the next row.
+    pub fn observe(&mut self, report: &StepReport, state: &State<D>, dt: f64) {
         let since = &mut self.since;
         since.steps += 1;
         since.iterations += report.newton_iterations;
         since.certificate = since.certificate.max(report.certificate);
         since.residual = since.residual.max(report.residual);
         since.last = *report;
-        since.last_dt = dt;
+        for (trail, t) in self.trails.iter_mut().zip(&self.tracks) {
+            let u = state.displacement[t.node];
+            *trail = Trail { displacement: u, mean_velocity: (u - trail.displacement) / dt };
+        }
     }
 
     /// Writes a row; returns the smallest gap of all pairs [m].
-    pub fn record(&mut self, model: &Model<D>, state: &State<D>, before: &State<D>, ledger: &Ledger) -> f64 {
+    pub fn record(&mut self, model: &Model<D>, state: &State<D>, ledger: &Ledger) -> f64 {
         let e = &state.energies;
         self.rows.extend([
             state.time,
@@ -138,7 +166,8 @@ impl<const D: usize> History<D> {
             .iter()
             .filter_map(|p| model.contact.proximity(p, Samples::Nodes, &at))
             .map(|p| p.gap)
-            .fold(f64::INFINITY, f64::min);
+            // Nodes deep between others are closest to a side; the contacts know what they face.
+            .fold(if since.steps > 0 { since.last.min_gap } else { f64::INFINITY }, f64::min);
         self.rows.extend([
             since.last.contacts as f64,
             min_gap,
@@ -147,13 +176,10 @@ impl<const D: usize> History<D> {
             since.certificate,
             since.residual,
         ]);
-        for t in &self.tracks {
-            let (u, v) = (state.displacement[t.node], state.velocity[t.node]);
-            let mean =
-                if since.last_dt > 0.0 { (u - before.displacement[t.node]) / since.last_dt } else { v };
-            self.rows.extend(u.iter());
-            self.rows.extend(v.iter());
-            self.rows.extend(mean.iter());
+        for (t, trail) in self.tracks.iter().zip(&self.trails) {
+            self.rows.extend(state.displacement[t.node].iter());
+            self.rows.extend(state.velocity[t.node].iter());
+            self.rows.extend(trail.mean_velocity.iter());
         }
         min_gap
     }

@@ -21,6 +21,9 @@ pub enum Outcome {
     Paused,
 }
 
+/// The most steps a run may have; more is a slip of units.
+const MAX_STEPS: f64 = 1e10;
+
 /// A run: the model, its state, and the books.
 pub struct Simulation<const D: usize> {
     model: Model<D>,
@@ -35,7 +38,7 @@ pub struct Simulation<const D: usize> {
     step: u64,
     history_every: f64,
     history_rows: u64,
-    last_recorded: Option<u64>,
+    last_recorded: Option<f64>,
     history: History<D>,
     events: EventLog,
     initial_energy: (f64, f64),
@@ -173,13 +176,18 @@ impl Simulation<2> {
                 return Err(InputError::new(key, format!("{every}: the interval must be greater than 0 s")));
             }
         }
+        if end / dt > MAX_STEPS {
+            let message =
+                format!("{dt}: the run would have {:.1e} steps, more than {MAX_STEPS:.0e}", end / dt);
+            return Err(InputError::new("analysis.time_step", message));
+        }
         // A last step shorter than this fraction of the others would only be round-off of end_time/time_step.
         let steps = (end / dt - 1e-6).ceil().max(1.0) as u64;
         let work = Workspace::new(&model).map_err(|e| InputError::new("bodies", e.to_string()))?;
         let mut simulation = Self {
             description: describe(&scenario.title, &model, &state, steps),
             events: EventLog::new(&model, scenario.output.merge_contacts),
-            history: History::new(&model, tracks),
+            history: History::new(&model, &state, tracks),
             spare: state.clone(),
             time_step: dt,
             end_time: end,
@@ -272,7 +280,7 @@ impl<const D: usize> Simulation<D> {
         assert_eq!(velocity.len(), self.model.reference.len(), "one velocity per node");
         self.state = State::initial(&self.model, velocity);
         self.initial_energy = (self.state.energies.kinetic, self.state.energies.strain);
-        self.history.take();
+        self.history.restart(&self.state);
         self.last_recorded = None;
         self.history_rows = 0;
         self.record();
@@ -322,18 +330,20 @@ impl<const D: usize> Simulation<D> {
         let start = self.step as f64 * self.time_step;
         let rest = self.end_time - start;
         let length = if rest < (1.0 - 1e-6) * self.time_step { rest } else { self.time_step };
+        let last = self.step + 1 == self.steps;
+        let end = if last { self.end_time } else { (self.step + 1) as f64 * self.time_step };
         let Self {
             model, method, state, spare, work, events, history, ledger, totals, initial_energy, ..
         } = self;
         let mut previous_time = state.time;
         let initial = initial_energy.0 + initial_energy.1;
         let retried =
-            advance_nominal_step(model, method, state, spare, start, length, work, |state, report, work| {
+            advance_nominal_step(model, method, state, spare, end, length, work, |state, report, work| {
                 *ledger += report.ledger;
                 ledger.kinetic = state.energies.kinetic - initial_energy.0;
                 ledger.strain = state.energies.strain - initial_energy.1;
                 events.record(&model.groups, &work.groups, previous_time, state.time);
-                history.observe(report, state.time - previous_time);
+                history.observe(report, state, state.time - previous_time);
                 previous_time = state.time;
                 totals.substeps += 1;
                 totals.newton_iterations += report.newton_iterations as u64;
@@ -355,15 +365,15 @@ impl<const D: usize> Simulation<D> {
 
     /// Records the last row of the history if it is not there yet.
     pub fn finish(&mut self) {
-        if self.last_recorded != Some(self.step) {
+        if self.last_recorded != Some(self.state.time) {
             self.record();
         }
     }
 
     fn record(&mut self) {
-        let min_gap = self.history.record(&self.model, &self.state, &self.spare, &self.ledger);
+        let min_gap = self.history.record(&self.model, &self.state, &self.ledger);
         self.totals.min_gap = self.totals.min_gap.min(min_gap);
-        self.last_recorded = Some(self.step);
+        self.last_recorded = Some(self.state.time);
         // The next multiple of the interval after now.
         self.history_rows =
             ((self.state.time + 1e-6 * self.time_step) / self.history_every).floor() as u64 + 1;

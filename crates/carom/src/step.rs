@@ -43,11 +43,11 @@ pub fn step<const D: usize>(
         search(model, state, margin, work);
         iterations += iterate(model, method, state, next, &map, motion, work)?;
         if !missed_a_contact(model, method, next, work) {
-            break;
+            return commit(model, state, next, &map, work, iterations);
         }
         margin *= 4.0;
     }
-    commit(model, state, next, &map, work, iterations)
+    Err(StepError::MissedContact { margin })
 }
 
 /// The start of the iterations: free flight, d = Δt v; the frame of every body and a factor that fits the step.
@@ -123,9 +123,8 @@ fn iterate<const D: usize>(
 /// Marks the bodies that have converged and says whether all have. Bodies in contact depend on one another and settle together.
 fn settle<const D: usize>(work: &mut Workspace<D>, wanted: f64) -> bool {
     // A correction this small, or one after which the next will surely be.
-    let converged = |p: &BodyProgress| {
-        p.correction <= wanted || p.correction * (10.0 * p.contraction).min(1.0) <= wanted
-    };
+    let converged =
+        |p: &BodyProgress| p.correction <= wanted || p.correction * (10.0 * p.contraction).min(1.0) <= wanted;
     let in_contact = |(p, &touched): (&BodyProgress, &bool)| !touched || p.settled || converged(p);
     let contact_converged = work.progress.iter().zip(&work.touched).all(in_contact);
     for (p, &touched) in work.progress.iter_mut().zip(&work.touched) {
@@ -199,6 +198,10 @@ fn react<const D: usize>(
 ) -> Result<(), StepError> {
     if work.candidates.is_empty() {
         work.contacts.clear();
+        return Ok(());
+    }
+    // The bodies in contact settle together; while others still move, these keep their reactions.
+    if work.progress.iter().zip(&work.touched).any(|(p, &touched)| touched && p.settled) {
         return Ok(());
     }
     let weight = method.condition.evaluation_weight();

@@ -4,7 +4,7 @@ use crate::error::RunError;
 use crate::workspace::{StepReport, Workspace};
 use crate::{Method, Model, State, step};
 
-/// Takes `state` over one nominal step of length `dt` from time `start`, in substeps where it must be.
+/// Takes `state` over one nominal step of length `dt` that ends at time `end` [s], in substeps where it must be.
 ///
 /// After each substep that succeeds `observe` is told; `spare` is scratch of the same size as `state`. On an error `state` is
 /// where the last good substep left it. Returns how many substeps failed.
@@ -13,7 +13,7 @@ pub(crate) fn advance_nominal_step<const D: usize>(
     method: &Method<D>,
     state: &mut State<D>,
     spare: &mut State<D>,
-    start: f64,
+    end: f64,
     dt: f64,
     work: &mut Workspace<D>,
     mut observe: impl FnMut(&State<D>, &StepReport, &Workspace<D>),
@@ -28,7 +28,7 @@ pub(crate) fn advance_nominal_step<const D: usize>(
         match step(model, method, state, spare, length, work) {
             Ok(report) => {
                 done += size;
-                spare.time = start + dt * (done as f64 / whole as f64);
+                spare.time = end - dt * ((whole - done) as f64 / whole as f64);
                 std::mem::swap(state, spare);
                 observe(state, &report, work);
                 // Grow again where the coarser grid allows.

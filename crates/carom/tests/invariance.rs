@@ -125,6 +125,23 @@ fn a_run_in_slices_is_bit_identical() {
     assert_eq!(whole.state(), sliced.state());
 }
 
+/// Symptom guarded against: a disc that still spun while another had settled in contact made the books of the contact wrong.
+#[test]
+fn a_body_elsewhere_does_not_touch_the_books_of_an_impact() {
+    let mut alone = scene(0.0, [0.0; 2], 1.0, 1.0, 1.0);
+    alone["bodies"][1]["mesh"]["centre"] = json!([20.0, 20.0]);
+    let mut spinning = alone.clone();
+    spinning["bodies"][1]["velocity"] = json!([0.3, 0.2]);
+    spinning["bodies"][1]["spin"] = json!(25.0);
+    alone["bodies"][1]["velocity"] = json!([0.0, 0.0]);
+    let ((_, a), (_, b)) = (run(&alone), run(&spinning));
+    assert_eq!((a.contacts.len(), b.contacts.len()), (1, 1));
+    for (x, y) in [(a.energy.friction, b.energy.friction), (a.energy.normal_contact, b.energy.normal_contact)]
+    {
+        assert!((x - y).abs() < 1e-9, "{x} J alone, {y} J in company");
+    }
+}
+
 /// Both friction solvers, and the workspace thrown away or not, give the same motion.
 #[test]
 fn the_friction_solver_does_not_change_the_motion() {

@@ -1,4 +1,5 @@
-//! Hyperelastic laws, written once in 3D. A new law is a file here and a line in [`LawSpec`].
+//! Hyperelastic laws, written once in 3D. A new law is a file here, a line in [`LawSpec`] and
+//! one where [`crate::Body::new`] makes it.
 
 #[cfg(test)]
 mod contract;

@@ -1,0 +1,278 @@
+"""Write docs/case-file.md from the classes that read the case file.
+
+``python docs/make_case_file_reference.py`` writes the page, ``… --check`` says whether it is
+up to date (exit status 1 if not).
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+import sys
+import types
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+import annotated_types
+from pydantic.fields import FieldInfo
+
+from carom import Scenario
+from carom.description import DIMENSION, PER_DIMENSION, Description, Name
+
+PAGE = Path(__file__).with_name("case-file.md")
+
+HEAD = """\
+# The case file
+
+<!-- Written by docs/make_case_file_reference.py; edit that script or the docstrings it reads. -->
+
+A case is a TOML file, read by `carom run`, `carom check` and `carom.Scenario.from_toml`. All
+quantities are in SI units; a body in the plane has a thickness, so that masses are in kg, forces in
+N and energies in J. Coordinates and vectors have 2 components. A key that has a default may be left
+out. An unknown key, a value of the wrong type and a value that is not allowed are errors (exit
+status 2) that name the file, the key and the value.
+
+[examples/two_cylinders.toml](../examples/two_cylinders.toml) and
+[examples/two_bars.toml](../examples/two_bars.toml) are complete cases. Every table is a class of
+the Python package with the same field names; the class is named under the heading of the table. An
+object of a class knows its `kind`; where a table of the file can be of several kinds, it must say.
+
+A value can be replaced on the command line: `--set KEY=VALUE`, with a dotted key, list indices from
+0, and a TOML value (a bare word counts as a string):
+
+```sh
+carom run CASE --set analysis.end_time=3 --set bodies.0.mesh.divisions=12 \\
+    --set contact.condition=midpoint --set 'analysis.scheme={kind="theta", theta=1, xi=1}'
+```
+"""
+
+RULES = """\
+## Rules that join several keys
+
+- `analysis.end_time`, `output.fields_every` and `output.history_every` are at least one
+  `analysis.time_step`.
+- `analysis.max_halvings` is at most 30.
+- `output.fields_every` and `output.history_every` that are left out are never less than a step.
+- Names are unique over bodies, obstacles and tracked points. `bodies.N.material` names a material,
+  `output.track.N.body` a body.
+- A tracked point is at most a quarter of the diagonal of the body's bounding box away from a node.
+- Every body may touch every other body and every obstacle, unless `contact.pairs` says otherwise.
+  An entry of `contact.pairs` names two different bodies, or a body and an obstacle, and no two
+  entries name the same pair.
+- `contact.sources` and `contact.pairs.N.sources` matter between two bodies only: against an
+  obstacle the nodes of the body are checked. `"first"` is the body that comes first in
+  `[[bodies]]`, or, where the pair has an entry in `contact.pairs`, in `between` of that entry.
+- In the reference configuration bodies overlap neither one another nor an obstacle (deeper than
+  1e-9 of the smallest edge), unless their pair is disabled.
+- A disc has an even number of `divisions`, or `rings` is given.
+"""
+
+
+@dataclass(frozen=True)
+class Section:
+    """A table of the case file: its header, and the classes that it may be."""
+
+    header: str
+    kinds: tuple[type[Description], ...]
+
+
+def models(annotation: object) -> tuple[type[Description], ...]:
+    """Return the descriptions that a value of this type may be made of."""
+    if isinstance(annotation, type) and issubclass(annotation, Description):
+        return (annotation,)
+    return tuple(model for part in get_args(annotation) for model in models(part))
+
+
+def fields(model: type[Description]) -> Iterator[tuple[str, FieldInfo]]:
+    """Yield the fields of a class, ``kind`` first."""
+    yield from sorted(model.model_fields.items(), key=lambda item: item[0] != "kind")
+
+
+def sections(model: type[Description], path: str = "") -> Iterator[Section]:
+    """Yield the tables within a table, depth first, in the order of its fields."""
+    for name, field in fields(model):
+        kinds = models(field.annotation)
+        if not kinds:
+            continue
+        key = f"{path}.{name}" if path else name
+        origin = get_origin(field.annotation)
+        if origin is tuple:
+            header = f"[[{key}]]"
+        elif origin is dict:
+            key += ".NAME"
+            header = f"[{key}]"
+        else:
+            header = f"[{key}]"
+        yield Section(header, kinds)
+        seen = set()
+        for kind in kinds:
+            for inner in sections(kind, key):
+                if inner not in seen:
+                    seen.add(inner)
+                    yield inner
+
+
+def parts(field: FieldInfo) -> tuple[object, list[object]]:
+    """Return the type of a field without None and wrappers, and what is asked of its values."""
+    annotation, asked = field.annotation, list(field.metadata)
+    while True:
+        origin = get_origin(annotation)
+        if origin is Annotated:
+            annotation, *more = get_args(annotation)
+            asked += more
+        elif origin in (Union, types.UnionType) and type(None) in get_args(annotation):
+            (annotation,) = (part for part in get_args(annotation) if part is not type(None))
+        else:
+            break
+    asked = [inner for outer in asked for inner in getattr(outer, "metadata", [outer])]
+    return annotation, asked
+
+
+PLAIN = {float: "number", int: "integer", str: "string", bool: "boolean"}
+
+
+def type_of(field: FieldInfo) -> str:
+    """Return the TOML type of a field."""
+    annotation, asked = parts(field)
+    if annotation in PLAIN:
+        return PLAIN[annotation]
+    if get_origin(annotation) is Literal:
+        return "string"
+    if get_origin(annotation) is tuple:
+        item = get_args(annotation)[0]
+        if models(item):
+            return "array of tables"
+        plain = PLAIN[get_args(item)[0] if get_origin(item) is Annotated else item]
+        return f"{DIMENSION} {plain}s" if PER_DIMENSION in asked else f"array of {plain}s"
+    if get_origin(annotation) is dict:
+        return "table of tables"
+    return "table"
+
+
+SIGNS = {
+    annotated_types.Gt: (">", "gt"),
+    annotated_types.Ge: ("≥", "ge"),
+    annotated_types.Lt: ("<", "lt"),
+    annotated_types.Le: ("≤", "le"),
+}
+
+
+def allowed(field: FieldInfo) -> str:
+    """Return what values a field may have, beyond its type."""
+    annotation, asked = parts(field)
+    rules = []
+    if get_origin(annotation) is Literal:
+        rules.append(", ".join(f'`"{value}"`' for value in get_args(annotation)))
+    if get_origin(annotation) is tuple:
+        item = get_args(annotation)[0]
+        if get_origin(item) is Annotated:
+            asked += [inner for outer in get_args(item)[1:] for inner in outer.metadata]
+    if set(get_args(Name)[1:]) & {one for one in asked if one.__hash__}:
+        rules.append("no `.`, `/`, `\\` or space")
+    for one in asked:
+        if type(one) in SIGNS:
+            sign, attribute = SIGNS[type(one)]
+            rules.append(f"{sign} {getattr(one, attribute):g}")
+        elif isinstance(one, annotated_types.MinLen):
+            rules.append(f"{one.min_length} or more")
+        elif getattr(getattr(one, "func", None), "__name__", "") == "_nonzero":
+            rules.append("not zero")
+    return ", ".join(rules)
+
+
+def default(field: FieldInfo) -> str:
+    """Return the default of a field as TOML."""
+    if field.is_required():
+        return "required"
+    value: Any = field.get_default(call_default_factory=True)
+    if value is None:
+        return "–"
+    if isinstance(value, Description):
+        return f'`"{value.kind}"`' if hasattr(value, "kind") else "see below"
+    if isinstance(value, str):
+        return f'`"{value}"`'
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}`"
+    return f"`{list(value)}`" if isinstance(value, tuple) else f"`{value:g}`"
+
+
+def documented(model: type[Description]) -> dict[str, str]:
+    """Return what the docstring of a class says about each of its parameters."""
+    _, _, body = inspect.getdoc(model).partition("Parameters\n----------\n")
+    said: dict[str, str] = {}
+    for line in body.splitlines():
+        if line and not line.startswith(" "):
+            name = line
+            said[name] = ""
+        else:
+            said[name] = f"{said[name]} {line.strip()}".strip()
+    return said
+
+
+UNIT = re.compile(r"(?<!shape)(?<!in)\s\[([^\]]+)\]")
+
+
+def row(name: str, field: FieldInfo, text: str, *, tag: bool) -> str:
+    """Return the line of a key in its table; a tag tells the kinds of a table apart."""
+    unit = UNIT.search(text)
+    text = UNIT.sub("", text)
+    text = re.sub(r",? ?shape \[\d\]", "", text)
+    text = re.sub(r"\bNone (is|takes) ", "left out: ", text)
+    text = text.replace("default of `Contact`", "value in `[contact]`")
+    cells = (
+        f"`{name}`",
+        type_of(field),
+        unit[1] if unit else "",
+        "required" if tag else default(field),
+        allowed(field),
+        text,
+    )
+    return f"| {' | '.join(cells)} |"
+
+
+def table(model: type[Description], *, tagged: bool = False) -> str:
+    """Return the table of the keys of a class."""
+    said = {"kind": "Kind of this table.", **documented(model)}
+    lines = ["| key | type | unit | default | allowed | meaning |", "|---|---|---|---|---|---|"]
+    lines += [
+        row(name, field, said[name], tag=tagged and name == "kind") for name, field in fields(model)
+    ]
+    return "\n".join(lines)
+
+
+def summary(model: type[Description]) -> str:
+    """Return the first paragraph of the docstring of a class, and the class."""
+    first = " ".join(inspect.getdoc(model).partition("\n\n")[0].split())
+    return f"{first} Python: `carom.{model.__name__}`."
+
+
+def page() -> str:
+    """Return the text of the page."""
+    text = [HEAD, "## Top level\n", summary(Scenario), "", table(Scenario), ""]
+    for section in sections(Scenario):
+        text.append(f"## `{section.header}`\n")
+        for model in section.kinds:
+            tagged = len(section.kinds) > 1
+            if tagged:
+                kind = model.model_fields["kind"].default
+                text.append(f'### `kind = "{kind}"`\n')
+            text += [summary(model), "", table(model, tagged=tagged), ""]
+    return "\n".join([*text, RULES])
+
+
+def main() -> int:
+    """Write the page, or compare it."""
+    text = page()
+    if "--check" not in sys.argv[1:]:
+        PAGE.write_text(text, encoding="utf-8")
+        return 0
+    if PAGE.read_text(encoding="utf-8") == text:
+        return 0
+    print(f"{PAGE} is out of date: run python docs/make_case_file_reference.py", file=sys.stderr)
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,119 @@
+"""The paper's two bars: the case, its exact solution, and the figures that describe a run.
+
+The gap of 0.02 m is inferred: the paper shows it in a figure only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from runs import Array, Run, example, observed_order, reference, relative_l2, simulate
+
+ELEMENTS = (50, 100, 200, 400)
+"""Elements per bar of the convergence study."""
+
+LENGTH = 10.0  # m
+WAVE_SPEED = 1000.0  # m/s, sqrt(E / ρ)
+SPEED = 1.0  # m/s, of each bar towards the other
+HALF_GAP = 0.01  # m
+TOUCH = HALF_GAP / SPEED  # s
+RELEASE = TOUCH + 2.0 * LENGTH / WAVE_SPEED  # s
+LATE = 0.035  # s, from when on the velocity after release is averaged
+
+VARIANT = {"gap": "pos", "midpoint": "mid"}
+"""The prototype's names of the contact conditions."""
+
+
+def exact_displacement(time: Array) -> Array:
+    """Return the displacement of the tip C of the left bar [m], by d'Alembert's solution.
+
+    Until the touch at t₁ the bar moves at speed v, unstrained. By symmetry the tip then stands
+    still as if it had met a rigid wall: a compression wave of velocity jump −v runs down the bar at
+    the speed c, stopping it; at t₁ + L/c it meets the free end and comes back as a release wave of
+    the same jump −v, behind which the bar is unstrained and moves at −v. It reaches the tip at
+    t₂ = t₁ + 2 L/c, and the bars part:
+
+        u_C(t) = v · [min(t, t₁) − max(t − t₂, 0)].
+    """
+    displacement: Array = SPEED * (np.minimum(time, TOUCH) - np.maximum(time - RELEASE, 0.0))
+    return displacement
+
+
+def exact_velocity(time: Array) -> Array:
+    """Return the velocity of the tip C [m/s]: v before the touch, 0 in contact, then −v."""
+    return np.select([time < TOUCH, time < RELEASE], [SPEED, 0.0], -SPEED)
+
+
+def run(*, elements: int = 100, condition: str = "gap", overrides: Sequence[str] = ()) -> Run:
+    """Run ``examples/two_bars.toml``, every step recorded."""
+    scenario = example("two_bars.toml", f"contact.condition={condition}", *overrides)
+    return simulate(
+        scenario.with_overrides(
+            [
+                f"output.history_every={scenario.analysis.time_step}",
+                f"bodies.0.mesh.divisions=[{elements}, 1]",
+                f"bodies.1.mesh.divisions=[{elements}, 1]",
+            ]
+        )
+    )
+
+
+@dataclass(frozen=True)
+class Figures:
+    """What describes a run of the bars, each defined as in the prototype.
+
+    Parameters
+    ----------
+    release
+        End of the contact [s].
+    late_velocity
+        Mean velocity of C from 0.035 s to the end [m/s].
+    displacement_error, velocity_error
+        Errors of u_C and v_mid = Δu_C/Δt, relative and in the L2 norm over the whole run, sampled
+        at the ends of all steps and at t = 0. v_mid is compared with the exact velocity in the
+        middle of the step (touch and release fall on ends of steps).
+    energy_change
+        E(end) / E(0) − 1.
+    """
+
+    release: float
+    late_velocity: float
+    displacement_error: float
+    velocity_error: float
+    energy_change: float
+
+
+def figures(run: Run) -> Figures:
+    """Measure a run of the bars."""
+    history = run.history
+    time = history["time"]
+    middle = time - 0.5 * run.summary["time_step"]
+    (contact,) = run.summary["contacts"]
+    return Figures(
+        release=contact["release"],
+        late_velocity=float(history["C.v_x"][time > LATE + 1e-9].mean()),
+        displacement_error=relative_l2(history["C.u_x"], exact_displacement(time)),
+        velocity_error=relative_l2(history["C.vmid_x"], exact_velocity(middle)),
+        energy_change=run.energy_change,
+    )
+
+
+def prototype(*, elements: int, condition: str = "gap") -> Figures:
+    """Return the figures of the prototype's run."""
+    table = reference("bars_table")
+    (row,) = table[(table["variant"] == VARIANT[condition]) & (table["N"] == elements)]
+    return Figures(
+        release=float(row["t_off"]),
+        late_velocity=float(row["vC_late"]),
+        displacement_error=float(row["err_u_L2rel"]),
+        velocity_error=float(row["err_vmid_L2rel"]),
+        energy_change=float(row["dE_end_rel"]),
+    )
+
+
+def order(figures: Sequence[Figures], quantity: str) -> float:
+    """Return the order in h at which a figure of runs with `ELEMENTS` vanishes."""
+    sizes = [LENGTH / elements for elements in ELEMENTS]
+    return observed_order(sizes, [abs(getattr(figure, quantity)) for figure in figures])
