@@ -12,6 +12,9 @@ from rich.text import Text
 SHOWN_CONTACTS = 12
 """Contact events that fit a screen; `summary.json` has them all."""
 
+LARGE_DEFECT = 0.02
+"""Defect of the ledger, relative to the energy that the run had or was given, to be warned of."""
+
 
 def two_columns(title: str) -> Table:
     """Return an empty table of quantities and their values."""
@@ -43,6 +46,13 @@ def summary_table(summary: Mapping[str, Any], *, where: Path) -> Table:
     add(table, "friction", f"{energy['friction']:.6g} J dissipated")
     add(table, "largest drift", f"{energy['max_drift']:.3g} J")
     add(table, "largest defect", f"{energy['max_defect']:.3g} J, of the energy ledger")
+    if (share := _defect_share(energy)) > LARGE_DEFECT:
+        add(
+            table,
+            "warning",
+            f"the ledger misses {share:.2g} of the energy: the time step is too long for this "
+            "deformation; take a smaller analysis.time_step",
+        )
     add(table, "certificate", f"{certificate['max_joule']:.3g} J, from Coulomb's law in any step")
     table.add_section()
     contacts = summary["contacts"]
@@ -53,6 +63,12 @@ def summary_table(summary: Mapping[str, Any], *, where: Path) -> Table:
     table.add_section()
     add(table, "results", str(where))
     return table
+
+
+def _defect_share(energy: Mapping[str, float]) -> float:
+    """Return the largest defect of the ledger relative to the energy that came in."""
+    supplied = energy["initial"] + abs(energy["external"])
+    return energy["max_defect"] / supplied if supplied > 0.0 else 0.0
 
 
 def _contact(contact: Mapping[str, Any]) -> str:

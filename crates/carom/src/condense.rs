@@ -48,10 +48,10 @@ impl<const D: usize> Compliance<D> {
         }
         let n = self.boundary_index.len();
         self.scratch.fill(Vector::zeros());
-        for j in 0..D {
-            self.scratch[j * n + node][j] = 1.0;
+        for (j, column) in self.scratch.chunks_exact_mut(n).enumerate() {
+            column[node][j] = 1.0;
+            operator.solve_in_factor_frame(column);
         }
-        operator.solve_in_factor_frame(&mut self.scratch);
         let column = self
             .boundary
             .iter()

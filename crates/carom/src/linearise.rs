@@ -89,15 +89,15 @@ impl<const D: usize> BodyOperator<D> {
         for (s, x) in self.scratch.iter_mut().zip(x.iter()) {
             *s = self.turn.tr_mul(x);
         }
-        self.factor.solve(&mut self.scratch, 1);
+        self.factor.solve(&mut self.scratch);
         for (s, x) in self.scratch.iter().zip(x) {
             *x = self.turn * s;
         }
     }
 
-    /// Overwrites `D` right-hand sides with the factor's solution, in the frame of the factor.
+    /// Overwrites `x` with the factor's solution, in the frame of the factor.
     pub fn solve_in_factor_frame(&mut self, x: &mut [Vector<D>]) {
-        self.factor.solve(x, D);
+        self.factor.solve(x);
     }
 }
 

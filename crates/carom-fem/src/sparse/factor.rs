@@ -2,13 +2,16 @@ use carom_mesh::{Matrix, Vector};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltError, LltParams, LltRegularization};
 use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
-use faer::{Conj, MatMut, Par, Side, Spec};
+use faer::{Par, Side, Spec};
 
 use super::NodeGraph;
+use super::substitution::Substitution;
 use crate::FemError;
 
 /// Supernodal Cholesky factor of a symmetric matrix of D × D blocks over a node graph.
@@ -22,6 +25,10 @@ pub struct Factor<const D: usize> {
     lower_values: Vec<f64>,
     values: Vec<f64>,
     memory: MemBuffer,
+    substitution: Substitution,
+    /// The unknown eliminated k-th.
+    ordering: Vec<usize>,
+    ordered: Vec<f64>,
     factorized: bool,
 }
 
@@ -35,9 +42,6 @@ impl<const D: usize> std::fmt::Debug for Factor<D> {
 }
 
 impl<const D: usize> Factor<D> {
-    /// The most right-hand sides [`Factor::solve`] takes at once.
-    pub const MAX_COLUMNS: usize = 3;
-
     /// Orders the unknowns (AMD) and finds the structure of the factor.
     ///
     /// # Errors
@@ -70,13 +74,16 @@ impl<const D: usize> Factor<D> {
             },
         )
         .map_err(|e| FemError::Symbolic(format!("{e:?}")))?;
-        let request = symbolic
-            .factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::<LltParams, f64>::default())
-            .or(symbolic.solve_in_place_scratch::<f64>(Self::MAX_COLUMNS, Par::Seq));
+        let ordering = symbolic.perm().map_or_else(|| (0..n).collect(), |p| p.arrays().0.to_vec());
+        let request =
+            symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::<LltParams, f64>::default());
         Ok(Self {
             lower_values: vec![0.0; sources.len()],
             values: vec![0.0; symbolic.len_val()],
             memory: MemBuffer::new(request),
+            substitution: Substitution::default(),
+            ordering,
+            ordered: vec![0.0; n],
             lower,
             symbolic,
             sources,
@@ -104,7 +111,10 @@ impl<const D: usize> Factor<D> {
                 Spec::default(),
             )
             .map_err(|LltError::NonPositivePivot { index }| FemError::NotPositiveDefinite { pivot: index })?;
-        self.factorized = true;
+        if let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() {
+            self.substitution.load(&SupernodalLltRef::new(symbolic, &self.values));
+            self.factorized = true;
+        }
         Ok(())
     }
 
@@ -114,21 +124,20 @@ impl<const D: usize> Factor<D> {
         self.factorized
     }
 
-    /// Overwrites `columns` right-hand sides, stored one after the other in `x`, with the solution.
+    /// Overwrites the right-hand side `x`, one vector per node, with the solution.
     ///
     /// # Panics
-    /// If the lengths do not fit or nothing was factorised.
-    pub fn solve(&mut self, x: &mut [Vector<D>], columns: usize) {
+    /// If the length does not fit or nothing was factorised.
+    pub fn solve(&mut self, x: &mut [Vector<D>]) {
         assert!(self.factorized, "solve needs a factor");
-        assert!(columns <= Self::MAX_COLUMNS, "at most {} right-hand sides at once", Self::MAX_COLUMNS);
-        let flat: &mut [f64] = bytemuck::cast_slice_mut(x);
-        let rhs = MatMut::from_column_major_slice_mut(flat, self.lower.nrows(), columns);
-        LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
-            Conj::No,
-            rhs,
-            Par::Seq,
-            MemStack::new(&mut self.memory),
-        );
+        let x: &mut [f64] = bytemuck::cast_slice_mut(x);
+        for (ordered, &k) in self.ordered.iter_mut().zip(&self.ordering) {
+            *ordered = x[k];
+        }
+        self.substitution.solve(&mut self.ordered);
+        for (ordered, &k) in self.ordered.iter().zip(&self.ordering) {
+            x[k] = *ordered;
+        }
     }
 }
 
@@ -159,9 +168,8 @@ mod tests {
         a.multiply(&x, &mut b);
         let mut factor = Factor::new(&graph).expect("symbolic");
         factor.factorize(|entry| a.values[entry]).expect("positive definite");
-        b.extend(b.clone());
-        factor.solve(&mut b, 2);
-        for (b, x) in b.iter().zip(x.iter().chain(&x)) {
+        factor.solve(&mut b);
+        for (b, x) in b.iter().zip(&x) {
             assert!((b - x).norm() < 1e-13);
         }
         assert!(factor.factorize(|entry| -a.values[entry]).is_err());

@@ -3,6 +3,7 @@
 mod factor;
 mod graph;
 mod nodal_matrix;
+mod substitution;
 
 pub use factor::Factor;
 pub use graph::NodeGraph;

@@ -1,0 +1,178 @@
+use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
+use pulp::{Arch, Simd, WithSimd};
+
+/// Rows of a panel are padded with zeros to a multiple of this, so that SIMD loops have no remainder.
+const PADDING: usize = 4;
+/// Columns taken together, so that what is loaded once serves them all.
+const COLUMNS: usize = 4;
+
+/// Forward and backward substitution with a supernodal Cholesky factor, for one right-hand side.
+///
+/// For every supernode with diagonal block L₁₁ and rows L₂₁ below, the panel Z = [L₁₁⁻¹; L₂₁L₁₁⁻¹] is kept. The forward step is
+/// then [y₁; t] = Z x₁, x₂ ← x₂ − t, and the backward step x₁ = Zᵀ[y₁; −x₂]: one product each way, without divisions or
+/// dependent loops. A factor is made once and solved with thousands of times, so the set-up does not count, and small
+/// panels, where a general library spends most of its time on dispatch, are what 2D bodies consist of.
+#[derive(Debug, Default)]
+pub(super) struct Substitution {
+    panels: Vec<Panel>,
+    rows: Vec<u32>,
+    values: Vec<f64>,
+    gathered: Vec<f64>,
+}
+
+/// The supernode of columns `start..start + columns`; its rows below are `rows[first_row..first_row + below]`.
+#[derive(Debug, Clone, Copy)]
+struct Panel {
+    start: usize,
+    columns: usize,
+    below: usize,
+    first_row: usize,
+    first_value: usize,
+    padded: usize,
+}
+
+impl Substitution {
+    /// Takes over the values of a factor.
+    pub fn load(&mut self, factor: &SupernodalLltRef<'_, usize, f64>) {
+        self.panels.clear();
+        self.rows.clear();
+        self.values.clear();
+        let mut largest = 0;
+        for s in 0..factor.symbolic().n_supernodes() {
+            let supernode = factor.supernode(s);
+            let (l, pattern) = (supernode.val(), supernode.pattern());
+            let (columns, below) = (l.ncols(), pattern.len());
+            let padded = (columns + below).next_multiple_of(PADDING);
+            let panel = Panel {
+                start: supernode.start(),
+                columns,
+                below,
+                first_row: self.rows.len(),
+                first_value: self.values.len(),
+                padded,
+            };
+            self.rows.extend(pattern.iter().map(|&r| r as u32));
+            self.values.resize(panel.first_value + padded * columns, 0.0);
+            let z = &mut self.values[panel.first_value..];
+            // Z L₁₁ = [I; L₂₁], solved column by column from the last.
+            for j in (0..columns).rev() {
+                for i in j..columns + below {
+                    let right = if i >= columns {
+                        l[(i, j)]
+                    } else if i == j {
+                        1.0
+                    } else {
+                        0.0
+                    };
+                    let known: f64 = (j + 1..columns).map(|k| z[k * padded + i] * l[(k, j)]).sum();
+                    z[j * padded + i] = (right - known) / l[(j, j)];
+                }
+            }
+            largest = largest.max(padded);
+            self.panels.push(panel);
+        }
+        self.gathered.resize(largest, 0.0);
+    }
+
+    /// Overwrites `x`, in the order of elimination, with the solution.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        Arch::new().dispatch(Solve { substitution: self, x });
+    }
+}
+
+struct Solve<'a> {
+    substitution: &'a mut Substitution,
+    x: &'a mut [f64],
+}
+
+impl WithSimd for Solve<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { substitution: Substitution { panels, rows, values, gathered }, x } = self;
+        for p in panels.iter() {
+            let z = &values[p.first_value..p.first_value + p.padded * p.columns];
+            let t = &mut gathered[..p.padded];
+            product(simd, z, &x[p.start..p.start + p.columns], t);
+            x[p.start..p.start + p.columns].copy_from_slice(&t[..p.columns]);
+            for (&row, t) in rows[p.first_row..p.first_row + p.below].iter().zip(&t[p.columns..]) {
+                x[row as usize] -= t;
+            }
+        }
+        for p in panels.iter().rev() {
+            let z = &values[p.first_value..p.first_value + p.padded * p.columns];
+            let t = &mut gathered[..p.padded];
+            t[..p.columns].copy_from_slice(&x[p.start..p.start + p.columns]);
+            for (&row, t) in rows[p.first_row..p.first_row + p.below].iter().zip(&mut t[p.columns..]) {
+                *t = -x[row as usize];
+            }
+            t[p.columns + p.below..].fill(0.0);
+            transposed_product(simd, z, t, &mut x[p.start..p.start + p.columns]);
+        }
+    }
+}
+
+/// `t` = Z `x`, with Z stored column by column.
+#[inline(always)]
+fn product<S: Simd>(simd: S, z: &[f64], x: &[f64], t: &mut [f64]) {
+    let rows = t.len();
+    t.fill(0.0);
+    let mut columns = z.chunks_exact(COLUMNS * rows);
+    let mut factors = x.chunks_exact(COLUMNS);
+    let (t_simd, t_tail) = S::as_mut_simd_f64s(t);
+    for (z, x) in columns.by_ref().zip(factors.by_ref()) {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| S::as_simd_f64s(&z[k * rows..(k + 1) * rows]));
+        let [xa, xb, xc, xd] = [x[0], x[1], x[2], x[3]].map(|x| simd.splat_f64s(x));
+        for ((((t, a), b), c), d) in t_simd.iter_mut().zip(a.0).zip(b.0).zip(c.0).zip(d.0) {
+            let ab = simd.mul_add_e_f64s(*a, xa, simd.mul_add_e_f64s(*b, xb, *t));
+            *t = simd.mul_add_e_f64s(*c, xc, simd.mul_add_e_f64s(*d, xd, ab));
+        }
+        for ((((t, a), b), c), d) in t_tail.iter_mut().zip(a.1).zip(b.1).zip(c.1).zip(d.1) {
+            *t += a * x[0] + b * x[1] + c * x[2] + d * x[3];
+        }
+    }
+    for (z, &x) in columns.remainder().chunks_exact(rows).zip(factors.remainder()) {
+        let (z_simd, z_tail) = S::as_simd_f64s(z);
+        let x_simd = simd.splat_f64s(x);
+        for (t, z) in t_simd.iter_mut().zip(z_simd) {
+            *t = simd.mul_add_e_f64s(*z, x_simd, *t);
+        }
+        for (t, z) in t_tail.iter_mut().zip(z_tail) {
+            *t += z * x;
+        }
+    }
+}
+
+/// `x` = Zᵀ `t`, with Z stored column by column.
+#[inline(always)]
+fn transposed_product<S: Simd>(simd: S, z: &[f64], t: &[f64], x: &mut [f64]) {
+    let rows = t.len();
+    let (t_simd, t_tail) = S::as_simd_f64s(t);
+    let mut columns = z.chunks_exact(COLUMNS * rows);
+    let mut results = x.chunks_exact_mut(COLUMNS);
+    for (z, x) in columns.by_ref().zip(results.by_ref()) {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| S::as_simd_f64s(&z[k * rows..(k + 1) * rows]));
+        let zero = simd.splat_f64s(0.0);
+        let (mut sa, mut sb, mut sc, mut sd) = (zero, zero, zero, zero);
+        for ((((t, a), b), c), d) in t_simd.iter().zip(a.0).zip(b.0).zip(c.0).zip(d.0) {
+            sa = simd.mul_add_e_f64s(*a, *t, sa);
+            sb = simd.mul_add_e_f64s(*b, *t, sb);
+            sc = simd.mul_add_e_f64s(*c, *t, sc);
+            sd = simd.mul_add_e_f64s(*d, *t, sd);
+        }
+        let tail = |z: &[f64]| -> f64 { z.iter().zip(t_tail).map(|(z, t)| z * t).sum() };
+        x[0] = simd.reduce_sum_f64s(sa) + tail(a.1);
+        x[1] = simd.reduce_sum_f64s(sb) + tail(b.1);
+        x[2] = simd.reduce_sum_f64s(sc) + tail(c.1);
+        x[3] = simd.reduce_sum_f64s(sd) + tail(d.1);
+    }
+    for (z, x) in columns.remainder().chunks_exact(rows).zip(results.into_remainder()) {
+        let (z_simd, z_tail) = S::as_simd_f64s(z);
+        let mut sum = simd.splat_f64s(0.0);
+        for (t, z) in t_simd.iter().zip(z_simd) {
+            sum = simd.mul_add_e_f64s(*z, *t, sum);
+        }
+        *x = simd.reduce_sum_f64s(sum) + z_tail.iter().zip(t_tail).map(|(z, t)| z * t).sum::<f64>();
+    }
+}

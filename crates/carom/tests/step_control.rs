@@ -1,0 +1,51 @@
+//! Steps that fail are halved; those that cannot succeed stop the run and leave the last good state.
+
+mod common;
+
+use carom::{Outcome, Simulation, StepError};
+use common::{body, disc, parse, plane, scenario};
+use serde_json::{Value, json};
+
+/// A disc that hits a floor in steps of 10 ms.
+fn drop_on_floor() -> Value {
+    let disc = body("disc", disc([0.0, 1.05], 1.0, 4), [0.5, -3.0]);
+    let mut case = scenario(0.2, 1e-2, &[disc], &[plane("floor", [0.0, 0.0], [0.0, 1.0])]);
+    case["contact"]["friction"] = json!(0.3);
+    case
+}
+
+#[test]
+fn failed_steps_are_halved_and_the_time_grid_stays() {
+    let mut case = drop_on_floor();
+    case["analysis"]["newton"]["max_iterations"] = json!(5);
+    let mut simulation = Simulation::new(&parse(&case)).expect("valid");
+    assert_eq!(simulation.advance(f64::INFINITY, || false), Ok(Outcome::Reached));
+    let summary = simulation.summary();
+    assert!(summary.retried_steps > 0, "five iterations are too few for the first impact of these steps");
+    assert_eq!((summary.steps, summary.end_time), (20, 0.2));
+    assert!(summary.min_gap > -1e-12);
+    let rows = simulation.take_history();
+    let width = simulation.history_columns().len();
+    for (k, row) in rows.chunks_exact(width).enumerate() {
+        assert!((row[0] - k as f64 * 1e-2).abs() < 1e-15, "row {k} at t = {}", row[0]);
+    }
+}
+
+#[test]
+fn a_run_that_cannot_go_on_says_why_and_keeps_the_last_good_state() {
+    let mut case = drop_on_floor();
+    case["analysis"]["newton"]["max_iterations"] = json!(1);
+    case["analysis"]["max_halvings"] = json!(3);
+    let mut simulation = Simulation::new(&parse(&case)).expect("valid");
+    let error =
+        simulation.advance(f64::INFINITY, || false).expect_err("one iteration cannot solve an impact");
+    assert!(matches!(error.reason, StepError::Newton { iterations: 1, .. }), "{error}");
+    assert_eq!((error.halvings, error.time_step), (3, 1e-2 / 8.0));
+    assert_eq!(error.time, simulation.time());
+    assert!(simulation.state().is_finite());
+    let before = simulation.take_history().len();
+    simulation.finish();
+    assert!(simulation.take_history().len() <= before + simulation.history_columns().len());
+    let energy = simulation.summary().energy;
+    assert!(energy.max_drift < 1e-13 * energy.initial, "free flight up to the impact changes no energy");
+}
