@@ -1,13 +1,13 @@
 """Frictional impact of deformable bodies, every joule accounted for."""
 
 from carom._carom import Simulation, __version__
-from carom.analysis import Dynamic, Newton, Theta
+from carom.analysis import Conserving, Dynamic, Newton, Theta
 from carom.body import Body
 from carom.checking import Check, check
 from carom.contact import Contact, GaussSeidel, Pair, Uzawa
 from carom.errors import CaromError, ConvergenceError, InputError, MeshError
 from carom.io.history import read_history
-from carom.material import Damping, LinearElastic, SaintVenantKirchhoff
+from carom.material import Damping, LinearElastic, NeoHookean, SaintVenantKirchhoff
 from carom.mesh import Disc, Rectangle
 from carom.obstacle import Plane
 from carom.output import Output, Track
@@ -19,6 +19,7 @@ __all__ = [
     "Body",
     "CaromError",
     "Check",
+    "Conserving",
     "Contact",
     "ConvergenceError",
     "Damping",
@@ -28,6 +29,7 @@ __all__ = [
     "InputError",
     "LinearElastic",
     "MeshError",
+    "NeoHookean",
     "Newton",
     "Output",
     "Pair",

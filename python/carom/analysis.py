@@ -29,7 +29,17 @@ class Theta(Description):
     xi: Annotated[Number, Field(ge=0, le=1)] = 0.5
 
 
-Scheme = Theta
+class Conserving(Description):
+    """The energy–momentum scheme: the stress of a step does exactly the change of stored energy.
+
+    θ = ξ = ½ with that stress. What normal reactions and friction do is left of the energy's
+    change: with the contact condition ``"midpoint"``, friction alone.
+    """
+
+    kind: Literal["conserving"] = "conserving"
+
+
+Scheme = Annotated[Theta | Conserving, Field(discriminator="kind")]
 
 
 class Newton(Description):

@@ -67,4 +67,22 @@ class LinearElastic(_Elastic):
     kind: Literal["linear-elastic"] = "linear-elastic"
 
 
-Material = Annotated[SaintVenantKirchhoff | LinearElastic, Field(discriminator="kind")]
+class NeoHookean(_Elastic):
+    """Compressible neo-Hookean law for large strains, ψ = ½μ(I₁ − 3) − μ ln J + ½λ(ln J)².
+
+    Parameters
+    ----------
+    young
+        Young's modulus of small strains [Pa].
+    poisson
+        Poisson's ratio of small strains, in (−1, 0.5).
+    density
+        Mass per reference volume [kg/m³].
+    damping
+        Rayleigh damping, none by default.
+    """
+
+    kind: Literal["neo-hookean"] = "neo-hookean"
+
+
+Material = Annotated[SaintVenantKirchhoff | LinearElastic | NeoHookean, Field(discriminator="kind")]

@@ -120,13 +120,14 @@ def _read(details: ErrorDetails, data: Mapping[str, Any]) -> tuple[str, object, 
 def _without_tags(location: Sequence[int | str], data: object) -> list[str]:
     """Return pydantic's location without the union tags it inserts.
 
-    A tag stands where a table of that kind was entered: it is the table's ``kind``, not one of
-    its keys.
+    A tag stands where a table of that kind was entered, before any of its keys.
     """
     path: list[str] = []
+    entered: object = None
     for part in location:
         if isinstance(data, Mapping):
-            if part not in data and data.get("kind") == part:
+            if data is not entered and data.get("kind") == part:
+                entered = data
                 continue
             data = data.get(part)
         elif isinstance(data, Sequence) and isinstance(part, int):

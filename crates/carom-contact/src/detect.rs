@@ -2,7 +2,7 @@ use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
 use crate::frame::frame;
-use crate::project::project;
+use crate::project::{Reach, project};
 use crate::{Contact, ContactModel, Target};
 
 /// A source node that may touch its target within a step. Ordered by pair, then node: this is the order of the contacts.
@@ -94,7 +94,7 @@ impl<const D: usize> ContactModel<D> {
                 if !facet_box.overlaps(&node_box) {
                     continue;
                 }
-                let p = project(&x, &target.facets[*f as usize], &middle);
+                let p = project(&x, &target.facets[*f as usize], Reach::Facet, &middle);
                 if p.normal.dot(&outward) >= 0.0 {
                     continue;
                 }
@@ -125,7 +125,7 @@ impl<const D: usize> ContactModel<D> {
         match (self.pairs[candidate.pair as usize].target, candidate.facet) {
             (Target::Surface(t), Some(f)) => {
                 let facet = &self.surfaces[t].facets[f as usize];
-                let p = project(&x, facet, position);
+                let p = project(&x, facet, Reach::Beyond, position);
                 let gap = p.normal.dot(&(x - p.point));
                 Contact::new(gap, frame(&p.normal), candidate.node, &facet.nodes, &p.weights)
             }

@@ -1,7 +1,7 @@
 use carom_mesh::{Facet, Vector};
 
 use crate::aabb::Aabb;
-use crate::project::project;
+use crate::project::{Reach, project};
 use crate::{ContactModel, ContactSurface, Pair, Target};
 
 /// The place where the two sides of a pair are closest.
@@ -88,7 +88,7 @@ fn signed_distance<const D: usize>(
         if facet_box.distance(x) > distance + tie {
             continue;
         }
-        let p = project(x, facet, position);
+        let p = project(x, facet, Reach::Facet, position);
         let d = (x - p.point).norm();
         let front = p.normal.dot(&(x - p.point));
         if d < distance - tie {

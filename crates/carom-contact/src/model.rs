@@ -1,6 +1,7 @@
 use carom_mesh::{Facet, Surface, Vector};
 
 use crate::Obstacle;
+use crate::project::{Reach, project};
 
 /// The boundary of a body, its nodes numbered over all bodies.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,7 +80,7 @@ impl<const D: usize> ContactModel<D> {
         surface.facets_around[k].iter().fold(Vector::zeros(), |sum, &f| {
             let facet = &surface.facets[f as usize];
             let size = (position(facet.nodes[1]) - position(facet.nodes[0])).norm();
-            sum + crate::project::project(&x, facet, position).normal * size
+            sum + project(&x, facet, Reach::Facet, position).normal * size
         })
     }
 }

@@ -14,10 +14,21 @@ pub struct Projection<const D: usize> {
 /// Newton steps on a curved (quad4) facet; straight ones need one.
 const MAX_STEPS: usize = 20;
 
-/// Projects `x` on `facet`, whose nodes are at `position`, and keeps to the facet.
+/// How far beyond its edges a facet reaches when a point is projected on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reach {
+    /// Not at all: the closest point of the facet itself.
+    Facet,
+    /// Half its width on every side. A node that slides past the edge of its facet within a step is so still at right angles to
+    /// the point it presses on, and the pair of forces has no moment.
+    Beyond,
+}
+
+/// Projects `x` on `facet`, whose nodes are at `position`.
 pub fn project<const D: usize>(
     x: &Vector<D>,
     facet: &Facet,
+    reach: Reach,
     position: &impl Fn(u32) -> Vector<D>,
 ) -> Projection<D> {
     let reference = facet.kind.reference();
@@ -37,7 +48,7 @@ pub fn project<const D: usize>(
         }
         (reference.shape)(&xi, &mut weights[..n]);
         let point = (0..n).fold(Vector::zeros(), |s, a| s + nodes[a] * weights[a]);
-        let next = clamp(facet.kind, step(&xi, &(x - point), &tangents, D));
+        let next = clamp(facet.kind, reach, step(&xi, &(x - point), &tangents, D));
         let change = (0..2).map(|k| (next[k] - xi[k]).abs()).fold(0.0, f64::max);
         xi = next;
         if change < 1e-14 {
@@ -64,16 +75,19 @@ fn step<const D: usize>(xi: &[f64; 3], d: &Vector<D>, t: &[Vector<D>; 2], dimens
     next
 }
 
-/// The closest point of the reference facet, component by component.
-fn clamp(kind: CellKind, xi: [f64; 3]) -> [f64; 3] {
+/// The closest point of the reference facet, or of what it reaches, component by component.
+fn clamp(kind: CellKind, reach: Reach, xi: [f64; 3]) -> [f64; 3] {
+    let beyond = if reach == Reach::Beyond { 0.5 } else { 0.0 };
     if kind != CellKind::Tri3 {
-        return xi.map(|x| x.clamp(-1.0, 1.0));
+        let end = 1.0 + 2.0 * beyond;
+        return xi.map(|x| x.clamp(-end, end));
     }
-    let mut xi = xi.map(|x| x.max(0.0));
-    let excess = xi[0] + xi[1] - 1.0;
+    let mut xi = xi.map(|x| x.max(-beyond));
+    let sum = 1.0 + beyond;
+    let excess = xi[0] + xi[1] - sum;
     if excess > 0.0 {
-        xi[0] = (xi[0] - 0.5 * excess).clamp(0.0, 1.0);
-        xi[1] = 1.0 - xi[0];
+        xi[0] = (xi[0] - 0.5 * excess).clamp(-beyond, sum + beyond);
+        xi[1] = sum - xi[0];
     }
     xi
 }
@@ -101,12 +115,16 @@ mod tests {
     fn projection_on_a_segment_is_at_right_angles_or_at_its_end() {
         let nodes = [Vector::<2>::new(0.0, 0.0), Vector::<2>::new(2.0, 0.0)];
         let facet = Facet { kind: CellKind::Line2, nodes: vec![0, 1] };
-        let at = |x: f64, y: f64| project(&Vector::<2>::new(x, y), &facet, &|n| nodes[n as usize]);
+        let at =
+            |x: f64, y: f64| project(&Vector::<2>::new(x, y), &facet, Reach::Facet, &|n| nodes[n as usize]);
         let p = at(0.5, -0.3);
         assert!((p.point - Vector::<2>::new(0.5, 0.0)).norm() < 1e-15);
         assert!((p.normal - Vector::<2>::new(0.0, -1.0)).norm() < 1e-15);
         assert!((p.weights[0] - 0.75).abs() < 1e-15 && (p.weights[1] - 0.25).abs() < 1e-15);
         assert!((at(3.0, 1.0).point - nodes[1]).norm() < 1e-15);
+        let x = Vector::<2>::new(2.4, 1.0);
+        let beyond = project(&x, &facet, Reach::Beyond, &|n| nodes[n as usize]);
+        assert!((beyond.point - Vector::<2>::new(2.4, 0.0)).norm() < 1e-15);
     }
 
     #[test]
@@ -115,7 +133,7 @@ mod tests {
             [[0.0, 0.0, 0.0], [1.0, 0.0, 0.1], [1.1, 1.0, -0.1], [0.0, 0.9, 0.05]].map(Vector::<3>::from);
         let facet = Facet { kind: CellKind::Quad4, nodes: vec![0, 1, 2, 3] };
         let x = Vector::<3>::new(0.4, 0.6, 0.5);
-        let p = project(&x, &facet, &|n| nodes[n as usize]);
+        let p = project(&x, &facet, Reach::Facet, &|n| nodes[n as usize]);
         let d = (x - p.point).normalize();
         assert!((d.dot(&p.normal) - 1.0).abs() < 1e-12, "{}", d.dot(&p.normal));
     }
@@ -124,7 +142,8 @@ mod tests {
     fn projection_on_a_triangle_stays_inside() {
         let nodes = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Vector::<3>::from);
         let facet = Facet { kind: CellKind::Tri3, nodes: vec![0, 1, 2] };
-        let at = |x: [f64; 3]| project(&Vector::<3>::from(x), &facet, &|n| nodes[n as usize]).point;
+        let at =
+            |x: [f64; 3]| project(&Vector::<3>::from(x), &facet, Reach::Facet, &|n| nodes[n as usize]).point;
         assert!((at([0.2, 0.3, 0.4]) - Vector::<3>::new(0.2, 0.3, 0.0)).norm() < 1e-15);
         assert!((at([1.0, 1.0, 0.4]) - Vector::<3>::new(0.5, 0.5, 0.0)).norm() < 1e-15);
         assert!((at([-1.0, 0.5, 0.4]) - Vector::<3>::new(0.0, 0.5, 0.0)).norm() < 1e-15);

@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::FemError;
 use crate::elements::{CellState, Elements, add_mass, elements};
-use crate::material::{Confined, LawSpec, LinearElastic, Material, PointLaw, SaintVenantKirchhoff};
+use crate::material::{
+    Confined, LawSpec, LinearElastic, Material, NeoHookean, PointLaw, SaintVenantKirchhoff,
+};
 use crate::sparse::{NodalMatrix, NodeGraph};
 
 /// How the mass of a body is shared among its nodes.
@@ -79,6 +81,7 @@ impl<const D: usize> Body<D> {
         match &spec.law {
             LawSpec::SaintVenantKirchhoff(c) => Self::of_law(mesh, spec, SaintVenantKirchhoff::new(c)?),
             LawSpec::LinearElastic(c) => Self::of_law(mesh, spec, LinearElastic::new(c)?),
+            LawSpec::NeoHookean(c) => Self::of_law(mesh, spec, NeoHookean::new(c)?),
         }
     }
 
@@ -215,6 +218,12 @@ impl<const D: usize> Body<D> {
     pub fn internal_force(&self, u: &[Vector<D>], f: &mut [Vector<D>]) {
         f.fill(Vector::zeros());
         self.elements.iter().for_each(|e| e.add_internal_force(u, f));
+    }
+
+    /// Writes the force [N] of a step from `u0` to `u1` whose work is the change of the strain energy to `f`.
+    pub fn conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]) {
+        f.fill(Vector::zeros());
+        self.elements.iter().for_each(|e| e.add_conserving_force(u0, u1, f));
     }
 
     /// The stiffness ∂²E/∂u² [N/m] at `u`.

@@ -25,6 +25,8 @@ pub trait Elements<const D: usize>: Send + Sync + Debug {
     fn energy(&self, u: &[Vector<D>]) -> f64;
     /// Adds the internal force ∂E/∂u = ∫ P·∇N dV [N] to `f`.
     fn add_internal_force(&self, u: &[Vector<D>], f: &mut [Vector<D>]);
+    /// Adds the force [N] of a step from `u0` to `u1` whose work is the change of the stored energy, f·(u₁ − u₀) = ΔE, to `f`.
+    fn add_conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]);
     /// Adds the stiffness ∂²E/∂u² [N/m] to `k`.
     fn add_stiffness(&self, u: &[Vector<D>], k: &mut NodalMatrix<Matrix<D>>);
     /// Appends the mean state of every cell.
@@ -123,6 +125,24 @@ impl<const D: usize, const N: usize, L: PointLaw<D> + Clone> Elements<D> for Blo
             let mut local = [Vector::<D>::zeros(); N];
             for (gradients, weight) in self.points(cell) {
                 let stress = self.law.stress(&Self::deformation_gradient(&u, gradients)) * weight;
+                for a in 0..N {
+                    local[a] += stress * gradients[a];
+                }
+            }
+            for a in 0..N {
+                f[nodes[a] as usize] += local[a];
+            }
+        }
+    }
+
+    fn add_conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]) {
+        for (cell, nodes) in self.cells.iter().enumerate() {
+            let (u0, u1) = (Self::gather(u0, nodes), Self::gather(u1, nodes));
+            let mut local = [Vector::<D>::zeros(); N];
+            for (gradients, weight) in self.points(cell) {
+                let f0 = Self::deformation_gradient(&u0, gradients);
+                let f1 = Self::deformation_gradient(&u1, gradients);
+                let stress = self.law.discrete_stress(&f0, &f1) * weight;
                 for a in 0..N {
                     local[a] += stress * gradients[a];
                 }

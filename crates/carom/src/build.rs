@@ -82,6 +82,7 @@ fn method(scenario: &Scenario) -> Result<Method<2>, InputError> {
             number(key, theta, theta > 0.0 && theta <= 1.0, "theta must be greater than 0 and at most 1")?;
             number("analysis.scheme.xi", xi, (0.0..=1.0).contains(&xi), "xi must be between 0 and 1")?;
         }
+        Scheme::Conserving => {}
     }
     let newton = analysis.newton;
     let key = "analysis.newton.tolerance";

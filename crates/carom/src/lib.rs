@@ -41,7 +41,7 @@ pub use events::ContactEvent;
 pub use ledger::{Energies, Ledger};
 pub use model::{Group, Method, Model, ModelBody, NewtonRule};
 pub use scenario::Scenario;
-pub use scheme::{Scheme, StepMap};
+pub use scheme::{Scheme, StepMap, StressRule};
 pub use simulation::{Fields, Outcome, Progress, Simulation, Summary};
 pub use state::State;
 pub use step::step;

@@ -4,9 +4,9 @@ use carom_fem::Body;
 use carom_fem::sparse::{Factor, NodalMatrix};
 use carom_mesh::{Matrix, Vector};
 
-use crate::StepMap;
 use crate::error::StepError;
 use crate::state::State;
+use crate::{StepMap, StressRule};
 
 /// The factor of K̄ = ξ K + ξ/(θΔt) C + M/(θΔt²) (3) of one body.
 ///
@@ -110,6 +110,8 @@ pub(crate) struct BodyStep<'a, const D: usize> {
     pub frame: &'a Matrix<D>,
     /// v at the start.
     pub velocity: &'a [Vector<D>],
+    /// u at the start.
+    pub start: &'a [Vector<D>],
     /// ∂E/∂u at the start.
     pub internal_force: &'a [Vector<D>],
     /// d = u₊ − u.
@@ -135,20 +137,28 @@ impl<const D: usize> ResidualScratch<D> {
 
 impl<const D: usize> BodyStep<'_, D> {
     /// Writes the residual F̄ + F̄_acc (3) without reactions [N] to `out`:
-    /// M(g − (v₊ − v)/Δt − α v̄) − (1 − ξ)f − ξf₊ − β K₀ v̄, with v̄ = (1 − ξ)v + ξv₊.
+    /// M(g − (v₊ − v)/Δt − α v̄) − f̄ − β K₀ v̄, with v̄ = (1 − ξ)v + ξv₊ and f̄ by the scheme's [`StressRule`].
     pub fn residual(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
         let map = self.map;
         let damping = self.body.damping();
         let ResidualScratch { a, b, c } = scratch;
-        self.body.internal_force(self.displacement, a);
         for ((b, d), v) in b.iter_mut().zip(self.motion).zip(self.velocity) {
             let new = v * map.velocity_of_velocity + d * map.velocity_of_motion;
             let mean = v * (1.0 - map.xi) + new * map.xi;
             *b = self.gravity - (new - v) / map.dt - mean * damping.mass;
         }
         self.body.mass().multiply(b, out);
-        for ((out, f0), f1) in out.iter_mut().zip(self.internal_force).zip(a.iter()) {
-            *out -= f0 * (1.0 - map.xi) + f1 * map.xi;
+        match map.stress {
+            StressRule::Weighted => {
+                self.body.internal_force(self.displacement, a);
+                for ((out, f0), f1) in out.iter_mut().zip(self.internal_force).zip(a.iter()) {
+                    *out -= f0 * (1.0 - map.xi) + f1 * map.xi;
+                }
+            }
+            StressRule::Conserving => {
+                self.body.conserving_force(self.start, self.displacement, a);
+                out.iter_mut().zip(a.iter()).for_each(|(out, f)| *out -= f);
+            }
         }
         if let Some(k0) = self.body.damping_stiffness() {
             for ((b, d), v) in b.iter_mut().zip(self.motion).zip(self.velocity) {

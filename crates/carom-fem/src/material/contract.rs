@@ -2,13 +2,14 @@
 
 use proptest::prelude::*;
 
-use super::{ElasticConstants, LinearElastic, Mat3, Material, SaintVenantKirchhoff};
+use super::{ElasticConstants, LinearElastic, Mat3, Material, NeoHookean, SaintVenantKirchhoff};
 
 fn laws() -> Vec<Box<dyn Material>> {
     let constants = ElasticConstants { young: 2700.0, poisson: 0.33 };
     vec![
         Box::new(SaintVenantKirchhoff::new(&constants).expect("valid")),
         Box::new(LinearElastic::new(&constants).expect("valid")),
+        Box::new(NeoHookean::new(&constants).expect("valid")),
     ]
 }
 
@@ -16,7 +17,7 @@ fn laws() -> Vec<Box<dyn Material>> {
 const SCALE: f64 = 2700.0;
 
 fn deformation() -> impl Strategy<Value = Mat3> {
-    proptest::array::uniform9(-0.3..0.3).prop_map(|e| Mat3::identity() + Mat3::from_row_slice(&e))
+    proptest::array::uniform9(-0.2..0.2).prop_map(|e| Mat3::identity() + Mat3::from_row_slice(&e))
 }
 
 fn rotation(axis_angle: [f64; 3]) -> Mat3 {
@@ -59,6 +60,27 @@ proptest! {
                         }
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn discrete_stress_does_the_work_of_the_step_and_keeps_its_moment(
+        f0 in deformation(),
+        step in proptest::array::uniform9(-1.0..1.0),
+        size in prop_oneof![Just(1e-1), Just(1e-3), Just(1e-5), Just(1e-7), Just(0.0)],
+    ) {
+        let change = Mat3::from_row_slice(&step) * size;
+        let f1 = f0 + change;
+        for law in laws() {
+            let stress = law.discrete_stress(&f0, &f1);
+            let work = law.energy(&f1) - law.energy(&f0);
+            prop_assert!((stress.dot(&change) - work).abs() < 1e-12 * SCALE, "{law:?}");
+            let middle = (f0 + f1) * 0.5;
+            prop_assert!((stress - law.stress(&middle)).norm() < SCALE * (1e-9 + 10.0 * size * size), "{law:?}");
+            if law.is_objective() {
+                let moment = stress * middle.transpose();
+                prop_assert!((moment - moment.transpose()).norm() < 1e-11 * SCALE, "{law:?}");
             }
         }
     }

@@ -5,6 +5,7 @@
 mod contract;
 mod elastic_constants;
 mod linear_elastic;
+mod neo_hookean;
 mod point_law;
 mod saint_venant_kirchhoff;
 
@@ -15,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 pub use elastic_constants::ElasticConstants;
 pub use linear_elastic::LinearElastic;
+pub use neo_hookean::NeoHookean;
 pub use point_law::{Confined, PointLaw};
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 
@@ -22,6 +24,9 @@ pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 pub type Mat3 = Matrix3<f64>;
 /// The tangent A[i][J][k][L] = ∂P_iJ/∂F_kL [Pa] in D dimensions.
 pub type Tangent<const D: usize> = [[[[f64; D]; D]; D]; D];
+
+/// Below this change of strain the discrete gradient's correction, of its third order, is smaller than round-off.
+const SMALL_STRAIN: f64 = 1e-6;
 
 /// A hyperelastic law, as a function of the deformation gradient F in 3D.
 pub trait Material: Send + Sync + Debug {
@@ -33,6 +38,28 @@ pub trait Material: Send + Sync + Debug {
 
     /// Stress P and tangent ∂P/∂F [Pa].
     fn stress_and_tangent(&self, f: &Mat3) -> (Mat3, Tangent<3>);
+
+    /// The stress P̄ [Pa] of a step from F₀ to F₁ whose work is the change of energy: P̄:(F₁ − F₀) = ψ(F₁) − ψ(F₀).
+    ///
+    /// P̄ = ½(F₀ + F₁) S̄ with a symmetric S̄, so that angular momentum is kept, by the discrete gradient of Gonzalez (2000) in the
+    /// Green–Lagrange strain E: S̄ = S(Ē) + [Δψ − S(Ē):ΔE] ΔE/|ΔE|², where Ē is the mean strain. Any objective law needs no more
+    /// than this.
+    fn discrete_stress(&self, f0: &Mat3, f1: &Mat3) -> Mat3 {
+        let (c0, c1) = (f0.transpose() * f0, f1.transpose() * f1);
+        // S(C̄) = U⁻¹ P(U) with the stretch U = √C̄.
+        let mut mean = ((c0 + c1) * 0.5).symmetric_eigen();
+        mean.eigenvalues.apply(|x| *x = x.sqrt());
+        let stretch = mean.recompose();
+        let stress = carom_mesh::tensor::inverse(&stretch).0 * self.stress(&stretch);
+        let mut stress = (stress + stress.transpose()) * 0.5;
+        let change = (c1 - c0) * 0.5;
+        let size = change.norm_squared();
+        if size > SMALL_STRAIN * SMALL_STRAIN {
+            let missing = self.energy(f1) - self.energy(f0) - stress.dot(&change);
+            stress += change * (missing / size);
+        }
+        (f0 + f1) * 0.5 * stress
+    }
 
     /// Whether ψ(QF) = ψ(F) for every rotation Q. Only a law of small displacements is not.
     fn is_objective(&self) -> bool {
@@ -48,4 +75,6 @@ pub enum LawSpec {
     SaintVenantKirchhoff(ElasticConstants),
     /// Linear elasticity: small displacement.
     LinearElastic(ElasticConstants),
+    /// Compressible neo-Hookean: large strain.
+    NeoHookean(ElasticConstants),
 }

@@ -10,6 +10,8 @@ pub trait PointLaw<const D: usize>: Send + Sync + Debug {
     fn energy(&self, f: &Matrix<D>) -> f64;
     /// First Piola–Kirchhoff stress [Pa].
     fn stress(&self, f: &Matrix<D>) -> Matrix<D>;
+    /// The stress [Pa] whose work over a step is the change of energy, see [`Material::discrete_stress`].
+    fn discrete_stress(&self, f0: &Matrix<D>, f1: &Matrix<D>) -> Matrix<D>;
     /// Stress and tangent [Pa].
     fn stress_and_tangent(&self, f: &Matrix<D>) -> (Matrix<D>, Tangent<D>);
     /// Cauchy stress in 3D [Pa].
@@ -45,6 +47,11 @@ impl<const D: usize, M: Material> PointLaw<D> for Confined<M> {
     #[inline]
     fn stress(&self, f: &Matrix<D>) -> Matrix<D> {
         restrict(&self.0.stress(&embed(f)))
+    }
+
+    #[inline]
+    fn discrete_stress(&self, f0: &Matrix<D>, f1: &Matrix<D>) -> Matrix<D> {
+        restrict(&self.0.discrete_stress(&embed(f0), &embed(f1)))
     }
 
     #[inline]

@@ -1,6 +1,7 @@
 //! What a time scheme says about a step: how the new velocity follows from the displacement, and how forces are weighted.
 //! The solver never learns the name of the scheme.
 
+mod conserving;
 mod theta;
 
 use serde::{Deserialize, Serialize};
@@ -16,6 +17,8 @@ pub enum Scheme {
         /// ξ in [0, 1]: weight of the new forces in the balance.
         xi: f64,
     },
+    /// The energy–momentum scheme.
+    Conserving,
 }
 
 impl Scheme {
@@ -24,8 +27,18 @@ impl Scheme {
     pub fn step_map(&self, dt: f64) -> StepMap {
         match *self {
             Scheme::Theta { theta, xi } => theta::step_map(theta, xi, dt),
+            Scheme::Conserving => conserving::step_map(dt),
         }
     }
+}
+
+/// Which internal force a step is balanced with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StressRule {
+    /// (1 − ξ) f(u) + ξ f(u₊).
+    Weighted,
+    /// The force whose work over the step is the change of the strain energy.
+    Conserving,
 }
 
 /// The affine relations of one step, with d = u₊ − u the unknown.
@@ -39,6 +52,8 @@ pub struct StepMap {
     pub velocity_of_motion: f64,
     /// Forces count (1 − ξ) at the start and ξ at the end of the step.
     pub xi: f64,
+    /// The internal force.
+    pub stress: StressRule,
     /// (v₊ − v)/Δt·d and the change of kinetic energy differ by this times |v₊ − v|²_M.
     pub kinetic_dissipation: f64,
     /// The work of the weighted internal force and its trapezoidal mean differ by this times d·(f₊ − f).

@@ -1,4 +1,4 @@
-use super::StepMap;
+use super::{StepMap, StressRule};
 
 /// The paper's scheme: d = Δt[(1 − θ)v + θ v₊], hence v₊ = (1 − 1/θ)v + d/(θΔt) (4), forces weighted by 1 − ξ and ξ (3).
 ///
@@ -10,6 +10,7 @@ pub(super) fn step_map(theta: f64, xi: f64, dt: f64) -> StepMap {
         velocity_of_velocity: 1.0 - 1.0 / theta,
         velocity_of_motion: 1.0 / (theta * dt),
         xi,
+        stress: StressRule::Weighted,
         kinetic_dissipation: theta - 0.5,
         strain_dissipation: xi - 0.5,
     }

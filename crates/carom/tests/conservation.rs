@@ -1,0 +1,74 @@
+//! The scheme `conserving` with the condition `midpoint`: energy and momenta of an impact to round-off, whatever the law.
+
+mod common;
+
+use carom::Simulation;
+use carom_mesh::Vector;
+use common::{body, disc, parse, scenario};
+use serde_json::json;
+
+/// Two discs, one spinning, that meet off centre in free space.
+fn impact(law: &str, friction: f64) -> Simulation<2> {
+    let discs = [
+        body("left", disc([0.0, 0.0], 1.0, 4), [1.5, 0.3]),
+        body("right", disc([2.05, 0.4], 1.0, 4), [-0.5, 0.0]),
+    ];
+    let mut case = scenario(0.3, 1e-3, &discs, &[]);
+    case["bodies"][0]["spin"] = json!(4.0);
+    case["materials"]["elastic"]["kind"] = json!(law);
+    case["analysis"]["scheme"] = json!({"kind": "conserving"});
+    case["analysis"]["newton"]["tolerance"] = json!(1e-11);
+    case["contact"]["condition"] = json!("midpoint");
+    case["contact"]["friction"] = json!(friction);
+    Simulation::new(&parse(&case)).expect("valid")
+}
+
+/// Linear and angular momentum about the origin.
+fn momenta(simulation: &Simulation<2>) -> (Vector<2>, f64) {
+    let (mut linear, mut angular) = (Vector::zeros(), 0.0);
+    for b in &simulation.model().bodies {
+        let (u, v) = (&simulation.state().displacement[b.nodes()], &simulation.state().velocity[b.nodes()]);
+        let mut mv = vec![Vector::zeros(); v.len()];
+        b.body.mass().multiply(v, &mut mv);
+        linear += mv.iter().sum::<Vector<2>>();
+        angular += b.body.angular_momentum(u, &mv)[2];
+    }
+    (linear, angular)
+}
+
+#[test]
+fn frictionless_impact_conserves_energy_and_both_momenta() {
+    for law in ["saint-venant-kirchhoff", "neo-hookean"] {
+        let mut simulation = impact(law, 0.0);
+        let (linear, angular) = momenta(&simulation);
+        simulation.advance(f64::INFINITY, || false).expect("runs");
+        let summary = simulation.summary();
+        assert_eq!(summary.contacts.len(), 1, "{law}: the discs meet");
+        assert!(summary.contacts[0].peak_force > 10.0, "{law}: {:?}", summary.contacts);
+        let energy = summary.energy;
+        assert!(
+            energy.max_drift < 1e-10 * energy.initial,
+            "{law}: drift {:e} of {}",
+            energy.max_drift,
+            energy.initial
+        );
+        let (linear_after, angular_after) = momenta(&simulation);
+        assert!((linear_after - linear).norm() < 1e-11 * linear.norm(), "{law}: {linear_after}");
+        assert!(
+            (angular_after - angular).abs() < 1e-10 * angular.abs(),
+            "{law}: {angular} became {angular_after}"
+        );
+    }
+}
+
+#[test]
+fn with_friction_all_that_is_lost_is_booked_as_friction() {
+    for law in ["saint-venant-kirchhoff", "neo-hookean"] {
+        let mut simulation = impact(law, 0.3);
+        simulation.advance(f64::INFINITY, || false).expect("runs");
+        let energy = simulation.summary().energy;
+        assert!(energy.friction > 0.01 * energy.initial, "{law}: {energy:?}");
+        assert!(energy.max_defect < 1e-10 * energy.initial, "{law}: defect {:e}", energy.max_defect);
+        assert!((energy.initial - energy.last - energy.friction).abs() < 1e-10 * energy.initial);
+    }
+}
