@@ -7,11 +7,14 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from typing_extensions import Self
 
-from carom.description import Count, Description, NonNegative, Positive
+from carom.description import Count, Description, Number, Positive
 from carom.messages import problem
 
-Sources = Literal["first", "second", "both"]
+Sources = Literal["finer", "first", "second", "both"]
 """Whose nodes are checked against the facets of the other body of a pair."""
+
+Friction = Annotated[Number, Field(ge=0, le=1000)]
+"""Coulomb's coefficient."""
 
 
 class _FrictionSolver(Description):
@@ -66,7 +69,7 @@ class Pair(Description):
     """
 
     between: tuple[str, ...]
-    friction: NonNegative | None = None
+    friction: Friction | None = None
     sources: Sources | None = None
     enabled: Annotated[bool, Field(strict=True)] = True
 
@@ -90,13 +93,14 @@ class Contact(Description):
     solver
         Solver of the reduced contact problem.
     sources
-        Whose nodes are checked in a pair of bodies that does not state its own.
+        Whose nodes are checked in a pair of bodies that does not state its own: those of the body
+        with the finer boundary (of the first-named one if they are alike), or of one side or both.
     pairs
         What single pairs do differently.
     """
 
     condition: Literal["gap", "midpoint", "endpoint"] = "gap"
-    friction: NonNegative = 0.0
+    friction: Friction = 0.0
     solver: FrictionSolver = GaussSeidel()
-    sources: Sources = "first"
+    sources: Sources = "finer"
     pairs: tuple[Pair, ...] = ()

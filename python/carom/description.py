@@ -21,8 +21,10 @@ DIMENSION = 2
 
 
 def _plain_name(name: str) -> str:
-    if not name or any(character in "./\\" or character.isspace() for character in name):
-        raise ValueError("a name has at least one character and no '.', '/', '\\' or space")
+    if not name or any(c in "./\\" or c.isspace() or not c.isprintable() for c in name):
+        raise ValueError(
+            "a name has at least one printable character and no '.', '/', '\\' or space"
+        )
     return name
 
 
@@ -44,8 +46,8 @@ Positive = Annotated[float, Field(strict=True, gt=0)]
 NonNegative = Annotated[float, Field(strict=True, ge=0)]
 """A number of zero or more."""
 
-Count = Annotated[int, Field(strict=True, ge=1)]
-"""An integer of one or more."""
+Count = Annotated[int, Field(strict=True, ge=1, le=1_000_000_000)]
+"""An integer of one or more, and at most 10⁹."""
 
 Vector = Annotated[tuple[Number, ...], PER_DIMENSION]
 """One number per space dimension, shape [2]."""

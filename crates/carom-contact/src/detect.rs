@@ -14,10 +14,18 @@ pub struct Candidate {
     pub node: u32,
     /// The facet of a target surface that the node faces; `None` for an obstacle.
     pub facet: Option<u32>,
+    /// Whether the node faces one that faces it and is a candidate itself: the same contact once more, to be left out.
+    pub mirrored: bool,
 }
 
 /// How deep inside a target surface a node is still found, in diameters of the facet it faces.
 const DEPTH: f64 = 0.5;
+
+/// A node this close to lying on a facet, relative to its size, is not beside it.
+const ALIGNED: f64 = 1e-9;
+
+/// A node is checked once where it faces another that faces it, to this fraction of the facet.
+const MIRRORED: f64 = 0.02;
 
 impl<const D: usize> ContactModel<D> {
     /// Finds the nodes that come within `margin` [m] of their target or are inside it, and the facets they face.
@@ -46,11 +54,36 @@ impl<const D: usize> ContactModel<D> {
                         pair: pair_index,
                         node,
                         facet: None,
+                        mirrored: false,
                     }));
                 }
                 Target::Surface(t) => self.detect_facets(pair_index, t, start, end, margin, out),
             }
         }
+        self.mark_mirrored(&|n| (start(n) + end(n)) * 0.5, out);
+    }
+
+    /// Where both sides of a pair are sources and two nodes face one another, marks the candidate of the second side: it says
+    /// what the first says, and the two together leave the reactions undetermined and make the solvers slow.
+    fn mark_mirrored(&self, position: &impl Fn(u32) -> Vector<D>, candidates: &mut [Candidate]) {
+        for k in 0..candidates.len() {
+            let c = candidates[k];
+            let group = self.pairs[c.pair as usize].group;
+            let first_side = self.pairs[..c.pair as usize].iter().position(|p| p.group == group);
+            let Some(first) = first_side else { continue };
+            let Some(faced) = self.faced_node(&c, position) else { continue };
+            candidates[k].mirrored = candidates
+                .binary_search_by_key(&(first as u32, faced), |o| (o.pair, o.node))
+                .is_ok_and(|other| self.faced_node(&candidates[other], position) == Some(c.node));
+        }
+    }
+
+    /// The node of its facet that a candidate stands over, if it is over one.
+    fn faced_node(&self, candidate: &Candidate, position: &impl Fn(u32) -> Vector<D>) -> Option<u32> {
+        let Target::Surface(t) = self.pairs[candidate.pair as usize].target else { return None };
+        let facet = &self.surfaces[t].facets[candidate.facet? as usize];
+        let p = project(&position(candidate.node), facet, Reach::Facet, position);
+        facet.nodes.iter().zip(&p.weights).find(|&(_, &weight)| weight >= 1.0 - MIRRORED).map(|(&n, _)| n)
     }
 
     fn detect_facets(
@@ -99,9 +132,10 @@ impl<const D: usize> ContactModel<D> {
                     continue;
                 }
                 let (distance, gap) = ((x - p.point).norm(), p.normal.dot(&(x - p.point)));
-                // Near the facet, or behind it and not beside it.
+                // In front of the facet or behind it, not beside it: in front of a convex corner a node may stand as far
+                // beside either facet as before it, but one behind and beside a facet is next to the body.
                 let beside = (distance * distance - gap * gap).max(0.0).sqrt();
-                if distance > margin && (gap > 0.0 || beside > margin) {
+                if gap > margin || beside > gap.max(0.0) + ALIGNED * facet_box.diameter() {
                     continue;
                 }
                 // Facets that share the closest point: the one the node is farthest in front of.
@@ -113,7 +147,7 @@ impl<const D: usize> ContactModel<D> {
                 }
             }
             if let Some((_, _, facet)) = best {
-                out.push(Candidate { pair, node, facet: Some(facet) });
+                out.push(Candidate { pair, node, facet: Some(facet), mirrored: false });
             }
         }
     }

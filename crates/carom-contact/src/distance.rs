@@ -1,4 +1,4 @@
-use carom_mesh::{Facet, Vector};
+use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
 use crate::project::{Reach, project};
@@ -9,43 +9,35 @@ use crate::{ContactModel, ContactSurface, Pair, Target};
 pub struct Proximity<const D: usize> {
     /// Signed distance [m]; negative = overlap.
     pub gap: f64,
-    /// The point of the source [m].
+    /// The point [m].
     pub at: Vector<D>,
 }
 
-/// Which points of a source surface are looked at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Samples {
-    /// The nodes: those that contact itself is about.
-    Nodes,
-    /// The centres of the facets too: they see an overlap whose nodes all lie on sides of the target, such as that of two
-    /// bars of equal height.
-    NodesAndFacets,
-}
-
 impl<const D: usize> ContactModel<D> {
-    /// Where the source of `pair` is closest to, or deepest inside, the target.
+    /// Where the source nodes of `pair` are closest to, or deepest inside, the target.
+    #[must_use]
+    pub fn proximity(&self, pair: &Pair, position: &impl Fn(u32) -> Vector<D>) -> Option<Proximity<D>> {
+        let nodes = self.surfaces[pair.source].nodes.iter().map(|&n| position(n));
+        self.closest(nodes, pair.target, position)
+    }
+
+    /// Which of these points [m] is closest to, or deepest inside, a target.
     ///
     /// Unlike a candidate's gap this needs no margin and no history: the sign comes from the closest point of the whole target.
     #[must_use]
-    pub fn proximity(
+    pub fn closest(
         &self,
-        pair: &Pair,
-        samples: Samples,
+        points: impl Iterator<Item = Vector<D>>,
+        target: Target,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Option<Proximity<D>> {
-        let source = &self.surfaces[pair.source];
-        let facets = if samples == Samples::NodesAndFacets { source.facets.as_slice() } else { &[] };
-        let centre =
-            |f: &Facet| f.nodes.iter().map(|&n| position(n)).sum::<Vector<D>>() / f.nodes.len() as f64;
-        let points = source.nodes.iter().map(|&n| position(n)).chain(facets.iter().map(centre));
         let mut closest: Option<Proximity<D>> = None;
         let mut keep = |gap: f64, at: Vector<D>| {
             if closest.is_none_or(|c| gap < c.gap) {
                 closest = Some(Proximity { gap, at });
             }
         };
-        match pair.target {
+        match target {
             Target::Obstacle(o) => {
                 points.for_each(|x| keep(self.obstacles[o].gap(&x).0, x));
             }
@@ -136,12 +128,10 @@ mod tests {
     fn discs_are_as_far_apart_as_drawn() {
         let (model, x) = two_discs(2.5);
         let at = |n: u32| x[n as usize];
-        let between = model.proximity(&model.pairs[0], Samples::Nodes, &at).expect("nodes");
+        let between = model.proximity(&model.pairs[0], &at).expect("nodes");
         // The node on the axis faces the vertex on the axis of the other disc.
         assert!((between.gap - 0.5).abs() < 1e-12);
-        assert!(
-            (model.proximity(&model.pairs[1], Samples::Nodes, &at).expect("nodes").gap - 1.0).abs() < 1e-12
-        );
+        assert!((model.proximity(&model.pairs[1], &at).expect("nodes").gap - 1.0).abs() < 1e-12);
         let mut candidates = Vec::new();
         model.detect(&at, &at, 0.1, &mut candidates);
         assert!(candidates.is_empty());
@@ -150,29 +140,9 @@ mod tests {
     #[test]
     fn overlap_is_measured_however_deep() {
         let (model, x) = two_discs(1.5);
-        let deepest = model.proximity(&model.pairs[0], Samples::Nodes, &|n| x[n as usize]).expect("nodes");
+        let deepest = model.proximity(&model.pairs[0], &|n| x[n as usize]).expect("nodes");
         assert!((deepest.gap + 0.5).abs() < 0.01, "{}", deepest.gap);
         assert!((deepest.at - Vector::<2>::new(1.0, 0.0)).norm() < 1e-12);
-    }
-
-    /// Symptom guarded against: bars of equal height pushed into one another passed for bodies that only touch.
-    #[test]
-    fn an_overlap_with_all_nodes_on_sides_is_seen_by_the_facets() {
-        let left = generate::grid([0.0, 0.0], [4.0, 1.0], [4, 1]).expect("valid");
-        let right = generate::grid([2.5, 0.0], [4.0, 1.0], [4, 1]).expect("valid");
-        let x: Vec<Vector<2>> = left.nodes().iter().chain(right.nodes()).copied().collect();
-        let model = ContactModel::<2> {
-            surfaces: vec![
-                ContactSurface::new(&Surface::of(&left), 0),
-                ContactSurface::new(&Surface::of(&right), left.nodes().len() as u32),
-            ],
-            obstacles: vec![],
-            pairs: vec![Pair { source: 0, target: Target::Surface(1), friction: 0.0, group: 0 }],
-        };
-        let at = |n: u32| x[n as usize];
-        assert_eq!(model.proximity(&model.pairs[0], Samples::Nodes, &at).expect("nodes").gap, 0.0);
-        let deepest = model.proximity(&model.pairs[0], Samples::NodesAndFacets, &at).expect("nodes");
-        assert!((deepest.gap + 0.5).abs() < 1e-12);
     }
 
     #[test]

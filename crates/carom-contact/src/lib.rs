@@ -17,6 +17,6 @@ mod project;
 
 pub use contact::Contact;
 pub use detect::Candidate;
-pub use distance::{Proximity, Samples};
+pub use distance::Proximity;
 pub use model::{ContactModel, ContactSurface, Pair, Target};
 pub use obstacle::Obstacle;

@@ -8,7 +8,6 @@ use pyo3::prelude::*;
 
 #[pymodule]
 fn _carom(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    pyo3_log::init();
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<simulation::Simulation>()
 }

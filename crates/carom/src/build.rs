@@ -1,9 +1,9 @@
 //! From a scenario to a model, a method and the state at t = 0. Everything that can be wrong is found here.
 
-use carom_contact::{ContactModel, ContactSurface, Obstacle, Pair, Samples, Target};
+use carom_contact::{ContactModel, ContactSurface, Obstacle, Pair, Target};
 use carom_fem::{Body, BodySpec, FemError};
 use carom_friction::StoppingRule;
-use carom_mesh::{Mesh, MeshError, Vector, generate, tensor};
+use carom_mesh::{Facet, Mesh, MeshError, Vector, generate, tensor};
 
 use crate::error::InputError;
 use crate::model::{Group, Method, Model, ModelBody, NewtonRule};
@@ -12,6 +12,9 @@ use crate::{Scheme, State};
 
 /// Overlaps at the start deeper than this, relative to the smallest edge, are an error.
 const TOUCHING: f64 = 1e-9;
+
+/// The largest friction coefficient.
+const MAX_FRICTION: f64 = 1e3;
 
 /// Builds what a scenario in the plane describes.
 ///
@@ -159,6 +162,11 @@ fn mesh(spec: &MeshSpec) -> Result<Mesh<2>, MeshError> {
     }
 }
 
+/// Refuses friction coefficients that are negative, or so large that round-off of μ|w_t| would hide the normal motion.
+fn check_friction(key: &str, friction: f64) -> Result<(), InputError> {
+    number(key, friction, (0.0..=MAX_FRICTION).contains(&friction), "friction must be between 0 and 1000")
+}
+
 /// Every pair of a body with another body or an obstacle, less the exceptions of the scenario.
 fn contact(
     scenario: &Scenario,
@@ -184,7 +192,7 @@ fn contact(
         }
     }
     let default = scenario.contact.friction;
-    number("contact.friction", default, default >= 0.0, "friction cannot be negative")?;
+    check_friction("contact.friction", default)?;
     let mut groups = Vec::new();
     let names: Vec<&str> = bodies.iter().map(|b| b.name.as_str()).collect();
     let obstacle_names: Vec<&str> = scenario.obstacles.iter().map(|o| o.name.as_str()).collect();
@@ -205,8 +213,7 @@ fn contact(
                 sources = entry.sources.unwrap_or(sources);
                 // An order is only meant where the entry says which side is the source.
                 swapped = entry.sources.is_some() && entry.between[0] == second;
-                let key = format!("contact.pairs.{k}.friction");
-                number(&key, friction, friction >= 0.0, "friction cannot be negative")?;
+                check_friction(&format!("contact.pairs.{k}.friction"), friction)?;
             }
             let group = groups.len();
             groups.push(Group { between: [first.to_string(), second.to_string()], friction });
@@ -216,6 +223,8 @@ fn contact(
                 Target::Surface(b) => {
                     let backward = Pair { source: b, target: Target::Surface(a), ..forward };
                     match (sources, swapped) {
+                        (Sources::Finer, _) if is_finer(&bodies[b], &bodies[a]) => model.pairs.push(backward),
+                        (Sources::Finer, _) => model.pairs.push(forward),
                         (Sources::Both, _) => model.pairs.extend([forward, backward]),
                         (Sources::First, false) | (Sources::Second, true) => model.pairs.push(forward),
                         (Sources::First, true) | (Sources::Second, false) => model.pairs.push(backward),
@@ -225,6 +234,16 @@ fn contact(
         }
     }
     Ok((model, groups))
+}
+
+/// Whether the facets of `a` are on average clearly shorter than those of `b`.
+fn is_finer(a: &ModelBody<2>, b: &ModelBody<2>) -> bool {
+    let mean_edge = |body: &ModelBody<2>| {
+        let (nodes, facets) = (body.body.mesh().nodes(), body.body.surface().facets());
+        let edge = |f: &Facet| (nodes[f.nodes[1] as usize] - nodes[f.nodes[0] as usize]).norm();
+        facets.iter().map(edge).sum::<f64>() / facets.len() as f64
+    };
+    mean_edge(a) < 0.99 * mean_edge(b)
 }
 
 /// Refuses bodies that overlap one another or an obstacle before anything has moved.
@@ -237,7 +256,8 @@ fn check_overlaps(scenario: &Scenario, model: &Model<2>) -> Result<(), InputErro
             directions.push(Pair { source: b, target: Target::Surface(pair.source), ..*pair });
         }
         for direction in directions {
-            let Some(closest) = model.contact.proximity(&direction, Samples::NodesAndFacets, &at) else {
+            let points = sample(&model.bodies[direction.source]);
+            let Some(closest) = model.contact.closest(points, direction.target, &at) else {
                 continue;
             };
             let source = &model.bodies[direction.source];
@@ -251,7 +271,7 @@ fn check_overlaps(scenario: &Scenario, model: &Model<2>) -> Result<(), InputErro
                 Target::Surface(_) => InputError::new(
                     format!("bodies.{index}.mesh"),
                     format!(
-                        "bodies {a:?} and {b:?} overlap at the start: the boundary of {:?} at {place} is {:.6} m inside; \
+                        "bodies {a:?} and {b:?} overlap at the start: {:?} at {place} is {:.6} m inside; \
                          move one of them",
                         source.name, -closest.gap
                     ),
@@ -273,6 +293,20 @@ fn check_overlaps(scenario: &Scenario, model: &Model<2>) -> Result<(), InputErro
         }
     }
     Ok(())
+}
+
+/// Nodes, centres of facets and centres of cells of a body: bars of equal height pushed into one another have all nodes on
+/// sides of the other, and identical bodies in the same place their facets too.
+fn sample(body: &ModelBody<2>) -> impl Iterator<Item = Vector<2>> {
+    let mesh = body.body.mesh();
+    let centre = |nodes: &[u32]| {
+        nodes.iter().map(|&n| mesh.nodes()[n as usize]).sum::<Vector<2>>() / nodes.len() as f64
+    };
+    let surface = body.body.surface();
+    let nodes = surface.nodes().iter().map(|&n| mesh.nodes()[n as usize]);
+    let facets = surface.facets().iter().map(move |f| centre(&f.nodes));
+    let cells = mesh.blocks().iter().flat_map(move |b| b.cells().map(centre));
+    nodes.chain(facets).chain(cells)
 }
 
 /// Translation and spin about the centre of mass of every body.

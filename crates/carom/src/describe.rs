@@ -1,4 +1,3 @@
-use carom_contact::Samples;
 use serde::Serialize;
 
 use crate::{Model, State};
@@ -91,7 +90,7 @@ pub(crate) fn describe<const D: usize>(
             .pairs
             .iter()
             .filter(|p| p.group == g)
-            .filter_map(|p| model.contact.proximity(p, Samples::Nodes, &at))
+            .filter_map(|p| model.contact.proximity(p, &at))
             .min_by(|a, b| a.gap.total_cmp(&b.gap));
         if let Some(closest) = closest {
             pairs.push(PairDescription {

@@ -40,7 +40,7 @@ impl EventLog {
                 continue;
             }
             let event = match self.last[g] {
-                Some((event, until)) if start - until < self.merge => event,
+                Some((event, until)) if start <= until || start - until < self.merge => event,
                 _ => {
                     self.events.push(ContactEvent {
                         pair: groups[g].between.clone(),

@@ -1,4 +1,3 @@
-use carom_contact::Samples;
 use carom_mesh::Vector;
 
 use crate::workspace::StepReport;
@@ -164,7 +163,7 @@ impl<const D: usize> History<D> {
             .contact
             .pairs
             .iter()
-            .filter_map(|p| model.contact.proximity(p, Samples::Nodes, &at))
+            .filter_map(|p| model.contact.proximity(p, &at))
             .map(|p| p.gap)
             // Nodes deep between others are closest to a side; the contacts know what they face.
             .fold(if since.steps > 0 { since.last.min_gap } else { f64::INFINITY }, f64::min);

@@ -230,8 +230,10 @@ pub struct SolverSpec {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sources {
-    /// Nodes of the first body against facets of the second.
+    /// Nodes of the body with the finer boundary against facets of the other; of the first if they are alike.
     #[default]
+    Finer,
+    /// Nodes of the first body against facets of the second.
     First,
     /// Nodes of the second body against facets of the first.
     Second,

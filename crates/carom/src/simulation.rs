@@ -50,7 +50,6 @@ pub struct Simulation<const D: usize> {
 #[derive(Debug, Clone, Copy)]
 struct Totals {
     newton_iterations: u64,
-    substeps: u64,
     retried: u64,
     contacts: usize,
     max_drift: f64,
@@ -200,7 +199,6 @@ impl Simulation<2> {
             ledger: Ledger::default(),
             totals: Totals {
                 newton_iterations: 0,
-                substeps: 0,
                 retried: 0,
                 contacts: 0,
                 max_drift: 0.0,
@@ -337,15 +335,23 @@ impl<const D: usize> Simulation<D> {
         } = self;
         let mut previous_time = state.time;
         let initial = initial_energy.0 + initial_energy.1;
-        let retried =
-            advance_nominal_step(model, method, state, spare, end, length, work, |state, report, work| {
+        let mut failed = 0;
+        let outcome = advance_nominal_step(
+            model,
+            method,
+            state,
+            spare,
+            end,
+            length,
+            work,
+            &mut failed,
+            |state, report, work| {
                 *ledger += report.ledger;
                 ledger.kinetic = state.energies.kinetic - initial_energy.0;
                 ledger.strain = state.energies.strain - initial_energy.1;
                 events.record(&model.groups, &work.groups, previous_time, state.time);
                 history.observe(report, state, state.time - previous_time);
                 previous_time = state.time;
-                totals.substeps += 1;
                 totals.newton_iterations += report.newton_iterations as u64;
                 totals.contacts = report.contacts;
                 totals.max_drift = totals.max_drift.max((state.energies.total() - initial).abs());
@@ -353,8 +359,10 @@ impl<const D: usize> Simulation<D> {
                 totals.max_certificate = totals.max_certificate.max(report.certificate);
                 totals.max_residual = totals.max_residual.max(report.residual);
                 totals.min_gap = totals.min_gap.min(report.min_gap);
-            })?;
-        self.totals.retried += retried;
+            },
+        );
+        self.totals.retried += failed;
+        outcome?;
         self.step += 1;
         let due = (self.history_rows as f64) * self.history_every;
         if self.state.time >= due - 1e-6 * self.time_step {

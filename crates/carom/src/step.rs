@@ -47,7 +47,7 @@ pub fn step<const D: usize>(
         }
         margin *= 4.0;
     }
-    Err(StepError::MissedContact { margin })
+    Err(StepError::MissedContact { margin: margin / 4.0 })
 }
 
 /// The start of the iterations: free flight, d = Δt v; the frame of every body and a factor that fits the step.
@@ -142,7 +142,9 @@ fn select_active<const D: usize>(
 ) {
     let start = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
     let contact = &model.contact;
-    work.candidates.retain(|c| method.condition.is_active(contact.evaluate(c, &start).gap));
+    work.searched.clear();
+    work.searched.extend(work.candidates.iter().map(|c| (c.pair, c.node)));
+    work.candidates.retain(|c| !c.mirrored && method.condition.is_active(contact.evaluate(c, &start).gap));
     work.reactions.clear();
     work.friction.clear();
     work.touched.fill(false);
@@ -301,7 +303,7 @@ fn refactorize<const D: usize>(
     Ok(())
 }
 
-/// Whether a node that was no candidate has gone through its target by the end of the step.
+/// Whether a node that the search did not find has gone through its target by the end of the step.
 ///
 /// Only where the condition is written there: the others choose their contacts at the start.
 fn missed_a_contact<const D: usize>(
@@ -316,7 +318,7 @@ fn missed_a_contact<const D: usize>(
     let end = |n: u32| model.reference[n as usize] + next.displacement[n as usize];
     model.contact.detect(&end, &end, 0.0, &mut work.missed);
     work.missed.iter().any(|m| {
-        let known = work.candidates.binary_search_by_key(&(m.pair, m.node), |c| (c.pair, c.node)).is_ok();
+        let known = work.searched.binary_search(&(m.pair, m.node)).is_ok();
         !known && model.contact.evaluate(m, &end).gap < -ROUND_OFF * model.size
     })
 }

@@ -7,7 +7,8 @@ use crate::{Method, Model, State, step};
 /// Takes `state` over one nominal step of length `dt` that ends at time `end` [s], in substeps where it must be.
 ///
 /// After each substep that succeeds `observe` is told; `spare` is scratch of the same size as `state`. On an error `state` is
-/// where the last good substep left it. Returns how many substeps failed.
+/// where the last good substep left it.
+/// `failed` counts the substeps that failed.
 pub(crate) fn advance_nominal_step<const D: usize>(
     model: &Model<D>,
     method: &Method<D>,
@@ -16,13 +17,13 @@ pub(crate) fn advance_nominal_step<const D: usize>(
     end: f64,
     dt: f64,
     work: &mut Workspace<D>,
+    failed: &mut u64,
     mut observe: impl FnMut(&State<D>, &StepReport, &Workspace<D>),
-) -> Result<u64, RunError> {
+) -> Result<(), RunError> {
     // Progress is counted in the smallest substep allowed, so that halves always meet the grid.
     let whole = 1_u64 << method.max_halvings;
     let mut done = 0;
     let mut size = whole;
-    let mut failed = 0;
     while done < whole {
         let length = dt * (size as f64 / whole as f64);
         match step(model, method, state, spare, length, work) {
@@ -37,8 +38,7 @@ pub(crate) fn advance_nominal_step<const D: usize>(
                 }
             }
             Err(reason) => {
-                failed += 1;
-                log::debug!("step of {length:.3e} s at t = {:.9} s failed: {reason}", state.time);
+                *failed += 1;
                 if size == 1 {
                     return Err(RunError {
                         time: state.time,
@@ -51,5 +51,5 @@ pub(crate) fn advance_nominal_step<const D: usize>(
             }
         }
     }
-    Ok(failed)
+    Ok(())
 }

@@ -54,6 +54,8 @@ pub struct Workspace<const D: usize> {
     pub(crate) residual: Vec<Vector<D>>,
     pub(crate) momentum: Vec<Vector<D>>,
     pub(crate) candidates: Vec<Candidate>,
+    /// Pair and node of all that the search found, ascending.
+    pub(crate) searched: Vec<(u32, u32)>,
     pub(crate) missed: Vec<Candidate>,
     pub(crate) contacts: Vec<Contact<D>>,
     pub(crate) friction: Vec<f64>,
@@ -90,6 +92,7 @@ impl<const D: usize> Workspace<D> {
             residual: zeros.clone(),
             momentum: zeros,
             candidates: Vec::new(),
+            searched: Vec::new(),
             missed: Vec::new(),
             contacts: Vec::new(),
             friction: Vec::new(),

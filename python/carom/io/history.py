@@ -9,6 +9,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.errors import InputError
+
 
 class HistoryWriter:
     """Writes the history row by row; what has been appended is on disk.
@@ -42,9 +44,17 @@ def read_history(path: str | Path) -> dict[str, NDArray[np.float64]]:
     """Read a history into one array per column, each of shape [row_count].
 
     A last line that a killed run left unfinished is passed over.
+
+    Raises
+    ------
+    InputError
+        The file is not a history.
     """
     with Path(path).open(encoding="utf-8", newline="") as file:
         lines = [line for line in file if line.endswith("\n")]
-    columns, *rows = csv.reader(lines)
-    values = np.array(rows, dtype=np.float64).reshape(len(rows), len(columns))
+    try:
+        columns, *rows = csv.reader(lines)
+        values = np.array(rows, dtype=np.float64).reshape(len(rows), len(columns))
+    except ValueError as error:
+        raise InputError(f"{path}: not a history of carom: {error}") from error
     return {column: values[:, index] for index, column in enumerate(columns)}

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from carom.errors import InputError
+
 CASE = "case.toml"
 SUMMARY = "summary.json"
 HISTORY = "history.csv"
 FIELDS = "fields.vtkhdf"
 ENERGY_PLOT = "energy.png"
+
+_NAMES = (SUMMARY, CASE, HISTORY, FIELDS, ENERGY_PLOT)
 
 
 def track_plot(name: str) -> str:
@@ -17,8 +21,21 @@ def track_plot(name: str) -> str:
 
 
 def clear(directory: Path) -> None:
-    """Remove what an earlier run left, the summary first: without it, no results are claimed."""
-    for name in (SUMMARY, CASE, HISTORY, FIELDS, ENERGY_PLOT):
-        (directory / name).unlink(missing_ok=True)
+    """Remove what an earlier run left, the summary first: without it, no results are claimed.
+
+    Raises
+    ------
+    InputError
+        The directory is not one of results and has files that a run would overwrite.
+    """
+    present = [name for name in _NAMES if (directory / name).exists()]
+    if not {HISTORY, FIELDS} <= set(present):
+        if present:
+            raise InputError(
+                f"{directory}: has a {present[0]} that is not of a carom run; choose another --out"
+            )
+        return
+    for name in present:
+        (directory / name).unlink()
     for plot in directory.glob(track_plot("*")):
         plot.unlink()

@@ -27,7 +27,7 @@ def energy_figure(result: Result) -> Figure:
         _shade_contacts(axes, result)
         axes.set_xlabel("time $t$ [s]")
         axes.set_ylabel("energy [J]")
-        axes.set_title(result.summary["title"])
+        axes.set_title(result.summary["title"], parse_math=False)
         picture.legend(loc="outside right center")
     return picture
 

@@ -47,7 +47,9 @@ def track_figure(result: Result, *, track: str) -> Figure:
                 label=rf"$v_{{\mathrm{{mid}},{component}}}$",
             )
         displacement.set_ylabel("displacement [m]")
-        displacement.set_title(f"{result.summary['title']}: {track}".removeprefix(": "))
+        displacement.set_title(
+            f"{result.summary['title']}: {track}".removeprefix(": "), parse_math=False
+        )
         velocity.set_ylabel("velocity [m/s]")
         velocity.set_xlabel("time $t$ [s]")
         for axes in (displacement, velocity):

@@ -1,0 +1,95 @@
+//! Scenes in which the search for contacts once went wrong. Each test states the symptom.
+
+mod common;
+
+use carom::{InputError, Simulation};
+use common::{body, disc, parse, scenario};
+use serde_json::{Value, json};
+
+fn bar(corner: [f64; 2], size: [f64; 2], divisions: [usize; 2]) -> Value {
+    json!({"kind": "rectangle", "corner": corner, "size": size, "divisions": divisions})
+}
+
+fn refused(bodies: &[Value]) -> InputError {
+    let case = scenario(0.1, 1e-3, bodies, &[]);
+    Simulation::new(&parse(&case)).err().expect("bodies overlap")
+}
+
+/// Symptom: bars of equal height pushed into one another, bars that cross and identical bodies passed for bodies that touch,
+/// because their nodes are all on sides of the other or outside of it.
+#[test]
+fn overlaps_without_a_node_inside_are_refused() {
+    let still = |name: &str, mesh: Value| body(name, mesh, [0.0, 0.0]);
+    let long = bar([0.0, 0.0], [4.0, 1.0], [4, 1]);
+    for other in [bar([2.5, 0.0], [4.0, 1.0], [4, 1]), bar([1.5, -2.0], [1.0, 5.0], [1, 5]), long.clone()] {
+        let error = refused(&[still("a", long.clone()), still("b", other)]);
+        assert!(error.message.contains("overlap"), "{error}");
+    }
+}
+
+/// Symptom: with both sides as sources, aligned nodes made every contact twice and the solver did not converge.
+#[test]
+fn aligned_meshes_collide_with_both_sides_as_sources() {
+    for condition in ["gap", "midpoint", "endpoint"] {
+        let discs = [
+            body("a", disc([0.0, 0.0], 1.0, 8), [2.0, 0.0]),
+            body("b", disc([2.505, 0.0], 1.0, 8), [-2.0, 0.0]),
+        ];
+        let mut case = scenario(0.4, 1e-3, &discs, &[]);
+        case["contact"]["sources"] = json!("both");
+        case["contact"]["condition"] = json!(condition);
+        case["contact"]["friction"] = json!(0.2);
+        let mut simulation = Simulation::new(&parse(&case)).expect("valid");
+        simulation.advance(f64::INFINITY, || false).expect("converges");
+        let v = simulation.model().bodies[0]
+            .body
+            .mean(&simulation.state().velocity[simulation.model().bodies[0].nodes()]);
+        assert!(v[0] < -1.5, "{condition}: they bounce, v = {v}");
+    }
+}
+
+/// Symptom: a ball fell through a coarse floor whose nodes alone were checked.
+#[test]
+fn a_ball_does_not_fall_through_a_coarse_body() {
+    let bodies = [
+        body("floor", bar([-4.0, -2.0], [8.0, 2.0], [2, 1]), [0.0, 0.0]),
+        body("ball", disc([1.0, 0.55], 0.5, 4), [0.0, -2.0]),
+    ];
+    let mut case = scenario(0.3, 1e-3, &bodies, &[]);
+    case["contact"]["sources"] = json!("finer");
+    let mut simulation = Simulation::new(&parse(&case)).expect("valid");
+    simulation.advance(f64::INFINITY, || false).expect("runs");
+    let summary = simulation.summary();
+    assert_eq!(summary.contacts.len(), 1);
+    assert!(summary.min_gap > -1e-12);
+}
+
+/// Symptom: a node passing beside a corner, closer than the search margin that a fast body elsewhere set, was caught by the plane
+/// of the facet it passed, and gained energy.
+#[test]
+fn a_corner_passing_beside_another_is_not_caught() {
+    let bodies = [
+        body("low", bar([0.0, 0.0], [1.0, 1.0], [2, 2]), [0.0, 0.0]),
+        body("passing", bar([1.01, 1.02], [1.0, 1.0], [2, 2]), [0.0, -2.0]),
+        body("fast", disc([50.0, 0.0], 1.0, 4), [40.0, 0.0]),
+    ];
+    let mut simulation = Simulation::new(&parse(&scenario(0.1, 1e-3, &bodies, &[]))).expect("valid");
+    simulation.advance(f64::INFINITY, || false).expect("runs");
+    let summary = simulation.summary();
+    assert!(summary.contacts.is_empty(), "{:?}", summary.contacts);
+    assert!(summary.energy.max_drift < 1e-12 * summary.energy.initial);
+}
+
+/// Symptom: with merge_contacts = 0 a bounce was reported as an event per step.
+#[test]
+fn a_bounce_is_one_event_however_little_is_merged() {
+    let discs =
+        [body("a", disc([0.0, 0.0], 1.0, 8), [2.0, 0.3]), body("b", disc([2.1, 0.0], 1.0, 8), [0.0, 0.0])];
+    let mut case = scenario(0.25, 1e-3, &discs, &[]);
+    case["output"]["merge_contacts"] = json!(0.0);
+    case["contact"]["condition"] = json!("endpoint");
+    let mut simulation = Simulation::new(&parse(&case)).expect("valid");
+    simulation.advance(f64::INFINITY, || false).expect("runs");
+    let events = simulation.summary().contacts;
+    assert!(!events.is_empty() && events.len() < 10, "{} events", events.len());
+}
