@@ -201,3 +201,10 @@ def test_errors_in_a_case_file_name_it(tmp_path, scenario):
     case.write_text(scenario.to_toml().replace("radius", "radios"))
     with pytest.raises(InputError, match=r"case\.toml: bodies\.0\.mesh\.radios: unknown key"):
         Scenario.from_toml(case)
+
+
+@pytest.mark.parametrize("name", ["a\x00b", "", "a b", "a/b", "a.b"])
+def test_names_that_cannot_be_columns_or_files_are_refused(box, name):
+    box["bodies"][0]["name"] = name
+    with pytest.raises(InputError, match=r"bodies\.0\.name = .*printable character"):
+        Scenario.from_dict(box)

@@ -70,6 +70,13 @@ pub struct ContactModel<const D: usize> {
 }
 
 impl<const D: usize> ContactModel<D> {
+    /// Whether the bodies of a pair are checked from both sides.
+    #[must_use]
+    pub fn is_two_sided(&self, pair: usize) -> bool {
+        let group = self.pairs[pair].group;
+        self.pairs.iter().filter(|p| p.group == group).count() > 1
+    }
+
     /// Mean outward normal of the facets around the `k`-th node of a surface, weighted by their size; not normalised.
     pub(crate) fn node_normal(
         surface: &ContactSurface,

@@ -42,16 +42,19 @@ impl ContactCondition {
 
     /// What the normal motion (H d)_n lacks of the variable w_n of the condition [m].
     ///
+    /// `kept` is a penetration, negative, that the step may keep but not deepen: in pairs checked from both sides a contact
+    /// may start inside its target where another has stood for it, and to push it out at once would create energy.
     /// `d` is the current motion of the step and `v` the velocity at its start.
     pub fn normal_offset<const D: usize>(
         self,
         contact: &Contact<D>,
+        kept: f64,
         map: &StepMap,
         d: impl Fn(usize) -> Vector<D>,
         v: impl Fn(usize) -> Vector<D>,
     ) -> f64 {
         match self {
-            ContactCondition::Gap => contact.gap - contact.relative(d)[0],
+            ContactCondition::Gap => contact.gap - kept - contact.relative(d)[0],
             ContactCondition::Midpoint => 0.0,
             // v₊ = a v + b d, so w_n = v₊/b = d + (a/b) v: ½Δt v₊ for θ = ½.
             ContactCondition::Endpoint => {

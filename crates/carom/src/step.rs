@@ -144,7 +144,15 @@ fn select_active<const D: usize>(
     let contact = &model.contact;
     work.searched.clear();
     work.searched.extend(work.candidates.iter().map(|c| (c.pair, c.node)));
-    work.candidates.retain(|c| !c.mirrored && method.condition.is_active(contact.evaluate(c, &start).gap));
+    work.start_gaps.clear();
+    work.candidates.retain(|c| {
+        let gap = contact.evaluate(c, &start).gap;
+        let active = !c.mirrored && method.condition.is_active(gap);
+        if active {
+            work.start_gaps.push(if contact.is_two_sided(c.pair as usize) { gap.min(0.0) } else { 0.0 });
+        }
+        active
+    });
     work.reactions.clear();
     work.friction.clear();
     work.touched.fill(false);
@@ -216,11 +224,9 @@ fn react<const D: usize>(
     work.contacts.clear();
     work.contacts.extend(work.candidates.iter().map(|c| model.contact.evaluate(c, &position)));
     work.offsets.clear();
-    work.offsets.extend(
-        work.contacts
-            .iter()
-            .map(|c| method.condition.normal_offset(c, map, |n| motion[n], |n| state.velocity[n])),
-    );
+    work.offsets.extend(work.contacts.iter().zip(&work.start_gaps).map(|(contact, &kept)| {
+        method.condition.normal_offset(contact, kept, map, |n| motion[n], |n| state.velocity[n])
+    }));
     // The motion without reactions is d plus the correction; `momentum` is free here and holds it.
     for ((free, d), c) in work.momentum.iter_mut().zip(&work.motion).zip(&work.correction) {
         *free = d + c;

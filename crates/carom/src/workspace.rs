@@ -59,6 +59,8 @@ pub struct Workspace<const D: usize> {
     pub(crate) missed: Vec<Candidate>,
     pub(crate) contacts: Vec<Contact<D>>,
     pub(crate) friction: Vec<f64>,
+    /// Penetration [m] that a contact may keep, negative: see `ContactCondition::normal_offset`.
+    pub(crate) start_gaps: Vec<f64>,
     pub(crate) offsets: Vec<f64>,
     pub(crate) reactions: Vec<Vector<D>>,
     pub(crate) problem: ContactProblem<D>,
@@ -96,6 +98,7 @@ impl<const D: usize> Workspace<D> {
             missed: Vec::new(),
             contacts: Vec::new(),
             friction: Vec::new(),
+            start_gaps: Vec::new(),
             offsets: Vec::new(),
             reactions: Vec::new(),
             problem: ContactProblem::default(),

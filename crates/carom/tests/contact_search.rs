@@ -45,6 +45,11 @@ fn aligned_meshes_collide_with_both_sides_as_sources() {
             .body
             .mean(&simulation.state().velocity[simulation.model().bodies[0].nodes()]);
         assert!(v[0] < -1.5, "{condition}: they bounce, v = {v}");
+        let energy = simulation.summary().energy;
+        assert!(
+            energy.last < energy.initial + energy.max_defect,
+            "{condition}: no contact adds energy, {energy:?}"
+        );
     }
 }
 

@@ -54,6 +54,8 @@ def read_history(path: str | Path) -> dict[str, NDArray[np.float64]]:
         lines = [line for line in file if line.endswith("\n")]
     try:
         columns, *rows = csv.reader(lines)
+        if columns[:1] != ["time"]:
+            raise ValueError('its first column is not "time"')
         values = np.array(rows, dtype=np.float64).reshape(len(rows), len(columns))
     except ValueError as error:
         raise InputError(f"{path}: not a history of carom: {error}") from error

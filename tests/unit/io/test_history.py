@@ -1,5 +1,7 @@
 import numpy as np
+import pytest
 
+from carom import InputError
 from carom.io.history import HistoryWriter, read_history
 
 
@@ -26,3 +28,11 @@ def test_an_unfinished_last_line_is_passed_over(tmp_path):
     path = tmp_path / "history.csv"
     path.write_text("time,total\n0.0,1.0\n0.5,0.9")
     assert read_history(path)["total"].tolist() == [1.0]
+
+
+@pytest.mark.parametrize("text", ["", "time,total\n0.0\n", "\x00\x01\n"])
+def test_what_is_no_history_is_refused(tmp_path, text):
+    path = tmp_path / "history.csv"
+    path.write_text(text)
+    with pytest.raises(InputError, match=r"history\.csv: not a history"):
+        read_history(path)

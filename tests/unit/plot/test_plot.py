@@ -50,3 +50,8 @@ def test_track_figure_makes_the_mean_velocity_the_one_to_read(result):
     assert velocity.get_ylabel() == "velocity [m/s]"
     widths = {line.get_label(): line.get_linewidth() for line in velocity.lines}
     assert widths[r"$v_{\mathrm{mid},x}$"] > 2 * widths["$v_x$, end of step"]
+
+
+def test_a_title_is_text_and_no_mathematics(scenario, tmp_path):
+    titled = scenario.with_overrides(['title="costs $\\\\foo$"'])
+    assert len(draw(drive(FallingSimulation(titled), titled, tmp_path, None))) == 2
