@@ -57,6 +57,6 @@ def read_history(path: str | Path) -> dict[str, NDArray[np.float64]]:
         if columns[:1] != ["time"]:
             raise ValueError('its first column is not "time"')
         values = np.array(rows, dtype=np.float64).reshape(len(rows), len(columns))
-    except ValueError as error:
+    except (ValueError, csv.Error) as error:
         raise InputError(f"{path}: not a history of carom: {error}") from error
     return {column: values[:, index] for index, column in enumerate(columns)}
