@@ -31,22 +31,11 @@ pub fn build(scenario: &Scenario) -> Result<(Model<2>, Method<2>, State<2>), Inp
         return Err(InputError::new("bodies", "there is no body; add one [[bodies]] table at least"));
     }
     let (contact, groups) = contact(scenario, &bodies)?;
-    let model = Model {
-        gravity: match &scenario.analysis.gravity {
-            Some(g) => vector("analysis.gravity", g)?,
-            None => Vector::zeros(),
-        },
-        reference: bodies.iter().flat_map(|b| b.body.mesh().nodes().iter().copied()).collect(),
-        body_of_node: bodies
-            .iter()
-            .enumerate()
-            .flat_map(|(i, b)| std::iter::repeat_n(i as u32, b.body.node_count()))
-            .collect(),
-        size: bodies.iter().map(|b| b.body.mesh().diameter()).fold(0.0, f64::max),
-        contact,
-        groups,
-        bodies,
+    let gravity = match &scenario.analysis.gravity {
+        Some(g) => vector("analysis.gravity", g)?,
+        None => Vector::zeros(),
     };
+    let model = Model::new(bodies, contact, groups, gravity);
     check_overlaps(scenario, &model)?;
     let velocity = initial_velocity(scenario, &model)?;
     let state = State::initial(&model, velocity);

@@ -53,6 +53,29 @@ pub struct Model<const D: usize> {
 }
 
 impl<const D: usize> Model<D> {
+    /// The model of these bodies, whose nodes are numbered one body after the other, and of the contacts between their surfaces.
+    #[must_use]
+    pub fn new(
+        bodies: Vec<ModelBody<D>>,
+        contact: ContactModel<D>,
+        groups: Vec<Group>,
+        gravity: Vector<D>,
+    ) -> Self {
+        Self {
+            reference: bodies.iter().flat_map(|b| b.body.mesh().nodes().iter().copied()).collect(),
+            body_of_node: bodies
+                .iter()
+                .enumerate()
+                .flat_map(|(i, b)| std::iter::repeat_n(i as u32, b.body.node_count()))
+                .collect(),
+            size: bodies.iter().map(|b| b.body.mesh().diameter()).fold(0.0, f64::max),
+            bodies,
+            contact,
+            groups,
+            gravity,
+        }
+    }
+
     /// Number of unknown displacements.
     #[must_use]
     pub fn dofs(&self) -> usize {

@@ -25,19 +25,8 @@ fn model(bodies: Vec<ModelBody<3>>, obstacles: Vec<Obstacle<3>>, pairs: Vec<Pair
         obstacles,
         pairs,
     };
-    Model {
-        groups: vec![Group { between: ["a".into(), "b".into()], friction: 0.3 }],
-        gravity: Vector::zeros(),
-        reference: bodies.iter().flat_map(|b| b.body.mesh().nodes().iter().copied()).collect(),
-        body_of_node: bodies
-            .iter()
-            .enumerate()
-            .flat_map(|(i, b)| std::iter::repeat_n(i as u32, b.body.node_count()))
-            .collect(),
-        size: 1.0,
-        contact,
-        bodies,
-    }
+    let groups = vec![Group { between: ["a".into(), "b".into()], friction: 0.3 }];
+    Model::new(bodies, contact, groups, Vector::zeros())
 }
 
 fn method(condition: ContactCondition) -> Method<3> {
