@@ -35,15 +35,20 @@ pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
 /// Determinant.
 #[must_use]
 pub fn determinant<const D: usize>(m: &Matrix<D>) -> f64 {
-    let c = cofactor(m);
-    (0..D).map(|j| m[(0, j)] * c[(0, j)]).sum()
+    first_row_expansion(m, &cofactor(m))
+}
+
+/// The determinant of m by its first row and its cofactors.
+#[inline]
+fn first_row_expansion<const D: usize>(m: &Matrix<D>, cofactors: &Matrix<D>) -> f64 {
+    (0..D).map(|j| m[(0, j)] * cofactors[(0, j)]).sum()
 }
 
 /// Inverse and determinant. The inverse of a singular matrix has entries that are not finite.
 #[must_use]
 pub fn inverse<const D: usize>(m: &Matrix<D>) -> (Matrix<D>, f64) {
     let c = cofactor(m);
-    let det: f64 = (0..D).map(|j| m[(0, j)] * c[(0, j)]).sum();
+    let det = first_row_expansion(m, &c);
     (c.transpose() / det, det)
 }
 

@@ -5,7 +5,8 @@ use carom_fem::sparse::{Factor, NodalMatrix};
 use carom_mesh::{Matrix, Vector};
 
 use crate::error::StepError;
-use crate::state::State;
+use crate::model::{Model, ModelBody};
+use crate::state::{State, dot};
 use crate::{StepMap, StressRule};
 
 /// The factor of K̄ = ξ K + ξ/(θΔt) C + M/(θΔt²) (3) of one body.
@@ -135,17 +136,38 @@ impl<const D: usize> ResidualScratch<D> {
     }
 }
 
-impl<const D: usize> BodyStep<'_, D> {
+impl<'a, const D: usize> BodyStep<'a, D> {
+    /// The part of body `b`, whose frame is `frame`; `motion` and `displacement` are those of the whole model.
+    pub fn new(
+        model: &'a Model<D>,
+        b: &'a ModelBody<D>,
+        map: &'a StepMap,
+        frame: &'a Matrix<D>,
+        state: &'a State<D>,
+        motion: &'a [Vector<D>],
+        displacement: &'a [Vector<D>],
+    ) -> Self {
+        let nodes = b.nodes();
+        Self {
+            body: &b.body,
+            map,
+            gravity: &model.gravity,
+            frame,
+            velocity: &state.velocity[nodes.clone()],
+            start: &state.displacement[nodes.clone()],
+            internal_force: &state.internal_force[nodes.clone()],
+            motion: &motion[nodes.clone()],
+            displacement: &displacement[nodes],
+        }
+    }
+
     /// Writes the residual F̄ + F̄_acc (3) without reactions [N] to `out`:
-    /// M(g − (v₊ − v)/Δt − α v̄) − f̄ − β K₀ v̄, with v̄ = (1 − ξ)v + ξv₊ and f̄ by the scheme's [`StressRule`].
+    /// M(g − (v₊ − v)/Δt) − f̄ − C v̄, with v̄ = (1 − ξ)v + ξv₊ and f̄ by the scheme's [`StressRule`].
     pub fn residual(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
         let map = self.map;
-        let damping = self.body.damping();
-        let ResidualScratch { a, b, c } = scratch;
+        let ResidualScratch { a, b, .. } = scratch;
         for ((b, d), v) in b.iter_mut().zip(self.motion).zip(self.velocity) {
-            let new = v * map.velocity_of_velocity + d * map.velocity_of_motion;
-            let mean = v * (1.0 - map.xi) + new * map.xi;
-            *b = self.gravity - (new - v) / map.dt - mean * damping.mass;
+            *b = self.gravity - (map.end_velocity(v, d) - v) / map.dt;
         }
         self.body.mass().multiply(b, out);
         match map.stress {
@@ -160,32 +182,28 @@ impl<const D: usize> BodyStep<'_, D> {
                 out.iter_mut().zip(a.iter()).for_each(|(out, f)| *out -= f);
             }
         }
-        if let Some(k0) = self.body.damping_stiffness() {
-            for ((b, d), v) in b.iter_mut().zip(self.motion).zip(self.velocity) {
-                let new = v * map.velocity_of_velocity + d * map.velocity_of_motion;
-                *b = self.frame.tr_mul(&(v * (1.0 - map.xi) + new * map.xi));
-            }
-            k0.multiply(b, c);
-            for (out, c) in out.iter_mut().zip(c.iter()) {
-                *out -= self.frame * c * damping.stiffness;
-            }
+        if self.body.damping().is_active() {
+            let viscous = self.viscous_force(scratch);
+            out.iter_mut().zip(viscous).for_each(|(out, f)| *out -= f);
         }
     }
 
     /// Work of gravity and dissipation by damping over the step [J].
     pub fn external_and_viscous_work(&self, scratch: &mut ResidualScratch<D>) -> (f64, f64) {
-        let map = self.map;
         let external = self.gravity.dot(&self.body.mean(self.motion)) * self.body.total_mass();
-        if !self.body.damping().is_active() {
-            return (external, 0.0);
-        }
+        let damped = self.body.damping().is_active();
+        let viscous = if damped { dot(self.motion, self.viscous_force(scratch)) } else { 0.0 };
+        (external, viscous)
+    }
+
+    /// The viscous force C v̄ [N].
+    fn viscous_force<'s>(&self, scratch: &'s mut ResidualScratch<D>) -> &'s [Vector<D>] {
         let ResidualScratch { a, b, c } = scratch;
         for ((a, d), v) in a.iter_mut().zip(self.motion).zip(self.velocity) {
-            let new = v * map.velocity_of_velocity + d * map.velocity_of_motion;
-            *a = v * (1.0 - map.xi) + new * map.xi;
+            *a = self.map.mean_velocity(v, d);
         }
         self.body.damping_force(self.frame, a, b, c);
-        (external, crate::state::dot(self.motion, b))
+        b
     }
 }
 

@@ -181,17 +181,8 @@ fn residuals<const D: usize>(
             continue;
         }
         let nodes = b.nodes();
-        let body_step = BodyStep {
-            body: &b.body,
-            map,
-            gravity: &model.gravity,
-            frame: &work.frames[i],
-            velocity: &state.velocity[nodes.clone()],
-            start: &state.displacement[nodes.clone()],
-            internal_force: &state.internal_force[nodes.clone()],
-            motion: &work.motion[nodes.clone()],
-            displacement: &next.displacement[nodes.clone()],
-        };
+        let body_step =
+            BodyStep::new(model, b, map, &work.frames[i], state, &work.motion, &next.displacement);
         let residual = &mut work.residual[nodes.clone()];
         body_step.residual(&mut work.residual_scratch[i], residual);
         work.correction[nodes.clone()].copy_from_slice(residual);
@@ -341,7 +332,7 @@ fn commit<const D: usize>(
     let mut report = StepReport { newton_iterations, min_gap: f64::INFINITY, ..StepReport::default() };
     next.time = state.time + map.dt;
     for ((v1, v0), d) in next.velocity.iter_mut().zip(&state.velocity).zip(&work.motion) {
-        *v1 = v0 * map.velocity_of_velocity + d * map.velocity_of_motion;
+        *v1 = map.end_velocity(v0, d);
     }
     next.energies = Energies::default();
     for (i, b) in model.bodies.iter().enumerate() {
@@ -363,17 +354,8 @@ fn commit<const D: usize>(
             let (f0, f1) = (&state.internal_force[nodes.clone()], &next.internal_force[nodes.clone()]);
             report.ledger.scheme += map.strain_dissipation * (dot(motion, f1) - dot(motion, f0));
         }
-        let body_step = BodyStep {
-            body: &b.body,
-            map,
-            gravity: &model.gravity,
-            frame: &work.frames[i],
-            velocity: v0,
-            start: &state.displacement[nodes.clone()],
-            internal_force: &state.internal_force[nodes.clone()],
-            motion,
-            displacement: &next.displacement[nodes],
-        };
+        let body_step =
+            BodyStep::new(model, b, map, &work.frames[i], state, &work.motion, &next.displacement);
         let (external, viscous) = body_step.external_and_viscous_work(&mut work.residual_scratch[i]);
         report.ledger.external += external;
         report.ledger.viscous += viscous;

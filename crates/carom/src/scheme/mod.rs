@@ -4,6 +4,7 @@
 mod conserving;
 mod theta;
 
+use carom_mesh::Vector;
 use serde::{Deserialize, Serialize};
 
 /// A time scheme and its parameters, as the case file names them.
@@ -61,6 +62,20 @@ pub struct StepMap {
 }
 
 impl StepMap {
+    /// v₊ [m/s] of a node with velocity `v` at the start and motion `d` in the step.
+    #[inline]
+    #[must_use]
+    pub fn end_velocity<const D: usize>(&self, v: &Vector<D>, d: &Vector<D>) -> Vector<D> {
+        v * self.velocity_of_velocity + d * self.velocity_of_motion
+    }
+
+    /// v̄ = (1 − ξ)v + ξv₊ [m/s], the velocity that damping sees.
+    #[inline]
+    #[must_use]
+    pub fn mean_velocity<const D: usize>(&self, v: &Vector<D>, d: &Vector<D>) -> Vector<D> {
+        v * (1.0 - self.xi) + self.end_velocity(v, d) * self.xi
+    }
+
     /// Factor of M in the iteration matrix K̄ [1/s²].
     #[must_use]
     pub fn mass_coefficient(&self) -> f64 {
