@@ -43,6 +43,6 @@ pub use model::{Group, Method, Model, ModelBody, NewtonRule};
 pub use scenario::Scenario;
 pub use scheme::{Scheme, StepMap, StressRule};
 pub use simulation::{Fields, Outcome, Progress, Simulation, Summary};
-pub use state::State;
+pub use state::{Reaction, State};
 pub use step::step;
 pub use workspace::{GroupReport, StepReport, Workspace};

@@ -1,6 +1,28 @@
+use carom_contact::Contact;
 use carom_mesh::Vector;
 
 use crate::{Energies, Model};
+
+/// A contact that pressed in the last step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reaction<const D: usize> {
+    /// Index of the pair.
+    pub pair: u32,
+    /// The source node.
+    pub node: u32,
+    /// Gap, frame and stencil where the contact condition was written.
+    pub contact: Contact<D>,
+    /// The reaction r [N] in that frame.
+    pub force: Vector<D>,
+}
+
+impl<const D: usize> Reaction<D> {
+    /// What identifies a contact from step to step.
+    #[must_use]
+    pub fn key(&self) -> (u32, u32) {
+        (self.pair, self.node)
+    }
+}
 
 /// What a restart needs. Vectors hold one entry per node of the model.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,8 +33,8 @@ pub struct State<const D: usize> {
     pub displacement: Vec<Vector<D>>,
     /// Velocities v [m/s].
     pub velocity: Vec<Vector<D>>,
-    /// Reactions [N] of the last step by pair and source node, ascending: the first guess of the next step.
-    pub reactions: Vec<((u32, u32), Vector<D>)>,
+    /// Reactions of the last step by pair and source node, ascending: the first guess of the next step.
+    pub reactions: Vec<Reaction<D>>,
     /// Nodal contact forces Hᵀr [N], mean over the last step.
     pub contact_force: Vec<Vector<D>>,
     /// Internal forces ∂E/∂u [N] at `displacement`, kept because every step starts with them.

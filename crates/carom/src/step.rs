@@ -1,12 +1,13 @@
 //! One step: predict, detect, then linearise, condense, solve and correct until converged, and commit.
 
+use carom_contact::Candidate;
 use carom_friction::cone;
 use carom_mesh::Vector;
 
 use crate::condense::condense;
 use crate::error::StepError;
 use crate::linearise::{BodyStep, predicted_motion};
-use crate::state::{State, dot};
+use crate::state::{Reaction, State, dot};
 use crate::workspace::{BodyProgress, GroupReport, StepReport, Workspace};
 use crate::{ContactCondition, Energies, Ledger, Method, Model, StepMap};
 
@@ -157,8 +158,8 @@ fn select_active<const D: usize>(
     work.friction.clear();
     work.touched.fill(false);
     for candidate in &work.candidates {
-        let known = state.reactions.binary_search_by_key(&(candidate.pair, candidate.node), |r| r.0);
-        work.reactions.push(known.map_or_else(|_| Vector::zeros(), |k| state.reactions[k].1));
+        let known = state.reactions.binary_search_by_key(&(candidate.pair, candidate.node), Reaction::key);
+        work.reactions.push(known.map_or_else(|_| Vector::zeros(), |k| state.reactions[k].force));
         let pair = &contact.pairs[candidate.pair as usize];
         work.friction.push(pair.friction);
         work.touched[pair.source] = true;
@@ -401,7 +402,8 @@ fn settle_contacts<const D: usize>(
         group.friction_work += friction_work;
         contact.add_force(r, &mut next.contact_force);
         if r[0] > 0.0 {
-            next.reactions.push(((candidate.pair, candidate.node), *r));
+            let Candidate { pair, node, .. } = *candidate;
+            next.reactions.push(Reaction { pair, node, contact: *contact, force: *r });
         }
     }
 }
