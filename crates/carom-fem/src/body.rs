@@ -4,7 +4,9 @@ use carom_mesh::{Matrix, Mesh, Surface, Vector, tensor};
 use serde::{Deserialize, Serialize};
 
 use crate::FemError;
-use crate::elements::{CellState, Elements, add_mass, elements};
+use crate::elements::{CellState, Elements, StepForces, add_mass, elements};
+use crate::massless::{followers, redistributed};
+use crate::rigid::RigidMass;
 use crate::material::{
     Confined, LawSpec, LinearElastic, Material, NeoHookean, PointLaw, SaintVenantKirchhoff,
 };
@@ -51,6 +53,8 @@ pub struct BodySpec {
     pub mass: MassKind,
     /// Thickness in 2D [m]; 1 in 3D.
     pub thickness: f64,
+    /// Whether the mass of the nodes that may touch others moves inside; total mass, centre and inertia stay.
+    pub massless_contact: bool,
 }
 
 /// A deformable body: mesh, elements, mass and damping. It is never written after it is built.
@@ -60,6 +64,7 @@ pub struct BodySpec {
 pub struct Body<const D: usize> {
     mesh: Mesh<D>,
     surface: Surface,
+    massless_contact: bool,
     graph: Arc<NodeGraph>,
     elements: Vec<Box<dyn Elements<D>>>,
     mass: NodalMatrix<f64>,
@@ -78,15 +83,27 @@ impl<const D: usize> Body<D> {
     /// # Errors
     /// If a material constant is out of range, or a cell is inverted or degenerate.
     pub fn new(mesh: Mesh<D>, spec: &BodySpec) -> Result<Self, FemError> {
+        let surface = Surface::of(&mesh);
+        Self::with_contact_surface(mesh, surface, spec)
+    }
+
+    /// Builds a body that can only be touched on a part of its boundary.
+    ///
+    /// # Errors
+    /// As for [`Body::new`].
+    pub fn with_contact_surface(mesh: Mesh<D>, surface: Surface, spec: &BodySpec) -> Result<Self, FemError> {
         match &spec.law {
-            LawSpec::SaintVenantKirchhoff(c) => Self::of_law(mesh, spec, SaintVenantKirchhoff::new(c)?),
-            LawSpec::LinearElastic(c) => Self::of_law(mesh, spec, LinearElastic::new(c)?),
-            LawSpec::NeoHookean(c) => Self::of_law(mesh, spec, NeoHookean::new(c)?),
+            LawSpec::SaintVenantKirchhoff(c) => {
+                Self::of_law(mesh, surface, spec, SaintVenantKirchhoff::new(c)?)
+            }
+            LawSpec::LinearElastic(c) => Self::of_law(mesh, surface, spec, LinearElastic::new(c)?),
+            LawSpec::NeoHookean(c) => Self::of_law(mesh, surface, spec, NeoHookean::new(c)?),
         }
     }
 
     fn of_law<M: Material + Clone + 'static>(
         mesh: Mesh<D>,
+        surface: Surface,
         spec: &BodySpec,
         law: M,
     ) -> Result<Self, FemError> {
@@ -108,28 +125,19 @@ impl<const D: usize> Body<D> {
         }
         let objective = law.is_objective();
         let law = Confined(law);
-        let graph = Arc::new(NodeGraph::of(&mesh));
+        let mass = mass_matrix(&mesh, &surface, spec)?;
+        let graph = Arc::clone(mass.shared_graph());
         let mut blocks = Vec::new();
-        let mut mass = NodalMatrix::filled(&graph, 0.0);
         let mut first_cell = 0;
         for block in mesh.blocks() {
             blocks.push(elements(&law, &mesh, block, first_cell, spec.thickness, &graph)?);
-            add_mass(&mesh, block, first_cell, spec.density * spec.thickness, &mut mass)?;
             first_cell += block.cells().len();
         }
-        let nodal_mass: Vec<f64> =
-            (0..graph.node_count()).map(|n| graph.row(n).map(|(e, _)| mass.values[e]).sum()).collect();
-        if spec.mass == MassKind::Lumped {
-            for node in 0..graph.node_count() {
-                for (entry, neighbour) in graph.row(node) {
-                    mass.values[entry] = if neighbour == node { nodal_mass[node] } else { 0.0 };
-                }
-            }
-        }
+        let nodal_mass = mass.row_sums();
         let (_, tangent) = PointLaw::<D>::stress_and_tangent(&law, &Matrix::identity());
         let total_mass: f64 = nodal_mass.iter().sum();
         let mut body = Self {
-            surface: Surface::of(&mesh),
+            surface,
             total_mass,
             volume: total_mass / spec.density,
             wave_speed: (tangent[0][0][0][0] / spec.density).sqrt(),
@@ -139,6 +147,7 @@ impl<const D: usize> Body<D> {
             graph,
             elements: blocks,
             mass,
+            massless_contact: spec.massless_contact,
             nodal_mass,
             objective,
         };
@@ -154,7 +163,7 @@ impl<const D: usize> Body<D> {
         &self.mesh
     }
 
-    /// The boundary.
+    /// The boundary, or the part of it that may touch others.
     #[must_use]
     pub fn surface(&self) -> &Surface {
         &self.surface
@@ -176,6 +185,12 @@ impl<const D: usize> Body<D> {
     #[must_use]
     pub fn mass(&self) -> &NodalMatrix<f64> {
         &self.mass
+    }
+
+    /// The nodes without mass, ascending.
+    #[must_use]
+    pub fn massless(&self) -> &[u32] {
+        if self.massless_contact { self.surface.nodes() } else { &[] }
     }
 
     /// Row sums of the mass matrix [kg].
@@ -224,6 +239,12 @@ impl<const D: usize> Body<D> {
     pub fn conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]) {
         f.fill(Vector::zeros());
         self.elements.iter().for_each(|e| e.add_conserving_force(u0, u1, f));
+    }
+
+    /// Writes the forces [N] of a step from `u0` to `u1` that a blend of its stresses is made of.
+    pub fn step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut StepForces<'_, D>) {
+        f.fill_with_zeros();
+        self.elements.iter().for_each(|e| e.add_step_forces(u0, u1, f));
     }
 
     /// The stiffness ∂²E/∂u² [N/m] at `u`.
@@ -280,6 +301,12 @@ impl<const D: usize> Body<D> {
         self.mean(u) + self.mean(self.mesh.nodes())
     }
 
+    /// Whether the stored energy is unchanged by rotations, so that angular momentum can be conserved.
+    #[must_use]
+    pub fn is_objective(&self) -> bool {
+        self.objective
+    }
+
     /// Mean of a nodal vector, weighted by mass: the velocity of the centre of mass for `v`.
     #[must_use]
     pub fn mean(&self, v: &[Vector<D>]) -> Vector<D> {
@@ -304,6 +331,12 @@ impl<const D: usize> Body<D> {
             inertia += arm * arm.transpose() * m;
         }
         tensor::closest_rotation(&(moment * tensor::inverse(&inertia).0)).unwrap_or_else(Matrix::identity)
+    }
+
+    /// The moments of the mass at the positions X + `u`, from which forces are made that move the body rigidly.
+    #[must_use]
+    pub fn rigid_mass(&self, u: &[Vector<D>], arms: &mut [Vector<D>]) -> RigidMass<D> {
+        RigidMass::new(self, u, arms)
     }
 
     /// Mean spin [rad/s] about the centre of mass, as (z) in 2D and (x, y, z) in 3D: the inertia tensor's inverse times the
@@ -337,4 +370,32 @@ impl<const D: usize> Body<D> {
         }
         sum
     }
+}
+
+/// The mass matrix on the graph of the body.
+fn mass_matrix<const D: usize>(
+    mesh: &Mesh<D>,
+    surface: &Surface,
+    spec: &BodySpec,
+) -> Result<NodalMatrix<f64>, FemError> {
+    let graph = Arc::new(NodeGraph::of(mesh));
+    let mut mass = NodalMatrix::filled(&graph, 0.0);
+    let mut first_cell = 0;
+    for block in mesh.blocks() {
+        add_mass(mesh, block, first_cell, spec.density * spec.thickness, &mut mass)?;
+        first_cell += block.cells().len();
+    }
+    if spec.mass == MassKind::Lumped {
+        let sums = mass.row_sums();
+        for node in 0..graph.node_count() {
+            for (entry, neighbour) in graph.row(node) {
+                mass.values[entry] = if neighbour == node { sums[node] } else { 0.0 };
+            }
+        }
+    }
+    if !spec.massless_contact {
+        return Ok(mass);
+    }
+    let followers = followers(mesh, &graph, surface.nodes())?;
+    Ok(redistributed(&mass, surface.nodes(), &followers))
 }

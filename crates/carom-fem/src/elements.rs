@@ -17,6 +17,25 @@ pub struct CellState {
     pub energy_density: f64,
 }
 
+/// The forces of a step from u₀ to u₁ that a blend of its start and end stresses is made of [N], one vector per node; F̄ = ½(F₀ + F₁).
+#[derive(Debug)]
+pub struct StepForces<'a, const D: usize> {
+    /// The conserving force ∫ F̄ S̄ ∇N dV: its work is the change of the stored energy.
+    pub conserving: &'a mut [Vector<D>],
+    /// ∫ F̄ (S₁ − S₀) ∇N dV.
+    pub difference: &'a mut [Vector<D>],
+    /// The internal force ∫ F₁ S₁ ∇N dV at the end.
+    pub end: &'a mut [Vector<D>],
+}
+
+impl<const D: usize> StepForces<'_, D> {
+    pub(crate) fn fill_with_zeros(&mut self) {
+        [&mut *self.conserving, &mut *self.difference, &mut *self.end]
+            .into_iter()
+            .for_each(|f| f.fill(Vector::zeros()));
+    }
+}
+
 /// The elements of one block of cells. Chosen once per block; what is inside runs without dispatch.
 ///
 /// `u` and `f` hold one vector per node of the body.
@@ -27,6 +46,8 @@ pub trait Elements<const D: usize>: Send + Sync + Debug {
     fn add_internal_force(&self, u: &[Vector<D>], f: &mut [Vector<D>]);
     /// Adds the force [N] of a step from `u0` to `u1` whose work is the change of the stored energy, f·(u₁ − u₀) = ΔE, to `f`.
     fn add_conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]);
+    /// Adds the forces of a step from `u0` to `u1`.
+    fn add_step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut StepForces<'_, D>);
     /// Adds the stiffness ∂²E/∂u² [N/m] to `k`.
     fn add_stiffness(&self, u: &[Vector<D>], k: &mut NodalMatrix<Matrix<D>>);
     /// Appends the mean state of every cell.
@@ -149,6 +170,29 @@ impl<const D: usize, const N: usize, L: PointLaw<D> + Clone> Elements<D> for Blo
             }
             for a in 0..N {
                 f[nodes[a] as usize] += local[a];
+            }
+        }
+    }
+
+    fn add_step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut StepForces<'_, D>) {
+        for (cell, nodes) in self.cells.iter().enumerate() {
+            let (u0, u1) = (Self::gather(u0, nodes), Self::gather(u1, nodes));
+            let mut local = [[Vector::<D>::zeros(); 3]; N];
+            for (gradients, weight) in self.points(cell) {
+                let f0 = Self::deformation_gradient(&u0, gradients);
+                let f1 = Self::deformation_gradient(&u1, gradients);
+                let stresses = self.law.step_stresses(&f0, &f1);
+                for a in 0..N {
+                    let gradient = gradients[a] * weight;
+                    for (local, stress) in local[a].iter_mut().zip(&stresses) {
+                        *local += stress * gradient;
+                    }
+                }
+            }
+            for (&node, local) in nodes.iter().zip(&local) {
+                f.conserving[node as usize] += local[0];
+                f.difference[node as usize] += local[1];
+                f.end[node as usize] += local[2];
             }
         }
     }

@@ -30,6 +30,17 @@ pub enum FemError {
         /// What is allowed.
         remedy: &'static str,
     },
+    /// A massless node has no massive nodes near it that could carry its mass.
+    #[error(
+        "the mass of boundary node {node} at {at:?} finds no nodes inside to move to; \
+         refine the mesh, name fewer contact_sides, or choose a contact condition that keeps the mass, such as \"gap\""
+    )]
+    NoMassInside {
+        /// The node.
+        node: u32,
+        /// Its position [m].
+        at: Vec<f64>,
+    },
     /// A matrix that should be positive definite is not.
     #[error("the iteration matrix is not positive definite (pivot {pivot}); a smaller time step makes it so")]
     NotPositiveDefinite {

@@ -6,11 +6,14 @@
 mod body;
 mod elements;
 mod error;
+mod massless;
 pub mod material;
 mod quadrature;
+mod rigid;
 mod shape_table;
 pub mod sparse;
 
 pub use body::{Body, BodySpec, MassKind, RayleighDamping};
-pub use elements::{CellState, Elements};
+pub use elements::{CellState, Elements, StepForces};
 pub use error::FemError;
+pub use rigid::RigidMass;

@@ -11,6 +11,7 @@ fn spec() -> BodySpec {
         damping: RayleighDamping::default(),
         mass: MassKind::Consistent,
         thickness: 1.0,
+        massless_contact: false,
     }
 }
 

@@ -35,8 +35,16 @@ impl Surface {
                 }
             }
         }
-        let facets: Vec<Facet> =
-            all.into_iter().filter(|(key, _)| seen[key] == 1).map(|(_, facet)| facet).collect();
+        Self::of_facets(all.into_iter().filter(|(key, _)| seen[key] == 1).map(|(_, facet)| facet).collect())
+    }
+
+    /// The part of this surface whose facets pass `keep`.
+    #[must_use]
+    pub fn part(&self, keep: impl Fn(&Facet) -> bool) -> Self {
+        Self::of_facets(self.facets.iter().filter(|f| keep(f)).cloned().collect())
+    }
+
+    fn of_facets(facets: Vec<Facet>) -> Self {
         let mut nodes: Vec<u32> = facets.iter().flat_map(|f| f.nodes.iter().copied()).collect();
         nodes.sort_unstable();
         nodes.dedup();

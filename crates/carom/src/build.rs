@@ -3,11 +3,11 @@
 use carom_contact::{ContactModel, ContactSurface, Obstacle, Pair, Target};
 use carom_fem::{Body, BodySpec, FemError};
 use carom_friction::StoppingRule;
-use carom_mesh::{Facet, Mesh, MeshError, Vector, generate, tensor};
+use carom_mesh::{Facet, Mesh, MeshError, Surface, Vector, generate, tensor};
 
 use crate::error::InputError;
 use crate::model::{Group, Method, Model, ModelBody, NewtonRule};
-use crate::scenario::{BodyEntry, MeshSpec, ObstacleShape, PlaneCell, Scenario, Sources};
+use crate::scenario::{BodyEntry, MeshSpec, ObstacleShape, PairEntry, PlaneCell, Scenario, Side, Sources};
 use crate::{Scheme, State};
 
 /// Overlaps at the start deeper than this, relative to the smallest edge, are an error.
@@ -124,8 +124,10 @@ fn body(scenario: &Scenario, index: usize, entry: &BodyEntry) -> Result<Body<2>,
         damping: material.damping,
         mass: entry.mass,
         thickness: entry.thickness,
+        massless_contact: scenario.contact.condition.is_massless() && may_touch(scenario, &entry.name),
     };
-    Body::new(mesh, &spec).map_err(|e| match e {
+    let surface = contact_surface(&format!("{key}.contact_sides"), entry, &mesh)?;
+    Body::with_contact_surface(mesh, surface, &spec).map_err(|e| match e {
         FemError::MaterialConstant { name: "thickness", .. } => {
             InputError::new(format!("{key}.thickness"), e.to_string())
         }
@@ -134,6 +136,43 @@ fn body(scenario: &Scenario, index: usize, entry: &BodyEntry) -> Result<Body<2>,
         }
         _ => InputError::mesh(format!("{key}.mesh"), e.to_string()),
     })
+}
+
+/// Whether anything is there that a body may touch.
+fn may_touch(scenario: &Scenario, name: &str) -> bool {
+    let enabled = |other: &str| {
+        let between = |p: &&PairEntry| {
+            let [a, b] = &p.between;
+            (a == name && b == other) || (a == other && b == name)
+        };
+        scenario.contact.pairs.iter().find(between).is_none_or(|p| p.enabled)
+    };
+    let others = scenario.bodies.iter().map(|b| b.name.as_str()).filter(|&other| other != name);
+    others.chain(scenario.obstacles.iter().map(|o| o.name.as_str())).any(enabled)
+}
+
+/// The boundary of a body, or the sides of it that may touch others.
+fn contact_surface(key: &str, entry: &BodyEntry, mesh: &Mesh<2>) -> Result<Surface, InputError> {
+    let whole = Surface::of(mesh);
+    let Some(sides) = &entry.contact_sides else { return Ok(whole) };
+    let MeshSpec::Rectangle { corner, size, .. } = &entry.mesh else {
+        return Err(InputError::new(key, "only a rectangle has named sides; leave this out"));
+    };
+    if sides.is_empty() {
+        return Err(InputError::new(key, "name one side at least, or disable the pairs of the body"));
+    }
+    let on = |side: &Side, x: &Vector<2>| {
+        let (axis, at) = match side {
+            Side::Left => (0, corner[0]),
+            Side::Right => (0, corner[0] + size[0]),
+            Side::Bottom => (1, corner[1]),
+            Side::Top => (1, corner[1] + size[1]),
+        };
+        (x[axis] - at).abs() <= 1e-9 * size[axis]
+    };
+    Ok(whole.part(|f| {
+        sides.iter().any(|side| f.nodes.iter().all(|&n| on(side, &mesh.nodes()[n as usize])))
+    }))
 }
 
 fn mesh(spec: &MeshSpec) -> Result<Mesh<2>, MeshError> {

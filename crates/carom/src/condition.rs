@@ -19,6 +19,9 @@ pub enum ContactCondition {
     Midpoint,
     /// The normal relative velocity at the end of the step, of contacts closed at its start (Moreau): a plastic impact.
     Endpoint,
+    /// The gap at the end of the step, between nodes without mass that are in static balance there: never penetrates, and
+    /// there is nothing that could bounce (Khenous, Laborde & Renard 2008).
+    Massless,
 }
 
 impl ContactCondition {
@@ -26,7 +29,7 @@ impl ContactCondition {
     #[must_use]
     pub fn evaluation_weight(self) -> f64 {
         match self {
-            ContactCondition::Gap => 1.0,
+            ContactCondition::Gap | ContactCondition::Massless => 1.0,
             ContactCondition::Midpoint | ContactCondition::Endpoint => 0.5,
         }
     }
@@ -34,10 +37,29 @@ impl ContactCondition {
     /// Whether a contact takes part in a step that it starts with this gap [m].
     #[must_use]
     pub fn is_active(self, start_gap: f64) -> bool {
+        self.rules_the_end() || start_gap <= 0.0
+    }
+
+    /// Whether the gap itself is ruled, at the end of the step.
+    #[must_use]
+    pub fn rules_the_end(self) -> bool {
         match self {
-            ContactCondition::Gap => true,
-            ContactCondition::Midpoint | ContactCondition::Endpoint => start_gap <= 0.0,
+            ContactCondition::Gap | ContactCondition::Massless => true,
+            ContactCondition::Midpoint | ContactCondition::Endpoint => false,
         }
+    }
+
+    /// Whether contact nodes carry no mass.
+    #[must_use]
+    pub fn is_massless(self) -> bool {
+        self == ContactCondition::Massless
+    }
+
+    /// The reaction that the reduced problem solves for, as a fraction of the reaction itself: the rows of massless nodes are
+    /// scaled by ξ so that K̄ stays symmetric.
+    #[must_use]
+    pub fn reaction_weight(self, map: &StepMap) -> f64 {
+        if self.is_massless() { map.xi } else { 1.0 }
     }
 
     /// What the normal motion (H d)_n lacks of the variable w_n of the condition [m].
@@ -54,7 +76,9 @@ impl ContactCondition {
         v: impl Fn(usize) -> Vector<D>,
     ) -> f64 {
         match self {
-            ContactCondition::Gap => contact.gap - kept - contact.relative(d)[0],
+            ContactCondition::Gap | ContactCondition::Massless => {
+                contact.gap - kept - contact.relative(d)[0]
+            }
             ContactCondition::Midpoint => 0.0,
             // v₊ = a v + b d, so w_n = v₊/b = d + (a/b) v: ½Δt v₊ for θ = ½.
             ContactCondition::Endpoint => {

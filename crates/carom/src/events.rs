@@ -55,7 +55,7 @@ impl EventLog {
             self.last[g] = Some((event, end));
             let event = &mut self.events[event];
             event.peak_force = event.peak_force.max(report.normal_force);
-            event.friction_work += report.friction_work;
+            event.friction_work += report.friction;
             event.release = Some(end);
         }
     }
@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     fn record(log: &mut EventLog, groups: &[Group], force: f64, start: f64, end: f64) {
-        log.record(groups, &[GroupReport { normal_force: force, friction_work: 0.5 }], start, end);
+        log.record(groups, &[GroupReport { normal_force: force, friction: 0.5, normal_contact: 0.0 }], start, end);
     }
 
     #[test]

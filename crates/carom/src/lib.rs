@@ -15,6 +15,9 @@
 //! Source of the method: B. Magnain, Z.-Q. Feng, J.-M. Cros, *Modélisation des problèmes d'impact avec dissipation d'énergie par
 //! frottement*, C. R. Mécanique 333 (2005) 419–424; its equations are cited as (1)–(4).
 
+mod blend;
+mod body_step;
+mod books;
 mod build;
 mod condense;
 mod condition;
@@ -25,8 +28,10 @@ mod history;
 mod ledger;
 mod linearise;
 mod model;
+mod react;
 mod scenario;
 mod scheme;
+mod search;
 mod simulation;
 mod state;
 mod step;
@@ -38,7 +43,7 @@ pub use condition::ContactCondition;
 pub use describe::{BodyDescription, Description, PairDescription};
 pub use error::{InputError, RunError, StepError};
 pub use events::ContactEvent;
-pub use ledger::{Energies, Ledger};
+pub use ledger::{BodyLedger, Energies, Ledger};
 pub use model::{Group, Method, Model, ModelBody, NewtonRule};
 pub use scenario::Scenario;
 pub use scheme::{Scheme, StepMap, StressRule};

@@ -1,13 +1,11 @@
-//! The iteration matrix K̄ of each body and the residual of its equation of motion.
+//! The iteration matrix K̄ of each body.
 
 use carom_fem::Body;
 use carom_fem::sparse::{Factor, NodalMatrix};
 use carom_mesh::{Matrix, Vector};
 
+use crate::StepMap;
 use crate::error::StepError;
-use crate::model::{Model, ModelBody};
-use crate::state::{State, dot};
-use crate::{StepMap, StressRule};
 
 /// The factor of K̄ = ξ K + ξ/(θΔt) C + M/(θΔt²) (3) of one body.
 ///
@@ -100,115 +98,4 @@ impl<const D: usize> BodyOperator<D> {
     pub fn solve_in_factor_frame(&mut self, x: &mut [Vector<D>]) {
         self.factor.solve(x);
     }
-}
-
-/// Where a step stands: the part of one body of a state, of its guess for the end, and of what stays fixed in between.
-pub(crate) struct BodyStep<'a, const D: usize> {
-    pub body: &'a Body<D>,
-    pub map: &'a StepMap,
-    pub gravity: &'a Vector<D>,
-    /// Frame of the body in this step.
-    pub frame: &'a Matrix<D>,
-    /// v at the start.
-    pub velocity: &'a [Vector<D>],
-    /// u at the start.
-    pub start: &'a [Vector<D>],
-    /// ∂E/∂u at the start.
-    pub internal_force: &'a [Vector<D>],
-    /// d = u₊ − u.
-    pub motion: &'a [Vector<D>],
-    /// u₊.
-    pub displacement: &'a [Vector<D>],
-}
-
-/// Scratch vectors of one body.
-#[derive(Debug)]
-pub(crate) struct ResidualScratch<const D: usize> {
-    a: Vec<Vector<D>>,
-    b: Vec<Vector<D>>,
-    c: Vec<Vector<D>>,
-}
-
-impl<const D: usize> ResidualScratch<D> {
-    pub fn new(nodes: usize) -> Self {
-        let zeros = vec![Vector::zeros(); nodes];
-        Self { a: zeros.clone(), b: zeros.clone(), c: zeros }
-    }
-}
-
-impl<'a, const D: usize> BodyStep<'a, D> {
-    /// The part of body `b`, whose frame is `frame`; `motion` and `displacement` are those of the whole model.
-    pub fn new(
-        model: &'a Model<D>,
-        b: &'a ModelBody<D>,
-        map: &'a StepMap,
-        frame: &'a Matrix<D>,
-        state: &'a State<D>,
-        motion: &'a [Vector<D>],
-        displacement: &'a [Vector<D>],
-    ) -> Self {
-        let nodes = b.nodes();
-        Self {
-            body: &b.body,
-            map,
-            gravity: &model.gravity,
-            frame,
-            velocity: &state.velocity[nodes.clone()],
-            start: &state.displacement[nodes.clone()],
-            internal_force: &state.internal_force[nodes.clone()],
-            motion: &motion[nodes.clone()],
-            displacement: &displacement[nodes],
-        }
-    }
-
-    /// Writes the residual F̄ + F̄_acc (3) without reactions [N] to `out`:
-    /// M(g − (v₊ − v)/Δt) − f̄ − C v̄, with v̄ = (1 − ξ)v + ξv₊ and f̄ by the scheme's [`StressRule`].
-    pub fn residual(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
-        let map = self.map;
-        let ResidualScratch { a, b, .. } = scratch;
-        for ((b, d), v) in b.iter_mut().zip(self.motion).zip(self.velocity) {
-            *b = self.gravity - (map.end_velocity(v, d) - v) / map.dt;
-        }
-        self.body.mass().multiply(b, out);
-        match map.stress {
-            StressRule::Weighted => {
-                self.body.internal_force(self.displacement, a);
-                for ((out, f0), f1) in out.iter_mut().zip(self.internal_force).zip(a.iter()) {
-                    *out -= f0 * (1.0 - map.xi) + f1 * map.xi;
-                }
-            }
-            StressRule::Conserving => {
-                self.body.conserving_force(self.start, self.displacement, a);
-                out.iter_mut().zip(a.iter()).for_each(|(out, f)| *out -= f);
-            }
-        }
-        if self.body.damping().is_active() {
-            let viscous = self.viscous_force(scratch);
-            out.iter_mut().zip(viscous).for_each(|(out, f)| *out -= f);
-        }
-    }
-
-    /// Work of gravity and dissipation by damping over the step [J].
-    pub fn external_and_viscous_work(&self, scratch: &mut ResidualScratch<D>) -> (f64, f64) {
-        let external = self.gravity.dot(&self.body.mean(self.motion)) * self.body.total_mass();
-        let damped = self.body.damping().is_active();
-        let viscous = if damped { dot(self.motion, self.viscous_force(scratch)) } else { 0.0 };
-        (external, viscous)
-    }
-
-    /// The viscous force C v̄ [N].
-    fn viscous_force<'s>(&self, scratch: &'s mut ResidualScratch<D>) -> &'s [Vector<D>] {
-        let ResidualScratch { a, b, c } = scratch;
-        for ((a, d), v) in a.iter_mut().zip(self.motion).zip(self.velocity) {
-            *a = self.map.mean_velocity(v, d);
-        }
-        self.body.damping_force(self.frame, a, b, c);
-        b
-    }
-}
-
-/// The largest motion of a node that free flight predicts for the step [m].
-pub(crate) fn predicted_motion<const D: usize>(state: &State<D>, gravity: &Vector<D>, dt: f64) -> f64 {
-    let speed = state.velocity.iter().map(Vector::norm_squared).fold(0.0, f64::max).sqrt();
-    (speed + gravity.norm() * dt) * dt
 }

@@ -3,7 +3,7 @@ use carom_fem::Body;
 use carom_friction::{FrictionSolver, StoppingRule};
 use carom_mesh::Vector;
 
-use crate::{ContactCondition, Scheme};
+use crate::{ContactCondition, Scheme, StepMap};
 
 /// A body in its place in the model.
 #[derive(Debug)]
@@ -106,4 +106,18 @@ pub struct Method<const D: usize> {
     pub newton: NewtonRule,
     /// How often a step that fails is halved.
     pub max_halvings: u32,
+}
+
+impl<const D: usize> Method<D> {
+    /// How much the contact forces that the last step and this one ended with count in this one.
+    #[must_use]
+    pub fn contact_weights(&self, map: &StepMap) -> [f64; 2] {
+        if self.condition.is_massless() { [1.0 - map.xi, map.xi] } else { [0.0, 1.0] }
+    }
+
+    /// Whether the balance of massless contact nodes is closed by a blend of start and end stresses.
+    #[must_use]
+    pub fn is_blended(&self) -> bool {
+        self.scheme == Scheme::Conserving && self.condition.is_massless()
+    }
 }

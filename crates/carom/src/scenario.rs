@@ -119,10 +119,27 @@ pub struct BodyEntry {
     pub mass: MassKind,
     /// Mesh.
     pub mesh: MeshSpec,
+    /// Sides of a rectangle that may touch others; all if not given.
+    #[serde(default)]
+    pub contact_sides: Option<Vec<Side>>,
     /// Initial velocity [m/s].
     pub velocity: Vec<f64>,
     /// Initial spin about the centre of mass [rad/s].
     pub spin: f64,
+}
+
+/// Sides of a rectangle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Side {
+    /// Smallest x.
+    Left,
+    /// Largest x.
+    Right,
+    /// Smallest y.
+    Bottom,
+    /// Largest y.
+    Top,
 }
 
 /// Hypotheses of 2D bodies.

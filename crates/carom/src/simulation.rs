@@ -56,6 +56,8 @@ struct Totals {
     max_defect: f64,
     max_certificate: f64,
     max_residual: f64,
+    max_blend: f64,
+    least_friction: f64,
     min_gap: f64,
 }
 
@@ -136,6 +138,10 @@ pub struct Summary {
     pub energy: EnergySummary,
     /// Distance from Coulomb's law.
     pub certificate: CertificateSummary,
+    /// Largest blend |α| of start and end stresses; 0 unless massless contacts conserve.
+    pub max_blend: f64,
+    /// Smallest dissipation by friction of a contact in a step [J]; never negative by more than round-off.
+    pub least_friction: f64,
     /// Smallest gap seen [m].
     pub min_gap: f64,
     /// Contact events.
@@ -205,6 +211,8 @@ impl Simulation<2> {
                 max_defect: 0.0,
                 max_certificate: 0.0,
                 max_residual: 0.0,
+                max_blend: 0.0,
+                least_friction: 0.0,
                 min_gap: f64::INFINITY,
             },
             model,
@@ -358,6 +366,8 @@ impl<const D: usize> Simulation<D> {
                 totals.max_defect = totals.max_defect.max(ledger.defect().abs());
                 totals.max_certificate = totals.max_certificate.max(report.certificate);
                 totals.max_residual = totals.max_residual.max(report.residual);
+                totals.max_blend = totals.max_blend.max(report.blend);
+                totals.least_friction = totals.least_friction.min(report.least_friction);
                 totals.min_gap = totals.min_gap.min(report.min_gap);
             },
         );
@@ -456,6 +466,8 @@ impl<const D: usize> Simulation<D> {
                 max_defect: t.max_defect,
             },
             certificate: CertificateSummary { max_joule: t.max_certificate, max_residual: t.max_residual },
+            max_blend: t.max_blend,
+            least_friction: t.least_friction,
             min_gap: t.min_gap,
             contacts: self.events.events(self.state.time),
         }

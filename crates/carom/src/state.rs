@@ -35,12 +35,14 @@ pub struct State<const D: usize> {
     pub velocity: Vec<Vector<D>>,
     /// Reactions of the last step by pair and source node, ascending: the first guess of the next step.
     pub reactions: Vec<Reaction<D>>,
-    /// Nodal contact forces Hᵀr [N], mean over the last step.
+    /// Nodal contact forces Hᵀr [N]: mean over the last step, or at its end between massless nodes.
     pub contact_force: Vec<Vector<D>>,
     /// Internal forces ∂E/∂u [N] at `displacement`, kept because every step starts with them.
     pub internal_force: Vec<Vector<D>>,
     /// Energies [J] at `displacement` and `velocity`.
     pub energies: Energies,
+    /// Those of every body.
+    pub body_energies: Vec<Energies>,
 }
 
 impl<const D: usize> State<D> {
@@ -56,6 +58,7 @@ impl<const D: usize> State<D> {
             contact_force: zeros.clone(),
             internal_force: zeros,
             energies: Energies::default(),
+            body_energies: vec![Energies::default(); model.bodies.len()],
         };
         state.refresh(model);
         state
@@ -64,14 +67,14 @@ impl<const D: usize> State<D> {
     /// Recomputes forces and energies from displacements and velocities.
     pub(crate) fn refresh(&mut self, model: &Model<D>) {
         let mut momentum = vec![Vector::zeros(); self.velocity.len()];
-        self.energies = Energies::default();
-        for b in &model.bodies {
+        for (b, energies) in model.bodies.iter().zip(&mut self.body_energies) {
             let nodes = b.nodes();
             b.body.internal_force(&self.displacement[nodes.clone()], &mut self.internal_force[nodes.clone()]);
             b.body.mass().multiply(&self.velocity[nodes.clone()], &mut momentum[nodes.clone()]);
-            self.energies.strain += b.body.strain_energy(&self.displacement[nodes.clone()]);
-            self.energies.kinetic += 0.5 * dot(&self.velocity[nodes.clone()], &momentum[nodes]);
+            energies.strain = b.body.strain_energy(&self.displacement[nodes.clone()]);
+            energies.kinetic = 0.5 * dot(&self.velocity[nodes.clone()], &momentum[nodes]);
         }
+        self.energies = self.body_energies.iter().copied().sum();
     }
 
     /// Whether every number is finite.

@@ -4,7 +4,10 @@ use carom_mesh::{Matrix, Vector};
 
 use crate::condense::Compliance;
 use crate::error::StepError;
-use crate::linearise::{BodyOperator, ResidualScratch};
+use crate::blend::{Blend, Rubbing};
+use crate::body_step::ResidualScratch;
+use crate::ledger::BodyLedger;
+use crate::linearise::BodyOperator;
 use crate::{Ledger, Model};
 
 /// What one group of contacts did in a step.
@@ -13,7 +16,9 @@ pub struct GroupReport {
     /// Sum of the normal reactions [N].
     pub normal_force: f64,
     /// Dissipated by friction [J].
-    pub friction_work: f64,
+    pub friction: f64,
+    /// Taken by normal reactions [J].
+    pub normal_contact: f64,
 }
 
 /// How the iterations of one body go within a step.
@@ -62,12 +67,21 @@ pub struct Workspace<const D: usize> {
     /// Penetration [m] that a contact may keep, negative: see `ContactCondition::normal_offset`.
     pub(crate) start_gaps: Vec<f64>,
     pub(crate) offsets: Vec<f64>,
+    /// Reactions as the reduced problem has them: see `ContactCondition::reaction_weight`.
     pub(crate) reactions: Vec<Vector<D>>,
+    /// Normal reactions [N] that the step starts with.
+    pub(crate) start_forces: Vec<f64>,
+    /// Reactions of the state whose contacts have no part in the step.
+    pub(crate) lost: Vec<usize>,
+    pub(crate) rubbing: Vec<Rubbing>,
+    pub(crate) blend: Blend<D>,
     pub(crate) problem: ContactProblem<D>,
     pub(crate) touched: Vec<bool>,
     pub(crate) progress: Vec<BodyProgress>,
     /// What the groups did in the last step, in the order of the model.
     pub groups: Vec<GroupReport>,
+    /// What happened to the energy of each body in the last step.
+    pub bodies: Vec<BodyLedger>,
     /// Factorisations made so far.
     pub factorisations: u64,
 }
@@ -101,10 +115,15 @@ impl<const D: usize> Workspace<D> {
             start_gaps: Vec::new(),
             offsets: Vec::new(),
             reactions: Vec::new(),
+            start_forces: Vec::new(),
+            lost: Vec::new(),
+            rubbing: Vec::new(),
+            blend: Blend::new(model),
             problem: ContactProblem::default(),
             touched: vec![false; bodies],
             progress: vec![BodyProgress::default(); bodies],
             groups: vec![GroupReport::default(); model.groups.len()],
+            bodies: vec![BodyLedger::default(); bodies],
             factorisations: 0,
         })
     }
@@ -121,6 +140,10 @@ pub struct StepReport {
     pub min_gap: f64,
     /// Sum of the normal reactions [N].
     pub normal_force: f64,
+    /// Largest blend |α| of start and end stresses: see the scheme `conserving` with `massless` contact.
+    pub blend: f64,
+    /// Smallest dissipation by friction of a contact [J]; negative = friction did work on the bodies.
+    pub least_friction: f64,
     /// Residual of the contact laws (see `carom_friction::Measure`).
     pub residual: f64,
     /// Σ of the bi-potential gaps [J].

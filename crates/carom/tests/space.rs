@@ -14,6 +14,7 @@ fn cube(name: &str, corner: [f64; 3], first_node: usize) -> ModelBody<3> {
         damping: RayleighDamping::default(),
         mass: MassKind::Consistent,
         thickness: 1.0,
+        massless_contact: false,
     };
     let mesh = generate::grid(corner, [1.0; 3], [3, 3, 3]).expect("valid");
     ModelBody { name: name.into(), body: Body::new(mesh, &spec).expect("valid"), first_node }

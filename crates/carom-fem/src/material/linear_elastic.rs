@@ -53,6 +53,11 @@ impl Material for LinearElastic {
         self.stress(&((f0 + f1) * 0.5))
     }
 
+    fn step_stresses(&self, f0: &Mat3, f1: &Mat3) -> [Mat3; 3] {
+        let (start, end) = (self.stress(f0), self.stress(f1));
+        [(start + end) * 0.5, end - start, end]
+    }
+
     fn is_objective(&self) -> bool {
         false
     }

@@ -61,6 +61,16 @@ pub trait Material: Send + Sync + Debug {
         (f0 + f1) * 0.5 * stress
     }
 
+    /// The stresses [Pa] of a step from F₀ to F₁ that a blend of its start and end is made of, with F̄ = ½(F₀ + F₁):
+    /// the discrete stress P̄; the difference F̄ (S₁ − S₀), whose moment vanishes too; and P₁.
+    fn step_stresses(&self, f0: &Mat3, f1: &Mat3) -> [Mat3; 3] {
+        let end = self.stress(f1);
+        let second_piola = |f: &Mat3, p: &Mat3| carom_mesh::tensor::inverse(f).0 * p;
+        let difference = second_piola(f1, &end) - second_piola(f0, &self.stress(f0));
+        let symmetric = (difference + difference.transpose()) * 0.5;
+        [self.discrete_stress(f0, f1), (f0 + f1) * 0.5 * symmetric, end]
+    }
+
     /// Whether ψ(QF) = ψ(F) for every rotation Q. Only a law of small displacements is not.
     fn is_objective(&self) -> bool {
         true

@@ -12,6 +12,8 @@ pub trait PointLaw<const D: usize>: Send + Sync + Debug {
     fn stress(&self, f: &Matrix<D>) -> Matrix<D>;
     /// The stress [Pa] whose work over a step is the change of energy, see [`Material::discrete_stress`].
     fn discrete_stress(&self, f0: &Matrix<D>, f1: &Matrix<D>) -> Matrix<D>;
+    /// The stresses [Pa] of a step: see [`Material::step_stresses`].
+    fn step_stresses(&self, f0: &Matrix<D>, f1: &Matrix<D>) -> [Matrix<D>; 3];
     /// Stress and tangent [Pa].
     fn stress_and_tangent(&self, f: &Matrix<D>) -> (Matrix<D>, Tangent<D>);
     /// Cauchy stress in 3D [Pa].
@@ -52,6 +54,11 @@ impl<const D: usize, M: Material> PointLaw<D> for Confined<M> {
     #[inline]
     fn discrete_stress(&self, f0: &Matrix<D>, f1: &Matrix<D>) -> Matrix<D> {
         restrict(&self.0.discrete_stress(&embed(f0), &embed(f1)))
+    }
+
+    #[inline]
+    fn step_stresses(&self, f0: &Matrix<D>, f1: &Matrix<D>) -> [Matrix<D>; 3] {
+        self.0.step_stresses(&embed(f0), &embed(f1)).map(|p| restrict(&p))
     }
 
     #[inline]

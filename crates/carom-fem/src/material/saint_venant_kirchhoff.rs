@@ -49,6 +49,13 @@ impl Material for SaintVenantKirchhoff {
         (f0 + f1) * 0.5 * self.second_piola(&((Self::strain(f0) + Self::strain(f1)) * 0.5))
     }
 
+    #[inline]
+    fn step_stresses(&self, f0: &Mat3, f1: &Mat3) -> [Mat3; 3] {
+        let (s0, s1) = (self.second_piola(&Self::strain(f0)), self.second_piola(&Self::strain(f1)));
+        let middle = (f0 + f1) * 0.5;
+        [middle * (s0 + s1) * 0.5, middle * (s1 - s0), f1 * s1]
+    }
+
     /// A_iJkL = δ_ik S_JL + λ F_iJ F_kL + μ (F_iM F_kM δ_JL + F_iL F_kJ).
     fn stress_and_tangent(&self, f: &Mat3) -> (Mat3, Tangent<3>) {
         let s = self.second_piola(&Self::strain(f));

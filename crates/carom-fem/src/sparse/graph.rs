@@ -1,6 +1,6 @@
 use carom_mesh::Mesh;
 
-/// Which nodes share a cell, each with itself; rows ascending.
+/// Which nodes couple: those that share a cell, each with itself, and those that share a mass; rows ascending.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NodeGraph {
     starts: Vec<usize>,
@@ -19,6 +19,21 @@ impl NodeGraph {
                 }
             }
         }
+        Self::of_rows(rows)
+    }
+
+    /// This graph and the node pairs `more`.
+    #[must_use]
+    pub fn extended(&self, more: impl Iterator<Item = (u32, u32)>) -> Self {
+        let mut rows: Vec<Vec<u32>> =
+            self.starts.windows(2).map(|range| self.neighbours[range[0]..range[1]].to_vec()).collect();
+        for (a, b) in more {
+            rows[a as usize].push(b);
+        }
+        Self::of_rows(rows)
+    }
+
+    fn of_rows(mut rows: Vec<Vec<u32>>) -> Self {
         let mut starts = vec![0];
         let mut neighbours = Vec::new();
         for row in &mut rows {

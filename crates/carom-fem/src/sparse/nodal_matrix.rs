@@ -26,6 +26,12 @@ impl<T: Copy> NodalMatrix<T> {
         &self.graph
     }
 
+    /// The graph of its nodes, to share.
+    #[must_use]
+    pub fn shared_graph(&self) -> &Arc<NodeGraph> {
+        &self.graph
+    }
+
     /// Writes A x to `y`.
     pub fn multiply<const D: usize>(&self, x: &[Vector<D>], y: &mut [Vector<D>])
     where
@@ -38,5 +44,13 @@ impl<T: Copy> NodalMatrix<T> {
             }
             *y = sum;
         }
+    }
+}
+
+impl NodalMatrix<f64> {
+    /// The sum of every row.
+    #[must_use]
+    pub fn row_sums(&self) -> Vec<f64> {
+        (0..self.graph.node_count()).map(|n| self.graph.row(n).map(|(e, _)| self.values[e]).sum()).collect()
     }
 }

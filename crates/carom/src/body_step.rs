@@ -1,0 +1,157 @@
+//! The equation of motion of one body over a step.
+
+use carom_fem::Body;
+use carom_mesh::{Matrix, Vector};
+
+use crate::model::{Model, ModelBody};
+use crate::state::{State, dot};
+use crate::{StepMap, StressRule};
+
+/// Where a step stands: the part of one body of a state, of its guess for the end, and of what stays fixed in between.
+pub(crate) struct BodyStep<'a, const D: usize> {
+    pub body: &'a Body<D>,
+    pub map: &'a StepMap,
+    gravity: &'a Vector<D>,
+    /// Frame of the body in this step.
+    frame: &'a Matrix<D>,
+    /// v at the start.
+    velocity: &'a [Vector<D>],
+    /// u at the start.
+    pub start: &'a [Vector<D>],
+    /// ∂E/∂u at the start.
+    internal_force: &'a [Vector<D>],
+    /// Contact forces that the step before ended with.
+    pub contact_force: &'a [Vector<D>],
+    /// d = u₊ − u.
+    pub motion: &'a [Vector<D>],
+    /// u₊.
+    pub displacement: &'a [Vector<D>],
+}
+
+/// Scratch vectors of one body.
+#[derive(Debug)]
+pub(crate) struct ResidualScratch<const D: usize> {
+    force: Vec<Vector<D>>,
+    velocity: Vec<Vector<D>>,
+    viscous: Vec<Vector<D>>,
+    product: Vec<Vector<D>>,
+}
+
+impl<const D: usize> ResidualScratch<D> {
+    pub fn new(nodes: usize) -> Self {
+        let zeros = vec![Vector::zeros(); nodes];
+        Self { force: zeros.clone(), velocity: zeros.clone(), viscous: zeros.clone(), product: zeros }
+    }
+
+    /// C v̄ [N] as it was last computed; zero without damping.
+    pub fn viscous(&self) -> &[Vector<D>] {
+        &self.viscous
+    }
+}
+
+impl<'a, const D: usize> BodyStep<'a, D> {
+    /// The part of body `b`, whose frame is `frame`; `motion` and `displacement` are those of the whole model.
+    pub fn new(
+        model: &'a Model<D>,
+        b: &'a ModelBody<D>,
+        map: &'a StepMap,
+        frame: &'a Matrix<D>,
+        state: &'a State<D>,
+        motion: &'a [Vector<D>],
+        displacement: &'a [Vector<D>],
+    ) -> Self {
+        let nodes = b.nodes();
+        Self {
+            body: &b.body,
+            map,
+            gravity: &model.gravity,
+            frame,
+            velocity: &state.velocity[nodes.clone()],
+            start: &state.displacement[nodes.clone()],
+            internal_force: &state.internal_force[nodes.clone()],
+            contact_force: &state.contact_force[nodes.clone()],
+            motion: &motion[nodes.clone()],
+            displacement: &displacement[nodes],
+        }
+    }
+
+    /// Writes the residual F̄ + F̄_acc (3) without reactions [N] to `out`:
+    /// M(g − (v₊ − v)/Δt) − f̄ − C v̄, with v̄ = (1 − ξ)v + ξv₊ and f̄ by the scheme's [`StressRule`], and in the rows of nodes
+    /// without mass −ξ(f(u₊) + C v̄).
+    pub fn residual(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
+        self.inertia_and_damping(scratch, out);
+        let map = self.map;
+        match map.stress {
+            StressRule::Weighted => {
+                self.body.internal_force(self.displacement, &mut scratch.force);
+                for ((out, f0), f1) in out.iter_mut().zip(self.internal_force).zip(&scratch.force) {
+                    *out -= f0 * (1.0 - map.xi) + f1 * map.xi;
+                }
+            }
+            StressRule::Conserving => {
+                self.body.conserving_force(self.start, self.displacement, &mut scratch.force);
+                out.iter_mut().zip(&scratch.force).for_each(|(out, f)| *out -= f);
+            }
+        }
+        self.balance_massless(&scratch.force, &scratch.viscous, out);
+    }
+
+    /// Writes M(g − (v₊ − v)/Δt) − C v̄ to `out`; C v̄ stays in `scratch`.
+    pub fn inertia_and_damping(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
+        let map = self.map;
+        for ((a, d), v) in scratch.velocity.iter_mut().zip(self.motion).zip(self.velocity) {
+            *a = self.gravity - (map.end_velocity(v, d) - v) / map.dt;
+        }
+        self.body.mass().multiply(&scratch.velocity, out);
+        if self.body.damping().is_active() {
+            let viscous = self.viscous_force(scratch);
+            out.iter_mut().zip(viscous).for_each(|(out, f)| *out -= f);
+        }
+    }
+
+    /// Writes the rows of the nodes without mass, static at the end of the step under the internal force `end` there, to `out`.
+    pub fn balance_massless(&self, end: &[Vector<D>], viscous: &[Vector<D>], out: &mut [Vector<D>]) {
+        for n in self.body.massless().iter().map(|&n| n as usize) {
+            out[n] = -(end[n] + viscous[n]) * self.map.xi;
+        }
+    }
+
+    /// Writes v₊ [m/s] to `out`; a node without mass moves at the mean velocity of the step.
+    pub fn end_velocity(&self, out: &mut [Vector<D>]) {
+        for ((v1, v0), d) in out.iter_mut().zip(self.velocity).zip(self.motion) {
+            *v1 = self.map.end_velocity(v0, d);
+        }
+        for n in self.body.massless().iter().map(|&n| n as usize) {
+            out[n] = self.motion[n] / self.map.dt;
+        }
+    }
+
+    /// Work of gravity and dissipation by damping over the step [J].
+    pub fn external_and_viscous_work(&self, scratch: &mut ResidualScratch<D>) -> (f64, f64) {
+        let external = self.gravity.dot(&self.body.mean(self.motion)) * self.body.total_mass();
+        let damped = self.body.damping().is_active();
+        let viscous = if damped { dot(self.motion, self.viscous_force(scratch)) } else { 0.0 };
+        (external, viscous)
+    }
+
+    /// The viscous force C v̄ [N]; zero without damping.
+    pub fn viscous_force<'s>(&self, scratch: &'s mut ResidualScratch<D>) -> &'s [Vector<D>] {
+        if self.body.damping().is_active() {
+            let ResidualScratch { velocity, viscous, product, .. } = scratch;
+            for ((mean, d), v) in velocity.iter_mut().zip(self.motion).zip(self.velocity) {
+                *mean = self.map.mean_velocity(v, d);
+            }
+            for n in self.body.massless().iter().map(|&n| n as usize) {
+                velocity[n] = self.motion[n] / self.map.dt;
+            }
+            self.body.damping_force(self.frame, velocity, viscous, product);
+        }
+        &scratch.viscous
+    }
+}
+
+/// The largest motion of a node that free flight predicts for the step [m].
+pub(crate) fn predicted_motion<const D: usize>(state: &State<D>, gravity: &Vector<D>, dt: f64) -> f64 {
+    let speed = state.velocity.iter().map(Vector::norm_squared).fold(0.0, f64::max).sqrt();
+    (speed + gravity.norm() * dt) * dt
+}

@@ -1,0 +1,179 @@
+//! The end of a step: the new state, and what happened to the energy.
+
+use carom_contact::Candidate;
+use carom_friction::cone;
+use carom_mesh::Vector;
+
+use crate::body_step::BodyStep;
+use crate::error::StepError;
+use crate::ledger::BodyLedger;
+use crate::react::measure_rubbing;
+use crate::state::{Reaction, State, dot};
+use crate::workspace::{GroupReport, StepReport, Workspace};
+use crate::{Energies, Method, Model, StepMap};
+
+/// Completes the new state and closes the books of the step.
+pub(crate) fn commit<const D: usize>(
+    model: &Model<D>,
+    method: &Method<D>,
+    state: &State<D>,
+    next: &mut State<D>,
+    map: &StepMap,
+    work: &mut Workspace<D>,
+    newton_iterations: usize,
+) -> Result<StepReport, StepError> {
+    let mut report = StepReport { newton_iterations, min_gap: f64::INFINITY, ..StepReport::default() };
+    next.time = state.time + map.dt;
+    keep_contacts(model, method, next, map, work, &mut report);
+    if method.is_blended() {
+        report.blend = work.blend.largest_weight();
+    }
+    for i in 0..model.bodies.len() {
+        close_body(model, method, state, next, map, work, i);
+    }
+    next.energies = next.body_energies.iter().copied().sum();
+    close_contacts(model, method, state, next, map, work, &mut report);
+    for body in &work.bodies {
+        report.ledger.kinetic += body.kinetic;
+        report.ledger.strain += body.strain;
+        report.ledger.external += body.external;
+        report.ledger.viscous += body.viscous;
+        report.ledger.scheme += body.scheme;
+    }
+    for group in &work.groups {
+        report.ledger.friction += group.friction;
+        report.ledger.normal_contact += group.normal_contact;
+        report.normal_force += group.normal_force;
+    }
+    if next.is_finite() { Ok(report) } else { Err(StepError::NotFinite("state")) }
+}
+
+/// Measures the contact law at the final motion and keeps the reactions in the state.
+fn keep_contacts<const D: usize>(
+    model: &Model<D>,
+    method: &Method<D>,
+    next: &mut State<D>,
+    map: &StepMap,
+    work: &Workspace<D>,
+    report: &mut StepReport,
+) {
+    next.reactions.clear();
+    next.contact_force.fill(Vector::zeros());
+    if work.contacts.is_empty() {
+        return;
+    }
+    report.residual = carom_friction::measure(&work.problem, &work.reactions).residual;
+    let weight = method.condition.reaction_weight(map);
+    let end = |n: u32| model.reference[n as usize] + next.displacement[n as usize];
+    for (i, (candidate, contact)) in work.candidates.iter().zip(&work.contacts).enumerate() {
+        let r = work.reactions[i] / weight;
+        let mut w = contact.relative(|n| work.motion[n]);
+        w[0] += work.offsets[i];
+        report.certificate += cone::bipotential_gap(&w, &r, work.friction[i]);
+        report.min_gap = report.min_gap.min(model.contact.evaluate(candidate, &end).gap);
+        contact.add_force(&r, &mut next.contact_force);
+        if r[0] > 0.0 {
+            report.contacts += 1;
+            let Candidate { pair, node, .. } = *candidate;
+            next.reactions.push(Reaction { pair, node, contact: *contact, force: r });
+        }
+    }
+}
+
+/// Completes the state of body `index` and closes its books.
+fn close_body<const D: usize>(
+    model: &Model<D>,
+    method: &Method<D>,
+    state: &State<D>,
+    next: &mut State<D>,
+    map: &StepMap,
+    work: &mut Workspace<D>,
+    index: usize,
+) {
+    let b = &model.bodies[index];
+    let nodes = b.nodes();
+    let step = BodyStep::new(model, b, map, &work.frames[index], state, &work.motion, &next.displacement);
+    let scratch = &mut work.residual_scratch[index];
+    let (v0, v1) = (&state.velocity[nodes.clone()], &mut next.velocity[nodes.clone()]);
+    step.end_velocity(v1);
+    let internal_force = &mut next.internal_force[nodes.clone()];
+    let exchanged = if method.is_blended() {
+        work.blend.measure(model, index, &step, scratch);
+        internal_force.copy_from_slice(&work.blend.end[nodes.clone()]);
+        Some(work.blend.exchanged(index))
+    } else {
+        b.body.internal_force(step.displacement, internal_force);
+        None
+    };
+    let momentum = &mut work.momentum[nodes.clone()];
+    b.body.mass().multiply(v1, momentum);
+    let energies =
+        Energies { kinetic: 0.5 * dot(v1, momentum), strain: b.body.strain_energy(step.displacement) };
+    let (external, viscous) = step.external_and_viscous_work(scratch);
+    let mut scheme = 0.0;
+    if map.kinetic_dissipation != 0.0 {
+        let jump = &mut work.correction[nodes.clone()];
+        jump.iter_mut().zip(&*v1).zip(v0).for_each(|((j, v1), v0)| *j = v1 - v0);
+        b.body.mass().multiply(jump, momentum);
+        scheme += map.kinetic_dissipation * dot(jump, momentum);
+    }
+    if map.strain_dissipation != 0.0 {
+        let start = &state.internal_force[nodes.clone()];
+        scheme += map.strain_dissipation * (dot(step.motion, internal_force) - dot(step.motion, start));
+    }
+    let contact = exchanged.unwrap_or_else(|| {
+        let [start, end] = method.contact_weights(map);
+        start * dot(step.motion, step.contact_force) + end * dot(step.motion, &next.contact_force[nodes])
+    });
+    let before = state.body_energies[index];
+    work.bodies[index] = BodyLedger {
+        kinetic: energies.kinetic - before.kinetic,
+        strain: energies.strain - before.strain,
+        external,
+        viscous,
+        scheme,
+        contact,
+    };
+    next.body_energies[index] = energies;
+}
+
+/// Books the work of the reactions of every group.
+fn close_contacts<const D: usize>(
+    model: &Model<D>,
+    method: &Method<D>,
+    state: &State<D>,
+    next: &State<D>,
+    map: &StepMap,
+    work: &mut Workspace<D>,
+    report: &mut StepReport,
+) {
+    work.groups.fill(GroupReport::default());
+    for reaction in &next.reactions {
+        let group = model.contact.pairs[reaction.pair as usize].group;
+        work.groups[group].normal_force += reaction.force[0];
+    }
+    if method.is_blended() {
+        // The blend returns what normal reactions take, so there is nothing to book for them.
+        measure_rubbing(model, method, state, map, work);
+        for c in &work.rubbing {
+            let dissipation = c.dissipation(work.blend.weight[c.source]);
+            work.groups[c.group].friction += dissipation;
+            report.least_friction = report.least_friction.min(dissipation);
+        }
+        return;
+    }
+    let [start, end] = method.contact_weights(map);
+    for (reactions, share) in [(&state.reactions, start), (&next.reactions, end)] {
+        if share == 0.0 {
+            continue;
+        }
+        for reaction in reactions {
+            let motion = reaction.contact.relative(|n| work.motion[n]);
+            let group = &mut work.groups[model.contact.pairs[reaction.pair as usize].group];
+            let dissipation = -share * (1..D).map(|t| reaction.force[t] * motion[t]).sum::<f64>();
+            group.friction += dissipation;
+            group.normal_contact -= share * reaction.force[0] * motion[0];
+            report.least_friction = report.least_friction.min(dissipation);
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The contacts at the present guess, and their reactions.
+
+use crate::blend::Rubbing;
+use crate::condense::condense;
+use crate::error::StepError;
+use crate::state::State;
+use crate::workspace::Workspace;
+use crate::{Method, Model, StepMap};
+
+/// Evaluates the contacts where the condition is written.
+pub(crate) fn evaluate_contacts<const D: usize>(
+    model: &Model<D>,
+    method: &Method<D>,
+    state: &State<D>,
+    work: &mut Workspace<D>,
+) {
+    let weight = method.condition.evaluation_weight();
+    let motion = &work.motion;
+    let position = |n: u32| {
+        let n = n as usize;
+        model.reference[n] + state.displacement[n] + motion[n] * weight
+    };
+    work.contacts.clear();
+    work.contacts.extend(work.candidates.iter().map(|c| model.contact.evaluate(c, &position)));
+}
+
+/// What the contacts mean for the balance of their bodies: those of the step, and those that it starts with and loses.
+pub(crate) fn measure_rubbing<const D: usize>(
+    model: &Model<D>,
+    method: &Method<D>,
+    state: &State<D>,
+    map: &StepMap,
+    work: &mut Workspace<D>,
+) {
+    let motion = &work.motion;
+    let slip = |contact: &carom_contact::Contact<D>| {
+        let w = contact.relative(|n| motion[n]);
+        (1..D).map(|t| w[t] * w[t]).sum::<f64>().sqrt()
+    };
+    let weight = method.condition.reaction_weight(map);
+    work.rubbing.clear();
+    for (k, contact) in work.contacts.iter().enumerate() {
+        let pair = &model.contact.pairs[work.candidates[k].pair as usize];
+        work.rubbing.push(Rubbing {
+            group: pair.group,
+            source: pair.source,
+            target: pair.target,
+            friction: pair.friction,
+            start: work.start_forces[k],
+            end: work.reactions[k][0] / weight,
+            slip: slip(contact),
+        });
+    }
+    for reaction in work.lost.iter().map(|&k| &state.reactions[k]) {
+        let pair = &model.contact.pairs[reaction.pair as usize];
+        work.rubbing.push(Rubbing {
+            group: pair.group,
+            source: pair.source,
+            target: pair.target,
+            friction: pair.friction,
+            start: reaction.force[0],
+            end: 0.0,
+            slip: slip(&reaction.contact),
+        });
+    }
+}
+
+/// Solves the reduced problem of the contacts and adds the effect of their reactions to the corrections.
+pub(crate) fn react<const D: usize>(
+    model: &Model<D>,
+    method: &Method<D>,
+    state: &State<D>,
+    map: &StepMap,
+    work: &mut Workspace<D>,
+) -> Result<(), StepError> {
+    if work.candidates.is_empty() {
+        return Ok(());
+    }
+    // The bodies in contact settle together; while others still move, these keep their reactions.
+    if work.progress.iter().zip(&work.touched).any(|(p, &touched)| touched && p.settled) {
+        return Ok(());
+    }
+    let motion = &work.motion;
+    work.offsets.clear();
+    work.offsets.extend(work.contacts.iter().zip(&work.start_gaps).map(|(contact, &kept)| {
+        method.condition.normal_offset(contact, kept, map, |n| motion[n], |n| state.velocity[n])
+    }));
+    // The motion without reactions is d plus the correction; `momentum` is free here and holds it.
+    for ((free, d), c) in work.momentum.iter_mut().zip(&work.motion).zip(&work.correction) {
+        *free = d + c;
+    }
+    condense(
+        model,
+        &mut work.operators,
+        &mut work.compliances,
+        &work.contacts,
+        &work.friction,
+        &work.offsets,
+        &work.momentum,
+        &mut work.problem,
+    );
+    let report = method.solver.solve(&work.problem, &mut work.reactions, &method.stopping);
+    if !report.is_converged() {
+        return Err(StepError::Friction { contacts: work.contacts.len(), report });
+    }
+    // r as an external load: a second solve for the bodies in contact.
+    for (contact, r) in work.contacts.iter().zip(&work.reactions) {
+        contact.add_force(r, &mut work.residual);
+    }
+    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| work.touched[i]) {
+        let nodes = b.nodes();
+        work.correction[nodes.clone()].copy_from_slice(&work.residual[nodes.clone()]);
+        work.operators[i].solve(&mut work.correction[nodes]);
+    }
+    Ok(())
+}
+

@@ -1,0 +1,94 @@
+//! Which contacts take part in a step.
+
+use carom_contact::{Pair, Target};
+use carom_mesh::Vector;
+
+use crate::state::{Reaction, State};
+use crate::workspace::Workspace;
+use crate::{Method, Model, StepMap};
+
+/// Penetrations below this multiple of the size of the model are round-off.
+const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
+
+/// Finds the candidates of the step between its start and the predicted end.
+pub(crate) fn search<const D: usize>(model: &Model<D>, state: &State<D>, margin: f64, work: &mut Workspace<D>) {
+    let start = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
+    let motion = &work.motion;
+    let end = |n: u32| start(n) + motion[n as usize];
+    model.contact.detect(&start, &end, margin, &mut work.candidates);
+}
+
+/// Keeps the candidates that take part in the step and recalls their last reactions.
+pub(crate) fn select_active<const D: usize>(
+    model: &Model<D>,
+    method: &Method<D>,
+    state: &State<D>,
+    map: &StepMap,
+    work: &mut Workspace<D>,
+) {
+    let start = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
+    let contact = &model.contact;
+    work.searched.clear();
+    work.searched.extend(work.candidates.iter().map(|c| (c.pair, c.node)));
+    work.start_gaps.clear();
+    work.candidates.retain(|c| {
+        let gap = contact.evaluate(c, &start).gap;
+        let active = !c.mirrored && method.condition.is_active(gap);
+        if active {
+            work.start_gaps.push(if contact.is_two_sided(c.pair as usize) { gap.min(0.0) } else { 0.0 });
+        }
+        active
+    });
+    work.reactions.clear();
+    work.friction.clear();
+    work.start_forces.clear();
+    work.touched.fill(false);
+    let weight = method.condition.reaction_weight(map);
+    for candidate in &work.candidates {
+        let known = state.reactions.binary_search_by_key(&(candidate.pair, candidate.node), Reaction::key);
+        let force = known.map_or_else(|_| Vector::zeros(), |k| state.reactions[k].force);
+        work.reactions.push(force * weight);
+        work.start_forces.push(force[0]);
+        work.friction.push(contact.pairs[candidate.pair as usize].friction);
+        touch(&mut work.touched, &contact.pairs[candidate.pair as usize]);
+    }
+    // Contacts that the step starts with and that are out of reach by its end still share their bodies' balance.
+    work.lost.clear();
+    if !method.condition.is_massless() {
+        return;
+    }
+    for (k, reaction) in state.reactions.iter().enumerate() {
+        if work.candidates.binary_search_by_key(&reaction.key(), |c| (c.pair, c.node)).is_err() {
+            work.lost.push(k);
+            touch(&mut work.touched, &contact.pairs[reaction.pair as usize]);
+        }
+    }
+}
+
+fn touch(touched: &mut [bool], pair: &Pair) {
+    touched[pair.source] = true;
+    if let Target::Surface(target) = pair.target {
+        touched[target] = true;
+    }
+}
+
+/// Whether a node that the search did not find has gone through its target by the end of the step.
+///
+/// Only where the condition is written there: the others choose their contacts at the start.
+pub(crate) fn missed_a_contact<const D: usize>(
+    model: &Model<D>,
+    method: &Method<D>,
+    next: &State<D>,
+    work: &mut Workspace<D>,
+) -> bool {
+    if !method.condition.rules_the_end() {
+        return false;
+    }
+    let end = |n: u32| model.reference[n as usize] + next.displacement[n as usize];
+    model.contact.detect(&end, &end, 0.0, &mut work.missed);
+    work.missed.iter().any(|m| {
+        let known = work.searched.binary_search(&(m.pair, m.node)).is_ok();
+        !known && model.contact.evaluate(m, &end).gap < -ROUND_OFF * model.size
+    })
+}
+
