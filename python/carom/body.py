@@ -25,6 +25,8 @@ class Body(Description):
         Mass matrix: consistent, or lumped to the nodes.
     mesh
         Reference geometry and its cells.
+    contact_sides
+        Sides of a rectangle that may touch others; None for all.
     velocity
         Initial velocity of the centre of mass [m/s], shape [2].
     spin
@@ -37,5 +39,6 @@ class Body(Description):
     thickness: Positive = 1.0
     mass: Literal["consistent", "lumped"] = "consistent"
     mesh: Mesh
+    contact_sides: tuple[Literal["left", "right", "bottom", "top"], ...] | None = None
     velocity: Vector = (0.0, 0.0)
     spin: Number = 0.0

@@ -87,7 +87,9 @@ class Contact(Description):
     ----------
     condition
         Where in time the unilateral condition is written: on the gap at the end of the step (the
-        paper's), on the increment over the step, or on the velocity at its end.
+        paper's), on the increment over the step, on the velocity at its end, or again on the gap
+        at the end but between nodes without mass. With the scheme ``conserving`` the last keeps
+        the energy, is quiet and never penetrates.
     friction
         Coulomb's coefficient of every pair that does not state its own.
     solver
@@ -99,7 +101,7 @@ class Contact(Description):
         What single pairs do differently.
     """
 
-    condition: Literal["gap", "midpoint", "endpoint"] = "gap"
+    condition: Literal["gap", "midpoint", "endpoint", "massless"] = "gap"
     friction: Friction = 0.0
     solver: FrictionSolver = GaussSeidel()
     sources: Sources = "finer"

@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 use crate::FemError;
 use crate::elements::{CellState, Elements, StepForces, add_mass, elements};
 use crate::massless::{followers, redistributed};
-use crate::rigid::RigidMass;
 use crate::material::{
     Confined, LawSpec, LinearElastic, Material, NeoHookean, PointLaw, SaintVenantKirchhoff,
 };
+use crate::rigid::RigidMass;
 use crate::sparse::{NodalMatrix, NodeGraph};
 
 /// How the mass of a body is shared among its nodes.
@@ -69,6 +69,7 @@ pub struct Body<const D: usize> {
     elements: Vec<Box<dyn Elements<D>>>,
     mass: NodalMatrix<f64>,
     nodal_mass: Vec<f64>,
+    massless_stiffness: Vec<f64>,
     total_mass: f64,
     volume: f64,
     damping: RayleighDamping,
@@ -147,10 +148,19 @@ impl<const D: usize> Body<D> {
             graph,
             elements: blocks,
             mass,
+            massless_stiffness: Vec::new(),
             massless_contact: spec.massless_contact,
             nodal_mass,
             objective,
         };
+        if spec.massless_contact {
+            let stiffness = body.stiffness(&vec![Vector::zeros(); body.node_count()]);
+            body.massless_stiffness = body
+                .massless()
+                .iter()
+                .map(|&n| stiffness.values[body.graph.entry(n, n)].trace() / D as f64)
+                .collect();
+        }
         if spec.damping.stiffness > 0.0 {
             body.damping_stiffness = Some(body.stiffness(&vec![Vector::zeros(); body.node_count()]));
         }
@@ -191,6 +201,12 @@ impl<const D: usize> Body<D> {
     #[must_use]
     pub fn massless(&self) -> &[u32] {
         if self.massless_contact { self.surface.nodes() } else { &[] }
+    }
+
+    /// For every massless node, the mean stiffness [N/m] with which the others hold it in the reference configuration.
+    #[must_use]
+    pub fn massless_stiffness(&self) -> &[f64] {
+        &self.massless_stiffness
     }
 
     /// Row sums of the mass matrix [kg].

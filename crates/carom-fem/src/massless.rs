@@ -98,8 +98,7 @@ fn affine_weights<const D: usize>(arms: &[Vector<D>]) -> Option<Vec<f64>> {
     let inverse = DMatrix::from_fn(D, D, |i, j| second[(i, j)]).pseudo_inverse(1e-10 * second.norm()).ok()?;
     let gradient = -(Matrix::<D>::from_fn(|i, j| inverse[(i, j)]) * first);
     let sum = zeroth + gradient.dot(&first);
-    let weights: Vec<f64> =
-        scaled.iter().map(|x| importance(x) * (1.0 + gradient.dot(x)) / sum).collect();
+    let weights: Vec<f64> = scaled.iter().map(|x| importance(x) * (1.0 + gradient.dot(x)) / sum).collect();
     let moment = scaled.iter().zip(&weights).fold(Vector::zeros(), |s, (x, &w)| s + x * w);
     let reproduced = weights.iter().all(|w| w.is_finite())
         && (weights.iter().sum::<f64>() - 1.0).abs() < REPRODUCED

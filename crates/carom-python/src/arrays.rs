@@ -1,5 +1,7 @@
 //! Nodal and cell data as NumPy arrays.
 
+use carom::{Model, State};
+use carom_contact::Target;
 use carom_mesh::{Mesh, Vector};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -15,6 +17,33 @@ pub fn vectors<'py, const D: usize>(py: Python<'py>, v: &[Vector<D>]) -> PyResul
 pub fn table(py: Python<'_>, values: Vec<f64>, width: usize) -> PyResult<Bound<'_, PyArray2<f64>>> {
     let rows = values.len() / width;
     PyArray1::from_vec(py, values).reshape([rows, width])
+}
+
+/// A state with its contacts: of each the source node, the target (the index of a body, or −1 − that of an obstacle), the gap where
+/// the condition was written, the normal, and the force on the source node.
+pub fn state<'py, const D: usize>(
+    py: Python<'py>,
+    model: &Model<D>,
+    state: &State<D>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let reactions = &state.reactions;
+    let out = PyDict::new(py);
+    out.set_item("time", state.time)?;
+    out.set_item("displacement", vectors(py, &state.displacement)?)?;
+    out.set_item("velocity", vectors(py, &state.velocity)?)?;
+    out.set_item("contact_force", vectors(py, &state.contact_force)?)?;
+    let target = |pair: u32| match model.contact.pairs[pair as usize].target {
+        Target::Surface(body) => body as i64,
+        Target::Obstacle(obstacle) => -1 - obstacle as i64,
+    };
+    out.set_item("contact_node", PyArray1::from_iter(py, reactions.iter().map(|r| i64::from(r.node))))?;
+    out.set_item("contact_target", PyArray1::from_iter(py, reactions.iter().map(|r| target(r.pair))))?;
+    out.set_item("contact_gap", PyArray1::from_iter(py, reactions.iter().map(|r| r.contact.gap)))?;
+    let normals: Vec<Vector<D>> = reactions.iter().map(|r| r.contact.frame.row(0).transpose()).collect();
+    out.set_item("contact_normal", vectors(py, &normals)?)?;
+    let forces: Vec<Vector<D>> = reactions.iter().map(|r| r.contact.frame.tr_mul(&r.force)).collect();
+    out.set_item("contact_reaction", vectors(py, &forces)?)?;
+    Ok(out)
 }
 
 /// The meshes of all bodies as one unstructured grid in VTK's numbering.

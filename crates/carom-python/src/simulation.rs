@@ -77,6 +77,18 @@ impl Simulation {
         Ok(out)
     }
 
+    /// The last step made, as its two states and its energy terms; None before the first.
+    fn last_step<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let Some(step) = self.inner.last_step() else { return Ok(None) };
+        let out = PyDict::new(py);
+        for (name, state) in [("start", step.start), ("end", step.end)] {
+            out.set_item(name, arrays::state(py, self.inner.model(), state)?)?;
+        }
+        out.set_item("blend", PyArray1::from_slice(py, step.blend))?;
+        out.set_item("ledger", to_python(py, &step.ledger)?)?;
+        Ok(Some(out))
+    }
+
     fn history_columns(&self) -> Vec<String> {
         self.inner.history_columns().to_vec()
     }

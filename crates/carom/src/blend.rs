@@ -15,8 +15,8 @@ use carom_contact::Target;
 use carom_fem::{RigidMass, StepForces};
 use carom_mesh::{Vector, tensor};
 
-use crate::body_step::{BodyStep, ResidualScratch};
 use crate::Model;
+use crate::body_step::{BodyStep, ResidualScratch};
 
 /// Below this fraction of the energy of the model the denominator of α is round-off, as in rigid flight, and so is its numerator.
 const NEGLIGIBLE: f64 = 1e-12;
@@ -109,18 +109,18 @@ impl<const D: usize> Blend<D> {
         let mut balance = Balance::default();
         // What the forces of the boundary have more than the reactions (½ ∓ α) of start and end: resultants and moments.
         let (mut excess, mut excess_moment) = ([Vector::zeros(); 2], [[0.0; 3]; 2]);
-        for n in body.massless().iter().map(|&n| n as usize) {
+        for (&n, k) in body.massless().iter().zip(body.massless_stiffness()) {
+            let n = n as usize;
             let d = step.motion[n];
             let x1 = body.mesh().nodes()[n] + step.displacement[n] - rigid.centre;
             let (x0, x_mid) = (x1 - d, x1 - d * 0.5);
-            let (p0, p1) = (step.contact_force[n], end[n] + viscous[n]);
+            let (p0, p1) = (step.contact_force[n], end[n] + viscous[n] + step.steadying_force(n, *k));
             let inner = [conserving[n] + viscous[n], difference[n]];
             balance.missing += inner[0].dot(&d);
             let outer = [[p0 * 0.5, p1 * 0.5], [-p0, p1]];
             for k in 0..2 {
                 excess[k] += inner[k] - outer[k][0] - outer[k][1];
-                let moments =
-                    [(x_mid, inner[k], 1.0), (x0, outer[k][0], -1.0), (x1, outer[k][1], -1.0)];
+                let moments = [(x_mid, inner[k], 1.0), (x0, outer[k][0], -1.0), (x1, outer[k][1], -1.0)];
                 for (x, f, sign) in moments {
                     let moment = tensor::cross(&x, &f);
                     (0..3).for_each(|i| excess_moment[k][i] += sign * moment[i]);

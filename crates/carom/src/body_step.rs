@@ -7,6 +7,9 @@ use crate::model::{Model, ModelBody};
 use crate::state::{State, dot};
 use crate::{StepMap, StressRule};
 
+/// Resistance of massless nodes to a change of motion, in terms of the stiffness that holds them.
+pub(crate) const STEADYING: f64 = 0.1;
+
 /// Where a step stands: the part of one body of a state, of its guess for the end, and of what stays fixed in between.
 pub(crate) struct BodyStep<'a, const D: usize> {
     pub body: &'a Body<D>,
@@ -77,7 +80,7 @@ impl<'a, const D: usize> BodyStep<'a, D> {
 
     /// Writes the residual F̄ + F̄_acc (3) without reactions [N] to `out`:
     /// M(g − (v₊ − v)/Δt) − f̄ − C v̄, with v̄ = (1 − ξ)v + ξv₊ and f̄ by the scheme's [`StressRule`], and in the rows of nodes
-    /// without mass −ξ(f(u₊) + C v̄).
+    /// without mass −ξ(f(u₊) + C v̄ + s), with s the [`Self::steadying_force`].
     pub fn residual(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
         self.inertia_and_damping(scratch, out);
         let map = self.map;
@@ -111,9 +114,20 @@ impl<'a, const D: usize> BodyStep<'a, D> {
 
     /// Writes the rows of the nodes without mass, static at the end of the step under the internal force `end` there, to `out`.
     pub fn balance_massless(&self, end: &[Vector<D>], viscous: &[Vector<D>], out: &mut [Vector<D>]) {
-        for n in self.body.massless().iter().map(|&n| n as usize) {
-            out[n] = -(end[n] + viscous[n]) * self.map.xi;
+        for (&n, k) in self.body.massless().iter().zip(self.body.massless_stiffness()) {
+            let n = n as usize;
+            out[n] = -(end[n] + viscous[n] + self.steadying_force(n, *k)) * self.map.xi;
         }
+    }
+
+    /// The force [N] with which a massless node resists a change of its motion from step to step; `stiffness` holds it.
+    ///
+    /// Static balance alone may have no stable solution near the last one: under strong compression, as where a law like
+    /// Saint-Venant–Kirchhoff's softens, boundary nodes snap. This is the inertia of a mass STEADYING·k·Δt², far below the node's
+    /// own, taken at the end of the step. It vanishes with Δt², and the blend returns its work and its momentum.
+    #[inline]
+    pub fn steadying_force(&self, node: usize, stiffness: f64) -> Vector<D> {
+        (self.motion[node] - self.velocity[node] * self.map.dt) * (STEADYING * stiffness)
     }
 
     /// Writes v₊ [m/s] to `out`; a node without mass moves at the mean velocity of the step.

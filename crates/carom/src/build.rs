@@ -170,9 +170,7 @@ fn contact_surface(key: &str, entry: &BodyEntry, mesh: &Mesh<2>) -> Result<Surfa
         };
         (x[axis] - at).abs() <= 1e-9 * size[axis]
     };
-    Ok(whole.part(|f| {
-        sides.iter().any(|side| f.nodes.iter().all(|&n| on(side, &mesh.nodes()[n as usize])))
-    }))
+    Ok(whole.part(|f| sides.iter().any(|side| f.nodes.iter().all(|&n| on(side, &mesh.nodes()[n as usize])))))
 }
 
 fn mesh(spec: &MeshSpec) -> Result<Mesh<2>, MeshError> {

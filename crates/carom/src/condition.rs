@@ -76,9 +76,7 @@ impl ContactCondition {
         v: impl Fn(usize) -> Vector<D>,
     ) -> f64 {
         match self {
-            ContactCondition::Gap | ContactCondition::Massless => {
-                contact.gap - kept - contact.relative(d)[0]
-            }
+            ContactCondition::Gap | ContactCondition::Massless => contact.gap - kept - contact.relative(d)[0],
             ContactCondition::Midpoint => 0.0,
             // v₊ = a v + b d, so w_n = v₊/b = d + (a/b) v: ½Δt v₊ for θ = ½.
             ContactCondition::Endpoint => {

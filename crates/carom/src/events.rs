@@ -77,7 +77,12 @@ mod tests {
     use super::*;
 
     fn record(log: &mut EventLog, groups: &[Group], force: f64, start: f64, end: f64) {
-        log.record(groups, &[GroupReport { normal_force: force, friction: 0.5, normal_contact: 0.0 }], start, end);
+        log.record(
+            groups,
+            &[GroupReport { normal_force: force, friction: 0.5, normal_contact: 0.0 }],
+            start,
+            end,
+        );
     }
 
     #[test]

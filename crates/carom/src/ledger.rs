@@ -22,7 +22,10 @@ impl Energies {
 
 impl Sum for Energies {
     fn sum<I: Iterator<Item = Self>>(energies: I) -> Self {
-        energies.fold(Self::default(), |a, b| Self { kinetic: a.kinetic + b.kinetic, strain: a.strain + b.strain })
+        energies.fold(Self::default(), |a, b| Self {
+            kinetic: a.kinetic + b.kinetic,
+            strain: a.strain + b.strain,
+        })
     }
 }
 

@@ -47,7 +47,7 @@ pub use ledger::{BodyLedger, Energies, Ledger};
 pub use model::{Group, Method, Model, ModelBody, NewtonRule};
 pub use scenario::Scenario;
 pub use scheme::{Scheme, StepMap, StressRule};
-pub use simulation::{Fields, Outcome, Progress, Simulation, Summary};
+pub use simulation::{Fields, Outcome, Progress, Simulation, StepPair, Summary};
 pub use state::{Reaction, State};
 pub use step::step;
 pub use workspace::{GroupReport, StepReport, Workspace};

@@ -5,6 +5,7 @@ use carom_fem::sparse::{Factor, NodalMatrix};
 use carom_mesh::{Matrix, Vector};
 
 use crate::StepMap;
+use crate::body_step::STEADYING;
 use crate::error::StepError;
 
 /// The factor of K̄ = ξ K + ξ/(θΔt) C + M/(θΔt²) (3) of one body.
@@ -51,7 +52,10 @@ impl<const D: usize> BodyOperator<D> {
         u: &[Vector<D>],
         frame: &Matrix<D>,
     ) -> Result<(), StepError> {
-        let stiffness = body.stiffness(u);
+        let mut stiffness = body.stiffness(u);
+        for (&n, k) in body.massless().iter().zip(body.massless_stiffness()) {
+            stiffness.values[body.graph().entry(n, n)] += Matrix::from_diagonal_element(STEADYING * k);
+        }
         let (k, c, m) = (map.stiffness_coefficient(), map.damping_coefficient(), map.mass_coefficient());
         let damping = body.damping();
         let mass_coefficient = m + c * damping.mass;

@@ -114,4 +114,3 @@ pub(crate) fn react<const D: usize>(
     }
     Ok(())
 }
-

@@ -11,7 +11,12 @@ use crate::{Method, Model, StepMap};
 const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
 
 /// Finds the candidates of the step between its start and the predicted end.
-pub(crate) fn search<const D: usize>(model: &Model<D>, state: &State<D>, margin: f64, work: &mut Workspace<D>) {
+pub(crate) fn search<const D: usize>(
+    model: &Model<D>,
+    state: &State<D>,
+    margin: f64,
+    work: &mut Workspace<D>,
+) {
     let start = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
     let motion = &work.motion;
     let end = |n: u32| start(n) + motion[n as usize];
@@ -91,4 +96,3 @@ pub(crate) fn missed_a_contact<const D: usize>(
         !known && model.contact.evaluate(m, &end).gap < -ROUND_OFF * model.size
     })
 }
-

@@ -44,6 +44,20 @@ pub struct Simulation<const D: usize> {
     initial_energy: (f64, f64),
     ledger: Ledger,
     totals: Totals,
+    last_step: Option<Ledger>,
+}
+
+/// A step as its two states.
+#[derive(Debug, Clone, Copy)]
+pub struct StepPair<'a, const D: usize> {
+    /// The state that it started from.
+    pub start: &'a State<D>,
+    /// The state that it ended in.
+    pub end: &'a State<D>,
+    /// Blend α of start and end stresses of every body.
+    pub blend: &'a [f64],
+    /// What the step says of the energy.
+    pub ledger: Ledger,
 }
 
 /// Extremes and counts over the run.
@@ -215,6 +229,7 @@ impl Simulation<2> {
                 least_friction: 0.0,
                 min_gap: f64::INFINITY,
             },
+            last_step: None,
             model,
             method,
             state,
@@ -275,6 +290,13 @@ impl<const D: usize> Simulation<D> {
     #[must_use]
     pub fn state(&self) -> &State<D> {
         &self.state
+    }
+
+    /// The last step made, which may be a part of a nominal one, for whoever wants to check it.
+    #[must_use]
+    pub fn last_step(&self) -> Option<StepPair<'_, D>> {
+        let ledger = self.last_step?;
+        Some(StepPair { start: &self.spare, end: &self.state, blend: self.work.blend_weights(), ledger })
     }
 
     /// Overwrites the velocities [m/s], one per node: initial conditions that no scenario describes. Only before the first step.
@@ -339,7 +361,18 @@ impl<const D: usize> Simulation<D> {
         let last = self.step + 1 == self.steps;
         let end = if last { self.end_time } else { (self.step + 1) as f64 * self.time_step };
         let Self {
-            model, method, state, spare, work, events, history, ledger, totals, initial_energy, ..
+            model,
+            method,
+            state,
+            spare,
+            work,
+            events,
+            history,
+            ledger,
+            totals,
+            initial_energy,
+            last_step,
+            ..
         } = self;
         let mut previous_time = state.time;
         let initial = initial_energy.0 + initial_energy.1;
@@ -355,6 +388,7 @@ impl<const D: usize> Simulation<D> {
             &mut failed,
             |state, report, work| {
                 *ledger += report.ledger;
+                *last_step = Some(report.ledger);
                 ledger.kinetic = state.energies.kinetic - initial_energy.0;
                 ledger.strain = state.energies.strain - initial_energy.1;
                 events.record(&model.groups, &work.groups, previous_time, state.time);

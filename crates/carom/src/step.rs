@@ -224,4 +224,3 @@ fn refactorize<const D: usize>(
     }
     Ok(())
 }
-

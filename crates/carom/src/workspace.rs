@@ -2,10 +2,10 @@ use carom_contact::{Candidate, Contact};
 use carom_friction::ContactProblem;
 use carom_mesh::{Matrix, Vector};
 
-use crate::condense::Compliance;
-use crate::error::StepError;
 use crate::blend::{Blend, Rubbing};
 use crate::body_step::ResidualScratch;
+use crate::condense::Compliance;
+use crate::error::StepError;
 use crate::ledger::BodyLedger;
 use crate::linearise::BodyOperator;
 use crate::{Ledger, Model};
@@ -126,6 +126,14 @@ impl<const D: usize> Workspace<D> {
             bodies: vec![BodyLedger::default(); bodies],
             factorisations: 0,
         })
+    }
+}
+
+impl<const D: usize> Workspace<D> {
+    /// The blend α of start and end stresses of every body in the last step.
+    #[must_use]
+    pub fn blend_weights(&self) -> &[f64] {
+        &self.blend.weight
     }
 }
 
