@@ -131,10 +131,11 @@ impl<const D: usize> ContactModel<D> {
                 if p.normal.dot(&outward) >= 0.0 {
                     continue;
                 }
-                let (distance, gap) = ((x - p.point).norm(), p.normal.dot(&(x - p.point)));
+                let offset = x - p.point;
+                let (distance, gap) = (offset.norm(), p.normal.dot(&offset));
                 // In front of the facet or behind it, not beside it: in front of a convex corner a node may stand as far
                 // beside either facet as before it, but one behind and beside a facet is next to the body.
-                let beside = (distance * distance - gap * gap).max(0.0).sqrt();
+                let beside = (offset - p.normal * gap).norm();
                 if gap > margin || beside > gap.max(0.0) + ALIGNED * facet_box.diameter() {
                     continue;
                 }
