@@ -1,7 +1,7 @@
 use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
-use crate::project::{Reach, project};
+use crate::project::Reach;
 use crate::{ContactModel, ContactSurface, Pair, Target};
 
 /// The place where the two sides of a pair are closest.
@@ -43,12 +43,9 @@ impl<const D: usize> ContactModel<D> {
             }
             Target::Surface(t) => {
                 let target = &self.surfaces[t];
-                let boxes: Vec<Aabb<D>> = target
-                    .facets
-                    .iter()
-                    .map(|facet| Aabb::of(facet.nodes.iter().map(|&n| position(n))))
-                    .collect();
-                let whole = Aabb::of(target.nodes.iter().map(|&n| position(n)));
+                let boxes: Vec<Aabb<D>> =
+                    (0..target.facets.len() as u32).map(|f| target.bounds(f, position)).collect();
+                let whole = boxes.iter().fold(Aabb::of([]), |all, b| all.union(b));
                 // The nearest to the target's box first, so that most points need no closer look.
                 let mut points: Vec<(f64, Vector<D>)> = points.map(|x| (whole.distance(&x), x)).collect();
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -75,12 +72,12 @@ fn signed_distance<const D: usize>(
     position: &impl Fn(u32) -> Vector<D>,
 ) -> f64 {
     let (mut distance, mut side) = (f64::INFINITY, 0.0);
-    for (facet, facet_box) in surface.facets.iter().zip(boxes) {
+    for (f, facet_box) in (0..).zip(boxes) {
         let tie = 1e-9 * facet_box.diameter();
         if facet_box.distance(x) > distance + tie {
             continue;
         }
-        let p = project(x, facet, Reach::Facet, position);
+        let p = surface.project(f, x, Reach::Facet, position);
         let d = (x - p.point).norm();
         let front = p.normal.dot(&(x - p.point));
         if d < distance - tie {

@@ -14,9 +14,11 @@ mod frame;
 mod model;
 mod obstacle;
 mod project;
+mod surface;
 
 pub use contact::Contact;
 pub use detect::Candidate;
 pub use distance::Proximity;
-pub use model::{ContactModel, ContactSurface, Pair, Target};
+pub use model::{ContactModel, Pair, Target};
 pub use obstacle::Obstacle;
+pub use surface::ContactSurface;
