@@ -32,7 +32,8 @@ impl<const D: usize> ContactModel<D> {
     ///
     /// `start` and `end` are the positions at the start of the step and those predicted for its end. A node keeps its facet for
     /// the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
-    /// the closest facet alone is ambiguous. Nodes are found inside a target to a depth of `DEPTH` facets.
+    /// the closest facet alone is ambiguous. Nodes are found inside a target to a depth of `DEPTH` facets. On a smooth target
+    /// the closest point may move on to other facets.
     pub fn detect(
         &self,
         start: &impl Fn(u32) -> Vector<D>,
@@ -152,6 +153,9 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// Gap, frame and stencil of a candidate where the nodes are at `position`.
+    ///
+    /// The normal row of the map from nodal to relative motion is the gradient of the gap, except half a facet and more beyond
+    /// the edge of a facet, or beyond a corner of a smooth target.
     #[must_use]
     pub fn evaluate(&self, candidate: &Candidate, position: &impl Fn(u32) -> Vector<D>) -> Contact<D> {
         let x = position(candidate.node);

@@ -168,24 +168,25 @@ mod tests {
         let left = generate::grid([-1.0, 0.0], [1.0, 1.0], [4, 4]).expect("valid");
         let right = generate::grid([1e-9, 0.0], [1.0, 1.0], [4, 4]).expect("valid");
         let count = left.nodes().len() as u32;
-        let model = ContactModel::<2> {
-            surfaces: vec![
-                ContactSurface::new(&Surface::of(&left), 0),
-                ContactSurface::new(&Surface::of(&right), count),
-            ],
-            obstacles: vec![],
-            pairs: vec![Pair { source: 0, target: Target::Surface(1), friction: 0.0, group: 0 }],
-        };
         let x: Vec<Vector<2>> = left.nodes().iter().chain(right.nodes()).copied().collect();
-        for shift in [-1e-3, 0.0, 1e-9, 1e-3] {
-            let at = |n: u32| x[n as usize] + Vector::<2>::new(if n < count { shift } else { 0.0 }, 0.0);
-            let mut candidates = Vec::new();
-            model.detect(&at, &at, 0.01, &mut candidates);
-            assert_eq!(candidates.len(), 5);
-            for candidate in &candidates {
-                let contact = model.evaluate(candidate, &at);
-                assert!((contact.frame[(0, 0)] + 1.0).abs() < 1e-12);
-                assert!((contact.gap - (1e-9 - shift)).abs() < 1e-12);
+        let faceted = ContactSurface::new(&Surface::of(&right), count);
+        let smooth = faceted.clone().smoothed(&|n| x[n as usize]);
+        for target in [faceted, smooth] {
+            let model = ContactModel::<2> {
+                surfaces: vec![ContactSurface::new(&Surface::of(&left), 0), target],
+                obstacles: vec![],
+                pairs: vec![Pair { source: 0, target: Target::Surface(1), friction: 0.0, group: 0 }],
+            };
+            for shift in [-1e-3, 0.0, 1e-9, 1e-3] {
+                let at = |n: u32| x[n as usize] + Vector::<2>::new(if n < count { shift } else { 0.0 }, 0.0);
+                let mut candidates = Vec::new();
+                model.detect(&at, &at, 0.01, &mut candidates);
+                assert_eq!(candidates.len(), 5);
+                for candidate in &candidates {
+                    let contact = model.evaluate(candidate, &at);
+                    assert!((contact.frame[(0, 0)] + 1.0).abs() < 1e-12);
+                    assert!((contact.gap - (1e-9 - shift)).abs() < 1e-12);
+                }
             }
         }
     }

@@ -1,6 +1,7 @@
-use carom_mesh::{Facet, Surface, Vector};
+use carom_mesh::{CellKind, Facet, Surface, Vector};
 
 use crate::aabb::Aabb;
+use crate::curve::Curve;
 use crate::project::{Projection, Reach, project};
 
 /// The boundary of a body, its nodes numbered over all bodies.
@@ -12,10 +13,20 @@ pub struct ContactSurface {
     pub nodes: Vec<u32>,
     /// For every node, the facets around it.
     facets_around: Vec<Vec<u32>>,
+    shape: Shape,
+}
+
+/// What a surface is between its nodes.
+#[derive(Debug, Clone, PartialEq)]
+enum Shape {
+    /// Its facets.
+    Faceted,
+    /// A curve with one segment per facet.
+    Curved(Curve),
 }
 
 impl ContactSurface {
-    /// The boundary of a body whose first node has the number `first_node`.
+    /// The boundary of a body whose first node has the number `first_node`. As a target it consists of its facets.
     #[must_use]
     pub fn new(surface: &Surface, first_node: u32) -> Self {
         let facets: Vec<Facet> = surface
@@ -32,7 +43,20 @@ impl ContactSurface {
                 }
             }
         }
-        Self { facets, nodes, facets_around }
+        Self { facets, nodes, facets_around, shape: Shape::Faceted }
+    }
+
+    /// The same boundary with a normal that turns continuously from facet to facet: as a target, a line is a cubic curve through
+    /// its nodes, so that the gap of a node is a C¹ function of all positions.
+    ///
+    /// `reference` are the positions [m] without deformation. Their distances weigh the tangents, and where the line turns by
+    /// more than 40° there it keeps its corner. Surfaces in space stay faceted.
+    #[must_use]
+    pub fn smoothed<const D: usize>(mut self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
+        if self.facets.iter().all(|f| f.kind == CellKind::Line2) {
+            self.shape = Shape::Curved(Curve::through(&self, reference));
+        }
+        self
     }
 
     /// The facets around a node.
@@ -40,7 +64,7 @@ impl ContactSurface {
         self.nodes.binary_search(&node).map_or(&[], |k| &self.facets_around[k])
     }
 
-    /// Projects `x` on what the surface is over the facet `f`.
+    /// Projects `x` on what the surface is over the facet `f`; with `Reach::Beyond` and where it is smooth, also over the next ones.
     #[inline]
     pub(crate) fn project<const D: usize>(
         &self,
@@ -49,12 +73,18 @@ impl ContactSurface {
         reach: Reach,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Projection<'_, D> {
-        project(x, &self.facets[f as usize], reach, position)
+        match &self.shape {
+            Shape::Faceted => project(x, &self.facets[f as usize], reach, position),
+            Shape::Curved(curve) => curve.project(f, x, reach, position),
+        }
     }
 
     /// A box around what the surface is over the facet `f`.
     pub(crate) fn bounds<const D: usize>(&self, f: u32, position: &impl Fn(u32) -> Vector<D>) -> Aabb<D> {
-        Aabb::of(self.facets[f as usize].nodes.iter().map(|&n| position(n)))
+        match &self.shape {
+            Shape::Faceted => Aabb::of(self.facets[f as usize].nodes.iter().map(|&n| position(n))),
+            Shape::Curved(curve) => Aabb::of(curve.control_points(f, position)),
+        }
     }
 
     /// Mean outward normal of the facets around a node, weighted by their size; not normalised.
