@@ -14,6 +14,11 @@ impl<const D: usize> Aabb<D> {
         points.into_iter().fold(empty, |b, x| Self { low: b.low.inf(&x), high: b.high.sup(&x) })
     }
 
+    /// The box around both.
+    pub fn union(&self, other: &Self) -> Self {
+        Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
+    }
+
     /// The box grown by `margin` on all sides.
     pub fn inflated(&self, margin: f64) -> Self {
         Self { low: self.low.add_scalar(-margin), high: self.high.add_scalar(margin) }

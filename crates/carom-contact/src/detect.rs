@@ -32,7 +32,8 @@ impl<const D: usize> ContactModel<D> {
     ///
     /// `start` and `end` are the positions at the start of the step and those predicted for its end. A node keeps its facet for
     /// the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
-    /// the closest facet alone is ambiguous. Nodes are found inside a target to a depth of `DEPTH` facets.
+    /// the closest facet alone is ambiguous. Nodes are found inside a target to a depth of `DEPTH` facets. On a smooth target
+    /// the closest point may move on to other facets.
     pub fn detect(
         &self,
         start: &impl Fn(u32) -> Vector<D>,
@@ -83,7 +84,7 @@ impl<const D: usize> ContactModel<D> {
         let Target::Surface(t) = self.pairs[candidate.pair as usize].target else { return None };
         let facet = &self.surfaces[t].facets[candidate.facet? as usize];
         let p = project(&position(candidate.node), facet, Reach::Facet, position);
-        facet.nodes.iter().zip(&p.weights).find(|&(_, &weight)| weight >= 1.0 - MIRRORED).map(|(&n, _)| n)
+        p.nodes.iter().zip(&p.weights).find(|&(_, &weight)| weight >= 1.0 - MIRRORED).map(|(&n, _)| n)
     }
 
     fn detect_facets(
@@ -97,44 +98,43 @@ impl<const D: usize> ContactModel<D> {
     ) {
         let source = &self.surfaces[self.pairs[pair as usize].source];
         let target = &self.surfaces[target];
-        let swept = |nodes: &[u32]| Aabb::of(nodes.iter().flat_map(|&n| [start(n), end(n)]));
-        let source_box = swept(&source.nodes).inflated(margin);
-        let target_box = swept(&target.nodes).inflated(margin);
+        let source_box = Aabb::of(source.nodes.iter().flat_map(|&n| [start(n), end(n)])).inflated(margin);
+        let swept = |f: u32| target.bounds(f, start).union(&target.bounds(f, end));
+        let facets = 0..target.facets.len() as u32;
+        let target_box = facets.clone().fold(Aabb::of([]), |all, f| all.union(&swept(f))).inflated(margin);
         if !source_box.overlaps(&target_box) {
             return;
         }
         let middle = |n: u32| (start(n) + end(n)) * 0.5;
-        let facets: Vec<(u32, Aabb<D>)> = target
-            .facets
-            .iter()
-            .enumerate()
-            .map(|(f, facet)| {
-                let facet_box = swept(&facet.nodes);
-                (f as u32, facet_box.inflated(margin + DEPTH * facet_box.diameter()))
+        let facets: Vec<(u32, Aabb<D>)> = facets
+            .map(|f| {
+                let facet_box = swept(f);
+                (f, facet_box.inflated(margin + DEPTH * facet_box.diameter()))
             })
             .filter(|(_, b)| b.overlaps(&source_box))
             .collect();
-        for (k, &node) in source.nodes.iter().enumerate() {
+        for &node in &source.nodes {
             let (x0, x1) = (start(node), end(node));
             if !(target_box.contains(&x0) || target_box.contains(&x1)) {
                 continue;
             }
             let node_box = Aabb::of([x0, x1]);
             let x = middle(node);
-            let outward = Self::node_normal(source, k, &middle);
+            let outward = source.node_normal(node, &middle);
             let mut best: Option<(f64, f64, u32)> = None;
             for (f, facet_box) in &facets {
                 if !facet_box.overlaps(&node_box) {
                     continue;
                 }
-                let p = project(&x, &target.facets[*f as usize], Reach::Facet, &middle);
+                let p = target.project(*f, &x, Reach::Facet, &middle);
                 if p.normal.dot(&outward) >= 0.0 {
                     continue;
                 }
-                let (distance, gap) = ((x - p.point).norm(), p.normal.dot(&(x - p.point)));
+                let offset = x - p.point;
+                let (distance, gap) = (offset.norm(), p.normal.dot(&offset));
                 // In front of the facet or behind it, not beside it: in front of a convex corner a node may stand as far
                 // beside either facet as before it, but one behind and beside a facet is next to the body.
-                let beside = (distance * distance - gap * gap).max(0.0).sqrt();
+                let beside = (offset - p.normal * gap).norm();
                 if gap > margin || beside > gap.max(0.0) + ALIGNED * facet_box.diameter() {
                     continue;
                 }
@@ -153,15 +153,17 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// Gap, frame and stencil of a candidate where the nodes are at `position`.
+    ///
+    /// The normal row of the map from nodal to relative motion is the gradient of the gap, except half a facet and more beyond
+    /// the edge of a facet, or beyond a corner of a smooth target.
     #[must_use]
     pub fn evaluate(&self, candidate: &Candidate, position: &impl Fn(u32) -> Vector<D>) -> Contact<D> {
         let x = position(candidate.node);
         match (self.pairs[candidate.pair as usize].target, candidate.facet) {
             (Target::Surface(t), Some(f)) => {
-                let facet = &self.surfaces[t].facets[f as usize];
-                let p = project(&x, facet, Reach::Beyond, position);
+                let p = self.surfaces[t].project(f, &x, Reach::Beyond, position);
                 let gap = p.normal.dot(&(x - p.point));
-                Contact::new(gap, frame(&p.normal), candidate.node, &facet.nodes, &p.weights)
+                Contact::new(gap, frame(&p.normal), candidate.node, p.nodes, &p.weights)
             }
             (Target::Obstacle(o), _) => {
                 let (gap, normal) = self.obstacles[o].gap(&x);

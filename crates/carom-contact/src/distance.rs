@@ -1,7 +1,7 @@
 use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
-use crate::project::{Reach, project};
+use crate::project::Reach;
 use crate::{ContactModel, ContactSurface, Pair, Target};
 
 /// The place where the two sides of a pair are closest.
@@ -43,12 +43,9 @@ impl<const D: usize> ContactModel<D> {
             }
             Target::Surface(t) => {
                 let target = &self.surfaces[t];
-                let boxes: Vec<Aabb<D>> = target
-                    .facets
-                    .iter()
-                    .map(|facet| Aabb::of(facet.nodes.iter().map(|&n| position(n))))
-                    .collect();
-                let whole = Aabb::of(target.nodes.iter().map(|&n| position(n)));
+                let boxes: Vec<Aabb<D>> =
+                    (0..target.facets.len() as u32).map(|f| target.bounds(f, position)).collect();
+                let whole = boxes.iter().fold(Aabb::of([]), |all, b| all.union(b));
                 // The nearest to the target's box first, so that most points need no closer look.
                 let mut points: Vec<(f64, Vector<D>)> = points.map(|x| (whole.distance(&x), x)).collect();
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -75,12 +72,12 @@ fn signed_distance<const D: usize>(
     position: &impl Fn(u32) -> Vector<D>,
 ) -> f64 {
     let (mut distance, mut side) = (f64::INFINITY, 0.0);
-    for (facet, facet_box) in surface.facets.iter().zip(boxes) {
+    for (f, facet_box) in (0..).zip(boxes) {
         let tie = 1e-9 * facet_box.diameter();
         if facet_box.distance(x) > distance + tie {
             continue;
         }
-        let p = project(x, facet, Reach::Facet, position);
+        let p = surface.project(f, x, Reach::Facet, position);
         let d = (x - p.point).norm();
         let front = p.normal.dot(&(x - p.point));
         if d < distance - tie {
@@ -171,24 +168,25 @@ mod tests {
         let left = generate::grid([-1.0, 0.0], [1.0, 1.0], [4, 4]).expect("valid");
         let right = generate::grid([1e-9, 0.0], [1.0, 1.0], [4, 4]).expect("valid");
         let count = left.nodes().len() as u32;
-        let model = ContactModel::<2> {
-            surfaces: vec![
-                ContactSurface::new(&Surface::of(&left), 0),
-                ContactSurface::new(&Surface::of(&right), count),
-            ],
-            obstacles: vec![],
-            pairs: vec![Pair { source: 0, target: Target::Surface(1), friction: 0.0, group: 0 }],
-        };
         let x: Vec<Vector<2>> = left.nodes().iter().chain(right.nodes()).copied().collect();
-        for shift in [-1e-3, 0.0, 1e-9, 1e-3] {
-            let at = |n: u32| x[n as usize] + Vector::<2>::new(if n < count { shift } else { 0.0 }, 0.0);
-            let mut candidates = Vec::new();
-            model.detect(&at, &at, 0.01, &mut candidates);
-            assert_eq!(candidates.len(), 5);
-            for candidate in &candidates {
-                let contact = model.evaluate(candidate, &at);
-                assert!((contact.frame[(0, 0)] + 1.0).abs() < 1e-12);
-                assert!((contact.gap - (1e-9 - shift)).abs() < 1e-12);
+        let faceted = ContactSurface::new(&Surface::of(&right), count);
+        let smooth = faceted.clone().smoothed(&|n| x[n as usize]);
+        for target in [faceted, smooth] {
+            let model = ContactModel::<2> {
+                surfaces: vec![ContactSurface::new(&Surface::of(&left), 0), target],
+                obstacles: vec![],
+                pairs: vec![Pair { source: 0, target: Target::Surface(1), friction: 0.0, group: 0 }],
+            };
+            for shift in [-1e-3, 0.0, 1e-9, 1e-3] {
+                let at = |n: u32| x[n as usize] + Vector::<2>::new(if n < count { shift } else { 0.0 }, 0.0);
+                let mut candidates = Vec::new();
+                model.detect(&at, &at, 0.01, &mut candidates);
+                assert_eq!(candidates.len(), 5);
+                for candidate in &candidates {
+                    let contact = model.evaluate(candidate, &at);
+                    assert!((contact.frame[(0, 0)] + 1.0).abs() < 1e-12);
+                    assert!((contact.gap - (1e-9 - shift)).abs() < 1e-12);
+                }
             }
         }
     }

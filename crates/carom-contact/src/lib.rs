@@ -3,20 +3,24 @@
 //! A [`ContactModel`] lists surfaces, rigid [`Obstacle`]s and [`Pair`]s. [`ContactModel::detect`] finds the [`Candidate`]s of a
 //! step, [`ContactModel::evaluate`] turns a candidate into a [`Contact`]: gap [m] (negative = penetration), frame (rows n, t₁,
 //! t₂, with n from target to source) and the stencil that maps nodal to relative motion. Positions are passed as functions
-//! of the node, so that only the nodes in question are ever evaluated. Nothing here knows of materials, forces or friction
+//! of the node, so that only the nodes in question are ever evaluated. A surface consists of its facets or, once
+//! [smoothed](ContactSurface::smoothed), of a curve through its nodes. Nothing here knows of materials, forces or friction
 //! laws.
 
 mod aabb;
 mod contact;
+mod curve;
 mod detect;
 mod distance;
 mod frame;
 mod model;
 mod obstacle;
 mod project;
+mod surface;
 
 pub use contact::Contact;
 pub use detect::Candidate;
 pub use distance::Proximity;
-pub use model::{ContactModel, ContactSurface, Pair, Target};
+pub use model::{ContactModel, Pair, Target};
 pub use obstacle::Obstacle;
+pub use surface::ContactSurface;

@@ -1,40 +1,4 @@
-use carom_mesh::{Facet, Surface, Vector};
-
-use crate::Obstacle;
-use crate::project::{Reach, project};
-
-/// The boundary of a body, its nodes numbered over all bodies.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ContactSurface {
-    /// Facets.
-    pub facets: Vec<Facet>,
-    /// Nodes, ascending.
-    pub nodes: Vec<u32>,
-    /// For every node, the facets around it.
-    pub(crate) facets_around: Vec<Vec<u32>>,
-}
-
-impl ContactSurface {
-    /// The boundary of a body whose first node has the number `first_node`.
-    #[must_use]
-    pub fn new(surface: &Surface, first_node: u32) -> Self {
-        let facets: Vec<Facet> = surface
-            .facets()
-            .iter()
-            .map(|f| Facet { kind: f.kind, nodes: f.nodes.iter().map(|n| n + first_node).collect() })
-            .collect();
-        let nodes: Vec<u32> = surface.nodes().iter().map(|n| n + first_node).collect();
-        let mut facets_around = vec![Vec::new(); nodes.len()];
-        for (f, facet) in facets.iter().enumerate() {
-            for node in &facet.nodes {
-                if let Ok(k) = nodes.binary_search(node) {
-                    facets_around[k].push(f as u32);
-                }
-            }
-        }
-        Self { facets, nodes, facets_around }
-    }
-}
+use crate::{ContactSurface, Obstacle};
 
 /// What a source surface is checked against.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,19 +39,5 @@ impl<const D: usize> ContactModel<D> {
     pub fn is_two_sided(&self, pair: usize) -> bool {
         let group = self.pairs[pair].group;
         self.pairs.iter().filter(|p| p.group == group).count() > 1
-    }
-
-    /// Mean outward normal of the facets around the `k`-th node of a surface, weighted by their size; not normalised.
-    pub(crate) fn node_normal(
-        surface: &ContactSurface,
-        k: usize,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> Vector<D> {
-        let x = position(surface.nodes[k]);
-        surface.facets_around[k].iter().fold(Vector::zeros(), |sum, &f| {
-            let facet = &surface.facets[f as usize];
-            let size = (position(facet.nodes[1]) - position(facet.nodes[0])).norm();
-            sum + project(&x, facet, Reach::Facet, position).normal * size
-        })
     }
 }

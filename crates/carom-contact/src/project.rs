@@ -1,36 +1,41 @@
 use carom_mesh::{CellKind, Facet, Vector, cell};
 
-/// The point of a facet closest to a given one.
+/// The point of a facet, or of the curve over it, closest to a given one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Projection<const D: usize> {
-    /// Weights of the nodes of the facet at that point.
+pub struct Projection<'a, const D: usize> {
+    /// The nodes that the point follows.
+    pub nodes: &'a [u32],
+    /// Their weights.
     pub weights: [f64; cell::MAX_NODES],
     /// The point [m].
     pub point: Vector<D>,
-    /// Outward unit normal of the facet there.
+    /// Outward unit normal there.
     pub normal: Vector<D>,
 }
 
 /// Newton steps on a curved (quad4) facet; straight ones need one.
 const MAX_STEPS: usize = 20;
 
-/// How far beyond its edges a facet reaches when a point is projected on it.
+/// How far a facet reaches beyond its edges with `Reach::Beyond`, in widths.
+pub const BEYOND: f64 = 0.5;
+
+/// Whether a facet reaches beyond its edges when a point is projected on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reach {
     /// Not at all: the closest point of the facet itself.
     Facet,
-    /// Half its width on every side. A node that slides past the edge of its facet within a step is so still at right angles to
+    /// On every side, by `BEYOND`. A node that slides past the edge of its facet within a step is so still at right angles to
     /// the point it presses on, and the pair of forces has no moment.
     Beyond,
 }
 
 /// Projects `x` on `facet`, whose nodes are at `position`.
-pub fn project<const D: usize>(
+pub fn project<'a, const D: usize>(
     x: &Vector<D>,
-    facet: &Facet,
+    facet: &'a Facet,
     reach: Reach,
     position: &impl Fn(u32) -> Vector<D>,
-) -> Projection<D> {
+) -> Projection<'a, D> {
     let reference = facet.kind.reference();
     let n = facet.nodes.len();
     let mut nodes = [Vector::zeros(); cell::MAX_NODES];
@@ -57,7 +62,7 @@ pub fn project<const D: usize>(
     }
     (reference.shape)(&xi, &mut weights[..n]);
     let point = (0..n).fold(Vector::zeros(), |s, a| s + nodes[a] * weights[a]);
-    Projection { weights, point, normal: normal(&tangents) }
+    Projection { nodes: &facet.nodes, weights, point, normal: normal(&tangents) }
 }
 
 /// ξ after a Gauss–Newton step that brings the distance vector `d` at right angles to the tangents.
@@ -77,7 +82,7 @@ fn step<const D: usize>(xi: &[f64; 3], d: &Vector<D>, t: &[Vector<D>; 2], dimens
 
 /// The closest point of the reference facet, or of what it reaches, component by component.
 fn clamp(kind: CellKind, reach: Reach, xi: [f64; 3]) -> [f64; 3] {
-    let beyond = if reach == Reach::Beyond { 0.5 } else { 0.0 };
+    let beyond = if reach == Reach::Beyond { BEYOND } else { 0.0 };
     if kind != CellKind::Tri3 {
         let end = 1.0 + 2.0 * beyond;
         return xi.map(|x| x.clamp(-end, end));
@@ -93,7 +98,7 @@ fn clamp(kind: CellKind, reach: Reach, xi: [f64; 3]) -> [f64; 3] {
 }
 
 /// Outward unit normal by the right-hand rule; in 2D to the right of the tangent.
-fn normal<const D: usize>(t: &[Vector<D>; 2]) -> Vector<D> {
+pub fn normal<const D: usize>(t: &[Vector<D>; 2]) -> Vector<D> {
     let mut n = Vector::<D>::zeros();
     if D == 2 {
         n[0] = t[0][1];

@@ -1,0 +1,239 @@
+use carom_mesh::{Vector, cell};
+
+use crate::ContactSurface;
+use crate::project::{BEYOND, Projection, Reach, normal};
+
+/// A curve through the nodes of a boundary line with a continuous tangent, except at corners.
+///
+/// Each segment is a cubic in ξ from 0 to 1. Its tangents at the ends are those of the parabola through the node and its two
+/// neighbours, with the distances of the reference configuration as parameter (Catmull–Rom). A point of given ξ is so a fixed
+/// combination of four nodes, and its weights sum to 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    segments: Vec<Segment>,
+}
+
+/// The curve over one facet.
+#[derive(Debug, Clone, PartialEq)]
+struct Segment {
+    /// The nodes of the facet, then the neighbours on the curve, as far as there are any.
+    nodes: [u32; 4],
+    len: usize,
+    /// Weights of the nodes as coefficients of 1, ξ, ξ², ξ³.
+    weights: [[f64; 4]; 4],
+    /// The segments before and behind; none at a corner and at the end of an open line.
+    neighbours: [Option<u32>; 2],
+}
+
+/// Cosine of the turning angle in the reference configuration from which on a node is a corner: 40°. The slack keeps the nonagon,
+/// whose angles are 40° up to round-off, alike at all nodes.
+const CORNER: f64 = 0.766_044_443_118_978 - 1e-9;
+
+/// Newton or bisection steps; Newton alone needs about four.
+const MAX_STEPS: usize = 100;
+
+/// The ends of a segment in ξ.
+const ENDS: [f64; 2] = [0.0, 1.0];
+
+impl Curve {
+    /// The curve through the nodes of a surface of lines, one segment per facet.
+    pub fn through<const D: usize>(surface: &ContactSurface, reference: &impl Fn(u32) -> Vector<D>) -> Self {
+        let facets = 0..surface.facets.len() as u32;
+        Self { segments: facets.map(|f| Segment::new(surface, f, reference)).collect() }
+    }
+
+    /// The point closest to `x`: of one segment or, if it may reach beyond, of the part of the curve between corners. Beyond a corner
+    /// the curve goes on straight for half a facet.
+    ///
+    /// The search starts on the segment `start` and walks on while the distance falls beyond an end. As the tangent is continuous,
+    /// so is the sign of that slope from one segment to the next, and the walk does not turn back.
+    pub fn project<const D: usize>(
+        &self,
+        start: u32,
+        x: &Vector<D>,
+        reach: Reach,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Projection<'_, D> {
+        let mut segment = &self.segments[start as usize];
+        let mut offset = Cubic::new(segment, x, position);
+        let mut from = None;
+        // A walk visits no segment twice.
+        for _ in 0..self.segments.len() {
+            let Some(end) = offset.falls_beyond(from) else {
+                return segment.foot(&offset, x, offset.closest(), 0.0);
+            };
+            if reach == Reach::Facet {
+                return segment.foot(&offset, x, ENDS[end], 0.0);
+            }
+            let Some(next) = segment.neighbours[end] else {
+                let beyond = offset.beyond(ENDS[end]).clamp(-BEYOND, BEYOND);
+                return segment.foot(&offset, x, ENDS[end], beyond);
+            };
+            segment = &self.segments[next as usize];
+            offset = Cubic::new(segment, x, position);
+            from = Some(1 - end);
+        }
+        segment.foot(&offset, x, ENDS[from.unwrap_or(0)], 0.0)
+    }
+
+    /// Points [m] whose convex hull holds a segment.
+    pub fn control_points<const D: usize>(
+        &self,
+        segment: u32,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> [Vector<D>; 4] {
+        let Cubic(c) = Cubic::new(&self.segments[segment as usize], &Vector::zeros(), position);
+        [c[0], c[0] + c[1] / 3.0, c[0] + (c[1] * 2.0 + c[2]) / 3.0, c[0] + c[1] + c[2] + c[3]]
+    }
+}
+
+impl Segment {
+    fn new<const D: usize>(surface: &ContactSurface, f: u32, reference: &impl Fn(u32) -> Vector<D>) -> Self {
+        let ends = |f: u32| {
+            let nodes = &surface.facets[f as usize].nodes;
+            [nodes[0], nodes[1]]
+        };
+        let chord = |f: u32| {
+            let [a, b] = ends(f);
+            reference(b) - reference(a)
+        };
+        let length = chord(f).norm();
+        // More than two facets at a node: two parts of the boundary touch there, which is a corner.
+        let neighbour = |end: usize| match *surface.around(ends(f)[end]) {
+            [g, h] => Some(if g == f { h } else { g }).filter(|&g| {
+                let c = chord(g);
+                ends(g)[1 - end] == ends(f)[end] && c.dot(&chord(f)) >= CORNER * c.norm() * length
+            }),
+            _ => None,
+        };
+        let neighbours = [0, 1].map(neighbour);
+        let [a, b] = ends(f);
+        let (mut nodes, mut len) = ([a, b, b, b], 2);
+        // The tangents as weights of the nodes: the chord, and where there is a neighbour, a share of its slope.
+        let mut tangents = [[-1.0, 1.0, 0.0, 0.0]; 2];
+        for (end, g) in neighbours.iter().enumerate().filter_map(|(end, g)| g.map(|g| (end, g))) {
+            let other = chord(g).norm();
+            let own_share = other / (length + other);
+            let slope = (1.0 - own_share) * length / other;
+            let sign = if end == 0 { 1.0 } else { -1.0 };
+            tangents[end][0] = -own_share;
+            tangents[end][1] = own_share;
+            tangents[end][end] += sign * slope;
+            tangents[end][len] = -sign * slope;
+            nodes[len] = ends(g)[end];
+            len += 1;
+        }
+        let values = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]];
+        let mut weights = [[0.0; 4]; 4];
+        for (k, weight) in weights.iter_mut().enumerate() {
+            let (rise, t) = (values[1][k] - values[0][k], tangents.map(|t| t[k]));
+            *weight = [values[0][k], t[0], 3.0 * rise - 2.0 * t[0] - t[1], t[0] + t[1] - 2.0 * rise];
+        }
+        Self { nodes, len, weights, neighbours }
+    }
+
+    /// What belongs to the point at `xi`, or straight on from there by `beyond`.
+    fn foot<const D: usize>(
+        &self,
+        offset: &Cubic<D>,
+        x: &Vector<D>,
+        xi: f64,
+        beyond: f64,
+    ) -> Projection<'_, D> {
+        let (value, slope) = (powers(xi), slopes(xi));
+        let basis: [f64; 4] = std::array::from_fn(|j| value[j] + beyond * slope[j]);
+        let mut weights = [0.0; cell::MAX_NODES];
+        for (weight, own) in weights.iter_mut().zip(&self.weights[..self.len]) {
+            *weight = own.iter().zip(&basis).map(|(c, b)| c * b).sum();
+        }
+        let normal = normal(&[offset.combine(&slope), Vector::zeros()]);
+        Projection { nodes: &self.nodes[..self.len], weights, point: x + offset.combine(&basis), normal }
+    }
+}
+
+/// The offset of a segment from a point, as coefficients of 1, ξ, ξ², ξ³. Offsets have less round-off than positions.
+struct Cubic<const D: usize>([Vector<D>; 4]);
+
+impl<const D: usize> Cubic<D> {
+    fn new(segment: &Segment, x: &Vector<D>, position: &impl Fn(u32) -> Vector<D>) -> Self {
+        let mut c = [Vector::zeros(); 4];
+        for (&node, weights) in segment.nodes.iter().zip(&segment.weights).take(segment.len) {
+            let offset = position(node) - x;
+            for (c, &weight) in c.iter_mut().zip(weights) {
+                *c += offset * weight;
+            }
+        }
+        Self(c)
+    }
+
+    fn combine(&self, basis: &[f64; 4]) -> Vector<D> {
+        self.0.iter().zip(basis).fold(Vector::zeros(), |sum, (c, &b)| sum + c * b)
+    }
+
+    /// Half the slope of the squared distance, and its own slope.
+    fn slope(&self, xi: f64) -> (f64, f64) {
+        let [d, t, k] = [powers(xi), slopes(xi), bends(xi)].map(|basis| self.combine(&basis));
+        (d.dot(&t), t.norm_squared() + d.dot(&k))
+    }
+
+    /// The end beyond which the distance falls, if there is one other than that which the walk came `from`. If it falls
+    /// beyond both, the point is farther away than the centre of curvature: the closer one.
+    fn falls_beyond(&self, from: Option<usize>) -> Option<usize> {
+        let falls = |end: usize| {
+            let (slope, _) = self.slope(ENDS[end]);
+            from != Some(end) && if end == 0 { slope > 0.0 } else { slope < 0.0 }
+        };
+        match [falls(0), falls(1)] {
+            [false, false] => None,
+            [true, false] => Some(0),
+            [false, true] => Some(1),
+            [true, true] => {
+                let distance = |end: usize| self.combine(&powers(ENDS[end])).norm_squared();
+                Some(usize::from(distance(1) < distance(0)))
+            }
+        }
+    }
+
+    /// How far from an end the straight line along its tangent is closest, in tangents.
+    fn beyond(&self, end: f64) -> f64 {
+        let t = self.combine(&slopes(end));
+        -self.slope(end).0 / t.norm_squared()
+    }
+
+    /// ξ of the closest point between ends beyond which the distance does not fall: Newton, with bisection where it leaves the
+    /// interval in which the slope changes its sign.
+    fn closest(&self) -> f64 {
+        let (mut low, mut high) = (0.0, 1.0);
+        // On a straight segment the slope is linear, and this is the root.
+        let [at_start, at_end] = ENDS.map(|end| self.slope(end).0);
+        let mut xi = if at_end > at_start { (at_start / (at_start - at_end)).clamp(low, high) } else { 0.5 };
+        for _ in 0..MAX_STEPS {
+            let (slope, own_slope) = self.slope(xi);
+            if slope < 0.0 {
+                low = xi;
+            } else {
+                high = xi;
+            }
+            let newton = xi - slope / own_slope;
+            let next = if low <= newton && newton <= high { newton } else { 0.5 * (low + high) };
+            let change = (next - xi).abs();
+            xi = next;
+            if change < 1e-15 {
+                break;
+            }
+        }
+        xi
+    }
+}
+
+fn powers(xi: f64) -> [f64; 4] {
+    [1.0, xi, xi * xi, xi * xi * xi]
+}
+
+fn slopes(xi: f64) -> [f64; 4] {
+    [0.0, 1.0, 2.0 * xi, 3.0 * xi * xi]
+}
+
+fn bends(xi: f64) -> [f64; 4] {
+    [0.0, 0.0, 2.0, 6.0 * xi]
+}

@@ -1,0 +1,103 @@
+use carom_mesh::{CellKind, Facet, Surface, Vector};
+
+use crate::aabb::Aabb;
+use crate::curve::Curve;
+use crate::project::{Projection, Reach, project};
+
+/// The boundary of a body, its nodes numbered over all bodies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactSurface {
+    /// Facets.
+    pub facets: Vec<Facet>,
+    /// Nodes, ascending.
+    pub nodes: Vec<u32>,
+    /// For every node, the facets around it.
+    facets_around: Vec<Vec<u32>>,
+    shape: Shape,
+}
+
+/// What a surface is between its nodes.
+#[derive(Debug, Clone, PartialEq)]
+enum Shape {
+    /// Its facets.
+    Faceted,
+    /// A curve with one segment per facet.
+    Curved(Curve),
+}
+
+impl ContactSurface {
+    /// The boundary of a body whose first node has the number `first_node`. As a target it consists of its facets.
+    #[must_use]
+    pub fn new(surface: &Surface, first_node: u32) -> Self {
+        let facets: Vec<Facet> = surface
+            .facets()
+            .iter()
+            .map(|f| Facet { kind: f.kind, nodes: f.nodes.iter().map(|n| n + first_node).collect() })
+            .collect();
+        let nodes: Vec<u32> = surface.nodes().iter().map(|n| n + first_node).collect();
+        let mut facets_around = vec![Vec::new(); nodes.len()];
+        for (f, facet) in facets.iter().enumerate() {
+            for node in &facet.nodes {
+                if let Ok(k) = nodes.binary_search(node) {
+                    facets_around[k].push(f as u32);
+                }
+            }
+        }
+        Self { facets, nodes, facets_around, shape: Shape::Faceted }
+    }
+
+    /// The same boundary with a normal that turns continuously from facet to facet: as a target, a line is a cubic curve through
+    /// its nodes, so that the gap of a node is a C¹ function of all positions.
+    ///
+    /// `reference` are the positions [m] without deformation. Their distances weigh the tangents, and where the line turns by
+    /// more than 40° there it keeps its corner. Surfaces in space stay faceted.
+    #[must_use]
+    pub fn smoothed<const D: usize>(mut self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
+        if self.facets.iter().all(|f| f.kind == CellKind::Line2) {
+            self.shape = Shape::Curved(Curve::through(&self, reference));
+        }
+        self
+    }
+
+    /// The facets around a node.
+    pub(crate) fn around(&self, node: u32) -> &[u32] {
+        self.nodes.binary_search(&node).map_or(&[], |k| &self.facets_around[k])
+    }
+
+    /// Projects `x` on what the surface is over the facet `f`; with `Reach::Beyond` and where it is smooth, also over the next ones.
+    #[inline]
+    pub(crate) fn project<const D: usize>(
+        &self,
+        f: u32,
+        x: &Vector<D>,
+        reach: Reach,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Projection<'_, D> {
+        match &self.shape {
+            Shape::Faceted => project(x, &self.facets[f as usize], reach, position),
+            Shape::Curved(curve) => curve.project(f, x, reach, position),
+        }
+    }
+
+    /// A box around what the surface is over the facet `f`.
+    pub(crate) fn bounds<const D: usize>(&self, f: u32, position: &impl Fn(u32) -> Vector<D>) -> Aabb<D> {
+        match &self.shape {
+            Shape::Faceted => Aabb::of(self.facets[f as usize].nodes.iter().map(|&n| position(n))),
+            Shape::Curved(curve) => Aabb::of(curve.control_points(f, position)),
+        }
+    }
+
+    /// Mean outward normal of the facets around a node, weighted by their size; not normalised.
+    pub(crate) fn node_normal<const D: usize>(
+        &self,
+        node: u32,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Vector<D> {
+        let x = position(node);
+        self.around(node).iter().fold(Vector::zeros(), |sum, &f| {
+            let facet = &self.facets[f as usize];
+            let size = (position(facet.nodes[1]) - position(facet.nodes[0])).norm();
+            sum + project(&x, facet, Reach::Facet, position).normal * size
+        })
+    }
+}
