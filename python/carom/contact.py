@@ -97,6 +97,9 @@ class Contact(Description):
     sources
         Whose nodes are checked in a pair of bodies that does not state its own: those of the body
         with the finer boundary (of the first-named one if they are alike), or of one side or both.
+    targets
+        What they are checked against: a smooth curve through the boundary nodes of the other body,
+        with a continuous tangent but for corners of more than 40°, or the facets of its mesh.
     pairs
         What single pairs do differently.
     """
@@ -105,4 +108,5 @@ class Contact(Description):
     friction: Friction = 0.0
     solver: FrictionSolver = GaussSeidel()
     sources: Sources = "finer"
+    targets: Literal["smooth", "faceted"] = "smooth"
     pairs: tuple[Pair, ...] = ()

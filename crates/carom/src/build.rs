@@ -7,7 +7,9 @@ use carom_mesh::{Facet, Mesh, MeshError, Surface, Vector, generate, tensor};
 
 use crate::error::InputError;
 use crate::model::{Group, Method, Model, ModelBody, NewtonRule};
-use crate::scenario::{BodyEntry, MeshSpec, ObstacleShape, PairEntry, PlaneCell, Scenario, Side, Sources};
+use crate::scenario::{
+    BodyEntry, MeshSpec, ObstacleShape, PairEntry, PlaneCell, Scenario, Side, Sources, Targets,
+};
 use crate::{Scheme, State};
 
 /// Overlaps at the start deeper than this, relative to the smallest edge, are an error.
@@ -200,7 +202,12 @@ fn contact(
 ) -> Result<(ContactModel<2>, Vec<Group>), InputError> {
     let mut model = ContactModel::default();
     for b in bodies {
-        model.surfaces.push(ContactSurface::new(b.body.surface(), b.first_node as u32));
+        let surface = ContactSurface::new(b.body.surface(), b.first_node as u32);
+        let reference = |n: u32| b.body.mesh().nodes()[n as usize - b.first_node];
+        model.surfaces.push(match scenario.contact.targets {
+            Targets::Smooth => surface.smoothed(&reference),
+            Targets::Faceted => surface,
+        });
     }
     for (i, entry) in scenario.obstacles.iter().enumerate() {
         let key = format!("obstacles.{i}");

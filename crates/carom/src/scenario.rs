@@ -227,6 +227,8 @@ pub struct ContactSpec {
     pub solver: SolverSpec,
     /// Whose nodes are checked in pairs of bodies that say nothing else.
     pub sources: Sources,
+    /// What they are checked against.
+    pub targets: Targets,
     /// Exceptions for pairs.
     #[serde(default)]
     pub pairs: Vec<PairEntry>,
@@ -256,6 +258,17 @@ pub enum Sources {
     Second,
     /// Both.
     Both,
+}
+
+/// The shape of a body's boundary in the eyes of the nodes that meet it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Targets {
+    /// A curve through the nodes with a continuous tangent, but for corners of more than 40°.
+    #[default]
+    Smooth,
+    /// The facets of the mesh.
+    Faceted,
 }
 
 /// What is different for a pair.
