@@ -22,7 +22,7 @@ pub struct Candidate {
 const DEPTH: f64 = 0.5;
 
 /// A node this close to lying on a facet, relative to its size, is not beside it.
-const ALIGNED: f64 = 1e-9;
+const ALIGNED: f64 = 1e-6;
 
 /// A node is checked once where it faces another that faces it, to this fraction of the facet.
 const MIRRORED: f64 = 0.02;

@@ -412,6 +412,6 @@ fn mass_matrix<const D: usize>(
     if !spec.massless_contact {
         return Ok(mass);
     }
-    let followers = followers(mesh, &graph, surface.nodes())?;
+    let followers = followers(mesh, &graph, surface)?;
     Ok(redistributed(&mass, surface.nodes(), &followers))
 }

@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use crate::{CellKind, Mesh};
+use crate::{CellKind, Mesh, Vector, tensor};
 
 /// A facet of the boundary.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,6 +9,26 @@ pub struct Facet {
     pub kind: CellKind,
     /// Its nodes, outward normal by the right-hand rule (in 2D: the body is on the left).
     pub nodes: Vec<u32>,
+}
+
+impl Facet {
+    /// Its outward normal times its size [m^(D−1)] in the reference configuration; for a curved facet that of its corners.
+    #[must_use]
+    pub fn area_vector<const D: usize>(&self, mesh: &Mesh<D>) -> Vector<D> {
+        let x = |k: usize| mesh.nodes()[self.nodes[k] as usize];
+        let mut n = Vector::<D>::zeros();
+        if D == 2 {
+            let t = x(1) - x(0);
+            (n[0], n[1]) = (t[1], -t[0]);
+        } else {
+            // Half the cross product of the diagonals; of two sides for a triangle.
+            let last = self.nodes.len() - 1;
+            let product = tensor::cross(&(x(2) - x(0)), &(x(last) - x(1)));
+            let sign = if last == 2 { -0.5 } else { 0.5 };
+            (0..D).for_each(|i| n[i] = sign * product[i]);
+        }
+        n
+    }
 }
 
 /// The boundary of a mesh: the facets that belong to one cell only.
