@@ -50,7 +50,7 @@ impl<const D: usize> ContactModel<D> {
                     let near = |&&node: &&u32| {
                         obstacle.gap(&start(node)).0.min(obstacle.gap(&end(node)).0) <= margin
                     };
-                    out.extend(source.nodes.iter().filter(near).map(|&node| Candidate {
+                    out.extend(source.sources.iter().filter(near).map(|&node| Candidate {
                         pair: pair_index,
                         node,
                         facet: None,
@@ -98,7 +98,7 @@ impl<const D: usize> ContactModel<D> {
         let source = &self.surfaces[self.pairs[pair as usize].source];
         let target = &self.surfaces[target];
         let swept = |nodes: &[u32]| Aabb::of(nodes.iter().flat_map(|&n| [start(n), end(n)]));
-        let source_box = swept(&source.nodes).inflated(margin);
+        let source_box = swept(&source.sources).inflated(margin);
         let target_box = swept(&target.nodes).inflated(margin);
         if !source_box.overlaps(&target_box) {
             return;
@@ -114,7 +114,7 @@ impl<const D: usize> ContactModel<D> {
             })
             .filter(|(_, b)| b.overlaps(&source_box))
             .collect();
-        for (k, &node) in source.nodes.iter().enumerate() {
+        for (k, &node) in source.sources.iter().enumerate() {
             let (x0, x1) = (start(node), end(node));
             if !(target_box.contains(&x0) || target_box.contains(&x1)) {
                 continue;

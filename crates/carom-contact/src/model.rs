@@ -1,3 +1,5 @@
+use std::collections::BTreeMap;
+
 use carom_mesh::{Facet, Surface, Vector};
 
 use crate::Obstacle;
@@ -10,7 +12,9 @@ pub struct ContactSurface {
     pub facets: Vec<Facet>,
     /// Nodes, ascending.
     pub nodes: Vec<u32>,
-    /// For every node, the facets around it.
+    /// The nodes that may touch a target, ascending: all but those that follow another. The two would be one contact twice.
+    pub sources: Vec<u32>,
+    /// For every source, the facets around it and its images.
     pub(crate) facets_around: Vec<Vec<u32>>,
 }
 
@@ -24,15 +28,18 @@ impl ContactSurface {
             .map(|f| Facet { kind: f.kind, nodes: f.nodes.iter().map(|n| n + first_node).collect() })
             .collect();
         let nodes: Vec<u32> = surface.nodes().iter().map(|n| n + first_node).collect();
-        let mut facets_around = vec![Vec::new(); nodes.len()];
+        let masters: BTreeMap<u32, u32> =
+            surface.ties().iter().map(|t| (t.image + first_node, t.master + first_node)).collect();
+        let sources: Vec<u32> = nodes.iter().copied().filter(|n| !masters.contains_key(n)).collect();
+        let mut facets_around = vec![Vec::new(); sources.len()];
         for (f, facet) in facets.iter().enumerate() {
             for node in &facet.nodes {
-                if let Ok(k) = nodes.binary_search(node) {
+                if let Ok(k) = sources.binary_search(masters.get(node).unwrap_or(node)) {
                     facets_around[k].push(f as u32);
                 }
             }
         }
-        Self { facets, nodes, facets_around }
+        Self { facets, nodes, sources, facets_around }
     }
 }
 
@@ -77,13 +84,13 @@ impl<const D: usize> ContactModel<D> {
         self.pairs.iter().filter(|p| p.group == group).count() > 1
     }
 
-    /// Mean outward normal of the facets around the `k`-th node of a surface, weighted by their size; not normalised.
+    /// Mean outward normal of the facets around the `k`-th source of a surface, weighted by their size; not normalised.
     pub(crate) fn node_normal(
         surface: &ContactSurface,
         k: usize,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Vector<D> {
-        let x = position(surface.nodes[k]);
+        let x = position(surface.sources[k]);
         surface.facets_around[k].iter().fold(Vector::zeros(), |sum, &f| {
             let facet = &surface.facets[f as usize];
             let size = (position(facet.nodes[1]) - position(facet.nodes[0])).norm();
