@@ -127,8 +127,8 @@ impl<const D: usize> Blend<D> {
                 }
             }
         }
-        // The moment of a law of small displacements is that of the reference configuration: there is none to keep.
-        let turns = body.is_objective();
+        // A body that cannot turn has no moment to keep.
+        let turns = body.turns();
         let accelerations: [_; 2] = std::array::from_fn(|k| {
             rigid.acceleration(&excess[k], if turns { &excess_moment[k] } else { &[0.0; 3] })
         });

@@ -46,9 +46,15 @@ pub struct State<const D: usize> {
 }
 
 impl<const D: usize> State<D> {
-    /// The state at t = 0 with these velocities and the bodies in their reference configuration.
+    /// The state at t = 0 with these velocities and the bodies in their reference configuration. Tied nodes start as their
+    /// masters do.
     #[must_use]
-    pub fn initial(model: &Model<D>, velocity: Vec<Vector<D>>) -> Self {
+    pub fn initial(model: &Model<D>, mut velocity: Vec<Vector<D>>) -> Self {
+        for b in &model.bodies {
+            for tie in b.body.mesh().ties() {
+                velocity[b.first_node + tie.image as usize] = velocity[b.first_node + tie.master as usize];
+            }
+        }
         let zeros = vec![Vector::zeros(); velocity.len()];
         let mut state = Self {
             time: 0.0,
