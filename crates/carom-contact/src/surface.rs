@@ -66,9 +66,9 @@ impl ContactSurface {
         self
     }
 
-    /// The facets around a node.
+    /// The facets around a source and its images.
     pub(crate) fn around(&self, node: u32) -> &[u32] {
-        self.nodes.binary_search(&node).map_or(&[], |k| &self.facets_around[k])
+        self.sources.binary_search(&node).map_or(&[], |k| &self.facets_around[k])
     }
 
     /// Projects `x` on what the surface is over the facet `f`; with `Reach::Beyond` and where it is smooth, also over the next ones.
