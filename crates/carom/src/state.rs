@@ -43,6 +43,8 @@ pub struct State<const D: usize> {
     pub energies: Energies,
     /// Those of every body.
     pub body_energies: Vec<Energies>,
+    /// Energy of every body [J] that the blend of start and end stresses has yet to take back; round-off as a rule.
+    pub excess: Vec<f64>,
 }
 
 impl<const D: usize> State<D> {
@@ -65,6 +67,7 @@ impl<const D: usize> State<D> {
             internal_force: zeros,
             energies: Energies::default(),
             body_energies: vec![Energies::default(); model.bodies.len()],
+            excess: vec![0.0; model.bodies.len()],
         };
         state.refresh(model);
         state
