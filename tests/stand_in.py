@@ -45,7 +45,8 @@ COLUMNS = (
 class FallingSimulation:
     """What the run loop needs of carom.Simulation, on MESH."""
 
-    def __init__(self, scenario, *, stop_at=None, stop=None):
+    def __init__(self, scenario, *, stop_at=None, stop=None, certificate=0.0):
+        self._certificate = certificate
         self._analysis = json.loads(scenario.to_json())["analysis"]
         self._stop_at, self._stop = stop_at, stop
         self._rows = [self._row(0.0)]
@@ -68,6 +69,31 @@ class FallingSimulation:
 
     def fields(self):
         return made_up_fields(self.time)
+
+    def surface(self):
+        return {
+            "points": MESH["points"].copy(),
+            "connectivity": np.array([0, 1, 1, 4], dtype=np.int64),
+            "offsets": np.array([0, 2, 4], dtype=np.int64),
+            "types": np.array([3, 3], dtype=np.uint8),
+            "body": np.array([0, 1], dtype=np.int32),
+        }
+
+    def surface_fields(self):
+        return {
+            "displacement": self.fields()["displacement"],
+            "friction_energy": np.array([self.time, 0.0]),
+            "pressure": np.array([0.0, self.time]),
+            "area": np.ones(2),
+        }
+
+    def ledger_entries(self):
+        return ["left", "left|floor"]
+
+    def take_ledger(self):
+        body = [self.time, 0, 1, 2, 3, 4, 5, 6, np.nan, np.nan, 7]
+        pair = [self.time, 1, *[np.nan] * 6, 8, 9, np.nan]
+        return np.array([body, pair], dtype=float)
 
     def history_columns(self):
         return list(COLUMNS)
@@ -117,7 +143,11 @@ class FallingSimulation:
                 "max_drift": 0.0,
                 "max_defect": 0.0,
             },
-            "certificate": {"max_joule": 0.0, "max_residual": 0.0},
+            "certificate": {
+                "max_joule": self._certificate,
+                "max_residual": 0.0,
+                "tolerance_joule": 1e-9,
+            },
             "min_gap": float("inf"),
             "contacts": [
                 {

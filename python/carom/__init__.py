@@ -5,7 +5,13 @@ from carom.analysis import Conserving, Dynamic, Newton, Theta
 from carom.body import Body
 from carom.checking import Check, check
 from carom.contact import Contact, GaussSeidel, Pair, Uzawa
-from carom.errors import CaromError, ConvergenceError, InputError, MeshError
+from carom.errors import (
+    CaromError,
+    CertificateError,
+    ConvergenceError,
+    InputError,
+    MeshError,
+)
 from carom.io.history import read_history
 from carom.material import Damping, LinearElastic, NeoHookean, SaintVenantKirchhoff
 from carom.mesh import Disc, Rectangle
@@ -18,6 +24,7 @@ from carom.simulation import Progress, run
 __all__ = [
     "Body",
     "CaromError",
+    "CertificateError",
     "Check",
     "Conserving",
     "Contact",

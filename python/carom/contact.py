@@ -100,6 +100,9 @@ class Contact(Description):
     targets
         What they are checked against: a smooth curve through the boundary nodes of the other body,
         with a continuous tangent but for corners of more than 40°, or the facets of its mesh.
+    certificate_tolerance
+        Largest distance from Coulomb's law in a step, the sum of bi-potential gaps, relative to the
+        largest energy of the run. A run with a larger one is not completed.
     pairs
         What single pairs do differently.
     """
@@ -109,4 +112,5 @@ class Contact(Description):
     solver: FrictionSolver = GaussSeidel()
     sources: Sources = "finer"
     targets: Literal["smooth", "faceted"] = "smooth"
+    certificate_tolerance: Positive = 1e-9
     pairs: tuple[Pair, ...] = ()

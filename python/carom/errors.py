@@ -51,6 +51,16 @@ class ConvergenceError(CaromError, RuntimeError):
         self.report = dict(report)
 
 
+class CertificateError(CaromError, RuntimeError):
+    """A run came to its end, but Coulomb's law did not hold as it should; its results are kept.
+
+    Parameters
+    ----------
+    message
+        One line: how far from the law the worst step was, what is allowed, the remedy.
+    """
+
+
 @contextmanager
 def naming(file: str | PathLike[str]) -> Iterator[None]:
     """Put the name of the file in front of every `InputError` that leaves the block."""

@@ -9,8 +9,9 @@ from carom import _carom
 from carom.interrupt import uninterrupted
 from carom.io import layout
 from carom.io.history import HistoryWriter
+from carom.io.ledger import LedgerWriter
 from carom.io.summary import write_summary
-from carom.io.vtkhdf import FieldsWriter
+from carom.io.vtkhdf import SURFACE_CELL_FIELDS, SURFACE_POINT_FIELDS, FieldsWriter
 from carom.plot import draw
 from carom.result import Result
 from carom.scenario import Scenario
@@ -39,7 +40,14 @@ class Recorder:
         self._title = scenario.title
         self._simulation = simulation
         self._history = HistoryWriter(directory / layout.HISTORY, simulation.history_columns())
+        self._ledger = LedgerWriter(directory / layout.LEDGER, simulation.ledger_entries())
         self._fields = FieldsWriter(directory / layout.FIELDS, simulation.mesh())
+        self._surface = FieldsWriter(
+            directory / layout.SURFACE,
+            simulation.surface(),
+            point_fields=SURFACE_POINT_FIELDS,
+            cell_fields=SURFACE_CELL_FIELDS,
+        )
         self._start = perf_counter()
         self._last_frame: float | None = None
 
@@ -47,6 +55,7 @@ class Recorder:
     def history(self) -> None:
         """Write the rows recorded since the last call."""
         self._history.append(self._simulation.take_history())
+        self._ledger.append(self._simulation.take_ledger())
 
     @uninterrupted()
     def frame(self) -> None:
@@ -54,6 +63,7 @@ class Recorder:
         time = self._simulation.time
         if time != self._last_frame:
             self._fields.append(time, self._simulation.fields())
+            self._surface.append(time, self._simulation.surface_fields())
             self._last_frame = time
 
     @uninterrupted()
@@ -63,7 +73,7 @@ class Recorder:
         Parameters
         ----------
         status
-            ``"completed"``, ``"failed"`` or ``"interrupted"``.
+            ``"completed"``, ``"uncertified"``, ``"failed"`` or ``"interrupted"``.
         reason
             Why the run stopped before its end.
         """

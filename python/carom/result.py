@@ -15,6 +15,7 @@ from typing_extensions import Self
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.history import read_history
+from carom.io.ledger import read_ledger
 from carom.io.summary import read_summary
 from carom.scenario import Scenario
 from carom.tables import summary_table
@@ -66,6 +67,16 @@ class Result:
     def fields_path(self) -> Path:
         """The fields over time, a VTKHDF file for ParaView and PyVista."""
         return self.path / layout.FIELDS
+
+    @property
+    def surface_path(self) -> Path:
+        """The fields on the boundaries over time, a VTKHDF file."""
+        return self.path / layout.SURFACE
+
+    @property
+    def ledger(self) -> dict[str, dict[str, NDArray[np.float64]]]:
+        """For every body and pair that touched, its energy terms over time [J]."""
+        return read_ledger(self.path / layout.LEDGER)
 
     @property
     def scenario(self) -> Scenario:

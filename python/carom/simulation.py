@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from carom._carom import Simulation
-from carom.errors import ConvergenceError
+from carom.errors import CertificateError, ConvergenceError
 from carom.recorder import Recorder
 from carom.result import Result
 from carom.scenario import Scenario
@@ -83,6 +83,9 @@ def run(
         The scenario cannot be run; nothing is written.
     ConvergenceError
         A step failed; the results up to it are written, with the status ``"failed"``.
+    CertificateError
+        A step was further from Coulomb's law than `Contact.certificate_tolerance` allows; the
+        results are written, with the status ``"uncertified"``.
     KeyboardInterrupt
         Ctrl-C; the results up to it are written, with the status ``"interrupted"``.
     """
@@ -122,7 +125,23 @@ def drive(
     except KeyboardInterrupt:
         recorder.close(status="interrupted", reason=f"Ctrl-C at t = {simulation.time:g} s")
         raise
+    if (reason := _violation(simulation)) is not None:
+        recorder.close(status="uncertified", reason=reason)
+        raise CertificateError(reason)
     return recorder.close(status="completed")
+
+
+def _violation(simulation: Simulation) -> str | None:
+    """Return why a run is not certified, if it is not."""
+    certificate = simulation.summary()["certificate"]
+    worst, allowed = certificate["max_joule"], certificate["tolerance_joule"]
+    if worst <= allowed:
+        return None
+    return (
+        f"a step was {worst:.3g} J from Coulomb's law, more than the {allowed:.3g} J of "
+        "contact.certificate_tolerance; take a smaller contact.solver.tolerance or "
+        "analysis.newton.tolerance, or a shorter step"
+    )
 
 
 def _frame_times(scenario: Scenario) -> Iterator[float]:

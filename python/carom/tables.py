@@ -53,7 +53,12 @@ def summary_table(summary: Mapping[str, Any], *, where: Path) -> Table:
             f"the ledger misses {share:.2g} of the energy: the time step is too long for this "
             "deformation; take a smaller analysis.time_step",
         )
-    add(table, "certificate", f"{certificate['max_joule']:.3g} J, from Coulomb's law in any step")
+    add(
+        table,
+        "certificate",
+        f"{certificate['max_joule']:.3g} J from Coulomb's law in any step "
+        f"({certificate['tolerance_joule']:.3g} J allowed)",
+    )
     table.add_section()
     contacts = summary["contacts"]
     for contact in contacts[:SHOWN_CONTACTS]:

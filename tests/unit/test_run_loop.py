@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom import ConvergenceError, InputError, Result
+from carom import CertificateError, ConvergenceError, InputError, Result
 from carom.simulation import drive
 from stand_in import FallingSimulation
 
@@ -30,7 +30,9 @@ def test_completed_run_writes_everything(scenario, tmp_path):
         "energy.png",
         "fields.vtkhdf",
         "history.csv",
+        "ledger.csv",
         "summary.json",
+        "surface.vtkhdf",
         "track-tip.png",
     ]
     assert result.summary["status"] == "completed"
@@ -92,6 +94,26 @@ def test_a_run_that_cannot_go_on_claims_no_results(scenario, tmp_path):
     with pytest.raises(InputError, match=r"has no summary\.json"):
         Result.open(tmp_path)
     assert carom.read_history(tmp_path / "history.csv")["time"][-1] > 0.4
+
+
+def test_a_run_that_leaves_coulombs_law_is_not_completed(scenario, tmp_path):
+    with pytest.raises(
+        CertificateError, match=r"2e-09 J from Coulomb's law, more than the 1e-09 J"
+    ):
+        drive(FallingSimulation(scenario, certificate=2e-9), scenario, tmp_path, None)
+    result = Result.open(tmp_path)
+    assert result.summary["status"] == "uncertified"
+    assert "contact.solver.tolerance" in result.summary["reason"]
+    drive(FallingSimulation(scenario, certificate=1e-9), scenario, tmp_path, None)
+    assert Result.open(tmp_path).summary["status"] == "completed"
+
+
+def test_the_ledger_of_bodies_and_pairs_reads_back(scenario, tmp_path):
+    ledger = drive(FallingSimulation(scenario), scenario, tmp_path, None).ledger
+    assert list(ledger) == ["left", "left|floor"]
+    assert ledger["left"]["contact"][-1] == 6.0
+    assert np.isnan(ledger["left"]["friction"]).all()
+    assert ledger["left|floor"]["normal_contact"][-1] == 9.0
 
 
 def test_a_missing_directory_is_named(tmp_path):

@@ -16,7 +16,7 @@ def printed(*, max_defect):
         "wall_s": 0.1,
         "wall_s_per_step": 1e-4,
         "energy": energy | {"max_defect": max_defect},
-        "certificate": {"max_joule": 1e-15},
+        "certificate": {"max_joule": 1e-15, "tolerance_joule": 1e-9},
         "contacts": [],
     }
     console = Console(width=100)

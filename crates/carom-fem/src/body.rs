@@ -71,6 +71,7 @@ pub struct Body<const D: usize> {
     nodal_mass: Vec<f64>,
     massless_stiffness: Vec<f64>,
     total_mass: f64,
+    thickness: f64,
     volume: f64,
     damping: RayleighDamping,
     damping_stiffness: Option<NodalMatrix<Matrix<D>>>,
@@ -141,6 +142,7 @@ impl<const D: usize> Body<D> {
         let mut body = Self {
             surface,
             total_mass,
+            thickness: spec.thickness,
             volume: total_mass / spec.density,
             wave_speed: (tangent[0][0][0][0] / spec.density).sqrt(),
             damping: spec.damping,
@@ -226,6 +228,12 @@ impl<const D: usize> Body<D> {
     #[must_use]
     pub fn total_mass(&self) -> f64 {
         self.total_mass
+    }
+
+    /// Thickness in 2D [m]; 1 in 3D.
+    #[must_use]
+    pub fn thickness(&self) -> f64 {
+        self.thickness
     }
 
     /// Volume of the reference configuration [m³].

@@ -15,17 +15,26 @@ impl Facet {
     /// Its outward normal times its size [m^(D−1)] in the reference configuration; for a curved facet that of its corners.
     #[must_use]
     pub fn area_vector<const D: usize>(&self, mesh: &Mesh<D>) -> Vector<D> {
-        let x = |k: usize| mesh.nodes()[self.nodes[k] as usize];
+        self.area_vector_at(|n| mesh.nodes()[n])
+    }
+
+    /// Its outward unit normal where the nodes of `mesh` are displaced by `u` [m].
+    #[must_use]
+    pub fn normal<const D: usize>(&self, mesh: &Mesh<D>, u: &[Vector<D>]) -> Vector<D> {
+        let area = self.area_vector_at(|n| mesh.nodes()[n] + u[n]);
+        area.try_normalize(0.0).unwrap_or(area)
+    }
+
+    fn area_vector_at<const D: usize>(&self, position: impl Fn(usize) -> Vector<D>) -> Vector<D> {
+        let x = |k: usize| position(self.nodes[k] as usize);
         let mut n = Vector::<D>::zeros();
         if D == 2 {
             let t = x(1) - x(0);
             (n[0], n[1]) = (t[1], -t[0]);
         } else {
             // Half the cross product of the diagonals; of two sides for a triangle.
-            let last = self.nodes.len() - 1;
-            let product = tensor::cross(&(x(2) - x(0)), &(x(last) - x(1)));
-            let sign = if last == 2 { -0.5 } else { 0.5 };
-            (0..D).for_each(|i| n[i] = sign * product[i]);
+            let product = tensor::cross(&(x(2) - x(0)), &(x(self.nodes.len() - 1) - x(1)));
+            (0..D).for_each(|i| n[i] = 0.5 * product[i]);
         }
         n
     }
@@ -157,5 +166,21 @@ mod tests {
             let (t, x) = (b - a, a - crate::Vector::from([1.0, 2.0]));
             assert!(x[0] * t[1] - x[1] * t[0] > 0.0);
         }
+    }
+
+    #[test]
+    fn area_vectors_of_a_closed_surface_point_outward_and_sum_to_zero() {
+        let grid = generate::grid([0.0; 3], [1.0, 2.0, 3.0], [1, 2, 1]).expect("valid");
+        let centre = crate::Vector::from([0.5, 1.0, 1.5]);
+        let surface = Surface::of(&grid);
+        let mut total = 0.0;
+        for facet in surface.facets() {
+            let area = facet.area_vector(&grid);
+            assert!(area.dot(&(grid.nodes()[facet.nodes[0] as usize] - centre)) > 0.0);
+            total += area.norm();
+        }
+        assert!((total - 22.0).abs() < 1e-12);
+        let sum: crate::Vector<3> = surface.facets().iter().map(|f| f.area_vector(&grid)).sum();
+        assert!(sum.norm() < 1e-12);
     }
 }

@@ -2,7 +2,7 @@
 
 use carom::{Model, State};
 use carom_contact::Target;
-use carom_mesh::{Mesh, Vector};
+use carom_mesh::{CellKind, Mesh, Surface, Vector};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -52,22 +52,58 @@ pub fn grid<'py, 'a, const D: usize>(
     points: &[Vector<D>],
     meshes: impl Iterator<Item = (usize, &'a Mesh<D>)>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (mut connectivity, mut offsets, mut types, mut body) = (vec![], vec![0_i64], vec![], vec![]);
+    let mut cells = Cells::default();
     for (index, (first_node, mesh)) in meshes.enumerate() {
         for block in mesh.blocks() {
             for cell in block.cells() {
-                connectivity.extend(cell.iter().map(|&n| i64::from(n) + first_node as i64));
-                offsets.push(connectivity.len() as i64);
-                types.push(block.kind.reference().vtk_type);
-                body.push(index as i32);
+                cells.push(index, first_node, cell, block.kind);
             }
         }
     }
-    let grid = PyDict::new(py);
-    grid.set_item("points", vectors(py, points)?)?;
-    grid.set_item("connectivity", PyArray1::from_vec(py, connectivity))?;
-    grid.set_item("offsets", PyArray1::from_vec(py, offsets))?;
-    grid.set_item("types", PyArray1::from_vec(py, types))?;
-    grid.set_item("body", PyArray1::from_vec(py, body))?;
-    Ok(grid)
+    cells.grid(py, points)
+}
+
+/// The facets of all bodies that may touch others as one unstructured grid.
+pub fn surface_grid<'py, 'a, const D: usize>(
+    py: Python<'py>,
+    points: &[Vector<D>],
+    surfaces: impl Iterator<Item = (usize, &'a Surface)>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let mut cells = Cells::default();
+    for (index, (first_node, surface)) in surfaces.enumerate() {
+        surface.facets().iter().for_each(|f| cells.push(index, first_node, &f.nodes, f.kind));
+    }
+    cells.grid(py, points)
+}
+
+/// Cells as VTK wants them.
+#[derive(Default)]
+struct Cells {
+    connectivity: Vec<i64>,
+    ends: Vec<i64>,
+    types: Vec<u8>,
+    body: Vec<i32>,
+}
+
+impl Cells {
+    fn push(&mut self, body: usize, first_node: usize, nodes: &[u32], kind: CellKind) {
+        self.connectivity.extend(nodes.iter().map(|&n| i64::from(n) + first_node as i64));
+        self.ends.push(self.connectivity.len() as i64);
+        self.types.push(kind.reference().vtk_type);
+        self.body.push(body as i32);
+    }
+
+    fn grid<'py, const D: usize>(
+        self,
+        py: Python<'py>,
+        points: &[Vector<D>],
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let grid = PyDict::new(py);
+        grid.set_item("points", vectors(py, points)?)?;
+        grid.set_item("connectivity", PyArray1::from_vec(py, self.connectivity))?;
+        grid.set_item("offsets", PyArray1::from_iter(py, std::iter::once(0).chain(self.ends)))?;
+        grid.set_item("types", PyArray1::from_vec(py, self.types))?;
+        grid.set_item("body", PyArray1::from_vec(py, self.body))?;
+        Ok(grid)
+    }
 }

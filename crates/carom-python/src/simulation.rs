@@ -77,6 +77,34 @@ impl Simulation {
         Ok(out)
     }
 
+    /// The facets that may touch others, as a grid on the points of `mesh`.
+    fn surface<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let model = self.inner.model();
+        let surfaces = model.bodies.iter().map(|b| (b.first_node, b.body.surface()));
+        arrays::surface_grid(py, &model.reference, surfaces)
+    }
+
+    fn surface_fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let fields = self.inner.surface_fields();
+        let out = PyDict::new(py);
+        out.set_item("displacement", arrays::vectors(py, self.inner.fields().displacement)?)?;
+        out.set_item("friction_energy", PyArray1::from_vec(py, fields.friction_energy))?;
+        out.set_item("pressure", PyArray1::from_vec(py, fields.pressure))?;
+        out.set_item("area", PyArray1::from_vec(py, fields.area))?;
+        Ok(out)
+    }
+
+    /// The entries of the ledger table: the bodies, then the pairs as "a|b".
+    fn ledger_entries(&self) -> Vec<String> {
+        let model = self.inner.model();
+        let bodies = model.bodies.iter().map(|b| b.name.clone());
+        bodies.chain(model.groups.iter().map(|g| g.between.join("|"))).collect()
+    }
+
+    fn take_ledger<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        arrays::table(py, self.inner.take_ledger(), carom::LedgerTable::WIDTH)
+    }
+
     /// The last step made, as its two states and its energy terms; None before the first.
     fn last_step<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let Some(step) = self.inner.last_step() else { return Ok(None) };

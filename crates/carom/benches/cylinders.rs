@@ -34,7 +34,7 @@ fn scenario(friction: f64, condition: &str) -> Scenario {
             plane("ceiling", [0.0, 6.0], [0.0, -1.0]), plane("west", [0.0, 0.0], [1.0, 0.0]),
         ],
         "contact": {
-            "condition": condition, "friction": friction, "sources": "first", "targets": "faceted",
+            "condition": condition, "friction": friction, "sources": "first", "certificate_tolerance": 1e-9, "targets": "faceted",
             "solver": {"kind": "gauss-seidel", "tolerance": 1e-12, "max_iterations": 10000},
         },
     }))

@@ -176,7 +176,8 @@ impl<const D: usize> Blend<D> {
         }
         for (i, weight) in self.weight.iter_mut().enumerate() {
             let Balance { missing, available } = self.groups[leader_of(&self.leader, i)];
-            *weight = if available > 0.0 { (missing / available).clamp(-LARGEST, LARGEST) } else { 0.0 };
+            let matters = missing.abs() > NEGLIGIBLE * energy && available > 0.0;
+            *weight = if matters { (missing / available).clamp(-LARGEST, LARGEST) } else { 0.0 };
         }
     }
 

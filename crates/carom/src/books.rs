@@ -1,6 +1,6 @@
 //! The end of a step: the new state, and what happened to the energy.
 
-use carom_contact::Candidate;
+use carom_contact::{Candidate, Contact};
 use carom_friction::cone;
 use carom_mesh::Vector;
 
@@ -41,8 +41,8 @@ pub(crate) fn commit<const D: usize>(
         report.ledger.scheme += body.scheme;
     }
     for group in &work.groups {
-        report.ledger.friction += group.friction;
-        report.ledger.normal_contact += group.normal_contact;
+        report.ledger.friction += group.ledger.friction;
+        report.ledger.normal_contact += group.ledger.normal_contact;
         report.normal_force += group.normal_force;
     }
     if next.is_finite() { Ok(report) } else { Err(StepError::NotFinite("state")) }
@@ -151,14 +151,20 @@ fn close_contacts<const D: usize>(
     for reaction in &next.reactions {
         let group = model.contact.pairs[reaction.pair as usize].group;
         work.groups[group].normal_force += reaction.force[0];
+        work.groups[group].ledger.has_touched = true;
     }
+    next.friction_energy.copy_from_slice(&state.friction_energy);
+    let mut book = |group: &mut GroupReport, contact: &Contact<D>, dissipation: f64| {
+        group.ledger.friction += dissipation;
+        report.least_friction = report.least_friction.min(dissipation);
+        deposit(contact, dissipation, &mut next.friction_energy);
+    };
     if method.is_blended() {
         // The blend returns what normal reactions take, so there is nothing to book for them.
         measure_rubbing(model, method, state, map, work);
-        for c in &work.rubbing {
-            let dissipation = c.dissipation(work.blend.weight[c.source]);
-            work.groups[c.group].friction += dissipation;
-            report.least_friction = report.least_friction.min(dissipation);
+        let lost = work.lost.iter().map(|&k| &state.reactions[k].contact);
+        for (c, contact) in work.rubbing.iter().zip(work.contacts.iter().chain(lost)) {
+            book(&mut work.groups[c.group], contact, c.dissipation(work.blend.weight[c.source]));
         }
         next.excess.copy_from_slice(&state.excess);
         let surplus = work.bodies.iter().map(|b| b.kinetic + b.strain + b.viscous - b.external);
@@ -173,10 +179,22 @@ fn close_contacts<const D: usize>(
         for reaction in reactions {
             let motion = reaction.contact.relative(|n| work.motion[n]);
             let group = &mut work.groups[model.contact.pairs[reaction.pair as usize].group];
+            group.ledger.normal_contact -= share * reaction.force[0] * motion[0];
             let dissipation = -share * (1..D).map(|t| reaction.force[t] * motion[t]).sum::<f64>();
-            group.friction += dissipation;
-            group.normal_contact -= share * reaction.force[0] * motion[0];
-            report.least_friction = report.least_friction.min(dissipation);
+            book(group, &reaction.contact, dissipation);
         }
+    }
+}
+
+/// Leaves the energy that friction takes at a contact to its nodes: half to the source, half to those of a deformable target.
+fn deposit<const D: usize>(contact: &Contact<D>, energy: f64, nodes: &mut [f64]) {
+    let targets = || contact.stencil().skip(1);
+    let whole: f64 = targets().map(|(_, weight)| weight.abs()).sum();
+    let to_target = if whole > 0.0 { 0.5 * energy } else { 0.0 };
+    for (node, _) in contact.stencil().take(1) {
+        nodes[node] += energy - to_target;
+    }
+    for (node, weight) in targets() {
+        nodes[node] += to_target * weight.abs() / whole;
     }
 }

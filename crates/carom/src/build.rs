@@ -84,6 +84,8 @@ fn method(scenario: &Scenario) -> Result<Method<2>, InputError> {
     let solver = scenario.contact.solver;
     let key = "contact.solver.tolerance";
     number(key, solver.tolerance, solver.tolerance > 0.0, "the tolerance must be greater than 0")?;
+    let (key, tolerance) = ("contact.certificate_tolerance", scenario.contact.certificate_tolerance);
+    number(key, tolerance, tolerance > 0.0, "the tolerance must be greater than 0")?;
     for (key, count) in [
         ("analysis.newton.max_iterations", newton.max_iterations),
         ("contact.solver.max_iterations", solver.max_iterations),
@@ -104,6 +106,7 @@ fn method(scenario: &Scenario) -> Result<Method<2>, InputError> {
         stopping: StoppingRule { tolerance: solver.tolerance, max_iterations: solver.max_iterations },
         newton: NewtonRule { tolerance: newton.tolerance, max_iterations: newton.max_iterations },
         max_halvings: analysis.max_halvings,
+        certificate_tolerance: scenario.contact.certificate_tolerance,
     })
 }
 

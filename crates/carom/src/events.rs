@@ -37,6 +37,10 @@ impl EventLog {
     pub fn record(&mut self, groups: &[Group], reports: &[GroupReport], start: f64, end: f64) {
         for (g, report) in reports.iter().enumerate() {
             if report.normal_force <= 0.0 {
+                // A reaction that is gone by the end of the step may still have rubbed in it.
+                if let Some((event, _)) = self.last[g] {
+                    self.events[event].friction_work += report.ledger.friction;
+                }
                 continue;
             }
             let event = match self.last[g] {
@@ -55,7 +59,7 @@ impl EventLog {
             self.last[g] = Some((event, end));
             let event = &mut self.events[event];
             event.peak_force = event.peak_force.max(report.normal_force);
-            event.friction_work += report.friction;
+            event.friction_work += report.ledger.friction;
             event.release = Some(end);
         }
     }
@@ -75,11 +79,15 @@ impl EventLog {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::PairLedger;
 
     fn record(log: &mut EventLog, groups: &[Group], force: f64, start: f64, end: f64) {
         log.record(
             groups,
-            &[GroupReport { normal_force: force, friction: 0.5, normal_contact: 0.0 }],
+            &[GroupReport {
+                normal_force: force,
+                ledger: PairLedger { friction: 0.5, ..PairLedger::default() },
+            }],
             start,
             end,
         );
@@ -96,7 +104,7 @@ mod tests {
         let events = log.events(2.01);
         assert_eq!(events.len(), 2);
         assert_eq!((events[0].onset, events[0].release), (1.00, Some(1.02)));
-        assert_eq!((events[0].peak_force, events[0].friction_work), (5.0, 1.0));
+        assert_eq!((events[0].peak_force, events[0].friction_work), (5.0, 1.5));
         assert_eq!((events[1].onset, events[1].release), (2.01, None));
         assert_eq!(log.events(3.0)[1].release, Some(2.01));
     }

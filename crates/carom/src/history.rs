@@ -36,6 +36,8 @@ struct Since {
     iterations: usize,
     certificate: f64,
     residual: f64,
+    blend: f64,
+    step_defect: f64,
     last: StepReport,
 }
 
@@ -73,8 +75,17 @@ impl<const D: usize> History<D> {
             }
         }
         columns.extend(
-            ["contacts", "min_gap", "normal_force", "newton_iterations", "certificate", "residual"]
-                .map(String::from),
+            [
+                "contacts",
+                "min_gap",
+                "normal_force",
+                "newton_iterations",
+                "certificate",
+                "residual",
+                "blend",
+                "step_defect",
+            ]
+            .map(String::from),
         );
         for t in &tracks {
             for quantity in ["u", "v", "vmid"] {
@@ -117,6 +128,8 @@ impl<const D: usize> History<D> {
         since.iterations += report.newton_iterations;
         since.certificate = since.certificate.max(report.certificate);
         since.residual = since.residual.max(report.residual);
+        since.blend = since.blend.max(report.blend);
+        since.step_defect = since.step_defect.max(report.ledger.defect().abs());
         since.last = *report;
         for (trail, t) in self.trails.iter_mut().zip(&self.tracks) {
             let u = state.displacement[t.node];
@@ -174,6 +187,8 @@ impl<const D: usize> History<D> {
             if since.steps > 0 { since.iterations as f64 / since.steps as f64 } else { 0.0 },
             since.certificate,
             since.residual,
+            since.blend,
+            since.step_defect,
         ]);
         for (t, trail) in self.tracks.iter().zip(&self.trails) {
             self.rows.extend(state.displacement[t.node].iter());

@@ -111,3 +111,61 @@ impl AddAssign for Ledger {
         self.normal_contact += step.normal_contact;
     }
 }
+
+/// What a pair did to the energy in a step, or since the start [J].
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct PairLedger {
+    /// Dissipated by friction.
+    pub friction: f64,
+    /// Taken by normal reactions.
+    pub normal_contact: f64,
+    /// Whether there was a reaction.
+    pub has_touched: bool,
+}
+
+impl AddAssign for PairLedger {
+    fn add_assign(&mut self, step: Self) {
+        self.has_touched |= step.has_touched;
+        self.friction += step.friction;
+        self.normal_contact += step.normal_contact;
+    }
+}
+
+/// The books of a run: the same energy as a whole, by bodies, and by pairs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Books {
+    /// Of everything.
+    pub total: Ledger,
+    /// Of every body.
+    pub bodies: Vec<BodyLedger>,
+    /// Of every named pair.
+    pub pairs: Vec<PairLedger>,
+}
+
+impl Books {
+    /// Empty books of as many `bodies` and `pairs`.
+    #[must_use]
+    pub fn new(bodies: usize, pairs: usize) -> Self {
+        Self {
+            total: Ledger::default(),
+            bodies: vec![BodyLedger::default(); bodies],
+            pairs: vec![PairLedger::default(); pairs],
+        }
+    }
+
+    /// Adds a step.
+    pub fn add(&mut self, total: Ledger, bodies: &[BodyLedger], pairs: impl Iterator<Item = PairLedger>) {
+        self.total += total;
+        self.bodies.iter_mut().zip(bodies).for_each(|(sum, step)| *sum += *step);
+        self.pairs.iter_mut().zip(pairs).for_each(|(sum, step)| *sum += step);
+    }
+
+    /// Replaces the changes of energy, which are sums of many steps, by the differences of `now` and `initial`.
+    pub fn set_changes(&mut self, initial: &[Energies], now: &[Energies]) {
+        for ((body, a), b) in self.bodies.iter_mut().zip(initial).zip(now) {
+            (body.kinetic, body.strain) = (b.kinetic - a.kinetic, b.strain - a.strain);
+        }
+        let (a, b): (Energies, Energies) = (initial.iter().copied().sum(), now.iter().copied().sum());
+        (self.total.kinetic, self.total.strain) = (b.kinetic - a.kinetic, b.strain - a.strain);
+    }
+}

@@ -106,6 +106,8 @@ pub struct Method<const D: usize> {
     pub newton: NewtonRule,
     /// How often a step that fails is halved.
     pub max_halvings: u32,
+    /// The bi-potential gap of a step that a certified run may have, relative to the largest energy of the run.
+    pub certificate_tolerance: f64,
 }
 
 impl<const D: usize> Method<D> {

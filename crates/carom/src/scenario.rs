@@ -232,6 +232,8 @@ pub struct ContactSpec {
     pub sources: Sources,
     /// What they are checked against.
     pub targets: Targets,
+    /// The bi-potential gap of a step that a certified run may have, relative to the largest energy of the run.
+    pub certificate_tolerance: f64,
     /// Exceptions for pairs.
     #[serde(default)]
     pub pairs: Vec<PairEntry>,

@@ -7,10 +7,13 @@ use crate::describe::{Description, describe};
 use crate::error::{InputError, RunError};
 use crate::events::{ContactEvent, EventLog};
 use crate::history::{History, Track};
+use crate::ledger_table::LedgerTable;
+use crate::model::Group;
 use crate::scenario::{Scenario, TrackEntry};
 use crate::step_control::advance_nominal_step;
+use crate::surface_fields::{SurfaceFields, surface_fields};
 use crate::workspace::Workspace;
-use crate::{Ledger, Method, Model, State};
+use crate::{BodyLedger, Books, Energies, Ledger, Method, Model, PairLedger, State};
 
 /// How [`Simulation::advance`] ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,8 +44,9 @@ pub struct Simulation<const D: usize> {
     last_recorded: Option<f64>,
     history: History<D>,
     events: EventLog,
-    initial_energy: (f64, f64),
-    ledger: Ledger,
+    initial_energies: Vec<Energies>,
+    books: Books,
+    ledger_table: LedgerTable,
     totals: Totals,
     last_step: Option<Ledger>,
 }
@@ -68,6 +72,9 @@ struct Totals {
     contacts: usize,
     max_drift: f64,
     max_defect: f64,
+    max_step_defect: f64,
+    /// Largest energy that was there or went into friction: what the certificate is measured by.
+    max_energy: f64,
     max_certificate: f64,
     max_residual: f64,
     max_blend: f64,
@@ -120,6 +127,8 @@ pub struct EnergySummary {
     pub max_drift: f64,
     /// Largest |defect| of the ledger.
     pub max_defect: f64,
+    /// Largest |defect| of a single step.
+    pub max_step_defect: f64,
 }
 
 /// How far the run was from Coulomb's law.
@@ -129,6 +138,42 @@ pub struct CertificateSummary {
     pub max_joule: f64,
     /// Largest residual of the contact laws.
     pub max_residual: f64,
+    /// The largest Σ that a completed run may have [J]: the tolerance of the method times the largest energy of the run.
+    pub tolerance_joule: f64,
+}
+
+/// The books of a body at the end.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BodySummary {
+    /// Name.
+    pub name: String,
+    /// What happened to its energy.
+    #[serde(flatten)]
+    pub ledger: BodyLedger,
+    /// What its terms do not explain [J].
+    pub defect: f64,
+}
+
+impl BodySummary {
+    fn new(name: &str, ledger: &BodyLedger) -> Self {
+        Self { name: name.to_string(), ledger: *ledger, defect: ledger.defect() }
+    }
+}
+
+/// The books of a pair at the end.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PairSummary {
+    /// The two names.
+    pub between: [String; 2],
+    /// What it did to the energy.
+    #[serde(flatten)]
+    pub ledger: PairLedger,
+}
+
+impl PairSummary {
+    fn new(group: &Group, ledger: &PairLedger) -> Self {
+        Self { between: group.between.clone(), ledger: *ledger }
+    }
 }
 
 /// The native part of summary.json.
@@ -152,6 +197,10 @@ pub struct Summary {
     pub energy: EnergySummary,
     /// Distance from Coulomb's law.
     pub certificate: CertificateSummary,
+    /// The books of every body.
+    pub bodies: Vec<BodySummary>,
+    /// The books of every pair that may touch.
+    pub pairs: Vec<PairSummary>,
     /// Largest blend |α| of start and end stresses; 0 unless massless contacts conserve.
     pub max_blend: f64,
     /// Smallest dissipation by friction of a contact in a step [J]; never negative by more than round-off.
@@ -215,14 +264,17 @@ impl Simulation<2> {
             history_every: scenario.output.history_every,
             history_rows: 0,
             last_recorded: None,
-            initial_energy: (state.energies.kinetic, state.energies.strain),
-            ledger: Ledger::default(),
+            initial_energies: state.body_energies.clone(),
+            books: Books::new(model.bodies.len(), model.groups.len()),
+            ledger_table: LedgerTable::default(),
             totals: Totals {
                 newton_iterations: 0,
                 retried: 0,
                 contacts: 0,
                 max_drift: 0.0,
                 max_defect: 0.0,
+                max_step_defect: 0.0,
+                max_energy: state.energies.total(),
                 max_certificate: 0.0,
                 max_residual: 0.0,
                 max_blend: 0.0,
@@ -307,7 +359,8 @@ impl<const D: usize> Simulation<D> {
         assert_eq!(self.step, 0, "initial velocities belong before the first step");
         assert_eq!(velocity.len(), self.model.reference.len(), "one velocity per node");
         self.state = State::initial(&self.model, velocity);
-        self.initial_energy = (self.state.energies.kinetic, self.state.energies.strain);
+        self.initial_energies.clone_from(&self.state.body_energies);
+        self.ledger_table = LedgerTable::default();
         self.history.restart(&self.state);
         self.last_recorded = None;
         self.history_rows = 0;
@@ -334,8 +387,8 @@ impl<const D: usize> Simulation<D> {
 
     /// The books since the start.
     #[must_use]
-    pub fn ledger(&self) -> &Ledger {
-        &self.ledger
+    pub fn books(&self) -> &Books {
+        &self.books
     }
 
     /// Runs until time `until` [s] (the end of the run at most), or until `pause`, asked after every step, says so.
@@ -368,14 +421,14 @@ impl<const D: usize> Simulation<D> {
             work,
             events,
             history,
-            ledger,
+            books,
             totals,
-            initial_energy,
+            initial_energies,
             last_step,
             ..
         } = self;
         let mut previous_time = state.time;
-        let initial = initial_energy.0 + initial_energy.1;
+        let initial = initial_energies.iter().map(Energies::total).sum::<f64>();
         let mut failed = 0;
         let outcome = advance_nominal_step(
             model,
@@ -387,17 +440,18 @@ impl<const D: usize> Simulation<D> {
             work,
             &mut failed,
             |state, report, work| {
-                *ledger += report.ledger;
+                books.add(report.ledger, &work.bodies, work.groups.iter().map(|g| g.ledger));
+                books.set_changes(initial_energies, &state.body_energies);
                 *last_step = Some(report.ledger);
-                ledger.kinetic = state.energies.kinetic - initial_energy.0;
-                ledger.strain = state.energies.strain - initial_energy.1;
                 events.record(&model.groups, &work.groups, previous_time, state.time);
                 history.observe(report, state, state.time - previous_time);
                 previous_time = state.time;
                 totals.newton_iterations += report.newton_iterations as u64;
                 totals.contacts = report.contacts;
                 totals.max_drift = totals.max_drift.max((state.energies.total() - initial).abs());
-                totals.max_defect = totals.max_defect.max(ledger.defect().abs());
+                totals.max_defect = totals.max_defect.max(books.total.defect().abs());
+                totals.max_step_defect = totals.max_step_defect.max(report.ledger.defect().abs());
+                totals.max_energy = totals.max_energy.max(state.energies.total() + books.total.friction);
                 totals.max_certificate = totals.max_certificate.max(report.certificate);
                 totals.max_residual = totals.max_residual.max(report.residual);
                 totals.max_blend = totals.max_blend.max(report.blend);
@@ -423,7 +477,8 @@ impl<const D: usize> Simulation<D> {
     }
 
     fn record(&mut self) {
-        let min_gap = self.history.record(&self.model, &self.state, &self.ledger);
+        let min_gap = self.history.record(&self.model, &self.state, &self.books.total);
+        self.ledger_table.record(self.state.time, &self.books);
         self.totals.min_gap = self.totals.min_gap.min(min_gap);
         self.last_recorded = Some(self.state.time);
         // The next multiple of the interval after now.
@@ -435,6 +490,17 @@ impl<const D: usize> Simulation<D> {
     #[must_use]
     pub fn history_columns(&self) -> &[String] {
         self.history.columns()
+    }
+
+    /// The rows of the ledger recorded since the last call, one after the other: see [`LedgerTable`].
+    pub fn take_ledger(&mut self) -> Vec<f64> {
+        self.ledger_table.take()
+    }
+
+    /// The fields on the boundaries.
+    #[must_use]
+    pub fn surface_fields(&self) -> SurfaceFields {
+        surface_fields(&self.model, &self.state)
     }
 
     /// The rows recorded since the last call, one after the other.
@@ -452,7 +518,7 @@ impl<const D: usize> Simulation<D> {
             contacts: self.totals.contacts,
             kinetic: e.kinetic,
             strain: e.strain,
-            friction: self.ledger.friction,
+            friction: self.books.total.friction,
             total: e.total(),
         }
     }
@@ -477,7 +543,7 @@ impl<const D: usize> Simulation<D> {
     /// The summary so far.
     #[must_use]
     pub fn summary(&self) -> Summary {
-        let (e, t, l) = (self.state.energies, &self.totals, &self.ledger);
+        let (e, t, l) = (self.state.energies, &self.totals, &self.books.total);
         Summary {
             steps: self.step,
             dofs: self.model.dofs(),
@@ -487,7 +553,7 @@ impl<const D: usize> Simulation<D> {
             factorisations: self.work.factorisations,
             retried_steps: t.retried,
             energy: EnergySummary {
-                initial: self.initial_energy.0 + self.initial_energy.1,
+                initial: self.initial_energies.iter().map(Energies::total).sum(),
                 last: e.total(),
                 kinetic: e.kinetic,
                 strain: e.strain,
@@ -498,8 +564,27 @@ impl<const D: usize> Simulation<D> {
                 external: l.external,
                 max_drift: t.max_drift,
                 max_defect: t.max_defect,
+                max_step_defect: t.max_step_defect,
             },
-            certificate: CertificateSummary { max_joule: t.max_certificate, max_residual: t.max_residual },
+            certificate: CertificateSummary {
+                max_joule: t.max_certificate,
+                max_residual: t.max_residual,
+                tolerance_joule: self.method.certificate_tolerance * t.max_energy,
+            },
+            bodies: self
+                .model
+                .bodies
+                .iter()
+                .zip(&self.books.bodies)
+                .map(|(b, l)| BodySummary::new(&b.name, l))
+                .collect(),
+            pairs: self
+                .model
+                .groups
+                .iter()
+                .zip(&self.books.pairs)
+                .map(|(g, l)| PairSummary::new(g, l))
+                .collect(),
             max_blend: t.max_blend,
             least_friction: t.least_friction,
             min_gap: t.min_gap,

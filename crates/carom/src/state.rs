@@ -37,6 +37,8 @@ pub struct State<const D: usize> {
     pub reactions: Vec<Reaction<D>>,
     /// Nodal contact forces Hᵀr [N]: mean over the last step, or at its end between massless nodes.
     pub contact_force: Vec<Vector<D>>,
+    /// What friction has dissipated at every node since the start [J], half of it on either side of a contact.
+    pub friction_energy: Vec<f64>,
     /// Internal forces ∂E/∂u [N] at `displacement`, kept because every step starts with them.
     pub internal_force: Vec<Vector<D>>,
     /// Energies [J] at `displacement` and `velocity`.
@@ -64,6 +66,7 @@ impl<const D: usize> State<D> {
             velocity,
             reactions: Vec::new(),
             contact_force: zeros.clone(),
+            friction_energy: vec![0.0; zeros.len()],
             internal_force: zeros,
             energies: Energies::default(),
             body_energies: vec![Energies::default(); model.bodies.len()],

@@ -6,7 +6,7 @@ use crate::blend::{Blend, Rubbing};
 use crate::body_step::{Pose, ResidualScratch};
 use crate::condense::Compliance;
 use crate::error::StepError;
-use crate::ledger::BodyLedger;
+use crate::ledger::{BodyLedger, PairLedger};
 use crate::linearise::BodyOperator;
 use crate::{Ledger, Model};
 
@@ -15,10 +15,8 @@ use crate::{Ledger, Model};
 pub struct GroupReport {
     /// Sum of the normal reactions [N].
     pub normal_force: f64,
-    /// Dissipated by friction [J].
-    pub friction: f64,
-    /// Taken by normal reactions [J].
-    pub normal_contact: f64,
+    /// What happened to the energy.
+    pub ledger: PairLedger,
 }
 
 /// How the iterations of one body go within a step.

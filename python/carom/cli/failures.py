@@ -8,7 +8,7 @@ from pathlib import Path
 
 import typer
 
-from carom.errors import ConvergenceError, InputError
+from carom.errors import CertificateError, ConvergenceError, InputError
 
 SYSTEM_FAILURE = 1
 BAD_INPUT = 2
@@ -29,7 +29,7 @@ def failures(file: Path) -> Iterator[None]:
         yield
     except InputError as error:
         raise _ended(BAD_INPUT, f"error: {error}") from error
-    except ConvergenceError as error:
+    except (CertificateError, ConvergenceError) as error:
         raise _ended(NOT_CONVERGED, f"error: {file}: {error}") from error
     except KeyboardInterrupt as error:
         raise _ended(INTERRUPTED, f"{file}: interrupted") from error

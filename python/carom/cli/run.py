@@ -11,7 +11,7 @@ from rich.console import Console
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import failures
 from carom.cli.progress import shown_progress
-from carom.errors import ConvergenceError, InputError, naming
+from carom.errors import CertificateError, ConvergenceError, InputError, naming
 from carom.io import layout
 from carom.result import Result
 from carom.simulation import build, drive
@@ -38,7 +38,7 @@ def run(
         try:
             with shown_progress(console) as observer:
                 result = drive(simulation, scenario, directory, observer)
-        except (ConvergenceError, KeyboardInterrupt):
+        except (CertificateError, ConvergenceError, KeyboardInterrupt):
             if (directory / layout.SUMMARY).exists():
                 console.print(Result.open(directory))
             raise

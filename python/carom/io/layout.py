@@ -10,9 +10,11 @@ CASE = "case.toml"
 SUMMARY = "summary.json"
 HISTORY = "history.csv"
 FIELDS = "fields.vtkhdf"
+SURFACE = "surface.vtkhdf"
+LEDGER = "ledger.csv"
 ENERGY_PLOT = "energy.png"
 
-_NAMES = (SUMMARY, CASE, HISTORY, FIELDS, ENERGY_PLOT)
+_NAMES = (SUMMARY, CASE, HISTORY, LEDGER, FIELDS, SURFACE, ENERGY_PLOT)
 
 
 def track_plot(name: str) -> str:

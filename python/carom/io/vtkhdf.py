@@ -10,7 +10,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import h5py
@@ -22,6 +22,13 @@ POINT_FIELDS = ("displacement", "velocity", "reaction")
 
 CELL_FIELDS = {"stress": 6, "energy_density": 1}
 """Cauchy stress xx yy zz xy yz xz [Pa] and strain energy density [J/m³], with components."""
+
+SURFACE_POINT_FIELDS = ("displacement",)
+"""Vectors at the points of a boundary [m]."""
+
+SURFACE_CELL_FIELDS = {"friction_energy": 1, "pressure": 1, "area": 1}
+"""On facets: energy dissipated by friction [J/m²], contact pressure [Pa], area [m²]; the first two
+per area of the reference configuration, so that energy times area sums to the ledger's friction."""
 
 _CHUNK_ROWS = 16_384
 
@@ -38,10 +45,21 @@ class FieldsWriter:
     mesh
         ``points`` [m], shape [point_count, D]; ``connectivity``; ``offsets``, shape
         [cell_count + 1]; ``types``, VTK cell types; ``body``, index of each cell's body.
+    point_fields, cell_fields
+        Names of the vectors at points, and of the fields on cells with their components.
     """
 
-    def __init__(self, path: Path, mesh: Mapping[str, NDArray[np.generic]]) -> None:
+    def __init__(
+        self,
+        path: Path,
+        mesh: Mapping[str, NDArray[np.generic]],
+        *,
+        point_fields: Sequence[str] = POINT_FIELDS,
+        cell_fields: Mapping[str, int] = CELL_FIELDS,
+    ) -> None:
         self._path = path
+        self._point_fields = point_fields
+        self._cell_fields = cell_fields
         points, cells = len(mesh["points"]), len(mesh["types"])
         with h5py.File(path, "w") as file:
             root = file.create_group("VTKHDF")
@@ -63,10 +81,10 @@ class FieldsWriter:
             for name in ("CellOffsets", "ConnectivityIdOffsets"):
                 _growing(steps, name, dtype=np.int64, components=1)
 
-            for name in POINT_FIELDS:
+            for name in self._point_fields:
                 _growing(root, f"PointData/{name}", dtype=np.float64, components=3, rows=points)
                 _growing(steps, f"PointDataOffsets/{name}", dtype=np.int64)
-            for name, components in CELL_FIELDS.items():
+            for name, components in self._cell_fields.items():
                 _growing(
                     root, f"CellData/{name}", dtype=np.float64, components=components, rows=cells
                 )
@@ -82,8 +100,8 @@ class FieldsWriter:
         time
             Time of the frame [s].
         fields
-            Arrays of the names in `POINT_FIELDS`, shape [point_count, D], and `CELL_FIELDS`,
-            shape [cell_count, components].
+            Arrays by name: vectors at points, shape [point_count, D], and fields on cells, shape
+            [cell_count, components].
         """
         with h5py.File(self._path, "r+") as file:
             root = file["VTKHDF"]
@@ -97,10 +115,10 @@ class FieldsWriter:
                 "ConnectivityIdOffsets": 0,
                 "CellDataOffsets/body": 0,
             }
-            for name in POINT_FIELDS:
+            for name in self._point_fields:
                 rows = _spatial(fields[name])
                 entries[f"PointDataOffsets/{name}"] = _extend(root[f"PointData/{name}"], rows)
-            for name in CELL_FIELDS:
+            for name in self._cell_fields:
                 entries[f"CellDataOffsets/{name}"] = _extend(root[f"CellData/{name}"], fields[name])
             for name, entry in entries.items():
                 _extend(steps[name], entry)

@@ -39,7 +39,7 @@ pub fn scenario(end_time: f64, time_step: f64, bodies: &[Value], obstacles: &[Va
         "bodies": bodies,
         "obstacles": obstacles,
         "contact": {
-            "condition": "gap", "friction": 0.0, "sources": "first", "targets": "faceted",
+            "condition": "gap", "friction": 0.0, "sources": "first", "certificate_tolerance": 1e-9, "targets": "faceted",
             "solver": {"kind": "gauss-seidel", "tolerance": 1e-12, "max_iterations": 10000},
         },
     })

@@ -1,0 +1,76 @@
+"""``ledger.csv``: the energy books of every body and every pair over time."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+COLUMNS = (
+    "time",
+    "entry",
+    "kinetic",
+    "strain",
+    "external",
+    "viscous",
+    "scheme",
+    "contact",
+    "friction",
+    "normal_contact",
+    "defect",
+)
+"""Time [s], the body or the pair ``a|b``, and what happened since the start [J].
+
+A body has: change of kinetic and strain energy, work of gravity and loads, what damping and the
+scheme took, what it received through contact, and what these do not explain. A pair, from its
+first touch on, has what friction dissipated and what normal reactions took.
+"""
+
+
+class LedgerWriter:
+    """Writes the ledger row by row; what has been appended is on disk.
+
+    Parameters
+    ----------
+    path
+        File to write.
+    entries
+        Names of the bodies, then of the pairs.
+    """
+
+    def __init__(self, path: Path, entries: Sequence[str]) -> None:
+        self._path = path
+        self._entries = entries
+        self._write([COLUMNS], mode="w")
+
+    def append(self, rows: NDArray[np.float64]) -> None:
+        """Add rows, shape [row_count, column_count]; the entry is an index, NaN is left empty."""
+        if len(rows):
+            self._write([self._row(row) for row in rows.tolist()], mode="a")
+
+    def _row(self, values: Sequence[float]) -> list[object]:
+        time, entry, *terms = values
+        cells = ["" if math.isnan(term) else term for term in terms]
+        return [time, self._entries[int(entry)], *cells]
+
+    def _write(self, rows: Sequence[Sequence[object]], *, mode: str) -> None:
+        with self._path.open(mode, encoding="utf-8", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows(rows)
+
+
+def read_ledger(path: str | Path) -> dict[str, dict[str, NDArray[np.float64]]]:
+    """Read a ledger: the columns of every body and pair by title, NaN where it has none."""
+    with Path(path).open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(line for line in file if line.endswith("\n")))
+    columns = [column for column in COLUMNS if column != "entry"]
+    return {
+        entry: {
+            column: np.array([float(row[column] or "nan") for row in rows if row["entry"] == entry])
+            for column in columns
+        }
+        for entry in dict.fromkeys(row["entry"] for row in rows)
+    }
