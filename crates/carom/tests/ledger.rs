@@ -1,0 +1,106 @@
+//! The books: every joule once, by bodies, by pairs, by facets.
+
+mod common;
+
+use carom::Simulation;
+use common::{body, disc, parse, plane, scenario};
+use serde_json::json;
+
+/// Two discs that hit each other and the floor, spinning, with friction.
+fn collision(scheme: &str, condition: &str) -> Simulation<2> {
+    let bodies = [
+        body("left", disc([1.2, 1.02], 1.0, 4), [2.0, -1.0]),
+        body("right", disc([3.3, 1.3], 1.0, 4), [-1.0, -1.5]),
+    ];
+    let mut case = scenario(0.5, 1e-3, &bodies, &[plane("floor", [0.0, 0.0], [0.0, 1.0])]);
+    case["analysis"]["scheme"] = if scheme == "theta" {
+        json!({"kind": "theta", "theta": 0.6, "xi": 0.55})
+    } else {
+        json!({"kind": scheme})
+    };
+    case["analysis"]["newton"]["tolerance"] = json!(1e-11);
+    case["analysis"]["gravity"] = json!([0.0, -5.0]);
+    case["materials"]["elastic"]["damping"] = json!({"mass": 0.02, "stiffness": 1e-5});
+    case["bodies"][0]["spin"] = json!(-2.0);
+    case["bodies"][0]["thickness"] = json!(0.3);
+    case["bodies"][1]["thickness"] = json!(0.3);
+    case["contact"]["condition"] = json!(condition);
+    case["contact"]["friction"] = json!(0.3);
+    case["contact"]["targets"] = json!("smooth");
+    let mut simulation = Simulation::new(&parse(&case)).expect("a valid case");
+    simulation.advance(f64::INFINITY, || false).expect("converges");
+    simulation
+}
+
+const VARIANTS: [(&str, &str); 6] = [
+    ("theta", "gap"),
+    ("theta", "endpoint"),
+    ("theta", "massless"),
+    ("conserving", "gap"),
+    ("conserving", "midpoint"),
+    ("conserving", "massless"),
+];
+
+#[test]
+fn books_of_bodies_and_pairs_add_up_to_those_of_the_whole() {
+    for (scheme, condition) in VARIANTS {
+        let simulation = collision(scheme, condition);
+        let books = simulation.books();
+        let total = &books.total;
+        let close = |a: f64, b: f64, what: &str| {
+            assert!(
+                (a - b).abs() < 1e-12 * total.kinetic.abs(),
+                "{scheme} {condition} {what}: {a} against {b}"
+            );
+        };
+        close(books.bodies.iter().map(|b| b.kinetic).sum(), total.kinetic, "kinetic");
+        close(books.bodies.iter().map(|b| b.strain).sum(), total.strain, "strain");
+        close(books.bodies.iter().map(|b| b.external).sum(), total.external, "external");
+        close(books.bodies.iter().map(|b| b.viscous).sum(), total.viscous, "viscous");
+        close(books.bodies.iter().map(|b| b.scheme).sum(), total.scheme, "scheme");
+        close(books.pairs.iter().map(|p| p.friction).sum(), total.friction, "friction");
+        close(books.pairs.iter().map(|p| p.normal_contact).sum(), total.normal_contact, "normal contact");
+        assert_eq!(books.pairs.iter().filter(|p| p.has_touched).count(), 3, "{scheme} {condition}");
+        assert!(books.pairs.iter().all(|p| p.friction > 0.0), "{scheme} {condition}");
+    }
+}
+
+#[test]
+fn what_bodies_receive_through_contact_is_what_pairs_do_not_keep() {
+    for (scheme, condition) in VARIANTS {
+        let simulation = collision(scheme, condition);
+        let books = simulation.books();
+        let received: f64 = books.bodies.iter().map(|b| b.contact).sum();
+        let kept: f64 = books.pairs.iter().map(|p| p.friction + p.normal_contact).sum();
+        let scale = books.total.kinetic.abs();
+        assert!((received + kept).abs() < 1e-9 * scale, "{scheme} {condition}: {received} and {kept}");
+    }
+}
+
+#[test]
+fn books_of_every_body_close_under_the_conserving_scheme() {
+    for condition in ["gap", "midpoint", "massless"] {
+        let simulation = collision("conserving", condition);
+        let books = simulation.books();
+        for ledger in &books.bodies {
+            let defect = ledger.defect();
+            assert!(ledger.contact.abs() > 1e-2, "the body was hit");
+            assert!(defect.abs() < 1e-9 * books.total.kinetic.abs(), "{condition}: {defect:.2e} J");
+        }
+        assert!(books.total.defect().abs() < 1e-9 * books.total.kinetic.abs(), "{condition}");
+    }
+}
+
+#[test]
+fn friction_energy_of_the_facets_sums_to_that_of_the_ledger() {
+    for (scheme, condition) in VARIANTS {
+        let simulation = collision(scheme, condition);
+        let fields = simulation.surface_fields();
+        let energy: f64 = fields.friction_energy.iter().zip(&fields.area).map(|(e, a)| e * a).sum();
+        let friction = simulation.books().total.friction;
+        assert!((energy - friction).abs() < 1e-12 * friction, "{scheme} {condition}: {energy} of {friction}");
+        let perimeter: f64 = fields.area.iter().sum::<f64>() / 0.3;
+        assert!((perimeter - 4.0 * std::f64::consts::PI).abs() < 0.1, "two circles");
+        assert!(fields.friction_energy.iter().all(|e| *e >= -1e-12), "{scheme} {condition}");
+    }
+}
