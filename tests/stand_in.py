@@ -91,8 +91,8 @@ class FallingSimulation:
         return ["left", "left|floor"]
 
     def take_ledger(self):
-        body = [self.time, 0, 1, 2, 3, 4, 5, 6, np.nan, np.nan, 7]
-        pair = [self.time, 1, *[np.nan] * 6, 8, 9, np.nan]
+        body = [self.time, 0, 1, 2, 3, 4, 5, 6, np.nan, np.nan, np.nan, 7]
+        pair = [self.time, 1, *[np.nan] * 6, 8, 9, 10, np.nan]
         return np.array([body, pair], dtype=float)
 
     def history_columns(self):

@@ -1,4 +1,4 @@
-"""Rigid obstacles that never move."""
+"""Rigid obstacles, at rest or moving as prescribed."""
 
 from __future__ import annotations
 
@@ -26,12 +26,16 @@ class Plane(Description):
         A point of the plane [m], shape [2].
     normal
         Direction towards the free side, of any length but zero, shape [2].
+    velocity
+        Constant velocity [m/s], shape [2]; its work on the bodies is in the ledger as
+        ``prescribed``.
     """
 
     name: Name
     kind: Literal["plane"] = "plane"
     point: Vector
     normal: Annotated[Vector, AfterValidator(_nonzero)]
+    velocity: Vector = (0.0, 0.0)
 
 
 Obstacle = Plane

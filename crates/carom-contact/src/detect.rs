@@ -49,7 +49,7 @@ impl<const D: usize> ContactModel<D> {
                 Target::Obstacle(o) => {
                     let obstacle = &self.obstacles[o];
                     let near = |&&node: &&u32| {
-                        obstacle.gap(&start(node)).0.min(obstacle.gap(&end(node)).0) <= margin
+                        obstacle.gap(&start(node), start).0.min(obstacle.gap(&end(node), end).0) <= margin
                     };
                     out.extend(source.sources.iter().filter(near).map(|&node| Candidate {
                         pair: pair_index,
@@ -166,8 +166,9 @@ impl<const D: usize> ContactModel<D> {
                 Contact::new(gap, frame(&p.normal), candidate.node, p.nodes, &p.weights)
             }
             (Target::Obstacle(o), _) => {
-                let (gap, normal) = self.obstacles[o].gap(&x);
-                Contact::new(gap, frame(&normal), candidate.node, &[], &[])
+                let obstacle = &self.obstacles[o];
+                let (gap, normal) = obstacle.gap(&x, position);
+                Contact::new(gap, frame(&normal), candidate.node, &[obstacle.node], &[1.0])
             }
             (Target::Surface(_), None) => unreachable!("detect gives candidates on a surface their facet"),
         }

@@ -39,7 +39,7 @@ impl<const D: usize> ContactModel<D> {
         };
         match target {
             Target::Obstacle(o) => {
-                points.for_each(|x| keep(self.obstacles[o].gap(&x).0, x));
+                points.for_each(|x| keep(self.obstacles[o].gap(&x, position).0, x));
             }
             Target::Surface(t) => {
                 let target = &self.surfaces[t];
@@ -109,16 +109,17 @@ mod tests {
                 ContactSurface::new(&Surface::of(&a), 0),
                 ContactSurface::new(&Surface::of(&b), a.nodes().len() as u32),
             ],
-            obstacles: vec![Obstacle::Plane {
-                point: Vector::<2>::new(0.0, -2.0),
-                normal: Vector::<2>::new(0.0, 1.0),
-            }],
+            obstacles: vec![Obstacle::plane(
+                Vector::<2>::new(0.0, -2.0),
+                Vector::<2>::new(0.0, 1.0),
+                (a.nodes().len() + b.nodes().len()) as u32,
+            )],
             pairs: vec![
                 Pair { source: 0, target: Target::Surface(1), friction: 0.0, group: 0 },
                 Pair { source: 0, target: Target::Obstacle(0), friction: 0.0, group: 1 },
             ],
         };
-        (model, a.nodes().iter().chain(b.nodes()).copied().collect())
+        (model, a.nodes().iter().chain(b.nodes()).copied().chain([Vector::zeros()]).collect())
     }
 
     #[test]

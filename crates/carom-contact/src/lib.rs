@@ -22,5 +22,5 @@ pub use contact::Contact;
 pub use detect::Candidate;
 pub use distance::Proximity;
 pub use model::{ContactModel, Pair, Target};
-pub use obstacle::Obstacle;
+pub use obstacle::{Obstacle, RigidShape};
 pub use surface::ContactSurface;

@@ -29,9 +29,10 @@ pub fn state<'py, const D: usize>(
     let reactions = &state.reactions;
     let out = PyDict::new(py);
     out.set_item("time", state.time)?;
-    out.set_item("displacement", vectors(py, &state.displacement)?)?;
-    out.set_item("velocity", vectors(py, &state.velocity)?)?;
-    out.set_item("contact_force", vectors(py, &state.contact_force)?)?;
+    let nodes = model.node_count();
+    out.set_item("displacement", vectors(py, &state.displacement[..nodes])?)?;
+    out.set_item("velocity", vectors(py, &state.velocity[..nodes])?)?;
+    out.set_item("contact_force", vectors(py, &state.contact_force[..nodes])?)?;
     let target = |pair: u32| match model.contact.pairs[pair as usize].target {
         Target::Surface(body) => body as i64,
         Target::Obstacle(obstacle) => -1 - obstacle as i64,

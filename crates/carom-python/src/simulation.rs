@@ -57,7 +57,7 @@ impl Simulation {
     fn mesh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let model = self.inner.model();
         let meshes = model.bodies.iter().map(|b| (b.first_node, b.body.mesh()));
-        arrays::grid(py, &model.reference, meshes)
+        arrays::grid(py, &model.reference[..model.node_count()], meshes)
     }
 
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
@@ -81,7 +81,7 @@ impl Simulation {
     fn surface<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let model = self.inner.model();
         let surfaces = model.bodies.iter().map(|b| (b.first_node, b.body.surface()));
-        arrays::surface_grid(py, &model.reference, surfaces)
+        arrays::surface_grid(py, &model.reference[..model.node_count()], surfaces)
     }
 
     fn surface_fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {

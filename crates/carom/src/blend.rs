@@ -8,7 +8,7 @@
 //!
 //! α = [Σ (f_a + C v̄)_b·d_b − d_a·d_i + D_a] / [Σ (f_d)_i·d_i + d_d·d_i − D_d]
 //!
-//! with i and b the nodes with and without mass, D_a + α D_d = Σ μ r̄_n |w_t|, makes the change of kinetic and strain energy
+//! with i and b the nodes with and without mass, D_a + α D_d = Σ μ r̄_n |w_t| less the work of obstacles that move, makes the change of kinetic and strain energy
 //! what loads do, less what damping and friction take.
 
 use carom_contact::Target;
@@ -59,9 +59,16 @@ pub(crate) struct Rubbing {
     pub start: f64,
     pub end: f64,
     pub slip: f64,
+    /// Work [J] that the motion of an obstacle would do with the reactions of the start and of the end.
+    pub driven: [f64; 2],
 }
 
 impl Rubbing {
+    /// Work [J] that the prescribed motion of the obstacle does on the body.
+    pub fn prescribed(&self, weight: f64) -> f64 {
+        (0.5 - weight) * self.driven[0] + (0.5 + weight) * self.driven[1]
+    }
+
     /// μ r̄_n |w_t|: what friction takes in the step [J].
     pub fn dissipation(&self, weight: f64) -> f64 {
         self.friction * ((0.5 - weight) * self.start + (0.5 + weight) * self.end) * self.slip
@@ -171,8 +178,9 @@ impl<const D: usize> Blend<D> {
         }
         for c in rubbing {
             let group = &mut self.groups[leader_of(&self.leader, c.source)];
-            group.missing += c.friction * 0.5 * (c.start + c.end) * c.slip;
-            group.available -= c.friction * (c.end - c.start) * c.slip;
+            let [start, end] = c.driven;
+            group.missing += c.friction * 0.5 * (c.start + c.end) * c.slip - 0.5 * (start + end);
+            group.available += end - start - c.friction * (c.end - c.start) * c.slip;
         }
         for (i, weight) in self.weight.iter_mut().enumerate() {
             let Balance { missing, available } = self.groups[leader_of(&self.leader, i)];
@@ -188,7 +196,8 @@ impl<const D: usize> Blend<D> {
             left[self.leader_of(i)] += excess[i] + surplus;
         }
         for c in rubbing {
-            left[self.leader_of(c.source)] += c.dissipation(self.weight[c.source]);
+            let weight = self.weight[c.source];
+            left[self.leader_of(c.source)] += c.dissipation(weight) - c.prescribed(weight);
         }
         excess.copy_from_slice(&left);
     }

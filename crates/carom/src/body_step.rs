@@ -19,6 +19,8 @@ pub(crate) struct BodyStep<'a, const D: usize> {
     frame: &'a Matrix<D>,
     /// How far the body turns in the step at its spin.
     turn: &'a Matrix<D>,
+    /// Mean velocity at the start.
+    drift: &'a Vector<D>,
     /// v at the start.
     velocity: &'a [Vector<D>],
     /// u at the start.
@@ -40,11 +42,13 @@ pub(crate) struct Pose<const D: usize> {
     pub frame: Matrix<D>,
     /// Its rotation from the start to the end of the step, at the spin of the start.
     pub turn: Matrix<D>,
+    /// Its mean velocity at the start [m/s].
+    pub drift: Vector<D>,
 }
 
 impl<const D: usize> Default for Pose<D> {
     fn default() -> Self {
-        Self { frame: Matrix::identity(), turn: Matrix::identity() }
+        Self { frame: Matrix::identity(), turn: Matrix::identity(), drift: Vector::zeros() }
     }
 }
 
@@ -87,6 +91,7 @@ impl<'a, const D: usize> BodyStep<'a, D> {
             gravity: &model.gravity,
             frame: &pose.frame,
             turn: &pose.turn,
+            drift: &pose.drift,
             velocity: &state.velocity[nodes.clone()],
             start: &state.displacement[nodes.clone()],
             internal_force: &state.internal_force[nodes.clone()],
@@ -142,10 +147,11 @@ impl<'a, const D: usize> BodyStep<'a, D> {
     ///
     /// Static balance alone may have no stable solution near the last one: under strong compression, as where a law like
     /// Saint-Venant–Kirchhoff's softens, boundary nodes snap. This is the inertia of a mass STEADYING·k·Δt², far below the node's
-    /// own, taken at the end of the step; a body that turns rigidly feels none. It vanishes with Δt², and the blend returns its work and its momentum.
+    /// own, taken at the end of the step; a body that moves rigidly feels none. It vanishes with Δt², and the blend returns its work and its momentum.
     #[inline]
     pub fn steadying_force(&self, node: usize, stiffness: f64) -> Vector<D> {
-        (self.motion[node] - self.turn * self.velocity[node] * self.map.dt) * (STEADYING * stiffness)
+        let expected = self.drift + self.turn * (self.velocity[node] - self.drift);
+        (self.motion[node] - expected * self.map.dt) * (STEADYING * stiffness)
     }
 
     /// Writes v₊ [m/s] to `out`; a node without mass moves at the mean velocity of the step.

@@ -1,6 +1,6 @@
 //! The end of a step: the new state, and what happened to the energy.
 
-use carom_contact::{Candidate, Contact};
+use carom_contact::{Candidate, Contact, Target};
 use carom_friction::cone;
 use carom_mesh::Vector;
 
@@ -28,6 +28,8 @@ pub(crate) fn commit<const D: usize>(
     if method.is_blended() {
         report.blend = work.blend.largest_weight();
     }
+    let nodes = model.node_count();
+    next.velocity[nodes..].copy_from_slice(&state.velocity[nodes..]);
     for i in 0..model.bodies.len() {
         close_body(model, method, state, next, map, work, i);
     }
@@ -43,6 +45,7 @@ pub(crate) fn commit<const D: usize>(
     for group in &work.groups {
         report.ledger.friction += group.ledger.friction;
         report.ledger.normal_contact += group.ledger.normal_contact;
+        report.ledger.prescribed += group.ledger.prescribed;
         report.normal_force += group.normal_force;
     }
     if next.is_finite() { Ok(report) } else { Err(StepError::NotFinite("state")) }
@@ -157,14 +160,16 @@ fn close_contacts<const D: usize>(
     let mut book = |group: &mut GroupReport, contact: &Contact<D>, dissipation: f64| {
         group.ledger.friction += dissipation;
         report.least_friction = report.least_friction.min(dissipation);
-        deposit(contact, dissipation, &mut next.friction_energy);
+        deposit(model, contact, dissipation, &mut next.friction_energy);
     };
     if method.is_blended() {
         // The blend returns what normal reactions take, so there is nothing to book for them.
         measure_rubbing(model, method, state, map, work);
         let lost = work.lost.iter().map(|&k| &state.reactions[k].contact);
         for (c, contact) in work.rubbing.iter().zip(work.contacts.iter().chain(lost)) {
-            book(&mut work.groups[c.group], contact, c.dissipation(work.blend.weight[c.source]));
+            let weight = work.blend.weight[c.source];
+            work.groups[c.group].ledger.prescribed += c.prescribed(weight);
+            book(&mut work.groups[c.group], contact, c.dissipation(weight));
         }
         next.excess.copy_from_slice(&state.excess);
         let surplus = work.bodies.iter().map(|b| b.kinetic + b.strain + b.viscous - b.external);
@@ -180,15 +185,27 @@ fn close_contacts<const D: usize>(
             let motion = reaction.contact.relative(|n| work.motion[n]);
             let group = &mut work.groups[model.contact.pairs[reaction.pair as usize].group];
             group.ledger.normal_contact -= share * reaction.force[0] * motion[0];
+            group.ledger.prescribed += share * driven(model, reaction, &work.motion);
             let dissipation = -share * (1..D).map(|t| reaction.force[t] * motion[t]).sum::<f64>();
             book(group, &reaction.contact, dissipation);
         }
     }
 }
 
+/// Work [J] that the prescribed motion of an obstacle does with a reaction.
+fn driven<const D: usize>(model: &Model<D>, reaction: &Reaction<D>, motion: &[Vector<D>]) -> f64 {
+    match model.contact.pairs[reaction.pair as usize].target {
+        Target::Obstacle(o) => {
+            let travel = motion[model.contact.obstacles[o].node as usize];
+            reaction.force.dot(&(reaction.contact.frame * travel))
+        }
+        Target::Surface(_) => 0.0,
+    }
+}
+
 /// Leaves the energy that friction takes at a contact to its nodes: half to the source, half to those of a deformable target.
-fn deposit<const D: usize>(contact: &Contact<D>, energy: f64, nodes: &mut [f64]) {
-    let targets = || contact.stencil().skip(1);
+fn deposit<const D: usize>(model: &Model<D>, contact: &Contact<D>, energy: f64, nodes: &mut [f64]) {
+    let targets = || contact.stencil().skip(1).filter(|&(node, _)| node < model.node_count());
     let whole: f64 = targets().map(|(_, weight)| weight.abs()).sum();
     let to_target = if whole > 0.0 { 0.5 * energy } else { 0.0 };
     for (node, _) in contact.stencil().take(1) {

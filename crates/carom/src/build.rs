@@ -37,7 +37,13 @@ pub fn build(scenario: &Scenario) -> Result<(Model<2>, Method<2>, State<2>), Inp
         Some(g) => vector("analysis.gravity", g)?,
         None => Vector::zeros(),
     };
-    let model = Model::new(bodies, contact, groups, gravity);
+    let velocities = scenario
+        .obstacles
+        .iter()
+        .enumerate()
+        .map(|(i, o)| vector(&format!("obstacles.{i}.velocity"), &o.velocity))
+        .collect::<Result<_, _>>()?;
+    let model = Model::new(bodies, contact, groups, gravity).with_obstacle_velocities(velocities);
     check_overlaps(scenario, &model)?;
     let velocity = initial_velocity(scenario, &model)?;
     let state = State::initial(&model, velocity);
@@ -221,10 +227,9 @@ fn contact(
                 let length = normal.norm();
                 let remedy = "the normal must not be zero and points to the free side";
                 number(&format!("{key}.normal"), length, length > 0.0, remedy)?;
-                model.obstacles.push(Obstacle::Plane {
-                    point: vector(&format!("{key}.point"), point)?,
-                    normal: normal / length,
-                });
+                let point = vector(&format!("{key}.point"), point)?;
+                // The model gives obstacles their numbers.
+                model.obstacles.push(Obstacle::plane(point, normal / length, u32::MAX));
             }
         }
     }
@@ -315,7 +320,7 @@ fn check_overlaps(scenario: &Scenario, model: &Model<2>) -> Result<(), InputErro
                 ),
                 Target::Obstacle(o) => {
                     let plane = &model.contact.obstacles[o];
-                    let outside = source.nodes().all(|n| plane.gap(&model.reference[n]).0 < 0.0);
+                    let outside = source.nodes().all(|n| plane.gap(&model.reference[n], &at).0 < 0.0);
                     let fact = if outside { "lies outside, behind" } else { "overlaps" };
                     InputError::new(
                         format!("bodies.{index}.mesh"),
@@ -348,7 +353,7 @@ fn sample(body: &ModelBody<2>) -> impl Iterator<Item = Vector<2>> {
 
 /// Translation and spin about the centre of mass of every body.
 fn initial_velocity(scenario: &Scenario, model: &Model<2>) -> Result<Vec<Vector<2>>, InputError> {
-    let mut velocity = Vec::with_capacity(model.reference.len());
+    let mut velocity = Vec::with_capacity(model.node_count());
     for (i, (entry, b)) in scenario.bodies.iter().zip(&model.bodies).enumerate() {
         let drift: Vector<2> = vector(&format!("bodies.{i}.velocity"), &entry.velocity)?;
         let key = format!("bodies.{i}.spin");

@@ -82,10 +82,11 @@ pub(crate) fn condense<const D: usize>(
     motion: &[Vector<D>],
     problem: &mut ContactProblem<D>,
 ) {
-    let body_of = |node: usize| model.body_of_node[node] as usize;
+    // The motion of obstacles is prescribed: they do not respond.
+    let body_of = |node: usize| model.body_of_node.get(node).map(|&b| b as usize);
     for contact in contacts {
         for (node, _) in contact.stencil() {
-            let b = body_of(node);
+            let Some(b) = body_of(node) else { continue };
             compliances[b].prepare(&mut operators[b], node - model.bodies[b].first_node);
         }
     }
@@ -102,11 +103,11 @@ pub(crate) fn condense<const D: usize>(
             let mut block = Matrix::zeros();
             let mut coupled = i == j;
             for (m, column_weight) in column.stencil() {
-                let b = body_of(m);
+                let Some(b) = body_of(m) else { continue };
                 let first = model.bodies[b].first_node;
                 let mut response = Matrix::zeros();
                 let mut touched = false;
-                for (n, row_weight) in row.stencil().filter(|&(n, _)| body_of(n) == b) {
+                for (n, row_weight) in row.stencil().filter(|&(n, _)| body_of(n) == Some(b)) {
                     response += compliances[b].block(n - first, m - first) * (row_weight * column_weight);
                     touched = true;
                 }

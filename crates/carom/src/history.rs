@@ -55,6 +55,7 @@ impl<const D: usize> History<D> {
             "scheme",
             "normal_contact",
             "external",
+            "prescribed",
             "defect",
         ]
         .map(String::from)
@@ -150,6 +151,7 @@ impl<const D: usize> History<D> {
             ledger.scheme,
             ledger.normal_contact,
             ledger.external,
+            ledger.prescribed,
             ledger.defect(),
         ]);
         let mut momentum = Vector::<D>::zeros();

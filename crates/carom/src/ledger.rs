@@ -69,7 +69,7 @@ impl AddAssign for BodyLedger {
 
 /// What happened to the energy in a step, or since the start [J]. Every term is computed from its own definition:
 ///
-/// ΔE_kinetic + ΔE_strain = external − friction − viscous − scheme − normal_contact + defect.
+/// ΔE_kinetic + ΔE_strain = external + prescribed − friction − viscous − scheme − normal_contact + defect.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Ledger {
     /// Change of kinetic energy.
@@ -78,6 +78,8 @@ pub struct Ledger {
     pub strain: f64,
     /// Work of gravity and loads.
     pub external: f64,
+    /// Work of prescribed motion: of obstacles that move.
+    pub prescribed: f64,
     /// Dissipated by friction: −Σ r_t·Δu_t ≥ 0.
     pub friction: f64,
     /// Dissipated by damping: Δu·C v̄.
@@ -92,7 +94,7 @@ impl Ledger {
     /// What the other terms do not explain [J].
     #[must_use]
     pub fn defect(&self) -> f64 {
-        self.kinetic + self.strain - self.external
+        self.kinetic + self.strain - self.external - self.prescribed
             + self.friction
             + self.viscous
             + self.scheme
@@ -105,6 +107,7 @@ impl AddAssign for Ledger {
         self.kinetic += step.kinetic;
         self.strain += step.strain;
         self.external += step.external;
+        self.prescribed += step.prescribed;
         self.friction += step.friction;
         self.viscous += step.viscous;
         self.scheme += step.scheme;
@@ -119,6 +122,8 @@ pub struct PairLedger {
     pub friction: f64,
     /// Taken by normal reactions.
     pub normal_contact: f64,
+    /// Work of the prescribed motion of its obstacle.
+    pub prescribed: f64,
     /// Whether there was a reaction.
     pub has_touched: bool,
 }
@@ -126,6 +131,7 @@ pub struct PairLedger {
 impl AddAssign for PairLedger {
     fn add_assign(&mut self, step: Self) {
         self.has_touched |= step.has_touched;
+        self.prescribed += step.prescribed;
         self.friction += step.friction;
         self.normal_contact += step.normal_contact;
     }

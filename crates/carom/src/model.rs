@@ -44,8 +44,11 @@ pub struct Model<const D: usize> {
     pub groups: Vec<Group>,
     /// Gravity [m/s²].
     pub gravity: Vector<D>,
-    /// Reference positions of all nodes [m].
+    /// Reference positions of all nodes [m]; after those of the bodies, zero for every obstacle, whose displacement says how far
+    /// it has moved.
     pub reference: Vec<Vector<D>>,
+    /// Velocities of the obstacles [m/s].
+    pub obstacle_velocities: Vec<Vector<D>>,
     /// The body that each node belongs to.
     pub body_of_node: Vec<u32>,
     /// Diameter of the largest body [m].
@@ -53,16 +56,27 @@ pub struct Model<const D: usize> {
 }
 
 impl<const D: usize> Model<D> {
-    /// The model of these bodies, whose nodes are numbered one body after the other, and of the contacts between their surfaces.
+    /// The model of these bodies, whose nodes are numbered one body after the other, and of the contacts between their surfaces;
+    /// obstacles stand still.
     #[must_use]
     pub fn new(
         bodies: Vec<ModelBody<D>>,
-        contact: ContactModel<D>,
+        mut contact: ContactModel<D>,
         groups: Vec<Group>,
         gravity: Vector<D>,
     ) -> Self {
+        let nodes = bodies.last().map_or(0, |b| b.nodes().end);
+        for (o, obstacle) in contact.obstacles.iter_mut().enumerate() {
+            obstacle.node = (nodes + o) as u32;
+        }
+        let fixed = contact.obstacles.iter().map(|_| Vector::zeros());
         Self {
-            reference: bodies.iter().flat_map(|b| b.body.mesh().nodes().iter().copied()).collect(),
+            reference: bodies
+                .iter()
+                .flat_map(|b| b.body.mesh().nodes().iter().copied())
+                .chain(fixed)
+                .collect(),
+            obstacle_velocities: vec![Vector::zeros(); contact.obstacles.len()],
             body_of_node: bodies
                 .iter()
                 .enumerate()
@@ -74,6 +88,20 @@ impl<const D: usize> Model<D> {
             groups,
             gravity,
         }
+    }
+
+    /// The same with obstacles that move at these velocities [m/s].
+    #[must_use]
+    pub fn with_obstacle_velocities(mut self, velocities: Vec<Vector<D>>) -> Self {
+        assert_eq!(velocities.len(), self.contact.obstacles.len(), "one velocity per obstacle");
+        self.obstacle_velocities = velocities;
+        self
+    }
+
+    /// Number of nodes of the bodies.
+    #[must_use]
+    pub fn node_count(&self) -> usize {
+        self.body_of_node.len()
     }
 
     /// Number of unknown displacements.

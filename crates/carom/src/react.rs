@@ -1,5 +1,8 @@
 //! The contacts at the present guess, and their reactions.
 
+use carom_contact::{Contact, Target};
+use carom_mesh::Vector;
+
 use crate::blend::Rubbing;
 use crate::condense::condense;
 use crate::error::StepError;
@@ -33,35 +36,35 @@ pub(crate) fn measure_rubbing<const D: usize>(
     work: &mut Workspace<D>,
 ) {
     let motion = &work.motion;
-    let slip = |contact: &carom_contact::Contact<D>| {
-        let w = contact.relative(|n| motion[n]);
-        (1..D).map(|t| w[t] * w[t]).sum::<f64>().sqrt()
-    };
     let weight = method.condition.reaction_weight(map);
+    let rubbing = |pair: u32, contact: &Contact<D>, start: Vector<D>, end: Vector<D>| {
+        let pair = &model.contact.pairs[pair as usize];
+        let w = contact.relative(|n| motion[n]);
+        let driven = match pair.target {
+            Target::Obstacle(o) => {
+                let travel = contact.frame * motion[model.contact.obstacles[o].node as usize];
+                [start.dot(&travel), end.dot(&travel)]
+            }
+            Target::Surface(_) => [0.0; 2],
+        };
+        Rubbing {
+            group: pair.group,
+            source: pair.source,
+            target: pair.target,
+            friction: pair.friction,
+            start: start[0],
+            end: end[0],
+            slip: (1..D).map(|t| w[t] * w[t]).sum::<f64>().sqrt(),
+            driven,
+        }
+    };
     work.rubbing.clear();
     for (k, contact) in work.contacts.iter().enumerate() {
-        let pair = &model.contact.pairs[work.candidates[k].pair as usize];
-        work.rubbing.push(Rubbing {
-            group: pair.group,
-            source: pair.source,
-            target: pair.target,
-            friction: pair.friction,
-            start: work.start_forces[k],
-            end: work.reactions[k][0] / weight,
-            slip: slip(contact),
-        });
+        let (start, end) = (work.start_forces[k], work.reactions[k] / weight);
+        work.rubbing.push(rubbing(work.candidates[k].pair, contact, start, end));
     }
     for reaction in work.lost.iter().map(|&k| &state.reactions[k]) {
-        let pair = &model.contact.pairs[reaction.pair as usize];
-        work.rubbing.push(Rubbing {
-            group: pair.group,
-            source: pair.source,
-            target: pair.target,
-            friction: pair.friction,
-            start: reaction.force[0],
-            end: 0.0,
-            slip: slip(&reaction.contact),
-        });
+        work.rubbing.push(rubbing(reaction.pair, &reaction.contact, reaction.force, Vector::zeros()));
     }
 }
 

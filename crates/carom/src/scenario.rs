@@ -201,6 +201,9 @@ pub enum MeshSpec {
 pub struct ObstacleEntry {
     /// Name.
     pub name: String,
+    /// Velocity [m/s].
+    #[serde(default = "still")]
+    pub velocity: Vec<f64>,
     /// Shape.
     #[serde(flatten)]
     pub shape: ObstacleShape,
@@ -288,6 +291,10 @@ pub struct PairEntry {
     /// Whether the two may touch at all.
     #[serde(default = "yes")]
     pub enabled: bool,
+}
+
+fn still() -> Vec<f64> {
+    vec![0.0; 2]
 }
 
 fn yes() -> bool {

@@ -53,7 +53,7 @@ pub(crate) fn select_active<const D: usize>(
         let known = state.reactions.binary_search_by_key(&(candidate.pair, candidate.node), Reaction::key);
         let force = known.map_or_else(|_| Vector::zeros(), |k| state.reactions[k].force);
         work.reactions.push(force * weight);
-        work.start_forces.push(force[0]);
+        work.start_forces.push(force);
         work.friction.push(contact.pairs[candidate.pair as usize].friction);
         touch(&mut work.touched, &contact.pairs[candidate.pair as usize]);
     }

@@ -121,6 +121,8 @@ pub struct EnergySummary {
     pub scheme: f64,
     /// Taken by normal reactions.
     pub normal_contact: f64,
+    /// Work of obstacles that move.
+    pub prescribed: f64,
     /// Work of gravity and loads.
     pub external: f64,
     /// Largest |E(t) − E(0)|.
@@ -357,7 +359,6 @@ impl<const D: usize> Simulation<D> {
     /// If steps were made already or the number of nodes is not that of the model.
     pub fn set_initial_velocity(&mut self, velocity: Vec<Vector<D>>) {
         assert_eq!(self.step, 0, "initial velocities belong before the first step");
-        assert_eq!(velocity.len(), self.model.reference.len(), "one velocity per node");
         self.state = State::initial(&self.model, velocity);
         self.initial_energies.clone_from(&self.state.body_energies);
         self.ledger_table = LedgerTable::default();
@@ -526,11 +527,11 @@ impl<const D: usize> Simulation<D> {
     /// The fields of the present state.
     #[must_use]
     pub fn fields(&self) -> Fields<'_, D> {
-        let s = &self.state;
+        let (s, nodes) = (&self.state, self.model.node_count());
         Fields {
-            displacement: &s.displacement,
-            velocity: &s.velocity,
-            reaction: &s.contact_force,
+            displacement: &s.displacement[..nodes],
+            velocity: &s.velocity[..nodes],
+            reaction: &s.contact_force[..nodes],
             cells: self
                 .model
                 .bodies
@@ -561,6 +562,7 @@ impl<const D: usize> Simulation<D> {
                 viscous: l.viscous,
                 scheme: l.scheme,
                 normal_contact: l.normal_contact,
+                prescribed: l.prescribed,
                 external: l.external,
                 max_drift: t.max_drift,
                 max_defect: t.max_defect,

@@ -50,7 +50,7 @@ pub struct State<const D: usize> {
 }
 
 impl<const D: usize> State<D> {
-    /// The state at t = 0 with these velocities and the bodies in their reference configuration. Tied nodes start as their
+    /// The state at t = 0 with these velocities of the nodes of all bodies, and the bodies in their reference configuration. Tied nodes start as their
     /// masters do.
     #[must_use]
     pub fn initial(model: &Model<D>, mut velocity: Vec<Vector<D>>) -> Self {
@@ -59,6 +59,8 @@ impl<const D: usize> State<D> {
                 velocity[b.first_node + tie.image as usize] = velocity[b.first_node + tie.master as usize];
             }
         }
+        assert_eq!(velocity.len(), model.node_count(), "one velocity per node");
+        velocity.extend(&model.obstacle_velocities);
         let zeros = vec![Vector::zeros(); velocity.len()];
         let mut state = Self {
             time: 0.0,

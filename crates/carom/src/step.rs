@@ -73,8 +73,11 @@ fn predict<const D: usize>(
         } else {
             [0.0; 3]
         };
-        work.poses[i] =
-            Pose { frame: b.body.frame(middle), turn: tensor::rotation(&spin.map(|w| w * map.dt)) };
+        work.poses[i] = Pose {
+            frame: b.body.frame(middle),
+            turn: tensor::rotation(&spin.map(|w| w * map.dt)),
+            drift: b.body.mean(&state.velocity[b.nodes()]),
+        };
         if !work.operators[i].fits(map) {
             work.operators[i].factorize(&b.body, map, middle, &work.poses[i].frame)?;
             work.factorisations += 1;

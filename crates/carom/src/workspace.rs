@@ -67,8 +67,8 @@ pub struct Workspace<const D: usize> {
     pub(crate) offsets: Vec<f64>,
     /// Reactions as the reduced problem has them: see `ContactCondition::reaction_weight`.
     pub(crate) reactions: Vec<Vector<D>>,
-    /// Normal reactions [N] that the step starts with.
-    pub(crate) start_forces: Vec<f64>,
+    /// Reactions [N] that the step starts with, in the frame of the last step.
+    pub(crate) start_forces: Vec<Vector<D>>,
     /// Reactions of the state whose contacts have no part in the step.
     pub(crate) lost: Vec<usize>,
     pub(crate) rubbing: Vec<Rubbing>,

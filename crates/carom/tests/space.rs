@@ -70,7 +70,7 @@ fn run(
 
 #[test]
 fn cube_with_friction_on_a_plane_loses_what_friction_and_contact_take() {
-    let floor = Obstacle::Plane { point: Vector::<3>::zeros(), normal: Vector::<3>::new(0.0, 0.0, 1.0) };
+    let floor = Obstacle::plane(Vector::zeros(), Vector::<3>::new(0.0, 0.0, 1.0), u32::MAX);
     let pair = Pair { source: 0, target: Target::Obstacle(0), friction: 0.3, group: 0 };
     let model = model(vec![cube("cube", [0.0, 0.0, 0.00513], 0)], vec![floor], vec![pair]);
     let speed = Vector::<3>::new(2.0, 1.0, -2.0);

@@ -21,13 +21,15 @@ COLUMNS = (
     "contact",
     "friction",
     "normal_contact",
+    "prescribed",
     "defect",
 )
 """Time [s], the body or the pair ``a|b``, and what happened since the start [J].
 
 A body has: change of kinetic and strain energy, work of gravity and loads, what damping and the
 scheme took, what it received through contact, and what these do not explain. A pair, from its
-first touch on, has what friction dissipated and what normal reactions took.
+first touch on, has what friction dissipated, what normal reactions took, and the work of the
+motion of its obstacle.
 """
 
 
