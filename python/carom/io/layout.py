@@ -10,9 +10,10 @@ CASE = "case.toml"
 SUMMARY = "summary.json"
 HISTORY = "history.csv"
 FIELDS = "fields.vtkhdf"
+AUDIT = "audit.h5"
 ENERGY_PLOT = "energy.png"
 
-_NAMES = (SUMMARY, CASE, HISTORY, FIELDS, ENERGY_PLOT)
+_NAMES = (SUMMARY, CASE, HISTORY, FIELDS, AUDIT, ENERGY_PLOT)
 
 
 def track_plot(name: str) -> str:
