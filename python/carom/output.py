@@ -50,7 +50,7 @@ class Output(Description):
         Points to follow.
     audit
         Whether the last step before each frame of fields is kept as its two states, so that
-        ``carom audit`` can check every equation of the step and not only its outcome.
+        the audit can check every equation of the step and not only its outcome.
     """
 
     fields_every: Positive | None = None
