@@ -56,7 +56,7 @@ def scenario(condition="gap", scheme="theta", **changes):
     )
 
 
-@pytest.fixture(scope="session", autouse=True)
+@pytest.fixture(scope="module", autouse=True)
 def without_pictures():
     """Drawing takes longer than these runs."""
     patch = pytest.MonkeyPatch()
@@ -65,7 +65,7 @@ def without_pictures():
     patch.undo()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def results(tmp_path_factory):
     """Run a method once and return its directory."""
     done = {}
