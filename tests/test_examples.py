@@ -24,10 +24,11 @@ def test_python_describes_what_the_case_files_describe(example, examples):
         (example("two_bars").scenario(), "two_bars.toml"),
         (cylinders(friction=0.2), "two_cylinders.toml"),
         (cylinders(friction=0.0), "two_cylinders_frictionless.toml"),
+        (example("oblique_layer").scenario(), "oblique_layer.toml"),
     ):
         assert python == Scenario.from_toml(examples / case)
 
 
-@pytest.mark.parametrize("name", ["two_bars", "two_cylinders"])
+@pytest.mark.parametrize("name", ["two_bars", "two_cylinders", "oblique_layer"])
 def test_example_asserts_its_numbers(example, tmp_path, name):
     example(name).main(tmp_path)

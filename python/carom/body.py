@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from typing import Literal
 
+from pydantic import model_validator
+from typing_extensions import Self
+
 from carom.description import Description, Name, Number, Positive, Vector
-from carom.mesh import Mesh
+from carom.mesh import Mesh, Rectangle
+from carom.messages import problem
 
 
 class Body(Description):
@@ -42,3 +46,9 @@ class Body(Description):
     contact_sides: tuple[Literal["left", "right", "bottom", "top"], ...] | None = None
     velocity: Vector = (0.0, 0.0)
     spin: Number = 0.0
+
+    @model_validator(mode="after")
+    def _what_repeats_itself_cannot_spin(self) -> Self:
+        if isinstance(self.mesh, Rectangle) and self.mesh.periodic and self.spin != 0.0:
+            raise problem("a periodic body cannot spin; give 0", key="spin", value=self.spin)
+        return self

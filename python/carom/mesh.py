@@ -62,6 +62,9 @@ class Rectangle(Description):
         Cells along the width and the height, shape [2].
     cell
         Kind of cell.
+    periodic
+        Whether the right side moves as the left one does: the body repeats itself along x and
+        cannot spin. Nothing else repeats itself, and contact is looked for with this period only.
     """
 
     kind: Literal["rectangle"] = "rectangle"
@@ -69,6 +72,7 @@ class Rectangle(Description):
     size: Annotated[tuple[Positive, ...], PER_DIMENSION]
     divisions: Annotated[tuple[Count, ...], PER_DIMENSION]
     cell: CellKind = "quad4"
+    periodic: Annotated[bool, Field(strict=True)] = False
 
 
 Mesh = Annotated[Disc | Rectangle, Field(discriminator="kind")]

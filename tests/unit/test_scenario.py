@@ -8,7 +8,13 @@ from carom import Scenario
 
 
 @pytest.mark.parametrize(
-    "name", ["two_bars.toml", "two_cylinders.toml", "two_cylinders_frictionless.toml"]
+    "name",
+    [
+        "two_bars.toml",
+        "two_cylinders.toml",
+        "two_cylinders_frictionless.toml",
+        "oblique_layer.toml",
+    ],
 )
 def test_examples_survive_toml_and_back(examples, tmp_path, name):
     scenario = Scenario.from_toml(examples / name)
@@ -118,3 +124,18 @@ def test_integers_and_numpy_numbers_are_numbers(box):
 def test_a_scenario_cannot_be_changed(scenario):
     with pytest.raises(ValueError, match="frozen"):
         scenario.title = "Other"
+
+
+def test_a_periodic_body_cannot_spin(box):
+    layer = {
+        "kind": "rectangle",
+        "corner": [0, 0],
+        "size": [1, 1],
+        "divisions": [1, 1],
+        "periodic": True,
+    }
+    box["bodies"][0]["mesh"] = layer
+    assert Scenario.from_dict(box).bodies[0].mesh.periodic
+    box["bodies"][0]["spin"] = 0.1
+    with pytest.raises(carom.InputError, match=r"bodies\.0\.spin.*periodic"):
+        Scenario.from_dict(box)

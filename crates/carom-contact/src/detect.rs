@@ -22,7 +22,7 @@ pub struct Candidate {
 const DEPTH: f64 = 0.5;
 
 /// A node this close to lying on a facet, relative to its size, is not beside it.
-const ALIGNED: f64 = 1e-9;
+const ALIGNED: f64 = 1e-6;
 
 /// A node is checked once where it faces another that faces it, to this fraction of the facet.
 const MIRRORED: f64 = 0.02;
@@ -51,7 +51,7 @@ impl<const D: usize> ContactModel<D> {
                     let near = |&&node: &&u32| {
                         obstacle.gap(&start(node)).0.min(obstacle.gap(&end(node)).0) <= margin
                     };
-                    out.extend(source.nodes.iter().filter(near).map(|&node| Candidate {
+                    out.extend(source.sources.iter().filter(near).map(|&node| Candidate {
                         pair: pair_index,
                         node,
                         facet: None,
@@ -98,7 +98,7 @@ impl<const D: usize> ContactModel<D> {
     ) {
         let source = &self.surfaces[self.pairs[pair as usize].source];
         let target = &self.surfaces[target];
-        let source_box = Aabb::of(source.nodes.iter().flat_map(|&n| [start(n), end(n)])).inflated(margin);
+        let source_box = Aabb::of(source.sources.iter().flat_map(|&n| [start(n), end(n)])).inflated(margin);
         let swept = |f: u32| target.bounds(f, start).union(&target.bounds(f, end));
         let facets = 0..target.facets.len() as u32;
         let target_box = facets.clone().fold(Aabb::of([]), |all, f| all.union(&swept(f))).inflated(margin);
@@ -113,7 +113,7 @@ impl<const D: usize> ContactModel<D> {
             })
             .filter(|(_, b)| b.overlaps(&source_box))
             .collect();
-        for &node in &source.nodes {
+        for &node in &source.sources {
             let (x0, x1) = (start(node), end(node));
             if !(target_box.contains(&x0) || target_box.contains(&x1)) {
                 continue;

@@ -17,7 +17,7 @@ impl<const D: usize> ContactModel<D> {
     /// Where the source nodes of `pair` are closest to, or deepest inside, the target.
     #[must_use]
     pub fn proximity(&self, pair: &Pair, position: &impl Fn(u32) -> Vector<D>) -> Option<Proximity<D>> {
-        let nodes = self.surfaces[pair.source].nodes.iter().map(|&n| position(n));
+        let nodes = self.surfaces[pair.source].sources.iter().map(|&n| position(n));
         self.closest(nodes, pair.target, position)
     }
 

@@ -1,3 +1,5 @@
+use std::collections::BTreeMap;
+
 use carom_mesh::{CellKind, Facet, Surface, Vector};
 
 use crate::aabb::Aabb;
@@ -11,7 +13,9 @@ pub struct ContactSurface {
     pub facets: Vec<Facet>,
     /// Nodes, ascending.
     pub nodes: Vec<u32>,
-    /// For every node, the facets around it.
+    /// The nodes that may touch a target, ascending: all but those that follow another. The two would be one contact twice.
+    pub sources: Vec<u32>,
+    /// For every source, the facets around it and its images.
     facets_around: Vec<Vec<u32>>,
     shape: Shape,
 }
@@ -35,15 +39,18 @@ impl ContactSurface {
             .map(|f| Facet { kind: f.kind, nodes: f.nodes.iter().map(|n| n + first_node).collect() })
             .collect();
         let nodes: Vec<u32> = surface.nodes().iter().map(|n| n + first_node).collect();
-        let mut facets_around = vec![Vec::new(); nodes.len()];
+        let masters: BTreeMap<u32, u32> =
+            surface.ties().iter().map(|t| (t.image + first_node, t.master + first_node)).collect();
+        let sources: Vec<u32> = nodes.iter().copied().filter(|n| !masters.contains_key(n)).collect();
+        let mut facets_around = vec![Vec::new(); sources.len()];
         for (f, facet) in facets.iter().enumerate() {
             for node in &facet.nodes {
-                if let Ok(k) = nodes.binary_search(node) {
+                if let Ok(k) = sources.binary_search(masters.get(node).unwrap_or(node)) {
                     facets_around[k].push(f as u32);
                 }
             }
         }
-        Self { facets, nodes, facets_around, shape: Shape::Faceted }
+        Self { facets, nodes, sources, facets_around, shape: Shape::Faceted }
     }
 
     /// The same boundary with a normal that turns continuously from facet to facet: as a target, a line is a cubic curve through
@@ -59,9 +66,9 @@ impl ContactSurface {
         self
     }
 
-    /// The facets around a node.
+    /// The facets around a source and its images.
     pub(crate) fn around(&self, node: u32) -> &[u32] {
-        self.nodes.binary_search(&node).map_or(&[], |k| &self.facets_around[k])
+        self.sources.binary_search(&node).map_or(&[], |k| &self.facets_around[k])
     }
 
     /// Projects `x` on what the surface is over the facet `f`; with `Reach::Beyond` and where it is smooth, also over the next ones.

@@ -74,7 +74,7 @@ pub struct Body<const D: usize> {
     volume: f64,
     damping: RayleighDamping,
     damping_stiffness: Option<NodalMatrix<Matrix<D>>>,
-    objective: bool,
+    turns: bool,
     wave_speed: f64,
 }
 
@@ -124,7 +124,8 @@ impl<const D: usize> Body<D> {
                 return Err(FemError::MaterialConstant { name, value, remedy: "damping cannot be negative" });
             }
         }
-        let objective = law.is_objective();
+        // What repeats itself along a line cannot turn.
+        let turns = law.is_objective() && mesh.ties().is_empty();
         let law = Confined(law);
         let mass = mass_matrix(&mesh, &surface, spec)?;
         let graph = Arc::clone(mass.shared_graph());
@@ -151,7 +152,7 @@ impl<const D: usize> Body<D> {
             massless_stiffness: Vec::new(),
             massless_contact: spec.massless_contact,
             nodal_mass,
-            objective,
+            turns,
         };
         if spec.massless_contact {
             let stiffness = body.stiffness(&vec![Vector::zeros(); body.node_count()]);
@@ -189,6 +190,12 @@ impl<const D: usize> Body<D> {
     #[must_use]
     pub fn node_count(&self) -> usize {
         self.mesh.nodes().len()
+    }
+
+    /// Number of unknown displacements: those of the nodes that follow no other.
+    #[must_use]
+    pub fn dofs(&self) -> usize {
+        D * (self.node_count() - self.mesh.ties().len())
     }
 
     /// Mass matrix [kg], one number per pair of nodes (mass is isotropic).
@@ -317,10 +324,10 @@ impl<const D: usize> Body<D> {
         self.mean(u) + self.mean(self.mesh.nodes())
     }
 
-    /// Whether the stored energy is unchanged by rotations, so that angular momentum can be conserved.
+    /// Whether the body can turn without storing energy, so that angular momentum can be conserved.
     #[must_use]
-    pub fn is_objective(&self) -> bool {
-        self.objective
+    pub fn turns(&self) -> bool {
+        self.turns
     }
 
     /// Mean of a nodal vector, weighted by mass: the velocity of the centre of mass for `v`.
@@ -331,11 +338,11 @@ impl<const D: usize> Body<D> {
 
     /// The mean rotation R of the body: the polar factor of Σ m (x − c) ⊗ (X − C).
     ///
-    /// It is the identity for a law of small displacements, whose forces do not turn with the body, and where the body is
-    /// so deformed that there is no rotation to find.
+    /// It is the identity for a law of small displacements, whose forces do not turn with the body, for a body that repeats
+    /// itself, and where the body is so deformed that there is no rotation to find.
     #[must_use]
     pub fn frame(&self, u: &[Vector<D>]) -> Matrix<D> {
-        if !self.objective {
+        if !self.turns {
             return Matrix::identity();
         }
         let (centre, reference_centre) = (self.centre(u), self.mean(self.mesh.nodes()));
@@ -412,6 +419,6 @@ fn mass_matrix<const D: usize>(
     if !spec.massless_contact {
         return Ok(mass);
     }
-    let followers = followers(mesh, &graph, surface.nodes())?;
+    let followers = followers(mesh, &graph, surface)?;
     Ok(redistributed(&mass, surface.nodes(), &followers))
 }

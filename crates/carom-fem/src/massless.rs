@@ -5,9 +5,10 @@
 //! positive definite as M, and as rigid motions are affine, no mass, centre or inertia is lost. (Khenous, Laborde & Renard 2008
 //! asked for the same invariants by the least change of M; that mass may be indefinite where few layers of cells are left.)
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use carom_mesh::{Matrix, Mesh, Vector};
+use carom_mesh::{Matrix, Mesh, Surface, Vector};
 use nalgebra::DMatrix;
 
 use crate::FemError;
@@ -16,26 +17,29 @@ use crate::sparse::{NodalMatrix, NodeGraph};
 /// How a massless node follows massive ones: nodes and weights.
 pub(crate) type Follower = Vec<(u32, f64)>;
 
-/// Layers of neighbours that are searched for massive nodes.
-const MAX_LAYERS: usize = 8;
-/// Weights whose magnitudes sum to more amplify noise: a wider neighbourhood is tried first.
-const AMPLIFICATION: f64 = 4.0;
+/// Layers of nodes that share the mass of a boundary node: with fewer the nearest get so much of it that contact rings.
+const LAYERS: usize = 5;
+/// Most nodes per layer.
+const NODES_PER_LAYER: usize = 4;
+/// Weights whose magnitudes sum to more amplify noise: more nodes per layer are tried first.
+const AMPLIFICATION: f64 = 2.5;
 /// How well affine fields must be reproduced.
 const REPRODUCED: f64 = 1e-9;
 
-/// For every node of `massless` (ascending), the massive nodes that it follows.
+/// For every node of `surface`, the massive nodes that it follows.
 ///
 /// # Errors
 /// If the massive nodes near one cannot carry a rigid motion, as where no cell is left inside.
 pub(crate) fn followers<const D: usize>(
     mesh: &Mesh<D>,
     graph: &NodeGraph,
-    massless: &[u32],
+    surface: &Surface,
 ) -> Result<Vec<Follower>, FemError> {
-    massless
+    surface
+        .nodes()
         .iter()
         .map(|&node| {
-            follower(mesh, graph, massless, node).ok_or_else(|| FemError::NoMassInside {
+            follower(mesh, graph, surface, node).ok_or_else(|| FemError::NoMassInside {
                 node,
                 at: mesh.nodes()[node as usize].iter().copied().collect(),
             })
@@ -43,31 +47,31 @@ pub(crate) fn followers<const D: usize>(
         .collect()
 }
 
-/// The weights of least weighted norm that reproduce affine fields at `node`; the nearer a node, the more it counts.
+/// The weights of least norm that reproduce affine fields at `node`, over few massive nodes in line with it: the fewer, the
+/// sparser the mass.
 fn follower<const D: usize>(
     mesh: &Mesh<D>,
     graph: &NodeGraph,
-    massless: &[u32],
+    surface: &Surface,
     node: u32,
 ) -> Option<Follower> {
     let origin = mesh.nodes()[node as usize];
-    let mut near = vec![node];
+    let arm = |n: u32| mesh.nodes()[n as usize] - origin;
+    let mut layers = massive_layers(graph, surface.nodes(), node);
+    let around = surface.facets().iter().filter(|f| f.nodes.contains(&node));
+    let inward = -around.map(|f| f.area_vector(mesh)).sum::<Vector<D>>().try_normalize(0.0)?;
+    let aside = |n: u32| (arm(n) - inward * inward.dot(&arm(n))).norm();
+    for layer in &mut layers {
+        layer.sort_by(|&a, &b| aside(a).total_cmp(&aside(b)));
+    }
     let mut best: Option<(f64, Follower)> = None;
-    for _ in 0..MAX_LAYERS {
-        let mut wider: Vec<u32> =
-            near.iter().flat_map(|&n| graph.row(n as usize).map(|(_, k)| k as u32)).collect();
-        wider.sort_unstable();
-        wider.dedup();
-        if wider.len() == near.len() {
-            break;
-        }
-        near = wider;
-        let massive: Vec<u32> = near.iter().copied().filter(|n| massless.binary_search(n).is_err()).collect();
-        let arms: Vec<Vector<D>> = massive.iter().map(|&n| mesh.nodes()[n as usize] - origin).collect();
+    for count in 1..=NODES_PER_LAYER {
+        let nodes: Vec<u32> = layers.iter().flat_map(|layer| layer.iter().take(count).copied()).collect();
+        let arms: Vec<Vector<D>> = nodes.iter().map(|&n| arm(n)).collect();
         let Some(weights) = affine_weights(&arms) else { continue };
         let amplification = weights.iter().map(|w| w.abs()).sum();
         if best.as_ref().is_none_or(|(least, _)| amplification < *least) {
-            best = Some((amplification, massive.into_iter().zip(weights).collect()));
+            best = Some((amplification, nodes.into_iter().zip(weights).collect()));
         }
         if amplification <= AMPLIFICATION {
             break;
@@ -76,29 +80,38 @@ fn follower<const D: usize>(
     best.map(|(_, follower)| follower)
 }
 
-/// Weights e with Σe = 1 and Σ e x = 0 for nodes at `arms` from the origin, if there are any.
+/// The massive nodes around `node` by their distance in the graph, the nearest layers that have any.
+fn massive_layers(graph: &NodeGraph, massless: &[u32], node: u32) -> Vec<Vec<u32>> {
+    let mut seen = BTreeSet::from([node]);
+    let mut front = vec![node];
+    let mut layers = Vec::new();
+    while !front.is_empty() && layers.len() < LAYERS {
+        let around: BTreeSet<u32> =
+            front.iter().flat_map(|&n| graph.row(n as usize).map(|(_, k)| k as u32)).collect();
+        front = around.into_iter().filter(|n| seen.insert(*n)).collect();
+        let massive: Vec<u32> =
+            front.iter().copied().filter(|n| massless.binary_search(n).is_err()).collect();
+        if !massive.is_empty() {
+            layers.push(massive);
+        }
+    }
+    layers
+}
+
+/// The weights e of least norm with Σe = 1 and Σ e x = 0 for nodes at `arms` from the origin, if there are any: e = c + g·x,
+/// where c and g solve a small symmetric system.
 ///
-/// Of all such e this is the one of least Σ e²/ω with ω = |x|⁻⁴: e = ω (c + g·x), where c and g solve a small symmetric system.
 /// Directions in which all arms are zero are left alone, so that nodes on one line serve a node of that line.
 fn affine_weights<const D: usize>(arms: &[Vector<D>]) -> Option<Vec<f64>> {
-    let size = arms.iter().map(Vector::norm).fold(f64::INFINITY, f64::min);
-    if !size.is_finite() {
-        return None;
-    }
-    let (mut zeroth, mut first, mut second) = (0.0, Vector::zeros(), Matrix::zeros());
-    let importance = |x: &Vector<D>| x.norm_squared().powi(-2);
+    let size = arms.iter().map(Vector::norm).fold(0.0, f64::max);
     let scaled: Vec<Vector<D>> = arms.iter().map(|x| x / size).collect();
-    for x in &scaled {
-        let w = importance(x);
-        zeroth += w;
-        first += x * w;
-        second += x * x.transpose() * w;
-    }
+    let first: Vector<D> = scaled.iter().sum();
+    let second: Matrix<D> = scaled.iter().map(|x| x * x.transpose()).sum();
     // Σ e x = 0 gives c first + second g = 0, and Σ e = 1 fixes c. The pseudo-inverse leaves empty directions out.
     let inverse = DMatrix::from_fn(D, D, |i, j| second[(i, j)]).pseudo_inverse(1e-10 * second.norm()).ok()?;
     let gradient = -(Matrix::<D>::from_fn(|i, j| inverse[(i, j)]) * first);
-    let sum = zeroth + gradient.dot(&first);
-    let weights: Vec<f64> = scaled.iter().map(|x| importance(x) * (1.0 + gradient.dot(x)) / sum).collect();
+    let sum = scaled.len() as f64 + gradient.dot(&first);
+    let weights: Vec<f64> = scaled.iter().map(|x| (1.0 + gradient.dot(x)) / sum).collect();
     let moment = scaled.iter().zip(&weights).fold(Vector::zeros(), |s, (x, &w)| s + x * w);
     let reproduced = weights.iter().all(|w| w.is_finite())
         && (weights.iter().sum::<f64>() - 1.0).abs() < REPRODUCED

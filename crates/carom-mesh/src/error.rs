@@ -44,6 +44,28 @@ pub enum MeshError {
         /// Index of the node.
         node: usize,
     },
+    /// A tie refers to a node that does not exist.
+    #[error("a tie refers to node {node}, but the mesh has {nodes} nodes (numbered from 0)")]
+    TieOfUnknownNode {
+        /// The node it refers to.
+        node: usize,
+        /// How many nodes there are.
+        nodes: usize,
+    },
+    /// A node follows two nodes, or one that follows another.
+    #[error("node {node} is tied twice; a node can follow one other, which follows none")]
+    TiedTwice {
+        /// Index of the node.
+        node: usize,
+    },
+    /// The two sides to be tied do not fit together.
+    #[error(
+        "the sides across direction {direction} cannot be tied: their nodes are not opposite one another"
+    )]
+    UnlikeSides {
+        /// Index of the direction.
+        direction: usize,
+    },
     /// The mesh has no cells.
     #[error("the mesh has no cells; a body needs at least one")]
     Empty,

@@ -1,6 +1,6 @@
 //! Structured meshes of simple bodies.
 
-use crate::{CellBlock, CellKind, Mesh, MeshError, Vector};
+use crate::{CellBlock, CellKind, Mesh, MeshError, Tie, Vector};
 
 /// The most cells a generator makes; more is a slip, and would exhaust the memory before anything else could say so.
 const MAX_CELLS: f64 = 5e6;
@@ -75,6 +75,29 @@ pub fn grid<const D: usize>(
         }
     }
     Mesh::new(nodes, vec![CellBlock { kind, connectivity }])
+}
+
+/// The same body with the nodes on its last side across `direction` tied to those opposite, on the first: it repeats itself.
+///
+/// # Errors
+/// If the nodes of the two sides, at the extremes of that coordinate, do not face one another exactly.
+pub fn tie_sides<const D: usize>(mesh: Mesh<D>, direction: usize) -> Result<Mesh<D>, MeshError> {
+    let extreme = |of: fn(f64, f64) -> f64| mesh.nodes().iter().map(|x| x[direction]).reduce(of);
+    let side = |at: Option<f64>| {
+        let mut nodes: Vec<(Vector<D>, u32)> = (0u32..)
+            .zip(mesh.nodes())
+            .filter(|(_, x)| Some(x[direction]) == at)
+            .map(|(n, x)| (Vector::from_fn(|k, _| if k == direction { 0.0 } else { x[k] }), n))
+            .collect();
+        nodes.sort_by(|(a, _), (b, _)| a.iter().partial_cmp(b.iter()).unwrap_or(std::cmp::Ordering::Equal));
+        nodes
+    };
+    let (first, last) = (side(extreme(f64::min)), side(extreme(f64::max)));
+    if first.len() != last.len() || first.iter().zip(&last).any(|((a, _), (b, _))| a != b) {
+        return Err(MeshError::UnlikeSides { direction });
+    }
+    let ties = first.iter().zip(&last).map(|(&(_, master), &(_, image))| Tie { image, master }).collect();
+    mesh.with_ties(ties)
 }
 
 /// A disc meshed by an O-grid: a core of `divisions` × `divisions` cells and rings around it, boundary nodes on the circle.
@@ -198,7 +221,7 @@ pub fn triangulate(mesh: &Mesh<2>) -> Result<Mesh<2>, MeshError> {
         }
     }
     let block = CellBlock { kind: CellKind::Tri3, connectivity };
-    Mesh::new(mesh.nodes().to_vec(), vec![block])
+    Mesh::new(mesh.nodes().to_vec(), vec![block])?.with_ties(mesh.ties().to_vec())
 }
 
 #[cfg(test)]
@@ -214,6 +237,20 @@ mod tests {
         assert_eq!(triangulate(&mesh).expect("valid").cell_count(), 2 * 192);
         let disc = Disc { divisions: 10, rings: Some(10), ..disc };
         assert_eq!(disc.quadrilaterals().expect("valid").nodes().len(), 521);
+    }
+
+    #[test]
+    fn a_side_is_tied_to_the_one_opposite() {
+        let mesh = grid([0.1, 0.2], [0.3, 0.7], [3, 2]).expect("valid");
+        let tied = tie_sides(mesh.clone(), 0).expect("alike");
+        let pairs: Vec<_> = tied.ties().iter().map(|t| (t.image, t.master)).collect();
+        assert_eq!(pairs, [(3, 0), (7, 4), (11, 8)]);
+        assert_eq!(triangulate(&tied).expect("valid").ties(), tied.ties());
+        assert_eq!(tie_sides(mesh.clone(), 1).expect("alike").ties().len(), 4);
+        let mut nodes = mesh.nodes().to_vec();
+        nodes[7][1] += 0.1;
+        let skewed = Mesh::new(nodes, mesh.blocks().to_vec()).expect("valid");
+        assert_eq!(tie_sides(skewed, 0), Err(MeshError::UnlikeSides { direction: 0 }));
     }
 
     #[test]

@@ -11,6 +11,6 @@ pub mod tensor;
 
 pub use cell::CellKind;
 pub use error::MeshError;
-pub use mesh::{CellBlock, Mesh};
+pub use mesh::{CellBlock, Mesh, Tie};
 pub use surface::{Facet, Surface};
 pub use tensor::{Matrix, Vector};

@@ -16,11 +16,21 @@ impl CellBlock {
     }
 }
 
+/// A node that moves as another one does, for ever.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Tie {
+    /// The node that follows.
+    pub image: u32,
+    /// The node that it follows.
+    pub master: u32,
+}
+
 /// Nodes and the cells that join them, in the reference configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh<const D: usize> {
     nodes: Vec<Vector<D>>,
     blocks: Vec<CellBlock>,
+    ties: Vec<Tie>,
 }
 
 impl<const D: usize> Mesh<D> {
@@ -55,7 +65,32 @@ impl<const D: usize> Mesh<D> {
         }
         match used.iter().position(|&u| !u) {
             Some(node) => Err(MeshError::OrphanNode { node }),
-            None => Ok(Self { nodes, blocks }),
+            None => Ok(Self { nodes, blocks, ties: Vec::new() }),
+        }
+    }
+
+    /// The same mesh with these ties instead of its own.
+    ///
+    /// # Errors
+    /// If a tie refers to an unknown node, or a node follows two others or one that itself follows another.
+    pub fn with_ties(mut self, ties: Vec<Tie>) -> Result<Self, MeshError> {
+        let mut follows = vec![false; self.nodes.len()];
+        for &Tie { image, master } in &ties {
+            let nodes = self.nodes.len();
+            if let Some(&node) = [image, master].iter().find(|&&n| n as usize >= nodes) {
+                return Err(MeshError::TieOfUnknownNode { node: node as usize, nodes });
+            }
+            if std::mem::replace(&mut follows[image as usize], true) {
+                return Err(MeshError::TiedTwice { node: image as usize });
+            }
+        }
+        // A chain would need its ties in order; whoever makes ties can name the node at its end.
+        match ties.iter().find(|t| follows[t.master as usize]) {
+            Some(tie) => Err(MeshError::TiedTwice { node: tie.master as usize }),
+            None => {
+                self.ties = ties;
+                Ok(self)
+            }
         }
     }
 
@@ -69,6 +104,20 @@ impl<const D: usize> Mesh<D> {
     #[must_use]
     pub fn blocks(&self) -> &[CellBlock] {
         &self.blocks
+    }
+
+    /// The nodes that move as others do. No node follows two, or one that follows.
+    #[must_use]
+    pub fn ties(&self) -> &[Tie] {
+        &self.ties
+    }
+
+    /// For every node the one whose motion it makes: itself, unless it is tied.
+    #[must_use]
+    pub fn masters(&self) -> Vec<u32> {
+        let mut masters: Vec<u32> = (0..self.nodes.len() as u32).collect();
+        self.ties.iter().for_each(|t| masters[t.image as usize] = t.master);
+        masters
     }
 
     /// Number of cells in all blocks.
@@ -104,5 +153,25 @@ impl<const D: usize> Mesh<D> {
             }
         }
         smallest
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate;
+
+    #[test]
+    fn ties_that_leave_open_who_moves_are_refused() {
+        let mesh = generate::grid([0.0, 0.0], [2.0, 1.0], [2, 1]).expect("valid");
+        let tied = |ties: &[(u32, u32)]| {
+            let ties = ties.iter().map(|&(image, master)| Tie { image, master }).collect();
+            mesh.clone().with_ties(ties).map(|m| m.masters())
+        };
+        assert_eq!(tied(&[(2, 0), (5, 3)]), Ok(vec![0, 1, 0, 3, 4, 3]));
+        assert_eq!(tied(&[(2, 6)]), Err(MeshError::TieOfUnknownNode { node: 6, nodes: 6 }));
+        for ties in [&[(2, 0), (2, 1)][..], &[(2, 1), (1, 0)], &[(1, 0), (2, 1)], &[(2, 2)]] {
+            assert!(matches!(tied(ties), Err(MeshError::TiedTwice { .. })), "{ties:?}");
+        }
     }
 }

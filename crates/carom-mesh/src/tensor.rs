@@ -113,6 +113,25 @@ pub fn rotation_velocity<const D: usize>(omega: &[f64; 3], x: &Vector<D>) -> Vec
     v
 }
 
+/// The rotation by the vector φ = (φ_x, φ_y, φ_z) [rad] (Rodrigues); in 2D by φ_z.
+#[must_use]
+pub fn rotation<const D: usize>(phi: &[f64; 3]) -> Matrix<D> {
+    let angle = phi.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let mut spin = Matrix::<D>::zeros();
+    for j in 0..D {
+        let mut axis = Vector::zeros();
+        axis[j] = 1.0;
+        spin.set_column(j, &rotation_velocity(phi, &axis));
+    }
+    // sin φ/φ and (1 − cos φ)/φ², which tend to 1 and ½.
+    let (s, c) = if angle > 1e-8 {
+        (angle.sin() / angle, 0.5 * ((0.5 * angle).sin() / (0.5 * angle)).powi(2))
+    } else {
+        (1.0, 0.5)
+    };
+    Matrix::identity() + spin * s + spin * spin * c
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -138,5 +157,15 @@ mod tests {
         let u = Matrix::<2>::new(1.4, 0.2, 0.2, 0.8);
         assert!((closest_rotation(&(r * u)).expect("det > 0") - r).norm() < 1e-15);
         assert!(closest_rotation(&Matrix::<2>::new(1.0, 0.0, 0.0, -1.0)).is_none());
+    }
+
+    #[test]
+    fn rotation_by_a_vector_is_that_of_nalgebra() {
+        for phi in [[0.0; 3], [1e-9, 0.0, 2e-9], [0.3, -0.8, 1.1]] {
+            let reference = nalgebra::Rotation3::from_scaled_axis(nalgebra::Vector3::from(phi));
+            assert!((rotation::<3>(&phi) - reference.matrix()).norm() < 1e-15);
+        }
+        let quarter = rotation::<2>(&[0.0, 0.0, std::f64::consts::FRAC_PI_2]);
+        assert!((quarter * Vector::<2>::new(1.0, 0.0) - Vector::<2>::new(0.0, 1.0)).norm() < 1e-15);
     }
 }

@@ -18,8 +18,8 @@ use carom_mesh::{Vector, tensor};
 use crate::Model;
 use crate::body_step::{BodyStep, ResidualScratch};
 
-/// Below this fraction of the energy of the model the denominator of α is round-off, as in rigid flight, and so is its numerator.
-const NEGLIGIBLE: f64 = 1e-12;
+/// Largest |α|. Up to here r̄ is a mean of r₀ and r₁ with weights that are not negative, so that friction never does work.
+const LARGEST: f64 = 0.5;
 
 /// The two ends of the balance of a body or of a group: α is their ratio.
 #[derive(Debug, Clone, Copy, Default)]
@@ -27,6 +27,9 @@ struct Balance {
     missing: f64,
     available: f64,
 }
+
+/// What is missing below this fraction of the energy of the model is round-off and may wait.
+const NEGLIGIBLE: f64 = 1e-14;
 
 /// Forces, balances and weights of all bodies.
 #[derive(Debug)]
@@ -127,8 +130,8 @@ impl<const D: usize> Blend<D> {
                 }
             }
         }
-        // The moment of a law of small displacements is that of the reference configuration: there is none to keep.
-        let turns = body.is_objective();
+        // A body that cannot turn has no moment to keep.
+        let turns = body.turns();
         let accelerations: [_; 2] = std::array::from_fn(|k| {
             rigid.acceleration(&excess[k], if turns { &excess_moment[k] } else { &[0.0; 3] })
         });
@@ -147,10 +150,11 @@ impl<const D: usize> Blend<D> {
         self.balances[index] = balance;
     }
 
-    /// α of every group of bodies in contact; `energy` is that of the model [J].
-    pub fn weigh(&mut self, rubbing: impl Iterator<Item = Rubbing> + Clone, energy: f64) {
+    /// α of every group of bodies in contact. `excess` is the energy of every body [J] that steps before left over and
+    /// `energy` that of the model: where little can be moved, as in nearly rigid flight, it waits for a step where there is more.
+    pub fn weigh(&mut self, rubbing: &[Rubbing], excess: &[f64], energy: f64) {
         self.leader.iter_mut().enumerate().for_each(|(i, l)| *l = i);
-        for c in rubbing.clone() {
+        for c in rubbing {
             match c.target {
                 Target::Surface(target) if c.start > 0.0 || c.end > 0.0 => {
                     let (a, b) = (self.leader_of(c.source), self.leader_of(target));
@@ -160,27 +164,36 @@ impl<const D: usize> Blend<D> {
             }
         }
         self.groups.fill(Balance::default());
-        for i in 0..self.balances.len() {
-            let leader = self.leader_of(i);
-            self.groups[leader].missing += self.balances[i].missing;
-            self.groups[leader].available += self.balances[i].available;
+        for (i, (balance, excess)) in self.balances.iter().zip(excess).enumerate() {
+            let group = &mut self.groups[leader_of(&self.leader, i)];
+            group.missing += balance.missing + excess;
+            group.available += balance.available;
         }
         for c in rubbing {
-            let leader = self.leader_of(c.source);
-            self.groups[leader].missing += c.friction * 0.5 * (c.start + c.end) * c.slip;
-            self.groups[leader].available -= c.friction * (c.end - c.start) * c.slip;
+            let group = &mut self.groups[leader_of(&self.leader, c.source)];
+            group.missing += c.friction * 0.5 * (c.start + c.end) * c.slip;
+            group.available -= c.friction * (c.end - c.start) * c.slip;
         }
-        for i in 0..self.weight.len() {
-            let Balance { missing, available } = self.groups[self.leader_of(i)];
-            self.weight[i] = if available > NEGLIGIBLE * energy { missing / available } else { 0.0 };
+        for (i, weight) in self.weight.iter_mut().enumerate() {
+            let Balance { missing, available } = self.groups[leader_of(&self.leader, i)];
+            *weight = if available > 0.0 { (missing / available).clamp(-LARGEST, LARGEST) } else { 0.0 };
         }
     }
 
-    fn leader_of(&self, mut body: usize) -> usize {
-        while self.leader[body] != body {
-            body = self.leader[body];
+    /// Adds what a step left over to `excess`: `surplus` of every body and what friction took, group by group.
+    pub fn carry(&self, surplus: impl Iterator<Item = f64>, rubbing: &[Rubbing], excess: &mut [f64]) {
+        let mut left = vec![0.0; excess.len()];
+        for (i, surplus) in surplus.enumerate() {
+            left[self.leader_of(i)] += excess[i] + surplus;
         }
-        body
+        for c in rubbing {
+            left[self.leader_of(c.source)] += c.dissipation(self.weight[c.source]);
+        }
+        excess.copy_from_slice(&left);
+    }
+
+    fn leader_of(&self, body: usize) -> usize {
+        leader_of(&self.leader, body)
     }
 
     /// Writes the residual of body `index` without reactions [N] to `out`.
@@ -211,4 +224,12 @@ impl<const D: usize> Blend<D> {
     pub fn largest_weight(&self) -> f64 {
         self.weight.iter().fold(0.0, |largest: f64, w| largest.max(w.abs()))
     }
+}
+
+/// The first body of the group that a body belongs to.
+fn leader_of(leaders: &[usize], mut body: usize) -> usize {
+    while leaders[body] != body {
+        body = leaders[body];
+    }
+    body
 }

@@ -17,6 +17,8 @@ pub(crate) struct BodyStep<'a, const D: usize> {
     gravity: &'a Vector<D>,
     /// Frame of the body in this step.
     frame: &'a Matrix<D>,
+    /// How far the body turns in the step at its spin.
+    turn: &'a Matrix<D>,
     /// v at the start.
     velocity: &'a [Vector<D>],
     /// u at the start.
@@ -29,6 +31,21 @@ pub(crate) struct BodyStep<'a, const D: usize> {
     pub motion: &'a [Vector<D>],
     /// u₊.
     pub displacement: &'a [Vector<D>],
+}
+
+/// How a body stands and turns in a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pose<const D: usize> {
+    /// Its mean rotation at the predicted middle of the step.
+    pub frame: Matrix<D>,
+    /// Its rotation from the start to the end of the step, at the spin of the start.
+    pub turn: Matrix<D>,
+}
+
+impl<const D: usize> Default for Pose<D> {
+    fn default() -> Self {
+        Self { frame: Matrix::identity(), turn: Matrix::identity() }
+    }
 }
 
 /// Scratch vectors of one body.
@@ -53,12 +70,12 @@ impl<const D: usize> ResidualScratch<D> {
 }
 
 impl<'a, const D: usize> BodyStep<'a, D> {
-    /// The part of body `b`, whose frame is `frame`; `motion` and `displacement` are those of the whole model.
+    /// The part of body `b` with its `pose`; `motion` and `displacement` are those of the whole model.
     pub fn new(
         model: &'a Model<D>,
         b: &'a ModelBody<D>,
         map: &'a StepMap,
-        frame: &'a Matrix<D>,
+        pose: &'a Pose<D>,
         state: &'a State<D>,
         motion: &'a [Vector<D>],
         displacement: &'a [Vector<D>],
@@ -68,7 +85,8 @@ impl<'a, const D: usize> BodyStep<'a, D> {
             body: &b.body,
             map,
             gravity: &model.gravity,
-            frame,
+            frame: &pose.frame,
+            turn: &pose.turn,
             velocity: &state.velocity[nodes.clone()],
             start: &state.displacement[nodes.clone()],
             internal_force: &state.internal_force[nodes.clone()],
@@ -124,10 +142,10 @@ impl<'a, const D: usize> BodyStep<'a, D> {
     ///
     /// Static balance alone may have no stable solution near the last one: under strong compression, as where a law like
     /// Saint-Venant–Kirchhoff's softens, boundary nodes snap. This is the inertia of a mass STEADYING·k·Δt², far below the node's
-    /// own, taken at the end of the step. It vanishes with Δt², and the blend returns its work and its momentum.
+    /// own, taken at the end of the step; a body that turns rigidly feels none. It vanishes with Δt², and the blend returns its work and its momentum.
     #[inline]
     pub fn steadying_force(&self, node: usize, stiffness: f64) -> Vector<D> {
-        (self.motion[node] - self.velocity[node] * self.map.dt) * (STEADYING * stiffness)
+        (self.motion[node] - self.turn * self.velocity[node] * self.map.dt) * (STEADYING * stiffness)
     }
 
     /// Writes v₊ [m/s] to `out`; a node without mass moves at the mean velocity of the step.

@@ -92,7 +92,7 @@ fn close_body<const D: usize>(
 ) {
     let b = &model.bodies[index];
     let nodes = b.nodes();
-    let step = BodyStep::new(model, b, map, &work.frames[index], state, &work.motion, &next.displacement);
+    let step = BodyStep::new(model, b, map, &work.poses[index], state, &work.motion, &next.displacement);
     let scratch = &mut work.residual_scratch[index];
     let (v0, v1) = (&state.velocity[nodes.clone()], &mut next.velocity[nodes.clone()]);
     step.end_velocity(v1);
@@ -142,7 +142,7 @@ fn close_contacts<const D: usize>(
     model: &Model<D>,
     method: &Method<D>,
     state: &State<D>,
-    next: &State<D>,
+    next: &mut State<D>,
     map: &StepMap,
     work: &mut Workspace<D>,
     report: &mut StepReport,
@@ -160,6 +160,9 @@ fn close_contacts<const D: usize>(
             work.groups[c.group].friction += dissipation;
             report.least_friction = report.least_friction.min(dissipation);
         }
+        next.excess.copy_from_slice(&state.excess);
+        let surplus = work.bodies.iter().map(|b| b.kinetic + b.strain + b.viscous - b.external);
+        work.blend.carry(surplus, &work.rubbing, &mut next.excess);
         return;
     }
     let [start, end] = method.contact_weights(map);

@@ -180,8 +180,9 @@ fn mesh(spec: &MeshSpec) -> Result<Mesh<2>, MeshError> {
         MeshSpec::Disc { centre, radius, divisions, rings, cell } => {
             (generate::Disc { centre, radius, divisions, rings }.quadrilaterals()?, cell)
         }
-        MeshSpec::Rectangle { corner, size, divisions, cell } => {
-            (generate::grid(corner, size, divisions)?, cell)
+        MeshSpec::Rectangle { corner, size, divisions, cell, periodic } => {
+            let mesh = generate::grid(corner, size, divisions)?;
+            (if periodic { generate::tie_sides(mesh, 0)? } else { mesh }, cell)
         }
     };
     match cell {
@@ -347,7 +348,10 @@ fn initial_velocity(scenario: &Scenario, model: &Model<2>) -> Result<Vec<Vector<
     let mut velocity = Vec::with_capacity(model.reference.len());
     for (i, (entry, b)) in scenario.bodies.iter().zip(&model.bodies).enumerate() {
         let drift: Vector<2> = vector(&format!("bodies.{i}.velocity"), &entry.velocity)?;
-        number(&format!("bodies.{i}.spin"), entry.spin, true, "the spin must be a finite number")?;
+        let key = format!("bodies.{i}.spin");
+        number(&key, entry.spin, true, "the spin must be a finite number")?;
+        let free = b.body.mesh().ties().is_empty();
+        number(&key, entry.spin, free || entry.spin == 0.0, "a periodic body cannot spin; give 0")?;
         let nodes = b.body.mesh().nodes();
         let centre = b.body.mean(nodes);
         velocity.extend(

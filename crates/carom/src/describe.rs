@@ -73,7 +73,7 @@ pub(crate) fn describe<const D: usize>(
                 name: b.name.clone(),
                 nodes: b.body.node_count(),
                 cells: b.body.mesh().cell_count(),
-                dofs: D * b.body.node_count(),
+                dofs: b.body.dofs(),
                 mass: b.body.total_mass(),
                 volume: b.body.volume(),
                 wave_speed,

@@ -12,7 +12,8 @@ use crate::error::StepError;
 ///
 /// Reactions never enter K̄, so bodies are uncoupled in it and one factor serves for many steps: it is made in one
 /// configuration and applied in the frame that turns with the body since (M is isotropic and an objective law turns its
-/// stiffness along). Newton's iterations then converge linearly but fast, and the factor is renewed where they do not.
+/// stiffness along). Newton's iterations then converge linearly but fast, and the factor is renewed where they do not. Tied nodes are its affair
+/// alone: it takes and gives vectors of all nodes (see [`Factor`]), and what starts equal at two of them stays so.
 #[derive(Debug)]
 pub(crate) struct BodyOperator<const D: usize> {
     factor: Factor<D>,
@@ -30,7 +31,7 @@ pub(crate) struct BodyOperator<const D: usize> {
 impl<const D: usize> BodyOperator<D> {
     pub fn new(body: &Body<D>) -> Result<Self, StepError> {
         Ok(Self {
-            factor: Factor::new(body.graph())?,
+            factor: Factor::new(body.graph(), body.mesh().ties())?,
             map: None,
             factor_frame: Matrix::identity(),
             turn: Matrix::identity(),

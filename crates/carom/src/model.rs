@@ -79,7 +79,7 @@ impl<const D: usize> Model<D> {
     /// Number of unknown displacements.
     #[must_use]
     pub fn dofs(&self) -> usize {
-        D * self.reference.len()
+        self.bodies.iter().map(|b| b.body.dofs()).sum()
     }
 }
 

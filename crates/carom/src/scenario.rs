@@ -190,6 +190,9 @@ pub enum MeshSpec {
         /// Cells.
         #[serde(default)]
         cell: PlaneCell,
+        /// Whether the right side moves as the left one does: the body repeats itself along x.
+        #[serde(default)]
+        periodic: bool,
     },
 }
 

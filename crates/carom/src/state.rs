@@ -43,12 +43,20 @@ pub struct State<const D: usize> {
     pub energies: Energies,
     /// Those of every body.
     pub body_energies: Vec<Energies>,
+    /// Energy of every body [J] that the blend of start and end stresses has yet to take back; round-off as a rule.
+    pub excess: Vec<f64>,
 }
 
 impl<const D: usize> State<D> {
-    /// The state at t = 0 with these velocities and the bodies in their reference configuration.
+    /// The state at t = 0 with these velocities and the bodies in their reference configuration. Tied nodes start as their
+    /// masters do.
     #[must_use]
-    pub fn initial(model: &Model<D>, velocity: Vec<Vector<D>>) -> Self {
+    pub fn initial(model: &Model<D>, mut velocity: Vec<Vector<D>>) -> Self {
+        for b in &model.bodies {
+            for tie in b.body.mesh().ties() {
+                velocity[b.first_node + tie.image as usize] = velocity[b.first_node + tie.master as usize];
+            }
+        }
         let zeros = vec![Vector::zeros(); velocity.len()];
         let mut state = Self {
             time: 0.0,
@@ -59,6 +67,7 @@ impl<const D: usize> State<D> {
             internal_force: zeros,
             energies: Energies::default(),
             body_energies: vec![Energies::default(); model.bodies.len()],
+            excess: vec![0.0; model.bodies.len()],
         };
         state.refresh(model);
         state

@@ -1,6 +1,8 @@
 //! One step: predict, detect, then linearise, condense, solve and correct until converged, and commit.
 
-use crate::body_step::{BodyStep, predicted_motion};
+use carom_mesh::tensor;
+
+use crate::body_step::{BodyStep, Pose, predicted_motion};
 use crate::books::commit;
 use crate::error::StepError;
 use crate::react::{evaluate_contacts, measure_rubbing, react};
@@ -66,12 +68,18 @@ fn predict<const D: usize>(
         {
             *m = u + d * 0.5;
         }
-        work.frames[i] = b.body.frame(middle);
+        let spin = if b.body.turns() {
+            b.body.spin(&state.displacement[b.nodes()], &state.velocity[b.nodes()])
+        } else {
+            [0.0; 3]
+        };
+        work.poses[i] =
+            Pose { frame: b.body.frame(middle), turn: tensor::rotation(&spin.map(|w| w * map.dt)) };
         if !work.operators[i].fits(map) {
-            work.operators[i].factorize(&b.body, map, middle, &work.frames[i])?;
+            work.operators[i].factorize(&b.body, map, middle, &work.poses[i].frame)?;
             work.factorisations += 1;
         }
-        work.operators[i].turn_to(&work.frames[i]);
+        work.operators[i].turn_to(&work.poses[i].frame);
     }
     Ok(())
 }
@@ -142,8 +150,7 @@ fn residuals<const D: usize>(
             continue;
         }
         let nodes = b.nodes();
-        let body_step =
-            BodyStep::new(model, b, map, &work.frames[i], state, &work.motion, &next.displacement);
+        let body_step = BodyStep::new(model, b, map, &work.poses[i], state, &work.motion, &next.displacement);
         let residual = &mut work.residual[nodes.clone()];
         if method.is_blended() {
             work.blend.residual(model, i, &body_step, &mut work.residual_scratch[i], residual);
@@ -165,12 +172,11 @@ fn blend<const D: usize>(
     work: &mut Workspace<D>,
 ) {
     for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !work.progress[i].settled) {
-        let body_step =
-            BodyStep::new(model, b, map, &work.frames[i], state, &work.motion, &next.displacement);
+        let body_step = BodyStep::new(model, b, map, &work.poses[i], state, &work.motion, &next.displacement);
         work.blend.measure(model, i, &body_step, &mut work.residual_scratch[i]);
     }
     measure_rubbing(model, method, state, map, work);
-    work.blend.weigh(work.rubbing.iter().copied(), state.energies.total());
+    work.blend.weigh(&work.rubbing, &state.excess, state.energies.total());
 }
 
 /// Applies the corrections; returns the largest motion of a node in the step so far [m].
@@ -219,7 +225,7 @@ fn refactorize<const D: usize>(
         {
             *m = (u0 + u1) * 0.5;
         }
-        work.operators[i].factorize(&b.body, map, middle, &work.frames[i])?;
+        work.operators[i].factorize(&b.body, map, middle, &work.poses[i].frame)?;
         work.factorisations += 1;
     }
     Ok(())

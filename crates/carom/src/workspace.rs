@@ -1,9 +1,9 @@
 use carom_contact::{Candidate, Contact};
 use carom_friction::ContactProblem;
-use carom_mesh::{Matrix, Vector};
+use carom_mesh::Vector;
 
 use crate::blend::{Blend, Rubbing};
-use crate::body_step::ResidualScratch;
+use crate::body_step::{Pose, ResidualScratch};
 use crate::condense::Compliance;
 use crate::error::StepError;
 use crate::ledger::BodyLedger;
@@ -51,7 +51,7 @@ pub struct Workspace<const D: usize> {
     pub(crate) operators: Vec<BodyOperator<D>>,
     pub(crate) compliances: Vec<Compliance<D>>,
     pub(crate) residual_scratch: Vec<ResidualScratch<D>>,
-    pub(crate) frames: Vec<Matrix<D>>,
+    pub(crate) poses: Vec<Pose<D>>,
     /// d = u₊ − u.
     pub(crate) motion: Vec<Vector<D>>,
     /// The correction of d, and before that the residual.
@@ -102,7 +102,7 @@ impl<const D: usize> Workspace<D> {
                 .iter()
                 .map(|b| ResidualScratch::new(b.body.node_count()))
                 .collect(),
-            frames: vec![Matrix::identity(); bodies],
+            poses: vec![Pose::default(); bodies],
             motion: zeros.clone(),
             correction: zeros.clone(),
             residual: zeros.clone(),

@@ -1,4 +1,4 @@
-use carom_mesh::{Matrix, Vector};
+use carom_mesh::{Matrix, Tie, Vector};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltError, LltParams, LltRegularization};
 use faer::sparse::linalg::SupernodalThreshold;
@@ -11,12 +11,16 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Par, Side, Spec};
 
 use super::NodeGraph;
+use super::folding::Folding;
 use super::substitution::Substitution;
 use crate::FemError;
 
 /// Supernodal Cholesky factor of a symmetric matrix of D × D blocks over a node graph.
 ///
 /// The ordering and the symbolic factorisation are made once; [`Factor::factorize`] renews the values in place.
+///
+/// Where nodes are tied the inverse of a matrix A stands for T (Tᵀ A T)⁻¹ Tᵀ, with T the map from the motions of the free nodes
+/// to those of all: forces on an image act on its master, and the two move alike to the last bit.
 pub struct Factor<const D: usize> {
     lower: SymbolicSparseColMat<usize>,
     symbolic: SymbolicCholesky<usize>,
@@ -29,6 +33,8 @@ pub struct Factor<const D: usize> {
     /// The unknown eliminated k-th.
     ordering: Vec<usize>,
     ordered: Vec<f64>,
+    /// None without ties.
+    folding: Option<Folding<D>>,
     factorized: bool,
 }
 
@@ -42,11 +48,19 @@ impl<const D: usize> std::fmt::Debug for Factor<D> {
 }
 
 impl<const D: usize> Factor<D> {
-    /// Orders the unknowns (AMD) and finds the structure of the factor.
+    /// Orders the unknowns (AMD) and finds the structure of the factor of matrices over `graph` whose nodes have these `ties`.
     ///
     /// # Errors
     /// If the symbolic factorisation fails, in practice for lack of memory.
-    pub fn new(graph: &NodeGraph) -> Result<Self, FemError> {
+    pub fn new(graph: &NodeGraph, ties: &[Tie]) -> Result<Self, FemError> {
+        if ties.is_empty() {
+            return Self::over(graph, None);
+        }
+        let (folding, folded) = Folding::new(graph, ties);
+        Self::over(&folded, Some(folding))
+    }
+
+    fn over(graph: &NodeGraph, folding: Option<Folding<D>>) -> Result<Self, FemError> {
         let n = graph.node_count() * D;
         let mut column_starts = vec![0];
         let mut rows = Vec::new();
@@ -87,6 +101,7 @@ impl<const D: usize> Factor<D> {
             lower,
             symbolic,
             sources,
+            folding,
             factorized: false,
         })
     }
@@ -97,8 +112,12 @@ impl<const D: usize> Factor<D> {
     /// If the matrix is not positive definite.
     pub fn factorize(&mut self, block: impl Fn(usize) -> Matrix<D>) -> Result<(), FemError> {
         self.factorized = false;
-        for (value, &(entry, i, j)) in self.lower_values.iter_mut().zip(&self.sources) {
-            *value = block(entry as usize)[(i as usize, j as usize)];
+        match &mut self.folding {
+            None => fill(&mut self.lower_values, &self.sources, block),
+            Some(folding) => {
+                folding.fold_matrix(block);
+                fill(&mut self.lower_values, &self.sources, |entry| folding.blocks[entry]);
+            }
         }
         self.symbolic
             .factorize_numeric_llt(
@@ -130,14 +149,27 @@ impl<const D: usize> Factor<D> {
     /// If the length does not fit or nothing was factorised.
     pub fn solve(&mut self, x: &mut [Vector<D>]) {
         assert!(self.factorized, "solve needs a factor");
-        let x: &mut [f64] = bytemuck::cast_slice_mut(x);
+        if let Some(folding) = &self.folding {
+            folding.fold(x);
+        }
+        let values: &mut [f64] = bytemuck::cast_slice_mut(x);
         for (ordered, &k) in self.ordered.iter_mut().zip(&self.ordering) {
-            *ordered = x[k];
+            *ordered = values[k];
         }
         self.substitution.solve(&mut self.ordered);
         for (ordered, &k) in self.ordered.iter().zip(&self.ordering) {
-            x[k] = *ordered;
+            values[k] = *ordered;
         }
+        if let Some(folding) = &self.folding {
+            folding.unfold(x);
+        }
+    }
+}
+
+/// Gathers the values of the lower triangle from the blocks.
+fn fill<const D: usize>(values: &mut [f64], sources: &[(u32, u8, u8)], block: impl Fn(usize) -> Matrix<D>) {
+    for (value, &(entry, i, j)) in values.iter_mut().zip(sources) {
+        *value = block(entry as usize)[(i as usize, j as usize)];
     }
 }
 
@@ -166,7 +198,7 @@ mod tests {
             .collect();
         let mut b = vec![Vector::zeros(); x.len()];
         a.multiply(&x, &mut b);
-        let mut factor = Factor::new(&graph).expect("symbolic");
+        let mut factor = Factor::new(&graph, &[]).expect("symbolic");
         factor.factorize(|entry| a.values[entry]).expect("positive definite");
         factor.solve(&mut b);
         for (b, x) in b.iter().zip(&x) {
@@ -174,5 +206,42 @@ mod tests {
         }
         assert!(factor.factorize(|entry| -a.values[entry]).is_err());
         assert!(!factor.is_factorized());
+    }
+
+    /// With ties: x is the motion of the free nodes spread to all, and Tᵀ A x = Tᵀ b.
+    #[test]
+    fn tied_nodes_move_alike_and_share_their_forces() {
+        for width in [1, 2, 5] {
+            let mesh = generate::grid([0.0; 2], [1.0, 1.0], [width, 4]).expect("valid");
+            let mesh = generate::tie_sides(mesh, 0).expect("alike");
+            let graph = Arc::new(NodeGraph::of(&mesh));
+            let mut a = NodalMatrix::filled(&graph, Matrix::<2>::new(-0.3, 0.1, 0.1, -0.2));
+            for node in 0..graph.node_count() {
+                a.values[graph.entry(node as u32, node as u32)] = Matrix::<2>::new(5.0, 0.4, 0.4, 6.0);
+            }
+            let fold = |b: &[Vector<2>]| {
+                let mut sum = b.to_vec();
+                for tie in mesh.ties() {
+                    sum[tie.master as usize] += b[tie.image as usize];
+                    sum[tie.image as usize] = Vector::zeros();
+                }
+                sum
+            };
+            let b: Vec<Vector<2>> = (0..graph.node_count())
+                .map(|n| Vector::<2>::new((n as f64).sin(), (n as f64 * 0.7).cos()))
+                .collect();
+            let mut factor = Factor::new(&graph, mesh.ties()).expect("symbolic");
+            factor.factorize(|entry| a.values[entry]).expect("positive definite");
+            let mut x = b.clone();
+            factor.solve(&mut x);
+            for tie in mesh.ties() {
+                assert_eq!(x[tie.image as usize], x[tie.master as usize]);
+            }
+            let mut ax = b.clone();
+            a.multiply(&x, &mut ax);
+            for (ax, b) in fold(&ax).iter().zip(fold(&b)) {
+                assert!((ax - b).norm() < 1e-13, "{width} cells wide");
+            }
+        }
     }
 }

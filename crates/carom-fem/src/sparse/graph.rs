@@ -33,6 +33,15 @@ impl NodeGraph {
         Self::of_rows(rows)
     }
 
+    /// The graph with every node replaced by its master; what nodes other than their own are left with is themselves.
+    pub(super) fn folded(&self, masters: &[u32]) -> Self {
+        let mut rows: Vec<Vec<u32>> = (0..masters.len() as u32).map(|n| vec![n]).collect();
+        for (node, &master) in masters.iter().enumerate() {
+            rows[master as usize].extend(self.row(node).map(|(_, m)| masters[m]));
+        }
+        Self::of_rows(rows)
+    }
+
     fn of_rows(mut rows: Vec<Vec<u32>>) -> Self {
         let mut starts = vec![0];
         let mut neighbours = Vec::new();

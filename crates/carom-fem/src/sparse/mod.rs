@@ -1,6 +1,7 @@
 //! Sparse matrices over the graph of the nodes, and their Cholesky factors.
 
 mod factor;
+mod folding;
 mod graph;
 mod nodal_matrix;
 mod substitution;

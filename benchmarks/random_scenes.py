@@ -1,0 +1,143 @@
+"""How robust the schemes are: random bodies thrown into a box, run with each of them.
+
+    .venv/bin/python benchmarks/random_scenes.py [scenes] [first seed]
+
+Prints for every scheme how many scenes it completed, how many steps it had to halve, the largest
+defect of the ledger, the deepest penetration, and the time per step.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+import carom
+
+VARIANTS = (
+    ("theta", "gap"),
+    ("theta", "massless"),
+    ("conserving", "midpoint"),
+    ("conserving", "gap"),
+    ("conserving", "massless"),
+)
+"""Schemes and contact conditions that are compared."""
+
+BOX = 8.0
+"""Side of the box [m]."""
+
+LAWS = (carom.SaintVenantKirchhoff, carom.NeoHookean)
+
+
+def scene(seed: int, scheme: str, condition: str) -> carom.Scenario:
+    """Return 2 to 5 bodies of random shape, size, material and motion in a box."""
+    random = np.random.default_rng(seed)
+    columns = 3
+    cell = BOX / columns
+    places = random.permutation(columns * columns)[: random.integers(2, 6)]
+    materials, bodies = {}, []
+    for index, place in enumerate(places):
+        name = f"body{index}"
+        young = 10.0 ** random.uniform(3.0, 4.5)
+        materials[name] = LAWS[random.integers(len(LAWS))](
+            young=young, poisson=random.uniform(0.0, 0.4), density=1.0
+        )
+        centre = (np.array([place % columns, place // columns]) + 0.5) * cell
+        centre += random.uniform(-0.05, 0.05, 2) * cell
+        # Velocities up to a twelfth of the speed of waves: strong, yet with strains that laws bear.
+        speed = np.sqrt(young) / 12.0 * random.uniform(0.2, 1.0)
+        angle = random.uniform(0.0, 2.0 * np.pi)
+        if random.random() < 0.6:
+            mesh = carom.Disc(
+                centre=centre, radius=random.uniform(0.2, 0.38) * cell, divisions=2 * int(random.integers(2, 5))
+            )
+        else:
+            size = random.uniform(0.35, 0.6, 2) * cell
+            mesh = carom.Rectangle(
+                corner=centre - 0.5 * size, size=size, divisions=[int(n) for n in random.integers(3, 9, 2)]
+            )
+        bodies.append(
+            carom.Body(
+                name=name,
+                material=name,
+                mesh=mesh,
+                velocity=speed * np.array([np.cos(angle), np.sin(angle)]),
+                spin=random.uniform(-3.0, 3.0),
+            )
+        )
+    sides = {"floor": (0, 1), "ceiling": (0, -1), "west": (1, 0), "east": (-1, 0)}
+    planes = [
+        carom.Plane(name=name, point=[0.0 if sum(n) > 0 else BOX] * 2, normal=n) for name, n in sides.items()
+    ]
+    stiffest = max(m.young for m in materials.values())
+    step = 0.05 / np.sqrt(stiffest)
+    return carom.Scenario(
+        title=f"scene {seed}",
+        analysis=carom.Dynamic(
+            end_time=800 * step,
+            time_step=step,
+            scheme={"kind": scheme},
+            gravity=[0.0, -9.81] if random.random() < 0.5 else None,
+        ),
+        output=carom.Output(history_every=step, fields_every=800 * step),
+        materials=materials,
+        bodies=bodies,
+        obstacles=planes,
+        contact=carom.Contact(
+            condition=condition, friction=float(random.choice([0.0, 0.2, 0.6]))
+        ),
+    )
+
+
+@dataclass
+class Tally:
+    """What a scheme did over all scenes."""
+
+    completed: int = 0
+    retried: int = 0
+    steps: int = 0
+    defect: float = 0.0
+    min_gap: float = 0.0
+    seconds: float = 0.0
+    failures: list[str] = field(default_factory=list)
+
+
+def main() -> None:
+    """Run the scenes and print the table."""
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 40
+    first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
+    tallies = {variant: Tally() for variant in VARIANTS}
+    with tempfile.TemporaryDirectory() as directory:
+        for seed in range(first, first + count):
+            for (scheme, condition), tally in tallies.items():
+                start = perf_counter()
+                out = Path(directory) / "run"
+                try:
+                    result = carom.run(scene(seed, scheme, condition), out=out)
+                except carom.ConvergenceError as error:
+                    tally.failures.append(f"{seed}: {error}")
+                    continue
+                tally.seconds += perf_counter() - start
+                summary = result.summary
+                energy = summary["energy"]
+                tally.completed += 1
+                tally.steps += summary["steps"]
+                tally.retried += summary["retried_steps"]
+                tally.defect = max(tally.defect, energy["max_defect"] / energy["initial"])
+                tally.min_gap = min(tally.min_gap, summary["min_gap"])
+    for (scheme, condition), tally in tallies.items():
+        print(
+            f"{scheme:>10} {condition:<9} completed {tally.completed}/{count}, "
+            f"halved {tally.retried} of {tally.steps} steps, defect {tally.defect:.1e} E0, "
+            f"min gap {tally.min_gap:.1e} m, {1e3 * tally.seconds / max(tally.steps, 1):.2f} ms/step"
+        )
+        for failure in tally.failures:
+            print(f"    {failure}")
+
+
+if __name__ == "__main__":
+    main()
