@@ -21,6 +21,12 @@ def cross(a: Array, b: Array) -> Array:
     return product
 
 
+def rotation(angle: float) -> Array:
+    """Return the rotation of the plane by an angle [rad], shape [2, 2]."""
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return np.array([[cosine, -sine], [sine, cosine]])
+
+
 def turned(a: Array, spin: float) -> Array:
     """Return spin × a of plane vectors, shape [..., 2]."""
     return spin * np.stack([-a[..., 1], a[..., 0]], axis=-1)

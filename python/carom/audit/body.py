@@ -59,6 +59,7 @@ class AuditBody:
             material.density,
             lumped=entry.mass == "lumped",
             massless=self.massless,
+            facets=self.facets,
         )
         self._stiffness = self._reference_stiffness()
         diagonal = einsum("caiai->ca", self._stiffness)

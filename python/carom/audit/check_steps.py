@@ -17,6 +17,9 @@ from carom.audit.step import BodyForces, Step
 
 Row = Mapping[str, float]
 
+LARGEST_BLEND = 0.5
+"""Limit of |α|: up to here the reactions of the step are a mean of those of its start and end."""
+
 ENERGIES = ("kinetic", "strain", "external", "viscous", "scheme", "friction", "normal_contact")
 
 
@@ -73,6 +76,8 @@ class StepChecks:
             off = SAFETY * (rate + EPS * step.time / step.dt * self._scales.speed)
             error = step.d[node] / step.dt - stored
             self._check("tracked points", error, off, f"{name}, {where}")
+        if self._model.blended:
+            self._blended_energy(step, after, where)
         if before is not None:
             for name in ENERGIES:
                 change = after[name] - before[name]
@@ -80,6 +85,24 @@ class StepChecks:
                 self._check(
                     "ledger in history", change - step.ledger[name], off, f"{name}, {where}"
                 )
+
+    def _blended_energy(self, step: Step, after: Row, where: str) -> None:
+        """Check that the blend of stresses has taken back all that steps before left over."""
+        size = np.abs(step.blend)
+        # Exactly 0: the blend has nothing to move, as in rigid flight, and energy waits.
+        if (size >= LARGEST_BLEND).any() or (size == 0.0).any():
+            self._findings.leave(
+                "energy of steps whose blend of stresses is 0 or at its limit of ½"
+            )
+            return
+        off = 2 * ROUND_OFF * self._scales.energy + self._newton_work(step)
+        off += sum(
+            self._scales.strain(b, u[b.span])
+            for b in self._model.bodies
+            for u in (step.u0, step.u1)
+        )
+        off += float(step.rubbing()[1].sum())
+        self._check("energy of the step", after["defect"], off, where)
 
     def _note_forces(self, step: Step) -> None:
         found = step.contacts
@@ -190,11 +213,16 @@ class StepChecks:
         if not model.conserving:
             self._findings.report("largest defect of a step", defect, "J")
             return
-        newton = sum(
-            float(scales.force(step, i) @ np.abs(step.d[b.span]).max(axis=1))
-            for i, b in enumerate(model.bodies)
+        if not model.blended:
+            work = strain + friction + self._newton_work(step)
+            self._check("energy of the step", defect, work, where)
+
+    def _newton_work(self, step: Step) -> float:
+        """Return the work that the error of the equation of motion may do in a step [J]."""
+        return sum(
+            float(self._scales.force(step, i) @ np.abs(step.d[b.span]).max(axis=1))
+            for i, b in enumerate(self._model.bodies)
         )
-        self._check("energy of the step", defect, strain + friction + newton, where)
 
     def _places(self, found: Contacts, state: Mapping[str, Any], step: Step, where: str) -> None:
         self._check("pairs", [float(side is None) for side in found.side], 0.0, where)

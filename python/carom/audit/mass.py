@@ -9,11 +9,14 @@ from carom.audit.arrays import Array, Indices, einsum
 from carom.audit.cells import Cells
 from carom.errors import InputError
 
-LAYERS = 8
-"""Layers of neighbours in which a node without mass looks for nodes to follow."""
+LAYERS = 5
+"""Layers of massive nodes that share what a node without mass carried."""
 
-AMPLIFICATION = 4.0
-"""Σ|e| up to which the weights of a neighbourhood are taken without looking further."""
+NODES_PER_LAYER = 4
+"""Most nodes of a layer."""
+
+AMPLIFICATION = 2.5
+"""Σ|e| up to which weights are taken without trying more nodes per layer."""
 
 REPRODUCED = 1e-9
 """How well the weights must reproduce affine fields."""
@@ -38,10 +41,19 @@ class Mass:
         Whether M is replaced by its row sums.
     massless
         Nodes without mass, ascending.
+    facets
+        Facets between them, the body on their left, shape [facet_count, 2].
     """
 
     def __init__(
-        self, cells: Cells, points: Array, density: float, *, lumped: bool, massless: Indices
+        self,
+        cells: Cells,
+        points: Array,
+        density: float,
+        *,
+        lumped: bool,
+        massless: Indices,
+        facets: Indices,
     ) -> None:
         self._cells = cells
         self._local = density * cells.shared_volumes
@@ -50,7 +62,7 @@ class Mass:
             ones = np.ones((cells.node_count, 2))
             self._lumped = self._all_nodes(ones)[:, :1]
         self._massless = massless
-        self._follow = _Follow(cells.nodes, points, massless)
+        self._follow = _Follow(cells.nodes, points, massless, facets)
         self.nodal: Array = self.times(np.ones((cells.node_count, 2)))[:, 0]
         """Row sums [kg], shape [node_count]."""
         self.total = float(self.nodal.sum())
@@ -73,13 +85,14 @@ class Mass:
 class _Follow:
     """The map P from massive to all nodes, as triplets."""
 
-    def __init__(self, cells: Indices, points: Array, massless: Indices) -> None:
+    def __init__(self, cells: Indices, points: Array, massless: Indices, facets: Indices) -> None:
         rows, columns, weights = [], [], []
         without = np.zeros(len(points), dtype=bool)
         without[massless] = True
         near = _neighbours(cells, len(points)) if len(massless) else []
+        inward = _inward(points, facets)
         for node in massless:
-            leaders, share = _leaders(int(node), near, without, points)
+            leaders, share = _leaders(int(node), near, without, points, inward[node])
             rows.append(np.full(len(leaders), node))
             columns.append(leaders)
             weights.append(share)
@@ -101,6 +114,16 @@ class _Follow:
         return full
 
 
+def _inward(points: Array, facets: Indices) -> Array:
+    """Return inward unit normals of the nodes of facets, shape [node_count, 2]; else zero."""
+    chord = points[facets[:, 1]] - points[facets[:, 0]]
+    left = np.stack([-chord[:, 1], chord[:, 0]], axis=1)
+    normal = np.zeros_like(points)
+    np.add.at(normal, facets.ravel(), np.repeat(left, 2, axis=0))
+    size = np.linalg.norm(normal, axis=1, keepdims=True)
+    return normal / np.where(size > 0, size, 1.0)
+
+
 def _neighbours(cells: Indices, count: int) -> list[set[int]]:
     """Return for each node those that share a cell with it, itself included."""
     near: list[set[int]] = [set() for _ in range(count)]
@@ -111,21 +134,20 @@ def _neighbours(cells: Indices, count: int) -> list[set[int]]:
 
 
 def _leaders(
-    node: int, near: list[set[int]], without: NDArray[np.bool_], points: Array
+    node: int, near: list[set[int]], without: NDArray[np.bool_], points: Array, inward: Array
 ) -> tuple[Indices, Array]:
     """Return massive nodes and weights that a node without mass follows.
 
-    Neighbourhoods grow layer by layer until their weights amplify little.
+    They are those of the nearest layers that stand most in line with its inward normal, as few as
+    have weights that amplify little.
     """
+    arms = points - points[node]
+    aside = np.linalg.norm(arms - np.outer(arms @ inward, inward), axis=1)
+    layers = [sorted(layer, key=lambda n: aside[n]) for layer in _layers(node, near, without)]
     best: tuple[float, Indices, Array] | None = None
-    around = {node}
-    for _ in range(LAYERS):
-        wider = set().union(*(near[n] for n in around))
-        if wider == around:
-            break
-        around = wider
-        massive = np.array(sorted(n for n in around if not without[n]), dtype=np.int64)
-        weights = affine_weights(points[massive] - points[node])
+    for count in range(1, NODES_PER_LAYER + 1):
+        massive = np.array([n for layer in layers for n in layer[:count]], dtype=np.int64)
+        weights = affine_weights(arms[massive])
         if weights is None:
             continue
         amplification = float(np.abs(weights).sum())
@@ -138,8 +160,21 @@ def _leaders(
     return best[1], best[2]
 
 
+def _layers(node: int, near: list[set[int]], without: NDArray[np.bool_]) -> list[list[int]]:
+    """Return the massive nodes around a node by their distance in the mesh, nearest first."""
+    seen, front = {node}, {node}
+    layers: list[list[int]] = []
+    while front and len(layers) < LAYERS:
+        front = set().union(*(near[n] for n in front)) - seen
+        seen |= front
+        massive = sorted(n for n in front if not without[n])
+        if massive:
+            layers.append(massive)
+    return layers
+
+
 def affine_weights(arms: Array) -> Array | None:
-    """Return weights e with Σe = 1 and Σ e x = 0, those of least Σ e² |x|⁴, or None.
+    """Return the weights e of least norm with Σe = 1 and Σ e x = 0, or None if there are none.
 
     Parameters
     ----------
@@ -148,13 +183,11 @@ def affine_weights(arms: Array) -> Array | None:
     """
     if len(arms) == 0:
         return None
-    scaled = arms / np.linalg.norm(arms, axis=1).min()
-    # Of A e = b with a diagonal norm: e = ω Aᵀ (A ω Aᵀ)⁺ b.
-    importance = np.linalg.norm(scaled, axis=1) ** -4
+    scaled = arms / np.linalg.norm(arms, axis=1).max()
+    # Of A e = b the least e is Aᵀ (A Aᵀ)⁺ b.
     conditions = np.column_stack([np.ones(len(scaled)), scaled]).T
-    system = conditions * importance @ conditions.T
-    multipliers = np.linalg.pinv(system, rcond=1e-10, hermitian=True)[:, 0]
-    weights: Array = importance * (multipliers @ conditions)
+    multipliers = np.linalg.pinv(conditions @ conditions.T, rcond=1e-10, hermitian=True)[:, 0]
+    weights: Array = multipliers @ conditions
     wanted = np.array([1.0, 0.0, 0.0])
     reproduced = np.allclose(conditions @ weights, wanted, rtol=0, atol=REPRODUCED)
     return weights if reproduced else None

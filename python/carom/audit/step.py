@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from carom.audit import contacts
-from carom.audit.arrays import Array, cross, turned
+from carom.audit.arrays import Array, cross, rotation, turned
 from carom.audit.body import STEADYING, AuditBody
 from carom.audit.contacts import Contacts
 from carom.audit.model import AuditModel
@@ -124,7 +124,9 @@ class Step:
         viscous = body.damping_force(u0 + 0.5 * dt * v0, mean)
         start, end = body.internal_force(u0), body.internal_force(u1)
         steadying = np.zeros_like(d)
-        resisted = (d - dt * v0)[body.massless]
+        # A body that turns rigidly is not resisted.
+        turn = rotation(dt * body.spin(u0, v0) if body.law.objective else 0.0)
+        resisted = (d - dt * v0 @ turn.T)[body.massless]
         steadying[body.massless] = STEADYING * body.holding[:, None] * resisted
         if model.blended:
             internal = self._blended(index, body, viscous, end + viscous + steadying)
