@@ -144,7 +144,8 @@ def type_of(field: FieldInfo) -> str:
         item = get_args(annotation)[0]
         if models(item):
             return "array of tables"
-        plain = PLAIN[get_args(item)[0] if get_origin(item) is Annotated else item]
+        item = get_args(item)[0] if get_origin(item) is Annotated else item
+        plain = "string" if get_origin(item) is Literal else PLAIN[item]
         return f"{DIMENSION} {plain}s" if PER_DIMENSION in asked else f"array of {plain}s"
     if get_origin(annotation) is dict:
         return "table of tables"
@@ -167,6 +168,8 @@ def allowed(field: FieldInfo) -> str:
         rules.append(", ".join(f'`"{value}"`' for value in get_args(annotation)))
     if get_origin(annotation) is tuple:
         item = get_args(annotation)[0]
+        if get_origin(item) is Literal:
+            rules.append(", ".join(f'`"{value}"`' for value in get_args(item)))
         if get_origin(item) is Annotated:
             asked += [inner for outer in get_args(item)[1:] for inner in outer.metadata]
     if set(get_args(Name)[1:]) & {one for one in asked if one.__hash__}:

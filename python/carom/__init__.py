@@ -2,6 +2,7 @@
 
 from carom._carom import Simulation, __version__
 from carom.analysis import Conserving, Dynamic, Newton, Theta
+from carom.audit import Audit, audit
 from carom.body import Body
 from carom.checking import Check, check
 from carom.contact import Contact, GaussSeidel, Pair, Uzawa
@@ -22,6 +23,7 @@ from carom.scenario import Scenario
 from carom.simulation import Progress, run
 
 __all__ = [
+    "Audit",
     "Body",
     "CaromError",
     "CertificateError",
@@ -51,6 +53,7 @@ __all__ = [
     "Track",
     "Uzawa",
     "__version__",
+    "audit",
     "check",
     "read_history",
     "run",

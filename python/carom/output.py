@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
+from pydantic import Field
 from typing_extensions import Self
 
 from carom.analysis import Analysis
@@ -45,12 +48,16 @@ class Output(Description):
         Contact events of one pair that are closer than this count as one [s].
     track
         Points to follow.
+    audit
+        Whether the last step before each frame of fields is kept as its two states, so that
+        the audit can check every equation of the step and not only its outcome.
     """
 
     fields_every: Positive | None = None
     history_every: Positive | None = None
     merge_contacts: NonNegative = 0.03
     track: tuple[Track, ...] = ()
+    audit: Annotated[bool, Field(strict=True)] = False
 
     def resolved(self, analysis: Analysis) -> Self:
         """Return the same with both intervals as numbers, never less than a time step."""

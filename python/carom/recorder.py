@@ -8,6 +8,7 @@ from time import perf_counter
 from carom import _carom
 from carom.interrupt import uninterrupted
 from carom.io import layout
+from carom.io.audit import AuditWriter
 from carom.io.history import HistoryWriter
 from carom.io.ledger import LedgerWriter
 from carom.io.summary import write_summary
@@ -48,6 +49,7 @@ class Recorder:
             point_fields=SURFACE_POINT_FIELDS,
             cell_fields=SURFACE_CELL_FIELDS,
         )
+        self._audit = AuditWriter(directory / layout.AUDIT) if scenario.output.audit else None
         self._start = perf_counter()
         self._last_frame: float | None = None
 
@@ -59,12 +61,20 @@ class Recorder:
 
     @uninterrupted()
     def frame(self) -> None:
-        """Write the fields of the current state, once."""
+        """Write the fields of the current state, once, and the step that led to it."""
+        self._frame(with_step=True)
+
+    def _frame(self, *, with_step: bool) -> None:
         time = self._simulation.time
-        if time != self._last_frame:
-            self._fields.append(time, self._simulation.fields())
-            self._surface.append(time, self._simulation.surface_fields())
-            self._last_frame = time
+        if time == self._last_frame:
+            return
+        self._fields.append(time, self._simulation.fields())
+        self._surface.append(time, self._simulation.surface_fields())
+        self._last_frame = time
+        if self._audit is not None and with_step:
+            step = self._simulation.last_step()
+            if step is not None:
+                self._audit.append(step)
 
     @uninterrupted()
     def close(self, *, status: str, reason: str | None = None) -> Result:
@@ -80,7 +90,8 @@ class Recorder:
         wall = perf_counter() - self._start
         self._simulation.finish()
         self.history()
-        self.frame()
+        # A step that failed has overwritten the start of the last good one.
+        self._frame(with_step=status != "failed")
         native = self._simulation.summary()
         summary = {
             "status": status,

@@ -19,7 +19,7 @@ pub fn table(py: Python<'_>, values: Vec<f64>, width: usize) -> PyResult<Bound<'
     PyArray1::from_vec(py, values).reshape([rows, width])
 }
 
-/// A state with its contacts: of each the source node, the target (the index of a body, or −1 − that of an obstacle), the gap where
+/// A state with the energy that each body has yet to give back [J] and its contacts: of each the source node, the target (the index of a body, or −1 − that of an obstacle), the gap where
 /// the condition was written, the normal, and the force on the source node.
 pub fn state<'py, const D: usize>(
     py: Python<'py>,
@@ -32,6 +32,7 @@ pub fn state<'py, const D: usize>(
     let nodes = model.node_count();
     out.set_item("displacement", vectors(py, &state.displacement[..nodes])?)?;
     out.set_item("velocity", vectors(py, &state.velocity[..nodes])?)?;
+    out.set_item("excess", PyArray1::from_slice(py, &state.excess))?;
     out.set_item("contact_force", vectors(py, &state.contact_force[..nodes])?)?;
     let target = |pair: u32| match model.contact.pairs[pair as usize].target {
         Target::Surface(body) => body as i64,

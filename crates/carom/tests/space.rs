@@ -74,7 +74,7 @@ fn cube_with_friction_on_a_plane_loses_what_friction_and_contact_take() {
     let pair = Pair { source: 0, target: Target::Obstacle(0), friction: 0.3, group: 0 };
     let model = model(vec![cube("cube", [0.0, 0.0, 0.00513], 0)], vec![floor], vec![pair]);
     let speed = Vector::<3>::new(2.0, 1.0, -2.0);
-    let velocity = vec![speed; model.reference.len()];
+    let velocity = vec![speed; model.node_count()];
     let (state, friction, defect, min_gap, touched) =
         run(&model, &method(ContactCondition::Gap), velocity, 0.08);
     let initial = 0.5 * speed.norm_squared();

@@ -1,4 +1,4 @@
-"""The command line: ``carom run``, ``carom check``, ``carom plot``."""
+"""The command line: ``carom run``, ``carom check``, ``carom audit``, ``carom plot``."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from carom import __version__
+from carom.cli.audit import audit
 from carom.cli.check import check
 from carom.cli.plot import plot
 from carom.cli.run import run
@@ -19,6 +20,7 @@ app = typer.Typer(
 )
 app.command()(run)
 app.command()(check)
+app.command()(audit)
 app.command()(plot)
 
 

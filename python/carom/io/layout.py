@@ -12,9 +12,10 @@ HISTORY = "history.csv"
 FIELDS = "fields.vtkhdf"
 SURFACE = "surface.vtkhdf"
 LEDGER = "ledger.csv"
+AUDIT = "audit.h5"
 ENERGY_PLOT = "energy.png"
 
-_NAMES = (SUMMARY, CASE, HISTORY, LEDGER, FIELDS, SURFACE, ENERGY_PLOT)
+_NAMES = (SUMMARY, CASE, HISTORY, LEDGER, FIELDS, SURFACE, AUDIT, ENERGY_PLOT)
 
 
 def track_plot(name: str) -> str:

@@ -1,0 +1,99 @@
+"""An audit of results: what a run has stored, checked by code that shares nothing with its core.
+
+Energies, momenta, stresses, gaps, closest points and every equation of the stored steps are
+computed here with NumPy alone, from the case and the stored states. docs/audit.md lists the checks.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from carom.audit.check_books import BookChecks
+from carom.audit.check_case import check_links, check_mesh, check_start
+from carom.audit.check_frames import FrameChecks
+from carom.audit.check_steps import StepChecks
+from carom.audit.files import Files, Frame
+from carom.audit.model import AuditModel
+from carom.audit.report import Audit, Check, Findings
+from carom.audit.scales import Scales
+from carom.audit.step import Step
+from carom.errors import InputError
+
+__all__ = ["Audit", "Check", "audit"]
+
+
+def audit(directory: str | Path) -> Audit:
+    """Check the results of a run.
+
+    Parameters
+    ----------
+    directory
+        A results directory. With ``output.audit = true`` in its case the equations of the stored
+        steps are checked, without it the states at output times and the books.
+
+    Raises
+    ------
+    InputError
+        The directory holds no results of a run that has ended, or of a kind that the auditor does
+        not know.
+    """
+    files, findings = Files(Path(directory)), Findings()
+    try:
+        # Tampered numbers may overflow; what is not finite is found as such.
+        with np.errstate(all="ignore"):
+            _check(files, findings)
+    except InputError:
+        raise
+    except (KeyError, IndexError, TypeError, ValueError) as error:
+        raise InputError(
+            f"{directory}: cannot be audited: {type(error).__name__}: {error}"
+        ) from error
+    return findings.audit(files.path)
+
+
+def _check(files: Files, findings: Findings) -> None:
+    model = files.model()
+    scales = Scales(model)
+    for frame in files.frames():
+        scales.include(frame.displacement, frame.velocity)
+    check_mesh(model, findings)
+    pressed = _check_states(files, model, scales, findings)
+    books = BookChecks(model, scales, findings, files.history, files.summary)
+    books.all()
+    for time, names, force in pressed:
+        books.force(time, names, force)
+
+
+def _check_states(
+    files: Files, model: AuditModel, scales: Scales, findings: Findings
+) -> list[tuple[float, frozenset[str], float]]:
+    """Check the frames, and with each the stored step that ended there; return forces of pairs."""
+    frames = FrameChecks(model, scales, findings)
+    steps = StepChecks(model, scales, findings)
+    rows = {float(time): index for index, time in enumerate(files.history["time"])}
+    stored = files.steps()
+    before: Frame | None = None
+    for frame in files.frames():
+        row = files.row(rows[frame.time]) if frame.time in rows else None
+        frames.frame(frame, row)
+        if before is None:
+            check_start(model, frame, scales, findings)
+        elif files.has_steps:
+            step = next(stored, None)
+            check_links(step, frame, before, files.summary["status"], findings)
+            if step is not None:
+                checked = Step(model, step)
+                steps.step(checked)
+                if row is not None:
+                    at = rows.get(checked.start["time"])
+                    steps.rows(checked, None if at is None else files.row(at), row)
+        before = frame
+    if not files.has_steps:
+        findings.leave(
+            "equations of motion, reactions, Coulomb's law: run with output.audit = true"
+        )
+    elif next(stored, None) is not None:
+        findings.check("stored steps", 1.0, 0.0, "more steps than frames")
+    return steps.pressed

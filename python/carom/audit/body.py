@@ -1,0 +1,159 @@
+"""A body as the auditor sees it: forces, energies and momenta of its states."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.audit.arrays import Array, Indices, cross, einsum
+from carom.audit.cells import Cells, boundary
+from carom.audit.laws import Law
+from carom.audit.mass import Mass
+from carom.body import Body
+from carom.material import Material
+from carom.mesh import Rectangle
+
+STEADYING = 0.1
+"""Resistance of a node without mass to a change of its motion, in terms of what holds it."""
+
+
+class AuditBody:
+    """One body of a case. All arrays are in its own numbering of nodes.
+
+    Parameters
+    ----------
+    entry
+        What the case says of it.
+    material
+        Its material.
+    vtk_type, nodes, points
+        Its cells and reference positions, see `Cells`.
+    first_node
+        Number of its first node in the model.
+    massless
+        Whether the nodes that may touch others have no mass.
+    """
+
+    def __init__(
+        self,
+        entry: Body,
+        material: Material,
+        *,
+        vtk_type: int,
+        nodes: Indices,
+        points: Array,
+        first_node: int,
+        massless: bool,
+    ) -> None:
+        self.name = entry.name
+        self.points = points
+        self.span = slice(first_node, first_node + len(points))
+        self.law = Law.of(material)
+        self.damping = material.damping
+        self.cells = Cells(vtk_type, nodes, points, entry.thickness)
+        self.facets = _contact_facets(entry, boundary(nodes), points)
+        self.surface: Indices = np.unique(self.facets)
+        self.massless = self.surface if massless else np.zeros(0, dtype=np.int64)
+        self.mass = Mass(
+            self.cells,
+            points,
+            material.density,
+            lumped=entry.mass == "lumped",
+            massless=self.massless,
+            facets=self.facets,
+        )
+        self._stiffness = self._reference_stiffness()
+        diagonal = einsum("caiai->ca", self._stiffness)
+        self.holding = 0.5 * self._gathered(diagonal)[self.massless]
+        """tr K_bb/2 of each massless node in the reference configuration [N/m]."""
+        rows: Array = np.abs(self._stiffness).sum(axis=(3, 4)).max(axis=2)
+        self.row_stiffness = self._gathered(rows)
+        """Largest force [N] on each node where every coordinate moves by 1 m, [node_count]."""
+
+    def strain_energy(self, u: Array) -> float:
+        """Return ∫ψ dV [J]."""
+        density = self.law.energy(self.cells.deformation_gradient(u))
+        return float((self.cells.weights * density).sum())
+
+    def internal_force(self, u: Array) -> Array:
+        """Return ∂E/∂u [N], shape [node_count, 2]."""
+        return self.cells.divergence(self.law.stress(self.cells.deformation_gradient(u)))
+
+    def conserving_force(self, u0: Array, u1: Array) -> Array:
+        """Return the force [N] whose work from u₀ to u₁ is the change of the strain energy."""
+        f0, f1 = (self.cells.deformation_gradient(u) for u in (u0, u1))
+        return self.cells.divergence(self.law.discrete_stress(f0, f1))
+
+    def difference_force(self, u0: Array, u1: Array) -> Array:
+        """Return the force [N] of the difference of the stresses at u₁ and u₀."""
+        f0, f1 = (self.cells.deformation_gradient(u) for u in (u0, u1))
+        return self.cells.divergence(self.law.stress_difference(f0, f1))
+
+    def damping_force(self, u: Array, v: Array) -> Array:
+        """Return C v [N] with C = α M + β R K₀ Rᵀ and R the mean rotation at u."""
+        force = self.damping.mass * self.mass.times(v)
+        if self.damping.stiffness > 0:
+            rotation = self.rotation(u)
+            local = einsum("caibk,cbk->cai", self._stiffness, (v @ rotation)[self.cells.nodes])
+            force += self.damping.stiffness * self.cells.assembled(local) @ rotation.T
+        return force
+
+    def rotation(self, u: Array) -> Array:
+        """Return the mean rotation of the body: the polar factor of Σ m (x − c) ⊗ (X − C)."""
+        if not self.law.objective:
+            return np.eye(2)
+        x, reference = self.points + u, self.points
+        weight = self.mass.nodal[:, None]
+        arms = reference - self.mass.mean(reference)
+        moment = (weight * (x - self.mass.mean(x))).T @ arms
+        a = moment @ np.linalg.inv((weight * arms).T @ arms)
+        # In the plane the closest rotation to A is that by the angle of (tr A, A₂₁ − A₁₂).
+        cosine, sine = a[0, 0] + a[1, 1], a[1, 0] - a[0, 1]
+        size = np.hypot(cosine, sine)
+        rotation: Array = np.array([[cosine, -sine], [sine, cosine]]) / size
+        return rotation
+
+    def kinetic_energy(self, v: Array) -> float:
+        """Return ½ vᵀMv [J]."""
+        return 0.5 * float((v * self.mass.times(v)).sum())
+
+    def spin(self, u: Array, v: Array) -> float:
+        """Return Σ m y × (v − v̄) / Σ m |y|² about the centre [rad/s]."""
+        arms = self.points + u - self.mass.mean(self.points + u)
+        moment = self.mass.nodal @ cross(arms, v - self.mass.mean(v))
+        return float(moment / (self.mass.nodal @ (arms**2).sum(axis=1)))
+
+    def cell_states(self, u: Array) -> tuple[Array, Array]:
+        """Return mean Cauchy stress xx yy zz xy yz xz [Pa] and energy density [J/m³] of cells."""
+        f = self.cells.deformation_gradient(u)
+        stress = self.cells.mean(self.law.cauchy_stress(f))
+        components = stress[:, [0, 1, 2, 0, 1, 0], [0, 1, 2, 1, 2, 2]]
+        return components, self.cells.mean(self.law.energy(f))
+
+    def _gathered(self, local: Array) -> Array:
+        """Sum numbers of the nodes of cells, shape [cell_count, a], over the cells."""
+        sums = np.bincount(self.cells.nodes.ravel(), local.ravel(), len(self.points))
+        return sums.astype(np.float64)
+
+    def _reference_stiffness(self) -> Array:
+        """Return K₀ of the cells [N/m], shape [cell_count, a, 2, b, 2]; all laws have Hooke's."""
+        g, w = self.cells.gradients, self.cells.weights
+        shear = einsum("cq,cqaj,cqbj->cab", w, g, g)
+        outer = einsum("cq,cqai,cqbk->caibk", w, g, g)
+        crossed = outer.transpose(0, 1, 4, 3, 2)
+        isotropic = einsum("cab,ik->caibk", shear, np.eye(2))
+        stiffness: Array = self.law.first * outer + self.law.second * (isotropic + crossed)
+        return stiffness
+
+
+def _contact_facets(entry: Body, facets: Indices, points: Array) -> Indices:
+    """Return the facets of a boundary that may touch others."""
+    if entry.contact_sides is None or not isinstance(entry.mesh, Rectangle):
+        return facets
+    corner, size = entry.mesh.corner, entry.mesh.size
+    keep = np.zeros(len(facets), dtype=bool)
+    for side in entry.contact_sides:
+        axis = 0 if side in ("left", "right") else 1
+        at = corner[axis] + (size[axis] if side in ("right", "top") else 0.0)
+        on = np.abs(points[:, axis] - at) <= 1e-9 * size[axis]
+        keep |= on[facets].all(axis=1)
+    return facets[keep]

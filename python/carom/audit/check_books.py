@@ -1,0 +1,242 @@
+"""Checks of the history row by row, and of the summary against it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from carom.audit.arrays import Array
+from carom.audit.model import AuditModel
+from carom.audit.report import Findings
+from carom.audit.scales import EPS, ROUND_OFF, SAFETY, Scales
+
+Books = Mapping[str, Array]
+
+SUMMED = ("friction", "viscous", "scheme", "normal_contact", "external")
+"""Terms of the ledger that are sums since the start."""
+
+
+PRESSED = 1e-6
+"""Normal forces of pairs depend on normals, which are where the run's last correction was."""
+
+
+class BookChecks:
+    """Checks of history and summary.
+
+    Parameters
+    ----------
+    model, scales
+        The model and its magnitudes.
+    findings
+        Where what is found goes.
+    history, summary
+        What ``history.csv`` and ``summary.json`` say.
+    """
+
+    def __init__(
+        self,
+        model: AuditModel,
+        scales: Scales,
+        findings: Findings,
+        history: Books,
+        summary: Mapping[str, Any],
+    ) -> None:
+        self._model, self._scales, self._findings = model, scales, findings
+        self._history, self._summary = history, summary
+        analysis = model.scenario.analysis
+        self._dt, self._end = analysis.time_step, analysis.end_time
+        self._times = history["time"]
+        # Steps between rows; rows between which all steps were nominal and single say most.
+        self._steps = np.rint(np.diff(self._times) / self._dt)
+        self._halved = summary["retried_steps"] > 0
+        self._every_step = not self._halved and bool((self._steps <= 1).all())
+
+    def all(self) -> None:
+        """Check everything."""
+        self._grid()
+        self._energies()
+        self._motion()
+        self._signs()
+        self._summary_energies()
+        self._extremes()
+        self._counts()
+        self._events()
+
+    def _rows(self, name: str, figures: Array, off: float | Array) -> None:
+        """Note figures of rows, each with its time."""
+        figures = np.asarray(figures, dtype=np.float64)
+        if len(figures) == 0:
+            return
+        off = np.broadcast_to(np.asarray(off, dtype=np.float64), figures.shape)
+        bad = np.where(np.isnan(figures), np.inf, np.abs(figures) / np.maximum(off, 1e-300))
+        worst = int(bad.argmax())
+        time = self._times[len(self._times) - len(figures) + worst]
+        self._findings.check(name, figures, off, f"t = {time:g} s")
+
+    def _grid(self) -> None:
+        times = self._times
+        nominal = np.rint(times / self._dt) * self._dt
+        off_grid = np.minimum(np.abs(times - nominal), np.abs(times - self._end))
+        if self._summary["status"] == "failed":
+            off_grid[-1] = 0.0  # where the last good part of a step ended
+        self._rows("row times", off_grid, SAFETY * EPS * np.abs(times))
+        self._rows("row times", np.maximum(-np.diff(times), 0.0), 0.0)
+        self._rows("row times", (np.diff(times) == 0.0).astype(float), 0.0)
+
+    def _energies(self) -> None:
+        h = self._history
+        off = ROUND_OFF * self._scales.energy
+        self._rows("row: total", h["total"] - h["kinetic"] - h["strain"], off)
+        change = h["kinetic"] - h["kinetic"][0] + h["strain"] - h["strain"][0]
+        taken = h["friction"] + h["viscous"] + h["scheme"] + h["normal_contact"] - h["external"]
+        scale = sum(np.abs(h[name]) for name in SUMMED)
+        self._rows("row: defect", h["defect"] - change - taken, off + ROUND_OFF * scale)
+        # A massless contact may have turned since it was last pressed, and the blend may weigh the
+        # reactions of the start negatively: then the run says so.
+        if self._model.condition != "massless" or self._summary["least_friction"] >= 0:
+            self._rows("row: friction", np.maximum(-np.diff(h["friction"]), 0.0), off)
+        else:
+            self._findings.leave("sign of friction: massless contacts took and gave")
+        if self._model.theta == self._model.xi:
+            self._rows("row: viscous", np.maximum(-np.diff(h["viscous"]), 0.0), off)
+
+    def _motion(self) -> None:
+        model, scales, h = self._model, self._scales, self._history
+        external, least = np.zeros(len(self._times)), np.zeros(len(self._times))
+        momentum = np.zeros((len(self._times), 2))
+        dt = np.diff(self._times)
+        # Halved steps have velocities between that no row has.
+        single = (self._steps == 1) & (not self._halved)
+        for body in model.bodies:
+            x, v = (
+                np.stack([h[f"{body.name}.{column}"] for column in columns], axis=1)
+                for columns in (("x", "y"), ("v_x", "v_y"))
+            )
+            mass = body.mass.total
+            external = external + mass * (x - x[0]) @ model.gravity
+            momentum = momentum + mass * v
+            least = least + 0.5 * mass * (v**2).sum(axis=1)
+            mean = (1 - model.theta) * v[:-1] + model.theta * v[1:]
+            error = np.abs(np.diff(x, axis=0) - dt[:, None] * mean).max(axis=1)
+            off = ROUND_OFF * (scales.reach + model.size)
+            self._rows("row: centres", np.where(single, error, 0.0), off)
+        steps = max(float(self._summary["steps"]), 1.0)
+        weight = scales.mass * float(np.linalg.norm(model.gravity)) * (scales.reach + model.size)
+        off = ROUND_OFF * (scales.energy + weight) + SAFETY * EPS * steps * weight
+        self._rows("row: external", h["external"] - external, off)
+        stored = np.stack([h["momentum_x"], h["momentum_y"]], axis=1)
+        off = SAFETY * ROUND_OFF * scales.mass * scales.speed
+        self._rows("row: momentum", np.abs(stored - momentum).max(axis=1), off)
+        self._rows("row: kinetic", np.maximum(least - h["kinetic"], 0.0), ROUND_OFF * scales.energy)
+        damped = any(body.damping.mass > 0 for body in model.bodies)
+        lossy = model.massless and not model.conserving
+        if not (model.planes or model.gravity.any() or damped or lossy):
+            newton = model.scenario.analysis.newton.tolerance
+            off += SAFETY * steps * newton * scales.mass * scales.speed
+            self._rows("row: isolated", np.abs(stored - stored[0]).max(axis=1), off)
+
+    def _signs(self) -> None:
+        h = self._history
+        for name in ("contacts", "normal_force", "certificate", "residual", "newton_iterations"):
+            self._rows("row: signs", np.maximum(-h[name], 0.0), 0.0)
+        self._rows("row: signs", h["contacts"] % 1.0, 0.0)
+        self._rows(
+            "row: signs", ((h["contacts"] > 0) != (h["normal_force"] > 0)).astype(float), 0.0
+        )
+        two_sided = any(side.two_sided for side in self._model.sides)
+        if self._model.condition in ("gap", "massless") and self._model.sides and not two_sided:
+            off = self._scales.penetration()
+            self._rows("row: penetration", np.maximum(-h["min_gap"], 0.0), off)
+
+    def _summary_energies(self) -> None:
+        h, energy = self._history, self._summary["energy"]
+        check = self._findings.check
+        check("summary: energies", _number(energy["initial"]) - h["total"][0], 0.0, "initial")
+        check("summary: energies", _number(energy["final"]) - h["total"][-1], 0.0, "final")
+        for name in ("kinetic", "strain", *SUMMED):
+            check("summary: energies", _number(energy[name]) - h[name][-1], 0.0, name)
+
+    def _extremes(self) -> None:
+        h, summary = self._history, self._summary
+        energy = summary["energy"]
+        off = ROUND_OFF * self._scales.energy
+        for name, stored, rows in (
+            ("drift", energy["max_drift"], np.abs(h["total"] - h["total"][0])),
+            ("defect", energy["max_defect"], np.abs(h["defect"])),
+        ):
+            self._extreme(name, _number(stored) - rows.max(), off, exact=self._every_step)
+        certificate = summary["certificate"]
+        for name, stored, rows in (
+            ("certificate", certificate["max_joule"], h["certificate"]),
+            ("residual", certificate["max_residual"], h["residual"]),
+        ):
+            # A row has the largest since the row before.
+            self._extreme(name, _number(stored) - rows.max(), 0.0, exact=True)
+        if summary["min_gap"] is not None:
+            excess = h["min_gap"].min() - _number(summary["min_gap"])
+            self._extreme("gap", excess, 0.0, exact=self._every_step)
+
+    def _extreme(self, name: str, excess: float, off: float, *, exact: bool) -> None:
+        """Check that an extreme is that of the rows, or at least not less."""
+        figure = excess if exact or excess < 0 else 0.0
+        self._findings.check("summary: extremes", figure, off, name)
+
+    def _counts(self) -> None:
+        summary, check = self._summary, self._findings.check
+        end = float(self._times[-1])
+        steps = np.ceil(end / self._dt - 1e-6)
+        if summary["status"] == "failed":
+            steps = min(steps, summary["steps"])
+        for name, figure in (
+            ("steps", summary["steps"] - steps),
+            ("end_time", summary["end_time"] - end),
+            ("time_step", summary["time_step"] - self._dt),
+            ("dofs", summary["dofs"] - 2 * len(self._model.points)),
+        ):
+            check("summary: counts", float(figure), 0.0, name)
+        if summary["status"] == "completed":
+            check("summary: counts", end - self._end, 0.0, "end of the run")
+        if not self._halved and len(self._steps):
+            mean = self._history["newton_iterations"][1:]
+            # The last step of a run may be a short one.
+            steps_between = np.maximum(np.ceil(np.diff(self._times) / self._dt - 1e-6), 1.0)
+            total = float(mean @ steps_between)
+            off = SAFETY * EPS * total * len(mean)
+            check("summary: counts", total - summary["newton_iterations"], off, "newton_iterations")
+
+    def _events(self) -> None:
+        h, events, check = self._history, self._summary["contacts"], self._findings.check
+        touched = np.zeros(len(self._times))
+        for event in events:
+            release = np.inf if event["release"] is None else event["release"]
+            check("summary: contacts", max(event["onset"] - release, 0.0), 0.0, "order of times")
+            during = (self._times >= event["onset"]) & (self._times <= release)
+            touched += np.where(during, event["peak_force"], 0.0)
+        force = h["normal_force"]
+        self._rows("summary: contacts", np.maximum(force - touched, 0.0), ROUND_OFF * force)
+        if self._model.condition != "massless":
+            # Without mass, friction in a step that ends without a reaction belongs to no event.
+            total = sum(event["friction_work"] for event in events)
+            last = float(h["friction"][-1])
+            off = SAFETY * ROUND_OFF * max(abs(last), self._scales.energy * ROUND_OFF)
+            check("summary: contacts", total - last, off, "friction_work")
+
+    def force(self, time: float, names: frozenset[str], force: float) -> None:
+        """Check that an event has the force with which a pair pressed at a time."""
+        peaks = [
+            _number(event["peak_force"])
+            for event in self._summary["contacts"]
+            if names == set(event["pair"])
+            and event["onset"] <= time
+            and (event["release"] is None or time <= event["release"])
+        ]
+        lacking = max(force - max(peaks, default=0.0), 0.0)
+        where = f"{' – '.join(sorted(names))}, t = {time:g} s"
+        self._findings.check("summary: contacts", lacking, PRESSED * force, where)
+
+
+def _number(value: object) -> float:
+    """Return a number of the summary; null, which stands for what is not finite, is not one."""
+    return float(value) if isinstance(value, int | float) else float("nan")

@@ -1,0 +1,80 @@
+"""Checks of what must agree before anything is computed: case and mesh, frames and steps."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from carom.audit.arrays import turned
+from carom.audit.body import AuditBody
+from carom.audit.files import Frame
+from carom.audit.model import AuditModel
+from carom.audit.report import Findings
+from carom.audit.scales import ROUND_OFF, Scales
+from carom.body import Body
+from carom.mesh import Disc
+
+
+def check_mesh(model: AuditModel, findings: Findings) -> None:
+    """Check sizes and numbers of cells of the bodies."""
+    for entry, body in zip(model.scenario.bodies, model.bodies, strict=True):
+        tolerance = ROUND_OFF * (model.size + float(np.abs(body.points).max()))
+        findings.check("mesh", _misfit(entry, body), tolerance, entry.name)
+        cells = _cell_count(entry) - len(body.cells.nodes)
+        findings.check("mesh", float(cells), 0.0, f"{entry.name}, number of cells")
+
+
+def _misfit(entry: Body, body: AuditBody) -> float:
+    """Return how far the boundary is from that of the case [m]."""
+    mesh = entry.mesh
+    if isinstance(mesh, Disc):
+        rim = body.points[body.surface] - np.array(mesh.centre)
+        return float(np.abs(np.linalg.norm(rim, axis=1) - mesh.radius).max())
+    low, high = body.points.min(axis=0), body.points.max(axis=0)
+    corner = np.array(mesh.corner)
+    return float(np.abs([low - corner, high - corner - np.array(mesh.size)]).max())
+
+
+def _cell_count(entry: Body) -> int:
+    mesh = entry.mesh
+    if isinstance(mesh, Disc):
+        n, rings = mesh.divisions, mesh.rings or mesh.divisions // 2
+        count = n * n + 4 * n * rings
+    else:
+        count = mesh.divisions[0] * mesh.divisions[1]
+    return count * (2 if mesh.cell == "tri3" else 1)
+
+
+def check_start(model: AuditModel, frame: Frame, scales: Scales, findings: Findings) -> None:
+    """Check the state at t = 0."""
+    findings.check("initial velocity", frame.displacement, 0.0, "displacement at t = 0")
+    for entry, body in zip(model.scenario.bodies, model.bodies, strict=True):
+        arms = body.points - body.mass.mean(body.points)
+        wanted = np.array(entry.velocity) + turned(arms, entry.spin)
+        error = frame.velocity[body.span] - wanted
+        findings.check("initial velocity", error, ROUND_OFF * scales.speed, f"{entry.name}, t = 0")
+
+
+def check_links(
+    step: Mapping[str, Any] | None, frame: Frame, before: Frame, status: str, findings: Findings
+) -> None:
+    """Check that a stored step ends at a frame, and starts there if it starts at the one before."""
+    where = f"t = {frame.time:g} s"
+    if step is None:
+        # A step that failed leaves no pair behind.
+        findings.check("stored steps", float(status != "failed"), 0.0, f"{where}, no step")
+        return
+    end, start = step["end"], step["start"]
+    pairs = [(end, frame)]
+    if start["time"] == before.time:
+        pairs.append((start, before))
+    findings.check("stored steps", end["time"] - frame.time, 0.0, f"{where}, time")
+    for state, fields in pairs:
+        for name, theirs in (
+            ("displacement", fields.displacement),
+            ("velocity", fields.velocity),
+            ("contact_force", fields.reaction),
+        ):
+            findings.check("stored steps", state[name] - theirs, 0.0, f"{where}, {name}")

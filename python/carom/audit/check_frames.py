@@ -1,0 +1,138 @@
+"""Checks of the fields at an output time, and of the history's row of that time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from carom.audit.arrays import Array, cross
+from carom.audit.body import AuditBody
+from carom.audit.contacts import smallest_gaps
+from carom.audit.files import Frame
+from carom.audit.model import AuditModel
+from carom.audit.report import Findings
+from carom.audit.scales import EPS, ROUND_OFF, SAFETY, Scales
+
+Row = Mapping[str, float]
+
+
+class FrameChecks:
+    """Checks of states.
+
+    Parameters
+    ----------
+    model, scales
+        The model and its magnitudes.
+    findings
+        Where what is found goes.
+    """
+
+    def __init__(self, model: AuditModel, scales: Scales, findings: Findings) -> None:
+        self._model, self._scales, self._findings = model, scales, findings
+        self._check = findings.check
+        self._free = np.ones(len(model.points), dtype=bool)
+        for body in model.bodies:
+            self._free[body.span][body.surface] = False
+
+    def frame(self, frame: Frame, row: Row | None) -> None:
+        """Check the fields of an output time; `row` is the history's of that time, if any."""
+        where = f"t = {frame.time:g} s"
+        self._check("plane", frame.flat, 0.0, where)
+        self._cells(frame, where)
+        self._check("free nodes", frame.reaction[self._free], 0.0, where)
+        if not self._model.planes:
+            total = np.abs(frame.reaction).sum()
+            self._check("action and reaction", frame.reaction.sum(axis=0), ROUND_OFF * total, where)
+        smallest = self._gaps(frame, where)
+        if row is None:
+            self._findings.leave("frames at whose times the history has no row")
+            return
+        self._energies(frame, row, where)
+        self._momenta(frame, row, where)
+        for body in self._model.bodies:
+            self._motion(body, frame, row, where)
+        if smallest is not None:
+            above = max(row["min_gap"] - smallest, 0.0)
+            self._check("smallest gap", above, self._round_off_of_places(), where)
+        touching = bool(frame.reaction.any())
+        self._check("contact count", float(touching != (row["contacts"] > 0)), 0.0, where)
+        self._tracks(frame, row, where)
+
+    def _round_off_of_places(self) -> float:
+        return ROUND_OFF * (self._model.size + self._scales.reach)
+
+    def _cells(self, frame: Frame, where: str) -> None:
+        first = 0
+        for body in self._model.bodies:
+            u = frame.displacement[body.span]
+            stress, density = body.cell_states(u)
+            mine = slice(first, first + len(stress))
+            first = mine.stop
+            # Strains have the round-off of displacements over edges, and of F itself.
+            size = float(np.abs(u).max()) + self._model.size
+            strain = SAFETY * EPS * (1 + size / body.cells.shortest_edge)
+            off = ROUND_OFF * np.abs(stress).max() + body.law.modulus * strain
+            at = f"{body.name}, {where}"
+            self._check("stress", frame.stress[mine] - stress, off, at)
+            # Of a neo-Hookean body ψ is a small difference of terms of the size of its moduli.
+            rest = body.law.modulus * EPS if body.law.kind == "neo-hookean" else off * strain
+            off = ROUND_OFF * density.max() + np.abs(stress).max() * strain + SAFETY * rest
+            self._check("energy density", frame.energy_density[mine] - density, off, at)
+
+    def _gaps(self, frame: Frame, where: str) -> float | None:
+        model = self._model
+        gaps = smallest_gaps(model, model.points + frame.displacement)
+        if not gaps:
+            return None
+        self._findings.report("deepest penetration at output times", max(-min(gaps), 0.0), "m")
+        if model.condition in ("gap", "massless"):
+            allowed = self._scales.penetration()
+            one_sided = [g for g, s in zip(gaps, model.sides, strict=True) if not s.two_sided]
+            for gap in one_sided:
+                self._check("no penetration", max(-gap, 0.0), allowed, where)
+        return min(gaps)
+
+    def _energies(self, frame: Frame, row: Row, where: str) -> None:
+        bodies, scales = self._model.bodies, self._scales
+        kinetic = sum(body.kinetic_energy(frame.velocity[body.span]) for body in bodies)
+        strain = sum(body.strain_energy(frame.displacement[body.span]) for body in bodies)
+        off = ROUND_OFF * scales.energy
+        strain_off = off + sum(scales.strain(b, frame.displacement[b.span]) for b in bodies)
+        self._check("kinetic energy", row["kinetic"] - kinetic, off, where)
+        self._check("strain energy", row["strain"] - strain, strain_off, where)
+        self._check("total energy", row["total"] - kinetic - strain, strain_off, where)
+
+    def _momenta(self, frame: Frame, row: Row, where: str) -> None:
+        momentum, moment = np.zeros(2), 0.0
+        for body in self._model.bodies:
+            mv = body.mass.times(frame.velocity[body.span])
+            momentum += mv.sum(axis=0)
+            moment += float(cross(body.points + frame.displacement[body.span], mv).sum())
+        stored = np.array([row["momentum_x"], row["momentum_y"]])
+        off = ROUND_OFF * self._scales.mass * self._scales.speed
+        self._check("momentum", stored - momentum, off, where)
+        self._check(
+            "angular momentum", row["angular_momentum"] - moment, off * self._scales.reach, where
+        )
+
+    def _motion(self, body: AuditBody, frame: Frame, row: Row, where: str) -> None:
+        u, v = frame.displacement[body.span], frame.velocity[body.span]
+        speed, at = self._scales.speed, f"{body.name}, {where}"
+
+        def stored(*columns: str) -> Array:
+            return np.array([row[f"{body.name}.{column}"] for column in columns])
+
+        centre = body.mass.mean(body.points + u)
+        self._check("centres", stored("x", "y") - centre, self._round_off_of_places(), at)
+        drift = body.mass.mean(v)
+        self._check("drifts", stored("v_x", "v_y") - drift, SAFETY * ROUND_OFF * speed, at)
+        radius = float(np.ptp(body.points, axis=0).max())
+        off = SAFETY * ROUND_OFF * speed * (1 + self._scales.reach / radius) / radius
+        self._check("spins", stored("spin") - body.spin(u, v), off, at)
+
+    def _tracks(self, frame: Frame, row: Row, where: str) -> None:
+        for name, node in self._model.tracks():
+            for quantity, values in (("u", frame.displacement), ("v", frame.velocity)):
+                stored = [row[f"{name}.{quantity}_{axis}"] for axis in "xy"]
+                self._check("tracked points", values[node] - stored, 0.0, f"{name}, {where}")

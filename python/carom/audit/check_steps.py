@@ -1,0 +1,263 @@
+"""Checks of a stored step: its equations, its ledger and the laws of contact."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from carom.audit.arrays import Array, cross
+from carom.audit.body import AuditBody
+from carom.audit.contacts import Contacts
+from carom.audit.model import AuditModel
+from carom.audit.report import Findings
+from carom.audit.scales import EPS, ROUND_OFF, SAFETY, Scales
+from carom.audit.step import BodyForces, Step
+
+Row = Mapping[str, float]
+
+LARGEST_BLEND = 0.5
+"""Limit of |α|: up to here the reactions of the step are a mean of those of its start and end."""
+
+ENERGIES = ("kinetic", "strain", "external", "viscous", "scheme", "friction", "normal_contact")
+
+
+class StepChecks:
+    """Checks of steps.
+
+    Parameters
+    ----------
+    model, scales
+        The model and its magnitudes.
+    findings
+        Where what is found goes.
+    """
+
+    def __init__(self, model: AuditModel, scales: Scales, findings: Findings) -> None:
+        self._model, self._scales, self._findings = model, scales, findings
+        self._check = findings.check
+        self.pressed: list[tuple[float, frozenset[str], float]] = []
+        """Time [s], names of the pair and sum of its normal reactions [N] of all steps checked."""
+        edges = [np.linalg.norm(np.diff(b.points[b.facets], axis=1), axis=2) for b in model.bodies]
+        self._facet = float(min(edge.min() for edge in edges))
+
+    def step(self, step: Step) -> None:
+        """Check a step by itself."""
+        where = f"t = {step.time:g} s"
+        self._check("time grid", step.off_grid, SAFETY * EPS * step.time, where)
+        self._velocity(step, where)
+        contact = step.contacts.nodal_forces(len(self._model.points))
+        for index, body in enumerate(self._model.bodies):
+            at = f"{body.name}, {where}"
+            self._motion(step, index, at)
+            self._impulse(step, index, contact[body.span], at)
+        self._ledger(step, where)
+        self._places(step.contacts, step.end, step, where)
+        if self._model.condition in ("gap", "massless"):
+            # Of the other conditions the contacts before are where no stored state is.
+            self._places(step.start_contacts, step.start, step, where)
+        self._laws(step, where)
+        self._note_forces(step)
+
+    def rows(self, step: Step, before: Row | None, after: Row) -> None:
+        """Check the history's row at the end of a step, and that at its start if there is one."""
+        where = f"t = {step.time:g} s"
+        found = step.contacts
+        off = self._turn(step) * float(np.abs(found.reaction).sum())
+        self._check("contact count", after["contacts"] - len(found), 0.0, where)
+        self._check("normal force", after["normal_force"] - found.normal_force.sum(), off, where)
+        gap = float(sum(np.abs(part).sum() for part in self._bipotential(step)))
+        off = float(np.abs(found.reaction).sum()) * self._scales.geometry(step)
+        self._check("certificate", max(gap - after["certificate"], 0.0), off, where)
+        for name, node in self._model.tracks():
+            stored = [after[f"{name}.vmid_{axis}"] for axis in "xy"]
+            rate = EPS * (self._scales.reach + self._model.size) / step.dt
+            off = SAFETY * (rate + EPS * step.time / step.dt * self._scales.speed)
+            error = step.d[node] / step.dt - stored
+            self._check("tracked points", error, off, f"{name}, {where}")
+        if self._model.blended:
+            self._blended_energy(step, after, where)
+        if before is not None:
+            for name in ENERGIES:
+                change = after[name] - before[name]
+                off = ROUND_OFF * (self._scales.energy + abs(after[name]))
+                self._check(
+                    "ledger in history", change - step.ledger[name], off, f"{name}, {where}"
+                )
+
+    def _blended_energy(self, step: Step, after: Row, where: str) -> None:
+        """Check that the blend of stresses has taken back all that steps before left over."""
+        size = np.abs(step.blend)
+        # Exactly 0: the blend has nothing to move, as in rigid flight, and energy waits.
+        if (size >= LARGEST_BLEND).any() or (size == 0.0).any():
+            self._findings.leave(
+                "energy of steps whose blend of stresses is 0 or at its limit of ½"
+            )
+            return
+        off = 2 * ROUND_OFF * self._scales.energy + self._newton_work(step)
+        off += sum(
+            self._scales.strain(b, u[b.span])
+            for b in self._model.bodies
+            for u in (step.u0, step.u1)
+        )
+        off += float(step.rubbing()[1].sum())
+        self._check("energy of the step", after["defect"], off, where)
+
+    def _note_forces(self, step: Step) -> None:
+        found = step.contacts
+        for key in sorted(set(zip(found.source.tolist(), found.target.tolist(), strict=True))):
+            mine = (found.source == key[0]) & (found.target == key[1])
+            names = frozenset(self._model.name(index) for index in key)
+            self.pressed.append((step.time, names, float(found.normal_force[mine].sum())))
+
+    def _turn(self, step: Step) -> float:
+        """Return how far normals may be off: places over the length of a facet."""
+        return SAFETY * self._scales.geometry(step) / self._facet + ROUND_OFF
+
+    def _velocity(self, step: Step, where: str) -> None:
+        model = self._model
+        rate = 1 / (model.theta * step.dt)
+        wanted = (1 - 1 / model.theta) * step.v0 + rate * step.d
+        for body in model.bodies:
+            wanted[body.span][body.massless] = step.d[body.span][body.massless] / step.dt
+        # d is known from displacements, with their round-off.
+        off = (np.abs(step.u0) + np.abs(step.u1)) * rate + np.abs(step.v0) / model.theta
+        self._check("velocity update", step.v1 - wanted, 4 * EPS * (off + np.abs(step.v1)), where)
+
+    def _motion(self, step: Step, index: int, at: str) -> None:
+        body = self._model.bodies[index]
+        size = np.abs(step.residual(index)).max(axis=1)
+        off = self._scales.force(step, index)
+        held = np.zeros(len(size), dtype=bool)
+        held[body.massless] = True
+        self._check("equation of motion", size[~held], off[~held], at)
+        if held.any():
+            self._check("massless nodes", size[held], off[held], at)
+
+    def _impulse(self, step: Step, index: int, contact: Array, at: str) -> None:
+        model, body, f = self._model, self._model.bodies[index], step.forces[index]
+        middle = body.points + 0.5 * (step.u0 + step.u1)[body.span]
+        arm = middle - body.mass.mean(middle)
+        force, moment = self._outer(step, index, contact, arm)
+        off = self._scales.force(step, index)
+        total = step.dt * (f.inertia.sum(axis=0) - force)
+        self._check("impulse", total, step.dt * off.sum(), at)
+        objective = body.law.objective
+        if model.blended and not objective:
+            self._findings.leave(f"angular momentum of {body.name!r}: its law has none to keep")
+            return
+        if not (model.conserving and objective):
+            torque = float(cross(arm, self._inner(body, f)).sum())
+            self._findings.report("largest moment of inner forces in a step", torque, "N m")
+            moment -= torque
+        rough = float(np.abs(contact).sum()) * self._scales.geometry(step)
+        off = step.dt * (off.sum() * np.abs(arm).max() + rough)
+        self._check("angular impulse", step.dt * (cross(arm, f.inertia).sum() - moment), off, at)
+
+    def _inner(self, body: AuditBody, f: BodyForces) -> Array:
+        """Return the inner forces of the step as the mass feels them."""
+        if not self._model.massless:
+            return f.internal
+        inner: Array = f.internal.copy()
+        b = body.massless
+        inner[b] = (1 - self._model.xi) * f.start[b] + self._model.xi * f.end[b]
+        return inner
+
+    def _outer(self, step: Step, index: int, contact: Array, arm: Array) -> tuple[Array, float]:
+        """Return resultant and moment of what acts on a body in the step [N], [N m].
+
+        Reactions act where the scheme puts them: those of the step at its middle, those of a state
+        in the balance of massless nodes at that state.
+        """
+        model, body, f = self._model, self._model.bodies[index], step.forces[index]
+        d, b = step.d[body.span], body.massless
+        outer = f.gravity - f.viscous
+        if model.blended:
+            alpha = float(step.blend[index])
+            start = step.start_contacts.nodal_forces(len(model.points))[body.span]
+            parts = [
+                ((0.5 - alpha) * start, arm - 0.5 * d),
+                ((0.5 + alpha) * contact, arm + 0.5 * d),
+            ]
+        elif model.massless:
+            # The end is balanced by reactions; the start is balanced by what it was balanced with.
+            outer[b] *= model.xi
+            held = np.zeros_like(contact)
+            held[b] = (1 - model.xi) * f.start[b] - model.xi * f.steadying[b]
+            parts = [(model.xi * contact, arm), (held, arm)]
+        else:
+            parts = [(contact, arm)]
+        parts.append((outer, arm))
+        force = sum((part.sum(axis=0) for part, _ in parts), np.zeros(2))
+        return force, float(sum(cross(at, part).sum() for part, at in parts))
+
+    def _ledger(self, step: Step, where: str) -> None:
+        model, scales = self._model, self._scales
+        mine = step.energy_terms()
+        sums = 2 * ROUND_OFF * scales.energy
+        strain = sums + sum(
+            scales.strain(b, u[b.span]) for b in model.bodies for u in (step.u0, step.u1)
+        )
+        reactions = float(np.abs(step.contacts.reaction).sum())
+        if model.massless:
+            reactions += float(np.abs(step.start_contacts.reaction).sum())
+        work = sums + reactions * scales.geometry(step)
+        friction = work + (float(step.rubbing()[1].sum()) if model.blended else 0.0)
+        off = {"strain": strain, "friction": friction, "normal_contact": work}
+        for name in ENERGIES:
+            error = step.ledger[name] - mine[name]
+            self._check(f"ledger: {name.replace('_', ' ')}", error, off.get(name, sums), where)
+        taken = mine["friction"] + mine["viscous"] + mine["scheme"] + mine["normal_contact"]
+        defect = mine["kinetic"] + mine["strain"] - mine["external"] + taken
+        if not model.conserving:
+            self._findings.report("largest defect of a step", defect, "J")
+            return
+        if not model.blended:
+            work = strain + friction + self._newton_work(step)
+            self._check("energy of the step", defect, work, where)
+
+    def _newton_work(self, step: Step) -> float:
+        """Return the work that the error of the equation of motion may do in a step [J]."""
+        return sum(
+            float(self._scales.force(step, i) @ np.abs(step.d[b.span]).max(axis=1))
+            for i, b in enumerate(self._model.bodies)
+        )
+
+    def _places(self, found: Contacts, state: Mapping[str, Any], step: Step, where: str) -> None:
+        self._check("pairs", [float(side is None) for side in found.side], 0.0, where)
+        self._check("contact gaps", found.gap_error, self._scales.geometry(step), where)
+        turn = self._turn(step)
+        self._check("contact normals", found.normal_error, turn, where)
+        error = state["contact_force"] - found.nodal_forces(len(self._model.points))
+        total = float(np.abs(found.reaction).sum())
+        self._check("nodal reactions", error, total * turn, where)
+        size = np.linalg.norm(found.reaction, axis=1)
+        off = size * turn + self._scales.reaction(step, total)
+        self._check("Signorini: compression", np.maximum(-found.normal_force, 0.0), off, where)
+        excess = np.abs(found.friction_force) - found.friction * found.normal_force
+        self._check("Coulomb: cone", np.maximum(excess, 0.0), off * (1 + found.friction), where)
+
+    def _laws(self, step: Step, where: str) -> None:
+        found = step.contacts
+        signorini, coulomb = self._bipotential(step)
+        off = np.linalg.norm(found.reaction, axis=1) * self._scales.geometry(step)
+        self._check("Signorini: complementarity", signorini, off, where)
+        self._check("Coulomb: slip", coulomb, off * (1 + found.friction), where)
+        total = float(np.abs(signorini).sum() + np.abs(coulomb).sum())
+        self._findings.report("largest bi-potential gap of a step", total, "J")
+
+    def _bipotential(self, step: Step) -> tuple[Array, Array]:
+        """Return w_n r_n and μ r_n |w_t| + r_t w_t of the contacts [J], each of shape [count]."""
+        found, model = step.contacts, self._model
+        w_n, w_t = found.relative(step.d)
+        if model.condition in ("gap", "massless"):
+            # Pairs that are checked from both sides may keep a penetration.
+            kept = np.array(
+                [side is not None and side.two_sided for side in found.side], dtype=bool
+            )
+            w_n = np.where(kept, np.maximum(found.gap, 0.0), found.gap)
+        elif model.condition == "endpoint":
+            w_n = w_n + (model.theta - 1) * step.dt * found.relative(step.v0)[0]
+        slip = found.friction * found.normal_force * np.abs(w_t) + found.friction_force * w_t
+        return w_n * found.normal_force, slip

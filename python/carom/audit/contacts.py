@@ -1,0 +1,156 @@
+"""The stored contacts of a state, found again by the auditor's own closest points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from carom.audit.arrays import Array, Indices, cross, einsum
+from carom.audit.model import AuditModel, Side
+
+SAME = 1e-7
+"""Feet whose gap [model size] and normal differ by no more are equally good: at edges of facets."""
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """Contacts with a reaction, in the model's numbering of nodes.
+
+    Parameters
+    ----------
+    node
+        Source nodes, shape [count].
+    source, target
+        Body of the node; index of a body, or −1 − that of an obstacle; shape [count].
+    reaction
+        Force on the node [N], shape [count, 2].
+    gap, normal
+        By the auditor's closest point [m], shape [count] and [count, 2].
+    followed, weights
+        Nodes that the foot follows, and how much, shape [count, 4]; none for obstacles.
+    gap_error, normal_error
+        What was stored less that, shape [count].
+    side
+        The pairs they belong to; None where the case has no such pair.
+    """
+
+    node: Indices
+    source: Indices
+    target: Indices
+    reaction: Array
+    gap: Array
+    normal: Array
+    followed: Indices
+    weights: Array
+    gap_error: Array
+    normal_error: Array
+    side: tuple[Side | None, ...]
+
+    def __len__(self) -> int:
+        return len(self.node)
+
+    @property
+    def friction(self) -> Array:
+        """Coulomb's coefficients, shape [count]."""
+        return np.array([0.0 if side is None else side.friction for side in self.side])
+
+    @property
+    def normal_force(self) -> Array:
+        """r_n [N], shape [count]."""
+        return einsum("ki,ki->k", self.reaction, self.normal)
+
+    @property
+    def friction_force(self) -> Array:
+        """r_t [N], shape [count]."""
+        return cross(self.normal, self.reaction)
+
+    def relative(self, motion: Array) -> tuple[Array, Array]:
+        """Return normal and tangential parts of the motion of nodes relative to their feet.
+
+        Parameters
+        ----------
+        motion
+            Of all nodes of the model, shape [node_count, 2].
+        """
+        feet = einsum("kj,kji->ki", self.weights, motion[self.followed])
+        relative = motion[self.node] - feet
+        return einsum("ki,ki->k", relative, self.normal), cross(self.normal, relative)
+
+    def nodal_forces(self, node_count: int) -> Array:
+        """Return the reactions spread over nodes and feet [N], shape [node_count, 2]."""
+        force = np.zeros((node_count, 2))
+        np.add.at(force, self.node, self.reaction)
+        np.add.at(force, self.followed, -self.weights[:, :, None] * self.reaction[:, None])
+        return force
+
+
+def find(model: AuditModel, state: Mapping[str, Any], position: Array) -> Contacts:
+    """Find the contacts of a state where the nodes of the model are at `position` [m]."""
+    stored, target = state["contact_node"], state["contact_target"]
+    count = len(stored)
+    node = np.clip(stored, 0, len(model.points) - 1)
+    source = np.array([model.body_of(int(n)) for n in stored], dtype=np.int64)
+    gap, normal = np.full(count, np.nan), np.full((count, 2), np.nan)
+    followed, weights = np.zeros((count, 4), dtype=np.int64), np.zeros((count, 4))
+    stored_gap, stored_normal = state["contact_gap"], state["contact_normal"]
+    for t in np.unique(target):
+        at = np.flatnonzero(target == t)
+        x = position[node[at]]
+        if t < 0:
+            if -1 - t < len(model.planes):
+                point, direction = model.planes[-1 - t]
+                gap[at], normal[at] = (x - point) @ direction, direction
+            continue
+        if t >= len(model.bodies):
+            continue
+        span = model.bodies[t].span
+        feet = model.targets[t].feet(x, position[span])
+        misfit = np.abs(feet.gap - stored_gap[at][feet.point]) / model.size
+        misfit += np.linalg.norm(feet.normal - stored_normal[at][feet.point], axis=1)
+        for k, contact in enumerate(at):
+            mine = np.flatnonzero(feet.point == k)
+            if len(mine) == 0:
+                continue
+            good = mine[misfit[mine] <= misfit[mine].min() + SAME]
+            best = good[feet.beyond[good].argmin()]
+            gap[contact], normal[contact] = feet.gap[best], feet.normal[best]
+            followed[contact] = feet.nodes[best] + span.start
+            weights[contact] = feet.weights[best]
+    sides = {(side.source, side.target): side for side in model.sides}
+    return Contacts(
+        node=node,
+        source=source,
+        target=target,
+        reaction=state["contact_reaction"],
+        gap=gap,
+        normal=normal,
+        followed=followed,
+        weights=weights,
+        gap_error=stored_gap - gap,
+        normal_error=np.linalg.norm(stored_normal - normal, axis=1),
+        side=tuple(sides.get((int(s), int(t))) for s, t in zip(source, target, strict=True)),
+    )
+
+
+def smallest_gaps(model: AuditModel, position: Array) -> list[float]:
+    """Return for every side the smallest signed distance of its nodes from its target [m]."""
+    return [_smallest_gap(model, side, position) for side in model.sides]
+
+
+def _smallest_gap(model: AuditModel, side: Side, position: Array) -> float:
+    body = model.bodies[side.source]
+    x = position[body.span][body.surface]
+    if side.target < 0:
+        point, direction = model.planes[-1 - side.target]
+        return float(((x - point) @ direction).min())
+    target = model.bodies[side.target]
+    nodes = position[target.span]
+    # Only nodes that may be the closest are looked at closely: a facet is no farther than its
+    # nodes, and no closer than these by more than its own length or so.
+    near = np.linalg.norm(x[:, None] - nodes[target.surface][None], axis=2).min(axis=1)
+    longest = np.linalg.norm(np.diff(nodes[target.facets], axis=1), axis=2).max()
+    x = x[near <= near.min() + 2 * longest]
+    return float(model.targets[side.target].signed_distance(x, nodes).min())

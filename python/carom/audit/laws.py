@@ -1,0 +1,151 @@
+"""Stored energies and stresses of the materials in plane strain, over arrays of points.
+
+Everything is written for the 2 × 2 part of F; F₃₃ = 1, and F₁₃ = F₂₃ = 0.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.audit.arrays import Array, einsum
+from carom.errors import InputError
+from carom.material import Material
+
+IDENTITY = np.eye(2)
+
+SMALL_STRAIN = 1e-6
+"""Changes of strain below this are worked on by the mean stress: the discrete gradient divides by
+their square, and its correction, of third order, is below round-off."""
+
+KINDS = ("saint-venant-kirchhoff", "linear-elastic", "neo-hookean")
+
+
+def transposed(tensor: Array) -> Array:
+    """Return tensors of shape [..., 2, 2] transposed."""
+    return np.swapaxes(tensor, -1, -2)
+
+
+def contracted(a: Array, b: Array) -> Array:
+    """Return a : b of tensors of shape [..., 2, 2], shape [...]."""
+    return einsum("...ij,...ij", a, b)
+
+
+@dataclass(frozen=True)
+class Law:
+    """A hyperelastic law.
+
+    Parameters
+    ----------
+    kind
+        Its name in the case file.
+    first, second
+        Lamé's λ and μ [Pa].
+    """
+
+    kind: str
+    first: float
+    second: float
+
+    @classmethod
+    def of(cls, material: Material) -> Law:
+        """Return the law of a material.
+
+        Raises
+        ------
+        InputError
+            The auditor does not know the law.
+        """
+        if material.kind not in KINDS:
+            raise InputError(f"cannot audit the law {material.kind!r} yet")
+        young, poisson = material.young, material.poisson
+        first = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
+        return cls(kind=material.kind, first=first, second=young / (2 * (1 + poisson)))
+
+    @property
+    def objective(self) -> bool:
+        """Whether a rotation strains nothing."""
+        return self.kind != "linear-elastic"
+
+    @property
+    def modulus(self) -> float:
+        """λ + 2μ [Pa], the stiffness against a strain with no way to yield."""
+        return self.first + 2 * self.second
+
+    def energy(self, f: Array) -> Array:
+        """Return ψ [J/m³] of F, shape [..., 2, 2], shape [...]."""
+        if self.kind == "neo-hookean":
+            log_j = np.log(np.linalg.det(f))
+            # |F|² − 3 with F₃₃ = 1.
+            shear = 0.5 * self.second * (contracted(f, f) - 2)
+            volume: Array = 0.5 * self.first * log_j**2 - self.second * log_j
+            return shear + volume
+        strain = self._strain(f)
+        trace = np.trace(strain, axis1=-2, axis2=-1)
+        energy: Array = 0.5 * self.first * trace**2 + self.second * contracted(strain, strain)
+        return energy
+
+    def stress(self, f: Array) -> Array:
+        """Return the first Piola–Kirchhoff stress P = ∂ψ/∂F [Pa], shape [..., 2, 2]."""
+        if self.kind == "linear-elastic":
+            return self._hooke(self._strain(f))
+        return f @ self._second_piola(f)
+
+    def cauchy_stress(self, f: Array) -> Array:
+        """Return P Fᵀ/J [Pa] in space, shape [..., 3, 3]."""
+        full = np.zeros((*f.shape[:-2], 3, 3))
+        j = np.linalg.det(f)
+        full[..., :2, :2] = self.stress(f) @ transposed(f) / j[..., None, None]
+        if self.kind == "neo-hookean":
+            full[..., 2, 2] = self.first * np.log(j) / j
+        else:
+            full[..., 2, 2] = self.first * np.trace(self._strain(f), axis1=-2, axis2=-1) / j
+        return full
+
+    def discrete_stress(self, f0: Array, f1: Array) -> Array:
+        """Return the stress P̄ [Pa] with P̄ : (F₁ − F₀) = ψ(F₁) − ψ(F₀), shape [..., 2, 2].
+
+        P̄ = ½(F₀ + F₁) S̄. A law that is quadratic in its strain has the mean of both stresses for
+        S̄ (Simo & Tarnow 1992), another the discrete gradient in the strain (Gonzalez 2000).
+        """
+        mean = 0.5 * (f0 + f1)
+        if self.kind == "linear-elastic":
+            return self._hooke(self._strain(mean))
+        if self.kind == "saint-venant-kirchhoff":
+            return mean @ self._hooke(0.5 * (self._strain(f0) + self._strain(f1)))
+        c0, c1 = transposed(f0) @ f0, transposed(f1) @ f1
+        stress = self._neo_hookean(0.5 * (c0 + c1))
+        change = 0.5 * (c1 - c0)
+        size = contracted(change, change)
+        missing = self.energy(f1) - self.energy(f0) - contracted(stress, change)
+        large = size > SMALL_STRAIN**2
+        factor = np.where(large, missing / np.where(large, size, 1.0), 0.0)
+        return mean @ (stress + change * factor[..., None, None])
+
+    def stress_difference(self, f0: Array, f1: Array) -> Array:
+        """Return ½(F₀ + F₁)(S₁ − S₀) [Pa], which has no moment, shape [..., 2, 2]."""
+        if self.kind == "linear-elastic":
+            return self.stress(f1) - self.stress(f0)
+        return 0.5 * (f0 + f1) @ (self._second_piola(f1) - self._second_piola(f0))
+
+    def _strain(self, f: Array) -> Array:
+        if self.kind == "linear-elastic":
+            return 0.5 * (f + transposed(f)) - IDENTITY
+        return 0.5 * (transposed(f) @ f - IDENTITY)
+
+    def _hooke(self, strain: Array) -> Array:
+        trace = np.trace(strain, axis1=-2, axis2=-1)[..., None, None]
+        stress: Array = self.first * trace * IDENTITY + 2 * self.second * strain
+        return stress
+
+    def _neo_hookean(self, c: Array) -> Array:
+        """Return S = μ(I − C⁻¹) + λ ln J C⁻¹ with J = √det C."""
+        log_j = 0.5 * np.log(np.linalg.det(c))[..., None, None]
+        pressure: Array = (self.first * log_j - self.second) * np.linalg.inv(c)
+        return self.second * IDENTITY + pressure
+
+    def _second_piola(self, f: Array) -> Array:
+        if self.kind == "neo-hookean":
+            return self._neo_hookean(transposed(f) @ f)
+        return self._hooke(self._strain(f))

@@ -1,0 +1,193 @@
+"""The mass of a body as an operator: consistent, lumped, and moved off the nodes without mass."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.audit.arrays import Array, Indices, einsum
+from carom.audit.cells import Cells
+from carom.errors import InputError
+
+LAYERS = 5
+"""Layers of massive nodes that share what a node without mass carried."""
+
+NODES_PER_LAYER = 4
+"""Most nodes of a layer."""
+
+AMPLIFICATION = 2.5
+"""Σ|e| up to which weights are taken without trying more nodes per layer."""
+
+REPRODUCED = 1e-9
+"""How well the weights must reproduce affine fields."""
+
+
+class Mass:
+    """Multiplication by the mass matrix of a body.
+
+    Where nodes are to have no mass, their velocity is taken to follow those of massive nodes near
+    them, v_b = Σ e_bk v_k, with weights that reproduce affine fields. With P the map from massive
+    to all nodes the mass is PᵀMP, which keeps total mass, centre and inertia.
+
+    Parameters
+    ----------
+    cells
+        The cells of the body.
+    points
+        Reference positions [m], shape [node_count, 2].
+    density
+        Density [kg/m³].
+    lumped
+        Whether M is replaced by its row sums.
+    massless
+        Nodes without mass, ascending.
+    facets
+        Facets between them, the body on their left, shape [facet_count, 2].
+    """
+
+    def __init__(
+        self,
+        cells: Cells,
+        points: Array,
+        density: float,
+        *,
+        lumped: bool,
+        massless: Indices,
+        facets: Indices,
+    ) -> None:
+        self._cells = cells
+        self._local = density * cells.shared_volumes
+        self._lumped: Array | None = None
+        if lumped:
+            ones = np.ones((cells.node_count, 2))
+            self._lumped = self._all_nodes(ones)[:, :1]
+        self._massless = massless
+        self._follow = _Follow(cells.nodes, points, massless, facets)
+        self.nodal: Array = self.times(np.ones((cells.node_count, 2)))[:, 0]
+        """Row sums [kg], shape [node_count]."""
+        self.total = float(self.nodal.sum())
+        """Mass of the body [kg]."""
+
+    def times(self, v: Array) -> Array:
+        """Return M v of nodal vectors, shape [node_count, 2]."""
+        return self._follow.transposed(self._all_nodes(self._follow.extended(v)))
+
+    def mean(self, v: Array) -> Array:
+        """Return the mean of nodal vectors by mass, shape [2]."""
+        return self.nodal @ v / self.total
+
+    def _all_nodes(self, v: Array) -> Array:
+        if self._lumped is not None:
+            return self._lumped * v
+        return self._cells.assembled(einsum("cab,cbi->cai", self._local, v[self._cells.nodes]))
+
+
+class _Follow:
+    """The map P from massive to all nodes, as triplets."""
+
+    def __init__(self, cells: Indices, points: Array, massless: Indices, facets: Indices) -> None:
+        rows, columns, weights = [], [], []
+        without = np.zeros(len(points), dtype=bool)
+        without[massless] = True
+        near = _neighbours(cells, len(points)) if len(massless) else []
+        inward = _inward(points, facets)
+        for node in massless:
+            leaders, share = _leaders(int(node), near, without, points, inward[node])
+            rows.append(np.full(len(leaders), node))
+            columns.append(leaders)
+            weights.append(share)
+        self._without = without
+        self._rows = np.concatenate(rows) if rows else np.zeros(0, dtype=np.int64)
+        self._columns = np.concatenate(columns) if rows else np.zeros(0, dtype=np.int64)
+        self._weights = np.concatenate(weights)[:, None] if rows else np.zeros((0, 1))
+
+    def extended(self, v: Array) -> Array:
+        """Return P v; what `v` is at massless nodes does not count."""
+        full = np.where(self._without[:, None], 0.0, v)
+        np.add.at(full, self._rows, self._weights * v[self._columns])
+        return full
+
+    def transposed(self, f: Array) -> Array:
+        """Return Pᵀ f, zero at massless nodes."""
+        full = np.where(self._without[:, None], 0.0, f)
+        np.add.at(full, self._columns, self._weights * f[self._rows])
+        return full
+
+
+def _inward(points: Array, facets: Indices) -> Array:
+    """Return inward unit normals of the nodes of facets, shape [node_count, 2]; else zero."""
+    chord = points[facets[:, 1]] - points[facets[:, 0]]
+    left = np.stack([-chord[:, 1], chord[:, 0]], axis=1)
+    normal = np.zeros_like(points)
+    np.add.at(normal, facets.ravel(), np.repeat(left, 2, axis=0))
+    size = np.linalg.norm(normal, axis=1, keepdims=True)
+    return normal / np.where(size > 0, size, 1.0)
+
+
+def _neighbours(cells: Indices, count: int) -> list[set[int]]:
+    """Return for each node those that share a cell with it, itself included."""
+    near: list[set[int]] = [set() for _ in range(count)]
+    for nodes in cells.tolist():
+        for node in nodes:
+            near[node].update(nodes)
+    return near
+
+
+def _leaders(
+    node: int, near: list[set[int]], without: NDArray[np.bool_], points: Array, inward: Array
+) -> tuple[Indices, Array]:
+    """Return massive nodes and weights that a node without mass follows.
+
+    They are those of the nearest layers that stand most in line with its inward normal, as few as
+    have weights that amplify little.
+    """
+    arms = points - points[node]
+    aside = np.linalg.norm(arms - np.outer(arms @ inward, inward), axis=1)
+    layers = [sorted(layer, key=lambda n: aside[n]) for layer in _layers(node, near, without)]
+    best: tuple[float, Indices, Array] | None = None
+    for count in range(1, NODES_PER_LAYER + 1):
+        massive = np.array([n for layer in layers for n in layer[:count]], dtype=np.int64)
+        weights = affine_weights(arms[massive])
+        if weights is None:
+            continue
+        amplification = float(np.abs(weights).sum())
+        if best is None or amplification < best[0]:
+            best = (amplification, massive, weights)
+        if amplification <= AMPLIFICATION:
+            break
+    if best is None:
+        raise InputError(f"node {node} has no massive nodes near that could carry its mass")
+    return best[1], best[2]
+
+
+def _layers(node: int, near: list[set[int]], without: NDArray[np.bool_]) -> list[list[int]]:
+    """Return the massive nodes around a node by their distance in the mesh, nearest first."""
+    seen, front = {node}, {node}
+    layers: list[list[int]] = []
+    while front and len(layers) < LAYERS:
+        front = set().union(*(near[n] for n in front)) - seen
+        seen |= front
+        massive = sorted(n for n in front if not without[n])
+        if massive:
+            layers.append(massive)
+    return layers
+
+
+def affine_weights(arms: Array) -> Array | None:
+    """Return the weights e of least norm with Σe = 1 and Σ e x = 0, or None if there are none.
+
+    Parameters
+    ----------
+    arms
+        Positions x relative to the node that follows [m], shape [count, 2].
+    """
+    if len(arms) == 0:
+        return None
+    scaled = arms / np.linalg.norm(arms, axis=1).max()
+    # Of A e = b the least e is Aᵀ (A Aᵀ)⁺ b.
+    conditions = np.column_stack([np.ones(len(scaled)), scaled]).T
+    multipliers = np.linalg.pinv(conditions @ conditions.T, rcond=1e-10, hermitian=True)[:, 0]
+    weights: Array = multipliers @ conditions
+    wanted = np.array([1.0, 0.0, 0.0])
+    reproduced = np.allclose(conditions @ weights, wanted, rtol=0, atol=REPRODUCED)
+    return weights if reproduced else None

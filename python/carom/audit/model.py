@@ -1,0 +1,186 @@
+"""A case and its mesh as the auditor sees them, built from the files alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.analysis import Conserving, Theta
+from carom.audit.arrays import Array, Indices
+from carom.audit.body import AuditBody
+from carom.audit.target import Target
+from carom.contact import Pair
+from carom.errors import InputError
+from carom.scenario import Scenario
+
+CONDITIONS = ("gap", "midpoint", "endpoint", "massless")
+
+FINER = 0.99
+"""A boundary is finer if its mean facet is shorter than this part of the other's."""
+
+
+@dataclass(frozen=True)
+class Side:
+    """Nodes of a body against a body, or against an obstacle.
+
+    Parameters
+    ----------
+    source
+        Index of the body whose nodes are checked.
+    target
+        Index of a body, or −1 − that of an obstacle.
+    friction
+        Coulomb's coefficient.
+    two_sided
+        Whether the pair is checked from the other side too.
+    """
+
+    source: int
+    target: int
+    friction: float
+    two_sided: bool
+
+
+class AuditModel:
+    """Bodies, obstacles, pairs and the time scheme.
+
+    Parameters
+    ----------
+    scenario
+        The case as it was run.
+    points
+        Reference positions of all nodes [m], shape [node_count, 2].
+    cells
+        Nodes of each cell, by body.
+    types
+        VTK's type of the cells, by body.
+
+    Raises
+    ------
+    InputError
+        The auditor does not know something of the case, or the mesh is not that of the case.
+    """
+
+    def __init__(
+        self, scenario: Scenario, points: Array, cells: list[Indices], types: list[int]
+    ) -> None:
+        self.scenario = scenario
+        self.points = points
+        condition = scenario.contact.condition
+        if condition not in CONDITIONS:
+            raise InputError(f"cannot audit the contact condition {condition!r} yet")
+        self.condition = condition
+        self.massless = condition == "massless"
+        scheme = scenario.analysis.scheme
+        if not isinstance(scheme, Theta | Conserving):
+            raise InputError(f"cannot audit the scheme {scheme.kind!r} yet")
+        self.conserving = isinstance(scheme, Conserving)
+        self.theta, self.xi = (scheme.theta, scheme.xi) if isinstance(scheme, Theta) else (0.5, 0.5)
+        self.blended = self.conserving and self.massless
+        self.gravity = np.array(scenario.analysis.gravity or (0.0, 0.0))
+        self.bodies = list(self._build_bodies(cells, types))
+        smooth = scenario.contact.targets == "smooth"
+        self.targets = [Target(b.facets, b.points, smooth=smooth) for b in self.bodies]
+        self.planes = [_plane(plane.point, plane.normal) for plane in scenario.obstacles]
+        self.sides = list(self._build_sides())
+        self.size = max(float(np.linalg.norm(np.ptp(b.points, axis=0))) for b in self.bodies)
+
+    def body_of(self, node: int) -> int:
+        """Return the index of the body of a node; the number of bodies if it is of none."""
+        mine = (i for i, b in enumerate(self.bodies) if b.span.start <= node < b.span.stop)
+        return next(mine, len(self.bodies))
+
+    def name(self, index: int) -> str:
+        """Return the name of a body, or of the obstacle −1 − index; no name if there is none."""
+        members = self.bodies if index >= 0 else self.scenario.obstacles
+        position = index if index >= 0 else -1 - index
+        return members[position].name if position < len(members) else ""
+
+    def tracks(self) -> list[tuple[str, int]]:
+        """Return the names of tracked points and the nodes nearest to them."""
+        tracks = []
+        for track in self.scenario.output.track:
+            body = next(b for b in self.bodies if b.name == track.body)
+            distance = np.linalg.norm(body.points - np.array(track.point), axis=1)
+            tracks.append((track.name, int(distance.argmin()) + body.span.start))
+        return tracks
+
+    def _build_bodies(self, cells: list[Indices], types: list[int]) -> Iterator[AuditBody]:
+        first = 0
+        for entry, nodes, vtk_type in zip(self.scenario.bodies, cells, types, strict=True):
+            if getattr(entry, "periodic", False) or getattr(entry.mesh, "periodic", False):
+                raise InputError(f"body {entry.name!r}: cannot audit periodic bodies yet")
+            last = int(nodes.max()) + 1
+            if int(nodes.min()) != first or last > len(self.points):
+                raise InputError(f"body {entry.name!r}: the mesh is not numbered body after body")
+            yield AuditBody(
+                entry,
+                self.scenario.materials[entry.material],
+                vtk_type=vtk_type,
+                nodes=nodes - first,
+                points=self.points[first:last],
+                first_node=first,
+                massless=self.massless and self._may_touch(entry.name),
+            )
+            first = last
+        if first != len(self.points):
+            raise InputError(f"the mesh has {len(self.points)} nodes, its bodies have {first}")
+
+    def _pair(self, a: str, b: str) -> Pair | None:
+        """Return what the case says of a pair by name."""
+        entries = self.scenario.contact.pairs
+        return next((entry for entry in entries if {a, b} == set(entry.between)), None)
+
+    def _enabled(self, a: str, b: str) -> bool:
+        entry = self._pair(a, b)
+        return entry is None or entry.enabled
+
+    def _may_touch(self, name: str) -> bool:
+        others = [body.name for body in self.scenario.bodies if body.name != name]
+        others += [obstacle.name for obstacle in self.scenario.obstacles]
+        return any(self._enabled(name, other) for other in others)
+
+    def _build_sides(self) -> Iterator[Side]:
+        contact = self.scenario.contact
+        names = [body.name for body in self.bodies]
+        for a, first in enumerate(names):
+            others = [(b, names[b]) for b in range(a + 1, len(names))]
+            others += [(-1 - o, plane.name) for o, plane in enumerate(self.scenario.obstacles)]
+            for b, second in others:
+                entry = self._pair(first, second)
+                friction, sources, swapped = contact.friction, contact.sources, False
+                if entry is not None:
+                    if not entry.enabled:
+                        continue
+                    friction = friction if entry.friction is None else entry.friction
+                    if entry.sources is not None:
+                        sources, swapped = entry.sources, entry.between[0] == second
+                if b < 0:
+                    yield Side(a, b, friction, two_sided=False)
+                    continue
+                if sources == "finer":
+                    sources = (
+                        "second" if self._mean_facet(b) < FINER * self._mean_facet(a) else "first"
+                    )
+                    swapped = False
+                forward, backward = sources in ("first", "both"), sources in ("second", "both")
+                if swapped:
+                    forward, backward = backward, forward
+                both = forward and backward
+                if forward:
+                    yield Side(a, b, friction, two_sided=both)
+                if backward:
+                    yield Side(b, a, friction, two_sided=both)
+
+    def _mean_facet(self, body: int) -> float:
+        points, facets = self.bodies[body].points, self.bodies[body].facets
+        lengths = np.linalg.norm(points[facets[:, 1]] - points[facets[:, 0]], axis=1)
+        return float(lengths.mean())
+
+
+def _plane(point: tuple[float, ...], normal: tuple[float, ...]) -> tuple[Array, Array]:
+    """Return a point of a plane and its unit normal."""
+    direction = np.array(normal)
+    return np.array(point), direction / np.linalg.norm(direction)

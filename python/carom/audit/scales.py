@@ -1,0 +1,114 @@
+"""How far a number may be from what the auditor computes, from the tolerances of the run itself.
+
+There are two reasons for differences. Sums of floating-point numbers in another order differ by
+round-off of their largest terms. And the run stops its iterations: the displacements of a step are
+known up to Newton's tolerance times the largest motion in the step, and what must vanish in the
+step is up to that error times what it depends on.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.audit.arrays import Array
+from carom.audit.body import AuditBody
+from carom.audit.model import AuditModel
+from carom.audit.step import Step
+
+EPS = float(np.finfo(np.float64).eps)
+
+ROUND_OFF = 2.0**13 * EPS
+"""Relative difference of two sums over a mesh, of their largest terms: 1.8e-12."""
+
+FLOOR = 4 * EPS
+"""Corrections below this part of the model's size are round-off to the run."""
+
+SAFETY = 10.0
+"""The last correction of a run bounds its error only up to the rate of convergence."""
+
+LAST = 1e2
+"""Contacts are evaluated before the last correction, which is above Newton's tolerance by up to
+this where iterations converge so fast that the next one would be below it."""
+
+
+class Scales:
+    """Magnitudes of a model over its states, and tolerances made of them.
+
+    Parameters
+    ----------
+    model
+        The model.
+    """
+
+    def __init__(self, model: AuditModel) -> None:
+        self._model = model
+        self.energy = 0.0
+        """Largest energy of a state [J]."""
+        self.speed = 0.0
+        """Largest speed of a node [m/s]."""
+        self.reach = 0.0
+        """Largest distance of a node from the origin [m]."""
+        self.mass = sum(body.mass.total for body in model.bodies)
+
+    def include(self, displacement: Array, velocity: Array) -> None:
+        """Take a state into account."""
+        energy = 0.0
+        for body in self._model.bodies:
+            energy += body.kinetic_energy(velocity[body.span])
+            energy += body.strain_energy(displacement[body.span])
+        self.energy = max(self.energy, energy)
+        self.speed = max(self.speed, float(np.abs(velocity).max()))
+        self.reach = max(self.reach, float(np.abs(self._model.points + displacement).max()))
+
+    def penetration(self) -> float:
+        """Return how deep nodes may be where gaps are ruled [m]."""
+        analysis = self._model.scenario.analysis
+        motion = self.speed * analysis.time_step
+        if self._model.scenario.contact.targets == "faceted" and len(self._model.bodies) > 1:
+            # Facets are frozen for a step: a node that slides on may get behind the next one.
+            return motion
+        return SAFETY * max(analysis.newton.tolerance * motion, FLOOR * self._model.size)
+
+    def strain(self, body: AuditBody, u: Array) -> float:
+        """Return how far the strain energy of a state may be off [J].
+
+        Displacements have round-off of their size, which does work on the internal forces.
+        """
+        error = EPS * (self._model.size + float(np.abs(u).max()))
+        stiffness = float(body.row_stiffness.sum())
+        energy = body.strain_energy(u)
+        # E ≈ ½ k e², so that an error of e changes it by √(2 E k) δ + ½ k δ².
+        slope = float(np.sqrt(2 * energy * stiffness)) + stiffness * error
+        return ROUND_OFF * energy + SAFETY * slope * error
+
+    def displacement(self, step: Step) -> float:
+        """Return how far the displacements of a step may be off [m]."""
+        tolerance = self._model.scenario.analysis.newton.tolerance * step.motion
+        return SAFETY * max(tolerance, FLOOR * (self._model.size + self.reach))
+
+    def geometry(self, step: Step) -> float:
+        """Return how far the places of contacts may be off [m]."""
+        return LAST * self.displacement(step)
+
+    def force(self, step: Step, index: int) -> Array:
+        """Return how far the equation of motion of nodes of a body may be off [N], [node_count]."""
+        return self._iteration(step, index) * self.displacement(step)
+
+    def reaction(self, step: Step, total: float) -> float:
+        """Return how far reactions whose sizes sum to `total` [N] may be from Coulomb's cone [N].
+
+        The solver's residual is relative to the reactions, or to the force that would undo the
+        motion of the step where that is larger.
+        """
+        bodies = range(len(self._model.bodies))
+        stiffest = max(float(self._iteration(step, index).max()) for index in bodies)
+        tolerance = self._model.scenario.contact.solver.tolerance
+        return SAFETY * tolerance * (total + stiffest * step.motion)
+
+    def _iteration(self, step: Step, index: int) -> Array:
+        """Return the force on nodes where all displacements are off by 1 m [N/m], [node_count]."""
+        body, model = self._model.bodies[index], self._model
+        rate = 1 / (model.theta * step.dt)
+        damping = body.damping
+        iteration = body.row_stiffness * (1.0 + damping.stiffness * rate)
+        return iteration + np.abs(body.mass.nodal) * (rate / step.dt + damping.mass * rate)

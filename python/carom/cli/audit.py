@@ -1,0 +1,65 @@
+"""``carom audit``."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+
+from carom.audit import Audit
+from carom.audit import audit as check_results
+from carom.cli.failures import failures
+
+REFUTED = 1
+"""Exit status where a check failed; a file that cannot be read ends so too, with an error."""
+
+
+def audit(
+    *,
+    directory: Annotated[
+        Path, typer.Argument(help="Results directory of `carom run`.", metavar="DIR")
+    ],
+    as_json: Annotated[bool, typer.Option("--json", help="Print all figures as JSON.")] = False,
+) -> None:
+    """Check finished results by code that shares nothing with the solver."""
+    with failures(directory):
+        found = check_results(directory)
+    if as_json:
+        typer.echo(json.dumps(_json(found.as_dict()), indent=2, ensure_ascii=False))
+    else:
+        _show(found)
+    if not found.confirmed:
+        raise typer.Exit(REFUTED)
+
+
+def _show(found: Audit) -> None:
+    console = Console()
+    console.print(found)
+    if (remarks := found.remarks()) is not None:
+        console.print(remarks)
+    for check in found.refuted:
+        console.print(
+            f"refuted: {check.name}: {check.statement}: {check.figure:.3g} where "
+            f"{check.tolerance:.3g} {check.unit} is allowed ({check.where})",
+            markup=False,
+            highlight=False,
+            soft_wrap=True,
+        )
+    count = len(found.checks)
+    verdict = "confirmed" if found.confirmed else "REFUTED"
+    console.print(
+        f"{verdict}: {count - len(found.refuted)} of {count} checks hold", highlight=False
+    )
+
+
+def _json(value: Any) -> Any:  # noqa: ANN401 (any JSON value)
+    """Return plain data with what is not finite as null."""
+    if isinstance(value, dict):
+        return {key: _json(member) for key, member in value.items()}
+    if isinstance(value, list):
+        return [_json(member) for member in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
