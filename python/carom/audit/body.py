@@ -48,6 +48,8 @@ class AuditBody:
         self.points = points
         self.span = slice(first_node, first_node + len(points))
         self.law = Law.of(material)
+        self.turns = self.law.objective
+        """Whether it can turn without storing energy."""
         self.damping = material.damping
         self.cells = Cells(vtk_type, nodes, points, entry.thickness)
         self.facets = _contact_facets(entry, boundary(nodes), points)

@@ -82,7 +82,7 @@ class FrameChecks:
 
     def _gaps(self, frame: Frame, where: str) -> float | None:
         model = self._model
-        gaps = smallest_gaps(model, model.points + frame.displacement)
+        gaps = smallest_gaps(model, model.points + frame.displacement, frame.time)
         if not gaps:
             return None
         self._findings.report("deepest penetration at output times", max(-min(gaps), 0.0), "m")

@@ -13,14 +13,17 @@ from carom.audit.contacts import Contacts
 from carom.audit.model import AuditModel
 from carom.audit.report import Findings
 from carom.audit.scales import EPS, ROUND_OFF, SAFETY, Scales
-from carom.audit.step import BodyForces, Step
+from carom.audit.step import BODY_ENERGIES, BodyForces, Step
 
 Row = Mapping[str, float]
 
 LARGEST_BLEND = 0.5
 """Limit of |α|: up to here the reactions of the step are a mean of those of its start and end."""
 
-ENERGIES = ("kinetic", "strain", "external", "viscous", "scheme", "friction", "normal_contact")
+NEGLIGIBLE = 1e-14
+"""What is missing below this part of the energy may wait."""
+
+ENERGIES = (*BODY_ENERGIES, "friction", "normal_contact", "prescribed")
 
 
 class StepChecks:
@@ -76,8 +79,7 @@ class StepChecks:
             off = SAFETY * (rate + EPS * step.time / step.dt * self._scales.speed)
             error = step.d[node] / step.dt - stored
             self._check("tracked points", error, off, f"{name}, {where}")
-        if self._model.blended:
-            self._blended_energy(step, after, where)
+        self._extremes(step, after, alone=before is not None, where=where)
         if before is not None:
             for name in ENERGIES:
                 change = after[name] - before[name]
@@ -86,23 +88,23 @@ class StepChecks:
                     "ledger in history", change - step.ledger[name], off, f"{name}, {where}"
                 )
 
-    def _blended_energy(self, step: Step, after: Row, where: str) -> None:
-        """Check that the blend of stresses has taken back all that steps before left over."""
-        size = np.abs(step.blend)
-        # Exactly 0: the blend has nothing to move, as in rigid flight, and energy waits.
-        if (size >= LARGEST_BLEND).any() or (size == 0.0).any():
-            self._findings.leave(
-                "energy of steps whose blend of stresses is 0 or at its limit of ½"
-            )
-            return
-        off = 2 * ROUND_OFF * self._scales.energy + self._newton_work(step)
-        off += sum(
-            self._scales.strain(b, u[b.span])
-            for b in self._model.bodies
-            for u in (step.u0, step.u1)
-        )
-        off += float(step.rubbing()[1].sum())
-        self._check("energy of the step", after["defect"], off, where)
+    def _extremes(self, step: Step, after: Row, *, alone: bool, where: str) -> None:
+        """Check what the row says of the steps since the one before, of which this may be alone."""
+        model, ledger = self._model, step.ledger
+        blend = float(np.abs(step.blend).max()) if model.blended else 0.0
+        taken = ledger["friction"] + ledger["viscous"] + ledger["scheme"] + ledger["normal_contact"]
+        change = ledger["kinetic"] + ledger["strain"] - ledger["external"] - ledger["prescribed"]
+        off = ROUND_OFF * sum(abs(energy) for energy in ledger.values())
+        for name, figure, allowed in (
+            ("blend", blend, 0.0),
+            ("step_defect", abs(change + taken), off),
+        ):
+            excess = figure - after[name]
+            self._check("step extremes", excess if alone else max(excess, 0.0), allowed, where)
+        if model.blended:
+            # What the groups have yet to give back is what the ledger of the run does not explain.
+            off = ROUND_OFF * (self._scales.energy + sum(abs(after[name]) for name in ENERGIES))
+            self._check("waiting energy", step.end["excess"].sum() - after["defect"], off, where)
 
     def _note_forces(self, step: Step) -> None:
         found = step.contacts
@@ -203,19 +205,54 @@ class StepChecks:
         if model.massless:
             reactions += float(np.abs(step.start_contacts.reaction).sum())
         work = sums + reactions * scales.geometry(step)
-        friction = work + (float(step.rubbing()[1].sum()) if model.blended else 0.0)
-        off = {"strain": strain, "friction": friction, "normal_contact": work}
+        friction = work + step.doubt
+        off = {"strain": strain, "friction": friction, "normal_contact": work, "prescribed": work}
         for name in ENERGIES:
             error = step.ledger[name] - mine[name]
             self._check(f"ledger: {name.replace('_', ' ')}", error, off.get(name, sums), where)
         taken = mine["friction"] + mine["viscous"] + mine["scheme"] + mine["normal_contact"]
-        defect = mine["kinetic"] + mine["strain"] - mine["external"] + taken
+        defect = mine["kinetic"] + mine["strain"] - mine["external"] - mine["prescribed"] + taken
         if not model.conserving:
             self._findings.report("largest defect of a step", defect, "J")
             return
-        if not model.blended:
-            work = strain + friction + self._newton_work(step)
+        work = strain + friction + self._newton_work(step)
+        if model.blended:
+            self._blend(step, work, strain + friction, where)
+        else:
             self._check("energy of the step", defect, work, where)
+
+    def _blend(self, step: Step, work: float, sums: float, where: str) -> None:
+        """Check that α is what the balance of its group asks for, and what is left for later.
+
+        Parameters
+        ----------
+        step
+            The step.
+        work
+            How far its energies may be off balance [J].
+        sums
+            How far sums of energies may be off [J].
+        where
+            Where this is.
+        """
+        missing, available = step.balance()
+        alpha, limit = step.blend, LARGEST_BLEND * np.maximum(available, 0.0)
+        self._check("blend", np.maximum(np.abs(alpha) - LARGEST_BLEND, 0.0), 0.0, where)
+        self._check("blend", alpha - alpha[step.groups], 0.0, where)
+        leaders = np.unique(step.groups)
+        wanted = np.clip(missing, -limit, limit)
+        allowed = work + NEGLIGIBLE * self._scales.energy
+        self._check("blend", (alpha * available - wanted)[leaders], allowed, where)
+        stored, left = step.end["excess"], step.left_over()
+        followers = np.setdiff1d(np.arange(len(alpha)), leaders)
+        self._check("waiting energy", stored[followers], 0.0, where)
+        self._check("waiting energy", (stored - left)[leaders], sums, where)
+        full = (np.abs(missing) > limit - work)[leaders]
+        if full.any():
+            self._findings.leave(
+                "energy that waits: a blend of stresses is at its limit of ½, or has little to move"
+            )
+        self._check("energy of the step", stored[leaders][~full], allowed, where)
 
     def _newton_work(self, step: Step) -> float:
         """Return the work that the error of the equation of motion may do in a step [J]."""
@@ -250,7 +287,7 @@ class StepChecks:
     def _bipotential(self, step: Step) -> tuple[Array, Array]:
         """Return w_n r_n and μ r_n |w_t| + r_t w_t of the contacts [J], each of shape [count]."""
         found, model = step.contacts, self._model
-        w_n, w_t = found.relative(step.d)
+        w_n, w_t = found.relative(step.d, step.dt)
         if model.condition in ("gap", "massless"):
             # Pairs that are checked from both sides may keep a penetration.
             kept = np.array(
@@ -258,6 +295,6 @@ class StepChecks:
             )
             w_n = np.where(kept, np.maximum(found.gap, 0.0), found.gap)
         elif model.condition == "endpoint":
-            w_n = w_n + (model.theta - 1) * step.dt * found.relative(step.v0)[0]
+            w_n = w_n + (model.theta - 1) * step.dt * found.relative(step.v0, 1.0)[0]
         slip = found.friction * found.normal_force * np.abs(w_t) + found.friction_force * w_t
         return w_n * found.normal_force, slip

@@ -31,6 +31,8 @@ class Contacts:
         By the auditor's closest point [m], shape [count] and [count, 2].
     followed, weights
         Nodes that the foot follows, and how much, shape [count, 4]; none for obstacles.
+    velocity
+        That of the obstacle [m/s], shape [count, 2]; zero for bodies.
     gap_error, normal_error
         What was stored less that, shape [count].
     side
@@ -45,6 +47,7 @@ class Contacts:
     normal: Array
     followed: Indices
     weights: Array
+    velocity: Array
     gap_error: Array
     normal_error: Array
     side: tuple[Side | None, ...]
@@ -67,17 +70,23 @@ class Contacts:
         """r_t [N], shape [count]."""
         return cross(self.normal, self.reaction)
 
-    def relative(self, motion: Array) -> tuple[Array, Array]:
+    def relative(self, motion: Array, dt: float) -> tuple[Array, Array]:
         """Return normal and tangential parts of the motion of nodes relative to their feet.
 
         Parameters
         ----------
         motion
             Of all nodes of the model, shape [node_count, 2].
+        dt
+            The time that it takes [s], 1 for velocities: obstacles move too.
         """
-        feet = einsum("kj,kji->ki", self.weights, motion[self.followed])
+        feet = einsum("kj,kji->ki", self.weights, motion[self.followed]) + dt * self.velocity
         relative = motion[self.node] - feet
         return einsum("ki,ki->k", relative, self.normal), cross(self.normal, relative)
+
+    def prescribed_work(self, dt: float) -> Array:
+        """Return the work of obstacles that move with the reactions in a time [J], [count]."""
+        return dt * einsum("ki,ki->k", self.reaction, self.velocity)
 
     def nodal_forces(self, node_count: int) -> Array:
         """Return the reactions spread over nodes and feet [N], shape [node_count, 2]."""
@@ -87,22 +96,24 @@ class Contacts:
         return force
 
 
-def find(model: AuditModel, state: Mapping[str, Any], position: Array) -> Contacts:
-    """Find the contacts of a state where the nodes of the model are at `position` [m]."""
+def find(model: AuditModel, state: Mapping[str, Any], position: Array, time: float) -> Contacts:
+    """Find the contacts of a state with nodes at `position` [m] and obstacles as at `time` [s]."""
     stored, target = state["contact_node"], state["contact_target"]
     count = len(stored)
     node = np.clip(stored, 0, len(model.points) - 1)
     source = np.array([model.body_of(int(n)) for n in stored], dtype=np.int64)
     gap, normal = np.full(count, np.nan), np.full((count, 2), np.nan)
     followed, weights = np.zeros((count, 4), dtype=np.int64), np.zeros((count, 4))
+    velocity = np.zeros((count, 2))
     stored_gap, stored_normal = state["contact_gap"], state["contact_normal"]
     for t in np.unique(target):
         at = np.flatnonzero(target == t)
         x = position[node[at]]
         if t < 0:
             if -1 - t < len(model.planes):
-                point, direction = model.planes[-1 - t]
-                gap[at], normal[at] = (x - point) @ direction, direction
+                plane = model.planes[-1 - t]
+                gap[at], normal[at] = plane.distance(x, time), plane.normal
+                velocity[at] = plane.velocity
             continue
         if t >= len(model.bodies):
             continue
@@ -129,23 +140,23 @@ def find(model: AuditModel, state: Mapping[str, Any], position: Array) -> Contac
         normal=normal,
         followed=followed,
         weights=weights,
+        velocity=velocity,
         gap_error=stored_gap - gap,
         normal_error=np.linalg.norm(stored_normal - normal, axis=1),
         side=tuple(sides.get((int(s), int(t))) for s, t in zip(source, target, strict=True)),
     )
 
 
-def smallest_gaps(model: AuditModel, position: Array) -> list[float]:
+def smallest_gaps(model: AuditModel, position: Array, time: float) -> list[float]:
     """Return for every side the smallest signed distance of its nodes from its target [m]."""
-    return [_smallest_gap(model, side, position) for side in model.sides]
+    return [_smallest_gap(model, side, position, time) for side in model.sides]
 
 
-def _smallest_gap(model: AuditModel, side: Side, position: Array) -> float:
+def _smallest_gap(model: AuditModel, side: Side, position: Array, time: float) -> float:
     body = model.bodies[side.source]
     x = position[body.span][body.surface]
     if side.target < 0:
-        point, direction = model.planes[-1 - side.target]
-        return float(((x - point) @ direction).min())
+        return float(model.planes[-1 - side.target].distance(x, time).min())
     target = model.bodies[side.target]
     nodes = position[target.span]
     # Only nodes that may be the closest are looked at closely: a facet is no farther than its

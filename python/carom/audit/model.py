@@ -13,6 +13,7 @@ from carom.audit.body import AuditBody
 from carom.audit.target import Target
 from carom.contact import Pair
 from carom.errors import InputError
+from carom.obstacle import Plane
 from carom.scenario import Scenario
 
 CONDITIONS = ("gap", "midpoint", "endpoint", "massless")
@@ -41,6 +42,30 @@ class Side:
     target: int
     friction: float
     two_sided: bool
+
+
+@dataclass(frozen=True)
+class AuditPlane:
+    """A plane that moves as prescribed.
+
+    Parameters
+    ----------
+    point
+        A point of it at t = 0 [m], shape [2].
+    normal
+        Unit normal, shape [2].
+    velocity
+        Velocity [m/s], shape [2].
+    """
+
+    point: Array
+    normal: Array
+    velocity: Array
+
+    def distance(self, x: Array, time: float) -> Array:
+        """Return the signed distance of points at a time [s], negative behind it [m]."""
+        distance: Array = (x - (self.point + time * self.velocity)) @ self.normal
+        return distance
 
 
 class AuditModel:
@@ -83,9 +108,14 @@ class AuditModel:
         self.bodies = list(self._build_bodies(cells, types))
         smooth = scenario.contact.targets == "smooth"
         self.targets = [Target(b.facets, b.points, smooth=smooth) for b in self.bodies]
-        self.planes = [_plane(plane.point, plane.normal) for plane in scenario.obstacles]
+        self.planes = [_plane(plane) for plane in scenario.obstacles]
         self.sides = list(self._build_sides())
         self.size = max(float(np.linalg.norm(np.ptp(b.points, axis=0))) for b in self.bodies)
+
+    @property
+    def fastest_plane(self) -> float:
+        """Largest speed of an obstacle [m/s]."""
+        return max((float(np.linalg.norm(plane.velocity)) for plane in self.planes), default=0.0)
 
     def body_of(self, node: int) -> int:
         """Return the index of the body of a node; the number of bodies if it is of none."""
@@ -180,7 +210,10 @@ class AuditModel:
         return float(lengths.mean())
 
 
-def _plane(point: tuple[float, ...], normal: tuple[float, ...]) -> tuple[Array, Array]:
-    """Return a point of a plane and its unit normal."""
-    direction = np.array(normal)
-    return np.array(point), direction / np.linalg.norm(direction)
+def _plane(entry: Plane) -> AuditPlane:
+    normal = np.array(entry.normal)
+    return AuditPlane(
+        point=np.array(entry.point),
+        normal=normal / np.linalg.norm(normal),
+        velocity=np.array(entry.velocity),
+    )

@@ -44,10 +44,10 @@ class Scales:
         self._model = model
         self.energy = 0.0
         """Largest energy of a state [J]."""
-        self.speed = 0.0
-        """Largest speed of a node [m/s]."""
-        self.reach = 0.0
-        """Largest distance of a node from the origin [m]."""
+        self.speed = model.fastest_plane
+        """Largest speed of a node, or of an obstacle [m/s]."""
+        self.reach = model.fastest_plane * model.scenario.analysis.end_time
+        """Largest distance of a node from the origin, or of an obstacle from its start [m]."""
         self.mass = sum(body.mass.total for body in model.bodies)
 
     def include(self, displacement: Array, velocity: Array) -> None:

@@ -10,10 +10,13 @@ from typing import Any
 import numpy as np
 
 from carom.audit import contacts
-from carom.audit.arrays import Array, cross, rotation, turned
+from carom.audit.arrays import Array, Indices, cross, rotation, turned
 from carom.audit.body import STEADYING, AuditBody
 from carom.audit.contacts import Contacts
 from carom.audit.model import AuditModel
+
+BODY_ENERGIES = ("kinetic", "strain", "external", "viscous", "scheme")
+"""Terms of the ledger that are sums over the bodies."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,9 @@ class BodyForces:
         ∂E/∂u at its start.
     steadying
         Of the nodes without mass, zero elsewhere.
+    missing, available
+        What the body received through contact with the blend α = 0, and how much less with α = 1
+        [J]; zero without a blend.
     """
 
     inertia: Array
@@ -46,6 +52,36 @@ class BodyForces:
     end: Array
     start: Array
     steadying: Array
+    missing: float
+    available: float
+
+
+@dataclass(frozen=True)
+class ContactWork:
+    """What contacts do to the energy in a step [J], each of shape [count].
+
+    Parameters
+    ----------
+    found
+        The contacts.
+    friction
+        Dissipated by friction.
+    normal
+        Taken by normal reactions.
+    prescribed
+        Done by obstacles that move.
+    whole
+        With a blend of stresses: friction less prescribed, had the reactions the whole weight.
+    doubt
+        How sure friction is.
+    """
+
+    found: Contacts
+    friction: Array
+    normal: Array
+    prescribed: Array
+    whole: Array
+    doubt: Array
 
 
 class Step:
@@ -92,7 +128,7 @@ class Step:
 
     def _motion(self) -> float:
         """Return the largest motion of a node in the step, or that of free flight if larger [m]."""
-        speed = np.linalg.norm(self.v0, axis=1).max()
+        speed = max(np.linalg.norm(self.v0, axis=1).max(), self.model.fastest_plane)
         predicted = (speed + np.linalg.norm(self.model.gravity) * self.dt) * self.dt
         return float(max(np.abs(self.d).max(), predicted))
 
@@ -104,12 +140,16 @@ class Step:
     def contacts(self) -> Contacts:
         """The contacts of the step, where the condition is written."""
         written = 1.0 if self.model.condition in ("gap", "massless") else 0.5
-        return contacts.find(self.model, self.end, self.position(written))
+        return self._find(self.end, written)
 
     @cached_property
     def start_contacts(self) -> Contacts:
         """The contacts that the step started with, where the start of the step is."""
-        return contacts.find(self.model, self.start, self.position(0.0))
+        return self._find(self.start, 0.0)
+
+    def _find(self, state: Mapping[str, Any], weight: float) -> Contacts:
+        time = float(self.start["time"]) + weight * self.dt
+        return contacts.find(self.model, state, self.position(weight), time)
 
     @cached_property
     def forces(self) -> list[BodyForces]:
@@ -123,14 +163,15 @@ class Step:
         mean[body.massless] = d[body.massless] / dt
         viscous = body.damping_force(u0 + 0.5 * dt * v0, mean)
         start, end = body.internal_force(u0), body.internal_force(u1)
-        steadying = np.zeros_like(d)
+        steadying, missing, available = np.zeros_like(d), 0.0, 0.0
         # A body that moves rigidly is not resisted.
-        turn = rotation(dt * body.spin(u0, v0) if body.law.objective else 0.0)
+        turn = rotation(dt * body.spin(u0, v0) if body.turns else 0.0)
         drift = body.mass.mean(v0)
         resisted = (d - dt * (drift + (v0 - drift) @ turn.T))[body.massless]
         steadying[body.massless] = STEADYING * body.holding[:, None] * resisted
         if model.blended:
-            internal = self._blended(index, body, viscous, end + viscous + steadying)
+            held = end + viscous + steadying
+            internal, missing, available = self._blended(index, body, viscous, held)
         elif model.conserving:
             internal = body.conserving_force(u0, u1)
         else:
@@ -143,10 +184,17 @@ class Step:
             end=end,
             start=start,
             steadying=steadying,
+            missing=missing,
+            available=available,
         )
 
-    def _blended(self, index: int, body: AuditBody, viscous: Array, held: Array) -> Array:
-        """Return f_a + d_a + α (f_d + d_d), see docs/theory.md."""
+    def _blended(
+        self, index: int, body: AuditBody, viscous: Array, held: Array
+    ) -> tuple[Array, float, float]:
+        """Return f_a + d_a + α (f_d + d_d), what is missing and what is available [J].
+
+        See docs/theory.md.
+        """
         u0, u1 = self.u0[body.span], self.u1[body.span]
         middle = body.points + 0.5 * (u0 + u1)
         centre = body.mass.mean(middle)
@@ -155,20 +203,25 @@ class Step:
         p0, p1 = self.start["contact_force"][body.span][b], held[b]
         arms = body.mass.times(middle - centre)
         inertia = float(((middle - centre) * arms).sum())
-        total = np.zeros_like(u0)
-        for weight, inner, shares in (
-            (1.0, body.conserving_force(u0, u1), (0.5, 0.5)),
-            (self.blend[index], body.difference_force(u0, u1), (-1.0, 1.0)),
+        parts = []
+        for inner, shares in (
+            (body.conserving_force(u0, u1), (0.5, 0.5)),
+            (body.difference_force(u0, u1), (-1.0, 1.0)),
         ):
             # What the forces of the boundary have more than the reactions of start and end.
             lacking = inner[b] + (viscous[b] if shares[0] > 0 else 0.0)
             excess = (lacking - shares[0] * p0 - shares[1] * p1).sum(axis=0)
             moment = cross((middle - centre)[b], lacking).sum()
             moment -= (shares[0] * cross(x0[b], p0) + shares[1] * cross(x1[b], p1)).sum()
-            spin = float(moment / inertia) if body.law.objective else 0.0
+            spin = float(moment / inertia) if body.turns else 0.0
             rigid = body.mass.nodal[:, None] * excess / body.mass.total + turned(arms, spin)
-            total += weight * (inner + rigid)
-        return total
+            parts.append((inner, rigid))
+        (mean, given), (difference, moved) = parts
+        d = u1 - u0
+        missing = float(((mean + viscous)[b] * d[b]).sum() - (given * d).sum())
+        rest = difference + moved
+        available = float((rest * d).sum() - (rest[b] * d[b]).sum())
+        return mean + given + self.blend[index] * rest, missing, available
 
     def contact_force(self, body: AuditBody) -> Array:
         """Return the stored contact forces on a body at the end of the step [N]."""
@@ -190,56 +243,151 @@ class Step:
 
     def energy_terms(self) -> dict[str, float]:
         """Return the terms of the ledger of the step, each from its own definition [J]."""
-        model = self.model
-        terms = dict.fromkeys(("kinetic", "strain", "external", "viscous", "scheme"), 0.0)
-        for body, f in zip(model.bodies, self.forces, strict=True):
-            u0, u1, v0, v1, d = (a[body.span] for a in (self.u0, self.u1, self.v0, self.v1, self.d))
-            terms["kinetic"] += body.kinetic_energy(v1) - body.kinetic_energy(v0)
-            terms["strain"] += body.strain_energy(u1) - body.strain_energy(u0)
-            terms["external"] += float((f.gravity * d).sum())
-            terms["viscous"] += float((f.viscous * d).sum())
-            terms["scheme"] += (model.theta - 0.5) * 2 * body.kinetic_energy(v1 - v0)
-            terms["scheme"] += (model.xi - 0.5) * float(((f.end - f.start) * d).sum())
-        terms["friction"], terms["normal_contact"] = self._contact_work()
+        terms = {name: sum(body[name] for body in self.body_terms) for name in BODY_ENERGIES}
+        for name in ("friction", "normal_contact", "prescribed"):
+            terms[name] = 0.0
+        for work in self.contact_work:
+            terms["friction"] += float(work.friction.sum())
+            terms["normal_contact"] += float(work.normal.sum())
+            terms["prescribed"] += float(work.prescribed.sum())
         return terms
 
-    def _contact_work(self) -> tuple[float, float]:
-        """Return what friction and what normal reactions took in the step [J]."""
-        if self.model.blended:
-            return float(self.rubbing()[0].sum()), 0.0
-        shares = [(self.contacts, self.model.xi if self.model.massless else 1.0)]
-        if self.model.massless:
-            shares.append((self.start_contacts, 1 - self.model.xi))
-        friction = normal = 0.0
-        for found, share in shares:
-            w_n, w_t = found.relative(self.d)
-            friction -= share * float(found.friction_force @ w_t)
-            normal -= share * float(found.normal_force @ w_n)
-        return friction, normal
+    @cached_property
+    def body_terms(self) -> list[dict[str, float]]:
+        """The terms of the ledger of every body, and what it received through contact [J]."""
+        return [self._body_terms(i, body) for i, body in enumerate(self.model.bodies)]
 
-    def rubbing(self) -> tuple[Array, Array]:
-        """Return μ r̄_n |w_t| of contacts, r̄ = (½ − α) r₀ + (½ + α) r₁, and how sure that is [J].
+    def _body_terms(self, index: int, body: AuditBody) -> dict[str, float]:
+        model, f = self.model, self.forces[index]
+        u0, u1, v0, v1, d = (a[body.span] for a in (self.u0, self.u1, self.v0, self.v1, self.d))
+        scheme = (model.theta - 0.5) * 2 * body.kinetic_energy(v1 - v0)
+        scheme += (model.xi - 0.5) * float(((f.end - f.start) * d).sum())
+        if model.blended:
+            contact = f.missing - float(self.blend[index]) * f.available
+        else:
+            share = model.xi if model.massless else 1.0
+            force = share * self.contacts.nodal_forces(len(model.points))
+            if model.massless:
+                force += (1 - share) * self.start_contacts.nodal_forces(len(model.points))
+            contact = float((force[body.span] * d).sum())
+        return {
+            "kinetic": body.kinetic_energy(v1) - body.kinetic_energy(v0),
+            "strain": body.strain_energy(u1) - body.strain_energy(u0),
+            "external": float((f.gravity * d).sum()),
+            "viscous": float((f.viscous * d).sum()),
+            "scheme": scheme,
+            "contact": contact,
+        }
+
+    @cached_property
+    def contact_work(self) -> list[ContactWork]:
+        """The work of the reactions at the end of the step, then of those at its start.
+
+        Each counts as much as the scheme lets it.
+        """
+        model = self.model
+        if model.blended:
+            return self._rubbing()
+        parts = [(self.contacts, model.xi if model.massless else 1.0)]
+        if model.massless:
+            parts.append((self.start_contacts, 1 - model.xi))
+        work = []
+        for found, share in parts:
+            w_n, w_t = found.relative(self.d, self.dt)
+            work.append(
+                ContactWork(
+                    found=found,
+                    friction=-share * found.friction_force * w_t,
+                    normal=-share * found.normal_force * w_n,
+                    prescribed=share * found.prescribed_work(self.dt),
+                    whole=np.zeros(len(found)),
+                    doubt=np.zeros(len(found)),
+                )
+            )
+        return work
+
+    @property
+    def doubt(self) -> float:
+        """How sure the dissipation by friction is [J]."""
+        return sum(float(work.doubt.sum()) for work in self.contact_work)
+
+    @cached_property
+    def groups(self) -> Indices:
+        """The first body of the group of bodies in contact that each belongs to, [body_count]."""
+        leader = np.arange(len(self.model.bodies))
+        for found in (self.contacts, self.start_contacts):
+            for pair in zip(found.source, found.target, strict=True):
+                if min(pair) >= 0 and max(pair) < len(leader):
+                    members = np.isin(leader, leader[list(pair)])
+                    leader[members] = leader[members].min()
+        return leader
+
+    def balance(self) -> tuple[Array, Array]:
+        """Return what the blend of each group has to make up for, and what it can move [J].
+
+        Both are of shape [body_count], at the first body of every group.
+        """
+        missing, available = self._start_excess(), np.zeros(len(self.model.bodies))
+        for f, leader in zip(self.forces, self.groups, strict=True):
+            missing[leader] += f.missing
+            available[leader] += f.available
+        for sign, work in zip((1.0, -1.0), self.contact_work, strict=True):
+            known = work.found.source < len(self.groups)
+            leader = self.groups[work.found.source[known]]
+            np.add.at(missing, leader, 0.5 * work.whole[known])
+            np.add.at(available, leader, -sign * work.whole[known])
+        return missing, available
+
+    def left_over(self) -> Array:
+        """Return what the groups have yet to give back after the step, [body_count] [J]."""
+        left = self._start_excess()
+        for terms, leader in zip(self.body_terms, self.groups, strict=True):
+            left[leader] += terms["kinetic"] + terms["strain"] + terms["viscous"]
+            left[leader] -= terms["external"]
+        for work in self.contact_work:
+            known = work.found.source < len(self.groups)
+            leader = self.groups[work.found.source[known]]
+            np.add.at(left, leader, (work.friction - work.prescribed)[known])
+        return left
+
+    def _start_excess(self) -> Array:
+        """Return what the groups had yet to give back before the step, [body_count] [J]."""
+        excess = np.zeros(len(self.model.bodies))
+        np.add.at(excess, self.groups, self.start["excess"])
+        return excess
+
+    def _rubbing(self) -> list[ContactWork]:
+        """Return what friction, μ r̄_n |w_t|, and obstacles do, r̄ = (½ − α) r₀ + (½ + α) r₁.
 
         Slip is measured in the frame of the end. Where a contact has no reaction there, it is not
         stored whether the run measured it there or, with the contact out of reach, at the start.
         """
         ended = {key: k for k, key in enumerate(_keys(self.contacts))}
-        end_slip = np.abs(self.contacts.relative(self.d)[1])
-        frames = (contacts.find(self.model, self.start, self.position(1.0)), self.start_contacts)
-        moved, left = (np.abs(found.relative(self.d)[1]) for found in frames)
+        end_slip = np.abs(self.contacts.relative(self.d, self.dt)[1])
+        frames = (self._find(self.start, 1.0), self.start_contacts)
+        moved, left = (np.abs(found.relative(self.d, self.dt)[1]) for found in frames)
         for k, key in enumerate(_keys(self.start_contacts)):
             if key in ended:
                 moved[k] = left[k] = end_slip[ended[key]]
         blend = np.append(self.blend, 0.0)  # the last is of nodes of no body
-        taken, doubt = [], []
-        for sign, found, slip in (
-            (1.0, self.contacts, end_slip),
-            (-1.0, self.start_contacts, moved),
+        work = []
+        for sign, found, slip, off in (
+            (1.0, self.contacts, end_slip, np.zeros(len(end_slip))),
+            (-1.0, self.start_contacts, moved, np.abs(moved - left)),
         ):
-            force = found.friction * (0.5 + sign * blend[found.source]) * found.normal_force
-            taken.append(force * slip)
-            doubt.append(np.abs(force * (moved - left)) if sign < 0 else np.zeros(len(found)))
-        return np.concatenate(taken), np.concatenate(doubt)
+            share = 0.5 + sign * blend[found.source]
+            force, driven = found.friction * found.normal_force, found.prescribed_work(self.dt)
+            work.append(
+                ContactWork(
+                    found=found,
+                    friction=share * force * slip,
+                    normal=np.zeros(len(found)),
+                    prescribed=share * driven,
+                    whole=force * slip - driven,
+                    doubt=np.maximum(share, 0.5) * np.abs(force) * off,
+                )
+            )
+        return work
 
 
 def _keys(found: Contacts) -> list[tuple[int, int]]:

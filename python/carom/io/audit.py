@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from carom.errors import InputError
 
-SCHEMA = 1
+SCHEMA = 2
 """Version of the layout; a reader refuses others."""
 
 _ENDS = ("start", "end")

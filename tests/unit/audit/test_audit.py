@@ -48,7 +48,7 @@ def scenario(condition="gap", scheme="theta", **changes):
                 "velocity": [-3, -2],
             },
         ],
-        "obstacles": [{"name": "floor", "point": [0, 0], "normal": [0, 1]}],
+        "obstacles": [{"name": "floor", "point": [0, 0], "normal": [0, 1], "velocity": [0.5, 0.1]}],
         "contact": {"condition": condition, "friction": 0.2},
     }
     return carom.Scenario.from_dict(case).with_overrides(
