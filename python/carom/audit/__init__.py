@@ -13,7 +13,9 @@ import numpy as np
 from carom.audit.check_books import BookChecks
 from carom.audit.check_case import check_links, check_mesh, check_start
 from carom.audit.check_frames import FrameChecks
+from carom.audit.check_ledger import LedgerChecks
 from carom.audit.check_steps import StepChecks
+from carom.audit.check_surface import SurfaceChecks
 from carom.audit.files import Files, Frame
 from carom.audit.model import AuditModel
 from carom.audit.report import Audit, Check, Findings
@@ -59,7 +61,11 @@ def _check(files: Files, findings: Findings) -> None:
     for frame in files.frames():
         scales.include(frame.displacement, frame.velocity)
     check_mesh(model, findings)
-    pressed = _check_states(files, model, scales, findings)
+    ledger = LedgerChecks(
+        model, scales, findings, files.ledger, history=files.history, summary=files.summary
+    )
+    ledger.all()
+    pressed = _check_states(files, model, scales, ledger, findings)
     books = BookChecks(model, scales, findings, files.history, files.summary)
     books.all()
     for time, names, force in pressed:
@@ -67,17 +73,23 @@ def _check(files: Files, findings: Findings) -> None:
 
 
 def _check_states(
-    files: Files, model: AuditModel, scales: Scales, findings: Findings
+    files: Files, model: AuditModel, scales: Scales, ledger: LedgerChecks, findings: Findings
 ) -> list[tuple[float, frozenset[str], float]]:
     """Check the frames, and with each the stored step that ended there; return forces of pairs."""
     frames = FrameChecks(model, scales, findings)
     steps = StepChecks(model, scales, findings)
+    growing = model.condition != "massless" or files.summary["least_friction"] >= 0
+    surface = SurfaceChecks(model, scales, findings, files.facets(), growing=growing)
+    surfaces = files.surface_frames()
     rows = {float(time): index for index, time in enumerate(files.history["time"])}
     stored = files.steps()
     before: Frame | None = None
     for frame in files.frames():
         row = files.row(rows[frame.time]) if frame.time in rows else None
         frames.frame(frame, row)
+        ledger.frame(frame)
+        friction = None if row is None else row["friction"]
+        surface.frame(next(surfaces, None), frame, friction, ledger.friction_on)
         if before is None:
             check_start(model, frame, scales, findings)
         elif files.has_steps:
@@ -86,10 +98,13 @@ def _check_states(
             if step is not None:
                 checked = Step(model, step)
                 steps.step(checked)
+                ledger.step(checked)
                 if row is not None:
                     at = rows.get(checked.start["time"])
                     steps.rows(checked, None if at is None else files.row(at), row)
         before = frame
+    if next(surfaces, None) is not None:
+        findings.check("surface: frames", 1.0, 0.0, "more frames than of the bodies")
     if not files.has_steps:
         findings.leave(
             "equations of motion, reactions, Coulomb's law: run with output.audit = true"

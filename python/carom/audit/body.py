@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
+from numpy.typing import NDArray
 
 from carom.audit.arrays import Array, Indices, cross, einsum
 from carom.audit.cells import Cells, boundary
@@ -48,12 +51,21 @@ class AuditBody:
         self.points = points
         self.span = slice(first_node, first_node + len(points))
         self.law = Law.of(material)
-        self.turns = self.law.objective
+        self.masters = _masters(entry, points)
+        """For every node the one that it moves with, itself as a rule, [node_count]."""
+        self.images: Indices = np.flatnonzero(self.masters != np.arange(len(points)))
+        """Nodes that move with another: of a body that repeats itself."""
+        self.turns = self.law.objective and not self.images.size
         """Whether it can turn without storing energy."""
         self.damping = material.damping
         self.cells = Cells(vtk_type, nodes, points, entry.thickness)
-        self.facets = _contact_facets(entry, boundary(nodes), points)
+        outer = boundary(nodes)
+        if self.images.size:
+            outer = outer[~_on_sides(entry, outer, points, ("left", "right"))]
+        self.facets = _contact_facets(entry, outer, points)
         self.surface: Indices = np.unique(self.facets)
+        self.sources = np.setdiff1d(self.surface, self.images)
+        """Nodes that may touch others; an image would do so twice."""
         self.massless = self.surface if massless else np.zeros(0, dtype=np.int64)
         self.mass = Mass(
             self.cells,
@@ -70,6 +82,12 @@ class AuditBody:
         rows: Array = np.abs(self._stiffness).sum(axis=(3, 4)).max(axis=2)
         self.row_stiffness = self._gathered(rows)
         """Largest force [N] on each node where every coordinate moves by 1 m, [node_count]."""
+
+    def folded(self, values: Array) -> Array:
+        """Return numbers or vectors of nodes with those of images moved to their masters."""
+        folded = np.zeros_like(values)
+        np.add.at(folded, self.masters, values)
+        return folded
 
     def strain_energy(self, u: Array) -> float:
         """Return ∫ψ dV [J]."""
@@ -101,7 +119,7 @@ class AuditBody:
 
     def rotation(self, u: Array) -> Array:
         """Return the mean rotation of the body: the polar factor of Σ m (x − c) ⊗ (X − C)."""
-        if not self.law.objective:
+        if not self.turns:
             return np.eye(2)
         x, reference = self.points + u, self.points
         weight = self.mass.nodal[:, None]
@@ -151,11 +169,33 @@ def _contact_facets(entry: Body, facets: Indices, points: Array) -> Indices:
     """Return the facets of a boundary that may touch others."""
     if entry.contact_sides is None or not isinstance(entry.mesh, Rectangle):
         return facets
+    return facets[_on_sides(entry, facets, points, entry.contact_sides)]
+
+
+def _on_sides(
+    entry: Body, facets: Indices, points: Array, sides: Iterable[str]
+) -> NDArray[np.bool_]:
+    """Return whether facets of a rectangle lie on one of these sides."""
+    assert isinstance(entry.mesh, Rectangle)
     corner, size = entry.mesh.corner, entry.mesh.size
     keep = np.zeros(len(facets), dtype=bool)
-    for side in entry.contact_sides:
+    for side in sides:
         axis = 0 if side in ("left", "right") else 1
         at = corner[axis] + (size[axis] if side in ("right", "top") else 0.0)
         on = np.abs(points[:, axis] - at) <= 1e-9 * size[axis]
         keep |= on[facets].all(axis=1)
-    return facets[keep]
+    return keep
+
+
+def _masters(entry: Body, points: Array) -> Indices:
+    """Return the node that each moves with: on the right side of what repeats itself another."""
+    masters = np.arange(len(points))
+    if not isinstance(entry.mesh, Rectangle) or not entry.mesh.periodic:
+        return masters
+    low, width = entry.mesh.corner[0], entry.mesh.size[0]
+    left, right = (
+        np.flatnonzero(np.abs(points[:, 0] - x) <= 1e-9 * width) for x in (low, low + width)
+    )
+    for node in right:
+        masters[node] = left[np.abs(points[left, 1] - points[node, 1]).argmin()]
+    return masters

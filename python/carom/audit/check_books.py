@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from carom.audit.arrays import Array
+from carom.audit.check_steps import LARGEST_BLEND
 from carom.audit.model import AuditModel
 from carom.audit.report import Findings
 from carom.audit.scales import EPS, ROUND_OFF, SAFETY, Scales
@@ -63,6 +64,7 @@ class BookChecks:
         self._extremes()
         self._counts()
         self._events()
+        self._status()
 
     def _rows(self, name: str, figures: Array, off: float | Array) -> None:
         """Note figures of rows, each with its time."""
@@ -94,6 +96,14 @@ class BookChecks:
         taken = taken - h["external"] - h["prescribed"]
         scale = sum(np.abs(h[name]) for name in SUMMED)
         self._rows("row: defect", h["defect"] - change - taken, off + ROUND_OFF * scale)
+        # The defect is the sum of those of the steps, of which the row has the largest.
+        if not self._halved:
+            count = np.maximum(np.ceil(np.diff(h["time"]) / self._dt - 1e-6), 1.0)
+            change, largest = np.abs(np.diff(h["defect"])), h["step_defect"][1:]
+            error = np.maximum(change - count * largest, 0.0)
+            error = np.where(count == 1, np.abs(change - largest), error)
+            size = self._scales.energy + scale[1:]
+            self._rows("row: step defect", error, SAFETY * ROUND_OFF * size)
         # A massless contact may have turned since it was last pressed, and the blend may weigh the
         # reactions of the start negatively: then the run says so.
         if self._model.condition != "massless" or self._summary["least_friction"] >= 0:
@@ -140,12 +150,17 @@ class BookChecks:
 
     def _signs(self) -> None:
         h = self._history
-        for name in ("contacts", "normal_force", "certificate", "residual", "newton_iterations"):
+        for name in (
+            *("contacts", "normal_force", "certificate", "residual", "newton_iterations"),
+            *("blend", "step_defect"),
+        ):
             self._rows("row: signs", np.maximum(-h[name], 0.0), 0.0)
         self._rows("row: signs", h["contacts"] % 1.0, 0.0)
         self._rows(
             "row: signs", ((h["contacts"] > 0) != (h["normal_force"] > 0)).astype(float), 0.0
         )
+        limit = LARGEST_BLEND if self._model.blended else 0.0
+        self._rows("row: signs", np.maximum(h["blend"] - limit, 0.0), 0.0)
         two_sided = any(side.two_sided for side in self._model.sides)
         if self._model.condition in ("gap", "massless") and self._model.sides and not two_sided:
             off = self._scales.penetration()
@@ -166,18 +181,38 @@ class BookChecks:
         for name, stored, rows in (
             ("drift", energy["max_drift"], np.abs(h["total"] - h["total"][0])),
             ("defect", energy["max_defect"], np.abs(h["defect"])),
+            ("energy", self._largest_energy(), h["total"] + h["friction"]),
         ):
             self._extreme(name, _number(stored) - rows.max(), off, exact=self._every_step)
         certificate = summary["certificate"]
         for name, stored, rows in (
             ("certificate", certificate["max_joule"], h["certificate"]),
             ("residual", certificate["max_residual"], h["residual"]),
+            ("blend", summary["max_blend"], h["blend"]),
+            ("step_defect", energy["max_step_defect"], h["step_defect"]),
         ):
             # A row has the largest since the row before.
             self._extreme(name, _number(stored) - rows.max(), 0.0, exact=True)
         if summary["min_gap"] is not None:
             excess = h["min_gap"].min() - _number(summary["min_gap"])
             self._extreme("gap", excess, 0.0, exact=self._every_step)
+
+    def _largest_energy(self) -> float:
+        """Return the largest energy of the run [J], which the certificate is measured by."""
+        allowed = _number(self._summary["certificate"]["tolerance_joule"])
+        return allowed / self._model.scenario.contact.certificate_tolerance
+
+    def _status(self) -> None:
+        """Check that a run is called completed if it is, and if it keeps Coulomb's law."""
+        summary, certificate = self._summary, self._summary["certificate"]
+        status = summary["status"]
+        kept = _number(certificate["max_joule"]) <= _number(certificate["tolerance_joule"])
+        known = ("completed", "uncertified", "failed", "interrupted")
+        check = self._findings.check
+        check("summary: status", float(status not in known), 0.0, f"{status!r}")
+        if status in ("completed", "uncertified"):
+            check("summary: status", float(self._times[-1]) - self._end, 0.0, "end of the run")
+            check("summary: status", float(kept != (status == "completed")), 0.0, "certificate")
 
     def _extreme(self, name: str, excess: float, off: float, *, exact: bool) -> None:
         """Check that an extreme is that of the rows, or at least not less."""
@@ -190,15 +225,14 @@ class BookChecks:
         steps = np.ceil(end / self._dt - 1e-6)
         if summary["status"] == "failed":
             steps = min(steps, summary["steps"])
+        dofs = sum(2 * (len(body.points) - len(body.images)) for body in self._model.bodies)
         for name, figure in (
             ("steps", summary["steps"] - steps),
             ("end_time", summary["end_time"] - end),
             ("time_step", summary["time_step"] - self._dt),
-            ("dofs", summary["dofs"] - 2 * len(self._model.points)),
+            ("dofs", summary["dofs"] - dofs),
         ):
             check("summary: counts", float(figure), 0.0, name)
-        if summary["status"] == "completed":
-            check("summary: counts", end - self._end, 0.0, "end of the run")
         if not self._halved and len(self._steps):
             mean = self._history["newton_iterations"][1:]
             # The last step of a run may be a short one.

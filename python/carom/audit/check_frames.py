@@ -40,6 +40,13 @@ class FrameChecks:
         where = f"t = {frame.time:g} s"
         self._check("plane", frame.flat, 0.0, where)
         self._cells(frame, where)
+        for body in self._model.bodies:
+            if body.images.size:
+                for field in (frame.displacement, frame.velocity):
+                    mine = field[body.span]
+                    self._check(
+                        "tied nodes", mine - mine[body.masters], 0.0, f"{body.name}, {where}"
+                    )
         self._check("free nodes", frame.reaction[self._free], 0.0, where)
         if not self._model.planes:
             total = np.abs(frame.reaction).sum()

@@ -130,7 +130,7 @@ class StepChecks:
     def _motion(self, step: Step, index: int, at: str) -> None:
         body = self._model.bodies[index]
         size = np.abs(step.residual(index)).max(axis=1)
-        off = self._scales.force(step, index)
+        off = body.folded(self._scales.force(step, index))
         held = np.zeros(len(size), dtype=bool)
         held[body.massless] = True
         self._check("equation of motion", size[~held], off[~held], at)
@@ -145,11 +145,13 @@ class StepChecks:
         off = self._scales.force(step, index)
         total = step.dt * (f.inertia.sum(axis=0) - force)
         self._check("impulse", total, step.dt * off.sum(), at)
-        objective = body.law.objective
-        if model.blended and not objective:
+        if body.images.size:
+            self._findings.leave(f"angular momentum of {body.name!r}: it repeats itself")
+            return
+        if model.blended and not body.turns:
             self._findings.leave(f"angular momentum of {body.name!r}: its law has none to keep")
             return
-        if not (model.conserving and objective):
+        if not (model.conserving and body.turns):
             torque = float(cross(arm, self._inner(body, f)).sum())
             self._findings.report("largest moment of inner forces in a step", torque, "N m")
             moment -= torque
@@ -220,6 +222,10 @@ class StepChecks:
             self._blend(step, work, strain + friction, where)
         else:
             self._check("energy of the step", defect, work, where)
+        for body, terms in zip(model.bodies, step.body_terms, strict=True):
+            change = terms["kinetic"] + terms["strain"] + terms["viscous"] - terms["external"]
+            at = f"{body.name}, {where}"
+            self._check("energy of bodies", change - terms["contact"], work, at)
 
     def _blend(self, step: Step, work: float, sums: float, where: str) -> None:
         """Check that α is what the balance of its group asks for, and what is left for later.

@@ -154,7 +154,7 @@ def smallest_gaps(model: AuditModel, position: Array, time: float) -> list[float
 
 def _smallest_gap(model: AuditModel, side: Side, position: Array, time: float) -> float:
     body = model.bodies[side.source]
-    x = position[body.span][body.surface]
+    x = position[body.span][body.sources]
     if side.target < 0:
         return float(model.planes[-1 - side.target].distance(x, time).min())
     target = model.bodies[side.target]

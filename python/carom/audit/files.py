@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,15 +11,30 @@ from typing import Any
 import h5py
 import numpy as np
 
-from carom.audit.arrays import Array
+from carom.audit.arrays import Array, Indices
 from carom.audit.model import AuditModel
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.audit import read_steps
 from carom.io.history import read_history
+from carom.io.ledger import read_ledger
 from carom.io.summary import read_summary
-from carom.io.vtkhdf import CELL_FIELDS, POINT_FIELDS
+from carom.io.vtkhdf import (
+    CELL_FIELDS,
+    POINT_FIELDS,
+    SURFACE_CELL_FIELDS,
+    SURFACE_POINT_FIELDS,
+)
 from carom.scenario import Scenario
+
+_NEEDED = (
+    layout.CASE,
+    layout.SUMMARY,
+    layout.HISTORY,
+    layout.LEDGER,
+    layout.FIELDS,
+    layout.SURFACE,
+)
 
 
 @dataclass(frozen=True)
@@ -47,6 +62,49 @@ class Frame:
     flat: float
 
 
+@dataclass(frozen=True)
+class SurfaceFrame:
+    """The fields on the boundaries at one output time.
+
+    Parameters
+    ----------
+    time
+        Time [s].
+    displacement
+        Of all nodes [m], shape [node_count, 2].
+    friction_energy, pressure, area
+        Of the facets, see `carom.io.vtkhdf`, shape [facet_count].
+    flat
+        Largest component out of the plane, which must be zero.
+    """
+
+    time: float
+    displacement: Array
+    friction_energy: Array
+    pressure: Array
+    area: Array
+    flat: float
+
+
+@dataclass(frozen=True)
+class Facets:
+    """The mesh of the boundaries.
+
+    Parameters
+    ----------
+    nodes
+        Nodes of each facet, shape [facet_count, 2].
+    body
+        Index of its body, shape [facet_count].
+    points
+        Reference positions of all nodes [m], shape [node_count, 2].
+    """
+
+    nodes: Indices
+    body: Indices
+    points: Array
+
+
 class Files:
     """A results directory.
 
@@ -63,7 +121,7 @@ class Files:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        for name in (layout.CASE, layout.SUMMARY, layout.HISTORY, layout.FIELDS):
+        for name in _NEEDED:
             if not (path / name).exists():
                 raise InputError(
                     f"{path}: has no {name}; name a directory that `carom run` has finished"
@@ -74,13 +132,14 @@ class Files:
         except json.JSONDecodeError as error:
             raise InputError(f"{path / layout.SUMMARY}: not JSON: {error}") from error
         self.history = read_history(path / layout.HISTORY)
+        self.ledger = read_ledger(path / layout.LEDGER)
         self.has_steps = (path / layout.AUDIT).exists()
         if self.scenario.output.audit and not self.has_steps:
             raise InputError(f"{path}: has no {layout.AUDIT}, which its case asks for")
 
     def model(self) -> AuditModel:
         """Build the model of the case on the mesh of the fields."""
-        with self._fields() as root:
+        with _Fields(self.path / layout.FIELDS) as root:
             points = root["Points"][:, :2]
             connectivity, offsets = root["Connectivity"][:], root["Offsets"][:]
             types, body = root["Types"][:], root["CellData/body"][:]
@@ -100,35 +159,48 @@ class Files:
         """Return a row of the history by column."""
         return {column: float(values[index]) for column, values in self.history.items()}
 
+    def facets(self) -> Facets:
+        """Return the mesh of the boundaries."""
+        with _Fields(self.path / layout.SURFACE) as root:
+            return Facets(
+                nodes=root["Connectivity"][:].reshape(len(root["Types"]), -1),
+                body=root["CellData/body"][:],
+                points=root["Points"][:, :2],
+            )
+
     def frames(self) -> Iterator[Frame]:
         """Yield the fields of one output time after the other."""
-        with self._fields() as root:
+        for fields in self._frames(layout.FIELDS, POINT_FIELDS, CELL_FIELDS):
+            yield Frame(**fields)
+
+    def surface_frames(self) -> Iterator[SurfaceFrame]:
+        """Yield the fields on the boundaries of one output time after the other."""
+        for fields in self._frames(layout.SURFACE, SURFACE_POINT_FIELDS, SURFACE_CELL_FIELDS):
+            yield SurfaceFrame(**fields)
+
+    def _frames(
+        self, name: str, point_fields: Sequence[str], cell_fields: Mapping[str, int]
+    ) -> Iterator[dict[str, Any]]:
+        with _Fields(self.path / name) as root:
             steps = root["Steps"]
             points, cells = len(root["Points"]), len(root["Types"])
             for index in range(int(steps.attrs["NSteps"])):
-                arrays: dict[str, Array] = {}
-                for kind, names, rows in (
-                    ("PointData", POINT_FIELDS, points),
-                    ("CellData", tuple(CELL_FIELDS), cells),
-                ):
-                    for name in names:
-                        at = int(steps[f"{kind}Offsets/{name}"][index])
-                        arrays[name] = root[f"{kind}/{name}"][at : at + rows]
-                vectors = {name: arrays.pop(name) for name in POINT_FIELDS}
-                yield Frame(
-                    time=float(steps["Values"][index]),
-                    flat=max(float(np.abs(v[:, 2]).max()) for v in vectors.values()),
-                    **{name: v[:, :2] for name, v in vectors.items()},
-                    **{name: a.reshape(cells, -1).squeeze() for name, a in arrays.items()},
-                )
+                fields: dict[str, Any] = {"time": float(steps["Values"][index]), "flat": 0.0}
+                for field in point_fields:
+                    at = int(steps[f"PointDataOffsets/{field}"][index])
+                    vectors = root[f"PointData/{field}"][at : at + points]
+                    fields["flat"] = max(fields["flat"], float(np.abs(vectors[:, 2]).max()))
+                    fields[field] = vectors[:, :2]
+                for field in cell_fields:
+                    at = int(steps[f"CellDataOffsets/{field}"][index])
+                    rows = root[f"CellData/{field}"][at : at + cells]
+                    fields[field] = rows[:, 0] if rows.shape[1] == 1 else rows
+                yield fields
 
     def steps(self) -> Iterator[dict[str, Any]]:
         """Yield the stored steps, of which there are none without ``output.audit``."""
         if self.has_steps:
             yield from read_steps(self.path / layout.AUDIT)
-
-    def _fields(self) -> _Fields:
-        return _Fields(self.path / layout.FIELDS)
 
 
 class _Fields:

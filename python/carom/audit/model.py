@@ -128,6 +128,17 @@ class AuditModel:
         position = index if index >= 0 else -1 - index
         return members[position].name if position < len(members) else ""
 
+    def pairs(self) -> list[tuple[str, str]]:
+        """Return the names of all that may touch, two and two, in the order of the case."""
+        names = [body.name for body in self.scenario.bodies]
+        planes = [obstacle.name for obstacle in self.scenario.obstacles]
+        return [
+            (first, second)
+            for a, first in enumerate(names)
+            for second in (*names[a + 1 :], *planes)
+            if self._enabled(first, second)
+        ]
+
     def tracks(self) -> list[tuple[str, int]]:
         """Return the names of tracked points and the nodes nearest to them."""
         tracks = []
@@ -140,8 +151,6 @@ class AuditModel:
     def _build_bodies(self, cells: list[Indices], types: list[int]) -> Iterator[AuditBody]:
         first = 0
         for entry, nodes, vtk_type in zip(self.scenario.bodies, cells, types, strict=True):
-            if getattr(entry, "periodic", False) or getattr(entry.mesh, "periodic", False):
-                raise InputError(f"body {entry.name!r}: cannot audit periodic bodies yet")
             last = int(nodes.max()) + 1
             if int(nodes.min()) != first or last > len(self.points):
                 raise InputError(f"body {entry.name!r}: the mesh is not numbered body after body")

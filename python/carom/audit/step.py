@@ -239,7 +239,7 @@ class Step:
         residual = f.inertia - f.gravity + f.internal + f.viscous - contact
         static = f.end + f.viscous + f.steadying - contact
         residual[body.massless] = static[body.massless]
-        return residual
+        return body.folded(residual)
 
     def energy_terms(self) -> dict[str, float]:
         """Return the terms of the ledger of the step, each from its own definition [J]."""
