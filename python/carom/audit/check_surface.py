@@ -107,7 +107,7 @@ class SurfaceChecks:
         self._check("surface: areas", fields.area - self._area, off, where)
         self._pressure(fields.pressure, frame, where)
         left = fields.friction_energy * fields.area
-        size = float(np.abs(left).sum())
+        size = float(np.abs(left).sum()) + ROUND_OFF * self._scales.energy
         if friction is not None:
             off = ROUND_OFF * (size + abs(friction))
             self._check("surface: friction", left.sum() - friction, off, where)
@@ -120,7 +120,8 @@ class SurfaceChecks:
         if self._growing:
             last = np.zeros(len(left)) if self._last is None else self._last
             fall = np.maximum(last - left, 0.0)
-            self._check("surface: friction", fall, ROUND_OFF * size, f"{where}, falls")
+            off = ROUND_OFF * self._scales.energy
+            self._check("surface: friction", fall, off, f"{where}, falls")
         self._last = left
 
     def _pressure(self, pressure: Array, frame: Frame, where: str) -> None:
