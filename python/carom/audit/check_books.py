@@ -210,6 +210,8 @@ class BookChecks:
         known = ("completed", "uncertified", "failed", "interrupted")
         check = self._findings.check
         check("summary: status", float(status not in known), 0.0, f"{status!r}")
+        if status == "failed":
+            check("summary: status", float(self._times[-1] >= self._end), 0.0, "failed at the end")
         if status in ("completed", "uncertified"):
             check("summary: status", float(self._times[-1]) - self._end, 0.0, "end of the run")
             check("summary: status", float(kept != (status == "completed")), 0.0, "certificate")
