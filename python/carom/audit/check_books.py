@@ -94,7 +94,7 @@ class BookChecks:
         change = h["kinetic"] - h["kinetic"][0] + h["strain"] - h["strain"][0]
         taken = h["friction"] + h["viscous"] + h["scheme"] + h["normal_contact"]
         taken = taken - h["external"] - h["prescribed"]
-        scale = sum(np.abs(h[name]) for name in SUMMED)
+        scale = sum((np.abs(h[name]) for name in SUMMED), np.zeros(len(change)))
         self._rows("row: defect", h["defect"] - change - taken, off + ROUND_OFF * scale)
         # The defect is the sum of those of the steps, of which the row has the largest.
         if not self._halved:

@@ -61,7 +61,8 @@ class FrameChecks:
             self._motion(body, frame, row, where)
         if smallest is not None:
             above = max(row["min_gap"] - smallest, 0.0)
-            self._check("smallest gap", above, self._round_off_of_places(), where)
+            off = self._round_off_of_places() + self._scales.travel
+            self._check("smallest gap", above, off, where)
         touching = bool(frame.reaction.any())
         self._check("contact count", float(touching != (row["contacts"] > 0)), 0.0, where)
         self._tracks(frame, row, where)

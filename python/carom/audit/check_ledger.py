@@ -191,12 +191,12 @@ class LedgerChecks:
         names = {between: name for name, between in self._pairs.items()}
         for part in step.contact_work:
             for k, key in enumerate(zip(part.found.source, part.found.target, strict=True)):
-                name = names.get(frozenset(model.name(int(index)) for index in key))
-                if name is not None:
+                pair = names.get(frozenset(model.name(int(index)) for index in key))
+                if pair is not None:
                     for column, values in zip(
                         PAIR_COLUMNS, (part.friction, part.normal, part.prescribed), strict=True
                     ):
-                        terms_of[name][column] += float(values[k])
+                        terms_of[pair][column] += float(values[k])
         for name, terms in terms_of.items():
             for column, term in terms.items():
                 values = self._padded(name, column)

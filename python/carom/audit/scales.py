@@ -48,6 +48,10 @@ class Scales:
         """Largest speed of a node, or of an obstacle [m/s]."""
         self.reach = model.fastest_plane * model.scenario.analysis.end_time
         """Largest distance of a node from the origin, or of an obstacle from its start [m]."""
+        analysis = model.scenario.analysis
+        travel = model.fastest_plane * analysis.end_time
+        self.travel = EPS * travel * analysis.end_time / analysis.time_step
+        """How far places of obstacles may be off, which the run sums step by step [m]."""
         self.mass = sum(body.mass.total for body in model.bodies)
 
     def include(self, displacement: Array, velocity: Array) -> None:
@@ -67,7 +71,8 @@ class Scales:
         if self._model.scenario.contact.targets == "faceted" and len(self._model.bodies) > 1:
             # Facets are frozen for a step: a node that slides on may get behind the next one.
             return motion
-        return SAFETY * max(analysis.newton.tolerance * motion, FLOOR * self._model.size)
+        floor = FLOOR * self._model.size
+        return SAFETY * max(analysis.newton.tolerance * motion, floor) + self.travel
 
     def strain(self, body: AuditBody, u: Array) -> float:
         """Return how far the strain energy of a state may be off [J].
@@ -88,7 +93,7 @@ class Scales:
 
     def geometry(self, step: Step) -> float:
         """Return how far the places of contacts may be off [m]."""
-        return LAST * self.displacement(step)
+        return LAST * self.displacement(step) + self.travel
 
     def force(self, step: Step, index: int) -> Array:
         """Return how far the equation of motion of nodes of a body may be off [N], [node_count]."""
