@@ -111,6 +111,8 @@ def test_every_method_is_confirmed(results, method):
     assert energy.figure < 1e-12
     assert checks["equation of motion"].figure < 1e-5
     assert ("energy of the step" in checks) == (method[1] == "conserving")
+    assert ("blend" in checks) == (method == ("massless", "conserving"))
+    assert carom.Result.open(results(*method)).summary["energy"]["prescribed"] > 0.1  # J
 
 
 @pytest.mark.parametrize(
