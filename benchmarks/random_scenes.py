@@ -53,12 +53,16 @@ def scene(seed: int, scheme: str, condition: str) -> carom.Scenario:
         angle = random.uniform(0.0, 2.0 * np.pi)
         if random.random() < 0.6:
             mesh = carom.Disc(
-                centre=centre, radius=random.uniform(0.2, 0.38) * cell, divisions=2 * int(random.integers(2, 5))
+                centre=centre,
+                radius=random.uniform(0.2, 0.38) * cell,
+                divisions=2 * int(random.integers(2, 5)),
             )
         else:
             size = random.uniform(0.35, 0.6, 2) * cell
             mesh = carom.Rectangle(
-                corner=centre - 0.5 * size, size=size, divisions=[int(n) for n in random.integers(3, 9, 2)]
+                corner=centre - 0.5 * size,
+                size=size,
+                divisions=[int(n) for n in random.integers(3, 9, 2)],
             )
         bodies.append(
             carom.Body(
@@ -71,7 +75,8 @@ def scene(seed: int, scheme: str, condition: str) -> carom.Scenario:
         )
     sides = {"floor": (0, 1), "ceiling": (0, -1), "west": (1, 0), "east": (-1, 0)}
     planes = [
-        carom.Plane(name=name, point=[0.0 if sum(n) > 0 else BOX] * 2, normal=n) for name, n in sides.items()
+        carom.Plane(name=name, point=[0.0 if sum(n) > 0 else BOX] * 2, normal=n)
+        for name, n in sides.items()
     ]
     stiffest = max(m.young for m in materials.values())
     step = 0.05 / np.sqrt(stiffest)
@@ -87,9 +92,7 @@ def scene(seed: int, scheme: str, condition: str) -> carom.Scenario:
         materials=materials,
         bodies=bodies,
         obstacles=planes,
-        contact=carom.Contact(
-            condition=condition, friction=float(random.choice([0.0, 0.2, 0.6]))
-        ),
+        contact=carom.Contact(condition=condition, friction=float(random.choice([0.0, 0.2, 0.6]))),
     )
 
 
