@@ -78,7 +78,11 @@ fn with_friction_all_that_is_lost_is_booked_as_friction() {
         simulation.advance(f64::INFINITY, || false).expect("runs");
         let energy = simulation.summary().energy;
         assert!(energy.friction > 0.01 * energy.initial, "{law}, {condition}: {energy:?}");
-        assert!(energy.max_defect < 1e-10 * energy.initial, "{law}, {condition}: defect {:e}", energy.max_defect);
+        assert!(
+            energy.max_defect < 1e-10 * energy.initial,
+            "{law}, {condition}: defect {:e}",
+            energy.max_defect
+        );
         assert!((energy.initial - energy.last - energy.friction).abs() < 1e-10 * energy.initial);
     }
 }

@@ -118,12 +118,12 @@ fn cubes_with_facing_quadrilaterals_exchange_momentum() {
 #[test]
 fn massless_cube_conserves_energy_and_momenta_and_does_not_penetrate() {
     for friction in [0.0, 0.3] {
-        let floor = Obstacle::Plane { point: Vector::<3>::zeros(), normal: Vector::<3>::new(0.0, 0.0, 1.0) };
+        let floor = Obstacle::plane(Vector::zeros(), Vector::<3>::new(0.0, 0.0, 1.0), u32::MAX);
         let pair = Pair { source: 0, target: Target::Obstacle(0), friction, group: 0 };
         let cube = massless_cube("cube", [0.0, 0.0, 0.00513], 0);
         let model = model(vec![cube], vec![floor], vec![pair]);
         let speed = Vector::<3>::new(2.0, 1.0, -2.0);
-        let velocity = vec![speed; model.reference.len()];
+        let velocity = vec![speed; model.node_count()];
         let mut method = method(ContactCondition::Massless);
         method.scheme = Scheme::Conserving;
         let (state, lost, defect, min_gap, touched) = run(&model, &method, velocity, 0.08);

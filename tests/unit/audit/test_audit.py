@@ -253,7 +253,7 @@ TAMPERED = {
     "time step": in_case("time_step = 0.002", "time_step = 0.0025"),
     "floor": in_case("point = [0.0, 0.0]", "point = [0.0, 0.0001]"),
     "law": in_case("saint-venant-kirchhoff", "neo-hookean"),
-    "targets": in_case("[contact]", '[contact]\ntargets = "faceted"'),
+    "targets": in_case('targets = "smooth"', 'targets = "faceted"'),
 }
 
 
