@@ -1,6 +1,6 @@
 """Energy-exact, quiet and non-penetrating in one run: the cylinders with the defaults, as a table.
 
-    .venv/bin/python benchmarks/prize.py
+.venv/bin/python benchmarks/prize.py
 """
 
 from __future__ import annotations
