@@ -2,8 +2,8 @@
 
     .venv/bin/python benchmarks/random_scenes.py [scenes] [first seed]
 
-Prints for every scheme how many scenes it completed, how many steps it had to halve, the largest
-defect of the ledger, the deepest penetration, and the time per step.
+Prints for every scheme how many scenes it completed, how many steps it had to halve, the defect of
+the ledger over the initial energy, the deepest penetration, and the time per step.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 
@@ -53,12 +54,16 @@ def scene(seed: int, scheme: str, condition: str) -> carom.Scenario:
         angle = random.uniform(0.0, 2.0 * np.pi)
         if random.random() < 0.6:
             mesh = carom.Disc(
-                centre=centre, radius=random.uniform(0.2, 0.38) * cell, divisions=2 * int(random.integers(2, 5))
+                centre=centre,
+                radius=random.uniform(0.2, 0.38) * cell,
+                divisions=2 * int(random.integers(2, 5)),
             )
         else:
             size = random.uniform(0.35, 0.6, 2) * cell
             mesh = carom.Rectangle(
-                corner=centre - 0.5 * size, size=size, divisions=[int(n) for n in random.integers(3, 9, 2)]
+                corner=centre - 0.5 * size,
+                size=size,
+                divisions=[int(n) for n in random.integers(3, 9, 2)],
             )
         bodies.append(
             carom.Body(
@@ -71,7 +76,8 @@ def scene(seed: int, scheme: str, condition: str) -> carom.Scenario:
         )
     sides = {"floor": (0, 1), "ceiling": (0, -1), "west": (1, 0), "east": (-1, 0)}
     planes = [
-        carom.Plane(name=name, point=[0.0 if sum(n) > 0 else BOX] * 2, normal=n) for name, n in sides.items()
+        carom.Plane(name=name, point=[0.0 if sum(n) > 0 else BOX] * 2, normal=n)
+        for name, n in sides.items()
     ]
     stiffest = max(m.young for m in materials.values())
     step = 0.05 / np.sqrt(stiffest)
@@ -87,23 +93,29 @@ def scene(seed: int, scheme: str, condition: str) -> carom.Scenario:
         materials=materials,
         bodies=bodies,
         obstacles=planes,
-        contact=carom.Contact(
-            condition=condition, friction=float(random.choice([0.0, 0.2, 0.6]))
-        ),
+        contact=carom.Contact(condition=condition, friction=float(random.choice([0.0, 0.2, 0.6]))),
     )
 
 
 @dataclass
 class Tally:
-    """What a scheme did over all scenes."""
+    """What a scheme did over all scenes; lists have one entry per completed scene."""
 
-    completed: int = 0
     retried: int = 0
     steps: int = 0
-    defect: float = 0.0
-    min_gap: float = 0.0
-    seconds: float = 0.0
+    defects: list[float] = field(default_factory=list)
+    gaps: list[float] = field(default_factory=list)
+    seconds: list[float] = field(default_factory=list)
     failures: list[str] = field(default_factory=list)
+
+    def add(self, summary: dict[str, Any], seconds: float) -> None:
+        """Count a completed scene."""
+        energy = summary["energy"]
+        self.steps += summary["steps"]
+        self.retried += summary["retried_steps"]
+        self.defects.append(energy["max_defect"] / energy["initial"])
+        self.gaps.append(summary["min_gap"])
+        self.seconds.append(seconds / summary["steps"])
 
 
 def main() -> None:
@@ -119,24 +131,32 @@ def main() -> None:
                 try:
                     result = carom.run(scene(seed, scheme, condition), out=out)
                 except carom.ConvergenceError as error:
-                    tally.failures.append(f"{seed}: {error}")
+                    tally.failures.append(f"scene {seed}: {error}")
                     continue
-                tally.seconds += perf_counter() - start
-                summary = result.summary
-                energy = summary["energy"]
-                tally.completed += 1
-                tally.steps += summary["steps"]
-                tally.retried += summary["retried_steps"]
-                tally.defect = max(tally.defect, energy["max_defect"] / energy["initial"])
-                tally.min_gap = min(tally.min_gap, summary["min_gap"])
+                tally.add(result.summary, perf_counter() - start)
+    print(
+        "| scheme | condition | completed | steps tried again | defect, median | largest |", end=""
+    )
+    print(" scenes > 1e-9 | smallest gap [m] | ms/step, median | largest |")
+    print("|" + " --- |" * 10)
     for (scheme, condition), tally in tallies.items():
-        print(
-            f"{scheme:>10} {condition:<9} completed {tally.completed}/{count}, "
-            f"halved {tally.retried} of {tally.steps} steps, defect {tally.defect:.1e} E0, "
-            f"min gap {tally.min_gap:.1e} m, {1e3 * tally.seconds / max(tally.steps, 1):.2f} ms/step"
+        defects, milliseconds = np.array(tally.defects), 1e3 * np.array(tally.seconds)
+        cells = (
+            f"`{scheme}`",
+            f"`{condition}`",
+            f"{len(defects)} of {count}",
+            f"{tally.retried} of {tally.steps}",
+            f"{np.median(defects):.1e}",
+            f"{defects.max():.1e}",
+            str(np.count_nonzero(defects > 1e-9)),
+            f"{min(tally.gaps):.1e}".replace("-", "−", 1),
+            f"{np.median(milliseconds):.2f}",
+            f"{milliseconds.max():.1f}",
         )
+        print(f"| {' | '.join(cells)} |")
+    for (scheme, condition), tally in tallies.items():
         for failure in tally.failures:
-            print(f"    {failure}")
+            print(f"{scheme}, {condition}, {failure}")
 
 
 if __name__ == "__main__":

@@ -17,13 +17,14 @@ def scenario() -> carom.Scenario:
     tip = carom.Track(name="C", body="left", point=[-0.01, 0.5])
     return carom.Scenario(
         title="Two bars",
-        analysis=carom.Dynamic(end_time=0.04, time_step=1e-5),
+        analysis=carom.Dynamic(end_time=0.04, time_step=1e-5, scheme=carom.Theta()),
         output=carom.Output(history_every=1e-4, track=[tip]),
         materials={"elastic": elastic},
         bodies=[
             bar("left", left_end=-10.01, velocity=1.0),
             bar("right", left_end=0.01, velocity=-1.0),
         ],
+        contact=carom.Contact(condition="gap", targets="faceted"),
     )
 
 

@@ -16,7 +16,7 @@ def scenario(*, friction: float) -> carom.Scenario:
     elastic = carom.SaintVenantKirchhoff(young=2700.0, poisson=0.33, density=1.0)
     return carom.Scenario(
         title="Two cylinders in a rigid box",
-        analysis=carom.Dynamic(end_time=15.0, time_step=1e-3),
+        analysis=carom.Dynamic(end_time=15.0, time_step=1e-3, scheme=carom.Theta()),
         output=carom.Output(fields_every=0.05, history_every=0.01),
         materials={"elastic": elastic},
         bodies=[
@@ -29,7 +29,7 @@ def scenario(*, friction: float) -> carom.Scenario:
             carom.Plane(name="ceiling", point=[0.0, 8.0], normal=[0.0, -1.0]),
             carom.Plane(name="west", point=[0.0, 0.0], normal=[1.0, 0.0]),
         ],
-        contact=carom.Contact(friction=friction),
+        contact=carom.Contact(condition="gap", targets="faceted", friction=friction),
     )
 
 

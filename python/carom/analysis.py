@@ -54,7 +54,7 @@ class Newton(Description):
         Iterations before the step counts as failed.
     """
 
-    tolerance: Positive = 1e-9
+    tolerance: Positive = 1e-10
     max_iterations: Count = 50
 
 
@@ -80,7 +80,7 @@ class Dynamic(Description):
     kind: Literal["dynamic"] = "dynamic"
     end_time: Positive
     time_step: Positive
-    scheme: Scheme = Theta()
+    scheme: Scheme = Conserving()
     newton: Newton = Newton()
     max_halvings: Annotated[int, Field(strict=True, ge=0, le=30)] = 8
     gravity: Vector | None = None

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import tomlkit
+from pydantic.fields import FieldInfo
 from tomlkit.exceptions import ParseError, TOMLKitError
 from tomlkit.items import AoT, InlineTable, Item, Table
 
@@ -35,55 +37,61 @@ def read(path: Path) -> dict[str, Any]:
         raise InputError(f"not TOML: {error}") from error
 
 
-def write(scenario: Description) -> str:
-    """Return the TOML text of a scenario, without the values that equal their defaults."""
+def write(scenario: Description, *, complete: bool = False) -> str:
+    """Return the TOML text of a scenario; if not `complete`, without what equals its default."""
+    writer = _Writer(complete=complete)
     document = tomlkit.document()
-    for key, value in _stated(scenario).items():
-        document.add(key, _section(value))
+    for key, value in writer.stated(scenario).items():
+        document.add(key, writer.section(value))
     return tomlkit.dumps(document)
 
 
-def _section(value: object) -> Item:
-    """Return a top-level entry: a table, a table of tables, or what `_entry` makes of it."""
-    if isinstance(value, Description):
-        return _table(value)
-    if isinstance(value, dict):
-        group = tomlkit.table(is_super_table=True)
-        for name, member in value.items():
-            group.add(name, _table(member))
-        return group
-    return _entry(value)
+@dataclass(frozen=True)
+class _Writer:
+    complete: bool
 
+    def section(self, value: object) -> Item:
+        """Return a top-level entry: a table, a table of tables, or what `entry` makes of it."""
+        if isinstance(value, Description):
+            return self._table(value)
+        if isinstance(value, dict):
+            group = tomlkit.table(is_super_table=True)
+            for name, member in value.items():
+                group.add(name, self._table(member))
+            return group
+        return self._entry(value)
 
-def _entry(value: object) -> Item:
-    """Return an entry of a table: what has parts is written in a line, lists of such as [[…]]."""
-    if isinstance(value, Description):
-        return _inline(value)
-    if isinstance(value, tuple) and value and isinstance(value[0], Description):
-        return AoT([_table(member) for member in value])
-    return tomlkit.item(list(value) if isinstance(value, tuple) else value)
+    def _entry(self, value: object) -> Item:
+        """Return an entry of a table: parts are written in a line, lists of them as [[…]]."""
+        if isinstance(value, Description):
+            return self._inline(value)
+        if isinstance(value, tuple) and value and isinstance(value[0], Description):
+            return AoT([self._table(member) for member in value])
+        return tomlkit.item(list(value) if isinstance(value, tuple) else value)
 
+    def _table(self, part: Description) -> Table:
+        table = tomlkit.table()
+        for key, value in self.stated(part).items():
+            table.add(key, self._entry(value))
+        return table
 
-def _table(part: Description) -> Table:
-    table = tomlkit.table()
-    for key, value in _stated(part).items():
-        table.add(key, _entry(value))
-    return table
+    def _inline(self, part: Description) -> InlineTable:
+        table = tomlkit.inline_table()
+        for key, value in self.stated(part).items():
+            table.add(key, self._entry(value))
+        return table
 
+    def stated(self, part: Description) -> dict[str, Any]:
+        """Return the fields to write, ``kind`` first; what is None or empty cannot be written."""
+        stated = {
+            name: getattr(part, name)
+            for name, field in type(part).model_fields.items()
+            if name == "kind" or self._is_written(getattr(part, name), field)
+        }
+        return {"kind": stated.pop("kind"), **stated} if "kind" in stated else stated
 
-def _inline(part: Description) -> InlineTable:
-    table = tomlkit.inline_table()
-    for key, value in _stated(part).items():
-        table.add(key, _entry(value))
-    return table
-
-
-def _stated(part: Description) -> dict[str, Any]:
-    """Return the fields that are not at their default; ``kind`` is always stated, and first."""
-    fields = type(part).model_fields
-    stated = {
-        name: getattr(part, name)
-        for name, field in fields.items()
-        if name == "kind" or getattr(part, name) != field.get_default(call_default_factory=True)
-    }
-    return {"kind": stated.pop("kind"), **stated} if "kind" in stated else stated
+    def _is_written(self, value: object, field: FieldInfo) -> bool:
+        default = field.get_default(call_default_factory=True)
+        if value is None or value == ():
+            return bool(value != default)
+        return self.complete or bool(value != default)

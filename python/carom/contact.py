@@ -107,7 +107,7 @@ class Contact(Description):
         What single pairs do differently.
     """
 
-    condition: Literal["gap", "midpoint", "endpoint", "massless"] = "gap"
+    condition: Literal["gap", "midpoint", "endpoint", "massless"] = "massless"
     friction: Friction = 0.0
     solver: FrictionSolver = GaussSeidel()
     sources: Sources = "finer"

@@ -36,7 +36,7 @@ class Recorder:
     def __init__(self, directory: Path, scenario: Scenario, simulation: _carom.Simulation) -> None:
         directory.mkdir(parents=True, exist_ok=True)
         layout.clear(directory)
-        (directory / layout.CASE).write_text(scenario.to_toml(), encoding="utf-8")
+        (directory / layout.CASE).write_text(scenario.to_toml(complete=True), encoding="utf-8")
         self._directory = directory
         self._title = scenario.title
         self._simulation = simulation

@@ -71,9 +71,16 @@ class Scenario(Description):
         """Make a scenario of nested dictionaries and lists, laid out as the case file is."""
         return cls(**data)
 
-    def to_toml(self) -> str:
-        """Return the case file of this scenario; values equal to their defaults are left out."""
-        return case_file.write(self)
+    def to_toml(self, *, complete: bool = False) -> str:
+        """Return the case file of this scenario.
+
+        Parameters
+        ----------
+        complete
+            Whether values equal to their defaults are written too, so that the file means the same
+            to every version.
+        """
+        return case_file.write(self, complete=complete)
 
     def to_json(self) -> str:
         """Return the JSON that the native core reads, with every default written out."""

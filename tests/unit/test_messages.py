@@ -130,7 +130,8 @@ NUMBERS = [
 @pytest.mark.parametrize("number", [float("nan"), float("inf"), float("-inf")])
 @pytest.mark.parametrize("path", NUMBERS)
 def test_what_is_not_finite_is_refused_everywhere(scenario, path, number):
-    data = scenario.with_overrides(["analysis.gravity=[0, -9.81]"]).model_dump(mode="json")
+    given = ["analysis.gravity=[0, -9.81]", 'analysis.scheme={kind="theta"}']
+    data = scenario.with_overrides(given).model_dump(mode="json")
     spoil(data, path, number)
     with pytest.raises(InputError, match=rf"^{path} = [-+]?(nan|inf): must be") as caught:
         Scenario.from_dict(data)

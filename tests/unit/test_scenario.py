@@ -78,6 +78,16 @@ def test_everything_that_can_be_stated_survives_toml_and_back(tmp_path):
     assert Scenario.from_toml(copy) == scenario
 
 
+def test_complete_toml_reads_back_and_hides_no_default(scenario, box, tmp_path):
+    for case in (scenario, Scenario.from_dict(box)):
+        copy = tmp_path / "case.toml"
+        copy.write_text(case.to_toml(complete=True), encoding="utf-8")
+        assert Scenario.from_toml(copy) == case
+        text = copy.read_text(encoding="utf-8")
+        for key in ("scheme", "condition", "targets", "certificate_tolerance", "max_halvings"):
+            assert f"{key} = " in text
+
+
 def test_toml_is_laid_out_as_a_person_would(box):
     text = Scenario.from_dict(box).to_toml()
     for line in (

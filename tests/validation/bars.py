@@ -22,7 +22,7 @@ TOUCH = HALF_GAP / SPEED  # s
 RELEASE = TOUCH + 2.0 * LENGTH / WAVE_SPEED  # s
 LATE = 0.035  # s, from when on the velocity after release is averaged
 
-VARIANT = {"gap": "pos", "midpoint": "mid"}
+VARIANT = {"gap": "pos", "midpoint": "mid", "massless": "zeroS"}
 """The prototype's names of the contact conditions."""
 
 
@@ -46,9 +46,20 @@ def exact_velocity(time: Array) -> Array:
     return np.select([time < TOUCH, time < RELEASE], [SPEED, 0.0], -SPEED)
 
 
+MASSLESS = (
+    'bodies.0.contact_sides=["right"]',
+    'bodies.1.contact_sides=["left"]',
+)
+"""With the condition ``massless``: the ends that meet. The bars are one element high, so that no
+mass would be left inside if all sides could touch."""
+
+CONSERVING = 'analysis.scheme={kind="conserving"}'
+
+
 def run(*, elements: int = 100, condition: str = "gap", overrides: Sequence[str] = ()) -> Run:
     """Run ``examples/two_bars.toml``, every step recorded."""
-    scenario = example("two_bars.toml", f"contact.condition={condition}", *overrides)
+    sides = MASSLESS if condition == "massless" else ()
+    scenario = example("two_bars.toml", f"contact.condition={condition}", *sides, *overrides)
     return simulate(
         scenario.with_overrides(
             [

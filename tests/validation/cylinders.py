@@ -18,12 +18,23 @@ MEETING_IN_PAPER = {0.0: 2.45, 0.2: 2.8}
 COMPARED = 5.0
 """Until when runs are compared [s]: then the impacts depend on the mesh and on round-off."""
 
+TWO_IMPACTS = 2.75
+"""Until when the first two frictionless impacts are over, and no third one has begun [s]."""
+
 ENERGIES = {"E_c": "kinetic", "E_e": "strain", "E_t": "total", "D_fric": "friction"}
 """Column of the reference curves to column of the history."""
 
 CONSERVING = ('analysis.scheme={kind="conserving"}', "bodies.0.mesh.centre=[2.0, 4.0003]")
 """The energy–momentum scheme. The first cylinder starts 0.3 mm higher than in the example: a first
 touch exactly at the end of a step would be decided by round-off."""
+
+
+PRIZE = (*CONSERVING, "contact.targets=smooth")
+"""With the condition ``massless``: what a case file gets that names nothing else."""
+
+QUIET = 460.0
+"""Total variation of the normal force in the first two impacts if it hardly rings [N]: in either it
+rises to its largest value and falls again."""
 
 
 def run(
@@ -60,6 +71,34 @@ def first_wall_contact(run: Run) -> float:
     contacts = run.summary["contacts"]
     both = {"left", "right"}
     return min(contact["onset"] for contact in contacts if set(contact["pair"]) != both)
+
+
+def total_variation(run: Run) -> float:
+    """Return Σ |ΔR_n| over the steps of the first two impacts, floor and other cylinder [N].
+
+    R_n is the sum of the normal reactions of a step.
+    """
+    force = run.history["normal_force"][run.history["time"] < TWO_IMPACTS]
+    return float(np.abs(np.diff(force)).sum())
+
+
+def momentum_spread(run: Run) -> dict[str, float]:
+    """Return how far the momenta vary from the rebound off the floor to the next touch of a wall.
+
+    The impact of the two cylinders is in between. Relative to the largest value in the run; the
+    angular momentum is about the origin.
+    """
+    time = run.history["time"]
+    pairs = {tuple(c["pair"]): c for c in reversed(run.summary["contacts"])}
+    start, end = pairs["left", "floor"]["release"], pairs["right", "east"]["onset"]
+    meeting = pairs["left", "right"]
+    if not start < meeting["onset"] < meeting["release"] < end:
+        raise ValueError(f"the cylinders do not meet between {start} s and {end} s")
+    between = (time > start) & (time < end - 1e-3)
+    return {
+        column: float(np.ptp(run.history[column][between]) / np.abs(run.history[column]).max())
+        for column in ("momentum_x", "momentum_y", "angular_momentum")
+    }
 
 
 def reference_curves(friction: float) -> dict[str, Array]:

@@ -31,6 +31,7 @@ VARIANTS = (
     ("theta", "gap"),
     ("conserving", "gap"),
     ("conserving", "midpoint"),
+    ("conserving", "massless"),
 )
 """Schemes and contact conditions that are validated."""
 

@@ -106,3 +106,13 @@ def largest_rise(values: Array) -> float:
 def observed_order(sizes: Sequence[float], errors: Sequence[float]) -> float:
     """Return the exponent p of errors ∝ sizeᵖ, by least squares in logarithms."""
     return float(np.polyfit(np.log(sizes), np.log(errors), 1)[0])
+
+
+def growth(values: Array, *, first: int = 1000) -> float:
+    """Return the exponent p of max |values| ∝ stepᵖ from step `first` on, by least squares.
+
+    Over the running maximum at steps spaced evenly in logarithms: ½ is a random walk, 1 a trend.
+    """
+    steps = np.unique(np.geomspace(first, len(values) - 1, 100).astype(int))
+    largest = np.maximum.accumulate(np.abs(values))[steps]
+    return float(np.polyfit(np.log(steps), np.log(largest), 1)[0])

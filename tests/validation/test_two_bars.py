@@ -75,3 +75,34 @@ def test_midpoint_condition_penetrates_by_less_than_a_step_of_travel(bars_run):
     run = bars_run(elements=100, condition="midpoint")
     closing = 2.0 * bars.SPEED * run.summary["time_step"]
     assert -1.3 * closing <= run.summary["min_gap"] <= 0.0
+
+
+@pytest.fixture(scope="module")
+def massless(bars_run):
+    return [
+        bars_run(elements=n, condition="massless", overrides=(bars.CONSERVING,))
+        for n in bars.ELEMENTS
+    ]
+
+
+def test_massless_nodes_are_quiet_and_keep_energy(massless):
+    run = massless[bars.ELEMENTS.index(100)]
+    assert run.energy("max_drift") <= 1e-6
+    assert bars.figures(run).velocity_error <= 0.06
+    assert run.summary["min_gap"] >= -1e-12
+
+
+def test_massless_nodes_keep_energy_on_every_mesh(massless):
+    for run in massless:
+        figures = bars.figures(run)
+        assert run.energy("max_drift") <= 1e-11
+        assert figures.displacement_error <= 0.0035
+        assert figures.velocity_error <= 0.06
+
+
+def test_massless_contact_point_follows_the_reference_curve(bars_run):
+    """Another distribution of the mass: curves are close where waves do not jump."""
+    history = bars_run(elements=100, condition="massless").history
+    curve = reference("bars_massless")
+    at_curve = np.interp(curve["t"], history["time"], history["C.u_x"])
+    np.testing.assert_allclose(at_curve, curve["ux_C"], rtol=0.0, atol=0.03 * bars.HALF_GAP)

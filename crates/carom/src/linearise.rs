@@ -46,7 +46,24 @@ impl<const D: usize> BodyOperator<D> {
     }
 
     /// Makes the factor with the stiffness at `u`, where the frame of the body is `frame`.
+    ///
+    /// A configuration under strong compression, or a guess on the way to one, may be where K̄ is indefinite. The stiffness of the
+    /// reference configuration, turned, serves there: slower, but it never is.
     pub fn factorize(
+        &mut self,
+        body: &Body<D>,
+        map: &StepMap,
+        u: &[Vector<D>],
+        frame: &Matrix<D>,
+    ) -> Result<(), StepError> {
+        self.factorize_at(body, map, u, frame).or_else(|_| {
+            self.factorize_at(body, map, &vec![Vector::zeros(); u.len()], &Matrix::identity())?;
+            self.turn_to(frame);
+            Ok(())
+        })
+    }
+
+    fn factorize_at(
         &mut self,
         body: &Body<D>,
         map: &StepMap,

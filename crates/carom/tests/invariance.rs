@@ -79,14 +79,50 @@ fn turning_and_moving_the_scene_turns_and_moves_the_motion() {
     assert_same(&still, &turned, 1.0, 1.0, 1e-8);
 }
 
+/// The scene with the defaults of case files: massless nodes that conserve energy, on smooth targets.
+fn conserving(mut case: Value) -> Value {
+    case["analysis"]["scheme"] = json!({"kind": "conserving"});
+    case["contact"]["condition"] = json!("massless");
+    case["contact"]["targets"] = json!("smooth");
+    case
+}
+
+/// Every row of the history, of columns that are energies [J] or lengths [m], in units of the scene; energies relative to the
+/// first total.
+fn dimensionless(case: &Value, length: f64) -> Vec<f64> {
+    const ENERGIES: [&str; 5] = ["kinetic", "strain", "total", "friction", "normal_contact"];
+    let (mut simulation, summary) = run(case);
+    let columns = simulation.history_columns().to_vec();
+    let scales: Vec<Option<f64>> = columns
+        .iter()
+        .map(|c| match c.as_str() {
+            c if ENERGIES.contains(&c) => Some(summary.energy.initial),
+            "left.x" | "left.y" | "right.x" | "right.y" => Some(length),
+            _ => None,
+        })
+        .collect();
+    let rows = simulation.take_history();
+    rows.iter().zip(scales.iter().cycle()).filter_map(|(x, scale)| scale.map(|s| x / s)).collect()
+}
+
 /// mm–t–s instead of m–kg–s.
 #[test]
 fn units_do_not_matter() {
-    let (_, si) = run(&scene(0.0, [0.0; 2], 1.0, 1.0, 1.0));
-    let (_, mm) = run(&scene(0.0, [0.0; 2], 1e3, 1.0, 1e-3));
-    assert_same(&si, &mm, 1e-3 * 1e6, 1.0, 1e-9);
-    let (_, fast) = run(&scene(0.0, [0.0; 2], 1e-3, 1e-6, 1.0));
-    assert_same(&si, &fast, 1e-6 / 1e-12, 1e-6, 1e-9);
+    for dress in [std::convert::identity, conserving] {
+        let of = |length, time, mass| dress(scene(0.0, [0.0; 2], length, time, mass));
+        let (_, si) = run(&of(1.0, 1.0, 1.0));
+        assert_eq!(si.contacts.len(), 2);
+        let history = dimensionless(&of(1.0, 1.0, 1.0), 1.0);
+        for (length, time, mass) in [(1e3, 1.0, 1e-3), (1e-3, 1e-6, 1.0)] {
+            let case = of(length, time, mass);
+            let (_, other) = run(&case);
+            assert_same(&si, &other, mass * length * length / (time * time), time, 1e-9);
+            let there = dimensionless(&case, length);
+            assert_eq!(there.len(), history.len());
+            let farthest = history.iter().zip(&there).fold(0.0, |d: f64, (a, b)| d.max((a - b).abs()));
+            assert!(farthest < 1e-9, "length × {length}, time × {time}, mass × {mass}: {farthest:e}");
+        }
+    }
 }
 
 /// Reactions between bodies cancel: without walls linear momentum is constant to round-off, with or without friction.

@@ -327,7 +327,7 @@ TAMPERED = {
     "motion of the floor": in_case("velocity = [0.5, 0.1]", "velocity = [0.5, 0.1001]"),
     "floor": in_case("point = [0.0, 0.0]", "point = [0.0, 0.0001]"),
     "law": in_case("saint-venant-kirchhoff", "neo-hookean"),
-    "targets": in_case("[contact]", '[contact]\ntargets = "faceted"'),
+    "targets": in_case('targets = "smooth"', 'targets = "faceted"'),
 }
 
 
