@@ -365,7 +365,10 @@ def test_what_only_massless_contact_has_is_checked_too(results, tmp_path, tamper
 def test_a_run_further_from_coulombs_law_than_allowed_is_not_completed(results, tmp_path):
     directory = tmp_path / "results"
     shutil.copytree(results("gap", "theta"), directory)
-    in_case("[contact]", "[contact]\ncertificate_tolerance = 1e-18")(directory)
+    strict = carom.Result.open(directory).scenario.with_overrides(
+        ["contact.certificate_tolerance=1e-18"]
+    )
+    (directory / "case.toml").write_text(strict.to_toml())
     in_summary("certificate", "tolerance_joule", factor=1e-9)(directory)
     assert refuted(directory) == {"summary: status"}
     called("uncertified")(directory)
