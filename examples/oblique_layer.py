@@ -27,7 +27,7 @@ def scenario(*, ratio: float = 1.0) -> carom.Scenario:
         materials={"elastic": carom.LinearElastic(young=8 / 3, poisson=1 / 3, density=1.0)},
         bodies=[layer],
         obstacles=[carom.Plane(name="floor", point=[0.0, 0.0], normal=[0.0, 1.0])],
-        contact=carom.Contact(friction=0.2),
+        contact=carom.Contact(condition="massless", friction=0.2),
     )
 
 

@@ -88,8 +88,9 @@ class Contact(Description):
     condition
         Where in time the unilateral condition is written: on the gap at the end of the step (the
         paper's), on the increment over the step, on the velocity at its end, or again on the gap
-        at the end but between nodes without mass. With the scheme ``conserving`` the last keeps
-        the energy, is quiet and never penetrates.
+        at the end but between nodes without mass. With the scheme ``conserving`` the second keeps
+        the energy and lets nodes in by less than a step's travel; the last keeps the energy, is
+        quiet and never penetrates, but takes more time and does not bear every case yet.
     friction
         Coulomb's coefficient of every pair that does not state its own.
     solver
@@ -107,7 +108,7 @@ class Contact(Description):
         What single pairs do differently.
     """
 
-    condition: Literal["gap", "midpoint", "endpoint", "massless"] = "massless"
+    condition: Literal["gap", "midpoint", "endpoint", "massless"] = "midpoint"
     friction: Friction = 0.0
     solver: FrictionSolver = GaussSeidel()
     sources: Sources = "finer"
