@@ -1,4 +1,4 @@
-"""Energy-exact, quiet and non-penetrating in one run: the cylinders with the defaults, as a table.
+"""Energy-exact, quiet and non-penetrating in one run: the cylinders with massless contact, as a table.
 
 .venv/bin/python benchmarks/prize.py
 """
