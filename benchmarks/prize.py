@@ -1,4 +1,4 @@
-"""Energy-exact, quiet and non-penetrating in one run: the cylinders with massless contact, as a table.
+"""Energy-exact, quiet and non-penetrating at once: the cylinders with massless contact.
 
 .venv/bin/python benchmarks/prize.py
 """

@@ -30,7 +30,7 @@ touch exactly at the end of a step would be decided by round-off."""
 
 
 PRIZE = (*CONSERVING, "contact.targets=smooth")
-"""With the condition ``massless``: what a case file gets that names nothing else."""
+"""With the condition ``massless``: the scheme and the targets that conserve."""
 
 QUIET = 460.0
 """Total variation of the normal force in the first two impacts if it hardly rings [N]: in either it
