@@ -190,16 +190,17 @@ impl<const D: usize> Blend<D> {
     }
 
     /// Adds what a step left over to `excess`: `surplus` of every body and what friction took, group by group.
-    pub fn carry(&self, surplus: impl Iterator<Item = f64>, rubbing: &[Rubbing], excess: &mut [f64]) {
-        let mut left = vec![0.0; excess.len()];
+    pub fn carry(&mut self, surplus: impl Iterator<Item = f64>, rubbing: &[Rubbing], excess: &mut [f64]) {
+        self.groups.fill(Balance::default());
         for (i, surplus) in surplus.enumerate() {
-            left[self.leader_of(i)] += excess[i] + surplus;
+            self.groups[leader_of(&self.leader, i)].missing += excess[i] + surplus;
         }
         for c in rubbing {
             let weight = self.weight[c.source];
-            left[self.leader_of(c.source)] += c.dissipation(weight) - c.prescribed(weight);
+            let group = &mut self.groups[leader_of(&self.leader, c.source)];
+            group.missing += c.dissipation(weight) - c.prescribed(weight);
         }
-        excess.copy_from_slice(&left);
+        excess.iter_mut().zip(&self.groups).for_each(|(excess, group)| *excess = group.missing);
     }
 
     fn leader_of(&self, body: usize) -> usize {

@@ -98,6 +98,12 @@ impl<const D: usize> Model<D> {
         self
     }
 
+    /// Lengths below this are round-off of the coordinates [m].
+    #[must_use]
+    pub fn round_off(&self) -> f64 {
+        4.0 * f64::EPSILON * self.size
+    }
+
     /// Number of nodes of the bodies.
     #[must_use]
     pub fn node_count(&self) -> usize {

@@ -7,9 +7,6 @@ use crate::state::{Reaction, State};
 use crate::workspace::Workspace;
 use crate::{Method, Model, StepMap};
 
-/// Penetrations below this multiple of the size of the model are round-off.
-const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
-
 /// Finds the candidates of the step between its start and the predicted end.
 pub(crate) fn search<const D: usize>(
     model: &Model<D>,
@@ -93,6 +90,6 @@ pub(crate) fn missed_a_contact<const D: usize>(
     model.contact.detect(&end, &end, 0.0, &mut work.missed);
     work.missed.iter().any(|m| {
         let known = work.searched.binary_search(&(m.pair, m.node)).is_ok();
-        !known && model.contact.evaluate(m, &end).gap < -ROUND_OFF * model.size
+        !known && model.contact.evaluate(m, &end).gap < -model.round_off()
     })
 }

@@ -15,8 +15,6 @@ use crate::{Method, Model, StepMap};
 const SEARCH_MARGIN: f64 = 2.0;
 /// How often a step is repeated with a wider search where a node came into contact unforeseen.
 const MAX_SEARCHES: usize = 4;
-/// Corrections below this multiple of the size of the model's coordinates are round-off.
-const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
 /// A factor is renewed within a step when iterations converge slower than this, from iteration `PATIENCE` on.
 const SLOW_CONTRACTION: f64 = 0.3;
 /// See `SLOW_CONTRACTION`.
@@ -68,16 +66,14 @@ fn predict<const D: usize>(
         {
             *m = u + d * 0.5;
         }
-        let spin = if b.body.turns() {
-            b.body.spin(&state.displacement[b.nodes()], &state.velocity[b.nodes()])
-        } else {
-            [0.0; 3]
-        };
-        work.poses[i] = Pose {
-            frame: b.body.frame(middle),
-            turn: tensor::rotation(&spin.map(|w| w * map.dt)),
-            drift: b.body.mean(&state.velocity[b.nodes()]),
-        };
+        work.poses[i] = Pose { frame: b.body.frame(middle), ..Pose::default() };
+        // Only nodes without mass ask how the body would go on.
+        if !b.body.massless().is_empty() {
+            let (u, v) = (&state.displacement[b.nodes()], &state.velocity[b.nodes()]);
+            let spin = if b.body.turns() { b.body.spin(u, v) } else { [0.0; 3] };
+            work.poses[i].turn = tensor::rotation(&spin.map(|w| w * map.dt));
+            work.poses[i].drift = b.body.mean(v);
+        }
         if !work.operators[i].fits(map) {
             work.operators[i].factorize(&b.body, map, middle, &work.poses[i].frame)?;
             work.factorisations += 1;
@@ -107,7 +103,7 @@ fn iterate<const D: usize>(
         residuals(model, method, state, next, map, work);
         react(model, method, state, map, work)?;
         let motion = correct(model, state, next, work)?;
-        let wanted = (method.newton.tolerance * motion.max(predicted)).max(ROUND_OFF * model.size);
+        let wanted = (method.newton.tolerance * motion.max(predicted)).max(model.round_off());
         if settle(work, wanted) {
             return Ok(iteration);
         }
