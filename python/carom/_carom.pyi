@@ -1,9 +1,23 @@
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 __version__: str
+
+class FrictionArrays(Protocol):
+    """W in compressed block rows, with q and μ."""
+
+    @property
+    def starts(self) -> NDArray[np.int64]: ...
+    @property
+    def columns(self) -> NDArray[np.int64]: ...
+    @property
+    def blocks(self) -> NDArray[np.float64]: ...
+    @property
+    def q(self) -> NDArray[np.float64]: ...
+    @property
+    def mu(self) -> NDArray[np.float64]: ...
 
 class Simulation:
     """A scenario built into meshes, matrices and a state that steps through time."""
@@ -29,3 +43,17 @@ class Simulation:
     def finish(self) -> None: ...
     def progress(self) -> dict[str, Any]: ...
     def summary(self) -> dict[str, Any]: ...
+
+def friction_solvers() -> list[str]: ...
+def solve_friction(
+    problem: FrictionArrays,
+    reactions: NDArray[np.float64],
+    *,
+    solver: str,
+    tolerance: float,
+    max_iterations: int,
+    time_limit: float | None,
+) -> dict[str, Any]: ...
+def measure_friction(
+    problem: FrictionArrays, reactions: NDArray[np.float64]
+) -> tuple[float, float, float]: ...

@@ -1,6 +1,6 @@
 //! Coulomb's cone K_μ = {r : |r_t| ≤ μ r_n} and the bi-potential of contact with friction.
 
-use crate::Vector;
+use crate::{Matrix, Vector};
 
 /// |x_t|, the length of the tangential part.
 #[inline]
@@ -33,6 +33,35 @@ pub fn project<const D: usize>(tau: &Vector<D>, mu: f64) -> Vector<D> {
         r[t] *= shrink;
     }
     r
+}
+
+/// A generalised derivative of [`project`].
+#[inline]
+#[must_use]
+pub fn projection_derivative<const D: usize>(tau: &Vector<D>, mu: f64) -> Matrix<D> {
+    let (normal, tangential) = (tau[0], tangential_norm(tau));
+    if mu * tangential <= -normal {
+        return Matrix::zeros();
+    }
+    if tangential <= mu * normal {
+        return Matrix::identity();
+    }
+    // proj τ = s (n + μ t) with s = (τ_n + μ|τ_t|)/(1 + μ²) and t = τ_t/|τ_t|.
+    let scale = 1.0 / (1.0 + mu * mu);
+    let s = (normal + mu * tangential) * scale;
+    let mut derivative = Matrix::zeros();
+    derivative[(0, 0)] = scale;
+    for t in 1..D {
+        let direction = tau[t] / tangential;
+        derivative[(0, t)] = mu * scale * direction;
+        derivative[(t, 0)] = mu * scale * direction;
+        for u in 1..D {
+            let along = direction * tau[u] / tangential;
+            let across = f64::from(u8::from(t == u)) - along;
+            derivative[(t, u)] = mu * mu * scale * along + mu * s / tangential * across;
+        }
+    }
+    derivative
 }
 
 /// One step of the bi-potential fixed point r ← proj(r − ρ (w + μ |w_t| n)), whose fixed points are the solutions.

@@ -1,30 +1,79 @@
-use crate::{ContactProblem, Vector, cone};
+use crate::{ContactProblem, Criterion, Vector, cone};
 
 /// How far reactions are from the laws of Signorini and Coulomb.
+///
+/// Both residuals are ‖r − proj_K(r − ρ(w + μ|w_t| n))‖ / max(ρ‖q‖, ‖r‖, ρ‖w‖), the distance from a fixed point of the
+/// bi-potential. Published codes take ρ = 1 in whatever units the problem has; where W is small or large in these units, that
+/// sees reactions only or motions only. The natural ρ = n D / tr W weighs the two alike, whatever the units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Measure {
-    /// ‖r − proj_K(r − ρ(w + μ|w_t| n))‖ / max(‖r‖, ‖ρ q‖, ‖ρ w‖), with ρ_i = 1/λ_max(W_ii) so that units do not matter.
+    /// With ρ = 1.
     pub residual: f64,
+    /// With ρ = n D / tr W.
+    pub natural_residual: f64,
     /// Σ of the bi-potential gaps [J]: the certificate.
     pub certificate: f64,
+}
+
+impl Measure {
+    /// The residual that a tolerance is compared with.
+    #[must_use]
+    pub fn decisive(&self, criterion: Criterion) -> f64 {
+        match criterion {
+            // `max` would ignore what is not a number.
+            Criterion::Both if self.residual > self.natural_residual || self.residual.is_nan() => {
+                self.residual
+            }
+            Criterion::Both | Criterion::Natural => self.natural_residual,
+        }
+    }
 }
 
 /// Measures `r`, whose motions are computed anew from the problem.
 #[must_use]
 pub fn measure<const D: usize>(problem: &ContactProblem<D>, r: &[Vector<D>]) -> Measure {
-    let (mut error, mut size_r, mut size_q, mut size_w) = (0.0, 0.0, 0.0, 0.0);
-    let mut certificate = 0.0;
-    for i in 0..problem.len() {
-        let (mu, rho) = (problem.mu[i], problem.step_length(i));
-        let w = problem.motion(i, r);
-        error += (r[i] - cone::fixed_point(&r[i], &w, mu, rho)).norm_squared();
-        size_r += r[i].norm_squared();
-        size_q += (problem.q[i] * rho).norm_squared();
-        size_w += (w * rho).norm_squared();
-        certificate += cone::bipotential_gap(&w, &r[i], mu);
+    Meter::new(problem).measure(problem, r)
+}
+
+/// What the measure needs of a problem beforehand.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Meter {
+    /// The natural ρ [N/m].
+    pub stiffness: f64,
+    squared_q: f64,
+}
+
+impl Meter {
+    pub fn new<const D: usize>(problem: &ContactProblem<D>) -> Self {
+        let squared_q = problem.q.iter().map(Vector::norm_squared).sum();
+        Self { stiffness: problem.natural_stiffness(), squared_q }
     }
-    // `max` ignores NaN; what is not a number must not pass for a small residual.
-    let size = if (size_r + size_q + size_w).is_nan() { f64::NAN } else { size_r.max(size_q).max(size_w) };
-    let residual = if size == 0.0 { 0.0 } else { (error / size).sqrt() };
-    Measure { residual, certificate }
+
+    pub fn measure<const D: usize>(&self, problem: &ContactProblem<D>, r: &[Vector<D>]) -> Measure {
+        let rho = self.stiffness;
+        let (mut error, mut natural_error, mut squared_r, mut squared_w) = (0.0, 0.0, 0.0, 0.0);
+        let mut certificate = 0.0;
+        for i in 0..problem.len() {
+            let mu = problem.mu[i];
+            let w = problem.motion(i, r);
+            error += (r[i] - cone::fixed_point(&r[i], &w, mu, 1.0)).norm_squared();
+            natural_error += (r[i] - cone::fixed_point(&r[i], &w, mu, rho)).norm_squared();
+            squared_r += r[i].norm_squared();
+            squared_w += w.norm_squared();
+            certificate += cone::bipotential_gap(&w, &r[i], mu);
+        }
+        let relative = |error: f64, rho: f64| {
+            // `max` ignores NaN; what is not a number must not pass for a small residual.
+            if (squared_r + self.squared_q + squared_w).is_nan() {
+                return f64::NAN;
+            }
+            let size = squared_r.max(rho * rho * self.squared_q).max(rho * rho * squared_w);
+            if size == 0.0 { 0.0 } else { (error / size).sqrt() }
+        };
+        Measure {
+            residual: relative(error, 1.0),
+            natural_residual: relative(natural_error, rho),
+            certificate,
+        }
+    }
 }

@@ -1,63 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use crate::{ContactProblem, GaussSeidel, Measure, Uzawa, Vector};
-
-/// When to stop.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StoppingRule {
-    /// Residual (see [`Measure`]) at which a problem counts as solved.
-    pub tolerance: f64,
-    /// Iterations after which the solver gives up.
-    pub max_iterations: usize,
-}
-
-impl Default for StoppingRule {
-    fn default() -> Self {
-        Self { tolerance: 1e-12, max_iterations: 10_000 }
-    }
-}
-
-/// How a solve ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SolveStatus {
-    /// The residual is at or below the tolerance.
-    Converged,
-    /// The iterations ran out.
-    IterationLimit,
-    /// An iterate was not a finite number.
-    Diverged,
-}
-
-/// What a solver says about its answer.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SolveReport {
-    /// How it ended.
-    pub status: SolveStatus,
-    /// Sweeps over all contacts.
-    pub iterations: usize,
-    /// Distance of the answer from the law, computed anew from it.
-    pub measure: Measure,
-}
-
-impl SolveReport {
-    /// Whether the answer is a solution.
-    #[must_use]
-    pub fn is_converged(&self) -> bool {
-        self.status == SolveStatus::Converged
-    }
-
-    /// The report of an answer that was measured after `iterations`.
-    pub(crate) fn of(measure: Measure, iterations: usize, rule: &StoppingRule) -> Self {
-        let status = if measure.residual <= rule.tolerance {
-            SolveStatus::Converged
-        } else if measure.residual.is_finite() {
-            SolveStatus::IterationLimit
-        } else {
-            SolveStatus::Diverged
-        };
-        Self { status, iterations, measure }
-    }
-}
+use crate::{ContactProblem, GaussSeidel, Proximal, SolveReport, StoppingRule, Uzawa, Vector};
 
 /// A method for contact problems. It does not fail: a solver that stops early says so in its report.
 pub trait FrictionSolver<const D: usize>: Send + Sync {
@@ -74,11 +17,29 @@ pub enum SolverKind {
     GaussSeidel,
     /// The simultaneous bi-potential Uzawa iteration of the paper.
     Uzawa,
+    /// The proximal point method.
+    Proximal,
 }
 
 impl SolverKind {
     /// Every solver.
-    pub const ALL: [SolverKind; 2] = [SolverKind::GaussSeidel, SolverKind::Uzawa];
+    pub const ALL: [SolverKind; 3] = [SolverKind::GaussSeidel, SolverKind::Uzawa, SolverKind::Proximal];
+
+    /// The name, as in case files and on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            SolverKind::GaussSeidel => "gauss-seidel",
+            SolverKind::Uzawa => "uzawa",
+            SolverKind::Proximal => "proximal",
+        }
+    }
+
+    /// The solver of this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
 
     /// The solver of this kind.
     #[must_use]
@@ -86,6 +47,7 @@ impl SolverKind {
         match self {
             SolverKind::GaussSeidel => Box::new(GaussSeidel),
             SolverKind::Uzawa => Box::new(Uzawa),
+            SolverKind::Proximal => Box::new(Proximal),
         }
     }
 }

@@ -1,4 +1,7 @@
-use crate::{ContactProblem, FrictionSolver, SolveReport, StoppingRule, Vector, cone, measure};
+use crate::stopping::Monitor;
+use crate::{
+    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone,
+};
 
 /// The paper's solver: the bi-potential fixed point swept over all contacts at once, with one ρ = 1/λ_max(W).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -9,30 +12,41 @@ const POWER_ITERATIONS: usize = 30;
 
 impl<const D: usize> FrictionSolver<D> for Uzawa {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
-        let n = problem.len();
-        let mut motions = vec![Vector::zeros(); n];
-        let rho = step_length(problem, &mut motions);
-        for iteration in 0..rule.max_iterations {
-            let mut change = 0.0;
-            let mut size = 0.0;
-            for (i, motion) in motions.iter_mut().enumerate() {
-                *motion = problem.motion(i, r);
-            }
-            for (i, motion) in motions.iter().enumerate() {
-                let next = cone::fixed_point(&r[i], motion, problem.mu[i], rho);
-                change += (next - r[i]).norm_squared();
-                size += next.norm_squared();
-                r[i] = next;
-            }
-            let settled = change <= rule.tolerance.powi(2) * size;
-            if settled || iteration % 50 == 49 || !change.is_finite() {
-                let measure = measure(problem, r);
-                if measure.residual <= rule.tolerance || !measure.residual.is_finite() {
-                    return SolveReport::of(measure, iteration + 1, rule);
-                }
+        let mut monitor = Monitor::new(problem, rule);
+        let status = run(&mut monitor, r);
+        monitor.report(SolverKind::Uzawa, status, r)
+    }
+}
+
+fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> SolveStatus {
+    if let Some(status) = monitor.check(r) {
+        return status;
+    }
+    let problem = monitor.problem();
+    let mut motions = vec![Vector::zeros(); problem.len()];
+    let rho = step_length(problem, &mut motions);
+    loop {
+        let (mut change, mut size) = (0.0, 0.0);
+        for (i, motion) in motions.iter_mut().enumerate() {
+            *motion = problem.motion(i, r);
+        }
+        for (i, motion) in motions.iter().enumerate() {
+            let next = cone::fixed_point(&r[i], motion, problem.mu[i], rho);
+            change += (next - r[i]).norm_squared();
+            size += next.norm_squared();
+            r[i] = next;
+        }
+        monitor.iterations += 1;
+        let settled = change <= monitor.tolerance().powi(2) * size;
+        if settled
+            || monitor.iterations.is_multiple_of(50)
+            || !change.is_finite()
+            || monitor.exhausted().is_some()
+        {
+            if let Some(status) = monitor.check(r) {
+                return status;
             }
         }
-        SolveReport::of(measure(problem, r), rule.max_iterations, rule)
     }
 }
 

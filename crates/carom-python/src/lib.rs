@@ -1,7 +1,9 @@
-//! The native module `carom._carom`: one class that takes a scenario as JSON and gives back numbers.
+//! The native module `carom._carom`: one class that takes a scenario as JSON and gives back numbers, and functions for contact
+//! problems on their own.
 
 mod arrays;
 mod error;
+mod friction;
 mod simulation;
 
 use pyo3::prelude::*;
@@ -9,5 +11,8 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _carom(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add_class::<simulation::Simulation>()
+    module.add_class::<simulation::Simulation>()?;
+    module.add_function(wrap_pyfunction!(friction::friction_solvers, module)?)?;
+    module.add_function(wrap_pyfunction!(friction::solve_friction, module)?)?;
+    module.add_function(wrap_pyfunction!(friction::measure_friction, module)?)
 }

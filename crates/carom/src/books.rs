@@ -65,7 +65,7 @@ fn keep_contacts<const D: usize>(
     if work.contacts.is_empty() {
         return;
     }
-    report.residual = carom_friction::measure(&work.problem, &work.reactions).residual;
+    report.residual = carom_friction::measure(&work.problem, &work.reactions).natural_residual;
     let weight = method.condition.reaction_weight(map);
     let end = |n: u32| model.reference[n as usize] + next.displacement[n as usize];
     for (i, (candidate, contact)) in work.candidates.iter().zip(&work.contacts).enumerate() {

@@ -2,7 +2,7 @@
 
 use carom_contact::{ContactModel, ContactSurface, Obstacle, Pair, Target};
 use carom_fem::{Body, BodySpec, FemError};
-use carom_friction::StoppingRule;
+use carom_friction::{Criterion, StoppingRule};
 use carom_mesh::{Facet, Mesh, MeshError, Surface, Vector, generate, tensor};
 
 use crate::error::InputError;
@@ -109,7 +109,12 @@ fn method(scenario: &Scenario) -> Result<Method<2>, InputError> {
         scheme: analysis.scheme,
         condition: scenario.contact.condition,
         solver: solver.kind.solver(),
-        stopping: StoppingRule { tolerance: solver.tolerance, max_iterations: solver.max_iterations },
+        stopping: StoppingRule {
+            tolerance: solver.tolerance,
+            criterion: Criterion::Natural,
+            max_iterations: solver.max_iterations,
+            time_limit: None,
+        },
         newton: NewtonRule { tolerance: newton.tolerance, max_iterations: newton.max_iterations },
         max_halvings: analysis.max_halvings,
         certificate_tolerance: scenario.contact.certificate_tolerance,

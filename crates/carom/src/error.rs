@@ -42,7 +42,7 @@ pub enum StepError {
         wanted: f64,
     },
     /// The friction solver did not reach its tolerance.
-    #[error("the contact problem of {contacts} contacts stopped after {} sweeps at a residual of {:.3e}", report.iterations, report.measure.residual)]
+    #[error("the contact problem of {contacts} contacts ended as {} after {} iterations at a residual of {:.3e}", report.status.name(), report.iterations, report.measure.natural_residual)]
     Friction {
         /// Number of contacts.
         contacts: usize,

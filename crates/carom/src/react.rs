@@ -103,7 +103,7 @@ pub(crate) fn react<const D: usize>(
         &mut work.problem,
     );
     let report = method.solver.solve(&work.problem, &mut work.reactions, &method.stopping);
-    if !report.is_converged() {
+    if !report.is_solved() {
         return Err(StepError::Friction { contacts: work.contacts.len(), report });
     }
     // r as an external load: a second solve for the bodies in contact.

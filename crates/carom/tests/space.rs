@@ -4,7 +4,7 @@ use carom::{ContactCondition, Group, Method, Model, ModelBody, NewtonRule, Schem
 use carom_contact::{ContactModel, ContactSurface, Obstacle, Pair, Target};
 use carom_fem::material::{ElasticConstants, LawSpec};
 use carom_fem::{Body, BodySpec, MassKind, RayleighDamping};
-use carom_friction::{SolverKind, StoppingRule};
+use carom_friction::{Criterion, SolverKind, StoppingRule};
 use carom_mesh::{Vector, generate};
 
 fn cube(name: &str, corner: [f64; 3], first_node: usize) -> ModelBody<3> {
@@ -43,7 +43,7 @@ fn method(condition: ContactCondition) -> Method<3> {
         scheme: Scheme::Theta { theta: 0.5, xi: 0.5 },
         condition,
         solver: SolverKind::GaussSeidel.solver(),
-        stopping: StoppingRule::default(),
+        stopping: StoppingRule { tolerance: 1e-12, criterion: Criterion::Natural, ..StoppingRule::default() },
         newton: NewtonRule { tolerance: 1e-9, max_iterations: 50 },
         max_halvings: 8,
         certificate_tolerance: 1e-9,

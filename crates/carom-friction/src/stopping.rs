@@ -1,0 +1,191 @@
+//! When a solver stops, and what it says then.
+
+use std::time::{Duration, Instant};
+
+use crate::{ContactProblem, Measure, SolverKind, Vector, residual::Meter};
+
+/// When to stop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StoppingRule {
+    /// Residual at which a problem counts as solved.
+    pub tolerance: f64,
+    /// In which units it has to be reached.
+    pub criterion: Criterion,
+    /// Iterations after which the solver gives up.
+    pub max_iterations: usize,
+    /// Time after which the solver gives up.
+    pub time_limit: Option<Duration>,
+}
+
+impl Default for StoppingRule {
+    fn default() -> Self {
+        Self { tolerance: 1e-8, criterion: Criterion::default(), max_iterations: 100_000, time_limit: None }
+    }
+}
+
+/// In which units the residual has to be below the tolerance (see [`Measure`]).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Criterion {
+    /// In the units of the problem, as published codes compare themselves, and in its natural ones.
+    #[default]
+    Both,
+    /// In the natural units of the problem alone, so that the answer does not depend on the choice of units.
+    Natural,
+}
+
+/// How a solve ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SolveStatus {
+    /// The residual is at or below the tolerance.
+    Solved,
+    /// The iterations ran out.
+    IterationLimit,
+    /// The time ran out.
+    TimeLimit,
+    /// No step of the method improved the answer any more.
+    Stalled,
+    /// No reactions can keep the contacts apart: the data contradict themselves.
+    Inconsistent,
+    /// An iterate was not a finite number.
+    Diverged,
+}
+
+impl SolveStatus {
+    /// The status as a word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            SolveStatus::Solved => "solved",
+            SolveStatus::IterationLimit => "iteration-limit",
+            SolveStatus::TimeLimit => "time-limit",
+            SolveStatus::Stalled => "stalled",
+            SolveStatus::Inconsistent => "inconsistent",
+            SolveStatus::Diverged => "diverged",
+        }
+    }
+}
+
+/// A residual on the way to the answer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Iterations made.
+    pub iteration: usize,
+    /// The residual that the tolerance is compared with.
+    pub residual: f64,
+}
+
+/// What a solver says about its answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SolveReport {
+    /// How it ended.
+    pub status: SolveStatus,
+    /// The solver that gave the answer: for `auto` the one it ended with.
+    pub solver: SolverKind,
+    /// Iterations: sweeps over all contacts, or linear systems for Newton's method.
+    pub iterations: usize,
+    /// Distance of the answer from the law, computed anew from it.
+    pub measure: Measure,
+    /// The residuals measured on the way.
+    pub history: Vec<Sample>,
+    /// Time taken.
+    pub time: Duration,
+}
+
+impl SolveReport {
+    /// Whether the answer is a solution.
+    #[must_use]
+    pub fn is_solved(&self) -> bool {
+        self.status == SolveStatus::Solved
+    }
+}
+
+/// Measures iterates and keeps the record of a solve; every solver ends in [`Monitor::report`], which trusts no one.
+#[derive(Debug)]
+pub(crate) struct Monitor<'a, const D: usize> {
+    problem: &'a ContactProblem<D>,
+    meter: Meter,
+    rule: StoppingRule,
+    start: Instant,
+    history: Vec<Sample>,
+    /// Iterations made.
+    pub iterations: usize,
+}
+
+impl<'a, const D: usize> Monitor<'a, D> {
+    pub fn new(problem: &'a ContactProblem<D>, rule: &StoppingRule) -> Self {
+        let (meter, history) = (Meter::new(problem), Vec::with_capacity(32));
+        Self { problem, meter, rule: *rule, start: Instant::now(), history, iterations: 0 }
+    }
+
+    pub fn problem(&self) -> &'a ContactProblem<D> {
+        self.problem
+    }
+
+    pub fn tolerance(&self) -> f64 {
+        self.rule.tolerance
+    }
+
+    /// The natural unit of stiffness [N/m] (see [`Measure`]).
+    pub fn stiffness(&self) -> f64 {
+        self.meter.stiffness
+    }
+
+    /// The last residual measured.
+    pub fn residual(&self) -> f64 {
+        self.history.last().map_or(f64::INFINITY, |s| s.residual)
+    }
+
+    /// Measures `r`; whether it is time to stop, and why.
+    pub fn check(&mut self, r: &[Vector<D>]) -> Option<SolveStatus> {
+        let residual = self.meter.measure(self.problem, r).decisive(self.rule.criterion);
+        self.record(residual)
+    }
+
+    fn record(&mut self, residual: f64) -> Option<SolveStatus> {
+        self.history.push(Sample { iteration: self.iterations, residual });
+        if residual <= self.rule.tolerance {
+            Some(SolveStatus::Solved)
+        } else if !residual.is_finite() {
+            Some(SolveStatus::Diverged)
+        } else {
+            self.exhausted()
+        }
+    }
+
+    /// Whether iterations or time ran out.
+    pub fn exhausted(&self) -> Option<SolveStatus> {
+        if self.iterations >= self.rule.max_iterations {
+            Some(SolveStatus::IterationLimit)
+        } else if self.rule.time_limit.is_some_and(|limit| self.start.elapsed() >= limit) {
+            Some(SolveStatus::TimeLimit)
+        } else {
+            None
+        }
+    }
+
+    /// The report on the answer `r`. It is measured once more: nothing else can make it a success.
+    pub fn report(mut self, solver: SolverKind, status: SolveStatus, r: &[Vector<D>]) -> SolveReport {
+        let measure = self.meter.measure(self.problem, r);
+        let residual = measure.decisive(self.rule.criterion);
+        let status = if residual <= self.rule.tolerance {
+            SolveStatus::Solved
+        } else if !residual.is_finite() {
+            SolveStatus::Diverged
+        } else if status == SolveStatus::Solved {
+            SolveStatus::Stalled
+        } else {
+            status
+        };
+        if self.history.last().is_none_or(|s| s.residual != residual) {
+            self.history.push(Sample { iteration: self.iterations, residual });
+        }
+        SolveReport {
+            status,
+            solver,
+            iterations: self.iterations,
+            measure,
+            history: self.history,
+            time: self.start.elapsed(),
+        }
+    }
+}

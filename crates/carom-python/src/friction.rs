@@ -1,0 +1,168 @@
+//! Contact problems on their own: W, q and μ in, reactions out.
+
+use std::time::Duration;
+
+use carom_friction::{
+    BlockMatrix, ContactProblem, Criterion, Matrix, SolveReport, SolverKind, StoppingRule, Vector, measure,
+};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays;
+
+/// W in compressed block rows, with q and μ: the arrays of `carom.friction.Problem`, checked there.
+#[derive(FromPyObject)]
+pub struct Arrays<'py> {
+    /// First block of every row, and their number: shape [n + 1].
+    starts: PyReadonlyArray1<'py, i64>,
+    /// Block columns, ascending in every row.
+    columns: PyReadonlyArray1<'py, i64>,
+    /// Blocks, shape [blocks, D, D].
+    blocks: PyReadonlyArray3<'py, f64>,
+    /// Shape [n, D].
+    q: PyReadonlyArray2<'py, f64>,
+    /// Shape [n].
+    mu: PyReadonlyArray1<'py, f64>,
+}
+
+impl Arrays<'_> {
+    fn dimension(&self) -> usize {
+        self.q.shape()[1]
+    }
+
+    fn problem<const D: usize>(&self) -> PyResult<ContactProblem<D>> {
+        let wrong = || PyValueError::new_err("the arrays of a contact problem do not fit together");
+        let (starts, columns) = (self.starts.as_slice()?, self.columns.as_slice()?);
+        let (blocks, q, mu) = (self.blocks.as_slice()?, self.q.as_slice()?, self.mu.as_slice()?);
+        let n = mu.len();
+        let fits = starts.len() == n + 1
+            && q.len() == n * D
+            && blocks.len() == columns.len() * D * D
+            && starts.windows(2).all(|s| s[0] <= s[1])
+            && starts[0] == 0
+            && starts[n] as usize == columns.len();
+        if !fits {
+            return Err(wrong());
+        }
+        let mut w = BlockMatrix::default();
+        for i in 0..n {
+            let row = starts[i] as usize..starts[i + 1] as usize;
+            let ascending = columns[row.clone()].windows(2).all(|c| c[0] < c[1]);
+            let inside = columns[row.clone()].iter().all(|&c| (0..n as i64).contains(&c));
+            if !ascending || !inside || !columns[row.clone()].contains(&(i as i64)) {
+                return Err(wrong());
+            }
+            w.push_row(row.map(|e| {
+                let block = &blocks[e * D * D..(e + 1) * D * D];
+                (columns[e] as usize, Matrix::from_fn(|a, b| block[a * D + b]))
+            }));
+        }
+        Ok(ContactProblem { w, q: vectors(q), mu: mu.to_vec() })
+    }
+}
+
+fn vectors<const D: usize>(flat: &[f64]) -> Vec<Vector<D>> {
+    flat.chunks_exact(D).map(Vector::from_column_slice).collect()
+}
+
+fn kind(name: &str) -> PyResult<SolverKind> {
+    SolverKind::from_name(name)
+        .ok_or_else(|| PyValueError::new_err(format!("there is no friction solver named {name:?}")))
+}
+
+/// The names of all solvers, the default first.
+#[pyfunction]
+pub fn friction_solvers() -> Vec<&'static str> {
+    SolverKind::ALL.iter().map(|k| k.name()).collect()
+}
+
+/// Solves w = W r + q with Signorini's and Coulomb's laws from the guess in `reactions`, which is overwritten.
+#[pyfunction]
+#[pyo3(signature = (problem, reactions, *, solver, tolerance, max_iterations, time_limit))]
+pub fn solve_friction<'py>(
+    py: Python<'py>,
+    problem: Arrays<'py>,
+    reactions: PyReadonlyArray2<'py, f64>,
+    solver: &str,
+    tolerance: f64,
+    max_iterations: usize,
+    time_limit: Option<f64>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let time_limit = time_limit
+        .map(Duration::try_from_secs_f64)
+        .transpose()
+        .map_err(|e| PyValueError::new_err(format!("time_limit: {e}")))?;
+    let rule = StoppingRule { tolerance, criterion: Criterion::Both, max_iterations, time_limit };
+    let kind = kind(solver)?;
+    match problem.dimension() {
+        1 => solve::<1>(py, &problem, &reactions, kind, &rule),
+        2 => solve::<2>(py, &problem, &reactions, kind, &rule),
+        _ => solve::<3>(py, &problem, &reactions, kind, &rule),
+    }
+}
+
+fn solve<'py, const D: usize>(
+    py: Python<'py>,
+    arrays: &Arrays<'py>,
+    reactions: &PyReadonlyArray2<'py, f64>,
+    kind: SolverKind,
+    rule: &StoppingRule,
+) -> PyResult<Bound<'py, PyDict>> {
+    let problem = arrays.problem::<D>()?;
+    let mut r = guess(reactions, &problem)?;
+    let report = py.detach(|| kind.solver().solve(&problem, &mut r, rule));
+    let w: Vec<Vector<D>> = (0..r.len()).map(|i| problem.motion(i, &r)).collect();
+    let out = describe(py, &report)?;
+    out.set_item("reactions", arrays::vectors(py, &r)?)?;
+    out.set_item("motions", arrays::vectors(py, &w)?)?;
+    Ok(out)
+}
+
+fn guess<const D: usize>(
+    reactions: &PyReadonlyArray2<'_, f64>,
+    problem: &ContactProblem<D>,
+) -> PyResult<Vec<Vector<D>>> {
+    let r: Vec<Vector<D>> = vectors(reactions.as_slice()?);
+    if r.len() != problem.len() || reactions.shape()[1] != D {
+        return Err(PyValueError::new_err("the reactions do not fit the contact problem"));
+    }
+    Ok(r)
+}
+
+/// A report as a dictionary.
+fn describe<'py>(py: Python<'py>, report: &SolveReport) -> PyResult<Bound<'py, PyDict>> {
+    let out = PyDict::new(py);
+    out.set_item("status", report.status.name())?;
+    out.set_item("solver", report.solver.name())?;
+    out.set_item("iterations", report.iterations)?;
+    out.set_item("residual", report.measure.residual)?;
+    out.set_item("natural_residual", report.measure.natural_residual)?;
+    out.set_item("certificate", report.measure.certificate)?;
+    out.set_item("time", report.time.as_secs_f64())?;
+    let history: Vec<f64> = report.history.iter().flat_map(|s| [s.iteration as f64, s.residual]).collect();
+    out.set_item("history", arrays::table(py, history, 2)?)?;
+    Ok(out)
+}
+
+/// The residual in the problem's units, that in its natural ones, and the certificate [J] of given reactions.
+#[pyfunction]
+pub fn measure_friction(
+    problem: Arrays<'_>,
+    reactions: PyReadonlyArray2<'_, f64>,
+) -> PyResult<(f64, f64, f64)> {
+    fn of<const D: usize>(
+        arrays: &Arrays<'_>,
+        reactions: &PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<(f64, f64, f64)> {
+        let problem = arrays.problem::<D>()?;
+        let m = measure(&problem, &guess(reactions, &problem)?);
+        Ok((m.residual, m.natural_residual, m.certificate))
+    }
+    match problem.dimension() {
+        1 => of::<1>(&problem, &reactions),
+        2 => of::<2>(&problem, &reactions),
+        _ => of::<3>(&problem, &reactions),
+    }
+}
