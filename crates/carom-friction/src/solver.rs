@@ -1,8 +1,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    ContactProblem, GaussSeidel, NewtonAlartCurnier, NewtonNaturalMap, Proximal, SolveReport, StoppingRule,
-    Uzawa, Vector,
+    Admm, ContactProblem, GaussSeidel, NewtonAlartCurnier, NewtonNaturalMap, Proximal, SolveReport,
+    StoppingRule, Uzawa, Vector,
 };
 
 /// A method for contact problems. It does not fail: a solver that stops early says so in its report.
@@ -20,6 +20,8 @@ pub enum SolverKind {
     GaussSeidel,
     /// The simultaneous bi-potential Uzawa iteration of the paper.
     Uzawa,
+    /// The alternating direction method of multipliers.
+    Admm,
     /// The proximal point method.
     Proximal,
     /// Semismooth Newton on the equations of Alart and Curnier.
@@ -30,9 +32,10 @@ pub enum SolverKind {
 
 impl SolverKind {
     /// Every solver.
-    pub const ALL: [SolverKind; 5] = [
+    pub const ALL: [SolverKind; 6] = [
         SolverKind::GaussSeidel,
         SolverKind::Uzawa,
+        SolverKind::Admm,
         SolverKind::Proximal,
         SolverKind::NewtonAlartCurnier,
         SolverKind::NewtonNaturalMap,
@@ -44,6 +47,7 @@ impl SolverKind {
         match self {
             SolverKind::GaussSeidel => "gauss-seidel",
             SolverKind::Uzawa => "uzawa",
+            SolverKind::Admm => "admm",
             SolverKind::Proximal => "proximal",
             SolverKind::NewtonAlartCurnier => "newton-alart-curnier",
             SolverKind::NewtonNaturalMap => "newton-natural-map",
@@ -62,6 +66,7 @@ impl SolverKind {
         match self {
             SolverKind::GaussSeidel => Box::new(GaussSeidel),
             SolverKind::Uzawa => Box::new(Uzawa),
+            SolverKind::Admm => Box::new(Admm),
             SolverKind::Proximal => Box::new(Proximal),
             SolverKind::NewtonAlartCurnier => Box::new(NewtonAlartCurnier),
             SolverKind::NewtonNaturalMap => Box::new(NewtonNaturalMap),

@@ -89,6 +89,14 @@ impl SparseFactor {
         }
     }
 
+    /// Numbers stored; for LU as many as in the Cholesky factor.
+    pub fn fill(&self) -> usize {
+        match &self.kind {
+            Kind::Cholesky { symbolic, .. } => symbolic.len_val(),
+            Kind::Lu { .. } => 0,
+        }
+    }
+
     /// What solving for `columns` right-hand sides at once needs of memory.
     pub fn scratch(&self, columns: usize) -> StackReq {
         match &self.kind {

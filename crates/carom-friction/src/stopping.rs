@@ -142,8 +142,23 @@ impl<'a, const D: usize, P: Measured<D>> Monitor<'a, D, P> {
         self.record(residual)
     }
 
-    fn record(&mut self, residual: f64) -> Option<SolveStatus> {
+    /// ‖q‖ [m].
+    pub fn size_q(&self) -> f64 {
+        self.meter.squared_q.sqrt()
+    }
+
+    /// The residual of reactions `r` whose `motions` a solver knows.
+    pub fn residual_of(&self, mu: &[f64], r: &[Vector<D>], motions: &[Vector<D>]) -> f64 {
+        self.meter.measure(mu, r, |i| motions[i]).decisive(self.rule.criterion)
+    }
+
+    /// Enters a residual in the history.
+    pub fn note(&mut self, residual: f64) {
         self.history.push(Sample { iteration: self.iterations, residual });
+    }
+
+    fn record(&mut self, residual: f64) -> Option<SolveStatus> {
+        self.note(residual);
         if residual <= self.rule.tolerance {
             Some(SolveStatus::Solved)
         } else if !residual.is_finite() {
