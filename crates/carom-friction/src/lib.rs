@@ -49,7 +49,7 @@ mod uzawa;
 pub use admm::Admm;
 pub use block_matrix::BlockMatrix;
 pub use gauss_seidel::GaussSeidel;
-pub use global::{GlobalProblem, SingularMatrix};
+pub use global::{GlobalMethod, GlobalProblem, GlobalReport, SingularMatrix};
 pub use problem::ContactProblem;
 pub use proximal::{NewtonAlartCurnier, NewtonNaturalMap, Proximal};
 pub use residual::{Measure, measure};

@@ -3,7 +3,8 @@ use faer::linalg::cholesky::llt::factor::{LltParams, LltRegularization};
 use faer::linalg::lu::partial_pivoting::factor::PartialPivLuParams;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
 };
 use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
@@ -15,6 +16,16 @@ use faer::{Conj, MatMut, Par, Side, Spec};
 pub(crate) struct SparseFactor {
     pattern: SymbolicSparseColMat<usize>,
     kind: Kind,
+    size: Size,
+}
+
+/// What a factor takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Size {
+    /// Numbers stored. For LU as if no rows were exchanged.
+    pub fill: f64,
+    /// Multiplications of a factorisation.
+    pub work: f64,
 }
 
 enum Kind {
@@ -26,31 +37,26 @@ enum Kind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct NoFactor;
 
-/// The structure of the Cholesky factor of symmetric matrices of this pattern.
-pub(crate) fn cholesky_structure(
-    pattern: &SymbolicSparseColMat<usize>,
-) -> Result<SymbolicCholesky<usize>, NoFactor> {
-    let params = CholeskySymbolicParams {
-        supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-        ..Default::default()
-    };
-    factorize_symbolic_cholesky(pattern.as_ref(), Side::Lower, SymmetricOrdering::Amd, params)
-        .map_err(|_| NoFactor)
-}
-
 impl SparseFactor {
     /// For symmetric positive definite matrices with this pattern, of which only the lower triangle is read.
     pub fn cholesky(pattern: SymbolicSparseColMat<usize>) -> Result<Self, NoFactor> {
         let symbolic = cholesky_structure(&pattern)?;
-        let values = vec![0.0; symbolic.len_val()];
-        Ok(Self { pattern, kind: Kind::Cholesky { symbolic, values } })
+        let (values, size) = (vec![0.0; symbolic.len_val()], size(&symbolic));
+        Ok(Self { pattern, kind: Kind::Cholesky { symbolic, values }, size })
     }
 
     /// For any regular matrices with this pattern.
     pub fn lu(pattern: SymbolicSparseColMat<usize>) -> Result<Self, NoFactor> {
+        let Size { fill, work } = size(&cholesky_structure(&pattern)?);
+        let size = Size { fill: 2.0 * fill, work: 2.0 * work };
         let symbolic =
             factorize_symbolic_lu(pattern.as_ref(), LuSymbolicParams::default()).map_err(|_| NoFactor)?;
-        Ok(Self { pattern, kind: Kind::Lu { symbolic, numeric: NumericLu::new() } })
+        Ok(Self { pattern, kind: Kind::Lu { symbolic, numeric: NumericLu::new() }, size })
+    }
+
+    /// What it takes.
+    pub fn size(&self) -> Size {
+        self.size
     }
 
     /// Factorises the matrix with these `values`, in the order of the pattern.
@@ -86,14 +92,6 @@ impl SparseFactor {
                     .map(|_| ())
                     .map_err(|_| NoFactor)
             }
-        }
-    }
-
-    /// Numbers stored; for LU as many as in the Cholesky factor.
-    pub fn fill(&self) -> usize {
-        match &self.kind {
-            Kind::Cholesky { symbolic, .. } => symbolic.len_val(),
-            Kind::Lu { .. } => 0,
         }
     }
 
@@ -142,4 +140,24 @@ impl SparseFactor {
 fn columns(x: &mut [f64], rows: usize) -> MatMut<'_, f64> {
     let count = x.len() / rows;
     MatMut::from_column_major_slice_mut(x, rows, count)
+}
+
+fn cholesky_structure(pattern: &SymbolicSparseColMat<usize>) -> Result<SymbolicCholesky<usize>, NoFactor> {
+    let params = CholeskySymbolicParams {
+        supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+        ..Default::default()
+    };
+    factorize_symbolic_cholesky(pattern.as_ref(), Side::Lower, SymmetricOrdering::Amd, params)
+        .map_err(|_| NoFactor)
+}
+
+fn size(symbolic: &SymbolicCholesky<usize>) -> Size {
+    let fill = symbolic.len_val() as f64;
+    let SymbolicCholeskyRaw::Supernodal(structure) = symbolic.raw() else { return Size { fill, work: fill } };
+    let work = (0..structure.n_supernodes()).map(|s| {
+        let columns = structure.supernode_end()[s] - structure.supernode_begin()[s];
+        let rows = columns + structure.supernode(s).pattern().len();
+        columns as f64 * (rows as f64).powi(2)
+    });
+    Size { fill, work: work.sum() }
 }

@@ -45,6 +45,14 @@ impl Factor {
         factorized.map_err(|NoFactor| 0)
     }
 
+    /// Numbers stored.
+    pub fn fill(&self) -> f64 {
+        match self {
+            Factor::Small(inverse) => inverse.len() as f64,
+            Factor::Sparse(factor) => factor.size().fill,
+        }
+    }
+
     /// What solving for `columns` right-hand sides at once needs of memory.
     pub fn scratch(&self, columns: usize) -> StackReq {
         match self {

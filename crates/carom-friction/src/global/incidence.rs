@@ -93,24 +93,21 @@ impl<const D: usize> Incidence<D> {
         dofs.zip(&self.rows[link.entries.clone()])
     }
 
+    /// All rows of H in which a contact has numbers: (unknown, D numbers).
+    pub fn rows_of_contact(&self, contact: usize) -> impl Iterator<Item = (usize, &Vector<D>)> {
+        self.of_contact(contact).iter().flat_map(|link| self.rows(link))
+    }
+
     /// (Hᵀ v)_i of contact `i`.
     pub fn motion(&self, i: usize, v: &[f64]) -> Vector<D> {
-        let mut sum = Vector::zeros();
-        for link in self.of_contact(i) {
-            for (dof, row) in self.rows(link) {
-                sum += row * v[dof];
-            }
-        }
-        sum
+        self.rows_of_contact(i).map(|(dof, row)| row * v[dof]).sum()
     }
 
     /// x += H r.
     pub fn add_forces(&self, r: &[Vector<D>], x: &mut [f64]) {
         for (i, r) in r.iter().enumerate() {
-            for link in self.of_contact(i) {
-                for (dof, row) in self.rows(link) {
-                    x[dof] += row.dot(r);
-                }
+            for (dof, row) in self.rows_of_contact(i) {
+                x[dof] += row.dot(r);
             }
         }
     }

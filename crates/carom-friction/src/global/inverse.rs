@@ -30,6 +30,11 @@ impl Inverse {
         Ok(Self { parts, factors, symmetric })
     }
 
+    /// Numbers stored in the factor of `part`.
+    pub fn fill(&self, part: usize) -> f64 {
+        self.factors[part].fill()
+    }
+
     /// Memory for solving for `columns` right-hand sides at once on any part.
     pub fn memory(&self, columns: usize) -> MemBuffer {
         MemBuffer::new(self.factors.iter().map(|f| f.scratch(columns)).fold(StackReq::EMPTY, StackReq::or))
