@@ -24,6 +24,7 @@
 //! friction and improved numerical algorithms*, Math. Comput. Modelling 28 (1998) 225–245; M. Jean, *The non-smooth contact
 //! dynamics method*, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235–257.
 
+mod anderson;
 mod block_lu;
 mod block_matrix;
 pub mod cone;
@@ -31,6 +32,7 @@ pub mod cone;
 mod contract;
 mod equation;
 mod gauss_seidel;
+mod local;
 mod newton;
 mod problem;
 mod proximal;
@@ -41,7 +43,7 @@ mod stopping;
 mod uzawa;
 
 pub use block_matrix::BlockMatrix;
-pub use gauss_seidel::GaussSeidel;
+pub use gauss_seidel::{GaussSeidel, Local};
 pub use problem::ContactProblem;
 pub use proximal::Proximal;
 pub use residual::{Measure, measure};

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use crate::{ContactProblem, GaussSeidel, Proximal, SolveReport, StoppingRule, Uzawa, Vector};
+use crate::{ContactProblem, GaussSeidel, Local, Proximal, SolveReport, StoppingRule, Uzawa, Vector};
 
 /// A method for contact problems. It does not fail: a solver that stops early says so in its report.
 pub trait FrictionSolver<const D: usize>: Send + Sync {
@@ -15,6 +15,10 @@ pub enum SolverKind {
     /// Block Gauss–Seidel with the bi-potential fixed point on each contact.
     #[default]
     GaussSeidel,
+    /// Block Gauss–Seidel with closed forms on each contact.
+    GaussSeidelEnumerative,
+    /// Block Gauss–Seidel with Newton's method on each contact.
+    GaussSeidelAlartCurnier,
     /// The simultaneous bi-potential Uzawa iteration of the paper.
     Uzawa,
     /// The proximal point method.
@@ -23,13 +27,21 @@ pub enum SolverKind {
 
 impl SolverKind {
     /// Every solver.
-    pub const ALL: [SolverKind; 3] = [SolverKind::GaussSeidel, SolverKind::Uzawa, SolverKind::Proximal];
+    pub const ALL: [SolverKind; 5] = [
+        SolverKind::GaussSeidel,
+        SolverKind::GaussSeidelEnumerative,
+        SolverKind::GaussSeidelAlartCurnier,
+        SolverKind::Uzawa,
+        SolverKind::Proximal,
+    ];
 
     /// The name, as in case files and on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             SolverKind::GaussSeidel => "gauss-seidel",
+            SolverKind::GaussSeidelEnumerative => "gauss-seidel-enumerative",
+            SolverKind::GaussSeidelAlartCurnier => "gauss-seidel-alart-curnier",
             SolverKind::Uzawa => "uzawa",
             SolverKind::Proximal => "proximal",
         }
@@ -45,7 +57,9 @@ impl SolverKind {
     #[must_use]
     pub fn solver<const D: usize>(self) -> Box<dyn FrictionSolver<D>> {
         match self {
-            SolverKind::GaussSeidel => Box::new(GaussSeidel),
+            SolverKind::GaussSeidel => Box::new(GaussSeidel { local: Local::Bipotential }),
+            SolverKind::GaussSeidelEnumerative => Box::new(GaussSeidel { local: Local::Enumerative }),
+            SolverKind::GaussSeidelAlartCurnier => Box::new(GaussSeidel { local: Local::AlartCurnier }),
             SolverKind::Uzawa => Box::new(Uzawa),
             SolverKind::Proximal => Box::new(Proximal),
         }
