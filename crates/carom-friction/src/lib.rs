@@ -37,6 +37,7 @@ mod newton;
 mod problem;
 mod proximal;
 mod residual;
+mod schedule;
 mod small;
 mod solver;
 mod stopping;
