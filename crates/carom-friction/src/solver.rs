@@ -1,6 +1,8 @@
 use serde::{Deserialize, Serialize};
 
-use crate::{ContactProblem, GaussSeidel, Local, Proximal, SolveReport, StoppingRule, Uzawa, Vector};
+use crate::{
+    ContactProblem, GaussSeidel, Local, ProjectedGradient, Proximal, SolveReport, StoppingRule, Uzawa, Vector,
+};
 
 /// A method for contact problems. It does not fail: a solver that stops early says so in its report.
 pub trait FrictionSolver<const D: usize>: Send + Sync {
@@ -21,17 +23,20 @@ pub enum SolverKind {
     GaussSeidelAlartCurnier,
     /// The simultaneous bi-potential Uzawa iteration of the paper.
     Uzawa,
+    /// Accelerated projected gradients.
+    ProjectedGradient,
     /// The proximal point method.
     Proximal,
 }
 
 impl SolverKind {
     /// Every solver.
-    pub const ALL: [SolverKind; 5] = [
+    pub const ALL: [SolverKind; 6] = [
         SolverKind::GaussSeidel,
         SolverKind::GaussSeidelEnumerative,
         SolverKind::GaussSeidelAlartCurnier,
         SolverKind::Uzawa,
+        SolverKind::ProjectedGradient,
         SolverKind::Proximal,
     ];
 
@@ -43,6 +48,7 @@ impl SolverKind {
             SolverKind::GaussSeidelEnumerative => "gauss-seidel-enumerative",
             SolverKind::GaussSeidelAlartCurnier => "gauss-seidel-alart-curnier",
             SolverKind::Uzawa => "uzawa",
+            SolverKind::ProjectedGradient => "projected-gradient",
             SolverKind::Proximal => "proximal",
         }
     }
@@ -61,6 +67,7 @@ impl SolverKind {
             SolverKind::GaussSeidelEnumerative => Box::new(GaussSeidel { local: Local::Enumerative }),
             SolverKind::GaussSeidelAlartCurnier => Box::new(GaussSeidel { local: Local::AlartCurnier }),
             SolverKind::Uzawa => Box::new(Uzawa),
+            SolverKind::ProjectedGradient => Box::new(ProjectedGradient),
             SolverKind::Proximal => Box::new(Proximal),
         }
     }
