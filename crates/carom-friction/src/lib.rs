@@ -24,6 +24,7 @@
 //! friction and improved numerical algorithms*, Math. Comput. Modelling 28 (1998) 225–245; M. Jean, *The non-smooth contact
 //! dynamics method*, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235–257.
 
+mod admm;
 mod anderson;
 mod block_lu;
 mod block_matrix;
@@ -44,6 +45,7 @@ mod solver;
 mod stopping;
 mod uzawa;
 
+pub use admm::Admm;
 pub use block_matrix::BlockMatrix;
 pub use gauss_seidel::{GaussSeidel, Local};
 pub use problem::ContactProblem;

@@ -1,7 +1,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    ContactProblem, GaussSeidel, Local, ProjectedGradient, Proximal, SolveReport, StoppingRule, Uzawa, Vector,
+    Admm, ContactProblem, GaussSeidel, Local, ProjectedGradient, Proximal, SolveReport, StoppingRule, Uzawa,
+    Vector,
 };
 
 /// A method for contact problems. It does not fail: a solver that stops early says so in its report.
@@ -25,18 +26,21 @@ pub enum SolverKind {
     Uzawa,
     /// Accelerated projected gradients.
     ProjectedGradient,
+    /// The alternating direction method of multipliers.
+    Admm,
     /// The proximal point method.
     Proximal,
 }
 
 impl SolverKind {
     /// Every solver.
-    pub const ALL: [SolverKind; 6] = [
+    pub const ALL: [SolverKind; 7] = [
         SolverKind::GaussSeidel,
         SolverKind::GaussSeidelEnumerative,
         SolverKind::GaussSeidelAlartCurnier,
         SolverKind::Uzawa,
         SolverKind::ProjectedGradient,
+        SolverKind::Admm,
         SolverKind::Proximal,
     ];
 
@@ -49,6 +53,7 @@ impl SolverKind {
             SolverKind::GaussSeidelAlartCurnier => "gauss-seidel-alart-curnier",
             SolverKind::Uzawa => "uzawa",
             SolverKind::ProjectedGradient => "projected-gradient",
+            SolverKind::Admm => "admm",
             SolverKind::Proximal => "proximal",
         }
     }
@@ -68,6 +73,7 @@ impl SolverKind {
             SolverKind::GaussSeidelAlartCurnier => Box::new(GaussSeidel { local: Local::AlartCurnier }),
             SolverKind::Uzawa => Box::new(Uzawa),
             SolverKind::ProjectedGradient => Box::new(ProjectedGradient),
+            SolverKind::Admm => Box::new(Admm),
             SolverKind::Proximal => Box::new(Proximal),
         }
     }
