@@ -102,7 +102,10 @@ pub(crate) fn react<const D: usize>(
         &work.momentum,
         &mut work.problem,
     );
+    work.guess.clone_from(&work.reactions);
     let report = method.solver.solve(&work.problem, &mut work.reactions, &method.stopping);
+    work.solved_by = report.solver;
+    work.friction_time += report.time;
     if !report.is_solved() {
         return Err(StepError::Friction { contacts: work.contacts.len(), report });
     }
