@@ -1,5 +1,8 @@
 """Frictional impact of deformable bodies, every joule accounted for."""
 
+from importlib import import_module
+from types import ModuleType
+
 from carom._carom import Simulation, __version__
 from carom.analysis import Conserving, Dynamic, Newton, Theta
 from carom.audit import Audit, audit
@@ -58,3 +61,10 @@ __all__ = [
     "read_history",
     "run",
 ]
+
+
+def __getattr__(name: str) -> ModuleType:
+    """Import `carom.friction`, and scipy with it, where it is first used."""
+    if name == "friction":
+        return import_module("carom.friction")
+    raise AttributeError(f"module 'carom' has no attribute {name!r}")
