@@ -9,16 +9,25 @@ References
    contact problems*, INRIA technical report 0444 (2014).
 """
 
-from carom.friction.files import read, read_record, write
+from carom.friction.files import (
+    FCLIB_SUFFIXES,
+    check_suffix,
+    read,
+    read_record,
+    write,
+    write_record,
+)
 from carom.friction.global_problem import GlobalProblem
 from carom.friction.measure import Measure, measure, project
 from carom.friction.problem import Problem
 from carom.friction.record import Iterate, Record
 from carom.friction.solution import Solution
-from carom.friction.solve import SOLVERS, solve
+from carom.friction.solve import DEFAULT_ITERATIONS, SOLVERS, solve
 from carom.friction.symmetry import AsymmetryWarning
 
 __all__ = [
+    "DEFAULT_ITERATIONS",
+    "FCLIB_SUFFIXES",
     "SOLVERS",
     "AsymmetryWarning",
     "GlobalProblem",
@@ -27,10 +36,12 @@ __all__ = [
     "Problem",
     "Record",
     "Solution",
+    "check_suffix",
     "measure",
     "project",
     "read",
     "read_record",
     "solve",
     "write",
+    "write_record",
 ]

@@ -42,7 +42,7 @@ def read_record(path: str | PathLike[str]) -> Record:
         As `read`, and if a guess or the solution does not fit the problem.
     """
     path = Path(path)
-    return fclib.read(path) if _is_hdf5(path) else Record(siconos_text.read(path))
+    return fclib.read(path) if _is_hdf5(path) else Record(siconos_text.read(path), title=path.stem)
 
 
 def write(
@@ -75,15 +75,6 @@ def write(
     InputError
         If the suffix is another one.
     """
-    path = Path(path)
-    if path.suffix in TEXT_SUFFIXES:
-        siconos_text.write(problem, path)
-        return
-    if path.suffix not in FCLIB_SUFFIXES:
-        raise InputError(
-            f"{path}: the suffix must be one of {', '.join(FCLIB_SUFFIXES)} (FCLIB) or "
-            f"{', '.join(TEXT_SUFFIXES)} (text of Siconos)"
-        )
     record = Record(
         problem,
         title=title,
@@ -91,7 +82,31 @@ def write(
         guesses=() if guess is None else (Iterate.of(problem, guess),),
         solution=None if solution is None else Iterate.of(problem, solution),
     )
-    fclib.write(record, path)
+    write_record(record, path)
+
+
+def write_record(record: Record, path: str | PathLike[str]) -> None:
+    """Write a problem with what else is known of it, as `write` does.
+
+    Raises
+    ------
+    InputError
+        If the suffix is not one of those.
+    """
+    path = Path(path)
+    check_suffix(path)
+    if path.suffix in TEXT_SUFFIXES:
+        siconos_text.write(record.problem, path)
+    else:
+        fclib.write(record, path)
+
+
+def check_suffix(path: Path, suffixes: tuple[str, ...] = (*FCLIB_SUFFIXES, *TEXT_SUFFIXES)) -> None:
+    """Raise an `InputError` unless the file's suffix is one of those that say its format."""
+    if path.suffix not in suffixes:
+        raise InputError(
+            f"{path}: the suffix says the format and must be one of {', '.join(suffixes)}"
+        )
 
 
 def _is_hdf5(path: Path) -> bool:

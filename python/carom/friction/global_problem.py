@@ -10,9 +10,11 @@ import scipy.sparse as sp
 import scipy.sparse.linalg as spla
 from numpy.typing import ArrayLike, NDArray
 
+from carom import _carom
 from carom.errors import InputError
 from carom.friction import arrays
 from carom.friction.measure import Measure, measure
+from carom.friction.problem import Problem
 
 COLUMNS_AT_ONCE = 64
 """Right-hand sides that are solved together where W is needed column by column."""
@@ -145,6 +147,22 @@ class GlobalProblem:
         """Return how far reactions, shape [n, D] or [n D], are from the law."""
         r = self.vectors("reactions", reactions)
         return measure(r, self.motions(r), q=self.q, mu=self.mu, stiffness=self.stiffness)
+
+    def condense(self) -> Problem:
+        """Return the problem in local form, W = Hᵀ M⁻¹ H and q = Hᵀ M⁻¹ f + b.
+
+        W is taken as it comes out: with an M that is not symmetric it is not symmetric either.
+
+        Raises
+        ------
+        InputError
+            If M is singular.
+        """
+        try:
+            local = _carom.condense_friction(self)
+        except ValueError as error:
+            raise InputError(str(error), "M") from error
+        return Problem.from_blocks(**local, mu=self.mu)
 
     def vectors(self, name: str, values: ArrayLike) -> NDArray[np.float64]:
         """Return an array of one vector per contact with the shape [n, D]."""

@@ -68,6 +68,7 @@ class Problem:
         symmetric, asymmetry = symmetry.symmetrised(rows, dimension=dimension, stacklevel=2)
         symmetry.refuse_indefinite(symmetric, dimension=dimension, asymmetry=asymmetry)
         self._set(block_rows(symmetric, dimension), q, mu, asymmetry=asymmetry)
+        self._symmetric = True
 
     @classmethod
     def from_blocks(
@@ -102,6 +103,7 @@ class Problem:
             arrays.coefficients(mu, contacts=contacts),
             asymmetry=0.0,
         )
+        problem._symmetric = False
         return problem
 
     def _set(
@@ -138,6 +140,24 @@ class Problem:
     def matrix(self) -> sp.bsr_array:
         """Return W [m/N], shape [n D, n D], symmetric if W was given as a matrix."""
         return self._rows.matrix()
+
+    def refuse_if_indefinite(self) -> None:
+        """Look longer for a negative eigenvalue of W than can be afforded for every problem.
+
+        A W given in blocks, which need not be symmetric, is not looked at.
+
+        Raises
+        ------
+        InputError
+            If there is one that is clearly negative.
+        """
+        if self._symmetric and self.contacts:
+            symmetry.refuse_indefinite(
+                self.matrix().tocsr(),
+                dimension=self.dimension,
+                asymmetry=self.asymmetry,
+                steps=symmetry.MANY_STEPS,
+            )
 
     def motions(self, reactions: ArrayLike) -> NDArray[np.float64]:
         """Return w = W r + q [m], shape [n, D], of reactions [N], shape [n, D] or [n D]."""

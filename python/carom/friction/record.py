@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from carom.errors import InputError
 from carom.friction.global_problem import GlobalProblem
 from carom.friction.problem import Problem
 from carom.friction.solution import Solution
@@ -43,6 +44,10 @@ class Iterate:
         velocities = problem.velocities(r) if isinstance(problem, GlobalProblem) else None
         return cls(r, problem.motions(r), velocities)
 
+    def local(self) -> Iterate:
+        """Return what the local form knows of it."""
+        return Iterate(self.reactions, self.motions)
+
 
 @dataclass(frozen=True, eq=False)
 class Record:
@@ -65,3 +70,25 @@ class Record:
     description: str = ""
     guesses: tuple[Iterate, ...] = ()
     solution: Iterate | None = None
+
+    def answered(self, solution: Solution) -> Record:
+        """Return the record with an answer."""
+        return replace(self, solution=Iterate.of(self.problem, solution))
+
+    def condensed(self) -> Record:
+        """Return the record of a global problem in local form.
+
+        Raises
+        ------
+        InputError
+            If the problem is in local form already, or if M is singular.
+        """
+        if not isinstance(self.problem, GlobalProblem):
+            raise InputError("the problem is in local form already and cannot be condensed")
+        return Record(
+            self.problem.condense(),
+            title=self.title,
+            description=self.description,
+            guesses=tuple(guess.local() for guess in self.guesses),
+            solution=None if self.solution is None else self.solution.local(),
+        )

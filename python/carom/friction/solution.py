@@ -34,6 +34,8 @@ class Solution:
         Time of the solve alone [s], in one thread.
     history
         Iteration and residual, measured on the way, shape [sample_count, 2].
+    method
+        Of a global problem, ``condensed`` or ``admm``; None for a problem in local form.
     """
 
     reactions: NDArray[np.float64]
@@ -47,6 +49,7 @@ class Solution:
     certificate: float
     time: float
     history: NDArray[np.float64]
+    method: str | None = None
 
     @property
     def solved(self) -> bool:

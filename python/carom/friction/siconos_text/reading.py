@@ -13,6 +13,8 @@ from carom.friction.record import AnyProblem
 from carom.friction.siconos_text.matrices import read_matrix
 from carom.friction.siconos_text.tokens import Tokens, is_integer
 
+_DIMENSIONS = {"1", "2", "3"}
+
 _FLAG = 1
 """Words that some files have after the last number, of no consequence."""
 
@@ -34,9 +36,10 @@ def read(path: Path) -> AnyProblem:
 
 
 def _problem(tokens: Tokens) -> AnyProblem:
+    if tokens.ahead(1) and tokens.ahead(1)[0] not in _DIMENSIONS:
+        tokens.words(1, "")
+        raise tokens.wrong("is neither HDF5 nor a text of Siconos, which begins with 2 or 3")
     dimension = tokens.integer("the dimension")
-    if dimension not in {1, 2, 3}:
-        raise tokens.wrong("the dimension must be 2 or 3, in a text file of Siconos")
     contacts = tokens.integer("the number of contacts")
     size = contacts * dimension
     first = read_matrix(tokens, "the first matrix")

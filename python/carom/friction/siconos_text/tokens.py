@@ -70,7 +70,8 @@ class Tokens:
             values = np.array([_number(word) for word in words])
         if not np.isfinite(values).all():
             first = int(np.flatnonzero(~np.isfinite(values))[0])
-            raise self.wrong(f"{what} must be finite numbers", (first - len(words)) * stride)
+            after = (len(words) - 1 - first) * stride
+            raise self.wrong(f"{what} must be finite numbers", -1 - after)
         return values
 
     def expect(self, word: str, what: str) -> None:

@@ -48,7 +48,8 @@ def _triplets(matrix: sp.csc_array) -> Iterable[str]:
     yield from map(str, (PRINTED, rows, columns, _TRIPLET))
     yield "CSparse"
     yield f"triplet: {rows}-by-{columns}, nzmax: {entries.nnz} nnz: {entries.nnz}"
-    for row, column, value in zip(entries.row, entries.col, entries.data, strict=True):
+    lists = (entries.row.tolist(), entries.col.tolist(), entries.data.tolist())
+    for row, column, value in zip(*lists, strict=True):
         yield f"    {row} {column} : {value!r}"
 
 
