@@ -142,8 +142,8 @@ def _replay(file: Path, solver: FrictionSolver) -> str:
     """Return where a contact problem is and how to solve it again."""
     return (
         f"the problem is in {file}, solve it again with: carom friction solve "
-        f"{shlex.quote(str(file))} --solver {solver.kind} --tolerance {solver.tolerance:g} "
-        f"--max-iterations {solver.max_iterations}"
+        f"{shlex.quote(str(file))} --warm --solver {solver.kind} "
+        f"--tolerance {solver.tolerance!r} --max-iterations {solver.max_iterations}"
     )
 
 
