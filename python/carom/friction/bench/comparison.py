@@ -119,11 +119,13 @@ def compare(
     runs, peer_runs = [], []
     for case in cases:
         for solver in solvers:
-            runs.append(run_solver(case, solver, tolerance=tolerance, time_limit=time_limit))
-            observer(runs[-1])
-        for solver in siconos.solvers(case.problem.dimension) if siconos else ():
-            peer_runs.append(
-                siconos.run(case, solver, tolerance=tolerance, time_limit=time_limit)  # type: ignore[union-attr]
-            )
-            observer(peer_runs[-1])
+            run = run_solver(case, solver, tolerance=tolerance, time_limit=time_limit)
+            runs.append(run)
+            observer(run)
+        if siconos is None:
+            continue
+        for solver in siconos.solvers(case.problem.dimension):
+            run = siconos.run(case, solver, tolerance=tolerance, time_limit=time_limit)
+            peer_runs.append(run)
+            observer(run)
     return Comparison(cases, runs, peer_runs, tolerance, time_limit)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from pathlib import Path
 
+import matplotlib as mpl
 import numpy as np
 
 from carom.friction.bench.comparison import Comparison
@@ -25,6 +27,14 @@ def draw_profile(comparison: Comparison, folder: Path) -> Path:
     widest = min(WIDEST, 1.5 * float(finite.max(initial=2.0)))
     with figure(height=4.2) as picture:
         axes = picture.add_subplot()
+        colours = {
+            solver: colour
+            for solvers, palette in (
+                (comparison.solvers, "tab10"),
+                (comparison.peer_solvers, "Set2"),
+            )
+            for solver, colour in zip(solvers, cycle(mpl.color_sequences[palette]))
+        }
         for solver, each in found.items():
             peer = solver in comparison.peer_solvers
             steps = np.concatenate([[1.0], each[np.isfinite(each)], [max(widest, 1.0)]])
@@ -34,6 +44,7 @@ def draw_profile(comparison: Comparison, folder: Path) -> Path:
                 share,
                 "--" if peer else "-",
                 where="post",
+                color=colours[solver],
                 linewidth=1.2 if peer else 1.8,
                 label=label(comparison, solver),
             )
