@@ -29,6 +29,7 @@ mod block_matrix;
 pub mod cone;
 #[cfg(test)]
 mod contract;
+mod contradiction;
 mod equation;
 mod gauss_seidel;
 mod newton;
@@ -43,7 +44,7 @@ mod uzawa;
 pub use block_matrix::BlockMatrix;
 pub use gauss_seidel::GaussSeidel;
 pub use problem::ContactProblem;
-pub use proximal::Proximal;
+pub use proximal::{NewtonAlartCurnier, NewtonNaturalMap, Proximal};
 pub use residual::{Measure, measure};
 pub use solver::{FrictionSolver, SolverKind};
 pub use stopping::{Criterion, Sample, SolveReport, SolveStatus, StoppingRule};

@@ -1,6 +1,9 @@
 use serde::{Deserialize, Serialize};
 
-use crate::{ContactProblem, GaussSeidel, Proximal, SolveReport, StoppingRule, Uzawa, Vector};
+use crate::{
+    ContactProblem, GaussSeidel, NewtonAlartCurnier, NewtonNaturalMap, Proximal, SolveReport, StoppingRule,
+    Uzawa, Vector,
+};
 
 /// A method for contact problems. It does not fail: a solver that stops early says so in its report.
 pub trait FrictionSolver<const D: usize>: Send + Sync {
@@ -19,11 +22,21 @@ pub enum SolverKind {
     Uzawa,
     /// The proximal point method.
     Proximal,
+    /// Semismooth Newton on the equations of Alart and Curnier.
+    NewtonAlartCurnier,
+    /// Semismooth Newton on the bi-potential's natural map.
+    NewtonNaturalMap,
 }
 
 impl SolverKind {
     /// Every solver.
-    pub const ALL: [SolverKind; 3] = [SolverKind::GaussSeidel, SolverKind::Uzawa, SolverKind::Proximal];
+    pub const ALL: [SolverKind; 5] = [
+        SolverKind::GaussSeidel,
+        SolverKind::Uzawa,
+        SolverKind::Proximal,
+        SolverKind::NewtonAlartCurnier,
+        SolverKind::NewtonNaturalMap,
+    ];
 
     /// The name, as in case files and on the command line.
     #[must_use]
@@ -32,6 +45,8 @@ impl SolverKind {
             SolverKind::GaussSeidel => "gauss-seidel",
             SolverKind::Uzawa => "uzawa",
             SolverKind::Proximal => "proximal",
+            SolverKind::NewtonAlartCurnier => "newton-alart-curnier",
+            SolverKind::NewtonNaturalMap => "newton-natural-map",
         }
     }
 
@@ -48,6 +63,8 @@ impl SolverKind {
             SolverKind::GaussSeidel => Box::new(GaussSeidel),
             SolverKind::Uzawa => Box::new(Uzawa),
             SolverKind::Proximal => Box::new(Proximal),
+            SolverKind::NewtonAlartCurnier => Box::new(NewtonAlartCurnier),
+            SolverKind::NewtonNaturalMap => Box::new(NewtonNaturalMap),
         }
     }
 }
