@@ -81,7 +81,7 @@ def refuse_indefinite(
     That is never below the least eigenvalue: a matrix that is refused is indefinite, one that is
     not may still be.
     """
-    if W.nnz == 0:
+    if not W.data.any():
         return
     tolerance = max(CLEARLY, 10.0 * asymmetry)
     diagonal = W.diagonal()
