@@ -17,7 +17,9 @@ Friction = Annotated[Number, Field(ge=0, le=1000)]
 """Coulomb's coefficient."""
 
 
-SolverName = Literal["gauss-seidel", "uzawa", "proximal"]
+SolverName = Literal[
+    "gauss-seidel", "uzawa", "proximal", "newton-alart-curnier", "newton-natural-map"
+]
 """Solvers of contact problems, as in `carom.friction.SOLVERS`."""
 
 

@@ -56,11 +56,12 @@ pub(crate) fn cross_check<const D: usize>(
     })
 }
 
-/// One that goes another way: systems check sweeps, sweeps check the rest.
+/// One that goes another way: linear systems of all contacts check sweeps, whatever these do on a contact; sweeps check the rest.
 fn second_solver(first: SolverKind) -> SolverKind {
-    match first {
-        SolverKind::GaussSeidel => SolverKind::Proximal,
-        _ => SolverKind::GaussSeidel,
+    if first.name().starts_with(SolverKind::GaussSeidel.name()) {
+        SolverKind::Proximal
+    } else {
+        SolverKind::GaussSeidel
     }
 }
 
