@@ -43,7 +43,7 @@ def read_cases(folder: Path) -> tuple[list[Case], dict[str, str]]:
     cases, refused = [], {}
     suffixes = {*FCLIB_SUFFIXES, *TEXT_SUFFIXES}
     for path in sorted(path for path in folder.rglob("*") if path.suffix in suffixes):
-        name = str(path.relative_to(folder))
+        name = path.relative_to(folder).as_posix()
         try:
             cases.append(Case(name, _local(path)))
         except InputError as error:
