@@ -24,6 +24,8 @@
 //! friction and improved numerical algorithms*, Math. Comput. Modelling 28 (1998) 225–245; M. Jean, *The non-smooth contact
 //! dynamics method*, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235–257.
 
+mod anderson;
+mod auto;
 mod block_lu;
 mod block_matrix;
 pub mod cone;
@@ -32,6 +34,7 @@ mod contract;
 mod contradiction;
 mod equation;
 mod gauss_seidel;
+mod local;
 mod newton;
 mod problem;
 mod proximal;
@@ -41,8 +44,9 @@ mod solver;
 mod stopping;
 mod uzawa;
 
+pub use auto::Auto;
 pub use block_matrix::BlockMatrix;
-pub use gauss_seidel::GaussSeidel;
+pub use gauss_seidel::{GaussSeidel, Local};
 pub use problem::ContactProblem;
 pub use proximal::{NewtonAlartCurnier, NewtonNaturalMap, Proximal};
 pub use residual::{Measure, measure};

@@ -1,0 +1,151 @@
+use crate::{ContactProblem, Vector, cone};
+
+/// Anderson's acceleration of a fixed-point iteration r ← G(r): the combination of the last images G(r_j) whose changes
+/// G(r_j) − r_j cancel best [H. F. Walker, P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715–1735].
+///
+/// The law has kinks, so that it is no more than a guess: where the iteration moves farther from it than it did from the best
+/// point so far, it goes back there, and after a few such failures it is given up for good.
+#[derive(Debug)]
+pub(crate) struct Anderson<const D: usize> {
+    /// Changes G(r_j) − r_j, weighted, and images G(r_j): a ring over j.
+    changes: Vec<Vec<Vector<D>>>,
+    images: Vec<Vec<Vector<D>>>,
+    /// Inner products of the changes.
+    products: [[f64; MEMORY]; MEMORY],
+    recorded: usize,
+    /// Weights √λ_max(W_ii) of the contacts, with which lengths count as energies do, whatever the units of a contact.
+    weights: Vec<f64>,
+    best: Vec<Vector<D>>,
+    best_change: f64,
+    failures: usize,
+}
+
+/// Images combined.
+const MEMORY: usize = 6;
+/// Failures after which acceleration is given up.
+const FAILURES: usize = 3;
+/// Squared growth of the change, over the smallest one, that counts as a failure.
+const GROWTH: f64 = 2.0;
+/// Added to the products of the normalised changes, lest round-off of nearly parallel ones be amplified.
+const REGULARISATION: f64 = 1e-10;
+
+impl<const D: usize> Anderson<D> {
+    pub fn new(problem: &ContactProblem<D>) -> Self {
+        let n = problem.len();
+        let weight = |i| {
+            let rho = problem.step_length(i);
+            if rho > 0.0 { 1.0 / rho.sqrt() } else { 0.0 }
+        };
+        Self {
+            changes: vec![vec![Vector::zeros(); n]; MEMORY],
+            images: vec![vec![Vector::zeros(); n]; MEMORY],
+            products: [[0.0; MEMORY]; MEMORY],
+            recorded: 0,
+            weights: (0..n).map(weight).collect(),
+            best: vec![Vector::zeros(); n],
+            best_change: f64::INFINITY,
+            failures: 0,
+        }
+    }
+
+    /// Whether it has not been given up.
+    pub fn is_active(&self) -> bool {
+        self.failures < FAILURES
+    }
+
+    /// Replaces `r`, the image of `before`, by a point from which the iteration is hoped to converge faster.
+    pub fn accelerate(&mut self, problem: &ContactProblem<D>, before: &[Vector<D>], r: &mut [Vector<D>]) {
+        let slot = self.recorded % MEMORY;
+        let mut change = 0.0;
+        for i in 0..r.len() {
+            let weighted = (r[i] - before[i]) * self.weights[i];
+            change += weighted.norm_squared();
+            self.changes[slot][i] = weighted;
+        }
+        if change > GROWTH * self.best_change {
+            r.copy_from_slice(&self.best);
+            self.recorded = 0;
+            self.best_change = f64::INFINITY;
+            self.failures += 1;
+            return;
+        }
+        if change < self.best_change {
+            self.best_change = change;
+            self.best.copy_from_slice(r);
+        }
+        self.images[slot].copy_from_slice(r);
+        self.recorded += 1;
+        let count = self.recorded.min(MEMORY);
+        for j in 0..count {
+            let pairs = self.changes[j].iter().zip(&self.changes[slot]);
+            let product = pairs.map(|(a, b)| a.dot(b)).sum();
+            (self.products[slot][j], self.products[j][slot]) = (product, product);
+        }
+        let Some(shares) = self.shares(count) else { return };
+        for (i, r) in r.iter_mut().enumerate() {
+            let mut sum = Vector::zeros();
+            for (image, share) in self.images.iter().zip(&shares[..count]) {
+                sum += image[i] * *share;
+            }
+            *r = cone::project(&sum, problem.mu[i]);
+        }
+    }
+
+    /// The shares, of sum 1, of the changes in their shortest combination: those of the solution of `products` x = 1.
+    fn shares(&self, count: usize) -> Option<[f64; MEMORY]> {
+        let mut scale = [0.0; MEMORY];
+        for j in 0..count {
+            scale[j] = 1.0 / self.products[j][j].sqrt();
+        }
+        let (mut factor, mut x) = ([[0.0; MEMORY]; MEMORY], scale);
+        // Cholesky's factorisation of the normalised products and both substitutions.
+        for i in 0..count {
+            for j in 0..=i {
+                let mut sum = self.products[i][j] * scale[i] * scale[j];
+                sum -= (0..j).map(|k| factor[i][k] * factor[j][k]).sum::<f64>();
+                factor[i][j] = if i == j { (sum + REGULARISATION).sqrt() } else { sum / factor[j][j] };
+            }
+            x[i] = (x[i] - (0..i).map(|k| factor[i][k] * x[k]).sum::<f64>()) / factor[i][i];
+        }
+        for i in (0..count).rev() {
+            x[i] = (x[i] - (i + 1..count).map(|k| factor[k][i] * x[k]).sum::<f64>()) / factor[i][i];
+        }
+        for i in 0..count {
+            x[i] *= scale[i];
+        }
+        let sum: f64 = x.iter().sum();
+        x.iter_mut().for_each(|x| *x /= sum);
+        x.iter().all(|x| x.is_finite()).then_some(x)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::BlockMatrix;
+
+    /// On a linear iteration with few different eigenvalues, as many steps as there are find the fixed point.
+    #[test]
+    fn linear_iteration_is_solved_in_as_many_steps_as_it_has_eigenvalues() {
+        let n = 12;
+        let problem = ContactProblem::<1> {
+            w: BlockMatrix::identity(n),
+            q: vec![Vector::zeros(); n],
+            mu: vec![0.0; n],
+        };
+        let rate = |i: usize| [0.9, 0.5, -0.3, 0.99][i % 4];
+        let fixed = |i: usize| 1.0 + i as f64;
+        let mut anderson = Anderson::new(&problem);
+        let mut r = vec![Vector::<1>::new(0.5); n];
+        for _ in 0..6 {
+            let before = r.clone();
+            for (i, r) in r.iter_mut().enumerate() {
+                r[0] = fixed(i) + rate(i) * (r[0] - fixed(i));
+            }
+            anderson.accelerate(&problem, &before, &mut r);
+        }
+        for (i, r) in r.iter().enumerate() {
+            assert!((r[0] - fixed(i)).abs() < 1e-3 * fixed(i), "{i}: {r}");
+        }
+    }
+}
