@@ -57,4 +57,8 @@ def _local(path: Path) -> Problem:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AsymmetryWarning)
         problem = read(path)
-    return problem.condense() if isinstance(problem, GlobalProblem) else problem
+    if isinstance(problem, GlobalProblem):
+        return problem.condense()
+    # Here, and not in the middle of a comparison, where a solver gives up.
+    problem.refuse_if_indefinite()
+    return problem
