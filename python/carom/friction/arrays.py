@@ -11,21 +11,52 @@ from numpy.typing import ArrayLike, NDArray
 from carom.errors import InputError
 
 
-def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    """Return values as an array of finite numbers of its own."""
+def numbers(name: str, values: ArrayLike, *, finite: bool = True) -> NDArray[np.float64]:
+    """Return values as an array of numbers of its own, which must be finite unless said else."""
     if np.iscomplexobj(values):
         raise InputError(f"{name}: has complex numbers; must be real", name)
     try:
         array = np.array(values, dtype=np.float64, order="C")
     except (TypeError, ValueError):
         raise InputError(f"{name}: must be an array of numbers", name) from None
-    refuse_infinite(name, array)
+    if finite:
+        _refuse_infinite(name, array)
     return array
 
 
-def vectors(name: str, values: ArrayLike, *, contacts: int, dimension: int) -> NDArray[np.float64]:
+def sizes(name: str, values: ArrayLike, mu: ArrayLike) -> tuple[int, int]:
+    """Return the numbers of contacts and of components that vectors and μ speak of."""
+    shape, mu_shape = np.shape(values), np.shape(mu)
+    if len(shape) == 2:
+        contacts, dimension = shape
+    elif len(shape) == 1 and len(mu_shape) == 1:
+        (entries,), (contacts,) = shape, mu_shape
+        dimension = entries // contacts if contacts else 3
+        if entries != contacts * dimension:
+            raise InputError(
+                f"{name} has {entries} entries for the {contacts} contacts of mu: must be 1, 2 or "
+                "3 for each",
+                name,
+            )
+    else:
+        raise InputError(
+            f"{name} has shape {shown(shape)} and mu {shown(mu_shape)}: {name} must be [n, D], or "
+            "[n D] with n coefficients in mu",
+            name,
+        )
+    if dimension not in {1, 2, 3}:
+        raise InputError(
+            f"{name} has {dimension} components for each of {contacts} contacts: must be 1, 2 or 3",
+            name,
+        )
+    return contacts, dimension
+
+
+def vectors(
+    name: str, values: ArrayLike, *, contacts: int, dimension: int, finite: bool = True
+) -> NDArray[np.float64]:
     """Return one vector per contact, shape [contacts, dimension], from that shape or a flat one."""
-    array = numbers(name, values)
+    array = numbers(name, values, finite=finite)
     if array.shape not in {(contacts, dimension), (contacts * dimension,)}:
         raise InputError(
             f"{name} has shape {shown(array.shape)}: must be [{contacts}, {dimension}] or "
@@ -76,7 +107,7 @@ def place(rows: sp.csr_array, entry: int) -> tuple[int, int]:
     return int(np.searchsorted(rows.indptr, entry, side="right")) - 1, int(rows.indices[entry])
 
 
-def refuse_infinite(name: str, array: NDArray[np.float64]) -> None:
+def _refuse_infinite(name: str, array: NDArray[np.float64]) -> None:
     """Raise at the first number that is not finite."""
     if np.isfinite(array).all():
         return

@@ -38,7 +38,8 @@ class GlobalProblem:
     b
         Relative motions at v = 0, component 0 of each contact normal, shape [n, D] or [n D].
     mu
-        Friction coefficients, at least 0, shape [n].
+        Friction coefficients, at least 0, shape [n]; a number holds for all contacts of a `b` of
+        shape [n, D].
 
     Raises
     ------
@@ -64,18 +65,11 @@ class GlobalProblem:
         dofs = m.shape[0]
         if m.shape != (dofs, dofs):
             raise InputError(f"M has shape {arrays.shown(m.shape)}: must be square", "M")
-        contacts = len(arrays.numbers("mu", mu)) if np.ndim(mu) == 1 else 0
-        if np.ndim(mu) != 1:
+        contacts, dimension = arrays.sizes("b", b, mu)
+        if h.shape != (dofs, contacts * dimension):
             raise InputError(
-                f"mu has shape {arrays.shown(np.shape(mu))}: must be [n], one coefficient for each "
-                "contact",
-                "mu",
-            )
-        dimension = h.shape[1] // contacts if contacts else 3
-        if h.shape != (dofs, contacts * dimension) or dimension not in {1, 2, 3}:
-            raise InputError(
-                f"H has shape {arrays.shown(h.shape)}: must have {dofs} rows as M and 1, 2 or 3 "
-                f"columns for each of the {contacts} contacts of mu",
+                f"H has shape {arrays.shown(h.shape)}: must be [{dofs}, {contacts * dimension}], "
+                f"rows as M has and columns for {contacts} contacts of {dimension} components",
                 "H",
             )
         loads = arrays.numbers("f", f)
@@ -136,7 +130,7 @@ class GlobalProblem:
 
     def velocities(self, reactions: ArrayLike) -> NDArray[np.float64]:
         """Return v with M v = H r + f, shape [dof_count], of reactions, shape [n, D] or [n D]."""
-        r = self.vectors("reactions", reactions)
+        r = self.vectors("reactions", reactions, finite=False)
         return np.asarray(self._factor.solve(self.H @ r.ravel() + self.f))
 
     def motions(self, reactions: ArrayLike) -> NDArray[np.float64]:
@@ -145,7 +139,7 @@ class GlobalProblem:
 
     def measure(self, reactions: ArrayLike) -> Measure:
         """Return how far reactions, shape [n, D] or [n D], are from the law."""
-        r = self.vectors("reactions", reactions)
+        r = self.vectors("reactions", reactions, finite=False)
         return measure(r, self.motions(r), q=self.q, mu=self.mu, stiffness=self.stiffness)
 
     def condense(self) -> Problem:
@@ -164,9 +158,11 @@ class GlobalProblem:
             raise InputError(str(error), "M") from error
         return Problem.from_blocks(**local, mu=self.mu)
 
-    def vectors(self, name: str, values: ArrayLike) -> NDArray[np.float64]:
-        """Return an array of one vector per contact with the shape [n, D]."""
-        return arrays.vectors(name, values, contacts=self.contacts, dimension=self.dimension)
+    def vectors(self, name: str, values: ArrayLike, *, finite: bool = True) -> NDArray[np.float64]:
+        """Return one vector per contact, shape [n, D], from that shape or a flat one."""
+        return arrays.vectors(
+            name, values, contacts=self.contacts, dimension=self.dimension, finite=finite
+        )
 
     @cached_property
     def _factor(self) -> Any:  # noqa: ANN401 (scipy has no type for it)

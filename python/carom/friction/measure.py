@@ -5,6 +5,7 @@ The solvers measure themselves by code of their own; an answer is checked again 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,7 +35,7 @@ class Measure:
     @property
     def decisive(self) -> float:
         """The larger residual, which is what a tolerance is compared with."""
-        return float(np.fmax(self.residual, self.natural_residual))
+        return float(np.maximum(self.residual, self.natural_residual))
 
 
 def project(tau: NDArray[np.float64], mu: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -64,7 +65,7 @@ def measure(
     mu: NDArray[np.float64],
     stiffness: float,
 ) -> Measure:
-    """Measure reactions and the motions that go with them.
+    """Measure reactions and the motions that go with them; NaN where they are not finite.
 
     Parameters
     ----------
@@ -79,6 +80,8 @@ def measure(
     stiffness
         The natural ρ = n D / tr W [N/m].
     """
+    if not (np.isfinite(r).all() and np.isfinite(w).all()):
+        return Measure(math.nan, math.nan, math.nan)
     slip = np.linalg.norm(w[:, 1:], axis=1)
     shifted = w.copy()
     shifted[:, 0] += mu * slip
@@ -86,8 +89,7 @@ def measure(
     def residual(rho: float) -> float:
         error = np.linalg.norm(r - project(r - rho * shifted, mu))
         sizes = (rho * np.linalg.norm(q), np.linalg.norm(r), rho * np.linalg.norm(w))
-        size = float(np.max(sizes))
-        return float(error / size) if size != 0.0 else 0.0
+        return float(error / max(sizes)) if max(sizes) > 0.0 else 0.0
 
     along = np.einsum("id,id->i", w[:, 1:], r[:, 1:])
     gaps = np.abs(w[:, 0] * r[:, 0]) + np.abs(mu * r[:, 0] * slip + along)

@@ -55,7 +55,7 @@ class Problem:
 
     def __init__(self, W: Any, q: ArrayLike, mu: ArrayLike) -> None:  # noqa: ANN401
         rows = arrays.matrix("W", W)
-        contacts, dimension = _sizes(q, mu)
+        contacts, dimension = arrays.sizes("q", q, mu)
         q = arrays.vectors("q", q, contacts=contacts, dimension=dimension)
         mu = arrays.coefficients(mu, contacts=contacts)
         size = contacts * dimension
@@ -161,47 +161,22 @@ class Problem:
 
     def motions(self, reactions: ArrayLike) -> NDArray[np.float64]:
         """Return w = W r + q [m], shape [n, D], of reactions [N], shape [n, D] or [n D]."""
-        r = self.vectors("reactions", reactions)
+        r = self.vectors("reactions", reactions, finite=False)
         return np.asarray((self.matrix() @ r.ravel()).reshape(self.q.shape) + self.q)
 
     def measure(self, reactions: ArrayLike) -> Measure:
         """Return how far reactions [N], shape [n, D] or [n D], are from the law."""
-        r = self.vectors("reactions", reactions)
+        r = self.vectors("reactions", reactions, finite=False)
         return measure(r, self.motions(r), q=self.q, mu=self.mu, stiffness=self.stiffness)
 
-    def vectors(self, name: str, values: ArrayLike) -> NDArray[np.float64]:
-        """Return an array of one vector per contact with the shape [n, D]."""
-        return arrays.vectors(name, values, contacts=self.contacts, dimension=self.dimension)
+    def vectors(self, name: str, values: ArrayLike, *, finite: bool = True) -> NDArray[np.float64]:
+        """Return one vector per contact, shape [n, D], from that shape or a flat one."""
+        return arrays.vectors(
+            name, values, contacts=self.contacts, dimension=self.dimension, finite=finite
+        )
 
     def __repr__(self) -> str:
         return (
             f"<Problem: {self.contacts} contacts in {self.dimension}D, "
             f"{len(self.columns)} blocks of W>"
         )
-
-
-def _sizes(q: ArrayLike, mu: ArrayLike) -> tuple[int, int]:
-    """Return the number of contacts and the dimension that the shapes of q and μ speak of."""
-    q_shape, mu_shape = np.shape(q), np.shape(mu)
-    if len(q_shape) == 2:
-        contacts, dimension = q_shape
-    elif len(q_shape) == 1 and len(mu_shape) == 1 and mu_shape[0] > 0:
-        contacts, rest = mu_shape[0], q_shape[0] % mu_shape[0]
-        dimension = q_shape[0] // contacts
-        if rest:
-            raise InputError(
-                f"q has {q_shape[0]} entries for the {contacts} contacts of mu: must be 1, 2 or 3 "
-                "for each",
-                "q",
-            )
-    else:
-        raise InputError(
-            f"q has shape {arrays.shown(q_shape)} and mu {arrays.shown(mu_shape)}: q must be "
-            "[n, D], or [n D] with n coefficients in mu",
-            "q",
-        )
-    if dimension not in {1, 2, 3}:
-        raise InputError(
-            f"q has {dimension} components for each of {contacts} contacts: must be 1, 2 or 3", "q"
-        )
-    return contacts, dimension

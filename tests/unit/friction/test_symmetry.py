@@ -28,7 +28,9 @@ def test_a_negative_diagonal_is_refused_with_its_place():
 def test_two_rows_that_are_indefinite_are_refused_with_their_places():
     W = np.eye(6)
     W[1, 3] = W[3, 1] = 1.2
-    with pytest.raises(InputError, match=r"\|W\[1, 3\]\| = 1.2 is larger than .* contacts 0 and 1"):
+    with pytest.raises(
+        InputError, match=r"\|W\[1, 3\]\| = 1.2 is larger than .* .contacts 0 and 1.:"
+    ):
         problem(W)
 
 
@@ -39,13 +41,13 @@ def test_a_contact_without_compliance_that_others_move_is_indefinite():
         problem(W)
 
 
-@pytest.mark.parametrize("size", [30, 3 * (DENSE // 3 + 40)])
+@pytest.mark.parametrize("size", [30, 3 * (DENSE // 3 + 4)])
 def test_one_negative_eigenvalue_is_found(size):
     with pytest.raises(InputError, match="W is indefinite: scaled to a diagonal of ones"):
         problem(with_eigenvalue(-0.3, size))
 
 
-@pytest.mark.parametrize("size", [30, 3 * (DENSE // 3 + 40)])
+@pytest.mark.parametrize("size", [30, 3 * (DENSE // 3 + 4)])
 @pytest.mark.parametrize("value", [0.0, -1e-7])
 def test_singular_to_round_off_or_to_few_digits_is_not_indefinite(size, value):
     problem(with_eigenvalue(value, size))
@@ -64,16 +66,11 @@ def test_zero_and_empty_operators_are_semidefinite():
 
 
 def test_what_a_first_look_misses_is_found_where_a_solver_gives_up():
-    """One weakly negative eigenvalue among a thousand that crowd towards it from above."""
+    """A chain whose long waves alone are unstable: eigenvalues 1 − 1.001 cos θ crowd at zero."""
     size = 900
-    random = np.random.default_rng(3)
-    vectors, _ = np.linalg.qr(random.standard_normal((size, size)))
-    values = np.concatenate([[-4e-3], 3e-3 * np.linspace(0.0, 1.0, size - 1) ** 2 + 1e-6])
-    values[-1] = 40.0
-    W = (vectors * values) @ vectors.T
-    W = (W + W.T) / 2 + 0.0
-    missed = problem(W)
-    with pytest.raises(InputError, match="indefinite"):
+    W = sp.diags_array([-0.5005, 1.0, -0.5005], offsets=[-1, 0, 1], shape=(size, size))
+    missed = Problem(W, np.random.default_rng(0).standard_normal((size // 3, 3)), 0.3)
+    with pytest.raises(InputError, match="W is indefinite"):
         missed.refuse_if_indefinite()
-    with pytest.raises(InputError, match="indefinite"):
-        solve(missed.matrix(), random.standard_normal((size // 3, 3)), missed.mu, max_iterations=0)
+    with pytest.raises(InputError, match="W is indefinite"):
+        solve(missed, max_iterations=0)

@@ -43,7 +43,7 @@ def read_cases(folder: Path) -> tuple[list[Case], dict[str, str]]:
     cases, refused = [], {}
     suffixes = {*FCLIB_SUFFIXES, *TEXT_SUFFIXES}
     for path in sorted(path for path in folder.rglob("*") if path.suffix in suffixes):
-        name = str(path.relative_to(folder))
+        name = path.relative_to(folder).as_posix()
         try:
             cases.append(Case(name, _local(path)))
         except InputError as error:
@@ -57,4 +57,8 @@ def _local(path: Path) -> Problem:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AsymmetryWarning)
         problem = read(path)
-    return problem.condense() if isinstance(problem, GlobalProblem) else problem
+    if isinstance(problem, GlobalProblem):
+        return problem.condense()
+    # Here, and not in the middle of a comparison, where a solver gives up.
+    problem.refuse_if_indefinite()
+    return problem

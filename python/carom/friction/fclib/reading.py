@@ -83,27 +83,13 @@ def _problem(file: h5py.File) -> tuple[h5py.Group, AnyProblem]:
         if name in root:
             raise InputError(f"{form}/{name}: bilateral constraints are not supported")
     dimension = _integer(root, "spacedim")
-    problem = _local(root) if form == "fclib_local" else _global(root)
-    if problem.contacts and problem.dimension != dimension:
-        raise InputError(
-            f"{form}/spacedim = {dimension}: but the vectors have {problem.dimension} "
-            f"components for each of the {problem.contacts} contacts of mu"
-        )
-    return root, problem
-
-
-def _local(root: h5py.Group) -> Problem:
-    return Problem(_matrix(root, "W"), _numbers(root, "vectors/q"), _numbers(root, "vectors/mu"))
-
-
-def _global(root: h5py.Group) -> GlobalProblem:
-    return GlobalProblem(
-        _matrix(root, "M"),
-        _matrix(root, "H"),
-        _numbers(root, "vectors/f"),
-        _numbers(root, "vectors/w"),
-        _numbers(root, "vectors/mu"),
-    )
+    if dimension not in {1, 2, 3}:
+        raise InputError(f"{form}/spacedim = {dimension}: must be 2 or 3")
+    mu = _numbers(root, "vectors/mu")
+    if form == "fclib_local":
+        return root, Problem(_matrix(root, "W"), _vectors(root, "vectors/q", mu, dimension), mu)
+    m, h, f = _matrix(root, "M"), _matrix(root, "H"), _numbers(root, "vectors/f")
+    return root, GlobalProblem(m, h, f, _vectors(root, "vectors/w", mu, dimension), mu)
 
 
 def _matrix(root: h5py.Group, name: str) -> sp.sparray:
@@ -138,6 +124,19 @@ def _matrix(root: h5py.Group, name: str) -> sp.sparray:
     _inside(group, "i", inner, minor)
     compressed = sp.csc_array if kind == COLUMNS else sp.csr_array
     return compressed((values, inner, outer), shape=(rows, columns))
+
+
+def _vectors(
+    root: h5py.Group, name: str, mu: NDArray[np.float64], dimension: int
+) -> NDArray[np.float64]:
+    """Return one vector for each contact of μ, shape [n, D]."""
+    values = _numbers(root, name)
+    if len(values) != len(mu) * dimension:
+        raise InputError(
+            f"{_where(root, name)} has {len(values)} entries: must be {len(mu) * dimension}, "
+            f"{dimension} (spacedim) for each of the {len(mu)} contacts of mu"
+        )
+    return values.reshape(len(mu), dimension)
 
 
 def _guesses(file: h5py.File, problem: AnyProblem) -> Iterator[Iterate]:
