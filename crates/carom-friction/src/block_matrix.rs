@@ -57,6 +57,12 @@ impl<const D: usize> BlockMatrix<D> {
         self.starts.len() - 1
     }
 
+    /// Number of stored blocks.
+    #[must_use]
+    pub fn block_count(&self) -> usize {
+        self.blocks.len()
+    }
+
     /// The diagonal block of row `i`.
     #[must_use]
     pub fn diagonal(&self, i: usize) -> &Matrix<D> {

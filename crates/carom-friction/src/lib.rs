@@ -26,11 +26,13 @@
 
 mod admm;
 mod anderson;
+mod auto;
 mod block_lu;
 mod block_matrix;
 pub mod cone;
 #[cfg(test)]
 mod contract;
+mod contradiction;
 mod equation;
 mod gauss_seidel;
 mod local;
@@ -46,11 +48,12 @@ mod stopping;
 mod uzawa;
 
 pub use admm::Admm;
+pub use auto::Auto;
 pub use block_matrix::BlockMatrix;
 pub use gauss_seidel::{GaussSeidel, Local};
 pub use problem::ContactProblem;
 pub use projected_gradient::ProjectedGradient;
-pub use proximal::Proximal;
+pub use proximal::{NewtonAlartCurnier, NewtonNaturalMap, Proximal};
 pub use residual::{Measure, measure};
 pub use solver::{FrictionSolver, SolverKind};
 pub use stopping::{Criterion, Sample, SolveReport, SolveStatus, StoppingRule};

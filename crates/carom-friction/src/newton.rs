@@ -2,12 +2,33 @@ use crate::block_lu::BlockLu;
 use crate::equation::Equation;
 use crate::{ContactProblem, Matrix, Vector};
 
-/// Semismooth Newton iterations on the contacts' equations with the motions w = W r + q + shift (r − centre).
+/// A contact problem with the motions w = W r + q + shift (r − centre): a step of the proximal point method.
 ///
-/// A shift > 0 is a step of the proximal point method; it makes every linear system regular, however redundant the contacts.
+/// A shift > 0 makes every linear system regular, however redundant the contacts.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shifted<'a, const D: usize> {
+    pub problem: &'a ContactProblem<D>,
+    /// 1/λ_max(W_ii) of every contact [N/m].
+    pub rho: &'a [f64],
+    /// Compliance added to every contact [m/N].
+    pub shift: f64,
+    pub centre: &'a [Vector<D>],
+}
+
+impl<const D: usize> Shifted<'_, D> {
+    fn motion(&self, i: usize, r: &[Vector<D>]) -> Vector<D> {
+        self.problem.motion(i, r) + (r[i] - self.centre[i]) * self.shift
+    }
+
+    /// 1/λ_max(W_ii + shift).
+    fn rho(&self, i: usize) -> f64 {
+        if self.rho[i] > 0.0 { self.rho[i] / (1.0 + self.rho[i] * self.shift) } else { 1.0 / self.shift }
+    }
+}
+
+/// Semismooth Newton iterations on the contacts' equations, and their memory.
 #[derive(Debug)]
 pub(crate) struct Newton<const D: usize> {
-    equation: Equation,
     lu: BlockLu<D>,
     by_motion: Vec<Matrix<D>>,
     by_reaction: Vec<Matrix<D>>,
@@ -20,19 +41,20 @@ pub(crate) struct Newton<const D: usize> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct NewtonEnd {
     pub iterations: usize,
-    /// ‖φ‖ at the last point [N].
-    pub merit: f64,
+    /// Whether ‖φ‖ fell to what was wanted.
+    pub converged: bool,
 }
 
-/// Halvings of a step in the search for a smaller merit.
-const HALVINGS: usize = 8;
+/// A full step is taken unless ‖φ‖ becomes larger than in each of the last iterations, and half of it else. More care costs
+/// more than it saves: the steps that follow a kink of the equations have to go uphill, and where Newton's method fails all
+/// the same a larger shift helps, not a shorter step.
+const MEMORY: usize = 3;
 
 impl<const D: usize> Newton<D> {
     /// None if the factors would need more than `max_blocks` blocks.
-    pub fn new(problem: &ContactProblem<D>, equation: Equation, max_blocks: usize) -> Option<Self> {
+    pub fn new(problem: &ContactProblem<D>, max_blocks: usize) -> Option<Self> {
         let n = problem.len();
         Some(Self {
-            equation,
             lu: BlockLu::new(&problem.w, max_blocks)?,
             by_motion: vec![Matrix::zeros(); n],
             by_reaction: vec![Matrix::zeros(); n],
@@ -42,79 +64,67 @@ impl<const D: usize> Newton<D> {
         })
     }
 
-    /// Improves `r` until ‖φ‖ ≤ `wanted`, no step helps or `max_iterations` are made.
-    #[allow(clippy::too_many_arguments)]
+    /// What an iteration costs, in products of blocks.
+    pub fn cost(&self, problem: &ContactProblem<D>) -> usize {
+        self.lu.products() + 3 * problem.w.block_count() + 50 * problem.len()
+    }
+
+    /// Improves `r` until ‖φ‖ ≤ `wanted` [N] or `max_iterations` are made.
     pub fn solve(
         &mut self,
-        problem: &ContactProblem<D>,
-        rho: &[f64],
-        shift: f64,
-        centre: &[Vector<D>],
+        shifted: &Shifted<'_, D>,
+        equation: Equation,
         r: &mut [Vector<D>],
         wanted: f64,
         max_iterations: usize,
     ) -> NewtonEnd {
+        let problem = shifted.problem;
         let n = problem.len();
         for i in 0..n {
-            self.motion[i] = problem.motion(i, r) + (r[i] - centre[i]) * shift;
+            self.motion[i] = shifted.motion(i, r);
         }
-        let mut merit = self.merit(problem, rho, shift, r, 0.0);
-        for iteration in 0..max_iterations {
+        let mut merit = self.merit(shifted, equation, r, 0.0);
+        let mut recent = [merit; MEMORY];
+        for iterations in 0..max_iterations {
             if merit <= wanted || !merit.is_finite() {
-                return NewtonEnd { iterations: iteration, merit };
+                return NewtonEnd { iterations, converged: merit <= wanted };
             }
             for i in 0..n {
-                let rho = rho[i] / (1.0 + rho[i] * shift);
-                let at = self.equation.linearise(&r[i], &self.motion[i], problem.mu[i], rho);
+                let at = equation.linearise(&r[i], &self.motion[i], problem.mu[i], shifted.rho(i));
                 self.step[i] = -at.value;
                 self.by_motion[i] = at.by_motion;
                 self.by_reaction[i] = at.by_reaction;
             }
-            if self.lu.factorize(&problem.w, shift, &self.by_motion, &self.by_reaction).is_err() {
-                return NewtonEnd { iterations: iteration + 1, merit };
+            if self.lu.factorize(&problem.w, shifted.shift, &self.by_motion, &self.by_reaction).is_err() {
+                return NewtonEnd { iterations: iterations + 1, converged: false };
             }
             self.lu.solve(&mut self.step);
             for i in 0..n {
-                self.motion_step[i] = problem.w.row_times(i, &self.step) + self.step[i] * shift;
+                self.motion_step[i] = problem.w.row_times(i, &self.step) + self.step[i] * shifted.shift;
             }
-            let (mut length, mut best) = (1.0, (f64::INFINITY, 0.0));
-            for _ in 0..HALVINGS {
-                let trial = self.merit(problem, rho, shift, r, length);
-                if trial < best.0 {
-                    best = (trial, length);
+            recent[iterations % MEMORY] = merit;
+            merit = self.merit(shifted, equation, r, 1.0);
+            let mut length = 1.0;
+            if merit > recent.iter().fold(0.0, |a, &b| b.max(a)) {
+                let half = self.merit(shifted, equation, r, 0.5);
+                if half < merit {
+                    (merit, length) = (half, 0.5);
                 }
-                if trial < (1.0 - 1e-4 * length) * merit {
-                    break;
-                }
-                length *= 0.5;
-            }
-            let (trial, length) = best;
-            if length == 0.0 {
-                return NewtonEnd { iterations: iteration + 1, merit };
             }
             for i in 0..n {
                 r[i] += self.step[i] * length;
                 self.motion[i] += self.motion_step[i] * length;
             }
-            merit = trial;
         }
-        NewtonEnd { iterations: max_iterations, merit }
+        NewtonEnd { iterations: max_iterations, converged: merit <= wanted }
     }
 
     /// ‖φ‖ at r + length · step.
-    fn merit(
-        &self,
-        problem: &ContactProblem<D>,
-        rho: &[f64],
-        shift: f64,
-        r: &[Vector<D>],
-        length: f64,
-    ) -> f64 {
+    fn merit(&self, shifted: &Shifted<'_, D>, equation: Equation, r: &[Vector<D>], length: f64) -> f64 {
         let mut sum = 0.0;
-        for i in 0..problem.len() {
-            let rho = rho[i] / (1.0 + rho[i] * shift);
+        for i in 0..r.len() {
             let (r, w) = (r[i] + self.step[i] * length, self.motion[i] + self.motion_step[i] * length);
-            sum += self.equation.value(&r, &w, problem.mu[i], rho).norm_squared();
+            sum += equation.value(&r, &w, shifted.problem.mu[i], shifted.rho(i)).norm_squared();
         }
         sum.sqrt()
     }

@@ -1,83 +1,169 @@
+use crate::contradiction::contradicts;
 use crate::equation::Equation;
-use crate::newton::Newton;
+use crate::newton::{Newton, Shifted};
 use crate::stopping::Monitor;
 use crate::{
     ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone,
 };
 
-/// The proximal point method: W + shift I instead of W, around the last answer, solved by Newton's iterations; the shift
-/// shrinks as they converge and grows where they do not.
+/// The proximal point method: W + shift I instead of W, around the last answer, solved by Newton's iterations
+/// [R. T. Rockafellar, SIAM J. Control Optim. 14 (1976) 877–898].
+///
+/// The shift falls as quickly as Newton's method can follow and rises where it cannot; there the other form of the contact
+/// laws is tried too, since what traps one seldom traps both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Proximal;
 
+/// Semismooth Newton on the contact laws themselves, in the form of Alart and Curnier; where that fails its globalisation is the
+/// proximal point method, from small shifts to larger ones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct NewtonAlartCurnier;
+
+/// Semismooth Newton on the bi-potential's natural map, globalised in the same way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct NewtonNaturalMap;
+
 impl<const D: usize> FrictionSolver<D> for Proximal {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
-        let mut monitor = Monitor::new(problem, rule);
-        let status = run(&mut monitor, r, usize::MAX).unwrap_or(SolveStatus::Stalled);
-        monitor.report(SolverKind::Proximal, status, r)
+        Strategy::PROXIMAL.solve(SolverKind::Proximal, problem, r, rule)
     }
 }
 
-pub(crate) fn run<const D: usize>(
-    monitor: &mut Monitor<'_, D>,
-    r: &mut [Vector<D>],
-    max_blocks: usize,
-) -> Option<SolveStatus> {
-    if let Some(status) = monitor.check(r) {
-        return Some(status);
+impl<const D: usize> FrictionSolver<D> for NewtonAlartCurnier {
+    fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
+        let strategy = Strategy { equations: &[Equation::AlartCurnier], first_shift: NEARLY_NONE };
+        strategy.solve(SolverKind::NewtonAlartCurnier, problem, r, rule)
     }
-    let problem = monitor.problem();
-    let mut newton = Newton::new(problem, Equation::AlartCurnier, max_blocks)?;
-    let rho: Vec<f64> = (0..problem.len()).map(|i| problem.step_length(i)).collect();
-    let mut centre = r.to_vec();
-    let mut trial = r.to_vec();
-    let mut shift = 0.1 / monitor.stiffness();
-    let size_q = monitor.stiffness() * problem.q.iter().map(Vector::norm_squared).sum::<f64>().sqrt();
-    let verbose = std::env::var("VERBOSE").is_ok();
-    loop {
-        let size = size_q.max(r.iter().map(Vector::norm_squared).sum::<f64>().sqrt());
-        let wanted = 0.01 * monitor.tolerance() * size;
-        trial.copy_from_slice(r);
-        let end = newton.solve(problem, &rho, shift, &centre, &mut trial, wanted, 30);
-        monitor.iterations += end.iterations;
-        let relative = end.merit / size;
-        if relative < 1e-3 {
-            for ((r, c), t) in r.iter_mut().zip(&mut centre).zip(&trial) {
-                *r = cone::project(t, 0.0f64.max(1.0) * 0.0 + 1e9);
-                *r = *t;
-                *c = *t;
+}
+
+impl<const D: usize> FrictionSolver<D> for NewtonNaturalMap {
+    fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
+        let strategy = Strategy { equations: &[Equation::NaturalMap], first_shift: NEARLY_NONE };
+        strategy.solve(SolverKind::NewtonNaturalMap, problem, r, rule)
+    }
+}
+
+/// Shifts are relative to the mean compliance tr W/(n D). This one only keeps redundant contacts from a singular matrix.
+const NEARLY_NONE: f64 = 1e-10;
+/// With this one Newton's method converges from almost any start.
+const SAFE: f64 = 0.1;
+/// With this one the contacts hardly feel one another: larger ones are of no use.
+const LARGEST: f64 = 1.0;
+const SMALLEST: f64 = 1e-14;
+/// Iterations after which Newton's method is thought to be trapped: where it converges it takes four to eight.
+const TRAPPED: usize = 10;
+/// Growth of the shift when it is.
+const GROWTH: f64 = 5.0;
+/// Cautious decreases after that.
+const CAUTION: u32 = 2;
+/// ‖φ‖ that is small enough in a step, relative to the residual before it.
+const INNER: f64 = 1e-2;
+
+/// How the method is run.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Strategy {
+    /// Forms of the laws, in the order in which they are tried.
+    equations: &'static [Equation],
+    /// Relative to the mean compliance.
+    first_shift: f64,
+}
+
+impl Strategy {
+    pub const PROXIMAL: Self =
+        Self { equations: &[Equation::NaturalMap, Equation::AlartCurnier], first_shift: SAFE };
+
+    fn solve<const D: usize>(
+        self,
+        kind: SolverKind,
+        problem: &ContactProblem<D>,
+        r: &mut [Vector<D>],
+        rule: &StoppingRule,
+    ) -> SolveReport {
+        let mut monitor = Monitor::new(problem, rule);
+        let status = match monitor.check(r) {
+            Some(status) => status,
+            None => match Newton::new(problem, usize::MAX) {
+                Some(mut newton) => self.run(&mut monitor, &mut newton, r, usize::MAX),
+                None => SolveStatus::Stalled,
+            },
+        };
+        monitor.report(kind, status, r)
+    }
+
+    /// Improves `r`, which was measured, until the problem is solved or `max_iterations` more are made.
+    pub fn run<const D: usize>(
+        self,
+        monitor: &mut Monitor<'_, D>,
+        newton: &mut Newton<D>,
+        r: &mut [Vector<D>],
+        max_iterations: usize,
+    ) -> SolveStatus {
+        let problem = monitor.problem();
+        let rho: Vec<f64> = (0..problem.len()).map(|i| problem.step_length(i)).collect();
+        let mean_compliance = 1.0 / monitor.stiffness();
+        let motion_force = monitor.stiffness() * norm(&problem.q);
+        let end = monitor.iterations.saturating_add(max_iterations);
+        let (mut shift, mut form, mut caution) = (self.first_shift, 0, 0u32);
+        // ‖φ‖ weighs every contact with its own ρ, the residual all alike: how small is enough turns out on the way.
+        let mut strictness = 1.0;
+        let mut centre = r.to_vec();
+        let mut trial = r.to_vec();
+        loop {
+            let size = motion_force.max(norm(r));
+            let wanted =
+                strictness * (0.1 * monitor.tolerance()).max(INNER * monitor.residual().min(0.1)) * size;
+            trial.copy_from_slice(r);
+            let shifted = Shifted { problem, rho: &rho, shift: shift * mean_compliance, centre: &centre };
+            let newton_end = newton.solve(&shifted, self.equations[form], &mut trial, wanted, TRAPPED);
+            monitor.iterations += newton_end.iterations;
+            if newton_end.converged {
+                for i in 0..r.len() {
+                    r[i] = cone::project(&trial[i], problem.mu[i]);
+                }
+                if let Some(status) = monitor.check(r) {
+                    return status;
+                }
+                if norm(r) > FAR * motion_force && contradicts(problem, r, &centre, monitor.stiffness()) {
+                    return SolveStatus::Inconsistent;
+                }
+                centre.copy_from_slice(r);
+                if newton_end.iterations == 0 {
+                    strictness *= 0.1;
+                    if strictness < f64::EPSILON {
+                        return SolveStatus::Stalled;
+                    }
+                }
+                let decrease = match newton_end.iterations {
+                    0..=3 => 0.1,
+                    4..=8 => 0.4,
+                    _ => SLOW,
+                };
+                shift = (shift * if caution > 0 { decrease.max(SLOW) } else { decrease }).max(SMALLEST);
+                caution = caution.saturating_sub(1);
+            } else {
+                shift = match shift {
+                    _ if shift <= NEARLY_NONE => SAFE,
+                    _ if shift < LARGEST => shift * GROWTH,
+                    _ => SAFE,
+                };
+                form = (form + 1) % self.equations.len();
+                caution = CAUTION;
             }
-            for i in 0..r.len() {
-                r[i] = cone::project(&r[i], problem.mu[i]);
-                centre[i] = r[i];
+            if let Some(status) = monitor.exhausted() {
+                return status;
             }
-            let s = monitor.check(r);
-            if verbose {
-                eprintln!(
-                    "shift {:.1e} its {} inner {:.1e} res {:.2e}",
-                    shift * monitor.stiffness(),
-                    end.iterations,
-                    relative,
-                    monitor.residual()
-                );
+            if monitor.iterations >= end {
+                return SolveStatus::IterationLimit;
             }
-            if s.is_some() {
-                return s;
-            }
-            shift *= 0.2;
-        } else {
-            if verbose {
-                eprintln!(
-                    "shift {:.1e} its {} inner {:.1e} FAILED",
-                    shift * monitor.stiffness(),
-                    end.iterations,
-                    relative
-                );
-            }
-            shift *= 5.0;
-        }
-        if let Some(s) = monitor.exhausted() {
-            return Some(s);
         }
     }
+}
+
+/// Decrease of the shift where Newton's method only just follows.
+const SLOW: f64 = 0.7;
+/// Reactions, relative to what the motions without them call for, that make one ask whether there are any that suffice.
+const FAR: f64 = 1e3;
+
+fn norm<const D: usize>(x: &[Vector<D>]) -> f64 {
+    x.iter().map(Vector::norm_squared).sum::<f64>().sqrt()
 }

@@ -1,8 +1,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Admm, ContactProblem, GaussSeidel, Local, ProjectedGradient, Proximal, SolveReport, StoppingRule, Uzawa,
-    Vector,
+    Admm, Auto, ContactProblem, GaussSeidel, Local, NewtonAlartCurnier, NewtonNaturalMap, ProjectedGradient,
+    Proximal, SolveReport, StoppingRule, Uzawa, Vector,
 };
 
 /// A method for contact problems. It does not fail: a solver that stops early says so in its report.
@@ -15,8 +15,10 @@ pub trait FrictionSolver<const D: usize>: Send + Sync {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SolverKind {
-    /// Block Gauss–Seidel with the bi-potential fixed point on each contact.
+    /// Starts cheaply and escalates where that does not converge.
     #[default]
+    Auto,
+    /// Block Gauss–Seidel with the bi-potential fixed point on each contact.
     GaussSeidel,
     /// Block Gauss–Seidel with closed forms on each contact.
     GaussSeidelEnumerative,
@@ -30,11 +32,16 @@ pub enum SolverKind {
     Admm,
     /// The proximal point method.
     Proximal,
+    /// Semismooth Newton on the equations of Alart and Curnier.
+    NewtonAlartCurnier,
+    /// Semismooth Newton on the bi-potential's natural map.
+    NewtonNaturalMap,
 }
 
 impl SolverKind {
     /// Every solver.
-    pub const ALL: [SolverKind; 7] = [
+    pub const ALL: [SolverKind; 10] = [
+        SolverKind::Auto,
         SolverKind::GaussSeidel,
         SolverKind::GaussSeidelEnumerative,
         SolverKind::GaussSeidelAlartCurnier,
@@ -42,12 +49,15 @@ impl SolverKind {
         SolverKind::ProjectedGradient,
         SolverKind::Admm,
         SolverKind::Proximal,
+        SolverKind::NewtonAlartCurnier,
+        SolverKind::NewtonNaturalMap,
     ];
 
     /// The name, as in case files and on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            SolverKind::Auto => "auto",
             SolverKind::GaussSeidel => "gauss-seidel",
             SolverKind::GaussSeidelEnumerative => "gauss-seidel-enumerative",
             SolverKind::GaussSeidelAlartCurnier => "gauss-seidel-alart-curnier",
@@ -55,6 +65,8 @@ impl SolverKind {
             SolverKind::ProjectedGradient => "projected-gradient",
             SolverKind::Admm => "admm",
             SolverKind::Proximal => "proximal",
+            SolverKind::NewtonAlartCurnier => "newton-alart-curnier",
+            SolverKind::NewtonNaturalMap => "newton-natural-map",
         }
     }
 
@@ -68,6 +80,7 @@ impl SolverKind {
     #[must_use]
     pub fn solver<const D: usize>(self) -> Box<dyn FrictionSolver<D>> {
         match self {
+            SolverKind::Auto => Box::new(Auto),
             SolverKind::GaussSeidel => Box::new(GaussSeidel { local: Local::Bipotential }),
             SolverKind::GaussSeidelEnumerative => Box::new(GaussSeidel { local: Local::Enumerative }),
             SolverKind::GaussSeidelAlartCurnier => Box::new(GaussSeidel { local: Local::AlartCurnier }),
@@ -75,6 +88,8 @@ impl SolverKind {
             SolverKind::ProjectedGradient => Box::new(ProjectedGradient),
             SolverKind::Admm => Box::new(Admm),
             SolverKind::Proximal => Box::new(Proximal),
+            SolverKind::NewtonAlartCurnier => Box::new(NewtonAlartCurnier),
+            SolverKind::NewtonNaturalMap => Box::new(NewtonNaturalMap),
         }
     }
 }
