@@ -1,11 +1,14 @@
 """Frictional impact of deformable bodies, every joule accounted for."""
 
+from importlib import import_module
+from types import ModuleType
+
 from carom._carom import Simulation, __version__
 from carom.analysis import Conserving, Dynamic, Newton, Theta
 from carom.audit import Audit, audit
 from carom.body import Body
 from carom.checking import Check, check
-from carom.contact import Contact, GaussSeidel, Pair, Uzawa
+from carom.contact import Contact, FrictionSolver, Pair
 from carom.errors import (
     CaromError,
     CertificateError,
@@ -34,7 +37,7 @@ __all__ = [
     "Damping",
     "Disc",
     "Dynamic",
-    "GaussSeidel",
+    "FrictionSolver",
     "InputError",
     "LinearElastic",
     "MeshError",
@@ -51,10 +54,16 @@ __all__ = [
     "Simulation",
     "Theta",
     "Track",
-    "Uzawa",
     "__version__",
     "audit",
     "check",
     "read_history",
     "run",
 ]
+
+
+def __getattr__(name: str) -> ModuleType:
+    """Import `carom.friction`, and scipy with it, where it is first used."""
+    if name == "friction":
+        return import_module("carom.friction")
+    raise AttributeError(f"module 'carom' has no attribute {name!r}")

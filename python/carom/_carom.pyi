@@ -19,6 +19,28 @@ class FrictionArrays(Protocol):
     @property
     def mu(self) -> NDArray[np.float64]: ...
 
+class GlobalFrictionArrays(Protocol):
+    """M and H in compressed columns, with f, b and μ."""
+
+    @property
+    def m_starts(self) -> NDArray[np.int64]: ...
+    @property
+    def m_rows(self) -> NDArray[np.int64]: ...
+    @property
+    def m_values(self) -> NDArray[np.float64]: ...
+    @property
+    def h_starts(self) -> NDArray[np.int64]: ...
+    @property
+    def h_rows(self) -> NDArray[np.int64]: ...
+    @property
+    def h_values(self) -> NDArray[np.float64]: ...
+    @property
+    def f(self) -> NDArray[np.float64]: ...
+    @property
+    def b(self) -> NDArray[np.float64]: ...
+    @property
+    def mu(self) -> NDArray[np.float64]: ...
+
 class Simulation:
     """A scenario built into meshes, matrices and a state that steps through time."""
 
@@ -57,3 +79,14 @@ def solve_friction(
 def measure_friction(
     problem: FrictionArrays, reactions: NDArray[np.float64]
 ) -> tuple[float, float, float]: ...
+def solve_global_friction(
+    problem: GlobalFrictionArrays,
+    reactions: NDArray[np.float64],
+    *,
+    solver: str,
+    method: str,
+    tolerance: float,
+    max_iterations: int,
+    time_limit: float | None,
+) -> dict[str, Any]: ...
+def condense_friction(problem: GlobalFrictionArrays) -> dict[str, NDArray[Any]]: ...

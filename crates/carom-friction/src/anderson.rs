@@ -21,7 +21,7 @@ pub(crate) struct Anderson<const D: usize> {
 }
 
 /// Images combined.
-const MEMORY: usize = 8;
+const MEMORY: usize = 6;
 /// Failures after which acceleration is given up.
 const FAILURES: usize = 3;
 /// Squared growth of the change, over the smallest one, that counts as a failure.

@@ -97,6 +97,12 @@ impl<const D: usize> BlockLu<D> {
         })
     }
 
+    /// Products of blocks in a factorisation.
+    pub fn products(&self) -> usize {
+        let rows = |j: u32| self.upper_starts[j as usize + 1] - self.upper_starts[j as usize];
+        self.lower_columns.iter().map(|&j| 1 + rows(j)).sum()
+    }
+
     /// Factorises the matrix with the rows A_i (W + shift I)_i + B_i.
     pub fn factorize(
         &mut self,

@@ -57,6 +57,12 @@ impl<const D: usize> BlockMatrix<D> {
         self.starts.len() - 1
     }
 
+    /// Number of stored blocks.
+    #[must_use]
+    pub fn block_count(&self) -> usize {
+        self.blocks.len()
+    }
+
     /// The diagonal block of row `i`.
     #[must_use]
     pub fn diagonal(&self, i: usize) -> &Matrix<D> {
@@ -90,13 +96,26 @@ impl<const D: usize> BlockMatrix<D> {
         }
     }
 
+    /// Row `i` without its diagonal block, times `x`.
+    #[inline]
+    #[must_use]
+    pub fn row_times_others(&self, i: usize, x: &[Vector<D>]) -> Vector<D> {
+        let (start, diagonal, end) = (self.starts[i], self.diagonal[i], self.starts[i + 1]);
+        self.segment_times(start..diagonal, x) + self.segment_times(diagonal + 1..end, x)
+    }
+
     /// Row `i` times `x`.
     #[inline]
     #[must_use]
     pub fn row_times(&self, i: usize, x: &[Vector<D>]) -> Vector<D> {
+        self.segment_times(self.starts[i]..self.starts[i + 1], x)
+    }
+
+    #[inline]
+    fn segment_times(&self, segment: std::ops::Range<usize>, x: &[Vector<D>]) -> Vector<D> {
         let mut sum = Vector::zeros();
-        for (j, block) in self.row(i) {
-            sum += block * x[j];
+        for (&j, block) in self.columns[segment.clone()].iter().zip(&self.blocks[segment]) {
+            sum += block * x[j as usize];
         }
         sum
     }

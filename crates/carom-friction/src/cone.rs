@@ -25,14 +25,18 @@ pub fn project<const D: usize>(tau: &Vector<D>, mu: f64) -> Vector<D> {
     if tangential <= mu * normal {
         return *tau;
     }
-    let excess = (tangential - mu * normal) / (1.0 + mu * mu);
-    let mut r = *tau;
-    r[0] += mu * excess;
-    let shrink = if tangential > 0.0 { 1.0 - excess / tangential } else { 0.0 };
-    for t in 1..D {
-        r[t] *= shrink;
-    }
+    // s (n + μ t) with s = (τ_n + μ|τ_t|)/(1 + μ²) and t = τ_t/|τ_t|: on the border of the cone however small it is beside τ.
+    let s = (normal + mu * tangential) / (1.0 + mu * mu);
+    let mut r = tau * (mu * s / tangential);
+    r[0] = s;
     r
+}
+
+/// [`project`] of every contact, in place.
+pub fn project_all<const D: usize>(r: &mut [Vector<D>], mu: &[f64]) {
+    for (r, mu) in r.iter_mut().zip(mu) {
+        *r = project(r, *mu);
+    }
 }
 
 /// A generalised derivative of [`project`].

@@ -1,56 +1,116 @@
+use crate::anderson::Anderson;
+use crate::local::{AlartCurnier, Bipotential, Enumerative, LocalContact, LocalSolver};
+use crate::schedule::Schedule;
 use crate::stopping::Monitor;
 use crate::{
     ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone,
 };
 
-/// Block Gauss–Seidel: contact after contact, the bi-potential fixed point with ρ_i = 1/λ_max(W_ii).
+/// Block Gauss–Seidel: contact after contact, each with the present reactions of the others
+/// [M. Jean, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235–257].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct GaussSeidel;
+pub struct GaussSeidel {
+    /// How a single contact is solved.
+    pub local: Local,
+}
 
-/// Fixed-point steps on one contact before the sweep goes on; neighbours change its data anyway.
-const LOCAL_STEPS: usize = 20;
+/// Solvers of a single contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Local {
+    /// The bi-potential fixed point with ρ_i = 1/λ_max(W_ii).
+    #[default]
+    Bipotential,
+    /// Separation, stick and slip by closed forms, in 3D with a quartic.
+    Enumerative,
+    /// Semismooth Newton on Alart and Curnier's equation.
+    AlartCurnier,
+}
 
 impl<const D: usize> FrictionSolver<D> for GaussSeidel {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
         let mut monitor = Monitor::new(problem, rule);
-        let status = run(&mut monitor, r);
-        monitor.report(SolverKind::GaussSeidel, status, r)
+        let (kind, status) = match self.local {
+            Local::Bipotential => {
+                (SolverKind::GaussSeidel, run::<D, Bipotential>(&mut monitor, r, usize::MAX))
+            }
+            Local::Enumerative => {
+                (SolverKind::GaussSeidelEnumerative, run::<D, Enumerative>(&mut monitor, r, usize::MAX))
+            }
+            Local::AlartCurnier => {
+                (SolverKind::GaussSeidelAlartCurnier, run::<D, AlartCurnier>(&mut monitor, r, usize::MAX))
+            }
+        };
+        monitor.report(kind, status.unwrap_or(SolveStatus::Stalled), r)
     }
 }
 
-fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> SolveStatus {
-    if let Some(status) = monitor.check(r) {
-        return status;
-    }
+/// Checks without a new smallest residual after which the sweeps are damped: exact local answers may chase one another in circles.
+const PATIENCE: usize = 10;
+/// What remains of the relaxation then, and the least of it.
+const DAMPING: f64 = 0.7;
+const LEAST_RELAXATION: f64 = 0.5;
+
+/// Sweeps until it is time to stop, or `max_sweeps` times: then None.
+pub(crate) fn run<const D: usize, L: LocalSolver<D>>(
+    monitor: &mut Monitor<'_, D>,
+    r: &mut [Vector<D>],
+    max_sweeps: usize,
+) -> Option<SolveStatus> {
     let problem = monitor.problem();
-    let steps: Vec<f64> = (0..problem.len()).map(|i| problem.step_length(i)).collect();
-    let mut next_check = 1;
-    loop {
-        let (mut change, mut size) = (0.0, 0.0);
-        for i in 0..problem.len() {
-            let before = r[i];
-            let local = problem.w.diagonal(i);
-            let others = problem.motion(i, r) - local * before;
-            for _ in 0..LOCAL_STEPS {
-                let next = cone::fixed_point(&r[i], &(others + local * r[i]), problem.mu[i], steps[i]);
-                let moved = (next - r[i]).norm();
-                r[i] = next;
-                if moved <= 0.1 * monitor.tolerance() * next.norm() {
-                    break;
-                }
+    let contacts: Vec<LocalContact<D>> = (0..problem.len()).map(|i| LocalContact::new(problem, i)).collect();
+    for (r, contact) in r.iter_mut().zip(&contacts) {
+        *r = if contact.rho > 0.0 { cone::project(r, contact.mu) } else { Vector::zeros() };
+    }
+    if let Some(status) = monitor.check(r) {
+        return Some(status);
+    }
+    // With these weights lengths count as energies do, whatever the units of a contact.
+    let weight = |c: &LocalContact<D>| if c.rho > 0.0 { 1.0 / c.rho.sqrt() } else { 0.0 };
+    let mut anderson = Anderson::new(contacts.iter().map(weight).collect());
+    let mut before = r.to_vec();
+    let accuracy = 0.1 * monitor.tolerance();
+    let mut schedule = Schedule::new(monitor.tolerance(), monitor.iterations);
+    let last = monitor.iterations.saturating_add(max_sweeps);
+    let (mut relaxation, mut smallest, mut stale) = (1.0, f64::INFINITY, 0);
+    while monitor.iterations < last {
+        if anderson.is_active() {
+            before.copy_from_slice(r);
+        }
+        let mut change = 0.0;
+        for (i, contact) in contacts.iter().enumerate() {
+            let old = r[i];
+            let free = problem.q[i] + problem.w.row_times_others(i, r);
+            // Open contacts stay so, and no reaction helps one that nothing can move.
+            if old[0] == 0.0 && (free[0] >= 0.0 || contact.rho == 0.0) {
+                continue;
             }
-            change += (r[i] - before).norm_squared();
-            size += r[i].norm_squared();
+            r[i] = old + (L::solve(contact, &free, &old, accuracy) - old) * relaxation;
+            change += (r[i] - old).norm_squared();
+        }
+        if anderson.is_active() {
+            anderson.accelerate(&before, r);
+            for (r, &mu) in r.iter_mut().zip(&problem.mu) {
+                *r = cone::project(r, mu);
+            }
         }
         monitor.iterations += 1;
-        // The residual costs a sweep: it is measured once the sweep itself hardly moves, and now and then.
-        let settled = change <= (10.0 * monitor.tolerance()).powi(2) * size;
-        if settled || monitor.iterations >= next_check || !change.is_finite() || monitor.exhausted().is_some()
-        {
-            next_check = monitor.iterations + monitor.iterations.clamp(5, 50);
+        if schedule.is_due(monitor.iterations, change.sqrt()) || monitor.exhausted().is_some() {
             if let Some(status) = monitor.check(r) {
-                return status;
+                return Some(status);
+            }
+            schedule.checked(monitor.iterations, change.sqrt(), monitor.residual());
+            stale = if monitor.residual() < smallest { 0 } else { stale + 1 };
+            smallest = smallest.min(monitor.residual());
+            if stale == PATIENCE {
+                relaxation = LEAST_RELAXATION.max(DAMPING * relaxation);
+                stale = 0;
             }
         }
     }
+    None
+}
+
+/// What a sweep costs, in products of blocks.
+pub(crate) fn cost<const D: usize>(problem: &ContactProblem<D>) -> usize {
+    problem.w.block_count() + 10 * problem.len()
 }

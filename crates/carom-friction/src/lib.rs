@@ -26,6 +26,7 @@
 
 mod admm;
 mod anderson;
+mod auto;
 mod block_lu;
 mod block_matrix;
 pub mod cone;
@@ -35,10 +36,13 @@ mod contradiction;
 mod equation;
 mod gauss_seidel;
 mod global;
+mod local;
 mod newton;
 mod problem;
+mod projected_gradient;
 mod proximal;
 mod residual;
+mod schedule;
 mod small;
 mod solver;
 mod sparse_factor;
@@ -47,10 +51,12 @@ mod stopping;
 mod uzawa;
 
 pub use admm::Admm;
+pub use auto::Auto;
 pub use block_matrix::BlockMatrix;
-pub use gauss_seidel::GaussSeidel;
+pub use gauss_seidel::{GaussSeidel, Local};
 pub use global::{GlobalMethod, GlobalProblem, GlobalReport, SingularMatrix};
 pub use problem::ContactProblem;
+pub use projected_gradient::ProjectedGradient;
 pub use proximal::{NewtonAlartCurnier, NewtonNaturalMap, Proximal};
 pub use residual::{Measure, measure};
 pub use solver::{FrictionSolver, SolverKind};

@@ -64,6 +64,11 @@ impl<const D: usize> Newton<D> {
         })
     }
 
+    /// What an iteration costs, in products of blocks.
+    pub fn cost(&self, problem: &ContactProblem<D>) -> usize {
+        self.lu.products() + 3 * problem.w.block_count() + 50 * problem.len()
+    }
+
     /// Improves `r` until ‖φ‖ ≤ `wanted` [N] or `max_iterations` are made.
     pub fn solve(
         &mut self,

@@ -104,11 +104,14 @@ impl Strategy {
         let motion_force = monitor.stiffness() * norm(&problem.q);
         let end = monitor.iterations.saturating_add(max_iterations);
         let (mut shift, mut form, mut caution) = (self.first_shift, 0, 0u32);
+        // ‖φ‖ weighs every contact with its own ρ, the residual all alike: how small is enough turns out on the way.
+        let mut strictness = 1.0;
         let mut centre = r.to_vec();
         let mut trial = r.to_vec();
         loop {
             let size = motion_force.max(norm(r));
-            let wanted = (0.1 * monitor.tolerance()).max(INNER * monitor.residual().min(0.1)) * size;
+            let wanted =
+                strictness * (0.1 * monitor.tolerance()).max(INNER * monitor.residual().min(0.1)) * size;
             trial.copy_from_slice(r);
             let shifted = Shifted { problem, rho: &rho, shift: shift * mean_compliance, centre: &centre };
             let newton_end = newton.solve(&shifted, self.equations[form], &mut trial, wanted, TRAPPED);
@@ -124,6 +127,12 @@ impl Strategy {
                     return SolveStatus::Inconsistent;
                 }
                 centre.copy_from_slice(r);
+                if newton_end.iterations == 0 {
+                    strictness *= 0.1;
+                    if strictness < f64::EPSILON {
+                        return SolveStatus::Stalled;
+                    }
+                }
                 let decrease = match newton_end.iterations {
                     0..=3 => 0.1,
                     4..=8 => 0.4,

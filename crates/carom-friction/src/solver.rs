@@ -1,8 +1,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Admm, ContactProblem, GaussSeidel, NewtonAlartCurnier, NewtonNaturalMap, Proximal, SolveReport,
-    StoppingRule, Uzawa, Vector,
+    Admm, Auto, ContactProblem, GaussSeidel, Local, NewtonAlartCurnier, NewtonNaturalMap, ProjectedGradient,
+    Proximal, SolveReport, StoppingRule, Uzawa, Vector,
 };
 
 /// A method for contact problems. It does not fail: a solver that stops early says so in its report.
@@ -15,11 +15,19 @@ pub trait FrictionSolver<const D: usize>: Send + Sync {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SolverKind {
-    /// Block Gauss–Seidel with the bi-potential fixed point on each contact.
+    /// Starts cheaply and escalates where that does not converge.
     #[default]
+    Auto,
+    /// Block Gauss–Seidel with the bi-potential fixed point on each contact.
     GaussSeidel,
+    /// Block Gauss–Seidel with closed forms on each contact.
+    GaussSeidelEnumerative,
+    /// Block Gauss–Seidel with Newton's method on each contact.
+    GaussSeidelAlartCurnier,
     /// The simultaneous bi-potential Uzawa iteration of the paper.
     Uzawa,
+    /// Accelerated projected gradients.
+    ProjectedGradient,
     /// The alternating direction method of multipliers.
     Admm,
     /// The proximal point method.
@@ -32,9 +40,13 @@ pub enum SolverKind {
 
 impl SolverKind {
     /// Every solver.
-    pub const ALL: [SolverKind; 6] = [
+    pub const ALL: [SolverKind; 10] = [
+        SolverKind::Auto,
         SolverKind::GaussSeidel,
+        SolverKind::GaussSeidelEnumerative,
+        SolverKind::GaussSeidelAlartCurnier,
         SolverKind::Uzawa,
+        SolverKind::ProjectedGradient,
         SolverKind::Admm,
         SolverKind::Proximal,
         SolverKind::NewtonAlartCurnier,
@@ -45,8 +57,12 @@ impl SolverKind {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            SolverKind::Auto => "auto",
             SolverKind::GaussSeidel => "gauss-seidel",
+            SolverKind::GaussSeidelEnumerative => "gauss-seidel-enumerative",
+            SolverKind::GaussSeidelAlartCurnier => "gauss-seidel-alart-curnier",
             SolverKind::Uzawa => "uzawa",
+            SolverKind::ProjectedGradient => "projected-gradient",
             SolverKind::Admm => "admm",
             SolverKind::Proximal => "proximal",
             SolverKind::NewtonAlartCurnier => "newton-alart-curnier",
@@ -64,8 +80,12 @@ impl SolverKind {
     #[must_use]
     pub fn solver<const D: usize>(self) -> Box<dyn FrictionSolver<D>> {
         match self {
-            SolverKind::GaussSeidel => Box::new(GaussSeidel),
+            SolverKind::Auto => Box::new(Auto),
+            SolverKind::GaussSeidel => Box::new(GaussSeidel { local: Local::Bipotential }),
+            SolverKind::GaussSeidelEnumerative => Box::new(GaussSeidel { local: Local::Enumerative }),
+            SolverKind::GaussSeidelAlartCurnier => Box::new(GaussSeidel { local: Local::AlartCurnier }),
             SolverKind::Uzawa => Box::new(Uzawa),
+            SolverKind::ProjectedGradient => Box::new(ProjectedGradient),
             SolverKind::Admm => Box::new(Admm),
             SolverKind::Proximal => Box::new(Proximal),
             SolverKind::NewtonAlartCurnier => Box::new(NewtonAlartCurnier),

@@ -1,4 +1,4 @@
-"""The command line: ``carom run``, ``carom check``, ``carom audit``, ``carom plot``."""
+"""The command line: ``carom run``, ``check``, ``audit``, ``plot`` and ``friction``."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import typer
 from carom import __version__
 from carom.cli.audit import audit
 from carom.cli.check import check
+from carom.cli.friction import app as friction
 from carom.cli.plot import plot
 from carom.cli.run import run
 
@@ -22,6 +23,7 @@ app.command()(run)
 app.command()(check)
 app.command()(audit)
 app.command()(plot)
+app.add_typer(friction, name="friction")
 
 
 def _print_version(wanted: bool) -> None:

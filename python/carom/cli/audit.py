@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
-import math
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 from rich.console import Console
@@ -13,6 +11,7 @@ from rich.console import Console
 from carom.audit import Audit
 from carom.audit import audit as check_results
 from carom.cli.failures import failures
+from carom.cli.plain import json_text
 
 REFUTED = 1
 """Exit status where a check failed; a file that cannot be read ends so too, with an error."""
@@ -29,7 +28,7 @@ def audit(
     with failures(directory):
         found = check_results(directory)
     if as_json:
-        typer.echo(json.dumps(_json(found.as_dict()), indent=2, ensure_ascii=False))
+        typer.echo(json_text(found.as_dict()))
     else:
         _show(found)
     if not found.confirmed:
@@ -54,12 +53,3 @@ def _show(found: Audit) -> None:
     console.print(
         f"{verdict}: {count - len(found.refuted)} of {count} checks hold", highlight=False
     )
-
-
-def _json(value: Any) -> Any:  # noqa: ANN401 (any JSON value)
-    """Return plain data with what is not finite as null."""
-    if isinstance(value, dict):
-        return {key: _json(member) for key, member in value.items()}
-    if isinstance(value, list):
-        return [_json(member) for member in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,65 @@
+use crate::local::Enumerative;
+use crate::newton::Newton;
+use crate::proximal::Strategy;
+use crate::stopping::Monitor;
+use crate::{
+    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, gauss_seidel,
+};
+
+/// Starts cheaply and escalates where that does not converge; the default.
+///
+/// A few accelerated Gauss–Seidel sweeps solve well-conditioned problems and improve the start of others. They go on while they
+/// are a small part of what Newton's method would cost, which matters where contacts are so densely coupled that its factors
+/// are full. Then comes the proximal point method with Newton's iterations, and where the factors would outgrow the problem, or
+/// Newton's method is trapped, sweeps again: in turn, until the problem is solved or the limits are reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Auto;
+
+/// Sweeps before anything else is considered: about the cost of ordering the contacts for Newton's method.
+const FIRST_SWEEPS: usize = 10;
+/// Cost of the sweeps that are tried before Newton's method, in iterations of it.
+const SWEEPS_WORTH: usize = 5;
+/// Blocks of the factors per block of W above which they are thought to outgrow the problem.
+const FILL: usize = 20;
+/// A share of iterations for each method when they take turns: of Newton's, and sweeps.
+const TURN: (usize, usize) = (1000, 500);
+
+impl<const D: usize> FrictionSolver<D> for Auto {
+    fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
+        let mut monitor = Monitor::new(problem, rule);
+        let (kind, status) = run(&mut monitor, r);
+        monitor.report(kind, status, r)
+    }
+}
+
+fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (SolverKind, SolveStatus) {
+    let problem = monitor.problem();
+    let sweep = |monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>], sweeps| {
+        gauss_seidel::run::<D, Enumerative>(monitor, r, sweeps)
+            .map(|status| (SolverKind::GaussSeidelEnumerative, status))
+    };
+    if let Some(end) = sweep(monitor, r, FIRST_SWEEPS) {
+        return end;
+    }
+    let blocks = problem.w.block_count();
+    let Some(mut newton) = Newton::new(problem, FILL * (blocks + problem.len())) else {
+        return sweep(monitor, r, usize::MAX).unwrap_or((SolverKind::GaussSeidel, SolveStatus::Stalled));
+    };
+    let sweeps = SWEEPS_WORTH * newton.cost(problem) / gauss_seidel::cost(problem);
+    if sweeps > 5 * FIRST_SWEEPS {
+        if let Some(end) = sweep(monitor, r, sweeps - FIRST_SWEEPS) {
+            return end;
+        }
+    }
+    loop {
+        let before = monitor.iterations;
+        let status = Strategy::PROXIMAL.run(monitor, &mut newton, r, TURN.0);
+        if status != SolveStatus::IterationLimit || monitor.exhausted().is_some() {
+            return (SolverKind::Proximal, status);
+        }
+        if let Some(end) = sweep(monitor, r, TURN.1) {
+            return end;
+        }
+        debug_assert!(monitor.iterations > before);
+    }
+}
