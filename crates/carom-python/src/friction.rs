@@ -6,7 +6,8 @@ use carom_friction::{
     BlockMatrix, ContactProblem, Criterion, Matrix, SolveReport, SolverKind, StoppingRule, Vector, measure,
 };
 use numpy::{
-    PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods,
+    PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3,
+    PyUntypedArrayMethods,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -70,7 +71,19 @@ pub fn to_python<'py, const D: usize>(
     py: Python<'py>,
     problem: &ContactProblem<D>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let rows = || (0..problem.len()).map(|i| problem.w.row(i));
+    let (starts, columns, blocks) = block_rows(py, &problem.w)?;
+    let (q, mu) = (arrays::vectors(py, &problem.q)?, PyArray1::from_slice(py, &problem.mu));
+    py.import("carom.friction")?
+        .getattr("Problem")?
+        .call_method1("from_blocks", (starts, columns, blocks, q, mu))
+}
+
+/// First block of every row, block columns and blocks.
+type BlockRows<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>, Bound<'py, PyArray3<f64>>);
+
+/// W in compressed block rows.
+pub fn block_rows<'py, const D: usize>(py: Python<'py>, w: &BlockMatrix<D>) -> PyResult<BlockRows<'py>> {
+    let rows = || (0..w.row_count()).map(|i| w.row(i));
     let starts = rows().scan(0, |end, row| {
         *end += row.len() as i64;
         Some(*end)
@@ -80,20 +93,31 @@ pub fn to_python<'py, const D: usize>(
     // nalgebra stores a block by columns, NumPy by rows.
     let blocks: Vec<Matrix<D>> = rows().flatten().map(|(_, block)| block.transpose()).collect();
     let flat: &[f64] = bytemuck::cast_slice(&blocks);
-    let blocks = PyArray1::from_slice(py, flat).reshape([blocks.len(), D, D])?;
-    let (q, mu) = (arrays::vectors(py, &problem.q)?, PyArray1::from_slice(py, &problem.mu));
-    py.import("carom.friction")?
-        .getattr("Problem")?
-        .call_method1("from_blocks", (starts, columns, blocks, q, mu))
+    Ok((starts, columns, PyArray1::from_slice(py, flat).reshape([blocks.len(), D, D])?))
 }
 
-fn vectors<const D: usize>(flat: &[f64]) -> Vec<Vector<D>> {
+/// One vector for every D numbers.
+pub fn vectors<const D: usize>(flat: &[f64]) -> Vec<Vector<D>> {
     flat.chunks_exact(D).map(Vector::from_column_slice).collect()
 }
 
-fn kind(name: &str) -> PyResult<SolverKind> {
+/// The solver of this name.
+pub fn kind(name: &str) -> PyResult<SolverKind> {
     SolverKind::from_name(name)
         .ok_or_else(|| PyValueError::new_err(format!("there is no friction solver named {name:?}")))
+}
+
+/// When to stop, by either measure.
+pub fn stopping_rule(
+    tolerance: f64,
+    max_iterations: usize,
+    time_limit: Option<f64>,
+) -> PyResult<StoppingRule> {
+    let time_limit = time_limit
+        .map(Duration::try_from_secs_f64)
+        .transpose()
+        .map_err(|e| PyValueError::new_err(format!("time_limit: {e}")))?;
+    Ok(StoppingRule { tolerance, criterion: Criterion::Both, max_iterations, time_limit })
 }
 
 /// The names of all solvers, the default first.
@@ -114,11 +138,7 @@ pub fn solve_friction<'py>(
     max_iterations: usize,
     time_limit: Option<f64>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let time_limit = time_limit
-        .map(Duration::try_from_secs_f64)
-        .transpose()
-        .map_err(|e| PyValueError::new_err(format!("time_limit: {e}")))?;
-    let rule = StoppingRule { tolerance, criterion: Criterion::Both, max_iterations, time_limit };
+    let rule = stopping_rule(tolerance, max_iterations, time_limit)?;
     let kind = kind(solver)?;
     match problem.dimension() {
         1 => solve::<1>(py, &problem, &reactions, kind, &rule),
@@ -135,7 +155,7 @@ fn solve<'py, const D: usize>(
     rule: &StoppingRule,
 ) -> PyResult<Bound<'py, PyDict>> {
     let problem = arrays.problem::<D>()?;
-    let mut r = guess(reactions, &problem)?;
+    let mut r = guess(reactions, problem.len())?;
     let report = py.detach(|| kind.solver().solve(&problem, &mut r, rule));
     let w: Vec<Vector<D>> = (0..r.len()).map(|i| problem.motion(i, &r)).collect();
     let out = describe(py, &report)?;
@@ -144,12 +164,13 @@ fn solve<'py, const D: usize>(
     Ok(out)
 }
 
-fn guess<const D: usize>(
+/// Reactions to start from, one for each of `contacts`.
+pub fn guess<const D: usize>(
     reactions: &PyReadonlyArray2<'_, f64>,
-    problem: &ContactProblem<D>,
+    contacts: usize,
 ) -> PyResult<Vec<Vector<D>>> {
     let r: Vec<Vector<D>> = vectors(reactions.as_slice()?);
-    if r.len() != problem.len() || reactions.shape()[1] != D {
+    if r.len() != contacts || reactions.shape()[1] != D {
         return Err(PyValueError::new_err("the reactions do not fit the contact problem"));
     }
     Ok(r)
@@ -181,7 +202,7 @@ pub fn measure_friction(
         reactions: &PyReadonlyArray2<'_, f64>,
     ) -> PyResult<(f64, f64, f64)> {
         let problem = arrays.problem::<D>()?;
-        let m = measure(&problem, &guess(reactions, &problem)?);
+        let m = measure(&problem, &guess(reactions, problem.len())?);
         Ok((m.residual, m.natural_residual, m.certificate))
     }
     match problem.dimension() {
