@@ -24,6 +24,7 @@
 //! friction and improved numerical algorithms*, Math. Comput. Modelling 28 (1998) 225–245; M. Jean, *The non-smooth contact
 //! dynamics method*, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235–257.
 
+mod admm;
 mod anderson;
 mod auto;
 mod block_lu;
@@ -34,6 +35,7 @@ mod contract;
 mod contradiction;
 mod equation;
 mod gauss_seidel;
+mod global;
 mod local;
 mod newton;
 mod problem;
@@ -43,12 +45,16 @@ mod residual;
 mod schedule;
 mod small;
 mod solver;
+mod sparse_factor;
+mod splitting;
 mod stopping;
 mod uzawa;
 
+pub use admm::Admm;
 pub use auto::Auto;
 pub use block_matrix::BlockMatrix;
 pub use gauss_seidel::{GaussSeidel, Local};
+pub use global::{GlobalMethod, GlobalProblem, GlobalReport, SingularMatrix};
 pub use problem::ContactProblem;
 pub use projected_gradient::ProjectedGradient;
 pub use proximal::{NewtonAlartCurnier, NewtonNaturalMap, Proximal};

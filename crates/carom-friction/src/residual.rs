@@ -33,7 +33,26 @@ impl Measure {
 /// Measures `r`, whose motions are computed anew from the problem.
 #[must_use]
 pub fn measure<const D: usize>(problem: &ContactProblem<D>, r: &[Vector<D>]) -> Measure {
-    Meter::new(problem).measure(problem, r)
+    problem.measure(&Meter::new(problem), r)
+}
+
+/// A contact problem in any form in which the motions of given reactions can be found.
+pub(crate) trait Measured<const D: usize> {
+    /// What its measure needs beforehand.
+    fn meter(&self) -> Meter;
+
+    /// Measures `r`, whose motions are computed anew.
+    fn measure(&self, meter: &Meter, r: &[Vector<D>]) -> Measure;
+}
+
+impl<const D: usize> Measured<D> for ContactProblem<D> {
+    fn meter(&self) -> Meter {
+        Meter::new(self)
+    }
+
+    fn measure(&self, meter: &Meter, r: &[Vector<D>]) -> Measure {
+        meter.measure(&self.mu, r, |i| self.motion(i, r))
+    }
 }
 
 /// ‖r‖ over ρ‖q‖ above which reactions are out of proportion; in piles of many contacts it is 10 to 100.
@@ -44,7 +63,8 @@ const LARGEST_REACTIONS: f64 = 1e3;
 pub(crate) struct Meter {
     /// The natural ρ [N/m].
     pub stiffness: f64,
-    squared_q: f64,
+    /// ‖q‖² [m²].
+    pub squared_q: f64,
 }
 
 impl Meter {
@@ -53,13 +73,18 @@ impl Meter {
         Self { stiffness: problem.natural_stiffness(), squared_q }
     }
 
-    pub fn measure<const D: usize>(&self, problem: &ContactProblem<D>, r: &[Vector<D>]) -> Measure {
+    /// Measures the reactions `r` whose motions are `motion(0)`, `motion(1)`, …
+    pub fn measure<const D: usize>(
+        &self,
+        mu: &[f64],
+        r: &[Vector<D>],
+        motion: impl Fn(usize) -> Vector<D>,
+    ) -> Measure {
         let rho = self.stiffness;
         let (mut error, mut natural_error, mut squared_r, mut squared_w) = (0.0, 0.0, 0.0, 0.0);
         let mut certificate = 0.0;
-        for i in 0..problem.len() {
-            let mu = problem.mu[i];
-            let w = problem.motion(i, r);
+        for (i, &mu) in mu.iter().enumerate() {
+            let w = motion(i);
             error += (r[i] - cone::fixed_point(&r[i], &w, mu, 1.0)).norm_squared();
             natural_error += (r[i] - cone::fixed_point(&r[i], &w, mu, rho)).norm_squared();
             squared_r += r[i].norm_squared();

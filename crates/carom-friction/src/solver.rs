@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Auto, ContactProblem, GaussSeidel, Local, NewtonAlartCurnier, NewtonNaturalMap, ProjectedGradient,
+    Admm, Auto, ContactProblem, GaussSeidel, Local, NewtonAlartCurnier, NewtonNaturalMap, ProjectedGradient,
     Proximal, SolveReport, StoppingRule, Uzawa, Vector,
 };
 
@@ -28,6 +28,8 @@ pub enum SolverKind {
     Uzawa,
     /// Accelerated projected gradients.
     ProjectedGradient,
+    /// The alternating direction method of multipliers.
+    Admm,
     /// The proximal point method.
     Proximal,
     /// Semismooth Newton on the equations of Alart and Curnier.
@@ -38,13 +40,14 @@ pub enum SolverKind {
 
 impl SolverKind {
     /// Every solver.
-    pub const ALL: [SolverKind; 9] = [
+    pub const ALL: [SolverKind; 10] = [
         SolverKind::Auto,
         SolverKind::GaussSeidel,
         SolverKind::GaussSeidelEnumerative,
         SolverKind::GaussSeidelAlartCurnier,
         SolverKind::Uzawa,
         SolverKind::ProjectedGradient,
+        SolverKind::Admm,
         SolverKind::Proximal,
         SolverKind::NewtonAlartCurnier,
         SolverKind::NewtonNaturalMap,
@@ -60,6 +63,7 @@ impl SolverKind {
             SolverKind::GaussSeidelAlartCurnier => "gauss-seidel-alart-curnier",
             SolverKind::Uzawa => "uzawa",
             SolverKind::ProjectedGradient => "projected-gradient",
+            SolverKind::Admm => "admm",
             SolverKind::Proximal => "proximal",
             SolverKind::NewtonAlartCurnier => "newton-alart-curnier",
             SolverKind::NewtonNaturalMap => "newton-natural-map",
@@ -82,6 +86,7 @@ impl SolverKind {
             SolverKind::GaussSeidelAlartCurnier => Box::new(GaussSeidel { local: Local::AlartCurnier }),
             SolverKind::Uzawa => Box::new(Uzawa),
             SolverKind::ProjectedGradient => Box::new(ProjectedGradient),
+            SolverKind::Admm => Box::new(Admm),
             SolverKind::Proximal => Box::new(Proximal),
             SolverKind::NewtonAlartCurnier => Box::new(NewtonAlartCurnier),
             SolverKind::NewtonNaturalMap => Box::new(NewtonNaturalMap),

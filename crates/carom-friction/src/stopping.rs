@@ -2,7 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use crate::{ContactProblem, Measure, SolverKind, Vector, residual::Meter};
+use crate::residual::{Measured, Meter};
+use crate::{ContactProblem, Measure, SolverKind, Vector};
 
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,8 +102,8 @@ impl SolveReport {
 
 /// Measures iterates and keeps the record of a solve; every solver ends in [`Monitor::report`], which trusts no one.
 #[derive(Debug)]
-pub(crate) struct Monitor<'a, const D: usize> {
-    problem: &'a ContactProblem<D>,
+pub(crate) struct Monitor<'a, const D: usize, P = ContactProblem<D>> {
+    problem: &'a P,
     meter: Meter,
     rule: StoppingRule,
     start: Instant,
@@ -111,13 +112,13 @@ pub(crate) struct Monitor<'a, const D: usize> {
     pub iterations: usize,
 }
 
-impl<'a, const D: usize> Monitor<'a, D> {
-    pub fn new(problem: &'a ContactProblem<D>, rule: &StoppingRule) -> Self {
-        let (meter, history) = (Meter::new(problem), Vec::with_capacity(32));
+impl<'a, const D: usize, P: Measured<D>> Monitor<'a, D, P> {
+    pub fn new(problem: &'a P, rule: &StoppingRule) -> Self {
+        let (meter, history) = (problem.meter(), Vec::with_capacity(32));
         Self { problem, meter, rule: *rule, start: Instant::now(), history, iterations: 0 }
     }
 
-    pub fn problem(&self) -> &'a ContactProblem<D> {
+    pub fn problem(&self) -> &'a P {
         self.problem
     }
 
@@ -137,12 +138,27 @@ impl<'a, const D: usize> Monitor<'a, D> {
 
     /// Measures `r`; whether it is time to stop, and why.
     pub fn check(&mut self, r: &[Vector<D>]) -> Option<SolveStatus> {
-        let residual = self.meter.measure(self.problem, r).decisive(self.rule.criterion);
+        let residual = self.problem.measure(&self.meter, r).decisive(self.rule.criterion);
         self.record(residual)
     }
 
-    fn record(&mut self, residual: f64) -> Option<SolveStatus> {
+    /// ‖q‖ [m].
+    pub fn size_q(&self) -> f64 {
+        self.meter.squared_q.sqrt()
+    }
+
+    /// The residual of reactions `r` whose `motions` a solver knows.
+    pub fn residual_of(&self, mu: &[f64], r: &[Vector<D>], motions: &[Vector<D>]) -> f64 {
+        self.meter.measure(mu, r, |i| motions[i]).decisive(self.rule.criterion)
+    }
+
+    /// Enters a residual in the history.
+    pub fn note(&mut self, residual: f64) {
         self.history.push(Sample { iteration: self.iterations, residual });
+    }
+
+    fn record(&mut self, residual: f64) -> Option<SolveStatus> {
+        self.note(residual);
         if residual <= self.rule.tolerance {
             Some(SolveStatus::Solved)
         } else if !residual.is_finite() {
@@ -165,7 +181,7 @@ impl<'a, const D: usize> Monitor<'a, D> {
 
     /// The report on the answer `r`. It is measured once more: nothing else can make it a success.
     pub fn report(mut self, solver: SolverKind, status: SolveStatus, r: &[Vector<D>]) -> SolveReport {
-        let measure = self.meter.measure(self.problem, r);
+        let measure = self.problem.measure(&self.meter, r);
         let residual = measure.decisive(self.rule.criterion);
         let status = if residual <= self.rule.tolerance {
             SolveStatus::Solved
