@@ -8,7 +8,7 @@ from carom.analysis import Conserving, Dynamic, Newton, Theta
 from carom.audit import Audit, audit
 from carom.body import Body
 from carom.checking import Check, check
-from carom.contact import Contact, GaussSeidel, Pair, Uzawa
+from carom.contact import Contact, FrictionSolver, Pair
 from carom.errors import (
     CaromError,
     CertificateError,
@@ -37,7 +37,7 @@ __all__ = [
     "Damping",
     "Disc",
     "Dynamic",
-    "GaussSeidel",
+    "FrictionSolver",
     "InputError",
     "LinearElastic",
     "MeshError",
@@ -54,7 +54,6 @@ __all__ = [
     "Simulation",
     "Theta",
     "Track",
-    "Uzawa",
     "__version__",
     "audit",
     "check",

@@ -8,7 +8,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from os import PathLike
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from carom.friction import Problem
 
 
 class CaromError(Exception):
@@ -43,12 +49,27 @@ class ConvergenceError(CaromError, RuntimeError):
     message
         One line: the time, the step and what did not converge.
     report
-        Numbers about the failed step.
+        Numbers about the failed step; under ``friction`` what the solver of the contact problem
+        said, if that is what failed.
+    problem
+        The contact problem that could not be solved; None if something else failed. Motions in m,
+        forces in N, with ``massless`` contact ξ times these.
+    guess
+        The reactions that its solver started from [N], shape [n, D].
     """
 
-    def __init__(self, message: str, report: Mapping[str, Any]) -> None:
+    def __init__(
+        self,
+        message: str,
+        report: Mapping[str, Any],
+        *,
+        problem: Problem | None = None,
+        guess: NDArray[np.float64] | None = None,
+    ) -> None:
         super().__init__(message)
         self.report = dict(report)
+        self.problem = problem
+        self.guess = guess
 
 
 class CertificateError(CaromError, RuntimeError):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 from carom import _carom
 from carom.interrupt import uninterrupted
@@ -16,6 +17,12 @@ from carom.io.vtkhdf import SURFACE_CELL_FIELDS, SURFACE_POINT_FIELDS, FieldsWri
 from carom.plot import draw
 from carom.result import Result
 from carom.scenario import Scenario
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from carom.friction import Problem
 
 
 class Recorder:
@@ -75,6 +82,17 @@ class Recorder:
             step = self._simulation.last_step()
             if step is not None:
                 self._audit.append(step)
+
+    @uninterrupted()
+    def failed_problem(
+        self, problem: Problem, *, guess: NDArray[np.float64] | None, reason: str
+    ) -> Path:
+        """Write the contact problem that a step could not solve, as an FCLIB file; return which."""
+        from carom.friction import write  # noqa: PLC0415 (SciPy, which most runs do without)
+
+        path = self._directory / layout.FAILED_PROBLEM
+        write(problem, path, guess=guess, title=self._title, description=reason)
+        return path
 
     @uninterrupted()
     def close(self, *, status: str, reason: str | None = None) -> Result:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 import re
+import shlex
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from carom._carom import Simulation
+from carom.contact import FrictionSolver
 from carom.errors import CertificateError, ConvergenceError
 from carom.recorder import Recorder
 from carom.result import Result
@@ -82,7 +84,9 @@ def run(
     InputError
         The scenario cannot be run; nothing is written.
     ConvergenceError
-        A step failed; the results up to it are written, with the status ``"failed"``.
+        A step failed; the results up to it are written, with the status ``"failed"``. If it was
+        the contact problem, that is written too, and the message names the command that solves it
+        again on its own.
     CertificateError
         A step was further from Coulomb's law than `Contact.certificate_tolerance` allows; the
         results are written, with the status ``"uncertified"``.
@@ -120,6 +124,9 @@ def drive(
             recorder.frame()
             report()
     except ConvergenceError as error:
+        if error.problem is not None:
+            file = recorder.failed_problem(error.problem, guess=error.guess, reason=str(error))
+            error.args = (f"{error}; {_replay(file, scenario.contact.solver)}",)
         recorder.close(status="failed", reason=str(error))
         raise
     except KeyboardInterrupt:
@@ -129,6 +136,15 @@ def drive(
         recorder.close(status="uncertified", reason=reason)
         raise CertificateError(reason)
     return recorder.close(status="completed")
+
+
+def _replay(file: Path, solver: FrictionSolver) -> str:
+    """Return where a contact problem is and how to solve it again."""
+    return (
+        f"the problem is in {file}, solve it again with: carom friction solve "
+        f"{shlex.quote(str(file))} --warm --solver {solver.kind} "
+        f"--tolerance {solver.tolerance!r} --max-iterations {solver.max_iterations}"
+    )
 
 
 def _violation(simulation: Simulation) -> str | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -59,6 +59,9 @@ def summary_table(summary: Mapping[str, Any], *, where: Path) -> Table:
         f"{certificate['max_joule']:.3g} J from Coulomb's law in any step "
         f"({certificate['tolerance_joule']:.3g} J allowed)",
     )
+    if (check := summary.get("cross_check")) is not None:
+        for quantity, value in _cross_check(check):
+            add(table, quantity, value)
     table.add_section()
     contacts = summary["contacts"]
     for contact in contacts[:SHOWN_CONTACTS]:
@@ -68,6 +71,34 @@ def summary_table(summary: Mapping[str, Any], *, where: Path) -> Table:
     table.add_section()
     add(table, "results", str(where))
     return table
+
+
+def _cross_check(check: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """Yield what a second solver said, and a warning for what it said otherwise."""
+    problems, differing = check["problems"], check["disagreements"]
+    solvers = " and ".join(check["solvers"])
+    if problems == 0:
+        yield "cross-check", "no contact problem to solve again"
+        return
+    yield (
+        "cross-check",
+        f"{problems} contact problems solved again by {solvers}: motions within "
+        f"{check['max_difference']:.2g} ({check['explained_difference']:.2g} explained by the "
+        f"tolerance), {check['max_certificate_joule']:.3g} J from Coulomb's law",
+    )
+    if differing:
+        yield (
+            "warning",
+            f"{differing} of {problems} contact problems have a second answer with other motions, "
+            f"the most different at t = {check['time_of_max']:g} s: Coulomb's law does not decide "
+            "between them",
+        )
+    if check["unsolved"]:
+        yield (
+            "warning",
+            f"{check['unsolved']} of {problems} contact problems were not solved by the second "
+            "solver and remain unchecked",
+        )
 
 
 def _defect_share(energy: Mapping[str, float]) -> float:

@@ -69,7 +69,7 @@ BAD = [
     ("obstacles.0.name", "left", 'obstacles.0.name = "left": name already used'),
     ("obstacles.0.normal", [0, 0], "obstacles.0.normal = [0, 0]: must not be the zero vector"),
     ("contact.friction", -0.1, "contact.friction = -0.1: must be at least 0"),
-    ("contact.solver", {"kind": "nlgs"}, 'contact.solver.kind = "nlgs": must be one of'),
+    ("contact.solver", {"kind": "nlgs"}, 'contact.solver.kind = "nlgs": must be \''),
     ("contact.pairs.0.between", ["left", "flor"], 'no such body or obstacle; did you mean "floor"'),
     ("contact.pairs.0.between", ["left", "left"], "must be two different names"),
     ("contact.pairs.0.enabled", "yes", 'contact.pairs.0.enabled = "yes": must be true or false'),

@@ -76,6 +76,29 @@ def test_a_run_that_stops_keeps_what_it_has(scenario, tmp_path, stop, status, re
     assert (tmp_path / "energy.png").exists()
 
 
+def test_a_contact_problem_that_failed_is_kept_until_the_next_run(scenario, tmp_path):
+    problem = carom.friction.Problem(2.0 * np.eye(2), [[-1.0, 0.5]], 0.2)
+    error = ConvergenceError("step 60 failed", {}, problem=problem, guess=np.array([[0.5, 0.1]]))
+    out = tmp_path / "my results"
+    with pytest.raises(ConvergenceError) as caught:
+        drive(FallingSimulation(scenario, stop_at=0.6, stop=error), scenario, out, None)
+    assert caught.value is error
+    file = out / "failed_contact_problem.hdf5"
+    reason = Result.open(out).summary["reason"]
+    assert reason == str(error)
+    assert reason == (
+        f"step 60 failed; the problem is in {file}, solve it again with: carom friction solve "
+        f"'{file}' --warm --solver gauss-seidel --tolerance 1e-12 --max-iterations 10000"
+    )
+    record = carom.friction.read_record(file)
+    np.testing.assert_array_equal(record.problem.q, problem.q)
+    np.testing.assert_array_equal(record.problem.matrix().toarray(), 2.0 * np.eye(2))
+    np.testing.assert_array_equal(record.guesses[0].reactions, [[0.5, 0.1]])
+    assert (record.title, record.description) == ("Box", "step 60 failed")
+    drive(FallingSimulation(scenario), scenario, out, None)
+    assert not file.exists()
+
+
 def test_nothing_of_an_earlier_run_survives(scenario, tmp_path):
     drive(FallingSimulation(scenario), scenario, tmp_path, None)
     (tmp_path / "notes.txt").write_text("mine")

@@ -65,7 +65,7 @@ def test_everything_that_can_be_stated_survives_toml_and_back(tmp_path):
         contact=carom.Contact(
             condition="midpoint",
             friction=0.3,
-            solver=carom.Uzawa(max_iterations=5),
+            solver=carom.FrictionSolver(kind="uzawa", max_iterations=5, cross_check=True),
             sources="both",
             pairs=[
                 carom.Pair(between=("a", "b"), friction=0, sources="second"),
@@ -110,6 +110,7 @@ def test_json_for_the_native_core_has_every_default_as_a_number(box):
         "kind": "gauss-seidel",
         "tolerance": 1e-12,
         "max_iterations": 10000,
+        "cross_check": False,
     }
     assert data["analysis"]["gravity"] is None
     assert data["bodies"][0]["velocity"] == [0.0, 0.0]

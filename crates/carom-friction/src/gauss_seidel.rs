@@ -1,5 +1,6 @@
 use crate::anderson::Anderson;
 use crate::local::{AlartCurnier, Bipotential, Enumerative, LocalContact, LocalSolver};
+use crate::schedule::Schedule;
 use crate::stopping::Monitor;
 use crate::{
     ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone,
@@ -66,16 +67,14 @@ pub(crate) fn run<const D: usize, L: LocalSolver<D>>(
     let mut anderson = Anderson::new(problem);
     let mut before = r.to_vec();
     let accuracy = 0.1 * monitor.tolerance();
-    // The residual costs a sweep: it is measured once the sweep itself hardly moves, and now and then.
-    let mut settled = 10.0 * monitor.tolerance();
+    let mut schedule = Schedule::new(monitor.tolerance(), monitor.iterations);
     let last = monitor.iterations.saturating_add(max_sweeps);
-    let mut next_check = monitor.iterations + 1;
     let (mut relaxation, mut smallest, mut stale) = (1.0, f64::INFINITY, 0);
     while monitor.iterations < last {
         if anderson.is_active() {
             before.copy_from_slice(r);
         }
-        let (mut change, mut size) = (0.0, 0.0);
+        let mut change = 0.0;
         for (i, contact) in contacts.iter().enumerate() {
             let old = r[i];
             let free = problem.q[i] + problem.w.row_times_others(i, r);
@@ -85,25 +84,16 @@ pub(crate) fn run<const D: usize, L: LocalSolver<D>>(
             }
             r[i] = old + (L::solve(contact, &free, &old, accuracy) - old) * relaxation;
             change += (r[i] - old).norm_squared();
-            size += r[i].norm_squared();
         }
         if anderson.is_active() {
             anderson.accelerate(problem, &before, r);
         }
         monitor.iterations += 1;
-        let is_settled = change <= settled * settled * size;
-        if is_settled
-            || monitor.iterations >= next_check
-            || !change.is_finite()
-            || monitor.exhausted().is_some()
-        {
-            if is_settled {
-                settled *= 0.3;
-            }
-            next_check = monitor.iterations + monitor.iterations.clamp(5, 50);
+        if schedule.is_due(monitor.iterations, change.sqrt()) || monitor.exhausted().is_some() {
             if let Some(status) = monitor.check(r) {
                 return Some(status);
             }
+            schedule.checked(monitor.iterations, change.sqrt(), monitor.residual());
             stale = if monitor.residual() < smallest { 0 } else { stale + 1 };
             smallest = smallest.min(monitor.residual());
             if stale == PATIENCE {

@@ -1,8 +1,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Auto, ContactProblem, GaussSeidel, Local, NewtonAlartCurnier, NewtonNaturalMap, Proximal, SolveReport,
-    StoppingRule, Uzawa, Vector,
+    Auto, ContactProblem, GaussSeidel, Local, NewtonAlartCurnier, NewtonNaturalMap, ProjectedGradient,
+    Proximal, SolveReport, StoppingRule, Uzawa, Vector,
 };
 
 /// A method for contact problems. It does not fail: a solver that stops early says so in its report.
@@ -26,6 +26,8 @@ pub enum SolverKind {
     GaussSeidelAlartCurnier,
     /// The simultaneous bi-potential Uzawa iteration of the paper.
     Uzawa,
+    /// Accelerated projected gradients.
+    ProjectedGradient,
     /// The proximal point method.
     Proximal,
     /// Semismooth Newton on the equations of Alart and Curnier.
@@ -36,12 +38,13 @@ pub enum SolverKind {
 
 impl SolverKind {
     /// Every solver.
-    pub const ALL: [SolverKind; 8] = [
+    pub const ALL: [SolverKind; 9] = [
         SolverKind::Auto,
         SolverKind::GaussSeidel,
         SolverKind::GaussSeidelEnumerative,
         SolverKind::GaussSeidelAlartCurnier,
         SolverKind::Uzawa,
+        SolverKind::ProjectedGradient,
         SolverKind::Proximal,
         SolverKind::NewtonAlartCurnier,
         SolverKind::NewtonNaturalMap,
@@ -56,6 +59,7 @@ impl SolverKind {
             SolverKind::GaussSeidelEnumerative => "gauss-seidel-enumerative",
             SolverKind::GaussSeidelAlartCurnier => "gauss-seidel-alart-curnier",
             SolverKind::Uzawa => "uzawa",
+            SolverKind::ProjectedGradient => "projected-gradient",
             SolverKind::Proximal => "proximal",
             SolverKind::NewtonAlartCurnier => "newton-alart-curnier",
             SolverKind::NewtonNaturalMap => "newton-natural-map",
@@ -77,6 +81,7 @@ impl SolverKind {
             SolverKind::GaussSeidelEnumerative => Box::new(GaussSeidel { local: Local::Enumerative }),
             SolverKind::GaussSeidelAlartCurnier => Box::new(GaussSeidel { local: Local::AlartCurnier }),
             SolverKind::Uzawa => Box::new(Uzawa),
+            SolverKind::ProjectedGradient => Box::new(ProjectedGradient),
             SolverKind::Proximal => Box::new(Proximal),
             SolverKind::NewtonAlartCurnier => Box::new(NewtonAlartCurnier),
             SolverKind::NewtonNaturalMap => Box::new(NewtonNaturalMap),

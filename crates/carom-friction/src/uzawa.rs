@@ -1,72 +1,150 @@
+use crate::schedule::Schedule;
 use crate::stopping::Monitor;
 use crate::{
     ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone,
 };
 
-/// The paper's solver: the bi-potential fixed point swept over all contacts at once, with one ρ = 1/λ_max(W).
+/// The bi-potential iteration of de Saxcé and Feng on all contacts at once, r_i ← proj_K(r_i − θ ρ_i (w_i + μ|w_t| n)) with
+/// ρ_i = 1/λ_max(W_ii), whose factor θ adapts itself.
+///
+/// θ is in turn the longer and the shorter step of J. Barzilai and J. M. Borwein [IMA J. Numer. Anal. 8 (1988) 141–148;
+/// Y.-H. Dai, R. Fletcher, Numer. Math. 100 (2005) 21–47 for projected steps], which follow the spectrum of W. No function needs to
+/// fall on the way: where nothing is gained for long, the iteration goes back to its best point and takes cautious steps for
+/// a while, none longer than the motions' change allows [B. He, L.-Z. Liao, J. Optim. Theory Appl. 112 (2002) 111–128].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Uzawa;
 
-/// Power iterations for λ_max(W); the answer only sets a step length.
-const POWER_ITERATIONS: usize = 30;
+/// Iterations without progress that are borne, at first.
+const PATIENCE: usize = 800;
+/// Growth of the error, over the smallest, that is not borne at all.
+const BLOW_UP: f64 = 1e6;
+/// Lipschitz ratio θ ‖ΔF‖/‖Δr‖ above which a cautious step is taken again, and below which the next is longer.
+const LONGEST: f64 = 0.9;
+const SHORT: f64 = 0.4;
 
 impl<const D: usize> FrictionSolver<D> for Uzawa {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
         let mut monitor = Monitor::new(problem, rule);
-        let status = run(&mut monitor, r);
-        monitor.report(SolverKind::Uzawa, status, r)
+        let status = run(&mut monitor, r, usize::MAX);
+        monitor.report(SolverKind::Uzawa, status.unwrap_or(SolveStatus::Stalled), r)
     }
 }
 
-fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> SolveStatus {
-    if let Some(status) = monitor.check(r) {
-        return status;
-    }
+/// Iterates until it is time to stop, or `max_iterations` times: then None.
+pub(crate) fn run<const D: usize>(
+    monitor: &mut Monitor<'_, D>,
+    r: &mut [Vector<D>],
+    max_iterations: usize,
+) -> Option<SolveStatus> {
     let problem = monitor.problem();
-    let mut motions = vec![Vector::zeros(); problem.len()];
-    let rho = step_length(problem, &mut motions);
-    loop {
-        let (mut change, mut size) = (0.0, 0.0);
-        for (i, motion) in motions.iter_mut().enumerate() {
-            *motion = problem.motion(i, r);
+    let rho: Vec<f64> = (0..problem.len()).map(|i| problem.step_length(i)).collect();
+    for (i, r) in r.iter_mut().enumerate() {
+        *r = if rho[i] > 0.0 { cone::project(r, problem.mu[i]) } else { Vector::zeros() };
+    }
+    if let Some(status) = monitor.check(r) {
+        return Some(status);
+    }
+    let mut force = vec![Vector::zeros(); problem.len()];
+    let (mut next, mut next_force) = (r.to_vec(), force.clone());
+    motions(problem, r, &mut force);
+    let (mut best, mut best_error) = (r.to_vec(), f64::INFINITY);
+    let (mut theta, mut cautious, mut patience, mut stale) = (1.0, 0, PATIENCE, 0);
+    let mut schedule = Schedule::new(monitor.tolerance(), monitor.iterations);
+    let last = monitor.iterations.saturating_add(max_iterations);
+    while monitor.iterations < last {
+        for i in 0..r.len() {
+            next[i] = cone::project(&(r[i] - force[i] * (theta * rho[i])), problem.mu[i]);
         }
-        for (i, motion) in motions.iter().enumerate() {
-            let next = cone::fixed_point(&r[i], motion, problem.mu[i], rho);
-            change += (next - r[i]).norm_squared();
-            size += next.norm_squared();
-            r[i] = next;
-        }
+        motions(problem, &next, &mut next_force);
         monitor.iterations += 1;
-        let settled = change <= monitor.tolerance().powi(2) * size;
-        if settled
-            || monitor.iterations.is_multiple_of(50)
-            || !change.is_finite()
-            || monitor.exhausted().is_some()
-        {
+        let step = Step::between(&rho, (r, &next), (&force, &next_force));
+        let ratio = theta * (step.squared_change / step.squared_length).sqrt();
+        if cautious > 0 && ratio > LONGEST && monitor.exhausted().is_none() {
+            theta *= 2.0 / 3.0 / ratio.max(1.0);
+            continue;
+        }
+        // A bound of the natural residual: a projected step grows with θ, but no faster.
+        let error = step.squared_length.sqrt() / theta.min(1.0);
+        if cautious > 0 {
+            cautious -= 1;
+            if ratio < SHORT {
+                theta *= 1.5;
+            }
+        } else {
+            theta = step.spectral(monitor.iterations % 2 == 0).unwrap_or(theta);
+        }
+        if error < best_error {
+            (best_error, stale) = (error, 0);
+            best.copy_from_slice(r);
+        } else {
+            stale += 1;
+        }
+        r.copy_from_slice(&next);
+        std::mem::swap(&mut force, &mut next_force);
+        if cautious == 0 && (stale > patience || error > BLOW_UP * best_error) {
+            r.copy_from_slice(&best);
+            motions(problem, r, &mut force);
+            theta = 1.0;
+            (stale, cautious) = (0, patience);
+            patience *= 2;
+        }
+        if schedule.is_due(monitor.iterations, error) || monitor.exhausted().is_some() {
             if let Some(status) = monitor.check(r) {
-                return status;
+                return Some(status);
+            }
+            if step.squared_length == 0.0 {
+                return Some(SolveStatus::Stalled);
+            }
+            schedule.checked(monitor.iterations, error, monitor.residual());
+        }
+    }
+    None
+}
+
+/// F_i = w_i + μ|w_t| n of all contacts.
+fn motions<const D: usize>(problem: &ContactProblem<D>, r: &[Vector<D>], force: &mut [Vector<D>]) {
+    for (i, f) in force.iter_mut().enumerate() {
+        *f = problem.motion(i, r);
+        f[0] += problem.mu[i] * cone::tangential_norm(f);
+    }
+}
+
+/// Products of a step Δr and the change ΔF along it, weighted with ρ_i so that all are in the same unit.
+#[derive(Debug, Clone, Copy, Default)]
+struct Step {
+    /// Σ |Δr|²/ρ.
+    squared_length: f64,
+    /// Σ ρ |ΔF|².
+    squared_change: f64,
+    /// Σ Δr·ΔF.
+    product: f64,
+}
+
+impl Step {
+    fn between<const D: usize>(
+        rho: &[f64],
+        r: (&[Vector<D>], &[Vector<D>]),
+        force: (&[Vector<D>], &[Vector<D>]),
+    ) -> Self {
+        let mut step = Self::default();
+        for i in 0..rho.len() {
+            if rho[i] > 0.0 {
+                let (dr, df) = (r.1[i] - r.0[i], force.1[i] - force.0[i]);
+                step.squared_length += dr.norm_squared() / rho[i];
+                step.squared_change += df.norm_squared() * rho[i];
+                step.product += dr.dot(&df);
             }
         }
+        step
     }
-}
 
-/// 1/λ_max(W) by power iteration on W, from a start that no symmetry makes orthogonal to the largest mode.
-fn step_length<const D: usize>(problem: &ContactProblem<D>, scratch: &mut [Vector<D>]) -> f64 {
-    let n = problem.len();
-    let mut x: Vec<Vector<D>> =
-        (0..n).map(|i| Vector::from_fn(|k, _| 1.0 + 0.5 * ((i * D + k) as f64 * 1.7).sin())).collect();
-    let mut largest = 0.0;
-    for _ in 0..POWER_ITERATIONS {
-        let norm = x.iter().map(Vector::norm_squared).sum::<f64>().sqrt();
-        if norm == 0.0 {
-            return 0.0;
-        }
-        x.iter_mut().for_each(|x| *x /= norm);
-        for (i, s) in scratch.iter_mut().enumerate() {
-            *s = problem.w.row_times(i, &x);
-        }
-        largest = scratch.iter().map(Vector::norm_squared).sum::<f64>().sqrt();
-        x.copy_from_slice(scratch);
+    /// The factor with which θ ΔF comes closest to Δr, or Δr/θ to ΔF: the longer one; their mean where Δr and ΔF disagree.
+    fn spectral(&self, longer: bool) -> Option<f64> {
+        let theta = match (self.product > 0.0, longer) {
+            (true, true) => self.squared_length / self.product,
+            (true, false) => self.product / self.squared_change,
+            (false, _) => (self.squared_length / self.squared_change).sqrt(),
+        };
+        (theta > 0.0 && theta.is_finite()).then_some(theta)
     }
-    if largest > 0.0 { 1.0 / largest } else { 0.0 }
 }

@@ -1,8 +1,10 @@
 //! Native errors as the Python exceptions of `carom.errors`.
 
-use carom::{InputError, RunError};
+use carom::{InputError, PosedProblem, RunError, StepError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+
+use crate::{arrays, friction};
 
 /// An exception class of `carom.errors`.
 fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
@@ -21,15 +23,25 @@ pub fn input_error(py: Python<'_>, error: &InputError) -> PyErr {
     make().map_or_else(|e| e, PyErr::from_value)
 }
 
-/// `ConvergenceError` with its report.
-pub fn run_error(py: Python<'_>, error: &RunError) -> PyErr {
+/// `ConvergenceError` with its report and, where that is what failed, the contact problem that was posed last.
+pub fn run_error<const D: usize>(
+    py: Python<'_>,
+    error: &RunError,
+    posed: Option<PosedProblem<'_, D>>,
+) -> PyErr {
     let make = || {
         let report = PyDict::new(py);
         report.set_item("time", error.time)?;
         report.set_item("time_step", error.time_step)?;
         report.set_item("halvings", error.halvings)?;
         report.set_item("reason", error.reason.to_string())?;
-        class(py, "ConvergenceError")?.call1((error.to_string(), report))
+        let contact = PyDict::new(py);
+        if let (StepError::Friction { report: solve, .. }, Some(posed)) = (&error.reason, posed) {
+            report.set_item("friction", friction::describe(py, solve)?)?;
+            contact.set_item("problem", friction::to_python(py, posed.problem)?)?;
+            contact.set_item("guess", arrays::vectors(py, posed.guess)?)?;
+        }
+        class(py, "ConvergenceError")?.call((error.to_string(), report), Some(&contact))
     };
     make().map_or_else(|e| e, PyErr::from_value)
 }

@@ -5,7 +5,9 @@ use std::time::Duration;
 use carom_friction::{
     BlockMatrix, ContactProblem, Criterion, Matrix, SolveReport, SolverKind, StoppingRule, Vector, measure,
 };
-use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
+use numpy::{
+    PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -61,6 +63,28 @@ impl Arrays<'_> {
         }
         Ok(ContactProblem { w, q: vectors(q), mu: mu.to_vec() })
     }
+}
+
+/// A problem as a `carom.friction.Problem`.
+pub fn to_python<'py, const D: usize>(
+    py: Python<'py>,
+    problem: &ContactProblem<D>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let rows = || (0..problem.len()).map(|i| problem.w.row(i));
+    let starts = rows().scan(0, |end, row| {
+        *end += row.len() as i64;
+        Some(*end)
+    });
+    let starts = PyArray1::from_iter(py, std::iter::once(0).chain(starts));
+    let columns = PyArray1::from_iter(py, rows().flatten().map(|(column, _)| column as i64));
+    // nalgebra stores a block by columns, NumPy by rows.
+    let blocks: Vec<Matrix<D>> = rows().flatten().map(|(_, block)| block.transpose()).collect();
+    let flat: &[f64] = bytemuck::cast_slice(&blocks);
+    let blocks = PyArray1::from_slice(py, flat).reshape([blocks.len(), D, D])?;
+    let (q, mu) = (arrays::vectors(py, &problem.q)?, PyArray1::from_slice(py, &problem.mu));
+    py.import("carom.friction")?
+        .getattr("Problem")?
+        .call_method1("from_blocks", (starts, columns, blocks, q, mu))
 }
 
 fn vectors<const D: usize>(flat: &[f64]) -> Vec<Vector<D>> {
@@ -132,7 +156,7 @@ fn guess<const D: usize>(
 }
 
 /// A report as a dictionary.
-fn describe<'py>(py: Python<'py>, report: &SolveReport) -> PyResult<Bound<'py, PyDict>> {
+pub fn describe<'py>(py: Python<'py>, report: &SolveReport) -> PyResult<Bound<'py, PyDict>> {
     let out = PyDict::new(py);
     out.set_item("status", report.status.name())?;
     out.set_item("solver", report.solver.name())?;

@@ -146,7 +146,7 @@ impl Simulation {
         if let Some(interrupt) = interrupt {
             return Err(interrupt);
         }
-        Ok(outcome.map_err(|e| run_error(py, &e))? == Outcome::Reached)
+        Ok(outcome.map_err(|e| run_error(py, &e, inner.posed_problem()))? == Outcome::Reached)
     }
 
     fn finish(&mut self) {

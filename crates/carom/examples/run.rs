@@ -12,6 +12,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     simulation.advance(f64::INFINITY, || false)?;
     let elapsed = start.elapsed().as_secs_f64();
     println!("{}", serde_json::to_string_pretty(&simulation.summary())?);
-    println!("{:.4} ms per step", 1e3 * elapsed / simulation.step() as f64);
+    let friction = 100.0 * simulation.friction_time().as_secs_f64() / elapsed;
+    println!(
+        "{:.4} ms per step, {friction:.2} % in the friction solver",
+        1e3 * elapsed / simulation.step() as f64
+    );
     Ok(())
 }

@@ -115,6 +115,7 @@ fn method(scenario: &Scenario) -> Result<Method<2>, InputError> {
             max_iterations: solver.max_iterations,
             time_limit: None,
         },
+        cross_check: solver.cross_check,
         newton: NewtonRule { tolerance: newton.tolerance, max_iterations: newton.max_iterations },
         max_halvings: analysis.max_halvings,
         certificate_tolerance: scenario.contact.certificate_tolerance,

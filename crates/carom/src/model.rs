@@ -136,6 +136,8 @@ pub struct Method<const D: usize> {
     pub solver: Box<dyn FrictionSolver<D>>,
     /// When that solver stops.
     pub stopping: StoppingRule,
+    /// Whether a second solver solves the problem of every step again (see [`crate::CrossCheck`]).
+    pub cross_check: bool,
     /// When Newton's iterations stop.
     pub newton: NewtonRule,
     /// How often a step that fails is halved.

@@ -102,9 +102,17 @@ pub(crate) fn react<const D: usize>(
         &work.momentum,
         &mut work.problem,
     );
+    work.guess.clone_from(&work.reactions);
     let report = method.solver.solve(&work.problem, &mut work.reactions, &method.stopping);
+    work.solved_by = report.solver;
+    work.friction_time += report.time;
     if !report.is_solved() {
-        return Err(StepError::Friction { contacts: work.contacts.len(), report });
+        let q = &work.problem.q;
+        return Err(if q.iter().all(|q| q.iter().all(|x| x.is_finite())) {
+            StepError::Friction { contacts: q.len(), report }
+        } else {
+            StepError::NotFinite("free motion of the contacts")
+        });
     }
     // r as an external load: a second solve for the bodies in contact.
     for (contact, r) in work.contacts.iter().zip(&work.reactions) {

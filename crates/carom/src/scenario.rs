@@ -249,8 +249,11 @@ pub struct SolverSpec {
     pub kind: SolverKind,
     /// Residual at which it stops.
     pub tolerance: f64,
-    /// Sweeps after which it gives up.
+    /// Iterations after which it gives up.
     pub max_iterations: usize,
+    /// Whether a second solver solves the problem of every step again.
+    #[serde(default)]
+    pub cross_check: bool,
 }
 
 /// Whose nodes are checked against whose facets in a pair of bodies.

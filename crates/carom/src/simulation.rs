@@ -1,8 +1,11 @@
+use std::time::Duration;
+
 use carom_fem::CellState;
 use carom_mesh::Vector;
 use serde::Serialize;
 
 use crate::build::build;
+use crate::cross_check::CrossCheckSummary;
 use crate::describe::{Description, describe};
 use crate::error::{InputError, RunError};
 use crate::events::{ContactEvent, EventLog};
@@ -12,7 +15,7 @@ use crate::model::Group;
 use crate::scenario::{Scenario, TrackEntry};
 use crate::step_control::advance_nominal_step;
 use crate::surface_fields::{SurfaceFields, surface_fields};
-use crate::workspace::Workspace;
+use crate::workspace::{PosedProblem, Workspace};
 use crate::{BodyLedger, Books, Energies, Ledger, Method, Model, PairLedger, State};
 
 /// How [`Simulation::advance`] ended.
@@ -48,6 +51,7 @@ pub struct Simulation<const D: usize> {
     books: Books,
     ledger_table: LedgerTable,
     totals: Totals,
+    cross_checks: CrossCheckSummary,
     last_step: Option<Ledger>,
 }
 
@@ -209,6 +213,8 @@ pub struct Summary {
     pub least_friction: f64,
     /// Smallest gap seen [m].
     pub min_gap: f64,
+    /// What a second solver said of the contact problems, if it was asked.
+    pub cross_check: Option<CrossCheckSummary>,
     /// Contact events.
     pub contacts: Vec<ContactEvent>,
 }
@@ -283,6 +289,7 @@ impl Simulation<2> {
                 least_friction: 0.0,
                 min_gap: f64::INFINITY,
             },
+            cross_checks: CrossCheckSummary::default(),
             last_step: None,
             model,
             method,
@@ -386,6 +393,19 @@ impl<const D: usize> Simulation<D> {
         self.steps
     }
 
+    /// The last contact problem that a step posed; after [`crate::StepError::Friction`] the one that failed, at the shortest
+    /// length tried.
+    #[must_use]
+    pub fn posed_problem(&self) -> Option<PosedProblem<'_, D>> {
+        self.work.posed_problem()
+    }
+
+    /// Time spent in the friction solver so far.
+    #[must_use]
+    pub fn friction_time(&self) -> Duration {
+        self.work.friction_time
+    }
+
     /// The books since the start.
     #[must_use]
     pub fn books(&self) -> &Books {
@@ -424,6 +444,7 @@ impl<const D: usize> Simulation<D> {
             history,
             books,
             totals,
+            cross_checks,
             initial_energies,
             last_step,
             ..
@@ -446,6 +467,7 @@ impl<const D: usize> Simulation<D> {
                 *last_step = Some(report.ledger);
                 events.record(&model.groups, &work.groups, previous_time, state.time);
                 history.observe(report, state, state.time - previous_time);
+                report.cross_check.iter().for_each(|check| cross_checks.note(check, state.time));
                 previous_time = state.time;
                 totals.newton_iterations += report.newton_iterations as u64;
                 totals.contacts = report.contacts;
@@ -590,6 +612,7 @@ impl<const D: usize> Simulation<D> {
             max_blend: t.max_blend,
             least_friction: t.least_friction,
             min_gap: t.min_gap,
+            cross_check: self.method.cross_check.then(|| self.cross_checks.clone()),
             contacts: self.events.events(self.state.time),
         }
     }

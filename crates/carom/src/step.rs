@@ -4,6 +4,7 @@ use carom_mesh::tensor;
 
 use crate::body_step::{BodyStep, Pose, predicted_motion};
 use crate::books::commit;
+use crate::cross_check::cross_check;
 use crate::error::StepError;
 use crate::react::{evaluate_contacts, measure_rubbing, react};
 use crate::search::{missed_a_contact, search, select_active};
@@ -42,7 +43,8 @@ pub fn step<const D: usize>(
         search(model, state, margin, work);
         iterations += iterate(model, method, state, next, &map, motion, work)?;
         if !missed_a_contact(model, method, next, work) {
-            return commit(model, method, state, next, &map, work, iterations);
+            let report = commit(model, method, state, next, &map, work, iterations)?;
+            return Ok(StepReport { cross_check: cross_check(method, &map, work), ..report });
         }
         margin *= 4.0;
     }

@@ -1,10 +1,13 @@
+use std::time::Duration;
+
 use carom_contact::{Candidate, Contact};
-use carom_friction::ContactProblem;
+use carom_friction::{ContactProblem, SolverKind};
 use carom_mesh::Vector;
 
 use crate::blend::{Blend, Rubbing};
 use crate::body_step::{Pose, ResidualScratch};
 use crate::condense::Compliance;
+use crate::cross_check::CrossCheck;
 use crate::error::StepError;
 use crate::ledger::{BodyLedger, PairLedger};
 use crate::linearise::BodyOperator;
@@ -74,6 +77,10 @@ pub struct Workspace<const D: usize> {
     pub(crate) rubbing: Vec<Rubbing>,
     pub(crate) blend: Blend<D>,
     pub(crate) problem: ContactProblem<D>,
+    /// The reactions that the friction solver last started from.
+    pub(crate) guess: Vec<Vector<D>>,
+    /// The solver that gave the last reactions.
+    pub(crate) solved_by: SolverKind,
     pub(crate) touched: Vec<bool>,
     pub(crate) progress: Vec<BodyProgress>,
     /// What the groups did in the last step, in the order of the model.
@@ -82,6 +89,17 @@ pub struct Workspace<const D: usize> {
     pub bodies: Vec<BodyLedger>,
     /// Factorisations made so far.
     pub factorisations: u64,
+    /// Time spent in the friction solver so far.
+    pub friction_time: Duration,
+}
+
+/// A contact problem as a step posed it: motions in m, reactions in N (with massless contact ξ times these).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PosedProblem<'a, const D: usize> {
+    /// W, q and μ.
+    pub problem: &'a ContactProblem<D>,
+    /// The reactions that its solver started from.
+    pub guess: &'a [Vector<D>],
 }
 
 impl<const D: usize> Workspace<D> {
@@ -118,11 +136,14 @@ impl<const D: usize> Workspace<D> {
             rubbing: Vec::new(),
             blend: Blend::new(model),
             problem: ContactProblem::default(),
+            guess: Vec::new(),
+            solved_by: SolverKind::default(),
             touched: vec![false; bodies],
             progress: vec![BodyProgress::default(); bodies],
             groups: vec![GroupReport::default(); model.groups.len()],
             bodies: vec![BodyLedger::default(); bodies],
             factorisations: 0,
+            friction_time: Duration::ZERO,
         })
     }
 }
@@ -132,6 +153,13 @@ impl<const D: usize> Workspace<D> {
     #[must_use]
     pub fn blend_weights(&self) -> &[f64] {
         &self.blend.weight
+    }
+
+    /// The last contact problem that a step posed, solved or not; after [`StepError::Friction`] the one that failed.
+    #[must_use]
+    pub fn posed_problem(&self) -> Option<PosedProblem<'_, D>> {
+        let (problem, guess) = (&self.problem, &self.guess[..]);
+        (!problem.is_empty()).then_some(PosedProblem { problem, guess })
     }
 }
 
@@ -154,6 +182,8 @@ pub struct StepReport {
     pub residual: f64,
     /// Σ of the bi-potential gaps [J].
     pub certificate: f64,
+    /// What a second solver says of the last contact problem, if it was asked.
+    pub cross_check: Option<CrossCheck>,
     /// What happened to the energy.
     pub ledger: Ledger,
 }

@@ -44,6 +44,7 @@ fn method(condition: ContactCondition) -> Method<3> {
         condition,
         solver: SolverKind::GaussSeidel.solver(),
         stopping: StoppingRule { tolerance: 1e-12, criterion: Criterion::Natural, ..StoppingRule::default() },
+        cross_check: false,
         newton: NewtonRule { tolerance: 1e-9, max_iterations: 50 },
         max_halvings: 8,
         certificate_tolerance: 1e-9,

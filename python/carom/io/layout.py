@@ -14,8 +14,9 @@ SURFACE = "surface.vtkhdf"
 LEDGER = "ledger.csv"
 AUDIT = "audit.h5"
 ENERGY_PLOT = "energy.png"
+FAILED_PROBLEM = "failed_contact_problem.hdf5"
 
-_NAMES = (SUMMARY, CASE, HISTORY, LEDGER, FIELDS, SURFACE, AUDIT, ENERGY_PLOT)
+_NAMES = (SUMMARY, CASE, HISTORY, LEDGER, FIELDS, SURFACE, AUDIT, ENERGY_PLOT, FAILED_PROBLEM)
 
 
 def track_plot(name: str) -> str:
