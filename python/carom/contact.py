@@ -18,7 +18,16 @@ Friction = Annotated[Number, Field(ge=0, le=1000)]
 
 
 SolverName = Literal[
-    "gauss-seidel", "uzawa", "proximal", "newton-alart-curnier", "newton-natural-map"
+    "auto",
+    "gauss-seidel",
+    "gauss-seidel-enumerative",
+    "gauss-seidel-alart-curnier",
+    "uzawa",
+    "projected-gradient",
+    "admm",
+    "proximal",
+    "newton-alart-curnier",
+    "newton-natural-map",
 ]
 """Solvers of contact problems, as in `carom.friction.SOLVERS`."""
 
@@ -40,7 +49,7 @@ class FrictionSolver(Description):
         solver that goes another way. Differences are reported; the run does not change.
     """
 
-    kind: SolverName = "gauss-seidel"
+    kind: SolverName = "auto"
     tolerance: Positive = 1e-12
     max_iterations: Count = 10_000
     cross_check: Annotated[bool, Field(strict=True)] = False

@@ -19,6 +19,8 @@ pub(crate) trait LinearLaw<const D: usize> {
     fn motion(&mut self, sum: &[Vector<D>], motion: &mut [Vector<D>]);
 }
 
+/// The first penalties, relative to the stiffness: on most problems they end between 5 and 50.
+const FIRST: f64 = 20.0;
 /// Over-relaxation, between 1 and 2.
 const RELAXATION: f64 = 1.6;
 /// Iterations without progress after which it is given up, and then the slip follows half as fast.
@@ -53,7 +55,7 @@ pub(crate) fn run<const D: usize, P: Measured<D>>(
         return Some(status);
     }
     let mut state = Splitting::new(mu, law.stiffness(), r);
-    state.prepare(law, 1.0).ok()?;
+    state.prepare(law, FIRST).ok()?;
     let mut wanted = monitor.tolerance();
     let mut schedule = Schedule::new(monitor.tolerance(), monitor.iterations);
     let (mut trial, mut tried) = (PERIOD, 0.0);

@@ -122,8 +122,7 @@ fn solve<'py, const D: usize>(
     let mut r = guess(reactions, problem.len())?;
     let answer = py.detach(|| problem.solve(&mut r, method, solver, rule)).map_err(singular)?;
     let out = describe(py, &answer.report)?;
-    let method = if answer.method == GlobalMethod::Admm { "admm" } else { "condensed" };
-    out.set_item("method", method)?;
+    out.set_item("method", answer.method.name())?;
     out.set_item("reactions", arrays::vectors(py, &r)?)?;
     out.set_item("motions", arrays::vectors(py, &answer.motions)?)?;
     out.set_item("velocities", PyArray1::from_vec(py, answer.velocities))?;
