@@ -35,7 +35,7 @@ class Solution:
     history
         Iteration and residual, measured on the way, shape [sample_count, 2].
     method
-        Of a global problem, ``condensed`` or ``admm``; None for a problem in local form.
+        Of a global problem, ``condense`` or ``admm``; None for a problem in local form.
     """
 
     reactions: NDArray[np.float64]
