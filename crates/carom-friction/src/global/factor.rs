@@ -9,7 +9,7 @@ pub(super) enum Factor {
     /// Of a few unknowns, such as those of a rigid body: written out.
     Small(DMatrix<f64>),
     /// Of many unknowns.
-    Sparse(SparseFactor),
+    Sparse(Box<SparseFactor>),
 }
 
 /// Unknowns up to which the inverse is written out.
@@ -40,7 +40,7 @@ impl Factor {
     fn sparse(factor: Result<SparseFactor, NoFactor>, values: &[f64]) -> Result<Self, usize> {
         let factorized = factor.and_then(|mut factor| {
             factor.factorize(values)?;
-            Ok(Factor::Sparse(factor))
+            Ok(Factor::Sparse(Box::new(factor)))
         });
         factorized.map_err(|NoFactor| 0)
     }
