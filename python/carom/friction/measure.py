@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-
 LARGEST_REACTIONS = 1e3
 """‖r‖ over ρ‖q‖ above which reactions are out of proportion."""
 

@@ -20,7 +20,7 @@ def test_numpy_and_the_core_measure_the_same(dimension):
     random = np.random.default_rng(dimension)
     A = random.standard_normal((4 * dimension, 5))
     problem = Problem(A @ A.T, random.standard_normal((4, dimension)), random.uniform(0, 1, 4))
-    for scale in (0.0, 1e-3, 1.0, 1e3):
+    for scale in (0.0, 1e-3, 1.0, 1e3, 1e6, 1e12):
         r = project(scale * random.standard_normal((4, dimension)), problem.mu)
         here = problem.measure(r)
         core = _carom.measure_friction(problem, r)

@@ -92,6 +92,9 @@ class Siconos:
             with np.load(answer) as found:
                 reactions, time = found["reactions"], float(np.median(found["times"]))
                 claimed, iterations = bool(found["info"] == 0), int(found["iterations"])
+        # The system counts processor time in whole seconds.
+        if time > time_limit:
+            return _unanswered(case, solver, "time-limit")
         measured = case.problem.measure(reactions)
         solved = measured.residual <= tolerance
         return Run(
