@@ -20,6 +20,8 @@
 //! assert!((r[0] - Vector::<2>::new(1.0, -0.5)).norm() < 1e-7);
 //! ```
 //!
+//! Where M and H are at hand rather than W = Hᵀ M⁻¹ H, [`GlobalProblem`] takes them and writes W out only where that is cheaper.
+//!
 //! References: G. de Saxcé, Z.-Q. Feng, *The bipotential method: a constructive approach to design the complete contact law with
 //! friction and improved numerical algorithms*, Math. Comput. Modelling 28 (1998) 225–245; M. Jean, *The non-smooth contact
 //! dynamics method*, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235–257.
@@ -64,7 +66,7 @@ pub use stopping::{Criterion, Sample, SolveReport, SolveStatus, StoppingRule};
 pub use uzawa::Uzawa;
 
 /// The sparse matrices of [`GlobalProblem`].
-pub use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+pub use faer::sparse::{SparseColMat, SymbolicSparseColMat, Triplet};
 
 /// A contact vector: component 0 normal, the rest tangential.
 pub type Vector<const D: usize> = nalgebra::SVector<f64, D>;

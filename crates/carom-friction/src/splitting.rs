@@ -9,6 +9,9 @@ use crate::{SolveStatus, Vector, cone};
 
 /// The linear half of a problem: the pairs (a, u) of reactions and motions with u = W a + q, in whatever form W is known.
 pub(crate) trait LinearLaw<const D: usize> {
+    /// The first scale of the penalties.
+    const FIRST_SCALE: f64;
+
     /// The stiffness k_i > 0 of each contact on its own [N/m], about D/tr W_ii.
     fn stiffness(&self) -> &[f64];
 
@@ -19,8 +22,6 @@ pub(crate) trait LinearLaw<const D: usize> {
     fn motion(&mut self, sum: &[Vector<D>], motion: &mut [Vector<D>]);
 }
 
-/// The first penalties, relative to the stiffness: on most problems they end between 5 and 50.
-const FIRST: f64 = 20.0;
 /// Over-relaxation, between 1 and 2.
 const RELAXATION: f64 = 1.6;
 /// Iterations without progress after which it is given up, and then the slip follows half as fast.
@@ -44,9 +45,9 @@ const SMALLEST: f64 = 1e-6;
 /// D. P. Bertsekas, Math. Program. 55 (1992) 293–318]; it is over-relaxed and Anderson-accelerated. Now and then the penalties
 /// are set so that r and ρ z move alike. The pair (a, u) obeys the linear law in every step, so that its residual tells how
 /// far the answer is without another product with W.
-pub(crate) fn run<const D: usize, P: Measured<D>>(
+pub(crate) fn run<const D: usize, P: Measured<D>, L: LinearLaw<D>>(
     monitor: &mut Monitor<'_, D, P>,
-    law: &mut impl LinearLaw<D>,
+    law: &mut L,
     mu: &[f64],
     r: &mut [Vector<D>],
     max_iterations: usize,
@@ -55,7 +56,7 @@ pub(crate) fn run<const D: usize, P: Measured<D>>(
         return Some(status);
     }
     let mut state = Splitting::new(mu, law.stiffness(), r);
-    state.prepare(law, FIRST).ok()?;
+    state.prepare(law, L::FIRST_SCALE).ok()?;
     let mut wanted = monitor.tolerance();
     let mut schedule = Schedule::new(monitor.tolerance(), monitor.iterations);
     let (mut trial, mut tried) = (PERIOD, 0.0);

@@ -6,12 +6,14 @@ use crate::sparse_factor::Size;
 /// Cost of a multiplication in a solve with one right-hand side, which reads the factor from memory, compared with one
 /// in a factorisation or in a solve with many right-hand sides (measured: 4 to 8).
 const READ: f64 = 6.0;
-/// Iterations of ADMM that are expected. Where bodies are elastic it takes 20 to 50.
-const ITERATIONS: f64 = 40.0;
-/// Factors of M + ρ H Hᵀ that are expected: one or two changes of the penalty.
+/// Iterations of ADMM that are expected: between elastic bodies it takes 15 to 60.
+const ITERATIONS: f64 = 30.0;
+/// Iterations that it is allowed at least before it is given up.
+const PATIENCE: f64 = 100.0;
+/// Factors of M + H ρ Hᵀ that are expected, since penalties are seldom changed, times two for small supernodes.
 const FACTORS: f64 = 3.0;
 /// Dense factors of W to which solving the condensed problem amounts.
-const NEWTON: f64 = 8.0;
+const FACTORS_OF_W: f64 = 8.0;
 
 /// Numbers in a W that is never written out unasked: 2 GiB.
 const LARGEST: f64 = (1u64 << 28) as f64;
@@ -21,11 +23,11 @@ impl<const D: usize> Compliance<'_, D> {
     pub fn cost_of_condensing(&self) -> f64 {
         let columns = |part| (self.incidence.of_part(part).len() * D) as f64;
         (0..self.inverse.parts.len())
-            .map(|p| 2.0 * columns(p) * self.inverse.fill(p) + NEWTON / 3.0 * columns(p).powi(3))
+            .map(|p| 2.0 * columns(p) * self.inverse.fill(p) + FACTORS_OF_W / 3.0 * columns(p).powi(3))
             .sum()
     }
 
-    /// At least what the iterations of ADMM cost: a factor of M + ρ H Hᵀ is hardly smaller than that of M.
+    /// At least what the iterations of ADMM cost: a factor of M + H ρ Hᵀ is hardly smaller than that of M.
     pub fn least_cost_of_admm(&self) -> f64 {
         let fill: f64 = (0..self.inverse.parts.len()).map(|p| self.inverse.fill(p)).sum();
         cost_of_admm(Size { fill, work: 0.0 })
@@ -34,7 +36,7 @@ impl<const D: usize> Compliance<'_, D> {
     /// Iterations after which ADMM is given up where W can be written out: when it has cost as much as that would have.
     pub fn patience(&self, size: Size) -> usize {
         let iterations = (self.cost_of_condensing() - FACTORS * size.work) / cost_of_iteration(size);
-        iterations.max(ITERATIONS) as usize
+        iterations.max(PATIENCE) as usize
     }
 
     /// Whether W, of which this is an upper bound, is too large to be stored.
