@@ -142,11 +142,6 @@ impl<'a, const D: usize, P: Measured<D>> Monitor<'a, D, P> {
         self.record(residual)
     }
 
-    /// ‖q‖ [m].
-    pub fn size_q(&self) -> f64 {
-        self.meter.squared_q.sqrt()
-    }
-
     /// The residual of reactions `r` whose `motions` a solver knows.
     pub fn residual_of(&self, mu: &[f64], r: &[Vector<D>], motions: &[Vector<D>]) -> f64 {
         self.meter.measure(mu, r, |i| motions[i]).decisive(self.rule.criterion)
