@@ -99,6 +99,13 @@ impl SolveReport {
     }
 }
 
+/// Reactions, relative to what the motions without them call for, from which on a small residual proves nothing.
+const FAR: f64 = 1e3;
+/// Error of the motions that is acceptable there, relative to the motions without reactions.
+const MOTION_ERROR: f64 = 1e-4;
+/// Reactions beside which round-off hides what the motions are.
+const TOO_FAR: f64 = 1e12;
+
 /// Measures iterates and keeps the record of a solve; every solver ends in [`Monitor::report`], which trusts no one.
 #[derive(Debug)]
 pub(crate) struct Monitor<'a, const D: usize> {
@@ -137,19 +144,28 @@ impl<'a, const D: usize> Monitor<'a, D> {
 
     /// Measures `r`; whether it is time to stop, and why.
     pub fn check(&mut self, r: &[Vector<D>]) -> Option<SolveStatus> {
-        let residual = self.meter.measure(self.problem, r).decisive(self.rule.criterion);
-        self.record(residual)
-    }
-
-    fn record(&mut self, residual: f64) -> Option<SolveStatus> {
+        let measure = self.meter.measure(self.problem, r);
+        let residual = measure.decisive(self.rule.criterion);
         self.history.push(Sample { iteration: self.iterations, residual });
-        if residual <= self.rule.tolerance {
+        if self.is_solved(&measure, r) {
             Some(SolveStatus::Solved)
         } else if !residual.is_finite() {
             Some(SolveStatus::Diverged)
         } else {
             self.exhausted()
         }
+    }
+
+    /// Whether the residual is small, and not only in comparison with reactions that grow without bound, as they do where the data
+    /// contradict themselves: beyond [`FAR`] the motions have to obey the law by themselves.
+    fn is_solved(&self, measure: &Measure, r: &[Vector<D>]) -> bool {
+        let norm = |x: &[Vector<D>]| x.iter().map(Vector::norm_squared).sum::<f64>().sqrt();
+        let (reactions, motions) = (norm(r), self.meter.stiffness * norm(&self.problem.q));
+        measure.decisive(self.rule.criterion) <= self.rule.tolerance
+            && (motions == 0.0
+                || reactions <= FAR * motions
+                || reactions <= TOO_FAR * motions
+                    && measure.natural_residual * reactions <= MOTION_ERROR * motions)
     }
 
     /// Whether iterations or time ran out.
@@ -167,7 +183,7 @@ impl<'a, const D: usize> Monitor<'a, D> {
     pub fn report(mut self, solver: SolverKind, status: SolveStatus, r: &[Vector<D>]) -> SolveReport {
         let measure = self.meter.measure(self.problem, r);
         let residual = measure.decisive(self.rule.criterion);
-        let status = if residual <= self.rule.tolerance {
+        let status = if self.is_solved(&measure, r) {
             SolveStatus::Solved
         } else if !residual.is_finite() {
             SolveStatus::Diverged
