@@ -1,8 +1,8 @@
-use crate::block_lu::BlockLu;
+use crate::penalised::Penalised;
 use crate::schedule::Schedule;
 use crate::stopping::Monitor;
 use crate::{
-    ContactProblem, FrictionSolver, Matrix, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone,
+    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone,
 };
 
 /// The alternating direction method of multipliers on the convex problem min ½ x·W x + x·(q + s n) with x = r in K, whose slip
@@ -25,7 +25,8 @@ const PATIENCE: usize = 200;
 const IMBALANCE: f64 = 2.0;
 const TRIAL: f64 = 20.0;
 const TRIAL_GROWTH: f64 = 1.2;
-/// Largest penalty tried where a pivot is too small.
+/// Bounds of θ: reactions that are free to grow would let it fall for ever, and no pivot is too small with a large one.
+const LEAST_PENALTY: f64 = 1e-6;
 const LARGEST_PENALTY: f64 = 1e6;
 
 impl<const D: usize> FrictionSolver<D> for Admm {
@@ -54,8 +55,8 @@ pub(crate) fn run<const D: usize>(
     // A contact that nothing can move has no reaction; its place in the linear systems is kept by any weight.
     let weight: Vec<f64> =
         rho.iter().map(|&rho| if rho > 0.0 { 1.0 / rho } else { 1.0 / monitor.stiffness() }).collect();
-    let mut system = System::new(problem, &weight)?;
-    let mut theta = system.factorize(PENALTY)?;
+    let mut system = Penalised::new(problem)?;
+    let mut theta = factorize(&mut system, &weight, PENALTY)?;
     // The state v = r + u is the reaction with the multiplier u = −(w + s n)/(θ P), which is in the polar cone of K.
     let (mut slip, mut v) = (vec![0.0; n], r.to_vec());
     for i in 0..n {
@@ -79,7 +80,7 @@ pub(crate) fn run<const D: usize>(
             x[i] = (r[i] - u) * penalty - problem.q[i];
             x[i][0] -= slip[i];
         }
-        system.lu.solve(&mut x);
+        system.solve(&mut x);
         let (mut squared_length, mut primal, mut dual) = (0.0, 0.0, 0.0);
         for i in 0..n {
             if rho[i] == 0.0 {
@@ -115,8 +116,8 @@ pub(crate) fn run<const D: usize>(
         let imbalance = (primal / dual).sqrt();
         let is_balanced = (1.0 / IMBALANCE..=IMBALANCE).contains(&imbalance);
         if tried >= trial && !is_balanced && imbalance > 0.0 && imbalance.is_finite() {
-            let wanted = theta * imbalance.sqrt().clamp(0.05, 20.0);
-            let before = std::mem::replace(&mut theta, system.factorize(wanted)?);
+            let wanted = (theta * imbalance.sqrt().clamp(0.05, 20.0)).max(LEAST_PENALTY);
+            let before = std::mem::replace(&mut theta, factorize(&mut system, &weight, wanted)?);
             for (v, r) in v.iter_mut().zip(&*r) {
                 *v = r + (*v - r) * (before / theta);
             }
@@ -127,37 +128,13 @@ pub(crate) fn run<const D: usize>(
     None
 }
 
-/// The factor of W + θ P.
-struct System<'a, const D: usize> {
-    problem: &'a ContactProblem<D>,
-    weight: &'a [f64],
-    lu: BlockLu<D>,
-    ones: Vec<Matrix<D>>,
-    penalties: Vec<Matrix<D>>,
-}
-
-impl<'a, const D: usize> System<'a, D> {
-    fn new(problem: &'a ContactProblem<D>, weight: &'a [f64]) -> Option<Self> {
-        Some(Self {
-            problem,
-            weight,
-            lu: BlockLu::new(&problem.w, usize::MAX)?,
-            ones: vec![Matrix::identity(); weight.len()],
-            penalties: vec![Matrix::zeros(); weight.len()],
-        })
-    }
-
-    /// Factorises with θ, or a larger one where a pivot is too small, and returns it.
-    fn factorize(&mut self, mut theta: f64) -> Option<f64> {
-        while theta <= LARGEST_PENALTY {
-            for (penalty, weight) in self.penalties.iter_mut().zip(self.weight) {
-                *penalty = Matrix::identity() * (theta * weight);
-            }
-            if self.lu.factorize(&self.problem.w, 0.0, &self.ones, &self.penalties).is_ok() {
-                return Some(theta);
-            }
-            theta *= 10.0;
+/// Factorises W + θ P, with a larger θ where a pivot is too small, and returns θ.
+fn factorize<const D: usize>(system: &mut Penalised<'_, D>, weight: &[f64], mut theta: f64) -> Option<f64> {
+    while theta <= LARGEST_PENALTY {
+        if system.factorize(|i| theta * weight[i]) {
+            return Some(theta);
         }
-        None
+        theta *= 10.0;
     }
+    None
 }

@@ -29,6 +29,7 @@ mod anderson;
 mod auto;
 mod block_lu;
 mod block_matrix;
+mod cholesky;
 pub mod cone;
 #[cfg(test)]
 mod contract;
@@ -37,6 +38,7 @@ mod equation;
 mod gauss_seidel;
 mod local;
 mod newton;
+mod penalised;
 mod problem;
 mod projected_gradient;
 mod proximal;
