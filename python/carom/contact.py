@@ -18,7 +18,15 @@ Friction = Annotated[Number, Field(ge=0, le=1000)]
 
 
 SolverName = Literal[
-    "gauss-seidel", "uzawa", "proximal", "newton-alart-curnier", "newton-natural-map"
+    "auto",
+    "gauss-seidel",
+    "gauss-seidel-enumerative",
+    "gauss-seidel-alart-curnier",
+    "uzawa",
+    "projected-gradient",
+    "proximal",
+    "newton-alart-curnier",
+    "newton-natural-map",
 ]
 """Solvers of contact problems, as in `carom.friction.SOLVERS`."""
 
@@ -40,7 +48,7 @@ class FrictionSolver(Description):
         solver that goes another way. Differences are reported; the run does not change.
     """
 
-    kind: SolverName = "gauss-seidel"
+    kind: SolverName = "auto"
     tolerance: Positive = 1e-12
     max_iterations: Count = 10_000
     cross_check: Annotated[bool, Field(strict=True)] = False

@@ -58,7 +58,7 @@ def test_a_failed_contact_problem_travels_with_the_error(stopped):
     assert error.problem.contacts > 1
     assert error.guess.shape == error.problem.q.shape
     replay = carom.friction.solve(
-        error.problem, solver="gauss-seidel", tolerance=1e-12, max_iterations=1, guess=error.guess
+        error.problem, solver="auto", tolerance=1e-12, max_iterations=1, guess=error.guess
     )
     assert (replay.status, replay.iterations) == (said["status"], said["iterations"])
     assert replay.natural_residual == said["natural_residual"] > 1e-12
@@ -98,7 +98,7 @@ def test_a_second_solver_agrees_and_changes_no_digit(drop, tmp_path):
     assert alone.summary["cross_check"] is None
     said = checked.summary["cross_check"]
     assert said["problems"] > 30
-    assert "gauss-seidel" not in said["solvers"]
+    assert set(said["solvers"]) <= {"proximal", "gauss-seidel"}
     assert sum(said["solvers"].values()) == said["problems"]
     assert (said["unsolved"], said["disagreements"]) == (0, 0)
     assert said["max_difference"] < said["explained_difference"]

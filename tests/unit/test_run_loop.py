@@ -88,7 +88,7 @@ def test_a_contact_problem_that_failed_is_kept_until_the_next_run(scenario, tmp_
     assert reason == str(error)
     assert reason == (
         f"step 60 failed; the problem is in {file}, solve it again with: carom friction solve "
-        f"'{file}' --warm --solver gauss-seidel --tolerance 1e-12 --max-iterations 10000"
+        f"'{file}' --warm --solver auto --tolerance 1e-12 --max-iterations 10000"
     )
     record = carom.friction.read_record(file)
     np.testing.assert_array_equal(record.problem.q, problem.q)

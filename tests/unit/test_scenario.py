@@ -107,7 +107,7 @@ def test_json_for_the_native_core_has_every_default_as_a_number(box):
     assert data["output"]["fields_every"] == 0.01  # not 1/200: never finer than the steps
     assert data["output"]["history_every"] == 0.01
     assert data["contact"]["solver"] == {
-        "kind": "gauss-seidel",
+        "kind": "auto",
         "tolerance": 1e-12,
         "max_iterations": 10000,
         "cross_check": False,

@@ -1,4 +1,4 @@
-use crate::{ContactProblem, Vector, cone};
+use crate::Vector;
 
 /// Anderson's acceleration of a fixed-point iteration r ← G(r): the combination of the last images G(r_j) whose changes
 /// G(r_j) − r_j cancel best [H. F. Walker, P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715–1735].
@@ -13,7 +13,7 @@ pub(crate) struct Anderson<const D: usize> {
     /// Inner products of the changes.
     products: [[f64; MEMORY]; MEMORY],
     recorded: usize,
-    /// Weights √λ_max(W_ii) of the contacts, with which lengths count as energies do, whatever the units of a contact.
+    /// Weights of the contacts, with which the changes of all count alike.
     weights: Vec<f64>,
     best: Vec<Vector<D>>,
     best_change: f64,
@@ -32,18 +32,15 @@ const LARGEST_SHARE: f64 = 1e4;
 const REGULARISATION: f64 = 1e-10;
 
 impl<const D: usize> Anderson<D> {
-    pub fn new(problem: &ContactProblem<D>) -> Self {
-        let n = problem.len();
-        let weight = |i| {
-            let rho = problem.step_length(i);
-            if rho > 0.0 { 1.0 / rho.sqrt() } else { 0.0 }
-        };
+    /// For as many contacts as there are `weights`.
+    pub fn new(weights: Vec<f64>) -> Self {
+        let n = weights.len();
         Self {
             changes: vec![vec![Vector::zeros(); n]; MEMORY],
             images: vec![vec![Vector::zeros(); n]; MEMORY],
             products: [[0.0; MEMORY]; MEMORY],
             recorded: 0,
-            weights: (0..n).map(weight).collect(),
+            weights,
             best: vec![Vector::zeros(); n],
             best_change: f64::INFINITY,
             failures: 0,
@@ -55,8 +52,15 @@ impl<const D: usize> Anderson<D> {
         self.failures < FAILURES
     }
 
-    /// Replaces `r`, the image of `before`, by a point from which the iteration is hoped to converge faster.
-    pub fn accelerate(&mut self, problem: &ContactProblem<D>, before: &[Vector<D>], r: &mut [Vector<D>]) {
+    /// Forgets the images, because the iteration has become another.
+    pub fn restart(&mut self) {
+        self.recorded = 0;
+        self.best_change = f64::INFINITY;
+    }
+
+    /// Replaces `r`, the image of `before`, by a point from which the iteration is hoped to converge faster. It may be outside
+    /// of a cone that all images are in.
+    pub fn accelerate(&mut self, before: &[Vector<D>], r: &mut [Vector<D>]) {
         let slot = self.recorded % MEMORY;
         let mut change = 0.0;
         for i in 0..r.len() {
@@ -66,8 +70,7 @@ impl<const D: usize> Anderson<D> {
         }
         if change > GROWTH * self.best_change {
             r.copy_from_slice(&self.best);
-            self.recorded = 0;
-            self.best_change = f64::INFINITY;
+            self.restart();
             self.failures += 1;
             return;
         }
@@ -89,7 +92,7 @@ impl<const D: usize> Anderson<D> {
             for (image, share) in self.images.iter().zip(&shares[..count]) {
                 sum += image[i] * *share;
             }
-            *r = cone::project(&sum, problem.mu[i]);
+            *r = sum;
         }
     }
 
@@ -124,27 +127,21 @@ impl<const D: usize> Anderson<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::BlockMatrix;
 
     /// On a linear iteration with few different eigenvalues, as many steps as there are find the fixed point.
     #[test]
     fn linear_iteration_is_solved_in_as_many_steps_as_it_has_eigenvalues() {
         let n = 12;
-        let problem = ContactProblem::<1> {
-            w: BlockMatrix::identity(n),
-            q: vec![Vector::zeros(); n],
-            mu: vec![0.0; n],
-        };
         let rate = |i: usize| [0.9, 0.5, -0.3, 0.99][i % 4];
         let fixed = |i: usize| 1.0 + i as f64;
-        let mut anderson = Anderson::new(&problem);
+        let mut anderson = Anderson::new(vec![1.0; n]);
         let mut r = vec![Vector::<1>::new(0.5); n];
         for _ in 0..6 {
             let before = r.clone();
             for (i, r) in r.iter_mut().enumerate() {
                 r[0] = fixed(i) + rate(i) * (r[0] - fixed(i));
             }
-            anderson.accelerate(&problem, &before, &mut r);
+            anderson.accelerate(&before, &mut r);
         }
         for (i, r) in r.iter().enumerate() {
             assert!((r[0] - fixed(i)).abs() < 1e-3 * fixed(i), "{i}: {r}");

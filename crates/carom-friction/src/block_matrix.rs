@@ -88,6 +88,27 @@ impl<const D: usize> BlockMatrix<D> {
         })
     }
 
+    /// The columns and blocks of row `i`.
+    pub(crate) fn row_mut(&mut self, i: usize) -> (&[u32], &mut [Matrix<D>]) {
+        let range = self.starts[i]..self.starts[i + 1];
+        (&self.columns[range.clone()], &mut self.blocks[range])
+    }
+
+    /// Overwrites what is below the diagonal with the transpose of what is above. The pattern must be symmetric.
+    pub(crate) fn mirror_upper(&mut self) {
+        // Rows above are taken in ascending order, so that every row below is filled from left to right.
+        let mut next = self.starts.clone();
+        for i in 0..self.row_count() {
+            let diagonal = &mut self.blocks[self.diagonal[i]];
+            diagonal.fill_lower_triangle_with_upper_triangle();
+            for e in self.diagonal[i] + 1..self.starts[i + 1] {
+                let j = self.columns[e] as usize;
+                self.blocks[next[j]] = self.blocks[e].transpose();
+                next[j] += 1;
+            }
+        }
+    }
+
     /// Row `i` without its diagonal block, times `x`.
     #[inline]
     #[must_use]

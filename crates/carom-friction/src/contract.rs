@@ -137,3 +137,39 @@ fn no_contacts_are_solved_at_once() {
         assert!(report.is_solved());
     }
 }
+
+/// Two walls that close on a body from both sides, and one that is pressed into what cannot move.
+fn contradictions() -> [ContactProblem<2>; 2] {
+    let (one, mu) = (Matrix::<2>::identity(), 0.4);
+    let mut squeezed = BlockMatrix::default();
+    squeezed.push_row([(0, one), (1, -one)]);
+    squeezed.push_row([(0, -one), (1, one)]);
+    let mut fixed = BlockMatrix::default();
+    fixed.push_row([(0, one), (1, Matrix::zeros())]);
+    fixed.push_row([(0, Matrix::zeros()), (1, Matrix::zeros())]);
+    let q = vec![Vector::<2>::new(-1.0, 0.2); 2];
+    [squeezed, fixed].map(|w| ContactProblem { w, q: q.clone(), mu: vec![mu; 2] })
+}
+
+#[test]
+fn contradictory_contacts_are_never_solved() {
+    for problem in contradictions() {
+        for kind in SolverKind::ALL {
+            let rule = StoppingRule { max_iterations: 5000, ..Default::default() };
+            let mut r = vec![Vector::zeros(); 2];
+            let status = kind.solver().solve(&problem, &mut r, &rule).status;
+            assert_ne!(status, SolveStatus::Solved, "{kind:?} pulls contacts apart with {r:?}");
+        }
+    }
+}
+
+#[test]
+fn contradictory_contacts_are_recognised() {
+    for problem in contradictions() {
+        for kind in [SolverKind::Auto, SolverKind::Proximal] {
+            let mut r = vec![Vector::zeros(); 2];
+            let report = kind.solver().solve(&problem, &mut r, &StoppingRule::default());
+            assert_eq!(report.status, SolveStatus::Inconsistent, "{kind:?}");
+        }
+    }
+}

@@ -64,7 +64,9 @@ pub(crate) fn run<const D: usize, L: LocalSolver<D>>(
     if let Some(status) = monitor.check(r) {
         return Some(status);
     }
-    let mut anderson = Anderson::new(problem);
+    // With these weights lengths count as energies do, whatever the units of a contact.
+    let weight = |c: &LocalContact<D>| if c.rho > 0.0 { 1.0 / c.rho.sqrt() } else { 0.0 };
+    let mut anderson = Anderson::new(contacts.iter().map(weight).collect());
     let mut before = r.to_vec();
     let accuracy = 0.1 * monitor.tolerance();
     let mut schedule = Schedule::new(monitor.tolerance(), monitor.iterations);
@@ -86,7 +88,10 @@ pub(crate) fn run<const D: usize, L: LocalSolver<D>>(
             change += (r[i] - old).norm_squared();
         }
         if anderson.is_active() {
-            anderson.accelerate(problem, &before, r);
+            anderson.accelerate(&before, r);
+            for (r, &mu) in r.iter_mut().zip(&problem.mu) {
+                *r = cone::project(r, mu);
+            }
         }
         monitor.iterations += 1;
         if schedule.is_due(monitor.iterations, change.sqrt()) || monitor.exhausted().is_some() {

@@ -4,12 +4,13 @@ use crate::{ContactProblem, Criterion, Vector, cone};
 ///
 /// Both residuals are ‖r − proj_K(r − ρ(w + μ|w_t| n))‖ / max(ρ‖q‖, ‖r‖, ρ‖w‖), the distance from a fixed point of the
 /// bi-potential. Published codes take ρ = 1 in whatever units the problem has; where W is small or large in these units, that
-/// sees reactions only or motions only. The natural ρ = n D / tr W weighs the two alike, whatever the units.
+/// sees reactions only or motions only. The natural ρ = n D / tr W weighs the two alike, whatever the units, and there ‖r‖ counts
+/// as no more than 10³ ρ‖q‖: or else reactions without bound would solve problems that contradict themselves.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Measure {
     /// With ρ = 1.
     pub residual: f64,
-    /// With ρ = n D / tr W.
+    /// With ρ = n D / tr W and ‖r‖ ≤ 10³ ρ‖q‖.
     pub natural_residual: f64,
     /// Σ of the bi-potential gaps [J]: the certificate.
     pub certificate: f64,
@@ -32,15 +33,38 @@ impl Measure {
 /// Measures `r`, whose motions are computed anew from the problem.
 #[must_use]
 pub fn measure<const D: usize>(problem: &ContactProblem<D>, r: &[Vector<D>]) -> Measure {
-    Meter::new(problem).measure(problem, r)
+    problem.measure(&Meter::new(problem), r)
 }
+
+/// A contact problem in any form in which the motions of given reactions can be found.
+pub(crate) trait Measured<const D: usize> {
+    /// What its measure needs beforehand.
+    fn meter(&self) -> Meter;
+
+    /// Measures `r`, whose motions are computed anew.
+    fn measure(&self, meter: &Meter, r: &[Vector<D>]) -> Measure;
+}
+
+impl<const D: usize> Measured<D> for ContactProblem<D> {
+    fn meter(&self) -> Meter {
+        Meter::new(self)
+    }
+
+    fn measure(&self, meter: &Meter, r: &[Vector<D>]) -> Measure {
+        meter.measure(&self.mu, r, |i| self.motion(i, r))
+    }
+}
+
+/// ‖r‖ over ρ‖q‖ above which reactions are out of proportion; in piles of many contacts it is 10 to 100.
+const LARGEST_REACTIONS: f64 = 1e3;
 
 /// What the measure needs of a problem beforehand.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Meter {
     /// The natural ρ [N/m].
     pub stiffness: f64,
-    squared_q: f64,
+    /// ‖q‖² [m²].
+    pub squared_q: f64,
 }
 
 impl Meter {
@@ -49,30 +73,44 @@ impl Meter {
         Self { stiffness: problem.natural_stiffness(), squared_q }
     }
 
-    pub fn measure<const D: usize>(&self, problem: &ContactProblem<D>, r: &[Vector<D>]) -> Measure {
+    /// Measures the reactions `r` whose motions are `motion(0)`, `motion(1)`, …
+    pub fn measure<const D: usize>(
+        &self,
+        mu: &[f64],
+        r: &[Vector<D>],
+        motion: impl Fn(usize) -> Vector<D>,
+    ) -> Measure {
         let rho = self.stiffness;
         let (mut error, mut natural_error, mut squared_r, mut squared_w) = (0.0, 0.0, 0.0, 0.0);
         let mut certificate = 0.0;
-        for i in 0..problem.len() {
-            let mu = problem.mu[i];
-            let w = problem.motion(i, r);
+        for (i, &mu) in mu.iter().enumerate() {
+            let w = motion(i);
             error += (r[i] - cone::fixed_point(&r[i], &w, mu, 1.0)).norm_squared();
             natural_error += (r[i] - cone::fixed_point(&r[i], &w, mu, rho)).norm_squared();
             squared_r += r[i].norm_squared();
             squared_w += w.norm_squared();
             certificate += cone::bipotential_gap(&w, &r[i], mu);
         }
-        let relative = |error: f64, rho: f64| {
-            // `max` ignores NaN; what is not a number must not pass for a small residual.
-            if (squared_r + self.squared_q + squared_w).is_nan() {
+        let called_for = if self.squared_q > 0.0 {
+            (LARGEST_REACTIONS * rho).powi(2) * self.squared_q
+        } else {
+            f64::INFINITY
+        };
+        let relative = |error: f64, rho: f64, squared_r: f64| {
+            // `max` ignores NaN, and beside infinity anything is small: neither may pass for a small residual.
+            if !(squared_r + self.squared_q + squared_w).is_finite() {
                 return f64::NAN;
             }
             let size = squared_r.max(rho * rho * self.squared_q).max(rho * rho * squared_w);
             if size == 0.0 { 0.0 } else { (error / size).sqrt() }
         };
+        // Beside such reactions motions are lost in round-off.
+        if squared_r > called_for {
+            natural_error += f64::EPSILON.powi(2) * squared_r;
+        }
         Measure {
-            residual: relative(error, 1.0),
-            natural_residual: relative(natural_error, rho),
+            residual: relative(error, 1.0, squared_r),
+            natural_residual: relative(natural_error, rho, squared_r.min(called_for)),
             certificate,
         }
     }

@@ -2,7 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use crate::{ContactProblem, Measure, SolverKind, Vector, residual::Meter};
+use crate::residual::{Measured, Meter};
+use crate::{ContactProblem, Measure, SolverKind, Vector};
 
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,17 +100,10 @@ impl SolveReport {
     }
 }
 
-/// Reactions, relative to what the motions without them call for, from which on a small residual proves nothing.
-const FAR: f64 = 1e3;
-/// Error of the motions that is acceptable there, relative to the motions without reactions.
-const MOTION_ERROR: f64 = 1e-4;
-/// Reactions beside which round-off hides what the motions are.
-const TOO_FAR: f64 = 1e12;
-
 /// Measures iterates and keeps the record of a solve; every solver ends in [`Monitor::report`], which trusts no one.
 #[derive(Debug)]
-pub(crate) struct Monitor<'a, const D: usize> {
-    problem: &'a ContactProblem<D>,
+pub(crate) struct Monitor<'a, const D: usize, P = ContactProblem<D>> {
+    problem: &'a P,
     meter: Meter,
     rule: StoppingRule,
     start: Instant,
@@ -118,13 +112,13 @@ pub(crate) struct Monitor<'a, const D: usize> {
     pub iterations: usize,
 }
 
-impl<'a, const D: usize> Monitor<'a, D> {
-    pub fn new(problem: &'a ContactProblem<D>, rule: &StoppingRule) -> Self {
-        let (meter, history) = (Meter::new(problem), Vec::with_capacity(32));
+impl<'a, const D: usize, P: Measured<D>> Monitor<'a, D, P> {
+    pub fn new(problem: &'a P, rule: &StoppingRule) -> Self {
+        let (meter, history) = (problem.meter(), Vec::with_capacity(32));
         Self { problem, meter, rule: *rule, start: Instant::now(), history, iterations: 0 }
     }
 
-    pub fn problem(&self) -> &'a ContactProblem<D> {
+    pub fn problem(&self) -> &'a P {
         self.problem
     }
 
@@ -144,28 +138,34 @@ impl<'a, const D: usize> Monitor<'a, D> {
 
     /// Measures `r`; whether it is time to stop, and why.
     pub fn check(&mut self, r: &[Vector<D>]) -> Option<SolveStatus> {
-        let measure = self.meter.measure(self.problem, r);
-        let residual = measure.decisive(self.rule.criterion);
+        let residual = self.problem.measure(&self.meter, r).decisive(self.rule.criterion);
+        self.record(residual)
+    }
+
+    /// ‖q‖ [m].
+    pub fn size_q(&self) -> f64 {
+        self.meter.squared_q.sqrt()
+    }
+
+    /// The residual of reactions `r` whose `motions` a solver knows.
+    pub fn residual_of(&self, mu: &[f64], r: &[Vector<D>], motions: &[Vector<D>]) -> f64 {
+        self.meter.measure(mu, r, |i| motions[i]).decisive(self.rule.criterion)
+    }
+
+    /// Enters a residual in the history.
+    pub fn note(&mut self, residual: f64) {
         self.history.push(Sample { iteration: self.iterations, residual });
-        if self.is_solved(&measure, r) {
+    }
+
+    fn record(&mut self, residual: f64) -> Option<SolveStatus> {
+        self.note(residual);
+        if residual <= self.rule.tolerance {
             Some(SolveStatus::Solved)
         } else if !residual.is_finite() {
             Some(SolveStatus::Diverged)
         } else {
             self.exhausted()
         }
-    }
-
-    /// Whether the residual is small, and not only in comparison with reactions that grow without bound, as they do where the data
-    /// contradict themselves: beyond [`FAR`] the motions have to obey the law by themselves.
-    fn is_solved(&self, measure: &Measure, r: &[Vector<D>]) -> bool {
-        let norm = |x: &[Vector<D>]| x.iter().map(Vector::norm_squared).sum::<f64>().sqrt();
-        let (reactions, motions) = (norm(r), self.meter.stiffness * norm(&self.problem.q));
-        measure.decisive(self.rule.criterion) <= self.rule.tolerance
-            && (motions == 0.0
-                || reactions <= FAR * motions
-                || reactions <= TOO_FAR * motions
-                    && measure.natural_residual * reactions <= MOTION_ERROR * motions)
     }
 
     /// Whether iterations or time ran out.
@@ -181,9 +181,9 @@ impl<'a, const D: usize> Monitor<'a, D> {
 
     /// The report on the answer `r`. It is measured once more: nothing else can make it a success.
     pub fn report(mut self, solver: SolverKind, status: SolveStatus, r: &[Vector<D>]) -> SolveReport {
-        let measure = self.meter.measure(self.problem, r);
+        let measure = self.problem.measure(&self.meter, r);
         let residual = measure.decisive(self.rule.criterion);
-        let status = if self.is_solved(&measure, r) {
+        let status = if residual <= self.rule.tolerance {
             SolveStatus::Solved
         } else if !residual.is_finite() {
             SolveStatus::Diverged

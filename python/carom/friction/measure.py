@@ -12,6 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 
+LARGEST_REACTIONS = 1e3
+"""‖r‖ over ρ‖q‖ above which reactions are out of proportion."""
+
+
 @dataclass(frozen=True)
 class Measure:
     """Distance from the law.
@@ -23,7 +27,8 @@ class Measure:
         published codes have it.
     natural_residual
         The same with ρ(w + μ|w_t| n) and ρ‖q‖, ρ‖w‖, where ρ = n D / tr W [N/m] makes motions and
-        reactions comparable.
+        reactions comparable, and ‖r‖ counts as no more than 10³ ρ‖q‖: or else reactions without
+        bound would solve problems that contradict themselves.
     certificate
         Sum of the bi-potential gaps Σ |w_n r_n| + |μ r_n |w_t| + w_t·r_t| [J].
     """
@@ -86,11 +91,17 @@ def measure(
     shifted = w.copy()
     shifted[:, 0] += mu * slip
 
-    def residual(rho: float) -> float:
+    def residual(rho: float, largest: float = math.inf) -> float:
         error = np.linalg.norm(r - project(r - rho * shifted, mu))
-        sizes = (rho * np.linalg.norm(q), np.linalg.norm(r), rho * np.linalg.norm(w))
-        return float(error / max(sizes)) if max(sizes) > 0.0 else 0.0
+        length = float(np.linalg.norm(r))
+        if length > largest:  # Beside such reactions motions are lost in round-off.
+            error = np.hypot(error, np.finfo(float).eps * length)
+            length = largest
+        size = max(rho * float(np.linalg.norm(q)), length, rho * float(np.linalg.norm(w)))
+        return float(error / size) if size > 0.0 else 0.0
 
     along = np.einsum("id,id->i", w[:, 1:], r[:, 1:])
     gaps = np.abs(w[:, 0] * r[:, 0]) + np.abs(mu * r[:, 0] * slip + along)
-    return Measure(residual(1.0), residual(stiffness), float(gaps.sum()))
+    called_for = stiffness * float(np.linalg.norm(q))
+    natural = residual(stiffness, LARGEST_REACTIONS * called_for if called_for else math.inf)
+    return Measure(residual(1.0), natural, float(gaps.sum()))

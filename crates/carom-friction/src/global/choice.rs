@@ -1,0 +1,46 @@
+//! What writing W out costs against doing without it, in multiplications at the rate of dense algebra.
+
+use super::compliance::Compliance;
+use crate::sparse_factor::Size;
+
+/// Cost of a multiplication in a solve with one right-hand side, which reads the factor from memory, compared with one
+/// in a factorisation or in a solve with many right-hand sides (measured: 4 to 8).
+const READ: f64 = 6.0;
+/// Iterations of ADMM that are expected. Where bodies are elastic it takes 20 to 50.
+const ITERATIONS: f64 = 40.0;
+/// Factors of M + ρ H Hᵀ that are expected: one or two changes of the penalty.
+const FACTORS: f64 = 3.0;
+/// Dense factors of W to which solving the condensed problem amounts.
+const NEWTON: f64 = 8.0;
+
+/// Iterations after which ADMM is given up where W can be written out.
+pub(super) const PATIENCE: usize = 10 * ITERATIONS as usize;
+/// Numbers in a W that is never written out unasked: 2 GiB.
+const LARGEST: f64 = (1u64 << 28) as f64;
+
+impl<const D: usize> Compliance<'_, D> {
+    /// Writing W out, column by column, and solving the condensed problem. Every part makes a dense block of W.
+    pub fn cost_of_condensing(&self) -> f64 {
+        let columns = |part| (self.incidence.of_part(part).len() * D) as f64;
+        (0..self.inverse.parts.len())
+            .map(|p| 2.0 * columns(p) * self.inverse.fill(p) + NEWTON / 3.0 * columns(p).powi(3))
+            .sum()
+    }
+
+    /// At least what the iterations of ADMM cost: a factor of M + ρ H Hᵀ is hardly smaller than that of M.
+    pub fn least_cost_of_admm(&self) -> f64 {
+        let fill: f64 = (0..self.inverse.parts.len()).map(|p| self.inverse.fill(p)).sum();
+        cost_of_admm(Size { fill, work: 0.0 })
+    }
+
+    /// Whether W, of which this is an upper bound, is too large to be stored.
+    pub fn is_too_large_to_condense(&self) -> bool {
+        let numbers = |part| ((self.incidence.of_part(part).len() * D) as f64).powi(2);
+        (0..self.inverse.parts.len()).map(numbers).sum::<f64>() > LARGEST
+    }
+}
+
+/// The factors and iterations of ADMM.
+pub(super) fn cost_of_admm(size: Size) -> f64 {
+    FACTORS * size.work + ITERATIONS * 2.0 * READ * size.fill
+}
