@@ -10,7 +10,7 @@ pub(crate) enum Penalised<'a, const D: usize> {
     /// Of small and of unsymmetric matrices.
     Blocks { w: &'a BlockMatrix<D>, lu: BlockLu<D>, ones: Vec<Matrix<D>>, penalties: Vec<Matrix<D>> },
     /// Of large symmetric ones.
-    Supernodes(Supernodes<D>),
+    Supernodes(Box<Supernodes<D>>),
 }
 
 /// Blocks of a factor from which on supernodes pay: they renew that of 10⁴ contacts ten times as fast.
@@ -21,7 +21,7 @@ impl<'a, const D: usize> Penalised<'a, D> {
     pub fn new(problem: &'a ContactProblem<D>) -> Option<Self> {
         let w = &problem.w;
         let lu = match BlockLu::new(w, MANY_BLOCKS) {
-            None if w.is_symmetric() => return Supernodes::new(w).map(Self::Supernodes),
+            None if w.is_symmetric() => return Supernodes::new(w).map(|s| Self::Supernodes(Box::new(s))),
             None => BlockLu::new(w, usize::MAX)?,
             Some(lu) => lu,
         };
@@ -135,7 +135,9 @@ mod tests {
             (0..n).map(|i| Vector::from_fn(|k, _| ((i * 3 + k) as f64).cos())).collect();
         let problem = ContactProblem { w, q: vec![Vector::zeros(); n], mu: vec![0.0; n] };
         let supernodes = Supernodes::new(&problem.w).expect("small");
-        for mut factor in [Penalised::new(&problem).expect("small"), Penalised::Supernodes(supernodes)] {
+        for mut factor in
+            [Penalised::new(&problem).expect("small"), Penalised::Supernodes(Box::new(supernodes))]
+        {
             let mut x: Vec<Vector<3>> =
                 (0..n).map(|i| problem.motion(i, &exact) + exact[i] * i as f64).collect();
             assert!(factor.factorize(|i| i as f64));
