@@ -24,6 +24,7 @@ SolverName = Literal[
     "gauss-seidel-alart-curnier",
     "uzawa",
     "projected-gradient",
+    "admm",
     "proximal",
     "newton-alart-curnier",
     "newton-natural-map",

@@ -3,20 +3,25 @@ use crate::newton::Newton;
 use crate::proximal::Strategy;
 use crate::stopping::Monitor;
 use crate::{
-    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, gauss_seidel,
+    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, admm,
+    gauss_seidel,
 };
 
 /// Starts cheaply and escalates where that does not converge; the default.
 ///
 /// A few accelerated Gauss–Seidel sweeps solve well-conditioned problems and improve the start of others. They go on while they
-/// are a small part of what Newton's method would cost, which matters where contacts are so densely coupled that its factors
-/// are full. Then comes the proximal point method with Newton's iterations, and where the factors would outgrow the problem, or
+/// are a small part of what Newton's method would cost. Contacts that are densely coupled have full factors and make sweeps slow:
+/// there ADMM, which needs one factor, is tried instead. Then comes the proximal point method with Newton's iterations, and where the factors would outgrow the problem, or
 /// Newton's method is trapped, sweeps again: in turn, until the problem is solved or the limits are reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Auto;
 
 /// Sweeps before anything else is considered: about the cost of ordering the contacts for Newton's method.
 const FIRST_SWEEPS: usize = 10;
+/// Blocks per contact from which contacts are thought to be redundant: many between few bodies.
+const DENSE: usize = 12;
+/// Iterations of ADMM, with one factor or two, that are tried before Newton's method renews its factors again and again.
+const DIRECTIONS: usize = 60;
 /// Cost of the sweeps that are tried before Newton's method, in iterations of it.
 const SWEEPS_WORTH: usize = 5;
 /// Blocks of the factors per block of W above which they are thought to outgrow the problem.
@@ -38,16 +43,21 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
         gauss_seidel::run::<D, Enumerative>(monitor, r, sweeps)
             .map(|status| (SolverKind::GaussSeidelEnumerative, status))
     };
-    if let Some(end) = sweep(monitor, r, FIRST_SWEEPS) {
+    let blocks = problem.w.block_count();
+    let dense = blocks > DENSE * problem.len();
+    if let Some(end) = if dense { None } else { sweep(monitor, r, FIRST_SWEEPS) } {
         return end;
     }
-    let blocks = problem.w.block_count();
     let Some(mut newton) = Newton::new(problem, FILL * (blocks + problem.len())) else {
         return sweep(monitor, r, usize::MAX).unwrap_or((SolverKind::GaussSeidel, SolveStatus::Stalled));
     };
     let sweeps = SWEEPS_WORTH * newton.cost(problem) / gauss_seidel::cost(problem);
     if sweeps > 5 * FIRST_SWEEPS {
-        if let Some(end) = sweep(monitor, r, sweeps - FIRST_SWEEPS) {
+        if dense {
+            if let Some(status) = admm::run(monitor, r, DIRECTIONS) {
+                return (SolverKind::Admm, status);
+            }
+        } else if let Some(end) = sweep(monitor, r, sweeps - FIRST_SWEEPS) {
             return end;
         }
     }

@@ -2,13 +2,13 @@ use faer::dyn_stack::MemBuffer;
 use faer::sparse::SymbolicSparseColMat;
 
 use crate::block_lu::BlockLu;
-use crate::sparse_factor::SparseFactor;
-use crate::{BlockMatrix, ContactProblem, Matrix, Vector};
+use crate::sparse_factor::{NoFactor, SparseFactor};
+use crate::{BlockMatrix, Matrix, Vector};
 
 /// Factor of W + diag(p_i I) with a penalty p_i [m/N] for every contact.
 pub(crate) enum Penalised<'a, const D: usize> {
     /// Of small and of unsymmetric matrices.
-    Blocks { w: &'a BlockMatrix<D>, lu: BlockLu<D>, ones: Vec<Matrix<D>>, penalties: Vec<Matrix<D>> },
+    Blocks(Box<Blocks<'a, D>>),
     /// Of large symmetric ones.
     Supernodes(Box<Supernodes<D>>),
 }
@@ -18,36 +18,48 @@ const MANY_BLOCKS: usize = 60_000;
 
 impl<'a, const D: usize> Penalised<'a, D> {
     /// None if memory does not suffice.
-    pub fn new(problem: &'a ContactProblem<D>) -> Option<Self> {
-        let w = &problem.w;
+    pub fn new(w: &'a BlockMatrix<D>) -> Option<Self> {
         let lu = match BlockLu::new(w, MANY_BLOCKS) {
-            None if w.is_symmetric() => return Supernodes::new(w).map(|s| Self::Supernodes(Box::new(s))),
+            None if w.is_symmetric() => return Some(Self::Supernodes(Box::new(Supernodes::new(w)?))),
             None => BlockLu::new(w, usize::MAX)?,
             Some(lu) => lu,
         };
-        let n = problem.len();
-        Some(Self::Blocks { w, lu, ones: vec![Matrix::identity(); n], penalties: vec![Matrix::zeros(); n] })
+        let n = w.row_count();
+        let (ones, penalties) = (vec![Matrix::identity(); n], vec![Matrix::zeros(); n]);
+        Some(Self::Blocks(Box::new(Blocks { w, lu, ones, penalties })))
     }
 
-    /// Factorises with these penalties; whether the pivots allowed it.
-    pub fn factorize(&mut self, penalty: impl Fn(usize) -> f64) -> bool {
+    /// Factorises with these penalties.
+    pub fn factorize(&mut self, penalties: &[f64]) -> Result<(), NoFactor> {
         match self {
-            Self::Blocks { w, lu, ones, penalties } => {
-                for (i, p) in penalties.iter_mut().enumerate() {
-                    *p = Matrix::identity() * penalty(i);
-                }
-                lu.factorize(w, 0.0, ones, penalties).is_ok()
-            }
-            Self::Supernodes(supernodes) => supernodes.factorize(penalty),
+            Self::Blocks(blocks) => blocks.factorize(penalties),
+            Self::Supernodes(supernodes) => supernodes.factorize(penalties),
         }
     }
 
     /// Overwrites the right-hand side `x` with the solution.
     pub fn solve(&mut self, x: &mut [Vector<D>]) {
         match self {
-            Self::Blocks { lu, .. } => lu.solve(x),
+            Self::Blocks(blocks) => blocks.lu.solve(x),
             Self::Supernodes(supernodes) => supernodes.solve(x),
         }
+    }
+}
+
+/// LU factor by blocks.
+pub(crate) struct Blocks<'a, const D: usize> {
+    w: &'a BlockMatrix<D>,
+    lu: BlockLu<D>,
+    ones: Vec<Matrix<D>>,
+    penalties: Vec<Matrix<D>>,
+}
+
+impl<const D: usize> Blocks<'_, D> {
+    fn factorize(&mut self, penalties: &[f64]) -> Result<(), NoFactor> {
+        for (block, penalty) in self.penalties.iter_mut().zip(penalties) {
+            *block = Matrix::identity() * *penalty;
+        }
+        self.lu.factorize(self.w, 0.0, &self.ones, &self.penalties).map_err(|_| NoFactor)
     }
 }
 
@@ -92,12 +104,12 @@ impl<const D: usize> Supernodes<D> {
         })
     }
 
-    fn factorize(&mut self, penalty: impl Fn(usize) -> f64) -> bool {
+    fn factorize(&mut self, penalties: &[f64]) -> Result<(), NoFactor> {
         self.penalised.copy_from_slice(&self.w);
         for (k, &place) in self.diagonal.iter().enumerate() {
-            self.penalised[place] += penalty(k / D);
+            self.penalised[place] += penalties[k / D];
         }
-        self.factor.factorize(&self.penalised).is_ok()
+        self.factor.factorize(&self.penalised)
     }
 
     fn solve(&mut self, x: &mut [Vector<D>]) {
@@ -133,14 +145,12 @@ mod tests {
         assert!(w.is_symmetric());
         let exact: Vec<Vector<3>> =
             (0..n).map(|i| Vector::from_fn(|k, _| ((i * 3 + k) as f64).cos())).collect();
-        let problem = ContactProblem { w, q: vec![Vector::zeros(); n], mu: vec![0.0; n] };
-        let supernodes = Supernodes::new(&problem.w).expect("small");
-        for mut factor in
-            [Penalised::new(&problem).expect("small"), Penalised::Supernodes(Box::new(supernodes))]
-        {
+        let penalties: Vec<f64> = (0..n).map(|i| i as f64).collect();
+        let supernodes = Supernodes::new(&w).expect("small");
+        for mut factor in [Penalised::new(&w).expect("small"), Penalised::Supernodes(Box::new(supernodes))] {
             let mut x: Vec<Vector<3>> =
-                (0..n).map(|i| problem.motion(i, &exact) + exact[i] * i as f64).collect();
-            assert!(factor.factorize(|i| i as f64));
+                (0..n).map(|i| w.row_times(i, &exact) + exact[i] * penalties[i]).collect();
+            assert_eq!(factor.factorize(&penalties), Ok(()));
             factor.solve(&mut x);
             for (x, e) in x.iter().zip(&exact) {
                 assert!((x - e).norm() < 1e-12);

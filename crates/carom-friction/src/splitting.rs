@@ -1,160 +1,229 @@
-//! Alternating directions: the linear law and the friction cone in turn, coupled by a penalty.
+//! Alternating directions: the linear law and the friction cones in turn, coupled by penalties.
 
 use crate::anderson::Anderson;
 use crate::residual::Measured;
+use crate::schedule::Schedule;
 use crate::sparse_factor::NoFactor;
 use crate::stopping::Monitor;
 use crate::{SolveStatus, Vector, cone};
 
 /// The linear half of a problem: the pairs (a, u) of reactions and motions with u = W a + q, in whatever form W is known.
 pub(crate) trait LinearLaw<const D: usize> {
-    /// Prepares for the penalty `rho` [N/m].
-    fn prepare(&mut self, rho: f64) -> Result<(), NoFactor>;
+    /// The stiffness k_i > 0 of each contact on its own [N/m], about D/tr W_ii.
+    fn stiffness(&self) -> &[f64];
 
-    /// Overwrites `motion` with the u of the one pair for which a + ρ u = `sum` [N].
+    /// Prepares for the penalties ρ_i = `scale` k_i.
+    fn prepare(&mut self, scale: f64) -> Result<(), NoFactor>;
+
+    /// Overwrites `motion` with the u of the one pair for which a_i + ρ_i u_i = `sum`_i [N].
     fn motion(&mut self, sum: &[Vector<D>], motion: &mut [Vector<D>]);
 }
 
-/// Iterations between two looks at the penalty, at least.
-const PERIOD: usize = 20;
-/// Change of the penalty that is worth another factor.
-const BAND: f64 = 2.0;
-/// Over-relaxation; between 1 and 2.
+/// Over-relaxation, between 1 and 2.
 const RELAXATION: f64 = 1.6;
+/// Iterations without progress after which it is given up, and then the slip follows half as fast.
+const PATIENCE: usize = 200;
+const LEAST_SLIP_RATE: f64 = 0.01;
+/// Change of the penalties that is worth another factor, iterations before the first, and their growth from one to the next:
+/// the method converges for fixed penalties.
+const BAND: f64 = 2.0;
+const PERIOD: f64 = 20.0;
+const GROWTH: f64 = 1.2;
+/// Largest change of the penalties at once.
+const LEAP: f64 = 20.0;
+/// Smallest penalties, relative to the stiffness, that are tried where larger ones have no factor.
+const SMALLEST: f64 = 1e-6;
 
-/// Runs ADMM from `r` until the monitor stops it [S. Boyd et al., Found. Trends Mach. Learn. 3 (2011) 1–122].
+/// Runs ADMM from `r` until it is time to stop [S. Boyd et al., Found. Trends Mach. Learn. 3 (2011) 1–122], or until
+/// `max_iterations` are made or there is no factor: then None.
 ///
-/// With s = μ|u_t| n of the last motions, r in K and z in its dual cone are found so that the pair (a, u) has a = r and
-/// u + s = z. A step is one of Douglas and Rachford's on the point r − ρ z, whose projection on K is r [J. Eckstein,
-/// D. P. Bertsekas, Math. Program. 55 (1992) 293–318]; it is over-relaxed and Anderson-accelerated, and now and then ρ is set
-/// so that r and z settle alike. The pair (a, u) obeys the linear law at every step, so that its residual tells how far the
-/// answer is without another product with W.
-///
-/// # Errors
-/// If there is no factor for some penalty.
+/// With the slip s = μ|u_t| n of the last motions, r in K and z in its dual cone are found so that the pair (a, u) has a = r
+/// and u + s = z. A step is one of Douglas and Rachford's on the point r − ρ z, whose projection on K is r [J. Eckstein,
+/// D. P. Bertsekas, Math. Program. 55 (1992) 293–318]; it is over-relaxed and Anderson-accelerated. Now and then the penalties
+/// are set so that r and ρ z move alike. The pair (a, u) obeys the linear law in every step, so that its residual tells how
+/// far the answer is without another product with W.
 pub(crate) fn run<const D: usize, P: Measured<D>>(
     monitor: &mut Monitor<'_, D, P>,
     law: &mut impl LinearLaw<D>,
     mu: &[f64],
     r: &mut [Vector<D>],
-) -> Result<SolveStatus, NoFactor> {
+    max_iterations: usize,
+) -> Option<SolveStatus> {
     if let Some(status) = monitor.check(r) {
-        return Ok(status);
+        return Some(status);
     }
-    let mut state = Splitting::new(mu, r, monitor.stiffness());
-    law.prepare(state.rho)?;
+    let mut state = Splitting::new(mu, law.stiffness(), r);
+    state.prepare(law, 1.0).ok()?;
     let mut wanted = monitor.tolerance();
-    let mut next_look = monitor.iterations + PERIOD;
-    loop {
+    let mut schedule = Schedule::new(monitor.tolerance(), monitor.iterations);
+    let (mut trial, mut tried) = (PERIOD, 0.0);
+    let last = monitor.iterations.saturating_add(max_iterations);
+    while monitor.iterations < last {
         let change = state.step(law);
         monitor.iterations += 1;
-        let residual = monitor.residual_of(mu, &state.a, &state.u);
-        if residual <= wanted || !residual.is_finite() || monitor.exhausted().is_some() {
-            for (r, (a, &mu)) in r.iter_mut().zip(state.a.iter().zip(mu)) {
-                *r = cone::project(a, mu);
+        let is_last = monitor.iterations == last || monitor.exhausted().is_some();
+        if schedule.is_due(monitor.iterations, change.point) || is_last {
+            let residual = monitor.residual_of(mu, &state.a, &state.u);
+            schedule.checked(monitor.iterations, change.point, residual);
+            if residual <= wanted || !residual.is_finite() || is_last {
+                state.answer(r);
+                if let Some(status) = monitor.check(r) {
+                    return Some(status);
+                }
+                // The answer in the cone is a little worse than the pair.
+                wanted = 0.7 * residual * monitor.tolerance() / monitor.residual();
+            } else {
+                monitor.note(residual);
             }
-            if let Some(status) = monitor.check(r) {
-                return Ok(status);
-            }
-            // The answer in the cone is a little worse than the pair.
-            wanted = 0.7 * residual * monitor.tolerance() / monitor.residual();
         }
-        if monitor.iterations >= next_look {
-            next_look += PERIOD.max(monitor.iterations / 3);
-            monitor.note(residual);
-            let factor = state.imbalance(&change, monitor.size_q());
-            if factor.is_finite() && !(1.0 / BAND..BAND).contains(&factor) {
-                state.set_penalty(state.rho * factor.clamp(0.01, 100.0));
-                law.prepare(state.rho)?;
-            }
+        state.watch(change.point);
+        tried += 1.0;
+        let imbalance = change.imbalance();
+        if tried >= trial && imbalance.is_finite() && !(1.0 / BAND..=BAND).contains(&imbalance) {
+            let scale = state.scale * imbalance.clamp(1.0 / LEAP, LEAP);
+            state.prepare(law, scale).ok()?;
+            (trial, tried) = (GROWTH * trial, 0.0);
         }
     }
+    None
 }
 
 /// Where the iteration is.
 struct Splitting<'a, const D: usize> {
     mu: &'a [f64],
-    rho: f64,
+    stiffness: Vec<f64>,
+    scale: f64,
+    /// ρ_i, `scale` times the stiffness.
+    rho: Vec<f64>,
+    relaxation: f64,
+    /// Share of its change by which the slip follows the motion.
+    slip_rate: f64,
     r: Vec<Vector<D>>,
     z: Vec<Vector<D>>,
+    slip: Vec<f64>,
     /// r − ρ z, now and before the last step.
     point: Vec<Vector<D>>,
     before: Vec<Vector<D>>,
-    /// The pair of the linear law, the slip |u_t|, and the sum that fixed it.
+    /// The pair of the linear law and the sum that fixed it.
     a: Vec<Vector<D>>,
     u: Vec<Vector<D>>,
-    slip: Vec<f64>,
     sum: Vec<Vector<D>>,
     anderson: Anderson<D>,
+    /// The shortest step since the penalties were set, and the number of steps since.
+    shortest: f64,
+    stale: usize,
 }
 
-/// How far r and z went in a step.
+/// How far a step went, in the norm Σ|x_i|²/k_i [J].
+#[derive(Debug, Clone, Copy)]
 struct Change {
+    /// The unrelaxed step of the point.
+    point: f64,
     r: f64,
-    z: f64,
+    /// ρ z.
+    rho_z: f64,
+}
+
+impl Change {
+    /// By which factor the penalties are too small for r and ρ z to move alike.
+    fn imbalance(&self) -> f64 {
+        (self.r / self.rho_z).sqrt()
+    }
 }
 
 impl<'a, const D: usize> Splitting<'a, D> {
-    fn new(mu: &'a [f64], r: &[Vector<D>], rho: f64) -> Self {
-        let n = mu.len();
-        let zeros = || vec![Vector::zeros(); n];
+    fn new(mu: &'a [f64], stiffness: &[f64], r: &[Vector<D>]) -> Self {
+        let zeros = || vec![Vector::zeros(); mu.len()];
         Self {
             mu,
-            rho,
+            stiffness: stiffness.to_vec(),
+            scale: 1.0,
+            rho: stiffness.to_vec(),
+            relaxation: RELAXATION,
+            slip_rate: 1.0,
             r: r.to_vec(),
             z: zeros(),
+            slip: vec![0.0; mu.len()],
             point: r.to_vec(),
             before: zeros(),
             a: zeros(),
             u: zeros(),
-            slip: vec![0.0; n],
             sum: zeros(),
-            anderson: Anderson::new(vec![1.0; n]),
+            anderson: Anderson::new(stiffness.iter().map(|k| 1.0 / k.sqrt()).collect()),
+            shortest: f64::INFINITY,
+            stale: 0,
         }
     }
 
+    /// Sets the penalties to `scale` times the stiffness, or to less where there is no factor.
+    fn prepare(&mut self, law: &mut impl LinearLaw<D>, mut scale: f64) -> Result<(), NoFactor> {
+        while law.prepare(scale).is_err() {
+            scale *= 0.1;
+            if scale < SMALLEST || scale.is_nan() {
+                return Err(NoFactor);
+            }
+        }
+        self.scale = scale;
+        for i in 0..self.mu.len() {
+            self.rho[i] = scale * self.stiffness[i];
+            self.point[i] = self.r[i] - self.z[i] * self.rho[i];
+        }
+        self.anderson.restart();
+        (self.shortest, self.stale) = (f64::INFINITY, 0);
+        Ok(())
+    }
+
     fn step(&mut self, law: &mut impl LinearLaw<D>) -> Change {
-        let (n, rho) = (self.mu.len(), self.rho);
+        let n = self.mu.len();
         for i in 0..n {
-            self.sum[i] = self.r[i] + self.z[i] * rho;
-            self.sum[i][0] -= rho * self.mu[i] * self.slip[i];
+            self.sum[i] = self.r[i] + self.z[i] * self.rho[i];
+            self.sum[i][0] -= self.rho[i] * self.mu[i] * self.slip[i];
         }
         law.motion(&self.sum, &mut self.u);
         self.before.copy_from_slice(&self.point);
+        let mut change = Change { point: 0.0, r: 0.0, rho_z: 0.0 };
         for i in 0..n {
             let mut u = self.u[i];
-            self.a[i] = self.sum[i] - u * rho;
-            self.slip[i] = cone::tangential_norm(&u);
+            self.a[i] = self.sum[i] - u * self.rho[i];
+            self.slip[i] += self.slip_rate * (cone::tangential_norm(&u) - self.slip[i]);
             u[0] += self.mu[i] * self.slip[i];
-            self.point[i] += (self.r[i] - u * rho - self.before[i]) * RELAXATION;
+            let step = self.r[i] - u * self.rho[i] - self.point[i];
+            change.point += step.norm_squared() / self.stiffness[i];
+            self.point[i] += step * self.relaxation;
         }
         if self.anderson.is_active() {
             self.anderson.accelerate(&self.before, &mut self.point);
         }
-        let mut change = Change { r: 0.0, z: 0.0 };
         for i in 0..n {
             let r = cone::project(&self.point[i], self.mu[i]);
-            let z = (r - self.point[i]) / rho;
-            change.r += (r - self.r[i]).norm_squared();
-            change.z += (z - self.z[i]).norm_squared();
+            let z = (r - self.point[i]) / self.rho[i];
+            change.r += (r - self.r[i]).norm_squared() / self.stiffness[i];
+            change.rho_z += ((z - self.z[i]) * self.rho[i]).norm_squared() / self.stiffness[i];
             (self.r[i], self.z[i]) = (r, z);
         }
-        Change { r: change.r.sqrt(), z: change.z.sqrt() }
+        Change { point: change.point.sqrt(), r: change.r.sqrt(), rho_z: change.rho_z.sqrt() }
     }
 
-    /// By which factor the penalty is too small for r and z to settle alike, each relative to its size.
-    fn imbalance(&self, change: &Change, size_q: f64) -> f64 {
-        let size = |x: &[Vector<D>]| x.iter().map(Vector::norm_squared).sum::<f64>().sqrt();
-        let motion = change.r / (self.rho * size(&self.z).max(size_q));
-        let reaction = self.rho * change.z / size(&self.r);
-        (motion / reaction).sqrt()
-    }
-
-    fn set_penalty(&mut self, rho: f64) {
-        self.rho = rho;
-        for i in 0..self.mu.len() {
-            self.point[i] = self.r[i] - self.z[i] * rho;
+    /// Gives up over-relaxation, and then lets the slip follow more slowly, where steps of this length lead nowhere.
+    fn watch(&mut self, length: f64) {
+        self.stale = if length < self.shortest { 0 } else { self.stale + 1 };
+        self.shortest = self.shortest.min(length);
+        if self.stale < PATIENCE {
+            return;
+        }
+        if self.relaxation > 1.0 {
+            self.relaxation = 1.0;
+        } else {
+            self.slip_rate = LEAST_SLIP_RATE.max(0.5 * self.slip_rate);
         }
         self.anderson.restart();
+        self.stale = 0;
+    }
+
+    /// Overwrites `r` with the reactions of the pair, brought into the cones.
+    fn answer(&self, r: &mut [Vector<D>]) {
+        for (r, (a, &mu)) in r.iter_mut().zip(self.a.iter().zip(self.mu)) {
+            *r = cone::project(a, mu);
+        }
     }
 }

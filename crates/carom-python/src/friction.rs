@@ -87,13 +87,26 @@ pub fn to_python<'py, const D: usize>(
         .call_method1("from_blocks", (starts, columns, blocks, q, mu))
 }
 
-fn vectors<const D: usize>(flat: &[f64]) -> Vec<Vector<D>> {
+pub fn vectors<const D: usize>(flat: &[f64]) -> Vec<Vector<D>> {
     flat.chunks_exact(D).map(Vector::from_column_slice).collect()
 }
 
-fn kind(name: &str) -> PyResult<SolverKind> {
+pub fn kind(name: &str) -> PyResult<SolverKind> {
     SolverKind::from_name(name)
         .ok_or_else(|| PyValueError::new_err(format!("there is no friction solver named {name:?}")))
+}
+
+/// When to stop; with a time limit in seconds.
+pub fn stopping_rule(
+    tolerance: f64,
+    max_iterations: usize,
+    time_limit: Option<f64>,
+) -> PyResult<StoppingRule> {
+    let time_limit = time_limit
+        .map(Duration::try_from_secs_f64)
+        .transpose()
+        .map_err(|e| PyValueError::new_err(format!("time_limit: {e}")))?;
+    Ok(StoppingRule { tolerance, criterion: Criterion::Both, max_iterations, time_limit })
 }
 
 /// The names of all solvers, the default first.
@@ -114,11 +127,7 @@ pub fn solve_friction<'py>(
     max_iterations: usize,
     time_limit: Option<f64>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let time_limit = time_limit
-        .map(Duration::try_from_secs_f64)
-        .transpose()
-        .map_err(|e| PyValueError::new_err(format!("time_limit: {e}")))?;
-    let rule = StoppingRule { tolerance, criterion: Criterion::Both, max_iterations, time_limit };
+    let rule = stopping_rule(tolerance, max_iterations, time_limit)?;
     let kind = kind(solver)?;
     match problem.dimension() {
         1 => solve::<1>(py, &problem, &reactions, kind, &rule),
@@ -135,7 +144,7 @@ fn solve<'py, const D: usize>(
     rule: &StoppingRule,
 ) -> PyResult<Bound<'py, PyDict>> {
     let problem = arrays.problem::<D>()?;
-    let mut r = guess(reactions, &problem)?;
+    let mut r = guess(reactions, problem.len())?;
     let report = py.detach(|| kind.solver().solve(&problem, &mut r, rule));
     let w: Vec<Vector<D>> = (0..r.len()).map(|i| problem.motion(i, &r)).collect();
     let out = describe(py, &report)?;
@@ -144,12 +153,13 @@ fn solve<'py, const D: usize>(
     Ok(out)
 }
 
-fn guess<const D: usize>(
+/// The reactions to start from, one per contact.
+pub fn guess<const D: usize>(
     reactions: &PyReadonlyArray2<'_, f64>,
-    problem: &ContactProblem<D>,
+    contacts: usize,
 ) -> PyResult<Vec<Vector<D>>> {
     let r: Vec<Vector<D>> = vectors(reactions.as_slice()?);
-    if r.len() != problem.len() || reactions.shape()[1] != D {
+    if r.len() != contacts || reactions.shape()[1] != D {
         return Err(PyValueError::new_err("the reactions do not fit the contact problem"));
     }
     Ok(r)
@@ -181,7 +191,7 @@ pub fn measure_friction(
         reactions: &PyReadonlyArray2<'_, f64>,
     ) -> PyResult<(f64, f64, f64)> {
         let problem = arrays.problem::<D>()?;
-        let m = measure(&problem, &guess(reactions, &problem)?);
+        let m = measure(&problem, &guess(reactions, problem.len())?);
         Ok((m.residual, m.natural_residual, m.certificate))
     }
     match problem.dimension() {

@@ -4,6 +4,7 @@
 mod arrays;
 mod error;
 mod friction;
+mod friction_global;
 mod simulation;
 
 use pyo3::prelude::*;
@@ -14,5 +15,7 @@ fn _carom(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<simulation::Simulation>()?;
     module.add_function(wrap_pyfunction!(friction::friction_solvers, module)?)?;
     module.add_function(wrap_pyfunction!(friction::solve_friction, module)?)?;
-    module.add_function(wrap_pyfunction!(friction::measure_friction, module)?)
+    module.add_function(wrap_pyfunction!(friction::measure_friction, module)?)?;
+    module.add_function(wrap_pyfunction!(friction_global::solve_global_friction, module)?)?;
+    module.add_function(wrap_pyfunction!(friction_global::condense_friction, module)?)
 }

@@ -31,7 +31,7 @@ def test_motions_and_velocities_obey_their_equations(global_problem, method):
 def test_local_and_global_form_have_the_same_motions(global_problem, problem, solver):
     local = solve(problem, solver=solver, tolerance=1e-10)
     found = solve(global_problem, solver=solver, method="condense", tolerance=1e-10)
-    assert found.method == "condensed"
+    assert found.method == "condense"
     assert found.motions == pytest.approx(local.motions, abs=1e-6)
 
 

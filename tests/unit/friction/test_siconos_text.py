@@ -223,3 +223,9 @@ def test_bytes_that_are_no_text_are_refused(tmp_path):
     path.write_bytes(b"\x89PNG\xff\xfe\x00")
     with pytest.raises(InputError, match="is neither HDF5 nor text"):
         read(path)
+
+
+def test_a_global_problem_may_have_no_contact(tmp_path):
+    text = "2\n0\n0\n1\n1\n1 1\n 2.0\n0\n1\n0\n1 0\n 0.5\n"
+    found = read_text(tmp_path, text)
+    assert (found.contacts, found.dimension, found.H.shape) == (0, 2, (1, 0))

@@ -13,8 +13,6 @@ const FACTORS: f64 = 3.0;
 /// Dense factors of W to which solving the condensed problem amounts.
 const NEWTON: f64 = 8.0;
 
-/// Iterations after which ADMM is given up where W can be written out.
-pub(super) const PATIENCE: usize = 10 * ITERATIONS as usize;
 /// Numbers in a W that is never written out unasked: 2 GiB.
 const LARGEST: f64 = (1u64 << 28) as f64;
 
@@ -33,6 +31,12 @@ impl<const D: usize> Compliance<'_, D> {
         cost_of_admm(Size { fill, work: 0.0 })
     }
 
+    /// Iterations after which ADMM is given up where W can be written out: when it has cost as much as that would have.
+    pub fn patience(&self, size: Size) -> usize {
+        let iterations = (self.cost_of_condensing() - FACTORS * size.work) / cost_of_iteration(size);
+        iterations.max(ITERATIONS) as usize
+    }
+
     /// Whether W, of which this is an upper bound, is too large to be stored.
     pub fn is_too_large_to_condense(&self) -> bool {
         let numbers = |part| ((self.incidence.of_part(part).len() * D) as f64).powi(2);
@@ -42,5 +46,9 @@ impl<const D: usize> Compliance<'_, D> {
 
 /// The factors and iterations of ADMM.
 pub(super) fn cost_of_admm(size: Size) -> f64 {
-    FACTORS * size.work + ITERATIONS * 2.0 * READ * size.fill
+    FACTORS * size.work + ITERATIONS * cost_of_iteration(size)
+}
+
+fn cost_of_iteration(size: Size) -> f64 {
+    2.0 * READ * size.fill
 }

@@ -2,7 +2,7 @@ use std::time::Instant;
 
 use super::GlobalMethod;
 use super::admm::Velocities;
-use super::choice::{PATIENCE, cost_of_admm};
+use super::choice::cost_of_admm;
 use super::compliance::Compliance;
 use crate::{Sample, SolveReport, SolverKind, StoppingRule, Vector};
 
@@ -22,18 +22,17 @@ impl<const D: usize> Run<'_, D> {
         method: GlobalMethod,
         solver: SolverKind,
     ) -> (GlobalMethod, SolveReport) {
-        let Some(mut law) = self.law(method, solver) else {
+        let Some(law) = self.law(method, solver) else {
             return (GlobalMethod::Condense, self.condensed(r, solver, self.rule.max_iterations));
         };
         let is_last = method == GlobalMethod::Admm || self.compliance.is_too_large_to_condense();
-        let limit = if is_last { usize::MAX } else { PATIENCE };
+        let limit = if is_last { usize::MAX } else { self.compliance.patience(law.size()) };
         let report = law.solve(r, &self.remaining(self.rule.max_iterations.min(limit)));
         let iterations = self.rule.max_iterations.saturating_sub(report.iterations);
         let is_out_of_time = self.rule.time_limit.is_some_and(|limit| self.start.elapsed() >= limit);
         if is_last || report.is_solved() || iterations == 0 || is_out_of_time {
             return (GlobalMethod::Admm, report);
         }
-        drop(law);
         (GlobalMethod::Condense, after(&report, self.condensed(r, solver, iterations)))
     }
 

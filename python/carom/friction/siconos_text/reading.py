@@ -44,7 +44,7 @@ def _problem(tokens: Tokens) -> AnyProblem:
     size = contacts * dimension
     first = read_matrix(tokens, "the first matrix")
     if _is_global(tokens, first, size=size, contacts=contacts):
-        return _global(tokens, first, size=size, contacts=contacts)
+        return _global(tokens, first, contacts=contacts, dimension=dimension)
     if first.shape != (size, size):
         raise InputError(
             f"the first matrix is {first.shape[0]} × {first.shape[1]} and no other follows: must "
@@ -55,7 +55,8 @@ def _problem(tokens: Tokens) -> AnyProblem:
     return Problem(first, q.reshape(contacts, dimension), mu)
 
 
-def _global(tokens: Tokens, m: sp.sparray, *, size: int, contacts: int) -> GlobalProblem:
+def _global(tokens: Tokens, m: sp.sparray, *, contacts: int, dimension: int) -> GlobalProblem:
+    size = contacts * dimension
     h = read_matrix(tokens, "H")
     if h.shape != (m.shape[0], size):
         raise InputError(
@@ -65,7 +66,7 @@ def _global(tokens: Tokens, m: sp.sparray, *, size: int, contacts: int) -> Globa
     f, b = tokens.numbers(m.shape[0], "f"), tokens.numbers(size, "b")
     mu = tokens.numbers(contacts, "mu")
     _refuse_more(tokens)
-    return GlobalProblem(m, h, f, b, mu)
+    return GlobalProblem(m, h, f, b.reshape(contacts, dimension), mu)
 
 
 def _is_global(tokens: Tokens, first: sp.sparray, *, size: int, contacts: int) -> bool:
