@@ -38,6 +38,7 @@ mod gauss_seidel;
 mod global;
 mod local;
 mod newton;
+mod penalised;
 mod problem;
 mod projected_gradient;
 mod proximal;
