@@ -30,7 +30,7 @@ fn problem<const D: usize>(
 }
 
 /// Signorini's and Coulomb's laws, checked one by one and not through the solver's own measure.
-fn assert_law<const D: usize>(problem: &ContactProblem<D>, r: &[Vector<D>], tolerance: f64) {
+pub(crate) fn assert_law<const D: usize>(problem: &ContactProblem<D>, r: &[Vector<D>], tolerance: f64) {
     for i in 0..problem.len() {
         let w = problem.motion(i, r);
         let (mu, slip) = (problem.mu[i], cone::tangential_norm(&w));

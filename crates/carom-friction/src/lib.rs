@@ -64,6 +64,9 @@ pub use solver::{FrictionSolver, SolverKind};
 pub use stopping::{Criterion, Sample, SolveReport, SolveStatus, StoppingRule};
 pub use uzawa::Uzawa;
 
+/// The sparse matrices of [`GlobalProblem`].
+pub use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+
 /// A contact vector: component 0 normal, the rest tangential.
 pub type Vector<const D: usize> = nalgebra::SVector<f64, D>;
 /// A block of the Delassus operator.

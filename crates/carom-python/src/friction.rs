@@ -6,7 +6,8 @@ use carom_friction::{
     BlockMatrix, ContactProblem, Criterion, Matrix, SolveReport, SolverKind, StoppingRule, Vector, measure,
 };
 use numpy::{
-    PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods,
+    PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3,
+    PyUntypedArrayMethods,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -70,7 +71,19 @@ pub fn to_python<'py, const D: usize>(
     py: Python<'py>,
     problem: &ContactProblem<D>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let rows = || (0..problem.len()).map(|i| problem.w.row(i));
+    let (starts, columns, blocks) = block_rows(py, &problem.w)?;
+    let (q, mu) = (arrays::vectors(py, &problem.q)?, PyArray1::from_slice(py, &problem.mu));
+    py.import("carom.friction")?
+        .getattr("Problem")?
+        .call_method1("from_blocks", (starts, columns, blocks, q, mu))
+}
+
+/// First block of every row, block columns and blocks.
+type BlockRows<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>, Bound<'py, PyArray3<f64>>);
+
+/// W in compressed block rows.
+pub fn block_rows<'py, const D: usize>(py: Python<'py>, w: &BlockMatrix<D>) -> PyResult<BlockRows<'py>> {
+    let rows = || (0..w.row_count()).map(|i| w.row(i));
     let starts = rows().scan(0, |end, row| {
         *end += row.len() as i64;
         Some(*end)
@@ -80,23 +93,21 @@ pub fn to_python<'py, const D: usize>(
     // nalgebra stores a block by columns, NumPy by rows.
     let blocks: Vec<Matrix<D>> = rows().flatten().map(|(_, block)| block.transpose()).collect();
     let flat: &[f64] = bytemuck::cast_slice(&blocks);
-    let blocks = PyArray1::from_slice(py, flat).reshape([blocks.len(), D, D])?;
-    let (q, mu) = (arrays::vectors(py, &problem.q)?, PyArray1::from_slice(py, &problem.mu));
-    py.import("carom.friction")?
-        .getattr("Problem")?
-        .call_method1("from_blocks", (starts, columns, blocks, q, mu))
+    Ok((starts, columns, PyArray1::from_slice(py, flat).reshape([blocks.len(), D, D])?))
 }
 
+/// One vector for every D numbers.
 pub fn vectors<const D: usize>(flat: &[f64]) -> Vec<Vector<D>> {
     flat.chunks_exact(D).map(Vector::from_column_slice).collect()
 }
 
+/// The solver of this name.
 pub fn kind(name: &str) -> PyResult<SolverKind> {
     SolverKind::from_name(name)
         .ok_or_else(|| PyValueError::new_err(format!("there is no friction solver named {name:?}")))
 }
 
-/// When to stop; with a time limit in seconds.
+/// When to stop, by either measure.
 pub fn stopping_rule(
     tolerance: f64,
     max_iterations: usize,
@@ -153,7 +164,7 @@ fn solve<'py, const D: usize>(
     Ok(out)
 }
 
-/// The reactions to start from, one per contact.
+/// Reactions to start from, one for each of `contacts`.
 pub fn guess<const D: usize>(
     reactions: &PyReadonlyArray2<'_, f64>,
     contacts: usize,

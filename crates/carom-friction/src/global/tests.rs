@@ -4,7 +4,11 @@ use faer::sparse::{SparseColMat, Triplet};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
-use crate::{ContactProblem, GlobalProblem, Vector};
+use super::compliance::Compliance;
+use crate::contract::assert_law;
+use crate::{
+    ContactProblem, GlobalMethod, GlobalProblem, SolveStatus, SolverKind, StoppingRule, Vector, measure,
+};
 
 fn sparse(dense: &DMatrix<f64>) -> SparseColMat<usize, f64> {
     let mut triplets = Vec::new();
@@ -177,5 +181,153 @@ fn singular_matrix_is_refused_and_the_unknown_named() {
         m.column_mut(7).fill(0.0);
         global.m = sparse(&m);
         assert_eq!(global.condense().expect_err("empty row").dof, 7);
+    }
+}
+
+/// A membrane of `side` × `side` nodes, each pressed against the ground and pushed along it: M is sparse and W is full.
+fn membrane(side: usize) -> GlobalProblem<3> {
+    let n = side * side;
+    let (mut triplets, mut pull) = (Vec::new(), Vec::new());
+    let mut add = |i: usize, j: usize, value: f64| {
+        triplets.extend((0..3).map(|k| Triplet::new(3 * i + k, 3 * j + k, value)));
+    };
+    for node in 0..n {
+        let (x, y) = (node % side, node / side);
+        add(node, node, 4.2);
+        for (other, is_there) in [(node + 1, x + 1 < side), (node + side, y + 1 < side)] {
+            if is_there {
+                add(node, other, -1.0);
+                add(other, node, -1.0);
+            }
+        }
+        pull.extend((0..3).map(|k| Triplet::new(3 * node + k, 3 * node + k, 1.0)));
+    }
+    GlobalProblem {
+        m: SparseColMat::try_new_from_triplets(3 * n, 3 * n, &triplets).expect("inside"),
+        h: SparseColMat::try_new_from_triplets(3 * n, 3 * n, &pull).expect("inside"),
+        f: (0..3 * n).map(|k| noise(k) - if k % 3 == 0 { 0.4 } else { 0.0 }).collect(),
+        b: vec![Vector::zeros(); n],
+        mu: (0..n).map(|i| [0.3, 0.6, 0.0][i % 3]).collect(),
+    }
+}
+
+/// M v = H r + f, relative to the largest entry.
+fn imbalance<const D: usize>(global: &GlobalProblem<D>, r: &[Vector<D>], v: &[f64]) -> f64 {
+    let r = DVector::from_iterator(r.len() * D, r.iter().flat_map(|r| r.iter().copied()));
+    let forces = dense(&global.h) * r + DVector::from_column_slice(&global.f);
+    (dense(&global.m) * DVector::from_column_slice(v) - &forces).amax() / forces.amax()
+}
+
+proptest! {
+    /// By either method, the laws hold one by one, v balances the forces, and w is that of the condensed problem.
+    #[test]
+    fn answers_obey_the_laws_with_and_without_w(
+        count in 1usize..7,
+        size in prop_oneof![3usize..8, 13usize..20],
+        skew in prop_oneof![Just(0.0), Just(0.5)],
+    ) {
+        fn check<const D: usize>(count: usize, size: usize, skew: f64) {
+            let global = bodies::<D>(count, size, skew);
+            let local = global.condense().expect("regular");
+            let rule = StoppingRule { tolerance: 1e-10, ..Default::default() };
+            for method in GlobalMethod::ALL {
+                let mut r = vec![Vector::zeros(); count];
+                let answer = global.solve(&mut r, method, SolverKind::default(), &rule).expect("regular");
+                assert_eq!(answer.report.status, SolveStatus::Solved, "{method:?} on {global:?}");
+                assert_law(&local, &r, 1e-7);
+                assert!(imbalance(&global, &r, &answer.velocities) < 1e-12);
+                for (i, w) in answer.motions.iter().enumerate() {
+                    assert!((w - local.motion(i, &r)).amax() < 1e-9);
+                }
+            }
+        }
+        check::<1>(count, size, skew);
+        check::<2>(count, size, skew);
+        check::<3>(count, size, skew);
+    }
+}
+
+#[test]
+fn every_solver_solves_the_condensed_problem() {
+    let global = bodies::<3>(5, 6, 0.0);
+    for kind in SolverKind::ALL {
+        let mut r = vec![Vector::zeros(); 5];
+        let answer =
+            global.solve(&mut r, GlobalMethod::Condense, kind, &StoppingRule::default()).expect("regular");
+        assert!(answer.report.is_solved(), "{kind:?}");
+        assert_eq!(answer.method, GlobalMethod::Condense);
+    }
+}
+
+/// W is full where all contacts are on one body, and cheap where every body has a few.
+#[test]
+fn w_is_written_out_where_that_is_cheaper() {
+    let rule = StoppingRule::default();
+    let (rigid, elastic) = (bodies::<3>(40, 6, 0.0), membrane(12));
+    let mut r = vec![Vector::zeros(); 40];
+    let answer = rigid.solve(&mut r, GlobalMethod::Auto, SolverKind::default(), &rule).expect("regular");
+    assert_eq!((answer.method, answer.report.status), (GlobalMethod::Condense, SolveStatus::Solved));
+    let mut r = vec![Vector::zeros(); 144];
+    let answer = elastic.solve(&mut r, GlobalMethod::Auto, SolverKind::default(), &rule).expect("regular");
+    assert_eq!((answer.method, answer.report.status), (GlobalMethod::Admm, SolveStatus::Solved));
+    assert_eq!(answer.report.solver, SolverKind::Admm);
+    // The answer found without W is one of the problem with W, measured by another meter.
+    let local = elastic.condense().expect("regular");
+    let measured = measure(&local, &r);
+    assert!(measured.residual <= 1e-8 && measured.natural_residual <= 1e-8, "{measured:?}");
+    // A solver asked for by name is the one that solves it.
+    let mut r = vec![Vector::zeros(); 144];
+    let answer = elastic.solve(&mut r, GlobalMethod::Auto, SolverKind::Proximal, &rule).expect("regular");
+    assert_eq!((answer.method, answer.report.solver), (GlobalMethod::Condense, SolverKind::Proximal));
+}
+
+/// Column by column for few contacts, by random probes for many, and then within the error that it states.
+#[test]
+fn trace_is_exact_for_few_contacts_and_close_for_many() {
+    for side in [4, 5, 10] {
+        let global = membrane(side);
+        let compliance = Compliance::new(&global).expect("regular");
+        let (trace, local) = (compliance.trace(), compliance.condense());
+        let exact: f64 = (0..local.len()).map(|i| local.w.diagonal(i).trace()).sum();
+        // One part for each direction: each has as many columns as there are nodes, three times.
+        let is_exact = side * side * 3 <= 48;
+        assert_eq!(trace.uncertainty == 0.0, is_exact, "{side}");
+        let allowed = if is_exact { 1e-13 } else { trace.uncertainty };
+        assert!((trace.value / exact - 1.0).abs() <= allowed, "{trace:?} for {exact}");
+        assert!(trace.uncertainty < 0.1);
+    }
+}
+
+#[test]
+fn limits_hold_whatever_the_method_and_nothing_is_solved_by_nan() {
+    let mut global = membrane(6);
+    let rule = StoppingRule { max_iterations: 2, tolerance: 1e-14, ..Default::default() };
+    for method in GlobalMethod::ALL {
+        let mut r = vec![Vector::zeros(); 36];
+        let answer = global.solve(&mut r, method, SolverKind::Admm, &rule).expect("regular");
+        assert_eq!((answer.report.status, answer.report.iterations), (SolveStatus::IterationLimit, 2));
+    }
+    global.f[5] = f64::NAN;
+    for method in GlobalMethod::ALL {
+        let mut r = vec![Vector::zeros(); 36];
+        let answer = global.solve(&mut r, method, SolverKind::Admm, &rule).expect("regular");
+        assert_eq!(answer.report.status, SolveStatus::Diverged);
+    }
+    let mut values = global.m.val().to_vec();
+    values[7] = f64::NAN;
+    global.m = SparseColMat::new(global.m.symbolic().to_owned().expect("memory"), values);
+    assert!(global.condense().is_err());
+}
+
+#[test]
+fn bodies_without_contacts_move_freely() {
+    let mut global = membrane(3);
+    global.h = SparseColMat::try_new_from_triplets(27, 0, &[]).expect("empty");
+    (global.b, global.mu) = (Vec::new(), Vec::new());
+    for method in GlobalMethod::ALL {
+        let answer =
+            global.solve(&mut [], method, SolverKind::default(), &StoppingRule::default()).expect("regular");
+        assert!(answer.report.is_solved());
+        assert!(imbalance(&global, &[], &answer.velocities) < 1e-14);
     }
 }
