@@ -1,10 +1,8 @@
-use crate::block_lu::BlockLu;
+use crate::penalised::Penalised;
 use crate::sparse_factor::NoFactor;
 use crate::splitting::{self, LinearLaw};
 use crate::stopping::Monitor;
-use crate::{
-    ContactProblem, FrictionSolver, Matrix, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector,
-};
+use crate::{ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector};
 
 /// The alternating direction method of multipliers: the solution of a linear system with one factor, and projections on the
 /// friction cones, in turn. W need not be symmetric.
@@ -34,10 +32,8 @@ pub(crate) fn run<const D: usize>(
 struct Reactions<'a, const D: usize> {
     problem: &'a ContactProblem<D>,
     stiffness: Vec<f64>,
-    lu: BlockLu<D>,
-    ones: Vec<Matrix<D>>,
+    factor: Penalised<'a, D>,
     inverse_rho: Vec<f64>,
-    penalties: Vec<Matrix<D>>,
     a: Vec<Vector<D>>,
 }
 
@@ -52,10 +48,8 @@ impl<'a, const D: usize> Reactions<'a, D> {
         Some(Self {
             problem,
             stiffness: (0..n).map(own).collect(),
-            lu: BlockLu::new(&problem.w, usize::MAX)?,
-            ones: vec![Matrix::identity(); n],
+            factor: Penalised::new(&problem.w)?,
             inverse_rho: vec![0.0; n],
-            penalties: vec![Matrix::zeros(); n],
             a: vec![Vector::zeros(); n],
         })
     }
@@ -72,16 +66,15 @@ impl<const D: usize> LinearLaw<D> for Reactions<'_, D> {
     fn prepare(&mut self, scale: f64) -> Result<(), NoFactor> {
         for i in 0..self.stiffness.len() {
             self.inverse_rho[i] = 1.0 / (scale * self.stiffness[i]);
-            self.penalties[i] = Matrix::identity() * self.inverse_rho[i];
         }
-        self.lu.factorize(&self.problem.w, 0.0, &self.ones, &self.penalties).map_err(|_| NoFactor)
+        self.factor.factorize(&self.inverse_rho)
     }
 
     fn motion(&mut self, sum: &[Vector<D>], motion: &mut [Vector<D>]) {
         for i in 0..sum.len() {
             self.a[i] = sum[i] * self.inverse_rho[i] - self.problem.q[i];
         }
-        self.lu.solve(&mut self.a);
+        self.factor.solve(&mut self.a);
         for i in 0..sum.len() {
             motion[i] = (sum[i] - self.a[i]) * self.inverse_rho[i];
         }

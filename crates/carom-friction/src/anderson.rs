@@ -26,6 +26,8 @@ const MEMORY: usize = 6;
 const FAILURES: usize = 3;
 /// Squared growth of the change, over the smallest one, that counts as a failure.
 const GROWTH: f64 = 2.0;
+/// Largest share: where reactions are free to grow changes are parallel, and any combination is as good.
+const LARGEST_SHARE: f64 = 1e4;
 /// Added to the products of the normalised changes, lest round-off of nearly parallel ones be amplified.
 const REGULARISATION: f64 = 1e-10;
 
@@ -118,7 +120,7 @@ impl<const D: usize> Anderson<D> {
         }
         let sum: f64 = x.iter().sum();
         x.iter_mut().for_each(|x| *x /= sum);
-        x.iter().all(|x| x.is_finite()).then_some(x)
+        x.iter().all(|x| x.abs() <= LARGEST_SHARE).then_some(x)
     }
 }
 

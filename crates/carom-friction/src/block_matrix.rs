@@ -75,6 +75,19 @@ impl<const D: usize> BlockMatrix<D> {
         self.columns[range.clone()].iter().map(|&c| c as usize).zip(&self.blocks[range])
     }
 
+    /// Whether every block is the transpose of its mirror image, but for round-off.
+    #[must_use]
+    pub fn is_symmetric(&self) -> bool {
+        let largest = self.blocks.iter().map(Matrix::amax).fold(0.0, f64::max);
+        (0..self.row_count()).all(|i| {
+            self.row(i).filter(|&(j, _)| j > i).all(|(j, block)| {
+                let row = self.starts[j]..self.starts[j + 1];
+                let mirror = self.columns[row.clone()].binary_search(&(i as u32)).map(|k| row.start + k);
+                mirror.is_ok_and(|k| (block - self.blocks[k].transpose()).amax() <= 1e-14 * largest)
+            })
+        })
+    }
+
     /// The columns and blocks of row `i`.
     pub(crate) fn row_mut(&mut self, i: usize) -> (&[u32], &mut [Matrix<D>]) {
         let range = self.starts[i]..self.starts[i + 1];

@@ -1,5 +1,7 @@
 //! What every solver must do. A new solver is proved by its line in `SolverKind::ALL`.
 
+mod hard;
+
 use proptest::prelude::*;
 
 use crate::{BlockMatrix, ContactProblem, Matrix, SolveStatus, SolverKind, StoppingRule, Vector, cone};

@@ -40,6 +40,7 @@ mod gauss_seidel;
 mod global;
 mod local;
 mod newton;
+mod penalised;
 mod problem;
 mod projected_gradient;
 mod proximal;

@@ -19,6 +19,8 @@ const SLIP_RATE: f64 = 0.5;
 const LEAST_SLIP_RATE: f64 = 0.01;
 /// Iterations without progress after which s follows half as fast.
 const PATIENCE: usize = 1000;
+/// Least Lipschitz constant: that of the scaled W is 1 or more, but where reactions are free to grow none is seen.
+const LEAST_LIPSCHITZ: f64 = 1e-3;
 /// Growth of the step length per iteration, and its least reduction where it was too long.
 const LONGER: f64 = 1.02;
 const SHORTER: f64 = 1.5;
@@ -91,7 +93,7 @@ pub(crate) fn run<const D: usize>(
             s[i] += slip_rate * (slip(i, &motion[i]) - s[i]);
         }
         let error = squared_length.sqrt() * lipschitz.max(1.0);
-        lipschitz /= LONGER;
+        lipschitz = LEAST_LIPSCHITZ.max(lipschitz / LONGER);
         stale = if error < smallest { 0 } else { stale + 1 };
         smallest = smallest.min(error);
         if stale == PATIENCE {

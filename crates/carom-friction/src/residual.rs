@@ -97,8 +97,8 @@ impl Meter {
             f64::INFINITY
         };
         let relative = |error: f64, rho: f64, squared_r: f64| {
-            // `max` ignores NaN; what is not a number must not pass for a small residual.
-            if (squared_r + self.squared_q + squared_w).is_nan() {
+            // `max` ignores NaN, and beside infinity anything is small: neither may pass for a small residual.
+            if !(squared_r + self.squared_q + squared_w).is_finite() {
                 return f64::NAN;
             }
             let size = squared_r.max(rho * rho * self.squared_q).max(rho * rho * squared_w);

@@ -18,6 +18,8 @@ pub struct Uzawa;
 const PATIENCE: usize = 800;
 /// Growth of the error, over the smallest, that is not borne at all.
 const BLOW_UP: f64 = 1e6;
+/// Longest step: where reactions are free to grow no motion bounds it.
+const LARGEST: f64 = 1e4;
 /// Lipschitz ratio θ ‖ΔF‖/‖Δr‖ above which a cautious step is taken again, and below which the next is longer.
 const LONGEST: f64 = 0.9;
 const SHORT: f64 = 0.4;
@@ -65,13 +67,17 @@ pub(crate) fn run<const D: usize>(
         }
         // A bound of the natural residual: a projected step grows with θ, but no faster.
         let error = step.squared_length.sqrt() / theta.min(1.0);
+        if !error.is_finite() {
+            r.copy_from_slice(&best);
+            return Some(SolveStatus::Diverged);
+        }
         if cautious > 0 {
             cautious -= 1;
             if ratio < SHORT {
                 theta *= 1.5;
             }
         } else {
-            theta = step.spectral(monitor.iterations % 2 == 0).unwrap_or(theta);
+            theta = step.spectral(monitor.iterations % 2 == 0).unwrap_or(theta).min(LARGEST);
         }
         if error < best_error {
             (best_error, stale) = (error, 0);

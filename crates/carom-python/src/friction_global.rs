@@ -89,6 +89,7 @@ fn singular(error: SingularMatrix) -> PyErr {
 /// Solves M v = H r + f, w = Hᵀ v + b with Signorini's and Coulomb's laws from the guess in `reactions`.
 #[pyfunction]
 #[pyo3(signature = (problem, reactions, *, solver, method, tolerance, max_iterations, time_limit))]
+#[expect(clippy::too_many_arguments, reason = "the keywords of a Python function")]
 pub fn solve_global_friction<'py>(
     py: Python<'py>,
     problem: GlobalArrays<'py>,
