@@ -4,15 +4,16 @@ use crate::proximal::Strategy;
 use crate::stopping::Monitor;
 use crate::{
     ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, admm,
-    gauss_seidel,
+    gauss_seidel, uzawa,
 };
 
 /// Starts cheaply and escalates where that does not converge; the default.
 ///
 /// A few accelerated Gauss–Seidel sweeps solve well-conditioned problems and improve the start of others. They go on while they
 /// are a small part of what Newton's method would cost. Contacts that are densely coupled have full factors and make sweeps slow:
-/// there ADMM, which needs one factor, is tried instead. Then comes the proximal point method with Newton's iterations, and where the factors would outgrow the problem, or
-/// Newton's method is trapped, sweeps again: in turn, until the problem is solved or the limits are reached.
+/// there ADMM, which needs one factor, is tried instead. Then comes the proximal point method with Newton's iterations, and
+/// where that is trapped, sweeps again: in turn, until the problem is solved or the limits are reached. Where the factors would
+/// outgrow the problem, as those of large piles do, Uzawa's iteration takes over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Auto;
 
@@ -25,7 +26,7 @@ const DIRECTIONS: usize = 60;
 /// Cost of the sweeps that are tried before Newton's method, in iterations of it.
 const SWEEPS_WORTH: usize = 5;
 /// Blocks of the factors per block of W above which they are thought to outgrow the problem.
-const FILL: usize = 20;
+const FILL: usize = 8;
 /// A share of iterations for each method when they take turns: of Newton's, and sweeps.
 const TURN: (usize, usize) = (1000, 500);
 
@@ -49,7 +50,8 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
         return end;
     }
     let Some(mut newton) = Newton::new(problem, FILL * (blocks + problem.len())) else {
-        return sweep(monitor, r, usize::MAX).unwrap_or((SolverKind::GaussSeidel, SolveStatus::Stalled));
+        let status = uzawa::run(monitor, r, usize::MAX);
+        return (SolverKind::Uzawa, status.unwrap_or(SolveStatus::Stalled));
     };
     let sweeps = SWEEPS_WORTH * newton.cost(problem) / gauss_seidel::cost(problem);
     if sweeps > 5 * FIRST_SWEEPS {
