@@ -24,7 +24,7 @@ pub enum SolverKind {
     GaussSeidelEnumerative,
     /// Block Gauss–Seidel with Newton's method on each contact.
     GaussSeidelAlartCurnier,
-    /// The simultaneous bi-potential Uzawa iteration of the paper.
+    /// The bi-potential fixed point on all contacts at once, with a step that adapts itself.
     Uzawa,
     /// Accelerated projected gradients.
     ProjectedGradient,
