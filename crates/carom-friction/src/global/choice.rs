@@ -13,7 +13,7 @@ const PATIENCE: f64 = 100.0;
 /// Factors of M + H ρ Hᵀ that are expected, since penalties are seldom changed, times two for small supernodes.
 const FACTORS: f64 = 3.0;
 /// Dense factors of W to which solving the condensed problem amounts.
-const FACTORS_OF_W: f64 = 8.0;
+const FACTORS_OF_W: f64 = 2.0;
 
 /// Numbers in a W that is never written out unasked: 2 GiB.
 const LARGEST: f64 = (1u64 << 28) as f64;
