@@ -69,26 +69,27 @@ impl<const D: usize> Newton<D> {
         self.lu.products() + 3 * problem.w.block_count() + 50 * problem.len()
     }
 
-    /// Improves `r` until ‖φ‖ ≤ `wanted` [N] or `max_iterations` are made.
+    /// Improves `r` until ‖φ‖ ≤ `wanted` [N], or as long as `goes_on` says so of the iterations made.
     pub fn solve(
         &mut self,
         shifted: &Shifted<'_, D>,
         equation: Equation,
         r: &mut [Vector<D>],
         wanted: f64,
-        max_iterations: usize,
+        goes_on: impl Fn(usize) -> bool,
     ) -> NewtonEnd {
         let problem = shifted.problem;
         let n = problem.len();
         for i in 0..n {
             self.motion[i] = shifted.motion(i, r);
         }
+        // What is not a number must not outlive the iterations that it ended.
+        self.step.fill(Vector::zeros());
+        self.motion_step.fill(Vector::zeros());
         let mut merit = self.merit(shifted, equation, r, 0.0);
         let mut recent = [merit; MEMORY];
-        for iterations in 0..max_iterations {
-            if merit <= wanted || !merit.is_finite() {
-                return NewtonEnd { iterations, converged: merit <= wanted };
-            }
+        let mut iterations = 0;
+        while merit > wanted && merit.is_finite() && goes_on(iterations) {
             for i in 0..n {
                 let at = equation.linearise(&r[i], &self.motion[i], problem.mu[i], shifted.rho(i));
                 self.step[i] = -at.value;
@@ -115,8 +116,9 @@ impl<const D: usize> Newton<D> {
                 r[i] += self.step[i] * length;
                 self.motion[i] += self.motion_step[i] * length;
             }
+            iterations += 1;
         }
-        NewtonEnd { iterations: max_iterations, converged: merit <= wanted }
+        NewtonEnd { iterations, converged: merit <= wanted }
     }
 
     /// ‖φ‖ at r + length · step.

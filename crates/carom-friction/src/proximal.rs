@@ -114,7 +114,8 @@ impl Strategy {
                 strictness * (0.1 * monitor.tolerance()).max(INNER * monitor.residual().min(0.1)) * size;
             trial.copy_from_slice(r);
             let shifted = Shifted { problem, rho: &rho, shift: shift * mean_compliance, centre: &centre };
-            let newton_end = newton.solve(&shifted, self.equations[form], &mut trial, wanted, TRAPPED);
+            let goes_on = |made| made < TRAPPED && monitor.exhausted_after(made).is_none();
+            let newton_end = newton.solve(&shifted, self.equations[form], &mut trial, wanted, goes_on);
             monitor.iterations += newton_end.iterations;
             if newton_end.converged {
                 for i in 0..r.len() {

@@ -165,7 +165,12 @@ impl<'a, const D: usize, P: Measured<D>> Monitor<'a, D, P> {
 
     /// Whether iterations or time ran out.
     pub fn exhausted(&self) -> Option<SolveStatus> {
-        if self.iterations >= self.rule.max_iterations {
+        self.exhausted_after(0)
+    }
+
+    /// Whether iterations or time have run out after so many `more` iterations than are counted.
+    pub fn exhausted_after(&self, more: usize) -> Option<SolveStatus> {
+        if self.iterations.saturating_add(more) >= self.rule.max_iterations {
             Some(SolveStatus::IterationLimit)
         } else if self.rule.time_limit.is_some_and(|limit| self.start.elapsed() >= limit) {
             Some(SolveStatus::TimeLimit)
