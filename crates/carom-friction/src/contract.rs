@@ -173,3 +173,23 @@ fn contradictory_contacts_are_recognised() {
         }
     }
 }
+
+/// Twenty copies of a contact, so densely coupled that `auto` leaves out its sweeps.
+#[test]
+fn solution_to_start_from_is_recognised_at_once() {
+    for copies in [1, 20] {
+        let mut w = BlockMatrix::<3>::default();
+        for _ in 0..copies {
+            w.push_row((0..copies).map(|j| (j, Matrix::identity())));
+        }
+        let q = vec![Vector::<3>::new(-1.0, 0.1, 2.0); copies];
+        let problem = ContactProblem { w, q, mu: vec![0.3; copies] };
+        for kind in SolverKind::ALL {
+            let mut r = vec![Vector::zeros(); copies];
+            assert!(kind.solver().solve(&problem, &mut r, &strict()).is_solved(), "{kind:?}");
+            let rule = StoppingRule { tolerance: 2e-12, ..Default::default() };
+            let again = kind.solver().solve(&problem, &mut r, &rule);
+            assert_eq!((again.status, again.iterations), (SolveStatus::Solved, 0), "{kind:?}");
+        }
+    }
+}
