@@ -58,9 +58,7 @@ pub(crate) fn run<const D: usize, L: LocalSolver<D>>(
 ) -> Option<SolveStatus> {
     let problem = monitor.problem();
     let contacts: Vec<LocalContact<D>> = (0..problem.len()).map(|i| LocalContact::new(problem, i)).collect();
-    for (r, contact) in r.iter_mut().zip(&contacts) {
-        *r = if contact.rho > 0.0 { cone::project(r, contact.mu) } else { Vector::zeros() };
-    }
+    problem.bring_into_cones(contacts.iter().map(|c| c.rho), r);
     if let Some(status) = monitor.check(r) {
         return Some(status);
     }

@@ -1,4 +1,4 @@
-use crate::{BlockMatrix, Vector, small};
+use crate::{BlockMatrix, Vector, cone, small};
 
 /// Find r and w = W r + q that obey Signorini's and Coulomb's laws.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -43,5 +43,17 @@ impl<const D: usize> ContactProblem<D> {
     pub fn step_length(&self, i: usize) -> f64 {
         let largest = small::largest_eigenvalue(self.w.diagonal(i));
         if largest > 0.0 { 1.0 / largest } else { 0.0 }
+    }
+
+    /// The step ρ_i of every contact [N/m].
+    pub(crate) fn step_lengths(&self) -> Vec<f64> {
+        (0..self.len()).map(|i| self.step_length(i)).collect()
+    }
+
+    /// Brings reactions into the cones; no reaction helps a contact that nothing can move, whose ρ_i is 0.
+    pub(crate) fn bring_into_cones(&self, rho: impl Iterator<Item = f64>, r: &mut [Vector<D>]) {
+        for ((r, rho), &mu) in r.iter_mut().zip(rho).zip(&self.mu) {
+            *r = if rho > 0.0 { cone::project(r, mu) } else { Vector::zeros() };
+        }
     }
 }

@@ -99,7 +99,7 @@ impl Strategy {
         max_iterations: usize,
     ) -> SolveStatus {
         let problem = monitor.problem();
-        let rho: Vec<f64> = (0..problem.len()).map(|i| problem.step_length(i)).collect();
+        let rho = problem.step_lengths();
         let mean_compliance = 1.0 / monitor.stiffness();
         let motion_force = monitor.stiffness() * norm(&problem.q);
         let end = monitor.iterations.saturating_add(max_iterations);

@@ -39,10 +39,8 @@ pub(crate) fn run<const D: usize>(
     max_iterations: usize,
 ) -> Option<SolveStatus> {
     let problem = monitor.problem();
-    let rho: Vec<f64> = (0..problem.len()).map(|i| problem.step_length(i)).collect();
-    for (i, r) in r.iter_mut().enumerate() {
-        *r = if rho[i] > 0.0 { cone::project(r, problem.mu[i]) } else { Vector::zeros() };
-    }
+    let rho = problem.step_lengths();
+    problem.bring_into_cones(rho.iter().copied(), r);
     if let Some(status) = monitor.check(r) {
         return Some(status);
     }

@@ -58,10 +58,11 @@ pub(crate) fn cross_check<const D: usize>(
 
 /// One that goes another way: linear systems of all contacts check sweeps, whatever these do on a contact; sweeps check the rest.
 fn second_solver(first: SolverKind) -> SolverKind {
-    if first.name().starts_with(SolverKind::GaussSeidel.name()) {
-        SolverKind::Proximal
-    } else {
+    match first {
         SolverKind::GaussSeidel
+        | SolverKind::GaussSeidelEnumerative
+        | SolverKind::GaussSeidelAlartCurnier => SolverKind::Proximal,
+        _ => SolverKind::GaussSeidel,
     }
 }
 
