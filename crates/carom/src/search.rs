@@ -17,7 +17,7 @@ pub(crate) fn search<const D: usize>(
     let start = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
     let motion = &work.motion;
     let end = |n: u32| start(n) + motion[n as usize];
-    model.contact.detect(&start, &end, margin, &mut work.candidates);
+    model.contact.detect(&start, &end, margin, &mut work.search, &mut work.candidates);
 }
 
 /// Keeps the candidates that take part in the step and recalls their last reactions.
@@ -87,7 +87,7 @@ pub(crate) fn missed_a_contact<const D: usize>(
         return false;
     }
     let end = |n: u32| model.reference[n as usize] + next.displacement[n as usize];
-    model.contact.detect(&end, &end, 0.0, &mut work.missed);
+    model.contact.detect(&end, &end, 0.0, &mut work.search, &mut work.missed);
     work.missed.iter().any(|m| {
         let known = work.searched.binary_search(&(m.pair, m.node)).is_ok();
         !known && model.contact.evaluate(m, &end).gap < -model.round_off()
