@@ -1,6 +1,6 @@
 //! From a scenario to a model, a method and the state at t = 0. Everything that can be wrong is found here.
 
-use carom_contact::{ContactModel, ContactSurface, Obstacle, Pair, Target};
+use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
 use carom_fem::{Body, BodySpec, FemError};
 use carom_friction::{Criterion, StoppingRule};
 use carom_mesh::{Facet, Mesh, MeshError, Surface, Vector, generate, tensor};
@@ -253,6 +253,8 @@ fn contact(
                 (x == first && y == second) || (x == second && y == first)
             });
             let (mut friction, mut sources, mut swapped) = (default, scenario.contact.sources, false);
+            let mut discretisation = scenario.contact.discretisation;
+            let mut discretisation_key = "contact.discretisation".to_string();
             if let Some((k, entry)) = found {
                 if !entry.enabled {
                     continue;
@@ -262,10 +264,17 @@ fn contact(
                 // An order is only meant where the entry says which side is the source.
                 swapped = entry.sources.is_some() && entry.between[0] == second;
                 check_friction(&format!("contact.pairs.{k}.friction"), friction)?;
+                if let Some(own) = entry.discretisation {
+                    discretisation = own;
+                    discretisation_key = format!("contact.pairs.{k}.discretisation");
+                }
+            }
+            if let (Target::Surface(b), Discretisation::Mortar) = (target, discretisation) {
+                check_mortar(&discretisation_key, scenario, sources, [&bodies[a], &bodies[b]])?;
             }
             let group = groups.len();
             groups.push(Group { between: [first.to_string(), second.to_string()], friction });
-            let forward = Pair { source: a, target, friction, group };
+            let forward = Pair { source: a, target, friction, group, discretisation };
             match target {
                 Target::Obstacle(_) => model.pairs.push(forward),
                 Target::Surface(b) => {
@@ -282,6 +291,31 @@ fn contact(
         }
     }
     Ok((model, groups))
+}
+
+/// Refuses what mortar rows cannot be written for between these bodies.
+fn check_mortar(
+    key: &str,
+    scenario: &Scenario,
+    sources: Sources,
+    bodies: [&ModelBody<2>; 2],
+) -> Result<(), InputError> {
+    if scenario.contact.condition.is_massless() {
+        let message = "mortar: the condition \"massless\" is written for nodes; choose \"node-to-segment\" or another condition";
+        return Err(InputError::new(key, message));
+    }
+    if sources == Sources::Both {
+        let message =
+            "mortar: one side has the multipliers; choose \"finer\", \"first\" or \"second\" for sources";
+        return Err(InputError::new(key, message));
+    }
+    match bodies.iter().find(|b| !b.body.mesh().ties().is_empty()) {
+        Some(b) => {
+            let message = format!("mortar: body {:?} is periodic; choose \"node-to-segment\"", b.name);
+            Err(InputError::new(key, message))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Whether the facets of `a` are on average clearly shorter than those of `b`.
