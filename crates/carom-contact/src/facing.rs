@@ -78,10 +78,12 @@ pub(crate) fn faced<const D: usize>(
         if !p.faces(outward) || p.gap > margin || !(p.is_square() || p.is_foremost(facets)) {
             continue;
         }
-        // Facets that share the closest point: the one the node is farthest in front of.
+        // Facets that share the closest point: before a convex edge the one that the node is farthest in front of, behind a concave
+        // one, where both sides have to hold, the one that it is deepest behind.
         let tie = TIE * p.size;
+        let decides = |gap: f64, other: f64| if gap.max(other) > 0.0 { gap > other } else { gap < other };
         let better = |b: &Projected<D>| {
-            p.distance < b.distance - tie || (p.distance <= b.distance + tie && p.gap > b.gap)
+            p.distance < b.distance - tie || (p.distance <= b.distance + tie && decides(p.gap, b.gap))
         };
         if best.is_none_or(better) {
             best = Some(p);

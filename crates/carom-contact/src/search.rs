@@ -103,7 +103,7 @@ mod tests {
     use carom_mesh::{CellBlock, Mesh, Surface, generate};
 
     use super::*;
-    use crate::Pair;
+    use crate::{Discretisation, Pair};
 
     /// A body of cubes, or squares, pulled into a ball.
     fn ball<const D: usize>(divisions: usize) -> Mesh<D> {
@@ -125,8 +125,20 @@ mod tests {
             ],
             obstacles: vec![],
             pairs: vec![
-                Pair { source: 0, target: Target::Surface(1), friction: 0.0, group: 0 },
-                Pair { source: 1, target: Target::Surface(0), friction: 0.0, group: 0 },
+                Pair {
+                    source: 0,
+                    target: Target::Surface(1),
+                    friction: 0.0,
+                    group: 0,
+                    discretisation: Discretisation::default(),
+                },
+                Pair {
+                    source: 1,
+                    target: Target::Surface(0),
+                    friction: 0.0,
+                    group: 0,
+                    discretisation: Discretisation::default(),
+                },
             ],
         };
         let mut search = Search::default();
@@ -174,7 +186,13 @@ mod tests {
         let model = ContactModel::<3> {
             surfaces: vec![ContactSurface::new(&surface, 0), ContactSurface::new(&surface, count)],
             obstacles: vec![],
-            pairs: vec![Pair { source: 0, target: Target::Surface(1), friction: 0.0, group: 0 }],
+            pairs: vec![Pair {
+                source: 0,
+                target: Target::Surface(1),
+                friction: 0.0,
+                group: 0,
+                discretisation: Discretisation::default(),
+            }],
         };
         let at = |n: u32| {
             let x = mesh.nodes()[(n % count) as usize];
