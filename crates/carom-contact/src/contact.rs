@@ -7,8 +7,8 @@ pub struct Contact<const D: usize> {
     pub gap: f64,
     /// Rows n, t₁, t₂; n points from the target to the source.
     pub frame: Matrix<D>,
-    nodes: [u32; cell::MAX_NODES + 1],
-    weights: [f64; cell::MAX_NODES + 1],
+    nodes: [u32; cell::MAX_FACET_NODES + 1],
+    weights: [f64; cell::MAX_FACET_NODES + 1],
     len: usize,
 }
 
@@ -18,8 +18,8 @@ impl<const D: usize> Contact<D> {
         let mut contact = Self {
             gap,
             frame,
-            nodes: [source; cell::MAX_NODES + 1],
-            weights: [0.0; cell::MAX_NODES + 1],
+            nodes: [source; cell::MAX_FACET_NODES + 1],
+            weights: [0.0; cell::MAX_FACET_NODES + 1],
             len: 1 + target.len(),
         };
         contact.weights[0] = 1.0;
