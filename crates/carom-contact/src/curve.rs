@@ -1,7 +1,7 @@
 use carom_mesh::Vector;
+use carom_mesh::cell::MAX_FACET_NODES;
 
 use crate::ContactSurface;
-use crate::patch::MAX_FACET_NODES;
 use crate::project::{BEYOND, Projection, Reach, normal};
 
 /// A curve through the nodes of a boundary line with a continuous tangent, except at corners.

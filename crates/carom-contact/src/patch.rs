@@ -1,13 +1,14 @@
+use carom_mesh::cell::MAX_FACET_NODES;
 use carom_mesh::{CellKind, Facet, Vector};
-
-/// The most nodes any facet has.
-pub const MAX_FACET_NODES: usize = 9;
 
 /// Newton steps; on facets of moderate curvature four are enough, on straight ones one.
 const MAX_STEPS: usize = 50;
 
 /// See `Patch::is_clearly_curved`.
 const CLEARLY_CURVED: f64 = 0.1;
+
+/// Intervals of the grid of starting points.
+const GRID: u32 = 6;
 
 /// A facet with the positions of its nodes: a piece of line or surface s(ξ) over a segment, triangle or square.
 pub struct Patch<const D: usize> {
@@ -42,19 +43,11 @@ impl<const D: usize> Patch<D> {
         Self { kind: facet.kind, count: facet.nodes.len(), nodes }
     }
 
-    /// Whether facets of this kind live on the reference triangle.
-    pub fn is_triangle(kind: CellKind) -> bool {
-        let reference = kind.reference();
-        reference.dimension == 2 && reference.nodes[0] == [0.0; 3]
-    }
-
     fn corners(&self) -> &'static [[f64; 2]] {
-        if D == 2 {
-            SEGMENT
-        } else if Self::is_triangle(self.kind) {
-            TRIANGLE
-        } else {
-            SQUARE
+        match self.kind.corner_count() {
+            2 => SEGMENT,
+            3 => TRIANGLE,
+            _ => SQUARE,
         }
     }
 
@@ -86,7 +79,7 @@ impl<const D: usize> Patch<D> {
 
     /// What is in the middle.
     pub fn middle(&self) -> Point<D> {
-        self.at(&if Self::is_triangle(self.kind) { [1.0 / 3.0; 2] } else { [0.0; 2] })
+        self.at(&if self.kind.corner_count() == 3 { [1.0 / 3.0; 2] } else { [0.0; 2] })
     }
 
     /// ξ of the point closest to `x`.
@@ -120,27 +113,25 @@ impl<const D: usize> Patch<D> {
     }
 
     /// Where to start from: the middle or, on a facet that is clearly curved and may have several points where the distance is least,
-    /// the closest of its corners, its middle and the points halfway between these.
+    /// the closest point of a grid.
     fn start(&self, x: &Vector<D>) -> [f64; 2] {
         let corners = self.corners();
         let middle = [0, 1].map(|i| corners.iter().map(|c| c[i]).sum::<f64>() / corners.len() as f64);
         if self.is_straight() || !self.is_clearly_curved(&middle) {
             return middle;
         }
-        let halfway = |a: &[f64; 2], b: &[f64; 2]| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
         let mut best = (f64::INFINITY, middle);
-        let mut try_at = |xi: [f64; 2]| {
+        // A line has one row; a triangle the half of a square.
+        for (j, i) in (0..if D == 2 { 1 } else { GRID + 1 }).flat_map(|j| (0..=GRID).map(move |i| (j, i))) {
+            let [s, t] = [i, j].map(|k| f64::from(k) / f64::from(GRID));
+            let xi = match corners.len() {
+                2 => [2.0 * s - 1.0, 0.0],
+                3 => [s * (1.0 - t), t],
+                _ => [2.0 * s - 1.0, 2.0 * t - 1.0],
+            };
             let distance = (x - self.at(&xi).point).norm_squared();
             if distance < best.0 {
                 best = (distance, xi);
-            }
-        };
-        try_at(middle);
-        for (k, corner) in corners.iter().enumerate() {
-            try_at(*corner);
-            try_at(halfway(corner, &middle));
-            if D == 3 {
-                try_at(halfway(corner, &corners[(k + 1) % corners.len()]));
             }
         }
         best.1
@@ -206,7 +197,7 @@ impl<const D: usize> Patch<D> {
 
     /// Whether ξ is in the reference domain.
     fn holds(&self, xi: [f64; 2]) -> bool {
-        if Self::is_triangle(self.kind) {
+        if self.kind.corner_count() == 3 {
             xi[0] >= 0.0 && xi[1] >= 0.0 && xi[0] + xi[1] <= 1.0
         } else {
             xi.iter().all(|x| x.abs() <= 1.0)
@@ -274,11 +265,7 @@ mod tests {
         const N: i32 = 60;
         let grid = (0..=N).flat_map(|i| (0..=N).map(move |j| [i, j].map(|k| f64::from(k) / f64::from(N))));
         grid.map(|[a, b]| {
-            if Patch::<3>::is_triangle(patch.kind) {
-                [a, b * (1.0 - a)]
-            } else {
-                [2.0 * a - 1.0, 2.0 * b - 1.0]
-            }
+            if patch.kind.corner_count() == 3 { [a, b * (1.0 - a)] } else { [2.0 * a - 1.0, 2.0 * b - 1.0] }
         })
         .map(|xi| (x - patch.at(&xi).point).norm())
         .fold(f64::INFINITY, f64::min)
@@ -316,14 +303,28 @@ mod tests {
         for kind in kinds() {
             let (facet, nodes) = bent(kind, 0.1);
             let patch = Patch::new(&facet, &|n| nodes[n as usize]);
-            for (x, y, z) in [(0.3, 0.2, 0.4), (0.4, 0.25, -0.2), (0.35, 0.2, 0.05)] {
+            let mut inside = 0;
+            for (x, y, z) in [(0.3, 0.2, 0.4), (0.4, 0.25, -0.2), (0.5, 0.2, 0.05), (0.4, 0.3, 0.01)] {
                 let x = Vector::<3>::new(x, y, z);
-                let point = patch.at(&patch.closest(&x));
+                let xi = patch.closest(&x);
+                let [from_middle, middle] = [1.01, 1.0 / 3.0];
+                if !patch.holds(xi.map(|x| {
+                    if patch.kind.corner_count() == 3 {
+                        middle + (x - middle) * from_middle
+                    } else {
+                        x * from_middle
+                    }
+                })) {
+                    continue;
+                }
+                inside += 1;
+                let point = patch.at(&xi);
                 for t in &point.tangents {
                     let cosine = (x - point.point).dot(t) / t.norm();
                     assert!(cosine.abs() < 1e-13, "{kind:?}: {cosine:e}");
                 }
             }
+            assert!(inside >= 2, "{kind:?}");
         }
     }
 }

@@ -1,6 +1,7 @@
+use carom_mesh::cell::MAX_FACET_NODES;
 use carom_mesh::{CellKind, Facet, Vector};
 
-use crate::patch::{MAX_FACET_NODES, Patch};
+use crate::patch::Patch;
 
 /// The point of a facet, or of the curve over it, closest to a given one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,7 +50,7 @@ pub fn project<'a, const D: usize>(
 
 /// The closest point of what a facet with `Reach::Beyond` covers, component by component.
 fn clamp(kind: CellKind, xi: [f64; 2]) -> [f64; 2] {
-    if !Patch::<3>::is_triangle(kind) {
+    if kind.corner_count() != 3 {
         let end = 1.0 + 2.0 * BEYOND;
         return xi.map(|x| x.clamp(-end, end));
     }

@@ -1,5 +1,5 @@
 //! Hyperelastic laws, written once in 3D. A new law is a file here, a line in [`LawSpec`] and
-//! one where [`crate::Body::new`] makes it.
+//! one in [`LawSpec::point_law`].
 
 #[cfg(test)]
 mod contract;
@@ -10,10 +10,12 @@ mod point_law;
 mod saint_venant_kirchhoff;
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
+use crate::FemError;
 pub use elastic_constants::ElasticConstants;
 pub use linear_elastic::LinearElastic;
 pub use neo_hookean::NeoHookean;
@@ -87,4 +89,18 @@ pub enum LawSpec {
     LinearElastic(ElasticConstants),
     /// Compressible neo-Hookean: large strain.
     NeoHookean(ElasticConstants),
+}
+
+impl LawSpec {
+    /// The law as elements see it.
+    ///
+    /// # Errors
+    /// If a material constant is out of range.
+    pub fn point_law<const D: usize>(&self) -> Result<Arc<dyn PointLaw<D>>, FemError> {
+        Ok(match self {
+            Self::SaintVenantKirchhoff(c) => Arc::new(Confined(SaintVenantKirchhoff::new(c)?)),
+            Self::LinearElastic(c) => Arc::new(Confined(LinearElastic::new(c)?)),
+            Self::NeoHookean(c) => Arc::new(Confined(NeoHookean::new(c)?)),
+        })
+    }
 }
