@@ -1,4 +1,4 @@
-use carom_contact::{Pair, Target};
+use carom_contact::{Pair, RigidShape, Target};
 use carom_mesh::Vector;
 
 use crate::error::InputError;
@@ -43,14 +43,21 @@ pub(super) fn check_overlaps<const D: usize>(
                     ),
                 ),
                 Target::Obstacle(o) => {
-                    let plane = &model.contact.obstacles[o];
-                    let outside = source.nodes().all(|n| plane.gap(&model.reference[n], &at).0 < 0.0);
+                    let obstacle = &model.contact.obstacles[o];
+                    let outside = source.nodes().all(|n| obstacle.gap(&model.reference[n], &at).0 < 0.0);
                     let fact = if outside { "lies outside, behind" } else { "overlaps" };
+                    let free = match obstacle.shape {
+                        RigidShape::Plane { .. } => "turn the normal of",
+                        RigidShape::Sphere { .. } | RigidShape::Cylinder { .. } => {
+                            "set or leave out `cavity` of"
+                        }
+                        RigidShape::Box { .. } | RigidShape::Surface(_) => "move",
+                    };
                     InputError::new(
                         format!("bodies.{index}.mesh"),
                         format!(
                             "body {a:?} {fact} obstacle {b:?} at the start: its node at {place} is {:.6} m behind it; \
-                             move the body or turn the normal of obstacles.{} ({:?})",
+                             move the body or {free} obstacles.{} ({:?})",
                             -closest.gap, o, scenario.obstacles[o].name
                         ),
                     )
