@@ -126,6 +126,9 @@ pub struct BodyEntry {
     /// Sets of facets that may touch others; the whole boundary if not given.
     #[serde(default)]
     pub contact_sets: Option<Vec<String>>,
+    /// Whether the body may touch itself.
+    #[serde(default)]
+    pub self_contact: bool,
     /// Initial velocity [m/s]; none if not given.
     #[serde(default)]
     pub velocity: Option<Vec<f64>>,

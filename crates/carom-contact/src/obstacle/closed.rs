@@ -149,7 +149,7 @@ impl<const D: usize> ClosedSurface<D> {
             for k in 0..3 {
                 let [a, b, c] = [t[k], t[(k + 1) % 3], t[(k + 2) % 3]];
                 vertex_normals[a as usize] += n * (x(b) - x(a)).angle(&(x(c) - x(a)));
-                *of_edge.entry([b.min(c), b.max(c)]).or_default() += n;
+                *of_edge.entry([b.min(c), b.max(c)]).or_insert_with(Vector::zeros) += n;
             }
         }
         let edge_normals = triangles

@@ -51,7 +51,7 @@ fn may_touch(scenario: &Scenario, name: &str) -> bool {
         };
         scenario.contact.pairs.iter().find(between).is_none_or(|p| p.enabled)
     };
-    let others = scenario.bodies.iter().map(|b| b.name.as_str()).filter(|&other| other != name);
+    let others = scenario.bodies.iter().filter(|b| b.name != name || b.self_contact).map(|b| b.name.as_str());
     others.chain(scenario.obstacles.iter().map(|o| o.name.as_str())).any(enabled)
 }
 
