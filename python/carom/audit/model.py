@@ -93,6 +93,8 @@ class AuditModel:
     ) -> None:
         if scenario.dimension != 2:
             raise InputError("cannot audit a case in 3D yet")
+        if any(body.self_contact for body in scenario.bodies):
+            raise InputError("cannot audit a body in contact with itself yet")
         self.scenario = scenario
         self.points = points
         condition = scenario.contact.condition

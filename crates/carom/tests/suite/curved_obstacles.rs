@@ -21,7 +21,7 @@ fn run<const D: usize>(bodies: &[Value], obstacles: &[Value], friction: f64, end
 /// A cube of 2³ cells with its centre at `centre`.
 fn cube(centre: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> Value {
     let corner = centre.map(|x| x - 0.25);
-    let mesh = json!({"kind": "box", "corner": corner, "size": [0.5; 3], "divisions": [2; 3]});
+    let mesh = json!({"kind": "box", "corner": corner, "size": [0.5, 0.5, 0.5], "divisions": [2, 2, 2]});
     let mut cube = body("cube", mesh, [0.0, 0.0]);
     cube["velocity"] = json!(velocity);
     cube["spin"] = json!(spin);
@@ -64,7 +64,8 @@ fn angular_momentum_about_the_centre_of_a_smooth_cavity_is_constant() {
         let change = angular_momentum(&simulation)[2] - before;
         assert!((change.abs() < 1e-10) == (friction == 0.0), "{change:e}");
     }
-    let cavity = json!({"name": "wall", "kind": "sphere", "centre": [0.0; 3], "radius": 0.8, "cavity": true});
+    let cavity =
+        json!({"name": "wall", "kind": "sphere", "centre": [0.0, 0.0, 0.0], "radius": 0.8, "cavity": true});
     let cube = cube([0.1, 0.05, 0.0], [1.5, 1.0, 0.3], [0.0; 3]);
     let simulation = run::<3>(&[cube], &[cavity], 0.0, 0.5);
     check(&simulation, 0.0, 3.0);

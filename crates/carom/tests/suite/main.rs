@@ -5,6 +5,7 @@ mod conservation;
 mod contact_problems;
 mod contact_search;
 mod curved_obstacles;
+mod incline;
 mod invariance;
 mod ledger;
 mod moving_obstacles;
