@@ -117,16 +117,14 @@ def _read(details: ErrorDetails, data: Mapping[str, Any]) -> tuple[str, object, 
     elif kind == "union_tag_not_found":
         path, value = [*path, "kind"], _ABSENT
     elif kind == "union_tag_invalid":
-        path, value = [*path, "kind"], context["tag"].strip("[]")
-        what = what.translate(str.maketrans("", "", "[]"))
+        path, value = [*path, "kind"], context["tag"]
     return ".".join(path) or "scenario", value, what
 
 
 def _without_tags(location: Sequence[int | str], data: object) -> list[str]:
     """Return pydantic's location without the union tags it inserts.
 
-    A tag stands where a table of that kind was entered, before any of its keys; those in brackets
-    tell forms of a value apart.
+    A tag stands where a table of that kind was entered, before any of its keys.
     """
     path: list[str] = []
     entered: object = None
@@ -141,4 +139,4 @@ def _without_tags(location: Sequence[int | str], data: object) -> list[str]:
         elif isinstance(data, Sequence) and isinstance(part, int):
             data = data[part] if part < len(data) else None
         path.append(str(part))
-    return [part for part in path if not part.startswith("[")]
+    return [part for part in path if part != "[key]"]

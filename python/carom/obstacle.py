@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, Discriminator, Field, Tag
+from pydantic import AfterValidator, Field
 
 from carom.description import PER_DIMENSION, Description, Name, Positive, SpaceVector, Vector
 
@@ -117,17 +116,4 @@ class RigidBox(Description):
     velocity: Vector | None = None
 
 
-def _kind(data: object) -> str:
-    """Return the tag of an obstacle; one that names no kind is a plane."""
-    given = data.get("kind", "plane") if isinstance(data, Mapping) else getattr(data, "kind", "")
-    return f"[{given}]"
-
-
-Obstacle = Annotated[
-    Annotated[Plane, Tag("[plane]")]
-    | Annotated[RigidSphere, Tag("[sphere]")]
-    | Annotated[RigidCylinder, Tag("[cylinder]")]
-    | Annotated[RigidBox, Tag("[box]")],
-    Discriminator(_kind),
-]
-"""Any of the obstacles; their ``kind`` tells them apart."""
+Obstacle = Annotated[Plane | RigidSphere | RigidCylinder | RigidBox, Field(discriminator="kind")]
