@@ -65,12 +65,12 @@ fn creep<const D: usize>(condition: &str, azimuth: f64, steps: u64) -> f64 {
     creep
 }
 
-/// The acceleration of the centre of mass between `SETTLED` and one second later, less the exact one, relative to it.
+/// The acceleration of the centre of mass from twice `SETTLED` to one second later, less the exact one, relative to it.
 fn acceleration_error<const D: usize>(condition: &str, azimuth: f64) -> f64 {
     let slope = 35.0_f64.to_radians();
-    let mut simulation = block::<D>(condition, slope, azimuth, 1500);
+    let mut simulation = block::<D>(condition, slope, azimuth, 2000);
     let mut velocities = [0.0, 1.0].map(|later| {
-        simulation.advance(SETTLED + later, || false).expect("converges");
+        simulation.advance(2.0 * SETTLED + later, || false).expect("converges");
         let nodes = simulation.model().node_count();
         (simulation.time(), simulation.model().bodies[0].body.mean(&simulation.state().velocity[..nodes]))
     });
@@ -114,12 +114,10 @@ fn block_on_incline_slides_as_coulomb_says_above_the_friction_angle() {
     }
 }
 
-/// 10⁵ steps in the plane and in space.
 #[test]
-#[ignore = "long: run with --ignored"]
 fn block_on_incline_does_not_creep_in_a_hundred_thousand_steps() {
     for (dimension, creep) in [(2, creep::<2>("gap", 0.0, 100_000)), (3, creep::<3>("gap", 0.6, 100_000))] {
         println!("{dimension}D: creep {creep:e} m");
-        assert!(creep < 1e-13, "{dimension}D: {creep:e} m");
+        assert!(creep < 1e-12, "{dimension}D: {creep:e} m");
     }
 }

@@ -5,7 +5,7 @@ use carom::{Meshes, Simulation};
 use carom_mesh::{Mesh, Vector, generate};
 use serde_json::json;
 
-/// A ring with a slit on the right, of mean radius 1 and half the opening angle `slit`; in space it is a band whose width grows from 0.16 to 0.24
+/// A ring with a slit on the right, of mean radius 1 and half the opening angle `slit`; in space it is a band of width 0.2 that rises by 0.07
 /// along the ring, so that no rim of one end lies on a rim of the other.
 fn slit_ring<const D: usize>(slit: f64, thickness: f64, around: usize, radial: usize) -> Mesh<D> {
     let divisions = std::array::from_fn(|i| [around, radial, 1][i]);
@@ -14,8 +14,7 @@ fn slit_ring<const D: usize>(slit: f64, thickness: f64, around: usize, radial: u
     let bent = |x: &Vector<D>| {
         let (sin, cos) = (-slit - (2.0 * std::f64::consts::PI - 2.0 * slit) * x[0]).sin_cos();
         let radius = 1.0 + thickness * (x[1] - 0.5);
-        let width = 0.2 + 0.08 * (x[0] - 0.5);
-        Vector::from_fn(|i, _| [radius * cos, radius * sin, width * (x[D - 1] - 0.5)][i])
+        Vector::from_fn(|i, _| [radius * cos, radius * sin, 0.2 * x[D - 1] + 0.07 * x[0]][i])
     };
     Mesh::new(grid.nodes().iter().map(bent).collect(), grid.blocks().to_vec()).expect("a ring")
 }
