@@ -35,7 +35,7 @@ fn bodies<const D: usize>(cells: &[CellKind]) -> Vec<(String, BodySpec, Body<D>)
                         Ok(body) => {
                             assert!(possible);
                             bodies.push((
-                                format!("{kind:?} {:?} {hypothesis:?} {formulation:?}"),
+                                format!("{kind:?} {:?} {hypothesis:?} {formulation:?}", spec.law),
                                 spec,
                                 body,
                             ));
