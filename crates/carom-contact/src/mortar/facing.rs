@@ -23,7 +23,7 @@ pub(super) struct Facing {
 const OPPOSED: f64 = 0.5;
 
 /// How deep inside one another facets are still found, in diameters.
-const DEPTH: f64 = 0.5;
+const DEPTH: f64 = 1.0;
 
 impl<const D: usize> ContactModel<D> {
     /// Adds the facing facets of a pair that come within `margin` [m] of one another between `start` and `end`.
