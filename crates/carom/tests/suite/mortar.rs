@@ -1,10 +1,8 @@
 //! Impacts of bodies with mortar contact: energy, momenta, and how far the surfaces go through one another.
 
-mod common;
-
+use crate::common::{body, disc, parse, scenario};
 use carom::Simulation;
 use carom_mesh::Vector;
-use common::{body, disc, parse, scenario};
 use serde_json::{Value, json};
 
 /// Two discs of different meshes, with 24 and 16 facets times `refinement`, one spinning, that meet off centre in free space.
