@@ -4,6 +4,7 @@ use carom_mesh::{Facet, Vector};
 
 use super::plane::Plane;
 use crate::aabb::Aabb;
+use crate::bvh::Bvh;
 use crate::{ContactModel, ContactSurface, Target};
 
 /// A facet of the source and one of the target that may touch. Ordered by pair, source and target.
@@ -57,14 +58,16 @@ impl<const D: usize> ContactModel<D> {
         if targets.is_empty() {
             return;
         }
+        let tree = Bvh::new(targets.iter().map(|(_, b, _)| *b));
         for (f, source_box, outward) in near(source, &whole(target)) {
-            let facing =
-                targets.iter().filter(|(_, b, n)| n.dot(&outward) < -OPPOSED && b.overlaps(&source_box));
-            out.extend(facing.map(|&(t, ..)| Facing {
-                pair: pair as u32,
-                source: f as u32,
-                target: t as u32,
-            }));
+            let first = out.len();
+            tree.overlapping(&source_box, |k, _| {
+                let (target, _, normal) = &targets[k as usize];
+                if normal.dot(&outward) < -OPPOSED {
+                    out.push(Facing { pair: pair as u32, source: f as u32, target: *target as u32 });
+                }
+            });
+            out[first..].sort_unstable();
         }
     }
 }

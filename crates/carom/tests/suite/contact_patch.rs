@@ -197,6 +197,27 @@ fn tetrahedra(mesh: &Mesh<3>) -> Mesh<3> {
     Mesh::new(mesh.nodes().to_vec(), vec![CellBlock { kind: CellKind::Tet4, connectivity }]).expect("valid")
 }
 
+/// The mesh of quadratic cells of this kind with the corners of the cells of `mesh`.
+fn quadratic<const D: usize>(mesh: &Mesh<D>, kind: CellKind) -> Mesh<D> {
+    let (mut nodes, mut connectivity) = (Vec::<Vector<D>>::new(), Vec::new());
+    for block in mesh.blocks() {
+        let mut shape = vec![0.0; block.kind.node_count()];
+        for cell in block.cells() {
+            for xi in kind.reference().nodes {
+                (block.kind.reference().shape)(xi, &mut shape);
+                let x =
+                    shape.iter().zip(cell).map(|(n, &a)| mesh.nodes()[a as usize] * *n).sum::<Vector<D>>();
+                let known = nodes.iter().position(|y| (x - y).norm() < 1e-9);
+                connectivity.push(known.unwrap_or(nodes.len()) as u32);
+                if known.is_none() {
+                    nodes.push(x);
+                }
+            }
+        }
+    }
+    Mesh::new(nodes, vec![CellBlock { kind, connectivity }]).expect("valid")
+}
+
 /// Both discretisations with either block as the source: mortar is exact, node to segment is off by more than `off`.
 fn compare<const D: usize>(name: &str, blocks: &Blocks<D>, off: f64) {
     for source in [0, 1] {
@@ -225,6 +246,25 @@ fn blocks_in_space_carry_a_uniform_stress() {
     compare("hex8 on hex8", &Blocks::new(upper.clone(), lower.clone()), 1e-2);
     compare("hex8 on tet4", &Blocks::new(upper.clone(), tetrahedra(&lower)), 1e-2);
     compare("tet4 on tet4", &Blocks::new(tetrahedra(&upper), tetrahedra(&lower)), 1e-2);
+}
+
+#[test]
+fn blocks_of_quadratic_cells_carry_a_uniform_stress() {
+    let upper = generate::grid([0.0, 0.0], [1.0, 1.0], [2, 1]).expect("valid");
+    let lower = generate::grid([0.0, -1.0], [1.0, 1.0], [3, 1]).expect("valid");
+    let triangles = |mesh: &Mesh<2>| generate::triangulate(mesh).expect("valid");
+    let [quad8, quad9, tri6] = [CellKind::Quad8, CellKind::Quad9, CellKind::Tri6];
+    compare("quad8 on quad4", &Blocks::new(quadratic(&upper, quad8), lower.clone()), 1e-3);
+    compare("quad9 on quad8", &Blocks::new(quadratic(&upper, quad9), quadratic(&lower, quad8)), 1e-3);
+    let lower = quadratic(&triangles(&lower), tri6);
+    compare("tri6 on tri6", &Blocks::new(quadratic(&triangles(&upper), tri6), lower), 1e-3);
+    let upper = generate::grid([0.0; 3], [1.0; 3], [1, 2, 1]).expect("valid");
+    let lower = generate::grid([0.0, 0.0, -1.0], [1.0; 3], [2, 1, 1]).expect("valid");
+    let [hex20, hex27, tet10] = [CellKind::Hex20, CellKind::Hex27, CellKind::Tet10];
+    compare("hex20 on hex8", &Blocks::new(quadratic(&upper, hex20), lower.clone()), 1e-3);
+    compare("hex27 on hex20", &Blocks::new(quadratic(&upper, hex27), quadratic(&lower, hex20)), 1e-3);
+    let (upper, lower) = (quadratic(&tetrahedra(&upper), tet10), quadratic(&tetrahedra(&lower), tet10));
+    compare("tet10 on tet10", &Blocks::new(upper, lower), 1e-3);
 }
 
 /// The lower block reaches beyond the upper, to x = 1.7, and bears the same pressure there as a load.
