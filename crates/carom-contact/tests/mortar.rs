@@ -227,14 +227,15 @@ fn a_row_outlives_the_cover_of_the_step() {
 #[test]
 fn moment_of_reactions_on_discs_falls_with_the_mesh() {
     let moment = |divisions: usize| {
-        let disc = |x: f64, divisions| {
-            let disc = generate::Disc { centre: [x, 0.0], radius: 1.0, divisions, rings: None };
-            mapped(&disc.quadrilaterals().expect("valid"), |x| {
-                let (s, c) = 0.3_f64.sin_cos();
-                Vector::<2>::new(c * x[0] - s * x[1], s * x[0] + c * x[1])
+        // The second disc is turned by an angle of its own, so that nothing is symmetric.
+        let disc = |x: f64, turn: f64, divisions| {
+            let disc = generate::Disc { centre: [0.0, 0.0], radius: 1.0, divisions, rings: None };
+            let (s, c) = turn.sin_cos();
+            mapped(&disc.quadrilaterals().expect("valid"), |y| {
+                Vector::<2>::new(x + c * y[0] - s * y[1], s * y[0] + c * y[1])
             })
         };
-        let scene = Scene::new(&disc(0.0, divisions), &disc(1.99, divisions + 2));
+        let scene = Scene::new(&disc(0.0, 0.0, divisions), &disc(1.95, 0.02, divisions + 2));
         let (_, contacts) = scene.contacts(&scene.nodes, 0.0);
         assert!(contacts.len() > 1, "{divisions}");
         let mut force = vec![Vector::zeros(); scene.nodes.len()];
