@@ -235,7 +235,8 @@ fn moment_of_reactions_on_discs_falls_with_the_mesh() {
                 Vector::<2>::new(x + c * y[0] - s * y[1], s * y[0] + c * y[1])
             })
         };
-        let scene = Scene::new(&disc(0.0, 0.0, divisions), &disc(1.95, 0.02, divisions + 2));
+        let apart = 2.0 - 0.3 / divisions as f64;
+        let scene = Scene::new(&disc(0.0, 0.0, divisions), &disc(apart, 0.02, divisions + 2));
         let (_, contacts) = scene.contacts(&scene.nodes, 0.0);
         assert!(contacts.len() > 1, "{divisions}");
         let mut force = vec![Vector::zeros(); scene.nodes.len()];
