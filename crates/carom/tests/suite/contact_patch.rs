@@ -6,7 +6,7 @@
 
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Mortar, Pair, Search, Target};
 use carom_fem::material::{ElasticConstants, LawSpec};
-use carom_fem::{Body, BodySpec, MassKind, RayleighDamping};
+use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_friction::{BlockMatrix, ContactProblem, Criterion, SolverKind, StoppingRule};
 use carom_mesh::{CellBlock, CellKind, Mesh, Vector, generate};
 use nalgebra::{DMatrix, DVector};
@@ -32,6 +32,8 @@ fn body<const D: usize>(mesh: Mesh<D>) -> Body<D> {
         density: 1.0,
         damping: RayleighDamping::default(),
         mass: MassKind::Consistent,
+        hypothesis: Hypothesis::PlaneStrain,
+        formulation: Formulation::Standard,
         thickness: 1.0,
         massless_contact: false,
     };
