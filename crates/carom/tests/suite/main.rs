@@ -2,12 +2,15 @@
 
 mod common;
 mod conservation;
+mod contact_patch;
 mod contact_problems;
 mod contact_search;
 mod curved_obstacles;
+mod hypotheses;
 mod incline;
 mod invariance;
 mod ledger;
+mod mortar;
 mod moving_obstacles;
 mod oscillator;
 mod periodic;
