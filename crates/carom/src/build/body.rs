@@ -47,7 +47,7 @@ pub(super) fn body<const D: usize>(
 }
 
 /// Whether anything is there that a body may touch.
-fn may_touch(scenario: &Scenario, name: &str) -> bool {
+pub(super) fn may_touch(scenario: &Scenario, name: &str) -> bool {
     let enabled = |other: &str| {
         let between = |p: &&PairEntry| {
             let [a, b] = &p.between;
