@@ -57,7 +57,7 @@ fn angular_momentum_about_the_centre_of_a_smooth_cavity_is_constant() {
         json!({"name": "wall", "kind": "sphere", "centre": [0.0, 0.0], "radius": 2.0, "cavity": true});
     for friction in [0.0, 0.2] {
         let ball = body("ball", disc([0.6, 0.2], 0.8, 4), [1.5, 1.0]);
-        let simulation = run::<2>(&[ball], &[cavity.clone()], friction, 1.2);
+        let simulation = run::<2>(&[ball], std::slice::from_ref(&cavity), friction, 1.2);
         check(&simulation, friction, 3.0);
         let mass = simulation.model().bodies[0].body.total_mass();
         let before = mass * (0.6 * 1.0 - 0.2 * 1.5);
@@ -80,7 +80,7 @@ fn a_cube_thrown_on_a_cylinder_keeps_what_the_cylinder_cannot_take() {
     let bar = json!({"name": "bar", "kind": "cylinder", "point": [0.0, 0.0, 0.0], "axis": [0.0, 3.0, 0.0], "radius": 0.4});
     for friction in [0.0, 0.3] {
         let cube = cube([0.1, 0.0, 0.67], [0.3, 0.2, -2.0], [0.5, 0.3, 0.0]);
-        let simulation = run::<3>(&[cube], &[bar.clone()], friction, 0.3);
+        let simulation = run::<3>(&[cube], std::slice::from_ref(&bar), friction, 0.3);
         check(&simulation, friction, 3.0);
         if friction == 0.0 {
             let body = &simulation.model().bodies[0].body;
