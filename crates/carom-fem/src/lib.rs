@@ -6,6 +6,9 @@
 mod body;
 mod elements;
 mod error;
+mod facets;
+mod held;
+mod loose;
 mod massless;
 pub mod material;
 mod quadrature;
@@ -16,4 +19,6 @@ pub mod sparse;
 pub use body::{Body, BodySpec, MassKind, RayleighDamping};
 pub use elements::{CellState, Elements, StepForces};
 pub use error::FemError;
+pub use facets::FacetPatch;
+pub use held::{Held, HeldDof};
 pub use rigid::RigidMass;

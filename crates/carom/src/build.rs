@@ -10,7 +10,7 @@ use crate::model::{Group, Method, Model, ModelBody, NewtonRule};
 use crate::scenario::{
     BodyEntry, MeshSpec, ObstacleShape, PairEntry, PlaneCell, Scenario, Side, Sources, Targets,
 };
-use crate::{Scheme, State};
+use crate::{ObstacleMotion, Scheme, State};
 
 /// Overlaps at the start deeper than this, relative to the smallest edge, are an error.
 const TOUCHING: f64 = 1e-9;
@@ -41,9 +41,9 @@ pub fn build(scenario: &Scenario) -> Result<(Model<2>, Method<2>, State<2>), Inp
         .obstacles
         .iter()
         .enumerate()
-        .map(|(i, o)| vector(&format!("obstacles.{i}.velocity"), &o.velocity))
+        .map(|(i, o)| vector(&format!("obstacles.{i}.velocity"), &o.velocity).map(ObstacleMotion::Velocity))
         .collect::<Result<_, _>>()?;
-    let model = Model::new(bodies, contact, groups, gravity).with_obstacle_velocities(velocities);
+    let model = Model::new(bodies, contact, groups, gravity).with_obstacle_motions(velocities);
     check_overlaps(scenario, &model)?;
     let velocity = initial_velocity(scenario, &model)?;
     let state = State::initial(&model, velocity);

@@ -1,11 +1,14 @@
 //! Which contacts take part in a step.
 
-use carom_contact::{Pair, Target};
+use carom_contact::{Contact, Pair, Target};
 use carom_mesh::Vector;
 
 use crate::state::{Reaction, State};
 use crate::workspace::Workspace;
 use crate::{Method, Model, StepMap};
+
+/// A contact of which less than this fraction of the normal is free has nothing to move.
+const UNRESPONSIVE: f64 = 1e-6;
 
 /// Finds the candidates of the step between its start and the predicted end.
 pub(crate) fn search<const D: usize>(
@@ -34,8 +37,9 @@ pub(crate) fn select_active<const D: usize>(
     work.searched.extend(work.candidates.iter().map(|c| (c.pair, c.node)));
     work.start_gaps.clear();
     work.candidates.retain(|c| {
-        let gap = contact.evaluate(c, &start).gap;
-        let active = !c.mirrored && method.condition.is_active(gap);
+        let at_start = contact.evaluate(c, &start);
+        let gap = at_start.gap;
+        let active = !c.mirrored && method.condition.is_active(gap) && answers(model, &at_start);
         if active {
             work.start_gaps.push(if contact.is_two_sided(c.pair as usize) { gap.min(0.0) } else { 0.0 });
         }
@@ -65,6 +69,12 @@ pub(crate) fn select_active<const D: usize>(
             touch(&mut work.touched, &contact.pairs[reaction.pair as usize]);
         }
     }
+}
+
+/// Whether a normal reaction could move anything: not where both sides are prescribed, as where a support stands on an obstacle.
+fn answers<const D: usize>(model: &Model<D>, contact: &Contact<D>) -> bool {
+    let normal = contact.frame.row(0).transpose();
+    contact.stencil().any(|(n, weight)| (model.free_part(n, &normal) * weight).norm() > UNRESPONSIVE)
 }
 
 fn touch(touched: &mut [bool], pair: &Pair) {
