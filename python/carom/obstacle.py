@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator
+from pydantic import AfterValidator, model_validator
+from typing_extensions import Self
 
 from carom.description import Description, Name, Vector
+from carom.messages import problem
+from carom.motion import Displacement
 
 
 def _nonzero(vector: tuple[float, ...]) -> tuple[float, ...]:
@@ -29,6 +32,8 @@ class Plane(Description):
     velocity
         Constant velocity [m/s], shape [D]; None is none. Its work on the bodies is in the ledger as
         ``prescribed``.
+    motion
+        Displacement over time, in place of a velocity.
     """
 
     name: Name
@@ -36,6 +41,13 @@ class Plane(Description):
     point: Vector
     normal: Annotated[Vector, AfterValidator(_nonzero)]
     velocity: Vector | None = None
+    motion: Displacement | None = None
+
+    @model_validator(mode="after")
+    def _moves_in_one_way(self) -> Self:
+        if self.velocity is not None and self.motion is not None:
+            raise problem("give velocity or motion, not both", key="motion")
+        return self
 
 
 Obstacle = Plane
