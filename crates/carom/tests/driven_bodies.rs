@@ -6,7 +6,7 @@ use carom::{
     ContactCondition, Load, Method, Model, ModelBody, Motion, NewtonRule, ObstacleMotion, Scheme, Signal,
     SignalSpec, State, Workspace, step,
 };
-use carom_contact::{ContactModel, ContactSurface, Obstacle, Pair, Target};
+use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
 use carom_fem::material::{ElasticConstants, LawSpec};
 use carom_fem::{Body, BodySpec, MassKind, RayleighDamping};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
@@ -242,7 +242,13 @@ fn block_pressed_on_a_shaking_floor_keeps_the_books() {
         let contact = ContactModel {
             surfaces: vec![ContactSurface::new(body.surface(), 0)],
             obstacles: vec![Obstacle::plane(Vector::zeros(), Vector::<2>::new(0.0, 1.0), u32::MAX)],
-            pairs: vec![Pair { source: 0, target: Target::Obstacle(0), friction: 0.4, group: 0 }],
+            pairs: vec![Pair {
+                source: 0,
+                target: Target::Obstacle(0),
+                friction: 0.4,
+                group: 0,
+                discretisation: Discretisation::NodeToSegment,
+            }],
         };
         let groups = vec![carom::Group { between: ["part".into(), "floor".into()], friction: 0.4 }];
         let bodies = vec![ModelBody { name: "part".into(), body, first_node: 0 }];

@@ -1,5 +1,5 @@
 //! Hyperelastic laws, written once in 3D. A new law is a file here, a line in [`LawSpec`] and
-//! one where [`crate::Body::new`] makes it.
+//! one in [`LawSpec::point_law`].
 
 #[cfg(test)]
 mod contract;
@@ -10,10 +10,12 @@ mod point_law;
 mod saint_venant_kirchhoff;
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
+use crate::FemError;
 pub use elastic_constants::ElasticConstants;
 pub use linear_elastic::LinearElastic;
 pub use neo_hookean::NeoHookean;
@@ -46,11 +48,11 @@ pub trait Material: Send + Sync + Debug {
     /// than this.
     fn discrete_stress(&self, f0: &Mat3, f1: &Mat3) -> Mat3 {
         let (c0, c1) = (f0.transpose() * f0, f1.transpose() * f1);
-        // S(C̄) = U⁻¹ P(U) with the stretch U = √C̄.
-        let mut mean = ((c0 + c1) * 0.5).symmetric_eigen();
-        mean.eigenvalues.apply(|x| *x = x.sqrt());
-        let stretch = mean.recompose();
-        let stress = carom_mesh::tensor::inverse(&stretch).0 * self.stress(&stretch);
+        // S(C̄) = G⁻¹ P(G) for any G with GᵀG = C̄: here the triangular one. A stretch by eigenvectors would lose six digits where
+        // stretches are nearly equal, and Newton's iterations would not converge.
+        let Some(root) = ((c0 + c1) * 0.5).cholesky() else { return Mat3::repeat(f64::NAN) };
+        let mean = root.l().transpose();
+        let stress = carom_mesh::tensor::inverse(&mean).0 * self.stress(&mean);
         let mut stress = (stress + stress.transpose()) * 0.5;
         let change = (c1 - c0) * 0.5;
         let size = change.norm_squared();
@@ -87,4 +89,18 @@ pub enum LawSpec {
     LinearElastic(ElasticConstants),
     /// Compressible neo-Hookean: large strain.
     NeoHookean(ElasticConstants),
+}
+
+impl LawSpec {
+    /// The law as elements see it.
+    ///
+    /// # Errors
+    /// If a material constant is out of range.
+    pub fn point_law<const D: usize>(&self) -> Result<Arc<dyn PointLaw<D>>, FemError> {
+        Ok(match self {
+            Self::SaintVenantKirchhoff(c) => Arc::new(Confined(SaintVenantKirchhoff::new(c)?)),
+            Self::LinearElastic(c) => Arc::new(Confined(LinearElastic::new(c)?)),
+            Self::NeoHookean(c) => Arc::new(Confined(NeoHookean::new(c)?)),
+        })
+    }
 }

@@ -5,6 +5,7 @@ mod contact;
 mod drive;
 mod mesh;
 mod method;
+mod mortar;
 mod obstacle;
 mod overlaps;
 mod velocity;
