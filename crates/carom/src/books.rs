@@ -208,7 +208,8 @@ fn close_contacts<const D: usize>(
             book(&mut work.groups[c.group], contact, c.dissipation(weight));
         }
         next.excess.copy_from_slice(&state.excess);
-        let surplus = work.bodies.iter().map(|b| b.kinetic + b.strain + b.viscous - b.external);
+        let surplus =
+            work.bodies.iter().map(|b| b.kinetic + b.strain + b.viscous - b.external - b.prescribed);
         work.blend.carry(surplus, &work.rubbing, &mut next.excess);
         return;
     }

@@ -4,6 +4,7 @@ mod common;
 mod conservation;
 mod contact_problems;
 mod contact_search;
+mod driven_bodies;
 mod invariance;
 mod ledger;
 mod moving_obstacles;
