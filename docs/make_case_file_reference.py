@@ -182,7 +182,9 @@ def allowed(field: FieldInfo) -> str:
         if get_origin(item) is Literal:
             rules.append(", ".join(f'`"{value}"`' for value in get_args(item)))
         if get_origin(item) is Annotated:
-            asked += [inner for outer in get_args(item)[1:] for inner in outer.metadata]
+            asked += [
+                inner for outer in get_args(item)[1:] for inner in getattr(outer, "metadata", [])
+            ]
     if set(get_args(Name)[1:]) & {one for one in asked if one.__hash__}:
         rules.append("no `.`, `/`, `\\` or space")
     for one in asked:

@@ -17,8 +17,12 @@ class Displacement(Description):
 
     Parameters
     ----------
-    x, y, z
-        Components [m], 0 at t = 0: numbers, formulas of ``t`` or tables.
+    x
+        Along x [m], 0 at t = 0: a number, a formula of ``t`` or a table.
+    y
+        Along y [m], likewise.
+    z
+        Along z [m], likewise.
     """
 
     x: Signal | None = None
@@ -63,8 +67,12 @@ class Prescribed(Description):
         Name of the body.
     on
         Name of a set of its mesh.
-    x, y, z
-        Displacement [m], 0 at t = 0: numbers, formulas of ``t`` or tables.
+    x
+        Displacement along x [m], 0 at t = 0: a number, a formula of ``t`` or a table.
+    y
+        Displacement along y [m], likewise.
+    z
+        Displacement along z [m], likewise.
     """
 
     kind: Literal["prescribed"] = "prescribed"

@@ -135,6 +135,12 @@ class Scenario(Description):
                     key=f"{path}.mesh.kind",
                     value=body.mesh.kind,
                 )
+            if self.dimension == 3 and body.hypothesis != "plane-strain":
+                raise problem(
+                    "is of 2D bodies; leave it out in 3D",
+                    key=f"{path}.hypothesis",
+                    value=body.hypothesis,
+                )
             if body.spin is not None and isinstance(body.spin, tuple) != (self.dimension == 3):
                 form = "three components" if self.dimension == 3 else "a number"
                 raise problem(
@@ -157,13 +163,15 @@ class Scenario(Description):
 
     @model_validator(mode="before")
     @classmethod
-    def _load_steps_rule_the_gap(cls, data: object) -> object:
+    def _kind_of_analysis(cls, data: object) -> object:
+        """Take an analysis that names no kind for dynamic; load steps rule the gap."""
         if not isinstance(data, Mapping):
             return data
         analysis = data.get("analysis")
-        kind = (
-            analysis.get("kind") if isinstance(analysis, Mapping) else getattr(analysis, "kind", "")
-        )
+        if isinstance(analysis, Mapping) and "kind" not in analysis:
+            analysis = {"kind": "dynamic", **analysis}
+            data = {**data, "analysis": analysis}
+        kind = analysis["kind"] if isinstance(analysis, Mapping) else getattr(analysis, "kind", "")
         if kind != "static":
             return data
         return {**data, "contact": for_load_steps(data.get("contact", {}))}

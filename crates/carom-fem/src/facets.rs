@@ -21,12 +21,12 @@ struct FacetPoint {
 }
 
 impl FacetPatch {
-    /// The patch of these facets.
+    /// The patch of these facets of `body`.
     #[must_use]
-    pub fn new(facets: Vec<Facet>) -> Self {
+    pub fn new<const D: usize>(body: &Body<D>, facets: Vec<Facet>) -> Self {
         let mut rules = BTreeMap::new();
         for facet in &facets {
-            rules.entry(facet.kind).or_insert_with(|| points(facet.kind));
+            rules.entry(facet.kind).or_insert_with(|| points(facet.kind, body.is_axisymmetric()));
         }
         Self { facets, rules }
     }
@@ -66,9 +66,9 @@ impl FacetPatch {
     }
 }
 
-fn points(kind: CellKind) -> Vec<FacetPoint> {
+fn points(kind: CellKind, of_revolution: bool) -> Vec<FacetPoint> {
     let reference = kind.reference();
-    rule(kind, Integrand::Values)
+    rule(kind, Integrand::Values, of_revolution)
         .into_iter()
         .map(|q| {
             let mut shape = vec![0.0; kind.node_count()];

@@ -10,9 +10,10 @@ const FREE: f64 = 1e-6;
 
 /// Whether the supports of a body leave it a rigid motion.
 pub(crate) fn is_loose<const D: usize>(body: &Body<D>) -> bool {
-    // A body that repeats itself cannot turn.
+    // A body that repeats itself cannot turn, and one of revolution moves along its axis only.
     let turns = if body.mesh().ties().is_empty() { D * (D - 1) / 2 } else { 0 };
-    let modes = D + turns;
+    let (first, last) = if body.is_axisymmetric() { (1, D) } else { (0, D + turns) };
+    let modes = last - first;
     let centre = body.mean(body.mesh().nodes());
     let size = body.mesh().diameter();
     let mode = |k: usize, arm: &Vector<D>| -> Vector<D> {
@@ -28,7 +29,7 @@ pub(crate) fn is_loose<const D: usize>(body: &Body<D>) -> bool {
     let mut gram = DMatrix::<f64>::zeros(modes, modes);
     for dof in body.held().dofs() {
         let arm = body.mesh().nodes()[dof.node as usize] - centre;
-        let at: Vec<f64> = (0..modes).map(|k| mode(k, &arm)[dof.component as usize]).collect();
+        let at: Vec<f64> = (first..last).map(|k| mode(k, &arm)[dof.component as usize]).collect();
         for i in 0..modes {
             for j in 0..modes {
                 gram[(i, j)] += at[i] * at[j];
@@ -43,7 +44,7 @@ pub(crate) fn is_loose<const D: usize>(body: &Body<D>) -> bool {
 mod tests {
     use super::*;
     use crate::material::{ElasticConstants, LawSpec};
-    use crate::{BodySpec, HeldDof, MassKind, RayleighDamping};
+    use crate::{BodySpec, Formulation, HeldDof, Hypothesis, MassKind, RayleighDamping};
     use carom_mesh::generate;
 
     fn cube(held: &[(u32, u8)]) -> bool {
@@ -53,6 +54,8 @@ mod tests {
             damping: RayleighDamping::default(),
             mass: MassKind::Consistent,
             thickness: 1.0,
+            hypothesis: Hypothesis::PlaneStrain,
+            formulation: Formulation::Standard,
             massless_contact: false,
         };
         let mesh = generate::grid([0.0; 3], [1.0; 3], [1, 1, 1]).expect("valid");

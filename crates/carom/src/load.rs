@@ -36,7 +36,7 @@ impl<const D: usize> Load<D> {
     /// A `traction` [Pa], component by component, per reference area of these facets.
     #[must_use]
     pub fn traction(body: &Body<D>, facets: Vec<Facet>, traction: [Signal; D]) -> Self {
-        Self::weighted(FacetPatch::new(facets).areas(body), traction)
+        Self::weighted(FacetPatch::new(body, facets).areas(body), traction)
     }
 
     /// A `pressure` [Pa] on the reference area of these facets, against their reference normals.
@@ -44,7 +44,7 @@ impl<const D: usize> Load<D> {
     pub fn dead_pressure(body: &Body<D>, facets: Vec<Facet>, pressure: Signal) -> Self {
         let mut forces = std::collections::BTreeMap::new();
         let still = vec![Vector::zeros(); body.node_count()];
-        FacetPatch::new(facets).area_vectors(body, &still, |node, area| {
+        FacetPatch::new(body, facets).area_vectors(body, &still, |node, area| {
             *forces.entry(node).or_insert_with(Vector::zeros) -= area;
         });
         Self::Dead(DeadLoad { terms: vec![(pressure, forces.into_iter().collect())] })
@@ -52,8 +52,8 @@ impl<const D: usize> Load<D> {
 
     /// A `pressure` [Pa] on these facets that follows them.
     #[must_use]
-    pub fn follower_pressure(facets: Vec<Facet>, pressure: Signal) -> Self {
-        Self::Follower(FollowerPressure { patch: FacetPatch::new(facets), pressure })
+    pub fn follower_pressure(body: &Body<D>, facets: Vec<Facet>, pressure: Signal) -> Self {
+        Self::Follower(FollowerPressure { patch: FacetPatch::new(body, facets), pressure })
     }
 
     /// Each component of `force` times the weights of the nodes.

@@ -43,7 +43,9 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
         Ok(Self {
             cells,
             points_per_cell: table.points_per_cell,
-            gradients: table.gradients.iter().map(|g| g.map(|g| K::gradient(&g))).collect(),
+            gradients: (0..table.gradients.len())
+                .map(|q| std::array::from_fn(|a| K::gradient(&table.gradients[q][a], table.hoop(q, a))))
+                .collect(),
             weights: table.weights,
             entries,
             kinematics: PhantomData,
@@ -89,20 +91,29 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
     /// Adds the nodal forces of the `stresses` at the points of `cells` to `f`.
     #[inline]
     pub fn add_forces(&self, cells: &Range<usize>, stresses: &[Matrix<S>], f: &mut [Vector<D>]) {
-        let points = self.points(cells);
-        let mut points = self.gradients[points.clone()].iter().zip(&self.weights[points]).zip(stresses);
-        for nodes in &self.cells[cells.clone()] {
-            let mut local = [Vector::<D>::zeros(); N];
-            for ((gradients, weight), stress) in points.by_ref().take(self.points_per_cell) {
-                let stress = stress * *weight;
-                for a in 0..N {
-                    local[a] += K::force(&stress, &gradients[a]);
-                }
-            }
-            for a in 0..N {
-                f[nodes[a] as usize] += local[a];
+        let stresses = stresses.chunks_exact(self.points_per_cell);
+        for (cell, stresses) in cells.clone().zip(stresses) {
+            let local = self.local_forces(cell, stresses);
+            for (&node, force) in self.cells[cell].iter().zip(&local) {
+                f[node as usize] += force;
             }
         }
+    }
+
+    /// The nodal forces of the `stresses` at the points of one cell.
+    #[inline]
+    pub fn local_forces(&self, cell: usize, stresses: &[Matrix<S>]) -> [Vector<D>; N] {
+        let points = self.points(&(cell..cell + 1));
+        let mut local = [Vector::<D>::zeros(); N];
+        for ((gradients, weight), stress) in
+            self.gradients[points.clone()].iter().zip(&self.weights[points]).zip(stresses)
+        {
+            let stress = stress * *weight;
+            for (local, g) in local.iter_mut().zip(gradients) {
+                *local += K::force(&stress, g);
+            }
+        }
+        local
     }
 
     /// Adds the stiffness of `tangents` at the points of one cell to `local`.

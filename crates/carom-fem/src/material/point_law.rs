@@ -61,7 +61,7 @@ fn embed<const D: usize>(f: &Matrix<D>) -> Mat3 {
 }
 
 #[inline]
-fn restrict<const D: usize>(full: &Mat3) -> Matrix<D> {
+pub(super) fn restrict<const D: usize>(full: &Mat3) -> Matrix<D> {
     Matrix::from_fn(|i, j| full[(i, j)])
 }
 

@@ -62,7 +62,7 @@ pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Res
                 let pressure = signal(&format!("{key}.pressure"), pressure, end)?;
                 let facets = facets(&key, body, &entry.on)?;
                 if *follower {
-                    Load::follower_pressure(facets, pressure)
+                    Load::follower_pressure(&body.body, facets, pressure)
                 } else {
                     Load::dead_pressure(&body.body, facets, pressure)
                 }

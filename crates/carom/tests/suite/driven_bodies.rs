@@ -8,7 +8,7 @@ use carom::{
 };
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
 use carom_fem::material::{ElasticConstants, LawSpec};
-use carom_fem::{Body, BodySpec, MassKind, RayleighDamping};
+use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
 use carom_mesh::{Facet, Mesh, Vector, generate};
 
@@ -23,6 +23,8 @@ fn spec(law: LawSpec, density: f64, massless_contact: bool) -> BodySpec {
         damping: RayleighDamping::default(),
         mass: MassKind::Consistent,
         thickness: 1.0,
+        hypothesis: Hypothesis::PlaneStrain,
+        formulation: Formulation::Standard,
         massless_contact,
     }
 }
@@ -170,9 +172,9 @@ fn work_of_supports_closes_the_books_of_large_motion() {
         let zero = || Some(Signal::Constant(0.0));
         let shaken = [Some(formula("0.2*sin(5*t)")), Some(formula("0.1*t^2")), zero()];
         let pulled = [None, Some(formula("-0.3*t")), None];
-        let model = model_of(body)
-            .with_motions(vec![motion(bottom, shaken), motion(top, pulled)])
-            .with_load(0, Load::follower_pressure(side, formula("2*t")));
+        let load = Load::follower_pressure(&body, side, formula("2*t"));
+        let model =
+            model_of(body).with_motions(vec![motion(bottom, shaken), motion(top, pulled)]).with_load(0, load);
         let (state, defect, [external, prescribed]) =
             run(&model, &method(Scheme::Conserving, ContactCondition::Midpoint), 100, 0.01, |_, _| ());
         let energy = state.energies.total();
@@ -196,7 +198,7 @@ fn pressure_all_around_moves_nothing() {
         let body = Body::new(disc.quadrilaterals().expect("valid"), &spec(law, 1.0, false)).expect("valid");
         let facets = body.surface().facets().to_vec();
         let load = if follower {
-            Load::follower_pressure(facets, formula("20*t"))
+            Load::follower_pressure(&body, facets, formula("20*t"))
         } else {
             Load::dead_pressure(&body, facets, formula("20*t"))
         };
