@@ -4,7 +4,7 @@ from importlib import import_module
 from types import ModuleType
 
 from carom._carom import Simulation, __version__
-from carom.analysis import Conserving, Dynamic, Newton, Theta
+from carom.analysis import Conserving, Dynamic, Newton, Static, Theta
 from carom.audit import Audit, audit
 from carom.body import Body
 from carom.checking import Check, check
@@ -17,12 +17,15 @@ from carom.errors import (
     MeshError,
 )
 from carom.io.history import read_history
+from carom.load import Force, Pressure, Traction
 from carom.material import Damping, LinearElastic, NeoHookean, SaintVenantKirchhoff
 from carom.mesh import Box, Disc, Rectangle
+from carom.motion import Displacement, Fixed, Prescribed
 from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere
 from carom.output import Output, Track
 from carom.result import Result
 from carom.scenario import Scenario
+from carom.signal import Table
 from carom.simulation import Progress, run
 
 __all__ = [
@@ -37,7 +40,10 @@ __all__ = [
     "ConvergenceError",
     "Damping",
     "Disc",
+    "Displacement",
     "Dynamic",
+    "Fixed",
+    "Force",
     "FrictionSolver",
     "InputError",
     "LinearElastic",
@@ -47,6 +53,8 @@ __all__ = [
     "Output",
     "Pair",
     "Plane",
+    "Prescribed",
+    "Pressure",
     "Progress",
     "Rectangle",
     "Result",
@@ -56,8 +64,11 @@ __all__ = [
     "SaintVenantKirchhoff",
     "Scenario",
     "Simulation",
+    "Static",
+    "Table",
     "Theta",
     "Track",
+    "Traction",
     "__version__",
     "audit",
     "check",

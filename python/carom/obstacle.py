@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, model_validator
+from typing_extensions import Self
 
 from carom.description import PER_DIMENSION, Description, Name, Positive, SpaceVector, Vector
+from carom.messages import problem
+from carom.motion import Displacement
 
 
 def _nonzero(vector: tuple[float, ...]) -> tuple[float, ...]:
@@ -15,7 +18,19 @@ def _nonzero(vector: tuple[float, ...]) -> tuple[float, ...]:
     return vector
 
 
-class Plane(Description):
+class _Obstacle(Description):
+    name: Name
+    velocity: Vector | None = None
+    motion: Displacement | None = None
+
+    @model_validator(mode="after")
+    def _moves_in_one_way(self) -> Self:
+        if self.velocity is not None and self.motion is not None:
+            raise problem("give velocity or motion, not both", key="motion")
+        return self
+
+
+class Plane(_Obstacle):
     """A rigid half-space bounded by a plane.
 
     Parameters
@@ -29,16 +44,16 @@ class Plane(Description):
     velocity
         Constant velocity [m/s], shape [D]; None is none. Its work on the bodies is in the ledger as
         ``prescribed``.
+    motion
+        Displacement over time, in place of a velocity.
     """
 
-    name: Name
     kind: Literal["plane"] = "plane"
     point: Vector
     normal: Annotated[Vector, AfterValidator(_nonzero)]
-    velocity: Vector | None = None
 
 
-class RigidSphere(Description):
+class RigidSphere(_Obstacle):
     """A rigid ball, in 2D a disc, or a ball-shaped cavity.
 
     Parameters
@@ -53,17 +68,17 @@ class RigidSphere(Description):
         Whether bodies are inside, and all around is solid.
     velocity
         Constant velocity [m/s], shape [D]; None is none.
+    motion
+        Displacement over time, in place of a velocity.
     """
 
-    name: Name
     kind: Literal["sphere"] = "sphere"
     centre: Vector
     radius: Positive
     cavity: Annotated[bool, Field(strict=True)] = False
-    velocity: Vector | None = None
 
 
-class RigidCylinder(Description):
+class RigidCylinder(_Obstacle):
     """A rigid cylinder without ends in 3D, or a bore of that shape.
 
     Parameters
@@ -80,18 +95,18 @@ class RigidCylinder(Description):
         Whether bodies are inside, and all around is solid.
     velocity
         Constant velocity [m/s], shape [3]; None is none.
+    motion
+        Displacement over time, in place of a velocity.
     """
 
-    name: Name
     kind: Literal["cylinder"] = "cylinder"
     point: SpaceVector
     axis: Annotated[SpaceVector, AfterValidator(_nonzero)]
     radius: Positive
     cavity: Annotated[bool, Field(strict=True)] = False
-    velocity: Vector | None = None
 
 
-class RigidBox(Description):
+class RigidBox(_Obstacle):
     """A rigid box with sides along the axes, in 2D a rectangle; bodies are outside.
 
     Nodes that come into it are pushed out of the nearest face; beyond its edges and corners they
@@ -107,13 +122,13 @@ class RigidBox(Description):
         Sides [m], shape [D].
     velocity
         Constant velocity [m/s], shape [D]; None is none.
+    motion
+        Displacement over time, in place of a velocity.
     """
 
-    name: Name
     kind: Literal["box"] = "box"
     corner: Vector
     size: Annotated[tuple[Positive, ...], PER_DIMENSION]
-    velocity: Vector | None = None
 
 
 Obstacle = Annotated[Plane | RigidSphere | RigidCylinder | RigidBox, Field(discriminator="kind")]

@@ -41,7 +41,7 @@ BAD = [
     ("analysis.time_step", 0.0, "analysis.time_step = 0.0: must be greater than 0"),
     ("analysis.time_step", -1e-3, "analysis.time_step = -0.001: must be greater than 0"),
     ("analysis.time_step", 2.0, "analysis.end_time = 1.0: must be at least one time_step (2 s)"),
-    ("analysis.kind", "static", "analysis.kind = \"static\": must be 'dynamic'"),
+    ("analysis.kind", "modal", "analysis.kind = \"modal\": must be one of 'dynamic', 'static'"),
     ("analysis.max_halvings", 1.5, "analysis.max_halvings = 1.5: must be an integer"),
     ("analysis.gravity", [0, -9.81, 0], "must have 2 components, not 3"),
     ("output.history_every", 1e-3, "output.history_every = 0.001: must be at least one analysis"),

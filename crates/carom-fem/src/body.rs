@@ -4,6 +4,8 @@ use carom_mesh::{Facet, Matrix, Mesh, Surface, Vector, tensor};
 use serde::{Deserialize, Serialize};
 
 use crate::elements::{CellState, Elements, StepForces, add_mass, add_scaled_diagonal_mass, elements};
+use crate::held::{Held, HeldDof};
+use crate::loose::is_loose;
 use crate::massless::{followers, redistributed};
 use crate::material::LawSpec;
 use crate::rigid::RigidMass;
@@ -84,6 +86,7 @@ pub struct Body<const D: usize> {
     damping_stiffness: Option<NodalMatrix<Matrix<D>>>,
     turns: bool,
     wave_speed: f64,
+    held: Held,
 }
 
 impl<const D: usize> Body<D> {
@@ -152,7 +155,9 @@ impl<const D: usize> Body<D> {
             massless_contact: spec.massless_contact,
             nodal_mass,
             turns,
+            held: Held::default(),
         };
+        body.hold(body.axis_nodes().into_iter().map(|node| HeldDof { node, component: 0 }));
         if spec.massless_contact {
             let stiffness = body.stiffness(&vec![Vector::zeros(); body.node_count()]);
             body.massless_stiffness = body
@@ -191,10 +196,29 @@ impl<const D: usize> Body<D> {
         self.mesh.nodes().len()
     }
 
-    /// Number of unknown displacements: those of the nodes that follow no other.
+    /// Number of unknown displacements: those of the nodes that follow no other, less what is held.
     #[must_use]
     pub fn dofs(&self) -> usize {
-        D * (self.node_count() - self.mesh.ties().len())
+        let masters = self.mesh.masters();
+        let held = self.held.dofs().iter().filter(|dof| masters[dof.node as usize] == dof.node).count();
+        D * (self.node_count() - self.mesh.ties().len()) - held
+    }
+
+    /// Holds more displacements. Of nodes that move alike all are to be named.
+    pub fn hold(&mut self, dofs: impl IntoIterator<Item = HeldDof>) {
+        self.held.add(self.mesh.nodes().len(), dofs);
+    }
+
+    /// The displacements that are not free.
+    #[must_use]
+    pub fn held(&self) -> &Held {
+        &self.held
+    }
+
+    /// Whether what is held leaves the body a rigid motion.
+    #[must_use]
+    pub fn is_loose(&self) -> bool {
+        is_loose(self)
     }
 
     /// Mass matrix [kg], one number per pair of nodes (mass is isotropic).

@@ -6,7 +6,10 @@
 mod body;
 mod elements;
 mod error;
+mod facets;
+mod held;
 mod hypothesis;
+mod loose;
 mod massless;
 pub mod material;
 mod quadrature;
@@ -17,5 +20,7 @@ pub mod sparse;
 pub use body::{Body, BodySpec, MassKind, RayleighDamping};
 pub use elements::{CellState, Elements, StepForces};
 pub use error::FemError;
+pub use facets::FacetPatch;
+pub use held::{Held, HeldDof};
 pub use hypothesis::{Formulation, Hypothesis};
 pub use rigid::RigidMass;

@@ -68,6 +68,17 @@ impl<const D: usize> Compliance<D> {
     }
 }
 
+/// What a direction in which a contact is held yields, in terms of the others.
+const HELD_COMPLIANCE: f64 = 1e-10;
+
+/// Whether a support holds anything of a node.
+fn is_held<const D: usize>(model: &Model<D>, node: usize) -> bool {
+    model.body_of_node.get(node).is_some_and(|&b| {
+        let b = &model.bodies[b as usize];
+        b.body.held().touches(node - b.first_node)
+    })
+}
+
 /// Writes W, q and μ of `contacts` to `problem`.
 ///
 /// `motion` is the nodal motion d that the step would make without reactions, `offsets` what the normal components lack of the
@@ -98,6 +109,7 @@ pub(crate) fn condense<const D: usize>(
         let mut q = row.relative(|n| motion[n]);
         q[0] += offsets[i];
         problem.q.push(q);
+        let held = row.stencil().any(|(n, _)| is_held(model, n));
         problem.w.push_row(contacts.iter().enumerate().filter_map(|(j, column)| {
             // Nodes of one body respond to one another; contacts that share no body do not couple.
             let mut block = Matrix::zeros();
@@ -116,6 +128,10 @@ pub(crate) fn condense<const D: usize>(
                     block += row.frame * turn * response * turn.transpose() * column.frame.transpose();
                     coupled = true;
                 }
+            }
+            if i == j && held {
+                // Where a support holds a node along its facet, no tangential force moves it: W would be singular.
+                block += Matrix::from_diagonal_element(HELD_COMPLIANCE * block.trace());
             }
             coupled.then_some((j, block))
         }));

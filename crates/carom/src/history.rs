@@ -88,6 +88,9 @@ impl<const D: usize> History<D> {
             ]
             .map(String::from),
         );
+        for m in &model.motions {
+            columns.extend(axes.iter().map(|a| format!("{}.force_{a}", m.name)));
+        }
         for t in &tracks {
             for quantity in ["u", "v", "vmid"] {
                 columns.extend(axes.iter().map(|a| format!("{}.{quantity}_{a}", t.name)));
@@ -192,6 +195,7 @@ impl<const D: usize> History<D> {
             since.blend,
             since.step_defect,
         ]);
+        state.support.iter().for_each(|force| self.rows.extend(force.iter()));
         for (t, trail) in self.tracks.iter().zip(&self.trails) {
             self.rows.extend(state.displacement[t.node].iter());
             self.rows.extend(state.velocity[t.node].iter());

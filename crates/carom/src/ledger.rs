@@ -31,7 +31,7 @@ impl Sum for Energies {
 
 /// What happened to the energy of a body in a step, or since the start [J]:
 ///
-/// ΔE_kinetic + ΔE_strain = external + contact − viscous − scheme + defect.
+/// ΔE_kinetic + ΔE_strain = external + prescribed + contact − viscous − scheme + defect.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct BodyLedger {
     /// Change of kinetic energy.
@@ -40,11 +40,13 @@ pub struct BodyLedger {
     pub strain: f64,
     /// Work of gravity and loads.
     pub external: f64,
+    /// Work of its supports, less that of the contacts that press on them.
+    pub prescribed: f64,
     /// Dissipated by damping.
     pub viscous: f64,
     /// Dissipated by the time scheme's own algebra.
     pub scheme: f64,
-    /// Received through contact: the work of the contact forces on the body.
+    /// Received through contact: the work of the contact forces on what of the body is free.
     pub contact: f64,
 }
 
@@ -52,7 +54,9 @@ impl BodyLedger {
     /// What the other terms do not explain [J].
     #[must_use]
     pub fn defect(&self) -> f64 {
-        self.kinetic + self.strain - self.external - self.contact + self.viscous + self.scheme
+        self.kinetic + self.strain - self.external - self.prescribed - self.contact
+            + self.viscous
+            + self.scheme
     }
 }
 
@@ -61,6 +65,7 @@ impl AddAssign for BodyLedger {
         self.kinetic += step.kinetic;
         self.strain += step.strain;
         self.external += step.external;
+        self.prescribed += step.prescribed;
         self.viscous += step.viscous;
         self.scheme += step.scheme;
         self.contact += step.contact;
@@ -78,7 +83,7 @@ pub struct Ledger {
     pub strain: f64,
     /// Work of gravity and loads.
     pub external: f64,
-    /// Work of prescribed motion: of obstacles that move.
+    /// Work of prescribed motion: of supports and of obstacles that move.
     pub prescribed: f64,
     /// Dissipated by friction: −Σ r_t·Δu_t ≥ 0.
     pub friction: f64,
@@ -122,7 +127,7 @@ pub struct PairLedger {
     pub friction: f64,
     /// Taken by normal reactions.
     pub normal_contact: f64,
-    /// Work of the prescribed motion of its obstacle.
+    /// Work of prescribed motion through its contacts: of its obstacle, or of supports that are pressed on.
     pub prescribed: f64,
     /// Whether there was a reaction.
     pub has_touched: bool,

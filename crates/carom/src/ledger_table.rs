@@ -19,7 +19,7 @@ impl LedgerTable {
         for (i, b) in books.bodies.iter().enumerate() {
             self.rows
                 .extend([time, i as f64, b.kinetic, b.strain, b.external, b.viscous, b.scheme, b.contact]);
-            self.rows.extend([none, none, none, b.defect()]);
+            self.rows.extend([none, none, b.prescribed, b.defect()]);
         }
         for (i, p) in books.pairs.iter().enumerate().filter(|(_, p)| p.has_touched) {
             self.rows.extend([time, (books.bodies.len() + i) as f64]);

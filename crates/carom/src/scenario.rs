@@ -1,5 +1,7 @@
 //! The scenario as data: what the case file and the Python objects describe. Field names are those of the case file.
 
+mod drive;
+
 use std::collections::BTreeMap;
 
 use carom_contact::Discretisation;
@@ -8,6 +10,8 @@ pub use carom_fem::{Formulation, Hypothesis};
 use carom_fem::{MassKind, RayleighDamping};
 use carom_friction::SolverKind;
 use serde::{Deserialize, Serialize};
+
+pub use drive::{Axis, Displacement, LoadEntry, LoadSpec, MotionEntry, MotionSpec};
 
 use crate::{ContactCondition, Scheme};
 
@@ -31,6 +35,12 @@ pub struct Scenario {
     /// Rigid obstacles.
     #[serde(default)]
     pub obstacles: Vec<ObstacleEntry>,
+    /// Forces on bodies.
+    #[serde(default)]
+    pub loads: Vec<LoadEntry>,
+    /// Prescribed motion of parts of bodies.
+    #[serde(default)]
+    pub motions: Vec<MotionEntry>,
     /// Contact.
     pub contact: ContactSpec,
 }
@@ -44,7 +54,8 @@ pub struct Analysis {
     pub end_time: f64,
     /// Length of a step [s].
     pub time_step: f64,
-    /// Time scheme.
+    /// Time scheme of a dynamic analysis.
+    #[serde(default = "none")]
     pub scheme: Scheme,
     /// Newton's iterations.
     pub newton: NewtonSpec,
@@ -55,11 +66,14 @@ pub struct Analysis {
 }
 
 /// Kinds of analysis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum AnalysisKind {
     /// Motion in time.
+    #[default]
     Dynamic,
+    /// Balance of forces, step by step.
+    Static,
 }
 
 /// When Newton's iterations stop.
@@ -236,6 +250,9 @@ pub struct ObstacleEntry {
     /// Velocity [m/s]; none if not given.
     #[serde(default)]
     pub velocity: Option<Vec<f64>>,
+    /// Displacement [m], in place of a velocity.
+    #[serde(default)]
+    pub motion: Option<Displacement>,
     /// Shape.
     #[serde(flatten)]
     pub shape: ObstacleShape,
@@ -367,6 +384,10 @@ pub struct PairEntry {
     /// Whether the two may touch at all.
     #[serde(default = "yes")]
     pub enabled: bool,
+}
+
+fn none() -> Scheme {
+    Scheme::Static
 }
 
 fn two() -> usize {

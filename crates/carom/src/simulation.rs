@@ -42,6 +42,8 @@ pub struct Simulation<const D: usize> {
     end_time: f64,
     steps: u64,
     step: u64,
+    /// How often the steps of a static analysis are halved at present.
+    halvings: u32,
     history_every: f64,
     history_rows: u64,
     last_recorded: Option<f64>,
@@ -277,6 +279,7 @@ impl<const D: usize> Simulation<D> {
             end_time: end,
             steps,
             step: 0,
+            halvings: 0,
             history_every: scenario.output.history_every,
             history_rows: 0,
             last_recorded: None,
@@ -455,6 +458,7 @@ impl<const D: usize> Simulation<D> {
             cross_checks,
             initial_energies,
             last_step,
+            halvings,
             ..
         } = self;
         let mut previous_time = state.time;
@@ -469,6 +473,7 @@ impl<const D: usize> Simulation<D> {
             length,
             work,
             &mut failed,
+            halvings,
             |state, report, work| {
                 books.add(report.ledger, &work.bodies, work.groups.iter().map(|g| g.ledger));
                 books.set_changes(initial_energies, &state.body_energies);

@@ -39,6 +39,8 @@ pub struct State<const D: usize> {
     pub contact_force: Vec<Vector<D>>,
     /// What friction has dissipated at every node since the start [J], half of it on either side of a contact.
     pub friction_energy: Vec<f64>,
+    /// What the supports of every motion pressed on their nodes in the last step [N].
+    pub support: Vec<Vector<D>>,
     /// Internal forces ∂E/∂u [N] at `displacement`, kept because every step starts with them.
     pub internal_force: Vec<Vector<D>>,
     /// Energies [J] at `displacement` and `velocity`.
@@ -51,7 +53,7 @@ pub struct State<const D: usize> {
 
 impl<const D: usize> State<D> {
     /// The state at t = 0 with these velocities of the nodes of all bodies, and the bodies in their reference configuration. Tied nodes start as their
-    /// masters do.
+    /// masters do, and what is prescribed as prescribed.
     #[must_use]
     pub fn initial(model: &Model<D>, mut velocity: Vec<Vector<D>>) -> Self {
         for b in &model.bodies {
@@ -60,7 +62,14 @@ impl<const D: usize> State<D> {
             }
         }
         assert_eq!(velocity.len(), model.node_count(), "one velocity per node");
-        velocity.extend(&model.obstacle_velocities);
+        for (i, b) in model.bodies.iter().enumerate() {
+            for (dof, driver) in b.body.held().dofs().iter().zip(model.drivers(i)) {
+                let component = dof.component as usize;
+                velocity[b.first_node + dof.node as usize][component] =
+                    driver.map_or(0.0, |k| model.signal(k, component, 0.0).rate);
+            }
+        }
+        velocity.extend(model.obstacle_motions.iter().map(|m| m.velocity(0.0)));
         let zeros = vec![Vector::zeros(); velocity.len()];
         let mut state = Self {
             time: 0.0,
@@ -69,6 +78,7 @@ impl<const D: usize> State<D> {
             reactions: Vec::new(),
             contact_force: zeros.clone(),
             friction_energy: vec![0.0; zeros.len()],
+            support: vec![Vector::zeros(); model.motions.len()],
             internal_force: zeros,
             energies: Energies::default(),
             body_energies: vec![Energies::default(); model.bodies.len()],
