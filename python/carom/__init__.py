@@ -17,7 +17,16 @@ from carom.errors import (
     MeshError,
 )
 from carom.io.history import read_history
-from carom.material import Damping, LinearElastic, NeoHookean, SaintVenantKirchhoff
+from carom.material import (
+    BlatzKo,
+    Damping,
+    LinearElastic,
+    MooneyRivlin,
+    NeoHookean,
+    Ogden,
+    SaintVenantKirchhoff,
+    Yeoh,
+)
 from carom.mesh import Disc, Rectangle
 from carom.obstacle import Plane
 from carom.output import Output, Track
@@ -27,6 +36,7 @@ from carom.simulation import Progress, run
 
 __all__ = [
     "Audit",
+    "BlatzKo",
     "Body",
     "CaromError",
     "CertificateError",
@@ -41,8 +51,10 @@ __all__ = [
     "InputError",
     "LinearElastic",
     "MeshError",
+    "MooneyRivlin",
     "NeoHookean",
     "Newton",
+    "Ogden",
     "Output",
     "Pair",
     "Plane",
@@ -54,6 +66,7 @@ __all__ = [
     "Simulation",
     "Theta",
     "Track",
+    "Yeoh",
     "__version__",
     "audit",
     "check",

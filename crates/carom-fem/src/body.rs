@@ -7,7 +7,8 @@ use crate::FemError;
 use crate::elements::{CellState, Elements, StepForces, add_mass, elements};
 use crate::massless::{followers, redistributed};
 use crate::material::{
-    Confined, LawSpec, LinearElastic, Material, NeoHookean, PointLaw, SaintVenantKirchhoff,
+    ByInvariants, ByStretches, Confined, Hyperelastic, LawSpec, LinearElastic, Material, NeoHookean,
+    PointLaw, SaintVenantKirchhoff,
 };
 use crate::rigid::RigidMass;
 use crate::sparse::{NodalMatrix, NodeGraph};
@@ -100,6 +101,16 @@ impl<const D: usize> Body<D> {
             }
             LawSpec::LinearElastic(c) => Self::of_law(mesh, surface, spec, LinearElastic::new(c)?),
             LawSpec::NeoHookean(c) => Self::of_law(mesh, surface, spec, NeoHookean::new(c)?),
+            LawSpec::MooneyRivlin(c) => {
+                Self::of_law(mesh, surface, spec, Hyperelastic(ByInvariants(c.checked()?)))
+            }
+            LawSpec::Yeoh(c) => Self::of_law(mesh, surface, spec, Hyperelastic(ByInvariants(c.checked()?))),
+            LawSpec::Ogden(c) => {
+                Self::of_law(mesh, surface, spec, Hyperelastic(ByStretches(c.clone().checked()?)))
+            }
+            LawSpec::BlatzKo(c) => {
+                Self::of_law(mesh, surface, spec, Hyperelastic(ByInvariants(c.checked()?)))
+            }
         }
     }
 

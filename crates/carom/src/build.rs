@@ -136,7 +136,7 @@ fn body(scenario: &Scenario, index: usize, entry: &BodyEntry) -> Result<Body<2>,
         _ => InputError::mesh(format!("{key}.mesh"), e.to_string()),
     })?;
     let spec = BodySpec {
-        law: material.law,
+        law: material.law.clone(),
         density: material.density,
         damping: material.damping,
         mass: entry.mass,

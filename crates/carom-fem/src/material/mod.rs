@@ -1,32 +1,50 @@
 //! Hyperelastic laws, written once in 3D. A new law is a file here, a line in [`LawSpec`] and
 //! one where [`crate::Body::new`] makes it.
 
+mod blatz_ko;
 #[cfg(test)]
 mod contract;
+mod discrete_gradient;
 mod elastic_constants;
+mod invariants;
 mod linear_elastic;
+mod mooney_rivlin;
 mod neo_hookean;
+mod ogden;
 mod point_law;
+pub(crate) mod ranges;
+#[cfg(test)]
+mod rubber_contract;
 mod saint_venant_kirchhoff;
+mod spectrum;
+mod strain_law;
+mod volumetric;
+mod yeoh;
 
 use std::fmt::Debug;
 
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
+pub use blatz_ko::BlatzKo;
 pub use elastic_constants::ElasticConstants;
+pub use invariants::{ByInvariants, InvariantEnergy, Jet};
 pub use linear_elastic::LinearElastic;
+pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;
+pub use ogden::Ogden;
 pub use point_law::{Confined, PointLaw};
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
+pub use spectrum::{ByStretches, Spectrum, StretchEnergy};
+pub use strain_law::{Hyperelastic, StrainLaw};
+pub use yeoh::Yeoh;
+
+use discrete_gradient::with_work;
 
 /// A second-order tensor in 3D.
 pub type Mat3 = Matrix3<f64>;
 /// The tangent A[i][J][k][L] = ∂P_iJ/∂F_kL [Pa] in D dimensions.
 pub type Tangent<const D: usize> = [[[[f64; D]; D]; D]; D];
-
-/// Below this change of strain the discrete gradient's correction, of its third order, is smaller than round-off.
-const SMALL_STRAIN: f64 = 1e-6;
 
 /// A hyperelastic law, as a function of the deformation gradient F in 3D.
 pub trait Material: Send + Sync + Debug {
@@ -51,14 +69,9 @@ pub trait Material: Send + Sync + Debug {
         mean.eigenvalues.apply(|x| *x = x.sqrt());
         let stretch = mean.recompose();
         let stress = carom_mesh::tensor::inverse(&stretch).0 * self.stress(&stretch);
-        let mut stress = (stress + stress.transpose()) * 0.5;
+        let stress = (stress + stress.transpose()) * 0.5;
         let change = (c1 - c0) * 0.5;
-        let size = change.norm_squared();
-        if size > SMALL_STRAIN * SMALL_STRAIN {
-            let missing = self.energy(f1) - self.energy(f0) - stress.dot(&change);
-            stress += change * (missing / size);
-        }
-        (f0 + f1) * 0.5 * stress
+        (f0 + f1) * 0.5 * with_work(&stress, &change, || self.energy(f1) - self.energy(f0))
     }
 
     /// The stresses [Pa] of a step from F₀ to F₁ that a blend of its start and end is made of, with F̄ = ½(F₀ + F₁):
@@ -78,7 +91,7 @@ pub trait Material: Send + Sync + Debug {
 }
 
 /// A law and its constants, as the case file names them.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum LawSpec {
     /// Saint-Venant–Kirchhoff: large displacement, small strain.
@@ -87,4 +100,12 @@ pub enum LawSpec {
     LinearElastic(ElasticConstants),
     /// Compressible neo-Hookean: large strain.
     NeoHookean(ElasticConstants),
+    /// Mooney–Rivlin: rubber.
+    MooneyRivlin(MooneyRivlin),
+    /// Yeoh: rubber that stiffens.
+    Yeoh(Yeoh),
+    /// Ogden: rubber by its principal stretches.
+    Ogden(Ogden),
+    /// Blatz–Ko: foam.
+    BlatzKo(BlatzKo),
 }
