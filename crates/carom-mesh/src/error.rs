@@ -58,6 +58,18 @@ pub enum MeshError {
         /// Index of the node.
         node: usize,
     },
+    /// A named set refers to a node or cell that does not exist.
+    #[error("the set {set:?} refers to {what} {index}, but the mesh has {count} (numbered from 0)")]
+    UnknownInSet {
+        /// Name of the set.
+        set: String,
+        /// Node or cell.
+        what: &'static str,
+        /// What it refers to.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
     /// The two sides to be tied do not fit together.
     #[error(
         "the sides across direction {direction} cannot be tied: their nodes are not opposite one another"

@@ -6,11 +6,13 @@ pub mod cell;
 mod error;
 pub mod generate;
 mod mesh;
+pub mod sets;
 mod surface;
 pub mod tensor;
 
 pub use cell::CellKind;
 pub use error::MeshError;
 pub use mesh::{CellBlock, Mesh, Tie};
+pub use sets::Sets;
 pub use surface::{Facet, Surface};
 pub use tensor::{Matrix, Vector};

@@ -1,4 +1,4 @@
-use crate::{CellKind, MeshError, Vector};
+use crate::{CellKind, MeshError, Sets, Vector};
 
 /// Cells of one kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,6 +31,7 @@ pub struct Mesh<const D: usize> {
     nodes: Vec<Vector<D>>,
     blocks: Vec<CellBlock>,
     ties: Vec<Tie>,
+    sets: Sets,
 }
 
 impl<const D: usize> Mesh<D> {
@@ -65,7 +66,7 @@ impl<const D: usize> Mesh<D> {
         }
         match used.iter().position(|&u| !u) {
             Some(node) => Err(MeshError::OrphanNode { node }),
-            None => Ok(Self { nodes, blocks, ties: Vec::new() }),
+            None => Ok(Self { nodes, blocks, ties: Vec::new(), sets: Sets::default() }),
         }
     }
 
@@ -92,6 +93,39 @@ impl<const D: usize> Mesh<D> {
                 Ok(self)
             }
         }
+    }
+
+    /// The same mesh with these named sets instead of its own.
+    ///
+    /// # Errors
+    /// If a set refers to a node or cell that is not there. A facet that is none of the mesh's does no harm.
+    pub fn with_sets(self, sets: Sets) -> Result<Self, MeshError> {
+        let (nodes, cells) = (self.nodes.len(), self.cell_count());
+        let facets = sets.facets.iter().map(|(name, set)| (name, set.iter().flatten().max(), nodes, "node"));
+        let known =
+            sets.nodes.iter().map(|(name, set)| (name, set.iter().max(), nodes, "node")).chain(facets);
+        let known = known.chain(sets.cells.iter().map(|(name, set)| (name, set.iter().max(), cells, "cell")));
+        for (name, largest, count, what) in known {
+            if let Some(&index) = largest.filter(|&&n| n as usize >= count) {
+                return Err(MeshError::UnknownInSet {
+                    set: name.clone(),
+                    what,
+                    index: index as usize,
+                    count,
+                });
+            }
+        }
+        Ok(self.with_sets_unchecked(sets))
+    }
+
+    pub(crate) fn with_sets_unchecked(self, sets: Sets) -> Self {
+        Self { sets, ..self }
+    }
+
+    /// The named sets.
+    #[must_use]
+    pub fn sets(&self) -> &Sets {
+        &self.sets
     }
 
     /// Reference positions of the nodes [m].
@@ -129,12 +163,15 @@ impl<const D: usize> Mesh<D> {
     /// Length of the diagonal of the bounding box [m].
     #[must_use]
     pub fn diameter(&self) -> f64 {
-        let (mut low, mut high) = (self.nodes[0], self.nodes[0]);
-        for x in &self.nodes {
-            low = low.inf(x);
-            high = high.sup(x);
-        }
+        let (low, high) = self.bounds();
         (high - low).norm()
+    }
+
+    /// The smallest and the largest coordinates of its nodes [m].
+    #[must_use]
+    pub fn bounds(&self) -> (Vector<D>, Vector<D>) {
+        let first = (self.nodes[0], self.nodes[0]);
+        self.nodes.iter().fold(first, |(low, high), x| (low.inf(x), high.sup(x)))
     }
 
     /// Length of the shortest edge between two nodes of a facet of a cell [m].

@@ -1,0 +1,138 @@
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::{Facet, Mesh, Surface, Vector};
+
+/// The name of the set that every mesh has: all its nodes, its whole boundary, all its cells.
+pub const ALL: &str = "all";
+
+/// Named parts of a mesh, as generators and mesh files give them. A name may stand for nodes, facets and cells at once.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Sets {
+    /// Nodes.
+    pub nodes: BTreeMap<String, Vec<u32>>,
+    /// Facets, each by its nodes in ascending order.
+    pub facets: BTreeMap<String, BTreeSet<Vec<u32>>>,
+    /// Cells, numbered block after block.
+    pub cells: BTreeMap<String, Vec<u32>>,
+}
+
+impl Sets {
+    /// Every name, sorted, with `"all"` in front.
+    #[must_use]
+    pub fn names(&self) -> Vec<&str> {
+        let named = self.nodes.keys().chain(self.facets.keys()).chain(self.cells.keys());
+        let named: BTreeSet<&str> = named.map(String::as_str).filter(|&name| name != ALL).collect();
+        std::iter::once(ALL).chain(named).collect()
+    }
+
+    /// Names of what facets can be taken of, sorted, with `"all"` in front.
+    #[must_use]
+    pub fn facet_names(&self) -> Vec<&str> {
+        std::iter::once(ALL)
+            .chain(self.facets.keys().map(String::as_str).filter(|&name| name != ALL))
+            .collect()
+    }
+}
+
+/// What identifies a facet whichever way it turns: its nodes in ascending order.
+#[must_use]
+pub fn facet_key(nodes: &[u32]) -> Vec<u32> {
+    let mut key = nodes.to_vec();
+    key.sort_unstable();
+    key
+}
+
+impl<const D: usize> Mesh<D> {
+    /// The nodes of the set `name`, ascending: its own, and those of its facets and cells. `None` if there is no such set.
+    #[must_use]
+    pub fn nodes_of(&self, name: &str) -> Option<Vec<u32>> {
+        if name == ALL {
+            return Some((0..self.nodes().len() as u32).collect());
+        }
+        let sets = self.sets();
+        let (nodes, facets, cells) = (sets.nodes.get(name), sets.facets.get(name), sets.cells.get(name));
+        if nodes.is_none() && facets.is_none() && cells.is_none() {
+            return None;
+        }
+        let mut all: BTreeSet<u32> = nodes.into_iter().flatten().copied().collect();
+        all.extend(facets.into_iter().flatten().flatten());
+        if let Some(cells) = cells {
+            let connectivity: Vec<&[u32]> = self.blocks().iter().flat_map(|b| b.cells()).collect();
+            all.extend(cells.iter().flat_map(|&c| connectivity[c as usize].iter().copied()));
+        }
+        Some(all.into_iter().collect())
+    }
+
+    /// The part of the boundary `surface` that the set `name` of facets covers. `None` if there is no such set of facets.
+    #[must_use]
+    pub fn surface_of(&self, name: &str, surface: &Surface) -> Option<Surface> {
+        if name == ALL {
+            return Some(surface.clone());
+        }
+        let set = self.sets().facets.get(name)?;
+        Some(surface.part(|f| set.contains(&facet_key(&f.nodes))))
+    }
+
+    /// The same mesh with one more set of facets: those of the boundary that pass `keep`. It replaces one of the same name.
+    #[must_use]
+    pub fn with_facet_set(self, name: &str, keep: impl Fn(&Facet) -> bool) -> Self {
+        let surface = Surface::of(&self);
+        let set = surface.facets().iter().filter(|f| keep(f)).map(|f| facet_key(&f.nodes)).collect();
+        let mut sets = self.sets().clone();
+        sets.facets.insert(name.to_string(), set);
+        self.with_sets_unchecked(sets)
+    }
+
+    /// The same mesh with its upright sides named: for each direction the side of the smallest and that of the largest coordinate.
+    #[must_use]
+    pub fn with_sides(mut self, names: [[&str; 2]; D]) -> Self {
+        let (low, high) = self.bounds();
+        let reach: Vector<D> = (high - low) * 1e-9;
+        for (axis, pair) in names.iter().enumerate() {
+            for (name, at) in pair.iter().zip([low[axis], high[axis]]) {
+                let nodes = self.nodes().to_vec();
+                let on = |n: &u32| (nodes[*n as usize][axis] - at).abs() <= reach[axis];
+                self = self.with_facet_set(name, |f| f.nodes.iter().all(on));
+            }
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{MeshError, generate};
+
+    #[test]
+    fn sides_of_a_box_hold_its_facets_and_their_nodes() {
+        let mesh = generate::grid([0.0, 1.0, 2.0], [1.0, 2.0, 3.0], [2, 3, 4]).expect("valid");
+        let mesh = mesh.with_sides([["left", "right"], ["front", "back"], ["bottom", "top"]]);
+        let surface = Surface::of(&mesh);
+        for (name, facets, axis, at) in [("left", 12, 0, 0.0), ("back", 8, 1, 3.0), ("top", 6, 2, 5.0)] {
+            let part = mesh.surface_of(name, &surface).expect("there");
+            assert_eq!(part.facets().len(), facets, "{name}");
+            let nodes = mesh.nodes_of(name).expect("there");
+            assert_eq!(nodes, part.nodes());
+            assert!(nodes.iter().all(|&n| mesh.nodes()[n as usize][axis] == at));
+        }
+        assert_eq!(mesh.sets().names(), ["all", "back", "bottom", "front", "left", "right", "top"]);
+        assert_eq!(mesh.nodes_of("lid"), None);
+        assert_eq!(mesh.surface_of("all", &surface), Some(surface));
+    }
+
+    #[test]
+    fn sets_that_refer_to_nothing_are_refused() {
+        let mesh = generate::grid([0.0, 0.0], [2.0, 1.0], [2, 1]).expect("valid");
+        let nodes = Sets { nodes: BTreeMap::from([("tip".into(), vec![6])]), ..Sets::default() };
+        let cells = Sets { cells: BTreeMap::from([("tip".into(), vec![2])]), ..Sets::default() };
+        for sets in [nodes, cells] {
+            assert!(matches!(
+                mesh.clone().with_sets(sets),
+                Err(MeshError::UnknownInSet { index: 6 | 2, .. })
+            ));
+        }
+        let good = Sets { cells: BTreeMap::from([("tip".into(), vec![1])]), ..Sets::default() };
+        assert_eq!(mesh.with_sets(good).expect("valid").nodes_of("tip"), Some(vec![1, 2, 4, 5]));
+    }
+}
