@@ -69,7 +69,12 @@ fn coinciding_stretches_are_handled_smoothly() {
     let mooney = ByInvariants(MooneyRivlin { c10: 0.4, c01: 0.1, bulk: 3.0 });
     let turn = nalgebra::Rotation3::from_scaled_axis([0.3, -0.7, 0.4].into()).into_inner();
     for offset in [0.0, 1e-12, 1e-9, 1e-7, 1e-6, 5e-6, 2e-5, 1e-4, 1e-2] {
-        for values in [[1.3, 1.3 * (1.0 + offset), 0.8], [1.0, 1.0 + offset, 1.0 - offset], [2.0, 2.0, 2.0], [0.3, 4.0, 0.3 + offset]] {
+        for values in [
+            [1.3, 1.3 * (1.0 + offset), 0.8],
+            [1.0, 1.0 + offset, 1.0 - offset],
+            [2.0, 2.0, 2.0],
+            [0.3, 4.0, 0.3 + offset],
+        ] {
             let c = turn * Mat3::from_diagonal(&values.into()) * turn.transpose();
             assert!((ogden.energy(&c) - mooney.energy(&c)).abs() < 1e-14);
             let ((s, a), (s_exact, exact)) = (ogden.elasticity(&c), mooney.elasticity(&c));
