@@ -3,8 +3,8 @@
 use proptest::prelude::*;
 
 use super::{
-    BlatzKo, ByInvariants, ByStretches, ElasticConstants, Hyperelastic, LinearElastic, Mat3, Material,
-    MooneyRivlin, NeoHookean, Ogden, SaintVenantKirchhoff, Yeoh,
+    BlatzKo, ByInvariants, ByStretches, ElasticConstants, Hyperelastic, J2Plasticity, LinearElastic, Mat3,
+    Material, MooneyRivlin, NeoHookean, Ogden, PlasticState, SaintVenantKirchhoff, Yeoh,
 };
 
 fn laws() -> Vec<Box<dyn Material>> {
@@ -16,6 +16,14 @@ fn laws() -> Vec<Box<dyn Material>> {
     // ½ Σ μ_p α_p = μ.
     let ogden = Ogden { mu: vec![0.8 * shear, 0.1 * shear, -0.3 * shear], alpha: vec![1.3, 3.6, -2.0], bulk };
     let blatz_ko = BlatzKo { shear, poisson: 0.33, fraction: 0.3 };
+    // Without flow it is Hencky's law; its flow has tests of its own.
+    let hencky = J2Plasticity {
+        elastic: constants,
+        yield_stress: 1e9,
+        hardening: 0.0,
+        saturation_stress: None,
+        saturation_rate: 0.0,
+    };
     vec![
         Box::new(SaintVenantKirchhoff::new(&constants).expect("valid")),
         Box::new(LinearElastic::new(&constants).expect("valid")),
@@ -23,6 +31,7 @@ fn laws() -> Vec<Box<dyn Material>> {
         Box::new(Hyperelastic(ByInvariants(mooney_rivlin.checked().expect("valid")))),
         Box::new(Hyperelastic(ByInvariants(yeoh.checked().expect("valid")))),
         Box::new(Hyperelastic(ByStretches(ogden.checked().expect("valid")))),
+        Box::new(hencky.checked().expect("valid").after(&PlasticState::default())),
         Box::new(Hyperelastic(ByInvariants(blatz_ko.checked().expect("valid")))),
     ]
 }

@@ -7,10 +7,13 @@ mod contract;
 mod discrete_gradient;
 mod elastic_constants;
 mod invariants;
+mod j2_plasticity;
 mod linear_elastic;
 mod mooney_rivlin;
 mod neo_hookean;
 mod ogden;
+#[cfg(test)]
+mod plasticity_contract;
 mod point_law;
 pub(crate) mod ranges;
 #[cfg(test)]
@@ -29,6 +32,7 @@ use serde::{Deserialize, Serialize};
 pub use blatz_ko::BlatzKo;
 pub use elastic_constants::ElasticConstants;
 pub use invariants::{ByInvariants, InvariantEnergy, Jet};
+pub use j2_plasticity::{Flow, J2Plasticity, PlasticState};
 pub use linear_elastic::LinearElastic;
 pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;

@@ -12,6 +12,11 @@ pub(crate) fn positive(name: &'static str, value: f64, remedy: &'static str) -> 
     check(name, value, value.is_finite() && value > 0.0, remedy)
 }
 
+/// Refuses what is less than zero.
+pub(crate) fn not_negative(name: &'static str, value: f64, remedy: &'static str) -> Result<(), FemError> {
+    check(name, value, value.is_finite() && value >= 0.0, remedy)
+}
+
 fn check(name: &'static str, value: f64, valid: bool, remedy: &'static str) -> Result<(), FemError> {
     if valid { Ok(()) } else { Err(FemError::MaterialConstant { name, value, remedy }) }
 }
