@@ -27,7 +27,7 @@ from carom.material import (
     SaintVenantKirchhoff,
     Yeoh,
 )
-from carom.mesh import Disc, Rectangle
+from carom.mesh import Box, Disc, Rectangle
 from carom.obstacle import Plane
 from carom.output import Output, Track
 from carom.result import Result
@@ -38,6 +38,7 @@ __all__ = [
     "Audit",
     "BlatzKo",
     "Body",
+    "Box",
     "CaromError",
     "CertificateError",
     "Check",
