@@ -31,7 +31,7 @@ impl Sum for Energies {
 
 /// What happened to the energy of a body in a step, or since the start [J]:
 ///
-/// ΔE_kinetic + ΔE_strain = external + contact − viscous − scheme + defect.
+/// ΔE_kinetic + ΔE_strain = external + contact − viscous − plastic − scheme + defect.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct BodyLedger {
     /// Change of kinetic energy.
@@ -40,8 +40,10 @@ pub struct BodyLedger {
     pub strain: f64,
     /// Work of gravity and loads.
     pub external: f64,
-    /// Dissipated by damping.
+    /// Dissipated by damping and viscosity.
     pub viscous: f64,
+    /// Plastic work ∫ σ_y dα.
+    pub plastic: f64,
     /// Dissipated by the time scheme's own algebra.
     pub scheme: f64,
     /// Received through contact: the work of the contact forces on the body.
@@ -52,7 +54,7 @@ impl BodyLedger {
     /// What the other terms do not explain [J].
     #[must_use]
     pub fn defect(&self) -> f64 {
-        self.kinetic + self.strain - self.external - self.contact + self.viscous + self.scheme
+        self.kinetic + self.strain - self.external - self.contact + self.viscous + self.plastic + self.scheme
     }
 }
 
@@ -62,6 +64,7 @@ impl AddAssign for BodyLedger {
         self.strain += step.strain;
         self.external += step.external;
         self.viscous += step.viscous;
+        self.plastic += step.plastic;
         self.scheme += step.scheme;
         self.contact += step.contact;
     }
@@ -69,7 +72,7 @@ impl AddAssign for BodyLedger {
 
 /// What happened to the energy in a step, or since the start [J]. Every term is computed from its own definition:
 ///
-/// ΔE_kinetic + ΔE_strain = external + prescribed − friction − viscous − scheme − normal_contact + defect.
+/// ΔE_kinetic + ΔE_strain = external + prescribed − friction − viscous − plastic − scheme − normal_contact + defect.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Ledger {
     /// Change of kinetic energy.
@@ -82,8 +85,10 @@ pub struct Ledger {
     pub prescribed: f64,
     /// Dissipated by friction: −Σ r_t·Δu_t ≥ 0.
     pub friction: f64,
-    /// Dissipated by damping: Δu·C v̄.
+    /// Dissipated by damping and viscosity: Δu·C v̄.
     pub viscous: f64,
+    /// Plastic work ∫ σ_y dα ≥ 0.
+    pub plastic: f64,
     /// Dissipated by the time scheme's own algebra (θ, ξ > ½).
     pub scheme: f64,
     /// Taken by normal reactions: −Σ r_n Δu_n.
@@ -97,6 +102,7 @@ impl Ledger {
         self.kinetic + self.strain - self.external - self.prescribed
             + self.friction
             + self.viscous
+            + self.plastic
             + self.scheme
             + self.normal_contact
     }
@@ -110,6 +116,7 @@ impl AddAssign for Ledger {
         self.prescribed += step.prescribed;
         self.friction += step.friction;
         self.viscous += step.viscous;
+        self.plastic += step.plastic;
         self.scheme += step.scheme;
         self.normal_contact += step.normal_contact;
     }

@@ -119,8 +119,10 @@ pub struct EnergySummary {
     pub strain: f64,
     /// Dissipated by friction.
     pub friction: f64,
-    /// Dissipated by damping.
+    /// Dissipated by damping and viscosity.
     pub viscous: f64,
+    /// Plastic work.
+    pub plastic: f64,
     /// Dissipated by the time scheme.
     pub scheme: f64,
     /// Taken by normal reactions.
@@ -590,6 +592,7 @@ impl<const D: usize> Simulation<D> {
                 strain: e.strain,
                 friction: l.friction,
                 viscous: l.viscous,
+                plastic: l.plastic,
                 scheme: l.scheme,
                 normal_contact: l.normal_contact,
                 prescribed: l.prescribed,
