@@ -6,7 +6,7 @@ pub struct Projection<'a, const D: usize> {
     /// The nodes that the point follows.
     pub nodes: &'a [u32],
     /// Their weights.
-    pub weights: [f64; cell::MAX_NODES],
+    pub weights: [f64; cell::MAX_FACET_NODES],
     /// The point [m].
     pub point: Vector<D>,
     /// Outward unit normal there.
@@ -38,13 +38,13 @@ pub fn project<'a, const D: usize>(
 ) -> Projection<'a, D> {
     let reference = facet.kind.reference();
     let n = facet.nodes.len();
-    let mut nodes = [Vector::zeros(); cell::MAX_NODES];
+    let mut nodes = [Vector::zeros(); cell::MAX_FACET_NODES];
     for (node, &a) in nodes.iter_mut().zip(&facet.nodes) {
         *node = position(a);
     }
     let mut xi = if facet.kind == CellKind::Tri3 { [1.0 / 3.0; 3] } else { [0.0; 3] };
-    let mut weights = [0.0; cell::MAX_NODES];
-    let mut gradients = [[0.0; 3]; cell::MAX_NODES];
+    let mut weights = [0.0; cell::MAX_FACET_NODES];
+    let mut gradients = [[0.0; 3]; cell::MAX_FACET_NODES];
     let mut tangents = [Vector::zeros(); 2];
     for _ in 0..MAX_STEPS {
         (reference.gradient)(&xi, &mut gradients[..n]);

@@ -4,13 +4,11 @@ use carom_mesh::{Matrix, Mesh, Surface, Vector, tensor};
 use serde::{Deserialize, Serialize};
 
 use crate::FemError;
-use crate::elements::{CellState, Elements, StepForces, add_mass, elements};
+use crate::elements::{CellState, Elements, StepForces, add_mass, add_scaled_diagonal_mass, elements};
 use crate::massless::{followers, redistributed};
-use crate::material::{
-    ByInvariants, ByStretches, Confined, Hyperelastic, LawSpec, LinearElastic, Material, NeoHookean,
-    PointLaw, SaintVenantKirchhoff,
-};
+use crate::material::LawSpec;
 use crate::rigid::RigidMass;
+use crate::shape_table::Cells;
 use crate::sparse::{NodalMatrix, NodeGraph};
 
 /// How the mass of a body is shared among its nodes.
@@ -20,7 +18,8 @@ pub enum MassKind {
     /// ∫ρ N_a N_b dV.
     #[default]
     Consistent,
-    /// Row sums of the consistent mass.
+    /// Row sums of the consistent mass; on quadratic cells, where these may be negative, its diagonal, scaled so that every
+    /// cell keeps its mass.
     Lumped,
 }
 
@@ -95,31 +94,6 @@ impl<const D: usize> Body<D> {
     /// # Errors
     /// As for [`Body::new`].
     pub fn with_contact_surface(mesh: Mesh<D>, surface: Surface, spec: &BodySpec) -> Result<Self, FemError> {
-        match &spec.law {
-            LawSpec::SaintVenantKirchhoff(c) => {
-                Self::of_law(mesh, surface, spec, SaintVenantKirchhoff::new(c)?)
-            }
-            LawSpec::LinearElastic(c) => Self::of_law(mesh, surface, spec, LinearElastic::new(c)?),
-            LawSpec::NeoHookean(c) => Self::of_law(mesh, surface, spec, NeoHookean::new(c)?),
-            LawSpec::MooneyRivlin(c) => {
-                Self::of_law(mesh, surface, spec, Hyperelastic(ByInvariants(c.checked()?)))
-            }
-            LawSpec::Yeoh(c) => Self::of_law(mesh, surface, spec, Hyperelastic(ByInvariants(c.checked()?))),
-            LawSpec::Ogden(c) => {
-                Self::of_law(mesh, surface, spec, Hyperelastic(ByStretches(c.clone().checked()?)))
-            }
-            LawSpec::BlatzKo(c) => {
-                Self::of_law(mesh, surface, spec, Hyperelastic(ByInvariants(c.checked()?)))
-            }
-        }
-    }
-
-    fn of_law<M: Material + Clone + 'static>(
-        mesh: Mesh<D>,
-        surface: Surface,
-        spec: &BodySpec,
-        law: M,
-    ) -> Result<Self, FemError> {
         let positive = |name, value: f64, remedy| {
             if value.is_finite() && value > 0.0 {
                 Ok(value)
@@ -137,18 +111,19 @@ impl<const D: usize> Body<D> {
             }
         }
         // What repeats itself along a line cannot turn.
+        let law = spec.law.point_law::<D>()?;
         let turns = law.is_objective() && mesh.ties().is_empty();
-        let law = Confined(law);
         let mass = mass_matrix(&mesh, &surface, spec)?;
         let graph = Arc::clone(mass.shared_graph());
         let mut blocks = Vec::new();
         let mut first_cell = 0;
         for block in mesh.blocks() {
-            blocks.push(elements(&law, &mesh, block, first_cell, spec.thickness, &graph)?);
+            let cells = Cells { mesh: &mesh, block, first: first_cell, thickness: spec.thickness };
+            blocks.push(elements(&law, &cells, &graph)?);
             first_cell += block.cells().len();
         }
         let nodal_mass = mass.row_sums();
-        let (_, tangent) = PointLaw::<D>::stress_and_tangent(&law, &Matrix::identity());
+        let (_, tangent) = law.stress_and_tangent(&Matrix::identity());
         let total_mass: f64 = nodal_mass.iter().sum();
         let mut body = Self {
             surface,
@@ -424,7 +399,12 @@ fn mass_matrix<const D: usize>(
     let mut mass = NodalMatrix::filled(&graph, 0.0);
     let mut first_cell = 0;
     for block in mesh.blocks() {
-        add_mass(mesh, block, first_cell, spec.density * spec.thickness, &mut mass)?;
+        let cells = Cells { mesh, block, first: first_cell, thickness: spec.thickness };
+        if spec.mass == MassKind::Lumped && block.kind.is_quadratic() {
+            add_scaled_diagonal_mass(&cells, spec.density, &mut mass)?;
+        } else {
+            add_mass(&cells, spec.density, &mut mass)?;
+        }
         first_cell += block.cells().len();
     }
     if spec.mass == MassKind::Lumped {

@@ -3,6 +3,19 @@ use carom_mesh::{CellBlock, Mesh, Vector, tensor};
 use crate::FemError;
 use crate::quadrature::{Integrand, rule};
 
+/// A block of cells in its mesh.
+#[derive(Debug, Clone, Copy)]
+pub struct Cells<'a, const D: usize> {
+    /// The mesh.
+    pub mesh: &'a Mesh<D>,
+    /// The block.
+    pub block: &'a CellBlock,
+    /// Number of its first cell in the mesh.
+    pub first: usize,
+    /// Thickness [m]; 1 in 3D.
+    pub thickness: f64,
+}
+
 /// Shape functions of a block of cells with `N` nodes, tabulated once at every quadrature point of every cell.
 #[derive(Debug, Clone)]
 pub struct ShapeTable<const D: usize, const N: usize> {
@@ -10,7 +23,7 @@ pub struct ShapeTable<const D: usize, const N: usize> {
     pub points_per_cell: usize,
     /// Gradients ∂N_a/∂X [1/m], cell by cell and point by point.
     pub gradients: Vec<[Vector<D>; N]>,
-    /// Weights times Jacobian [m^D].
+    /// Weights times Jacobian times thickness [m³].
     pub weights: Vec<f64>,
     /// Values N_a at the quadrature points of the reference cell.
     pub values: Vec<[f64; N]>,
@@ -20,16 +33,12 @@ pub struct ShapeTable<const D: usize, const N: usize> {
 const DEGENERATE: f64 = 1e-10;
 
 impl<const D: usize, const N: usize> ShapeTable<D, N> {
-    /// The table for `block`, whose cells are numbered from `first_cell` in `mesh`.
+    /// The table for `cells`.
     ///
     /// # Errors
     /// If a cell is inverted or degenerate.
-    pub fn new(
-        mesh: &Mesh<D>,
-        block: &CellBlock,
-        first_cell: usize,
-        integrand: Integrand,
-    ) -> Result<Self, FemError> {
+    pub fn new(cells: &Cells<'_, D>, integrand: Integrand) -> Result<Self, FemError> {
+        let Cells { mesh, block, first, thickness } = *cells;
         let reference = block.kind.reference();
         let points = rule(block.kind, integrand);
         let mut values = vec![[0.0; N]; points.len()];
@@ -56,7 +65,7 @@ impl<const D: usize, const N: usize> ShapeTable<D, N> {
                 let volume = det / size.powi(D as i32);
                 if volume.is_nan() || volume <= DEGENERATE {
                     return Err(FemError::InvertedCell {
-                        cell: first_cell + cell,
+                        cell: first + cell,
                         nodes: nodes.to_vec(),
                         at: mesh.nodes()[nodes[0] as usize].iter().copied().collect(),
                         volume,
@@ -66,7 +75,7 @@ impl<const D: usize, const N: usize> ShapeTable<D, N> {
                 table.gradients.push(std::array::from_fn(|a| {
                     inverse_transposed * Vector::<D>::from_fn(|j, _| local[a][j])
                 }));
-                table.weights.push(point.weight * det);
+                table.weights.push(point.weight * det * thickness);
             }
         }
         Ok(table)

@@ -1,5 +1,7 @@
 //! Every cell reproduces a constant strain exactly, whatever its shape, and its stiffness is the derivative of its force.
 
+use std::collections::BTreeMap;
+
 use carom_fem::material::{ElasticConstants, LawSpec};
 use carom_fem::{Body, BodySpec, MassKind, RayleighDamping};
 use carom_mesh::{CellBlock, CellKind, Matrix, Mesh, Vector, generate};
@@ -41,6 +43,34 @@ fn tetrahedra(mesh: &Mesh<3>) -> Mesh<3> {
         })
         .collect();
     Mesh::new(mesh.nodes().to_vec(), vec![CellBlock { kind: CellKind::Tet4, connectivity }]).expect("valid")
+}
+
+/// The same cells with the nodes of `kind`: on the middles of edges, sides and cells as these need.
+fn quadratic<const D: usize>(mesh: &Mesh<D>, kind: CellKind) -> Mesh<D> {
+    let linear = mesh.blocks()[0].kind;
+    let mut nodes = mesh.nodes().to_vec();
+    let mut middles: BTreeMap<Vec<u32>, u32> = BTreeMap::new();
+    let mut connectivity = Vec::new();
+    for cell in mesh.blocks()[0].cells() {
+        for xi in kind.reference().nodes {
+            let mut weights = [0.0; 8];
+            (linear.reference().shape)(xi, &mut weights[..cell.len()]);
+            let mut corners: Vec<u32> =
+                cell.iter().zip(weights).filter(|(_, w)| *w > 0.0).map(|(&n, _)| n).collect();
+            corners.sort_unstable();
+            let middle = || {
+                nodes.push(cell.iter().zip(weights).map(|(&n, w)| nodes[n as usize] * w).sum());
+                nodes.len() as u32 - 1
+            };
+            let node = if let [corner] = corners[..] {
+                corner
+            } else {
+                *middles.entry(corners).or_insert_with(middle)
+            };
+            connectivity.push(node);
+        }
+    }
+    Mesh::new(nodes, vec![CellBlock { kind, connectivity }]).expect("valid")
 }
 
 fn check<const D: usize>(mesh: Mesh<D>) {
@@ -91,11 +121,42 @@ fn check<const D: usize>(mesh: Mesh<D>) {
 #[test]
 fn every_cell_passes_the_patch_test() {
     let square = distorted(&generate::grid([0.0; 2], [1.0; 2], [3, 3]).expect("valid"));
-    check(generate::triangulate(&square).expect("valid"));
+    let triangles = generate::triangulate(&square).expect("valid");
+    check(quadratic(&triangles, CellKind::Tri6));
+    check(quadratic(&square, CellKind::Quad8));
+    check(quadratic(&square, CellKind::Quad9));
+    check(triangles);
     check(square);
     let cube = distorted(&generate::grid([0.0; 3], [1.0; 3], [3, 3, 3]).expect("valid"));
-    check(tetrahedra(&cube));
+    let cut = tetrahedra(&cube);
+    check(quadratic(&cut, CellKind::Tet10));
+    check(quadratic(&cube, CellKind::Hex20));
+    check(quadratic(&cube, CellKind::Hex27));
+    check(cut);
     check(cube);
+}
+
+/// Corners of quadratic cells have a lumped mass too, and no mass is lost.
+#[test]
+fn lumped_masses_are_positive_and_sum_to_that_of_the_body() {
+    let lumped = BodySpec { mass: MassKind::Lumped, ..spec() };
+    fn check<const D: usize>(mesh: Mesh<D>, spec: &BodySpec) {
+        let body = Body::new(mesh, spec).expect("valid");
+        assert!((body.total_mass() - 1.5).abs() < 1e-13);
+        let least = body.nodal_mass().iter().copied().fold(f64::INFINITY, f64::min);
+        assert!(least > 0.0, "{:?}: {least} kg", body.mesh().blocks()[0].kind);
+        let middle = body.centre(&vec![Vector::zeros(); body.node_count()]);
+        assert!((middle - Vector::from_element(0.5)).norm() < 1e-13);
+    }
+    let square = generate::grid([0.0; 2], [1.0; 2], [2, 2]).expect("valid");
+    check(quadratic(&generate::triangulate(&square).expect("valid"), CellKind::Tri6), &lumped);
+    check(quadratic(&square, CellKind::Quad8), &lumped);
+    check(quadratic(&square, CellKind::Quad9), &lumped);
+    check(square, &lumped);
+    let cube = generate::grid([0.0; 3], [1.0; 3], [2, 2, 2]).expect("valid");
+    check(quadratic(&tetrahedra(&cube), CellKind::Tet10), &lumped);
+    check(quadratic(&cube, CellKind::Hex20), &lumped);
+    check(quadratic(&cube, CellKind::Hex27), &lumped);
 }
 
 #[test]

@@ -1,5 +1,5 @@
 //! Hyperelastic laws, written once in 3D. A new law is a file here, a line in [`LawSpec`] and
-//! one where [`crate::Body::new`] makes it.
+//! one in [`LawSpec::point_law`].
 
 mod blatz_ko;
 #[cfg(test)]
@@ -25,10 +25,12 @@ mod volumetric;
 mod yeoh;
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
+use crate::FemError;
 pub use blatz_ko::BlatzKo;
 pub use elastic_constants::ElasticConstants;
 pub use invariants::{ByInvariants, InvariantEnergy, Jet};
@@ -112,4 +114,22 @@ pub enum LawSpec {
     Ogden(Ogden),
     /// Blatz–Ko: foam.
     BlatzKo(BlatzKo),
+}
+
+impl LawSpec {
+    /// The law as elements see it.
+    ///
+    /// # Errors
+    /// If a material constant is out of range.
+    pub fn point_law<const D: usize>(&self) -> Result<Arc<dyn PointLaw<D>>, FemError> {
+        Ok(match self {
+            Self::SaintVenantKirchhoff(c) => Arc::new(Confined(SaintVenantKirchhoff::new(c)?)),
+            Self::LinearElastic(c) => Arc::new(Confined(LinearElastic::new(c)?)),
+            Self::NeoHookean(c) => Arc::new(Confined(NeoHookean::new(c)?)),
+            Self::MooneyRivlin(c) => Arc::new(Confined(Hyperelastic(ByInvariants(c.checked()?)))),
+            Self::Yeoh(c) => Arc::new(Confined(Hyperelastic(ByInvariants(c.checked()?)))),
+            Self::Ogden(c) => Arc::new(Confined(Hyperelastic(ByStretches(c.clone().checked()?)))),
+            Self::BlatzKo(c) => Arc::new(Confined(Hyperelastic(ByInvariants(c.checked()?)))),
+        })
+    }
 }
