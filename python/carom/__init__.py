@@ -20,11 +20,13 @@ from carom.io.history import read_history
 from carom.material import (
     BlatzKo,
     Damping,
+    J2Plasticity,
     LinearElastic,
     MooneyRivlin,
     NeoHookean,
     Ogden,
     SaintVenantKirchhoff,
+    Viscosity,
     Yeoh,
 )
 from carom.mesh import Box, Disc, Rectangle
@@ -50,6 +52,7 @@ __all__ = [
     "Dynamic",
     "FrictionSolver",
     "InputError",
+    "J2Plasticity",
     "LinearElastic",
     "MeshError",
     "MooneyRivlin",
@@ -67,6 +70,7 @@ __all__ = [
     "Simulation",
     "Theta",
     "Track",
+    "Viscosity",
     "Yeoh",
     "__version__",
     "audit",

@@ -26,11 +26,30 @@ class Damping(Description):
     stiffness: NonNegative = 0.0
 
 
+class Viscosity(Description):
+    """Kelvin–Voigt viscosity: the stress S = 2η dev Ė + ζ tr(Ė) I beside that of the law.
+
+    Ė is the rate of the Green–Lagrange strain, or of the small strain if the law is
+    `linear-elastic`.
+
+    Parameters
+    ----------
+    shear
+        Shear viscosity η [Pa s].
+    bulk
+        Bulk viscosity ζ [Pa s].
+    """
+
+    shear: NonNegative = 0.0
+    bulk: NonNegative = 0.0
+
+
 class _Elastic(Description):
     young: Positive
     poisson: Annotated[Number, Field(gt=-1, lt=0.5)]
     density: Positive
     damping: Damping = Damping()
+    viscosity: Viscosity = Viscosity()
 
 
 class SaintVenantKirchhoff(_Elastic):
@@ -46,6 +65,8 @@ class SaintVenantKirchhoff(_Elastic):
         Mass per reference volume [kg/m³].
     damping
         Rayleigh damping, none by default.
+    viscosity
+        Kelvin–Voigt viscosity, none by default.
     """
 
     kind: Literal["saint-venant-kirchhoff"] = "saint-venant-kirchhoff"
@@ -64,6 +85,8 @@ class LinearElastic(_Elastic):
         Mass per reference volume [kg/m³].
     damping
         Rayleigh damping, none by default.
+    viscosity
+        Kelvin–Voigt viscosity, none by default.
     """
 
     kind: Literal["linear-elastic"] = "linear-elastic"
@@ -82,6 +105,8 @@ class NeoHookean(_Elastic):
         Mass per reference volume [kg/m³].
     damping
         Rayleigh damping, none by default.
+    viscosity
+        Kelvin–Voigt viscosity, none by default.
     """
 
     kind: Literal["neo-hookean"] = "neo-hookean"
@@ -102,6 +127,8 @@ class MooneyRivlin(Description):
         Mass per reference volume [kg/m³].
     damping
         Rayleigh damping, none by default.
+    viscosity
+        Kelvin–Voigt viscosity, none by default.
     """
 
     kind: Literal["mooney-rivlin"] = "mooney-rivlin"
@@ -110,6 +137,7 @@ class MooneyRivlin(Description):
     bulk: Positive
     density: Positive
     damping: Damping = Damping()
+    viscosity: Viscosity = Viscosity()
 
     @model_validator(mode="after")
     def _resists_shear(self) -> Self:
@@ -136,6 +164,8 @@ class Yeoh(Description):
         Mass per reference volume [kg/m³].
     damping
         Rayleigh damping, none by default.
+    viscosity
+        Kelvin–Voigt viscosity, none by default.
     """
 
     kind: Literal["yeoh"] = "yeoh"
@@ -145,6 +175,7 @@ class Yeoh(Description):
     bulk: Positive
     density: Positive
     damping: Damping = Damping()
+    viscosity: Viscosity = Viscosity()
 
 
 class Ogden(Description):
@@ -163,6 +194,8 @@ class Ogden(Description):
         Mass per reference volume [kg/m³].
     damping
         Rayleigh damping, none by default.
+    viscosity
+        Kelvin–Voigt viscosity, none by default.
     """
 
     kind: Literal["ogden"] = "ogden"
@@ -171,6 +204,7 @@ class Ogden(Description):
     bulk: Positive
     density: Positive
     damping: Damping = Damping()
+    viscosity: Viscosity = Viscosity()
 
     @model_validator(mode="after")
     def _resists_shear(self) -> Self:
@@ -204,6 +238,8 @@ class BlatzKo(Description):
         Mass per reference volume [kg/m³].
     damping
         Rayleigh damping, none by default.
+    viscosity
+        Kelvin–Voigt viscosity, none by default.
     """
 
     kind: Literal["blatz-ko"] = "blatz-ko"
@@ -212,9 +248,60 @@ class BlatzKo(Description):
     fraction: Annotated[Number, Field(ge=0, le=1)] = 0.0
     density: Positive
     damping: Damping = Damping()
+    viscosity: Viscosity = Viscosity()
+
+
+class J2Plasticity(_Elastic):
+    """Elastoplastic metal at large strain: von Mises' yield criterion, isotropic hardening.
+
+    Hencky's elasticity of the logarithmic elastic strain; the Kirchhoff stress is bounded by
+    σ_y(α) = σ₀ + Hα + (σ_∞ − σ₀)(1 − e^(−δα)), α the equivalent plastic strain. All plastic work
+    ∫σ_y dα counts as dissipated.
+
+    Parameters
+    ----------
+    young
+        Young's modulus [Pa].
+    poisson
+        Poisson's ratio, in (−1, 0.5).
+    yield_stress
+        Initial yield stress σ₀ [Pa].
+    hardening
+        Linear hardening H [Pa].
+    saturation_stress
+        Voce's saturation stress σ_∞ [Pa], not below the yield stress; None is the yield stress.
+    saturation_rate
+        Voce's rate of saturation δ.
+    density
+        Mass per reference volume [kg/m³].
+    damping
+        Rayleigh damping, none by default.
+    viscosity
+        Kelvin–Voigt viscosity, none by default.
+    """
+
+    kind: Literal["j2-plasticity"] = "j2-plasticity"
+    yield_stress: Positive
+    hardening: NonNegative = 0.0
+    saturation_stress: Positive | None = None
+    saturation_rate: NonNegative = 0.0
+
+    @model_validator(mode="after")
+    def _does_not_soften(self) -> Self:
+        if self.saturation_stress is not None and self.saturation_stress < self.yield_stress:
+            what = "the saturation stress cannot be below the yield stress"
+            raise problem(what, key="saturation_stress", value=self.saturation_stress)
+        return self
 
 
 Material = Annotated[
-    SaintVenantKirchhoff | LinearElastic | NeoHookean | MooneyRivlin | Yeoh | Ogden | BlatzKo,
+    SaintVenantKirchhoff
+    | LinearElastic
+    | NeoHookean
+    | MooneyRivlin
+    | Yeoh
+    | Ogden
+    | BlatzKo
+    | J2Plasticity,
     Field(discriminator="kind"),
 ]

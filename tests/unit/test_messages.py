@@ -48,6 +48,15 @@ BAD = [
     ),
     (
         "materials.elastic",
+        {
+            **{"kind": "j2-plasticity", "young": 1, "poisson": 0, "density": 1},
+            **{"yield_stress": 4, "saturation_stress": 3},
+        },
+        "materials.elastic.saturation_stress = 3: the saturation stress cannot be below the yield",
+    ),
+    ("materials.elastic.viscosity", {"shear": -1}, "viscosity.shear = -1: must be at least 0"),
+    (
+        "materials.elastic",
         {"kind": "blatz-ko", "shear": 1, "poisson": 0.5, "density": 1},
         "materials.elastic.poisson = 0.5: must be less than 0.5",
     ),

@@ -4,9 +4,11 @@ use carom_mesh::{Matrix, Mesh, Surface, Vector, tensor};
 use serde::{Deserialize, Serialize};
 
 use crate::FemError;
-use crate::elements::{CellState, Elements, StepForces, add_mass, add_scaled_diagonal_mass, elements};
+use crate::elements::{
+    CellState, Dashpots, Elements, StepForces, add_mass, add_scaled_diagonal_mass, dashpots, elements,
+};
 use crate::massless::{followers, redistributed};
-use crate::material::LawSpec;
+use crate::material::{LawSpec, Viscosity};
 use crate::rigid::RigidMass;
 use crate::shape_table::Cells;
 use crate::sparse::{NodalMatrix, NodeGraph};
@@ -49,6 +51,8 @@ pub struct BodySpec {
     pub density: f64,
     /// Damping.
     pub damping: RayleighDamping,
+    /// Viscosity.
+    pub viscosity: Viscosity,
     /// Mass matrix.
     pub mass: MassKind,
     /// Thickness in 2D [m]; 1 in 3D.
@@ -67,6 +71,7 @@ pub struct Body<const D: usize> {
     massless_contact: bool,
     graph: Arc<NodeGraph>,
     elements: Vec<Box<dyn Elements<D>>>,
+    dashpots: Vec<Box<dyn Dashpots<D>>>,
     mass: NodalMatrix<f64>,
     nodal_mass: Vec<f64>,
     massless_stiffness: Vec<f64>,
@@ -115,11 +120,15 @@ impl<const D: usize> Body<D> {
         let turns = law.is_objective() && mesh.ties().is_empty();
         let mass = mass_matrix(&mesh, &surface, spec)?;
         let graph = Arc::clone(mass.shared_graph());
-        let mut blocks = Vec::new();
+        spec.viscosity.check()?;
+        let (mut blocks, mut viscous) = (Vec::new(), Vec::new());
         let mut first_cell = 0;
         for block in mesh.blocks() {
             let cells = Cells { mesh: &mesh, block, first: first_cell, thickness: spec.thickness };
             blocks.push(elements(&law, &cells, &graph)?);
+            if spec.viscosity.is_active() {
+                viscous.push(dashpots(spec.viscosity, law.is_objective(), &cells, &graph)?);
+            }
             first_cell += block.cells().len();
         }
         let nodal_mass = mass.row_sums();
@@ -136,6 +145,7 @@ impl<const D: usize> Body<D> {
             mesh,
             graph,
             elements: blocks,
+            dashpots: viscous,
             mass,
             massless_stiffness: Vec::new(),
             massless_contact: spec.massless_contact,
@@ -310,6 +320,29 @@ impl<const D: usize> Body<D> {
                 *f += mv * self.damping.mass;
             }
         }
+    }
+
+    /// Whether anything resists velocities: damping or viscosity.
+    #[must_use]
+    pub fn is_damped(&self) -> bool {
+        self.damping.is_active() || !self.dashpots.is_empty()
+    }
+
+    /// Adds the force [N] of the material's viscosity in a step from `u0` to `u1` in `dt` [s] to `f`: its work is what the step
+    /// dissipates.
+    pub fn add_viscous_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], dt: f64, f: &mut [Vector<D>]) {
+        self.dashpots.iter().for_each(|d| d.add_force(u0, u1, dt, f));
+    }
+
+    /// The derivative of the viscous force by the velocities [N s/m] at `u`, if there is any viscosity.
+    #[must_use]
+    pub fn viscosity(&self, u: &[Vector<D>]) -> Option<NodalMatrix<Matrix<D>>> {
+        if self.dashpots.is_empty() {
+            return None;
+        }
+        let mut c = NodalMatrix::filled(&self.graph, Matrix::zeros());
+        self.dashpots.iter().for_each(|d| d.add_damping(u, &mut c));
+        Some(c)
     }
 
     /// Centre of mass of the deformed body [m].

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use carom_fem::material::{ElasticConstants, LawSpec};
+use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
 use carom_fem::{Body, BodySpec, MassKind, RayleighDamping};
 use carom_mesh::{CellBlock, CellKind, Matrix, Mesh, Vector, generate};
 
@@ -11,6 +11,7 @@ fn spec() -> BodySpec {
         law: LawSpec::SaintVenantKirchhoff(ElasticConstants { young: 2700.0, poisson: 0.33 }),
         density: 1.5,
         damping: RayleighDamping::default(),
+        viscosity: Viscosity::default(),
         mass: MassKind::Consistent,
         thickness: 1.0,
         massless_contact: false,

@@ -67,7 +67,7 @@ impl<const D: usize> ResidualScratch<D> {
         Self { force: zeros.clone(), velocity: zeros.clone(), viscous: zeros.clone(), product: zeros }
     }
 
-    /// C v̄ [N] as it was last computed; zero without damping.
+    /// C v̄ [N] as it was last computed; zero without damping and viscosity.
     pub fn viscous(&self) -> &[Vector<D>] {
         &self.viscous
     }
@@ -129,7 +129,7 @@ impl<'a, const D: usize> BodyStep<'a, D> {
             *a = self.gravity - (map.end_velocity(v, d) - v) / map.dt;
         }
         self.body.mass().multiply(&scratch.velocity, out);
-        if self.body.damping().is_active() {
+        if self.body.is_damped() {
             let viscous = self.viscous_force(scratch);
             out.iter_mut().zip(viscous).for_each(|(out, f)| *out -= f);
         }
@@ -167,14 +167,13 @@ impl<'a, const D: usize> BodyStep<'a, D> {
     /// Work of gravity and dissipation by damping over the step [J].
     pub fn external_and_viscous_work(&self, scratch: &mut ResidualScratch<D>) -> (f64, f64) {
         let external = self.gravity.dot(&self.body.mean(self.motion)) * self.body.total_mass();
-        let damped = self.body.damping().is_active();
-        let viscous = if damped { dot(self.motion, self.viscous_force(scratch)) } else { 0.0 };
+        let viscous = if self.body.is_damped() { dot(self.motion, self.viscous_force(scratch)) } else { 0.0 };
         (external, viscous)
     }
 
-    /// The viscous force C v̄ [N]; zero without damping.
+    /// The viscous force C v̄ [N] of damping and viscosity; zero without.
     pub fn viscous_force<'s>(&self, scratch: &'s mut ResidualScratch<D>) -> &'s [Vector<D>] {
-        if self.body.damping().is_active() {
+        if self.body.is_damped() {
             let ResidualScratch { velocity, viscous, product, .. } = scratch;
             for ((mean, d), v) in velocity.iter_mut().zip(self.motion).zip(self.velocity) {
                 *mean = self.map.mean_velocity(v, d);
@@ -183,6 +182,7 @@ impl<'a, const D: usize> BodyStep<'a, D> {
                 velocity[n] = self.motion[n] / self.map.dt;
             }
             self.body.damping_force(self.frame, velocity, viscous, product);
+            self.body.add_viscous_force(self.start, self.displacement, self.map.dt, viscous);
         }
         &scratch.viscous
     }

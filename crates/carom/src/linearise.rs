@@ -79,12 +79,17 @@ impl<const D: usize> BodyOperator<D> {
         let mass_coefficient = m + c * damping.mass;
         let mass: &NodalMatrix<f64> = body.mass();
         let damping_stiffness = body.damping_stiffness();
+        // The force of viscosity is that of the mean rate of the step, d/Δt, whatever the scheme.
+        let viscosity = body.viscosity(u);
         self.map = None;
         self.factor.factorize(|entry| {
             let mut block = stiffness.values[entry] * k
                 + Matrix::from_diagonal_element(mass.values[entry] * mass_coefficient);
             if let Some(k0) = damping_stiffness {
                 block += frame * k0.values[entry] * frame.transpose() * (c * damping.stiffness);
+            }
+            if let Some(viscosity) = &viscosity {
+                block += viscosity.values[entry] / map.dt;
             }
             block
         })?;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use carom_contact::Discretisation;
-use carom_fem::material::LawSpec;
+use carom_fem::material::{LawSpec, Viscosity};
 use carom_fem::{MassKind, RayleighDamping};
 use carom_friction::SolverKind;
 use serde::{Deserialize, Serialize};
@@ -106,6 +106,9 @@ pub struct MaterialSpec {
     /// Damping.
     #[serde(default)]
     pub damping: RayleighDamping,
+    /// Kelvin–Voigt viscosity.
+    #[serde(default)]
+    pub viscosity: Viscosity,
 }
 
 /// A deformable body.

@@ -239,7 +239,8 @@ SURFACE_POINTS = "surface.vtkhdf:VTKHDF/PointData"
 
 COLUMNS = [
     *("time", "kinetic", "strain", "total", "friction", "viscous", "plastic", "scheme"),
-    *("normal_contact", "external", "defect", "momentum_x", "angular_momentum", "a.x", "b.v_y", "a.spin"),
+    *("normal_contact", "external", "defect", "momentum_x", "angular_momentum"),
+    *("a.x", "b.v_y", "a.spin"),
     *("contacts", "min_gap", "normal_force", "certificate", "residual", "newton_iterations"),
     *("prescribed", "blend", "step_defect"),
     *("tip.u_x", "tip.v_y", "tip.vmid_x"),

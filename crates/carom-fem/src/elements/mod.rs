@@ -1,6 +1,7 @@
 //! What cells store, how they resist and what they weigh.
 
 mod block;
+mod dashpots;
 mod kinematics;
 mod mass;
 
@@ -10,10 +11,12 @@ use std::sync::Arc;
 use carom_mesh::{CellKind, Matrix, Vector};
 
 use crate::FemError;
-use crate::material::{Mat3, PointLaw};
+use crate::material::{Mat3, PointLaw, Viscosity};
 use crate::shape_table::Cells;
 use crate::sparse::{NodalMatrix, NodeGraph};
 use block::{Block, Grid};
+pub use dashpots::Dashpots;
+use dashpots::ViscousBlock;
 use kinematics::Solid;
 pub use mass::{add_mass, add_scaled_diagonal_mass};
 
@@ -97,5 +100,20 @@ pub fn elements<const D: usize>(
     let law = Arc::clone(law);
     Ok(with_node_count!(cells.block.kind, N => {
         Box::new(Block::<D, D, N, Solid> { law, grid: Grid::new(cells, graph)? })
+    }))
+}
+
+/// The viscous resistance of `cells`; `objective` says whether strains are large.
+///
+/// # Errors
+/// If a cell is inverted or degenerate.
+pub fn dashpots<const D: usize>(
+    viscosity: Viscosity,
+    objective: bool,
+    cells: &Cells<'_, D>,
+    graph: &NodeGraph,
+) -> Result<Box<dyn Dashpots<D>>, FemError> {
+    Ok(with_node_count!(cells.block.kind, N => {
+        Box::new(ViscousBlock::<D, D, N, Solid> { viscosity, objective, grid: Grid::new(cells, graph)? })
     }))
 }

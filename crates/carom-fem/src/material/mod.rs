@@ -4,7 +4,6 @@
 mod blatz_ko;
 #[cfg(test)]
 mod contract;
-mod discrete_gradient;
 mod elastic_constants;
 mod invariants;
 mod j2_plasticity;
@@ -21,7 +20,9 @@ mod rubber_contract;
 mod saint_venant_kirchhoff;
 mod spectrum;
 mod strain_law;
+mod viscosity;
 mod volumetric;
+mod with_work;
 mod yeoh;
 
 use std::fmt::Debug;
@@ -40,12 +41,14 @@ pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;
 pub use ogden::Ogden;
 pub use point_law::{Confined, PointLaw};
+pub(crate) use point_law::{embed, restrict};
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 pub use spectrum::{ByStretches, Spectrum, StretchEnergy};
 pub use strain_law::{Hyperelastic, StrainLaw};
+pub use viscosity::Viscosity;
 pub use yeoh::Yeoh;
 
-use discrete_gradient::with_work;
+use with_work::with_work;
 
 /// A second-order tensor in 3D.
 pub type Mat3 = Matrix3<f64>;

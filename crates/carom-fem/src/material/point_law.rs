@@ -50,7 +50,7 @@ pub trait PointLaw<const D: usize>: Send + Sync + Debug {
 pub struct Confined<M>(pub M);
 
 #[inline]
-fn embed<const D: usize>(f: &Matrix<D>) -> Mat3 {
+pub(crate) fn embed<const D: usize>(f: &Matrix<D>) -> Mat3 {
     let mut full = Mat3::identity();
     for i in 0..D {
         for j in 0..D {
@@ -61,7 +61,7 @@ fn embed<const D: usize>(f: &Matrix<D>) -> Mat3 {
 }
 
 #[inline]
-fn restrict<const D: usize>(full: &Mat3) -> Matrix<D> {
+pub(crate) fn restrict<const D: usize>(full: &Mat3) -> Matrix<D> {
     Matrix::from_fn(|i, j| full[(i, j)])
 }
 

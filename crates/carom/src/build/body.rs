@@ -26,6 +26,7 @@ pub(super) fn body<const D: usize>(
         law: material.law.clone(),
         density: material.density,
         damping: material.damping,
+        viscosity: material.viscosity,
         mass: entry.mass,
         thickness: entry.thickness,
         massless_contact: scenario.contact.condition.is_massless() && may_touch(scenario, &entry.name),
