@@ -6,6 +6,7 @@ mod contact_problems;
 mod contact_search;
 mod invariance;
 mod ledger;
+mod materials;
 mod moving_obstacles;
 mod oscillator;
 mod periodic;

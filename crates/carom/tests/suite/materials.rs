@@ -1,10 +1,8 @@
 //! Every law in motion: impact with the scheme `conserving` keeps the books, and viscosity damps as it should.
 
-mod common;
-
+use crate::common::{body, disc, parse, scenario};
 use carom::{Simulation, Summary};
 use carom_mesh::Vector;
-use common::{body, disc, parse, scenario};
 use serde_json::{Value, json};
 
 /// Laws of large strain that no other test runs, about as stiff as the material of the paper's cylinders.
