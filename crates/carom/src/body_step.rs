@@ -1,9 +1,9 @@
 //! The equation of motion of one body over a step.
 
-use carom_fem::Body;
+use carom_fem::{Body, Worked};
 use carom_mesh::{Matrix, Vector};
 
-use crate::model::{Model, ModelBody};
+use crate::model::Model;
 use crate::state::{State, dot};
 use crate::{StepMap, StressRule};
 
@@ -13,6 +13,8 @@ pub(crate) const STEADYING: f64 = 0.1;
 /// Where a step stands: the part of one body of a state, of its guess for the end, and of what stays fixed in between.
 pub(crate) struct BodyStep<'a, const D: usize> {
     pub body: &'a Body<D>,
+    /// The body with the history of its material at the start.
+    pub worked: Worked<'a, D>,
     pub map: &'a StepMap,
     gravity: &'a Vector<D>,
     /// Frame of the body in this step.
@@ -74,19 +76,21 @@ impl<const D: usize> ResidualScratch<D> {
 }
 
 impl<'a, const D: usize> BodyStep<'a, D> {
-    /// The part of body `b` with its `pose`; `motion` and `displacement` are those of the whole model.
+    /// The part of body `index` with its `pose`; `motion` and `displacement` are those of the whole model.
     pub fn new(
         model: &'a Model<D>,
-        b: &'a ModelBody<D>,
+        index: usize,
         map: &'a StepMap,
         pose: &'a Pose<D>,
         state: &'a State<D>,
         motion: &'a [Vector<D>],
         displacement: &'a [Vector<D>],
     ) -> Self {
+        let b = &model.bodies[index];
         let nodes = b.nodes();
         Self {
             body: &b.body,
+            worked: b.body.after(&state.history[index]),
             map,
             gravity: &model.gravity,
             frame: &pose.frame,
@@ -109,13 +113,13 @@ impl<'a, const D: usize> BodyStep<'a, D> {
         let map = self.map;
         match map.stress {
             StressRule::Weighted => {
-                self.body.internal_force(self.displacement, &mut scratch.force);
+                self.worked.internal_force(self.displacement, &mut scratch.force);
                 for ((out, f0), f1) in out.iter_mut().zip(self.internal_force).zip(&scratch.force) {
                     *out -= f0 * (1.0 - map.xi) + f1 * map.xi;
                 }
             }
             StressRule::Conserving => {
-                self.body.conserving_force(self.start, self.displacement, &mut scratch.force);
+                self.worked.conserving_force(self.start, self.displacement, &mut scratch.force);
                 out.iter_mut().zip(&scratch.force).for_each(|(out, f)| *out -= f);
             }
         }

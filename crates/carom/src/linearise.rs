@@ -1,6 +1,6 @@
 //! The iteration matrix K̄ of each body.
 
-use carom_fem::Body;
+use carom_fem::{Body, Worked};
 use carom_fem::sparse::{Factor, NodalMatrix};
 use carom_mesh::{Matrix, Vector};
 
@@ -51,13 +51,13 @@ impl<const D: usize> BodyOperator<D> {
     /// reference configuration, turned, serves there: slower, but it never is.
     pub fn factorize(
         &mut self,
-        body: &Body<D>,
+        worked: &Worked<'_, D>,
         map: &StepMap,
         u: &[Vector<D>],
         frame: &Matrix<D>,
     ) -> Result<(), StepError> {
-        self.factorize_at(body, map, u, frame).or_else(|_| {
-            self.factorize_at(body, map, &vec![Vector::zeros(); u.len()], &Matrix::identity())?;
+        self.factorize_at(worked, map, u, frame).or_else(|_| {
+            self.factorize_at(&worked.body.after(&[]), map, &vec![Vector::zeros(); u.len()], &Matrix::identity())?;
             self.turn_to(frame);
             Ok(())
         })
@@ -65,12 +65,13 @@ impl<const D: usize> BodyOperator<D> {
 
     fn factorize_at(
         &mut self,
-        body: &Body<D>,
+        worked: &Worked<'_, D>,
         map: &StepMap,
         u: &[Vector<D>],
         frame: &Matrix<D>,
     ) -> Result<(), StepError> {
-        let mut stiffness = body.stiffness(u);
+        let body = worked.body;
+        let mut stiffness = worked.stiffness(u);
         for (&n, k) in body.massless().iter().zip(body.massless_stiffness()) {
             stiffness.values[body.graph().entry(n, n)] += Matrix::from_diagonal_element(STEADYING * k);
         }

@@ -568,7 +568,8 @@ impl<const D: usize> Simulation<D> {
                 .model
                 .bodies
                 .iter()
-                .flat_map(|b| b.body.cell_states(&s.displacement[b.nodes()]))
+                .zip(&s.history)
+                .flat_map(|(b, history)| b.body.after(history).cell_states(&s.displacement[b.nodes()]))
                 .collect(),
         }
     }

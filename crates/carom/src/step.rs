@@ -77,7 +77,7 @@ fn predict<const D: usize>(
             work.poses[i].drift = b.body.mean(v);
         }
         if !work.operators[i].fits(map) {
-            work.operators[i].factorize(&b.body, map, middle, &work.poses[i].frame)?;
+            work.operators[i].factorize(&b.body.after(&state.history[i]), map, middle, &work.poses[i].frame)?;
             work.factorisations += 1;
         }
         work.operators[i].turn_to(&work.poses[i].frame);
@@ -151,7 +151,7 @@ fn residuals<const D: usize>(
             continue;
         }
         let nodes = b.nodes();
-        let body_step = BodyStep::new(model, b, map, &work.poses[i], state, &work.motion, &next.displacement);
+        let body_step = BodyStep::new(model, i, map, &work.poses[i], state, &work.motion, &next.displacement);
         let residual = &mut work.residual[nodes.clone()];
         if method.is_blended() {
             work.blend.residual(model, i, &body_step, &mut work.residual_scratch[i], residual);
@@ -173,7 +173,7 @@ fn blend<const D: usize>(
     work: &mut Workspace<D>,
 ) {
     for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !work.progress[i].settled) {
-        let body_step = BodyStep::new(model, b, map, &work.poses[i], state, &work.motion, &next.displacement);
+        let body_step = BodyStep::new(model, i, map, &work.poses[i], state, &work.motion, &next.displacement);
         work.blend.measure(model, i, &body_step, &mut work.residual_scratch[i]);
     }
     measure_rubbing(model, method, state, map, work);
@@ -226,7 +226,7 @@ fn refactorize<const D: usize>(
         {
             *m = (u0 + u1) * 0.5;
         }
-        work.operators[i].factorize(&b.body, map, middle, &work.poses[i].frame)?;
+        work.operators[i].factorize(&b.body.after(&state.history[i]), map, middle, &work.poses[i].frame)?;
         work.factorisations += 1;
     }
     Ok(())
