@@ -1,17 +1,21 @@
 use std::sync::Arc;
 
-use carom_mesh::{Matrix, Mesh, Surface, Vector, tensor};
+use carom_mesh::{Facet, Matrix, Mesh, Surface, Vector, tensor};
 use serde::{Deserialize, Serialize};
 
-use crate::FemError;
 use crate::elements::{
     CellState, Dashpots, Elements, StepForces, add_mass, add_scaled_diagonal_mass, dashpots, elements,
 };
 use crate::massless::{followers, redistributed};
-use crate::material::{LawSpec, Viscosity};
+use crate::material::{LawSpec, PlasticState, Viscosity};
 use crate::rigid::RigidMass;
-use crate::shape_table::Cells;
+use crate::shape_table::{Cells, Depth, facet_area};
 use crate::sparse::{NodalMatrix, NodeGraph};
+use crate::worked::Worked;
+use crate::{FemError, Formulation, Hypothesis};
+
+/// A node whose radius is below this, relative to the size of the body, is on the axis.
+const ON_THE_AXIS: f64 = 1e-9;
 
 /// How the mass of a body is shared among its nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -55,7 +59,11 @@ pub struct BodySpec {
     pub viscosity: Viscosity,
     /// Mass matrix.
     pub mass: MassKind,
-    /// Thickness in 2D [m]; 1 in 3D.
+    /// What a 2D body is in space.
+    pub hypothesis: Hypothesis,
+    /// How the deformation follows from the displacements.
+    pub formulation: Formulation,
+    /// Thickness in 2D [m], but of a body of revolution; 1 in 3D.
     pub thickness: f64,
     /// Whether the mass of the nodes that may touch others moves inside; total mass, centre and inertia stay.
     pub massless_contact: bool,
@@ -72,11 +80,13 @@ pub struct Body<const D: usize> {
     graph: Arc<NodeGraph>,
     elements: Vec<Box<dyn Elements<D>>>,
     dashpots: Vec<Box<dyn Dashpots<D>>>,
+    /// Quadrature points that remember.
+    memory: usize,
     mass: NodalMatrix<f64>,
     nodal_mass: Vec<f64>,
     massless_stiffness: Vec<f64>,
     total_mass: f64,
-    thickness: f64,
+    depth: Depth,
     volume: f64,
     damping: RayleighDamping,
     damping_stiffness: Option<NodalMatrix<Matrix<D>>>,
@@ -115,29 +125,32 @@ impl<const D: usize> Body<D> {
                 return Err(FemError::MaterialConstant { name, value, remedy: "damping cannot be negative" });
             }
         }
-        // What repeats itself along a line cannot turn.
-        let law = spec.law.point_law::<D>()?;
-        let turns = law.is_objective() && mesh.ties().is_empty();
-        let mass = mass_matrix(&mesh, &surface, spec)?;
+        let depth = depth(&mesh, spec)?;
+        let law = spec.law.point_law::<D>(spec.hypothesis)?;
+        // What repeats itself along a line or around an axis cannot turn.
+        let turns = law.is_objective() && mesh.ties().is_empty() && depth != Depth::Revolution;
+        let mass = mass_matrix(&mesh, &surface, spec, depth)?;
         let graph = Arc::clone(mass.shared_graph());
         spec.viscosity.check()?;
         let (mut blocks, mut viscous) = (Vec::new(), Vec::new());
         let mut first_cell = 0;
         for block in mesh.blocks() {
-            let cells = Cells { mesh: &mesh, block, first: first_cell, thickness: spec.thickness };
-            blocks.push(elements(&law, &cells, &graph)?);
+            let cells = Cells { mesh: &mesh, block, first: first_cell, depth };
+            blocks.push(elements(spec, &cells, &graph)?);
             if spec.viscosity.is_active() {
-                viscous.push(dashpots(spec.viscosity, law.is_objective(), &cells, &graph)?);
+                viscous.push(dashpots(spec, law.is_objective(), &cells, &graph)?);
             }
             first_cell += block.cells().len();
         }
         let nodal_mass = mass.row_sums();
         let (_, tangent) = law.stress_and_tangent(&Matrix::identity());
         let total_mass: f64 = nodal_mass.iter().sum();
+        let memory = if law.remembers() { blocks.iter().map(|b| b.point_count()).sum() } else { 0 };
         let mut body = Self {
             surface,
+            memory,
             total_mass,
-            thickness: spec.thickness,
+            depth,
             volume: total_mass / spec.density,
             wave_speed: (tangent[0][0][0][0] / spec.density).sqrt(),
             damping: spec.damping,
@@ -226,10 +239,30 @@ impl<const D: usize> Body<D> {
         self.total_mass
     }
 
-    /// Thickness in 2D [m]; 1 in 3D.
+    /// Area of a facet of the reference configuration [m²]: its size times the depth of the body.
     #[must_use]
-    pub fn thickness(&self) -> f64 {
-        self.thickness
+    pub fn facet_area(&self, facet: &Facet) -> f64 {
+        facet_area(&self.mesh, facet, self.depth)
+    }
+
+    /// How far the body goes on beyond its D dimensions at a point [m]: the thickness in 2D, 2πR of a body of revolution, 1 in 3D.
+    #[must_use]
+    pub fn depth(&self, x: &Vector<D>) -> f64 {
+        self.depth.at(x)
+    }
+
+    /// Whether the body is one of revolution around x = 0.
+    #[must_use]
+    pub fn is_axisymmetric(&self) -> bool {
+        self.depth == Depth::Revolution
+    }
+
+    /// The nodes, ascending, that lie on the axis of a body of revolution: they have no radial displacement.
+    #[must_use]
+    pub fn axis_nodes(&self) -> Vec<u32> {
+        let limit = ON_THE_AXIS * self.mesh.diameter();
+        let on_axis = |n: &u32| self.is_axisymmetric() && self.mesh.nodes()[*n as usize][0] <= limit;
+        (0..self.node_count() as u32).filter(on_axis).collect()
     }
 
     /// Volume of the reference configuration [m³].
@@ -250,36 +283,48 @@ impl<const D: usize> Body<D> {
         self.damping
     }
 
-    /// Stored energy [J].
+    /// The blocks of elements.
+    pub(crate) fn elements(&self) -> &[Box<dyn Elements<D>>] {
+        &self.elements
+    }
+
+    /// The body with what its material remembers, quadrature point by quadrature point.
+    #[must_use]
+    pub fn after<'a>(&'a self, history: &'a [PlasticState]) -> Worked<'a, D> {
+        Worked::new(self, history)
+    }
+
+    /// What the material of a virgin body remembers: nothing in an elastic one, otherwise an entry per quadrature point.
+    #[must_use]
+    pub fn virgin(&self) -> Vec<PlasticState> {
+        vec![PlasticState::default(); self.memory]
+    }
+
+    /// Stored energy of the virgin body [J].
     #[must_use]
     pub fn strain_energy(&self, u: &[Vector<D>]) -> f64 {
-        self.elements.iter().map(|e| e.energy(u)).sum()
+        self.after(&[]).strain_energy(u)
     }
 
-    /// Writes the internal force ∂E/∂u [N] to `f`.
+    /// Writes the internal force ∂E/∂u [N] of the virgin body to `f`.
     pub fn internal_force(&self, u: &[Vector<D>], f: &mut [Vector<D>]) {
-        f.fill(Vector::zeros());
-        self.elements.iter().for_each(|e| e.add_internal_force(u, f));
+        self.after(&[]).internal_force(u, f);
     }
 
-    /// Writes the force [N] of a step from `u0` to `u1` whose work is the change of the strain energy to `f`.
+    /// Writes the force [N] of a step of the virgin body from `u0` to `u1` whose work is the change of the strain energy to `f`.
     pub fn conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]) {
-        f.fill(Vector::zeros());
-        self.elements.iter().for_each(|e| e.add_conserving_force(u0, u1, f));
+        self.after(&[]).conserving_force(u0, u1, f);
     }
 
-    /// Writes the forces [N] of a step from `u0` to `u1` that a blend of its stresses is made of.
+    /// Writes the forces [N] of a step of the virgin body from `u0` to `u1` that a blend of its stresses is made of.
     pub fn step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut StepForces<'_, D>) {
-        f.fill_with_zeros();
-        self.elements.iter().for_each(|e| e.add_step_forces(u0, u1, f));
+        self.after(&[]).step_forces(u0, u1, f);
     }
 
-    /// The stiffness ∂²E/∂u² [N/m] at `u`.
+    /// The stiffness ∂²E/∂u² [N/m] of the virgin body at `u`.
     #[must_use]
     pub fn stiffness(&self, u: &[Vector<D>]) -> NodalMatrix<Matrix<D>> {
-        let mut k = NodalMatrix::filled(&self.graph, Matrix::zeros());
-        self.elements.iter().for_each(|e| e.add_stiffness(u, &mut k));
-        k
+        self.after(&[]).stiffness(u)
     }
 
     /// The stiffness K₀ that damping is made of, if there is any.
@@ -288,12 +333,10 @@ impl<const D: usize> Body<D> {
         self.damping_stiffness.as_ref()
     }
 
-    /// Mean stress and energy density of every cell, in the order of the mesh.
+    /// Mean state of every cell of the virgin body, in the order of the mesh.
     #[must_use]
     pub fn cell_states(&self, u: &[Vector<D>]) -> Vec<CellState> {
-        let mut out = Vec::with_capacity(self.mesh.cell_count());
-        self.elements.iter().for_each(|e| e.cell_states(u, &mut out));
-        out
+        self.after(&[]).cell_states(u)
     }
 
     /// The viscous force C v [N], written to `f`; `frame` is the rotation of the body and `scratch` as long as `v`.
@@ -357,10 +400,21 @@ impl<const D: usize> Body<D> {
         self.turns
     }
 
-    /// Mean of a nodal vector, weighted by mass: the velocity of the centre of mass for `v`.
+    /// Mean of a nodal vector, weighted by mass: the velocity of the centre of mass for `v`. In a body of revolution what is
+    /// radial cancels around the axis.
     #[must_use]
     pub fn mean(&self, v: &[Vector<D>]) -> Vector<D> {
-        self.nodal_mass.iter().zip(v).fold(Vector::zeros(), |s, (&m, v)| s + v * m) / self.total_mass
+        let sum = self.nodal_mass.iter().zip(v).fold(Vector::zeros(), |s, (&m, v)| s + v * m);
+        self.resultant(sum) / self.total_mass
+    }
+
+    /// The resultant of a `sum` over the nodes: without its radial component in a body of revolution, where that cancels.
+    #[must_use]
+    pub fn resultant(&self, mut sum: Vector<D>) -> Vector<D> {
+        if self.is_axisymmetric() {
+            sum[0] = 0.0;
+        }
+        sum
     }
 
     /// The mean rotation R of the body: the polar factor of Σ m (x − c) ⊗ (X − C).
@@ -410,10 +464,14 @@ impl<const D: usize> Body<D> {
         [spin[0], spin[1], spin[2]]
     }
 
-    /// Angular momentum [kg m²/s] about the origin of a body with momentum density `mv` = M v [kg m/s] per node.
+    /// Angular momentum [kg m²/s] about the origin of a body with momentum density `mv` = M v [kg m/s] per node; none of a body
+    /// of revolution, in which it cancels.
     #[must_use]
     pub fn angular_momentum(&self, u: &[Vector<D>], mv: &[Vector<D>]) -> [f64; 3] {
         let mut sum = [0.0; 3];
+        if self.is_axisymmetric() {
+            return sum;
+        }
         for ((u, mv), x) in u.iter().zip(mv).zip(self.mesh.nodes()) {
             let moment = tensor::cross(&(x + u), mv);
             (0..3).for_each(|i| sum[i] += moment[i]);
@@ -422,17 +480,38 @@ impl<const D: usize> Body<D> {
     }
 }
 
+/// What the body is in space.
+fn depth<const D: usize>(mesh: &Mesh<D>, spec: &BodySpec) -> Result<Depth, FemError> {
+    match spec.hypothesis {
+        Hypothesis::PlaneStrain => Ok(Depth::Thickness(spec.thickness)),
+        Hypothesis::PlaneStress if D == 2 => Ok(Depth::Thickness(spec.thickness)),
+        Hypothesis::Axisymmetric if D == 2 => {
+            let limit = -ON_THE_AXIS * mesh.diameter();
+            match mesh.nodes().iter().position(|x| x[0] < limit) {
+                Some(node) => {
+                    let at = mesh.nodes()[node].iter().copied().collect();
+                    Err(FemError::NegativeRadius { node, at })
+                }
+                None => Ok(Depth::Revolution),
+            }
+        }
+        Hypothesis::PlaneStress => Err(FemError::Hypothesis { name: "plane-stress" }),
+        Hypothesis::Axisymmetric => Err(FemError::Hypothesis { name: "axisymmetric" }),
+    }
+}
+
 /// The mass matrix on the graph of the body.
 fn mass_matrix<const D: usize>(
     mesh: &Mesh<D>,
     surface: &Surface,
     spec: &BodySpec,
+    depth: Depth,
 ) -> Result<NodalMatrix<f64>, FemError> {
     let graph = Arc::new(NodeGraph::of(mesh));
     let mut mass = NodalMatrix::filled(&graph, 0.0);
     let mut first_cell = 0;
     for block in mesh.blocks() {
-        let cells = Cells { mesh, block, first: first_cell, thickness: spec.thickness };
+        let cells = Cells { mesh, block, first: first_cell, depth };
         if spec.mass == MassKind::Lumped && block.kind.is_quadratic() {
             add_scaled_diagonal_mass(&cells, spec.density, &mut mass)?;
         } else {

@@ -19,12 +19,16 @@ pub enum Integrand {
 }
 
 /// The rule for `kind`: Gauss products on squares and cubes, symmetric rules on simplices.
+///
+/// In a body of revolution integrands have the radius as a factor, and the strain of the hoops is made of the shape functions
+/// themselves. Gauss products are exact for all of it but N_a N_b/R.
 #[must_use]
-pub fn rule(kind: CellKind, integrand: Integrand) -> Vec<QuadraturePoint> {
+pub fn rule(kind: CellKind, integrand: Integrand, of_revolution: bool) -> Vec<QuadraturePoint> {
     let degree = kind.reference().degree;
-    let simplex_degree = match integrand {
-        Integrand::Gradients => 2 * (degree - 1),
-        Integrand::Values => 2 * degree,
+    let simplex_degree = match (integrand, of_revolution) {
+        (Integrand::Gradients, false) => 2 * (degree - 1),
+        (Integrand::Gradients, true) | (Integrand::Values, false) => 2 * degree,
+        (Integrand::Values, true) => 2 * degree + 1,
     };
     match kind {
         CellKind::Line2 | CellKind::Quad4 | CellKind::Hex8 => gauss_2(kind.reference().nodes),
@@ -128,7 +132,7 @@ mod tests {
             for (integrand, degree) in
                 [(Integrand::Gradients, 2 * (degree - 1)), (Integrand::Values, 2 * degree)]
             {
-                let points = rule(kind, integrand);
+                let points = rule(kind, integrand, false);
                 assert!(points.iter().all(|p| p.weight > 0.0));
                 let d = kind.dimension();
                 let is_simplex = kind.reference().nodes[0][0] == 0.0;

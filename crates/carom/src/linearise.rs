@@ -1,7 +1,7 @@
 //! The iteration matrix K̄ of each body.
 
-use carom_fem::{Body, Worked};
 use carom_fem::sparse::{Factor, NodalMatrix};
+use carom_fem::{Body, Worked};
 use carom_mesh::{Matrix, Vector};
 
 use crate::StepMap;
@@ -57,7 +57,12 @@ impl<const D: usize> BodyOperator<D> {
         frame: &Matrix<D>,
     ) -> Result<(), StepError> {
         self.factorize_at(worked, map, u, frame).or_else(|_| {
-            self.factorize_at(&worked.body.after(&[]), map, &vec![Vector::zeros(); u.len()], &Matrix::identity())?;
+            self.factorize_at(
+                &worked.body.after(&[]),
+                map,
+                &vec![Vector::zeros(); u.len()],
+                &Matrix::identity(),
+            )?;
             self.turn_to(frame);
             Ok(())
         })

@@ -77,7 +77,12 @@ fn predict<const D: usize>(
             work.poses[i].drift = b.body.mean(v);
         }
         if !work.operators[i].fits(map) {
-            work.operators[i].factorize(&b.body.after(&state.history[i]), map, middle, &work.poses[i].frame)?;
+            work.operators[i].factorize(
+                &b.body.after(&state.history[i]),
+                map,
+                middle,
+                &work.poses[i].frame,
+            )?;
             work.factorisations += 1;
         }
         work.operators[i].turn_to(&work.poses[i].frame);

@@ -4,13 +4,16 @@
 mod blatz_ko;
 #[cfg(test)]
 mod contract;
+pub(crate) mod discrete_gradient;
 mod elastic_constants;
+mod flowing;
 mod invariants;
 mod j2_plasticity;
 mod linear_elastic;
 mod mooney_rivlin;
 mod neo_hookean;
 mod ogden;
+mod plane_stress;
 #[cfg(test)]
 mod plasticity_contract;
 mod point_law;
@@ -22,7 +25,6 @@ mod spectrum;
 mod strain_law;
 mod viscosity;
 mod volumetric;
-mod with_work;
 mod yeoh;
 
 use std::fmt::Debug;
@@ -31,15 +33,17 @@ use std::sync::Arc;
 use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
-use crate::FemError;
+use crate::{FemError, Hypothesis};
 pub use blatz_ko::BlatzKo;
 pub use elastic_constants::ElasticConstants;
+pub use flowing::Flowing;
 pub use invariants::{ByInvariants, InvariantEnergy, Jet};
-pub use j2_plasticity::{Flow, J2Plasticity, PlasticState};
+pub use j2_plasticity::{Flow, J2Plasticity, PlasticState, Relative};
 pub use linear_elastic::LinearElastic;
 pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;
 pub use ogden::Ogden;
+pub use plane_stress::PlaneStress;
 pub use point_law::{Confined, PointLaw};
 pub(crate) use point_law::{embed, restrict};
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
@@ -47,8 +51,6 @@ pub use spectrum::{ByStretches, Spectrum, StretchEnergy};
 pub use strain_law::{Hyperelastic, StrainLaw};
 pub use viscosity::Viscosity;
 pub use yeoh::Yeoh;
-
-use with_work::with_work;
 
 /// A second-order tensor in 3D.
 pub type Mat3 = Matrix3<f64>;
@@ -72,25 +74,15 @@ pub trait Material: Send + Sync + Debug {
     /// Green–Lagrange strain E: S̄ = S(Ē) + [Δψ − S(Ē):ΔE] ΔE/|ΔE|², where Ē is the mean strain. Any objective law needs no more
     /// than this.
     fn discrete_stress(&self, f0: &Mat3, f1: &Mat3) -> Mat3 {
-        let (c0, c1) = (f0.transpose() * f0, f1.transpose() * f1);
-        // S(C̄) = G⁻¹ P(G) for any G with GᵀG = C̄: here the triangular one. A stretch by eigenvectors would lose six digits where
-        // stretches are nearly equal, and Newton's iterations would not converge.
-        let Some(root) = ((c0 + c1) * 0.5).cholesky() else { return Mat3::repeat(f64::NAN) };
-        let mean = root.l().transpose();
-        let stress = carom_mesh::tensor::inverse(&mean).0 * self.stress(&mean);
-        let stress = (stress + stress.transpose()) * 0.5;
-        let change = (c1 - c0) * 0.5;
-        (f0 + f1) * 0.5 * with_work(&stress, &change, || self.energy(f1) - self.energy(f0))
+        discrete_gradient::discrete_stress(f0, f1, |f| self.energy(f), |f| self.stress(f))
     }
 
     /// The stresses [Pa] of a step from F₀ to F₁ that a blend of its start and end is made of, with F̄ = ½(F₀ + F₁):
     /// the discrete stress P̄; the difference F̄ (S₁ − S₀), whose moment vanishes too; and P₁.
     fn step_stresses(&self, f0: &Mat3, f1: &Mat3) -> [Mat3; 3] {
-        let end = self.stress(f1);
-        let second_piola = |f: &Mat3, p: &Mat3| carom_mesh::tensor::inverse(f).0 * p;
-        let difference = second_piola(f1, &end) - second_piola(f0, &self.stress(f0));
-        let symmetric = (difference + difference.transpose()) * 0.5;
-        [self.discrete_stress(f0, f1), (f0 + f1) * 0.5 * symmetric, end]
+        let (start, end) = (self.stress(f0), self.stress(f1));
+        let difference = discrete_gradient::stress_difference(f0, &start, f1, &end);
+        [self.discrete_stress(f0, f1), difference, end]
     }
 
     /// Whether ψ(QF) = ψ(F) for every rotation Q. Only a law of small displacements is not.
@@ -117,22 +109,41 @@ pub enum LawSpec {
     Ogden(Ogden),
     /// Blatz–Ko: foam.
     BlatzKo(BlatzKo),
+    /// Elastoplasticity: metal.
+    #[serde(rename = "j2-plasticity")]
+    J2Plasticity(J2Plasticity),
 }
 
 impl LawSpec {
-    /// The law as elements see it.
+    /// The law as elements see it under a hypothesis; where that takes nothing from the law, the law itself.
     ///
     /// # Errors
     /// If a material constant is out of range.
-    pub fn point_law<const D: usize>(&self) -> Result<Arc<dyn PointLaw<D>>, FemError> {
+    pub fn point_law<const D: usize>(
+        &self,
+        hypothesis: Hypothesis,
+    ) -> Result<Arc<dyn PointLaw<D>>, FemError> {
+        fn under<const D: usize, M: Material + 'static>(
+            hypothesis: Hypothesis,
+            material: M,
+        ) -> Arc<dyn PointLaw<D>> {
+            match hypothesis {
+                Hypothesis::PlaneStress => Arc::new(PlaneStress(material)),
+                Hypothesis::PlaneStrain | Hypothesis::Axisymmetric => Arc::new(Confined(material)),
+            }
+        }
         Ok(match self {
-            Self::SaintVenantKirchhoff(c) => Arc::new(Confined(SaintVenantKirchhoff::new(c)?)),
-            Self::LinearElastic(c) => Arc::new(Confined(LinearElastic::new(c)?)),
-            Self::NeoHookean(c) => Arc::new(Confined(NeoHookean::new(c)?)),
-            Self::MooneyRivlin(c) => Arc::new(Confined(Hyperelastic(ByInvariants(c.checked()?)))),
-            Self::Yeoh(c) => Arc::new(Confined(Hyperelastic(ByInvariants(c.checked()?)))),
-            Self::Ogden(c) => Arc::new(Confined(Hyperelastic(ByStretches(c.clone().checked()?)))),
-            Self::BlatzKo(c) => Arc::new(Confined(Hyperelastic(ByInvariants(c.checked()?)))),
+            Self::SaintVenantKirchhoff(c) => under(hypothesis, SaintVenantKirchhoff::new(c)?),
+            Self::LinearElastic(c) => under(hypothesis, LinearElastic::new(c)?),
+            Self::NeoHookean(c) => under(hypothesis, NeoHookean::new(c)?),
+            Self::MooneyRivlin(c) => under(hypothesis, Hyperelastic(ByInvariants(c.checked()?))),
+            Self::Yeoh(c) => under(hypothesis, Hyperelastic(ByInvariants(c.checked()?))),
+            Self::Ogden(c) => under(hypothesis, Hyperelastic(ByStretches(c.clone().checked()?))),
+            Self::BlatzKo(c) => under(hypothesis, Hyperelastic(ByInvariants(c.checked()?))),
+            Self::J2Plasticity(_) if hypothesis == Hypothesis::PlaneStress => {
+                return Err(FemError::PlaneStress { what: "j2-plasticity" });
+            }
+            Self::J2Plasticity(c) => Arc::new(Flowing(c.checked()?)),
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use super::with_work::with_work;
+use super::discrete_gradient::with_work;
 use super::{Mat3, Material, Tangent};
 
 /// A stored energy ψ(C), with its derivatives by the Green–Lagrange strain E = ½(C − I).

@@ -28,6 +28,8 @@ pub(super) fn body<const D: usize>(
         damping: material.damping,
         viscosity: material.viscosity,
         mass: entry.mass,
+        hypothesis: entry.hypothesis,
+        formulation: entry.formulation,
         thickness: entry.thickness,
         massless_contact: scenario.contact.condition.is_massless() && may_touch(scenario, &entry.name),
     };
@@ -39,6 +41,8 @@ pub(super) fn body<const D: usize>(
         FemError::MaterialConstant { name, .. } => {
             InputError::new(format!("materials.{}.{name}", entry.material), e.to_string())
         }
+        FemError::Hypothesis { .. } | FemError::PlaneStress { .. } => InputError::new(format!("{key}.hypothesis"), e.to_string()),
+        FemError::Formulation { .. } => InputError::new(format!("{key}.formulation"), e.to_string()),
         _ => InputError::mesh(format!("{key}.mesh"), e.to_string()),
     })
 }

@@ -50,6 +50,11 @@ pub fn build<const D: usize>(
         Some(g) => vector("analysis.gravity", g)?,
         None => Vector::zeros(),
     };
+    if let Some(b) = bodies.iter().find(|b| b.body.is_axisymmetric() && gravity[0] != 0.0) {
+        let message =
+            format!("{:?}: gravity along x is across the axis of body {:?}", gravity.as_slice(), b.name);
+        return Err(InputError::new("analysis.gravity", message + "; let it point along y"));
+    }
     let velocities = scenario
         .obstacles
         .iter()
