@@ -23,6 +23,7 @@ def made_up_fields(time):
         "reaction": values * 1e-30,
         "stress": np.arange(12.0).reshape(2, 6) + time,
         "energy_density": np.array([time, 2 * time]),
+        "plastic_strain": np.array([0.0, time]),
     }
 
 

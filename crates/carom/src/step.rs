@@ -177,7 +177,7 @@ fn blend<const D: usize>(
     map: &StepMap,
     work: &mut Workspace<D>,
 ) {
-    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !work.progress[i].settled) {
+    for i in (0..model.bodies.len()).filter(|&i| !work.progress[i].settled) {
         let body_step = BodyStep::new(model, i, map, &work.poses[i], state, &work.motion, &next.displacement);
         work.blend.measure(model, i, &body_step, &mut work.residual_scratch[i]);
     }

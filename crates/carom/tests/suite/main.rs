@@ -10,5 +10,6 @@ mod materials;
 mod moving_obstacles;
 mod oscillator;
 mod periodic;
+mod plasticity;
 mod space;
 mod step_control;
