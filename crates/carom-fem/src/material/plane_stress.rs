@@ -93,3 +93,57 @@ impl<const D: usize, M: Material> PointLaw<D> for PlaneStress<M> {
         self.0.is_objective()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::{ElasticConstants, LinearElastic, NeoHookean, SaintVenantKirchhoff};
+
+    const CONSTANTS: ElasticConstants = ElasticConstants { young: 2700.0, poisson: 0.33 };
+
+    /// σ₁₁ = E/(1 − ν²) (ε₁₁ + ν ε₂₂), σ₁₂ = E/(1 + ν) ε₁₂ (Timoshenko & Goodier).
+    #[test]
+    fn small_strains_meet_the_moduli_of_a_sheet() {
+        let law = PlaneStress(LinearElastic::new(&CONSTANTS).expect("valid"));
+        let f = Matrix::<2>::new(1.0 + 2e-3, 3e-3, 3e-3, 1.0 - 1e-3);
+        let stress = PointLaw::<2>::stress(&law, &f);
+        let (e, nu) = (CONSTANTS.young, CONSTANTS.poisson);
+        assert!((stress[(0, 0)] - e / (1.0 - nu * nu) * (2e-3 - nu * 1e-3)).abs() < 1e-12);
+        assert!((stress[(0, 1)] - e / (1.0 + nu) * 3e-3).abs() < 1e-12);
+    }
+
+    /// A bar pulled by S₁₁ alone has E₁₁ = S₁₁/E, whatever its size, and E₂₂ = E₃₃ = −ν E₁₁.
+    #[test]
+    fn a_sheet_of_saint_venant_kirchhoff_in_uniaxial_tension_has_youngs_modulus() {
+        let law = PlaneStress(SaintVenantKirchhoff::new(&CONSTANTS).expect("valid"));
+        let strain = 0.4;
+        let stretch = |e: f64| (1.0 + 2.0 * e).sqrt();
+        let f = Matrix::<2>::new(stretch(strain), 0.0, 0.0, stretch(-0.33 * strain));
+        let stress = PointLaw::<2>::stress(&law, &f);
+        assert!((stress[(0, 0)] / f[(0, 0)] - 2700.0 * strain).abs() < 1e-11);
+        assert!(stress[(1, 1)].abs() < 1e-11);
+        assert!((PointLaw::<2>::energy(&law, &f) - 0.5 * 2700.0 * strain * strain).abs() < 1e-11);
+        assert!((law.in_space(&f)[(2, 2)] - stretch(-0.33 * strain)).abs() < 1e-15);
+    }
+
+    /// Rubber next to incompressible: P₃₃ as a function of F₃₃ falls beyond ln J = 2 μ/λ, where its own tangent leads astray.
+    #[test]
+    fn the_thickness_of_nearly_incompressible_rubber_is_found_at_large_stretches() {
+        let constants = ElasticConstants { poisson: 0.4999, ..CONSTANTS };
+        let law = PlaneStress(NeoHookean::new(&constants).expect("valid"));
+        for (a, b) in [(3.0, 2.0), (0.3, 0.5), (4.0, 0.2)] {
+            let f = law.in_space(&Matrix::<2>::new(a, 0.2, -0.1, b));
+            assert!(law.0.stress(&f)[(2, 2)].abs() < 1e-8, "{a} {b}");
+            assert!((f.determinant() - 1.0).abs() < 0.03, "{a} {b}: {}", f.determinant());
+        }
+    }
+
+    #[test]
+    fn where_no_thickness_frees_the_sheet_of_stress_the_energy_is_not_a_number() {
+        let law = PlaneStress(SaintVenantKirchhoff::new(&CONSTANTS).expect("valid"));
+        // E₃₃ = −ν/(1 − ν)(E₁₁ + E₂₂) = −0.98 is below −½.
+        let torn = Matrix::<2>::from_diagonal_element(2.0_f64.sqrt() + 0.4);
+        assert!(PointLaw::<2>::energy(&law, &torn).is_nan());
+        assert!(PointLaw::<2>::stress(&law, &torn).iter().all(|p| p.is_nan()));
+    }
+}

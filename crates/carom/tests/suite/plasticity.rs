@@ -36,7 +36,10 @@ fn plastic_work_and_friction_are_all_that_is_lost_in_an_impact() {
         case["contact"]["friction"] = json!(0.2);
         let (simulation, summary) = run(&case);
         let energy = summary.energy;
-        eprintln!("{formulation}: {energy:?} {} iterations {} factorisations {} retried", summary.newton_iterations, summary.factorisations, summary.retried_steps);
+        eprintln!(
+            "{formulation}: {energy:?} {} iterations {} factorisations {} retried",
+            summary.newton_iterations, summary.factorisations, summary.retried_steps
+        );
         assert!(energy.plastic > 0.2 * energy.initial, "{formulation}: {energy:?}");
         assert!(energy.friction > 0.0);
         assert!(energy.max_defect < 1e-9 * energy.initial, "{formulation}: defect {:e}", energy.max_defect);

@@ -3,7 +3,7 @@
 use carom::{ContactCondition, Group, Method, Model, ModelBody, NewtonRule, Scheme, State, Workspace, step};
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
 use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
-use carom_fem::{Body, BodySpec, MassKind, RayleighDamping};
+use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
 use carom_mesh::{Vector, generate};
 
@@ -22,6 +22,8 @@ fn block(name: &str, corner: [f64; 3], first_node: usize, cells: usize, massless
         damping: RayleighDamping::default(),
         viscosity: Viscosity::default(),
         mass: MassKind::Consistent,
+        hypothesis: Hypothesis::PlaneStrain,
+        formulation: Formulation::Standard,
         thickness: 1.0,
         massless_contact: massless,
     };

@@ -1,5 +1,4 @@
 //! Meshes of every cell and static solutions on them, for the tests of this crate.
-#![allow(dead_code)]
 
 use std::collections::BTreeMap;
 

@@ -1,15 +1,13 @@
 //! Every cell reproduces a constant strain exactly, whatever its shape; mass, frame and damping of a body.
 
-mod common;
-
 use carom_fem::material::LawSpec;
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_mesh::{CellBlock, CellKind, Matrix, Mesh, Vector, generate};
 
-use common::{PLANE, SPATIAL, distortion, elastic, grid};
+use crate::common::{PLANE, SPATIAL, distortion, elastic, grid};
 
 fn spec() -> BodySpec {
-    common::spec(LawSpec::SaintVenantKirchhoff(elastic()))
+    crate::common::spec(LawSpec::SaintVenantKirchhoff(elastic()))
 }
 
 fn check<const D: usize>(mesh: Mesh<D>, spec: &BodySpec) {

@@ -1,13 +1,11 @@
 //! Force and stiffness are derivatives of the energy, and the force of a step does its work, for every cell, hypothesis and
 //! formulation.
 
-mod common;
-
 use carom_fem::material::LawSpec;
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, StepForces};
 use carom_mesh::{CellKind, Matrix, Vector, tensor};
 
-use common::{PLANE, SPATIAL, distortion, elastic, grid, shaken, spec};
+use crate::common::{PLANE, SPATIAL, distortion, elastic, grid, shaken, spec};
 
 /// Away from the axis of a body of revolution.
 const RADIUS: f64 = 0.3;

@@ -1,0 +1,8 @@
+//! The tests of elements and bodies, in one program: generic code is compiled once.
+
+mod common;
+mod consistency;
+mod convergence;
+mod locking;
+mod patch_test;
+mod revolution;
