@@ -18,7 +18,18 @@ from carom.errors import (
 )
 from carom.io.history import read_history
 from carom.load import Force, Pressure, Traction
-from carom.material import Damping, LinearElastic, NeoHookean, SaintVenantKirchhoff
+from carom.material import (
+    BlatzKo,
+    Damping,
+    J2Plasticity,
+    LinearElastic,
+    MooneyRivlin,
+    NeoHookean,
+    Ogden,
+    SaintVenantKirchhoff,
+    Viscosity,
+    Yeoh,
+)
 from carom.mesh import Box, Disc, Rectangle
 from carom.motion import Displacement, Fixed, Prescribed
 from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere
@@ -30,6 +41,7 @@ from carom.simulation import Progress, run
 
 __all__ = [
     "Audit",
+    "BlatzKo",
     "Body",
     "Box",
     "CaromError",
@@ -46,10 +58,13 @@ __all__ = [
     "Force",
     "FrictionSolver",
     "InputError",
+    "J2Plasticity",
     "LinearElastic",
     "MeshError",
+    "MooneyRivlin",
     "NeoHookean",
     "Newton",
+    "Ogden",
     "Output",
     "Pair",
     "Plane",
@@ -69,6 +84,8 @@ __all__ = [
     "Theta",
     "Track",
     "Traction",
+    "Viscosity",
+    "Yeoh",
     "__version__",
     "audit",
     "check",

@@ -16,6 +16,7 @@ mod quadrature;
 mod rigid;
 mod shape_table;
 pub mod sparse;
+mod worked;
 
 pub use body::{Body, BodySpec, MassKind, RayleighDamping};
 pub use elements::{CellState, Elements, StepForces};
@@ -24,3 +25,4 @@ pub use facets::FacetPatch;
 pub use held::{Held, HeldDof};
 pub use hypothesis::{Formulation, Hypothesis};
 pub use rigid::RigidMass;
+pub use worked::Worked;

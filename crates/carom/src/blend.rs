@@ -108,7 +108,7 @@ impl<const D: usize> Blend<D> {
             &mut self.end[nodes.clone()],
         );
         let mut forces = StepForces { conserving, difference, end };
-        body.step_forces(step.start, step.displacement, &mut forces);
+        step.worked.step_forces(step.start, step.displacement, &mut forces);
         let StepForces { conserving, difference, end } = forces;
         let viscous = step.viscous_force(scratch);
         let (middle, arms) = (&mut self.middle[nodes.clone()], &mut self.arms[nodes]);

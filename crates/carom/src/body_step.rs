@@ -1,10 +1,10 @@
 //! The equation of motion of one body over a step.
 
-use carom_fem::Body;
+use carom_fem::{Body, Worked};
 use carom_mesh::{Matrix, Vector};
 
 use crate::drive::BodyDrive;
-use crate::model::{Model, ModelBody};
+use crate::model::Model;
 use crate::state::{State, dot};
 use crate::{StepMap, StressRule};
 
@@ -14,6 +14,8 @@ pub(crate) const STEADYING: f64 = 0.1;
 /// Where a step stands: the part of one body of a state, of its guess for the end, and of what stays fixed in between.
 pub(crate) struct BodyStep<'a, const D: usize> {
     pub body: &'a Body<D>,
+    /// The body with the history of its material at the start.
+    pub worked: Worked<'a, D>,
     pub map: &'a StepMap,
     gravity: &'a Vector<D>,
     /// Loads and prescribed velocities.
@@ -70,17 +72,17 @@ impl<const D: usize> ResidualScratch<D> {
         Self { force: zeros.clone(), velocity: zeros.clone(), viscous: zeros.clone(), product: zeros }
     }
 
-    /// C v̄ [N] as it was last computed; zero without damping.
+    /// C v̄ [N] as it was last computed; zero without damping and viscosity.
     pub fn viscous(&self) -> &[Vector<D>] {
         &self.viscous
     }
 }
 
 impl<'a, const D: usize> BodyStep<'a, D> {
-    /// The part of body `b` with its `pose` and `drive`; `motion` and `displacement` are those of the whole model.
+    /// The part of body `index` with its `pose` and `drive`; `motion` and `displacement` are those of the whole model.
     pub fn new(
         model: &'a Model<D>,
-        b: &'a ModelBody<D>,
+        index: usize,
         map: &'a StepMap,
         pose: &'a Pose<D>,
         drive: &'a BodyDrive<D>,
@@ -88,9 +90,11 @@ impl<'a, const D: usize> BodyStep<'a, D> {
         motion: &'a [Vector<D>],
         displacement: &'a [Vector<D>],
     ) -> Self {
+        let b = &model.bodies[index];
         let nodes = b.nodes();
         Self {
             body: &b.body,
+            worked: b.body.after(&state.history[index]),
             map,
             gravity: &model.gravity,
             drive,
@@ -114,13 +118,13 @@ impl<'a, const D: usize> BodyStep<'a, D> {
         let map = self.map;
         match map.stress {
             StressRule::Weighted => {
-                self.body.internal_force(self.displacement, &mut scratch.force);
+                self.worked.internal_force(self.displacement, &mut scratch.force);
                 for ((out, f0), f1) in out.iter_mut().zip(self.internal_force).zip(&scratch.force) {
                     *out -= f0 * (1.0 - map.xi) + f1 * map.xi;
                 }
             }
             StressRule::Conserving => {
-                self.body.conserving_force(self.start, self.displacement, &mut scratch.force);
+                self.worked.conserving_force(self.start, self.displacement, &mut scratch.force);
                 out.iter_mut().zip(&scratch.force).for_each(|(out, f)| *out -= f);
             }
         }
@@ -138,7 +142,7 @@ impl<'a, const D: usize> BodyStep<'a, D> {
         });
         self.body.mass().multiply(&scratch.velocity, out);
         out.iter_mut().zip(&self.drive.mean).for_each(|(out, f)| *out += f);
-        if self.body.damping().is_active() {
+        if self.body.is_damped() {
             let viscous = self.viscous_force(scratch);
             out.iter_mut().zip(viscous).for_each(|(out, f)| *out -= f);
         }
@@ -201,14 +205,13 @@ impl<'a, const D: usize> BodyStep<'a, D> {
     pub fn external_and_viscous_work(&self, scratch: &mut ResidualScratch<D>) -> (f64, f64) {
         let mut external = self.gravity.dot(&self.body.mean(self.motion)) * self.body.total_mass();
         external += self.drive.mean.iter().zip(self.motion).map(|(f, d)| f.dot(d)).sum::<f64>();
-        let damped = self.body.damping().is_active();
-        let viscous = if damped { dot(self.motion, self.viscous_force(scratch)) } else { 0.0 };
+        let viscous = if self.body.is_damped() { dot(self.motion, self.viscous_force(scratch)) } else { 0.0 };
         (external, viscous)
     }
 
-    /// The viscous force C v̄ [N]; zero without damping.
+    /// The viscous force C v̄ [N] of damping and viscosity; zero without.
     pub fn viscous_force<'s>(&self, scratch: &'s mut ResidualScratch<D>) -> &'s [Vector<D>] {
-        if self.body.damping().is_active() {
+        if self.body.is_damped() {
             let ResidualScratch { velocity, viscous, product, .. } = scratch;
             for ((mean, d), v) in velocity.iter_mut().zip(self.motion).zip(self.velocity) {
                 *mean = self.map.mean_velocity(v, d);
@@ -220,6 +223,7 @@ impl<'a, const D: usize> BodyStep<'a, D> {
                 self.each_held(|n, i, _| velocity[n][i] = self.motion[n][i] / self.map.dt);
             }
             self.body.damping_force(self.frame, velocity, viscous, product);
+            self.body.add_viscous_force(self.start, self.displacement, self.map.dt, viscous);
         }
         &scratch.viscous
     }

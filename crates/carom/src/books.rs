@@ -45,6 +45,7 @@ pub(crate) fn commit<const D: usize>(
         report.ledger.external += body.external;
         report.ledger.prescribed += body.prescribed;
         report.ledger.viscous += body.viscous;
+        report.ledger.plastic += body.plastic;
         report.ledger.scheme += body.scheme;
     }
     for group in &work.groups {
@@ -106,7 +107,7 @@ fn close_body<const D: usize>(
     load_body(model, state, next, map, work, index);
     let drive = &work.drives[index];
     let step =
-        BodyStep::new(model, b, map, &work.poses[index], drive, state, &work.motion, &next.displacement);
+        BodyStep::new(model, index, map, &work.poses[index], drive, state, &work.motion, &next.displacement);
     let scratch = &mut work.residual_scratch[index];
     let (v0, v1) = (&state.velocity[nodes.clone()], &mut next.velocity[nodes.clone()]);
     step.end_velocity(v1);
@@ -116,7 +117,7 @@ fn close_body<const D: usize>(
         internal_force.copy_from_slice(&work.blend.end[nodes.clone()]);
         Some(work.blend.exchanged(index))
     } else {
-        b.body.internal_force(step.displacement, internal_force);
+        step.worked.internal_force(step.displacement, internal_force);
         None
     };
     let held = b.body.held();
@@ -143,8 +144,10 @@ fn close_body<const D: usize>(
     }
     let momentum = &mut work.momentum[nodes.clone()];
     b.body.mass().multiply(v1, momentum);
-    let energies =
-        Energies { kinetic: 0.5 * dot(v1, momentum), strain: b.body.strain_energy(step.displacement) };
+    let history = &mut next.history[index];
+    let plastic = step.worked.update(step.displacement, history);
+    let strain = b.body.after(history).strain_energy(step.displacement);
+    let energies = Energies { kinetic: 0.5 * dot(v1, momentum), strain };
     let (external, viscous) = step.external_and_viscous_work(scratch);
     let mut scheme = 0.0;
     if map.kinetic_dissipation != 0.0 {
@@ -170,6 +173,7 @@ fn close_body<const D: usize>(
         external,
         prescribed,
         viscous,
+        plastic,
         scheme,
         contact,
     };
@@ -208,8 +212,10 @@ fn close_contacts<const D: usize>(
             book(&mut work.groups[c.group], contact, c.dissipation(weight));
         }
         next.excess.copy_from_slice(&state.excess);
-        let surplus =
-            work.bodies.iter().map(|b| b.kinetic + b.strain + b.viscous - b.external - b.prescribed);
+        let surplus = work
+            .bodies
+            .iter()
+            .map(|b| b.kinetic + b.strain + b.viscous + b.plastic - b.external - b.prescribed);
         work.blend.carry(surplus, &work.rubbing, &mut next.excess);
         return;
     }

@@ -31,7 +31,7 @@ impl Sum for Energies {
 
 /// What happened to the energy of a body in a step, or since the start [J]:
 ///
-/// ΔE_kinetic + ΔE_strain = external + prescribed + contact − viscous − scheme + defect.
+/// ΔE_kinetic + ΔE_strain = external + prescribed + contact − viscous − plastic − scheme + defect.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct BodyLedger {
     /// Change of kinetic energy.
@@ -42,8 +42,10 @@ pub struct BodyLedger {
     pub external: f64,
     /// Work of its supports, less that of the contacts that press on them.
     pub prescribed: f64,
-    /// Dissipated by damping.
+    /// Dissipated by damping and viscosity.
     pub viscous: f64,
+    /// Plastic work ∫ σ_y dα.
+    pub plastic: f64,
     /// Dissipated by the time scheme's own algebra.
     pub scheme: f64,
     /// Received through contact: the work of the contact forces on what of the body is free.
@@ -56,6 +58,7 @@ impl BodyLedger {
     pub fn defect(&self) -> f64 {
         self.kinetic + self.strain - self.external - self.prescribed - self.contact
             + self.viscous
+            + self.plastic
             + self.scheme
     }
 }
@@ -67,6 +70,7 @@ impl AddAssign for BodyLedger {
         self.external += step.external;
         self.prescribed += step.prescribed;
         self.viscous += step.viscous;
+        self.plastic += step.plastic;
         self.scheme += step.scheme;
         self.contact += step.contact;
     }
@@ -74,7 +78,7 @@ impl AddAssign for BodyLedger {
 
 /// What happened to the energy in a step, or since the start [J]. Every term is computed from its own definition:
 ///
-/// ΔE_kinetic + ΔE_strain = external + prescribed − friction − viscous − scheme − normal_contact + defect.
+/// ΔE_kinetic + ΔE_strain = external + prescribed − friction − viscous − plastic − scheme − normal_contact + defect.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Ledger {
     /// Change of kinetic energy.
@@ -87,8 +91,10 @@ pub struct Ledger {
     pub prescribed: f64,
     /// Dissipated by friction: −Σ r_t·Δu_t ≥ 0.
     pub friction: f64,
-    /// Dissipated by damping: Δu·C v̄.
+    /// Dissipated by damping and viscosity: Δu·C v̄.
     pub viscous: f64,
+    /// Plastic work ∫ σ_y dα ≥ 0.
+    pub plastic: f64,
     /// Dissipated by the time scheme's own algebra (θ, ξ > ½).
     pub scheme: f64,
     /// Taken by normal reactions: −Σ r_n Δu_n.
@@ -102,6 +108,7 @@ impl Ledger {
         self.kinetic + self.strain - self.external - self.prescribed
             + self.friction
             + self.viscous
+            + self.plastic
             + self.scheme
             + self.normal_contact
     }
@@ -115,6 +122,7 @@ impl AddAssign for Ledger {
         self.prescribed += step.prescribed;
         self.friction += step.friction;
         self.viscous += step.viscous;
+        self.plastic += step.plastic;
         self.scheme += step.scheme;
         self.normal_contact += step.normal_contact;
     }

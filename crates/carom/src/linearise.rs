@@ -1,7 +1,7 @@
 //! The iteration matrix K̄ of each body.
 
 use carom_fem::sparse::{Factor, NodalMatrix};
-use carom_fem::{Body, Held};
+use carom_fem::{Body, Held, Worked};
 use carom_mesh::{Matrix, Vector};
 
 use crate::StepMap;
@@ -79,13 +79,18 @@ impl<const D: usize> BodyOperator<D> {
     /// reference configuration, turned, serves there: slower, but it never is.
     pub fn factorize(
         &mut self,
-        body: &Body<D>,
+        worked: &Worked<'_, D>,
         map: &StepMap,
         u: &[Vector<D>],
         frame: &Matrix<D>,
     ) -> Result<(), StepError> {
-        self.factorize_at(body, map, u, frame).or_else(|_| {
-            self.factorize_at(body, map, &vec![Vector::zeros(); u.len()], &Matrix::identity())?;
+        self.factorize_at(worked, map, u, frame).or_else(|_| {
+            self.factorize_at(
+                &worked.body.after(&[]),
+                map,
+                &vec![Vector::zeros(); u.len()],
+                &Matrix::identity(),
+            )?;
             self.turn_to(frame);
             Ok(())
         })
@@ -93,12 +98,13 @@ impl<const D: usize> BodyOperator<D> {
 
     fn factorize_at(
         &mut self,
-        body: &Body<D>,
+        worked: &Worked<'_, D>,
         map: &StepMap,
         u: &[Vector<D>],
         frame: &Matrix<D>,
     ) -> Result<(), StepError> {
-        let mut stiffness = body.stiffness(u);
+        let body = worked.body;
+        let mut stiffness = worked.stiffness(u);
         for (&n, k) in body.massless().iter().zip(body.massless_stiffness()) {
             stiffness.values[body.graph().entry(n, n)] += Matrix::from_diagonal_element(STEADYING * k);
         }
@@ -108,12 +114,17 @@ impl<const D: usize> BodyOperator<D> {
         let mass_coefficient = m + c * damping.mass;
         let mass: &NodalMatrix<f64> = body.mass();
         let damping_stiffness = body.damping_stiffness();
+        // The force of viscosity is that of the mean rate of the step, d/Δt, whatever the scheme.
+        let viscosity = body.viscosity(u);
         self.coefficients = None;
         for (entry, block) in stiffness.values.iter_mut().enumerate() {
             *block *= k;
             *block += Matrix::from_diagonal_element(mass.values[entry] * mass_coefficient);
             if let Some(k0) = damping_stiffness {
                 *block += frame * k0.values[entry] * frame.transpose() * (c * damping.stiffness);
+            }
+            if let Some(viscosity) = &viscosity {
+                *block += viscosity.values[entry] / map.dt;
             }
         }
         self.held.uncouple(&mut stiffness);

@@ -5,7 +5,7 @@ mod drive;
 use std::collections::BTreeMap;
 
 use carom_contact::Discretisation;
-use carom_fem::material::LawSpec;
+use carom_fem::material::{LawSpec, Viscosity};
 pub use carom_fem::{Formulation, Hypothesis};
 use carom_fem::{MassKind, RayleighDamping};
 use carom_friction::SolverKind;
@@ -121,6 +121,9 @@ pub struct MaterialSpec {
     /// Damping.
     #[serde(default)]
     pub damping: RayleighDamping,
+    /// Kelvin–Voigt viscosity.
+    #[serde(default)]
+    pub viscosity: Viscosity,
 }
 
 /// A deformable body.

@@ -121,8 +121,10 @@ pub struct EnergySummary {
     pub strain: f64,
     /// Dissipated by friction.
     pub friction: f64,
-    /// Dissipated by damping.
+    /// Dissipated by damping and viscosity.
     pub viscous: f64,
+    /// Plastic work.
+    pub plastic: f64,
     /// Dissipated by the time scheme.
     pub scheme: f64,
     /// Taken by normal reactions.
@@ -571,7 +573,8 @@ impl<const D: usize> Simulation<D> {
                 .model
                 .bodies
                 .iter()
-                .flat_map(|b| b.body.cell_states(&s.displacement[b.nodes()]))
+                .zip(&s.history)
+                .flat_map(|(b, history)| b.body.after(history).cell_states(&s.displacement[b.nodes()]))
                 .collect(),
         }
     }
@@ -595,6 +598,7 @@ impl<const D: usize> Simulation<D> {
                 strain: e.strain,
                 friction: l.friction,
                 viscous: l.viscous,
+                plastic: l.plastic,
                 scheme: l.scheme,
                 normal_contact: l.normal_contact,
                 prescribed: l.prescribed,

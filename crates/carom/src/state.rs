@@ -1,4 +1,5 @@
 use carom_contact::Contact;
+use carom_fem::material::PlasticState;
 use carom_mesh::Vector;
 
 use crate::{Energies, Model};
@@ -41,6 +42,8 @@ pub struct State<const D: usize> {
     pub friction_energy: Vec<f64>,
     /// What the supports of every motion pressed on their nodes in the last step [N].
     pub support: Vec<Vector<D>>,
+    /// What the material of every body remembers, quadrature point by quadrature point; nothing where it is elastic.
+    pub history: Vec<Vec<PlasticState>>,
     /// Internal forces ∂E/∂u [N] at `displacement`, kept because every step starts with them.
     pub internal_force: Vec<Vector<D>>,
     /// Energies [J] at `displacement` and `velocity`.
@@ -79,6 +82,7 @@ impl<const D: usize> State<D> {
             contact_force: zeros.clone(),
             friction_energy: vec![0.0; zeros.len()],
             support: vec![Vector::zeros(); model.motions.len()],
+            history: model.bodies.iter().map(|b| b.body.virgin()).collect(),
             internal_force: zeros,
             energies: Energies::default(),
             body_energies: vec![Energies::default(); model.bodies.len()],
@@ -91,11 +95,12 @@ impl<const D: usize> State<D> {
     /// Recomputes forces and energies from displacements and velocities.
     pub(crate) fn refresh(&mut self, model: &Model<D>) {
         let mut momentum = vec![Vector::zeros(); self.velocity.len()];
-        for (b, energies) in model.bodies.iter().zip(&mut self.body_energies) {
+        for ((b, energies), history) in model.bodies.iter().zip(&mut self.body_energies).zip(&self.history) {
             let nodes = b.nodes();
-            b.body.internal_force(&self.displacement[nodes.clone()], &mut self.internal_force[nodes.clone()]);
+            let worked = b.body.after(history);
+            worked.internal_force(&self.displacement[nodes.clone()], &mut self.internal_force[nodes.clone()]);
             b.body.mass().multiply(&self.velocity[nodes.clone()], &mut momentum[nodes.clone()]);
-            energies.strain = b.body.strain_energy(&self.displacement[nodes.clone()]);
+            energies.strain = worked.strain_energy(&self.displacement[nodes.clone()]);
             energies.kinetic = 0.5 * dot(&self.velocity[nodes.clone()], &momentum[nodes]);
         }
         self.energies = self.body_energies.iter().copied().sum();

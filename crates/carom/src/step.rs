@@ -89,7 +89,12 @@ fn predict<const D: usize>(
             work.poses[i].drift = b.body.mean(v);
         }
         if !work.operators[i].fits(map) {
-            work.operators[i].factorize(&b.body, map, middle, &work.poses[i].frame)?;
+            work.operators[i].factorize(
+                &b.body.after(&state.history[i]),
+                map,
+                middle,
+                &work.poses[i].frame,
+            )?;
             work.factorisations += 1;
         }
         work.operators[i].turn_to(&work.poses[i].frame);
@@ -183,7 +188,7 @@ fn residuals<const D: usize>(
             load_body(model, state, next, map, work, i);
         }
         let (pose, drive) = (&work.poses[i], &work.drives[i]);
-        let body_step = BodyStep::new(model, b, map, pose, drive, state, &work.motion, &next.displacement);
+        let body_step = BodyStep::new(model, i, map, pose, drive, state, &work.motion, &next.displacement);
         let residual = &mut work.residual[nodes.clone()];
         if method.is_blended() {
             work.blend.residual(model, i, &body_step, &mut work.residual_scratch[i], residual);
@@ -204,13 +209,13 @@ fn blend<const D: usize>(
     map: &StepMap,
     work: &mut Workspace<D>,
 ) {
-    for (i, b) in model.bodies.iter().enumerate() {
+    for i in 0..model.bodies.len() {
         if work.progress[i].settled {
             continue;
         }
         load_body(model, state, next, map, work, i);
         let (pose, drive) = (&work.poses[i], &work.drives[i]);
-        let body_step = BodyStep::new(model, b, map, pose, drive, state, &work.motion, &next.displacement);
+        let body_step = BodyStep::new(model, i, map, pose, drive, state, &work.motion, &next.displacement);
         work.blend.measure(model, i, &body_step, &mut work.residual_scratch[i]);
     }
     measure_rubbing(model, method, state, map, work);
@@ -263,7 +268,7 @@ fn refactorize<const D: usize>(
         {
             *m = (u0 + u1) * 0.5;
         }
-        work.operators[i].factorize(&b.body, map, middle, &work.poses[i].frame)?;
+        work.operators[i].factorize(&b.body.after(&state.history[i]), map, middle, &work.poses[i].frame)?;
         work.factorisations += 1;
     }
     Ok(())

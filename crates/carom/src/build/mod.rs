@@ -47,7 +47,7 @@ pub fn build<const D: usize>(
         return Err(InputError::new("bodies", "there is no body; add one [[bodies]] table at least"));
     }
     let (contact, groups) = contact::contact(scenario, &bodies)?;
-    let gravity = match &scenario.analysis.gravity {
+    let gravity: Vector<D> = match &scenario.analysis.gravity {
         Some(g) => vector("analysis.gravity", g)?,
         None => Vector::<D>::zeros(),
     };

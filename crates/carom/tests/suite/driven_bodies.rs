@@ -7,7 +7,7 @@ use carom::{
     SignalSpec, State, Workspace, step,
 };
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
-use carom_fem::material::{ElasticConstants, LawSpec};
+use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
 use carom_mesh::{Facet, Mesh, Vector, generate};
@@ -21,6 +21,7 @@ fn spec(law: LawSpec, density: f64, massless_contact: bool) -> BodySpec {
         law,
         density,
         damping: RayleighDamping::default(),
+        viscosity: Viscosity::default(),
         mass: MassKind::Consistent,
         thickness: 1.0,
         hypothesis: Hypothesis::PlaneStrain,
@@ -163,7 +164,7 @@ fn work_of_supports_closes_the_books_of_large_motion() {
     let law = LawSpec::SaintVenantKirchhoff(ElasticConstants { young: 100.0, poisson: 0.3 });
     for damping in [0.0, 0.2] {
         let mesh = generate::grid([0.0; 3], [0.3, 0.2, 1.0], [2, 2, 5]).expect("valid");
-        let mut spec = spec(law, 1.0, false);
+        let mut spec = spec(law.clone(), 1.0, false);
         spec.damping = RayleighDamping { mass: damping, stiffness: 1e-3 * damping };
         let body = Body::new(mesh, &spec).expect("valid");
         let bottom = nodes_where(body.mesh(), |x| x[2] == 0.0);
@@ -195,7 +196,8 @@ fn pressure_all_around_moves_nothing() {
     let disc = generate::Disc { centre: [0.3, -0.2], radius: 0.5, divisions: 4, rings: None };
     let law = LawSpec::SaintVenantKirchhoff(ElasticConstants { young: 100.0, poisson: 0.3 });
     for follower in [false, true] {
-        let body = Body::new(disc.quadrilaterals().expect("valid"), &spec(law, 1.0, false)).expect("valid");
+        let body =
+            Body::new(disc.quadrilaterals().expect("valid"), &spec(law.clone(), 1.0, false)).expect("valid");
         let facets = body.surface().facets().to_vec();
         let load = if follower {
             Load::follower_pressure(&body, facets, formula("20*t"))
@@ -238,7 +240,7 @@ fn block_pressed_on_a_shaking_floor_keeps_the_books() {
     for condition in [ContactCondition::Midpoint, ContactCondition::Gap, ContactCondition::Massless] {
         let massless = condition == ContactCondition::Massless;
         let mesh = generate::grid([0.0, 0.0], [1.0, 1.0], [5, 5]).expect("valid");
-        let body = Body::new(mesh, &spec(law, 1.0, massless)).expect("valid");
+        let body = Body::new(mesh, &spec(law.clone(), 1.0, massless)).expect("valid");
         let top = nodes_where(body.mesh(), |x| x[1] == 1.0);
         let side = nodes_where(body.mesh(), |x| x[0] == 0.0);
         let contact = ContactModel {
