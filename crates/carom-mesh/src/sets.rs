@@ -34,6 +34,9 @@ impl Sets {
     }
 }
 
+/// A name and what tells its members among `T`.
+type Named<'a, T> = (&'a str, &'a dyn Fn(&T) -> bool);
+
 /// What identifies a facet whichever way it turns: its nodes in ascending order.
 #[must_use]
 pub fn facet_key(nodes: &[u32]) -> Vec<u32> {
@@ -81,11 +84,11 @@ impl<const D: usize> Mesh<D> {
 
     /// The same mesh with sets of those facets of the boundary of which all nodes are `on` something.
     #[must_use]
-    pub fn with_facets_on(self, sets: &[(&str, &dyn Fn(&Vector<D>) -> bool)]) -> Self {
+    pub fn with_facets_on(self, sets: &[Named<'_, Vector<D>>]) -> Self {
         let nodes = self.nodes().to_vec();
         let tests: Vec<_> =
             sets.iter().map(|(_, on)| |f: &Facet| f.nodes.iter().all(|&n| on(&nodes[n as usize]))).collect();
-        let sets: Vec<(&str, &dyn Fn(&Facet) -> bool)> = sets
+        let sets: Vec<Named<'_, Facet>> = sets
             .iter()
             .zip(&tests)
             .map(|((name, _), test)| (*name, test as &dyn Fn(&Facet) -> bool))
@@ -93,7 +96,7 @@ impl<const D: usize> Mesh<D> {
         self.with_facet_sets(&sets)
     }
 
-    fn with_facet_sets(self, named: &[(&str, &dyn Fn(&Facet) -> bool)]) -> Self {
+    fn with_facet_sets(self, named: &[Named<'_, Facet>]) -> Self {
         let surface = Surface::of(&self);
         let mut sets = self.sets().clone();
         for (name, keep) in named {
@@ -110,7 +113,7 @@ impl<const D: usize> Mesh<D> {
         let reach: Vector<D> = (high - low) * 1e-9;
         let on = |axis: usize, at: f64| move |x: &Vector<D>| (x[axis] - at).abs() <= reach[axis];
         let tests: Vec<_> = (0..D).flat_map(|k| [on(k, low[k]), on(k, high[k])]).collect();
-        let sets: Vec<(&str, &dyn Fn(&Vector<D>) -> bool)> = names
+        let sets: Vec<Named<'_, Vector<D>>> = names
             .iter()
             .flatten()
             .zip(&tests)
