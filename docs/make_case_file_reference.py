@@ -19,7 +19,7 @@ import annotated_types
 from pydantic.fields import FieldInfo
 
 from carom import Scenario
-from carom.description import DIMENSION, PER_DIMENSION, Description, Name
+from carom.description import PER_DIMENSION, Description, InPlane, InSpace, Name
 
 PAGE = Path(__file__).with_name("case-file.md")
 
@@ -123,7 +123,8 @@ def parts(field: FieldInfo) -> tuple[object, list[object]]:
             annotation, *more = get_args(annotation)
             asked += more
         elif origin in (Union, types.UnionType) and type(None) in get_args(annotation):
-            (annotation,) = (part for part in get_args(annotation) if part is not type(None))
+            # What may be one of several is described by the first; the text says the rest.
+            annotation = next(part for part in get_args(annotation) if part is not type(None))
         else:
             break
     asked = [inner for outer in asked for inner in getattr(outer, "metadata", [outer])]
@@ -146,7 +147,8 @@ def type_of(field: FieldInfo) -> str:
             return "array of tables"
         item = get_args(item)[0] if get_origin(item) is Annotated else item
         plain = "string" if get_origin(item) is Literal else PLAIN[item]
-        return f"{DIMENSION} {plain}s" if PER_DIMENSION in asked else f"array of {plain}s"
+        count = {PER_DIMENSION: "D ", InPlane: "2 ", InSpace: "3 "}
+        return next((f"{count[a]}{plain}s" for a in asked if a in count), f"array of {plain}s")
     if get_origin(annotation) is dict:
         return "table of tables"
     return "table"

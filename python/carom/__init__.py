@@ -18,7 +18,7 @@ from carom.errors import (
 )
 from carom.io.history import read_history
 from carom.material import Damping, LinearElastic, NeoHookean, SaintVenantKirchhoff
-from carom.mesh import Disc, Rectangle
+from carom.mesh import Box, Disc, Rectangle
 from carom.obstacle import Plane
 from carom.output import Output, Track
 from carom.result import Result
@@ -28,6 +28,7 @@ from carom.simulation import Progress, run
 __all__ = [
     "Audit",
     "Body",
+    "Box",
     "CaromError",
     "CertificateError",
     "Check",

@@ -1,3 +1,4 @@
+from collections.abc import Mapping
 from typing import Any, Protocol
 
 import numpy as np
@@ -41,10 +42,24 @@ class GlobalFrictionArrays(Protocol):
     @property
     def mu(self) -> NDArray[np.float64]: ...
 
+class MeshArrays(Protocol):
+    """A mesh; cells and facets by their nodes, which are numbered from 0."""
+
+    @property
+    def points(self) -> NDArray[np.float64]: ...
+    @property
+    def blocks(self) -> list[tuple[str, NDArray[np.int64]]]: ...
+    @property
+    def node_sets(self) -> dict[str, NDArray[np.int64]]: ...
+    @property
+    def facet_sets(self) -> dict[str, list[NDArray[np.int64]]]: ...
+    @property
+    def cell_sets(self) -> dict[str, NDArray[np.int64]]: ...
+
 class Simulation:
     """A scenario built into meshes, matrices and a state that steps through time."""
 
-    def __init__(self, scenario: str) -> None: ...
+    def __init__(self, scenario: str, meshes: Mapping[str, MeshArrays] | None = None) -> None: ...
     @property
     def time(self) -> float: ...
     @property

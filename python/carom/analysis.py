@@ -74,7 +74,7 @@ class Dynamic(Description):
     max_halvings
         How often a step that failed is halved before the run stops.
     gravity
-        Acceleration of all bodies [m/s²], shape [2]; None is none.
+        Acceleration of all bodies [m/s²], shape [D]; None is none.
     """
 
     kind: Literal["dynamic"] = "dynamic"

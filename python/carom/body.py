@@ -7,9 +7,9 @@ from typing import Literal
 from pydantic import model_validator
 from typing_extensions import Self
 
-from carom.description import Description, Name, Number, Positive, Vector
+from carom.description import Description, Name, Number, Positive, SpaceVector, Vector
 from carom.mesh import Mesh, Rectangle
-from carom.messages import problem
+from carom.messages import known, problem
 
 
 class Body(Description):
@@ -29,12 +29,12 @@ class Body(Description):
         Mass matrix: consistent, or lumped to the nodes.
     mesh
         Reference geometry and its cells.
-    contact_sides
-        Sides of a rectangle that may touch others; None for all.
+    contact_sets
+        Sets of facets that may touch others, such as the sides of a rectangle; None for all.
     velocity
-        Initial velocity of the centre of mass [m/s], shape [2].
+        Initial velocity of the centre of mass [m/s], shape [D]; None is none.
     spin
-        Initial angular velocity about the centre of mass [rad/s].
+        Initial angular velocity about the centre of mass [rad/s]: a number in 2D, shape [3] in 3D.
     """
 
     name: Name
@@ -43,12 +43,21 @@ class Body(Description):
     thickness: Positive = 1.0
     mass: Literal["consistent", "lumped"] = "consistent"
     mesh: Mesh
-    contact_sides: tuple[Literal["left", "right", "bottom", "top"], ...] | None = None
-    velocity: Vector = (0.0, 0.0)
-    spin: Number = 0.0
+    contact_sets: tuple[str, ...] | None = None
+    velocity: Vector | None = None
+    spin: Number | SpaceVector | None = None
 
     @model_validator(mode="after")
     def _what_repeats_itself_cannot_spin(self) -> Self:
-        if isinstance(self.mesh, Rectangle) and self.mesh.periodic and self.spin != 0.0:
+        if isinstance(self.mesh, Rectangle) and self.mesh.periodic and self.spin:
             raise problem("a periodic body cannot spin; give 0", key="spin", value=self.spin)
+        return self
+
+    @model_validator(mode="after")
+    def _contact_sets_exist(self) -> Self:
+        sets = self.mesh.facet_sets
+        for name in self.contact_sets or ():
+            if sets is not None and name not in sets:
+                what = f"no such set of facets; {known(name, sets)}"
+                raise problem(what, key="contact_sets", value=name)
         return self

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Annotated, Any
+from collections.abc import Callable, Iterator, Mapping
+from typing import Annotated, Any, get_args
 
 from pydantic import (
     AfterValidator,
@@ -16,9 +16,6 @@ from pydantic import (
 
 from carom.messages import input_error, known, problem
 
-DIMENSION = 2
-"""Number of space dimensions."""
-
 
 def _plain_name(name: str) -> str:
     if not name or any(c in "./\\" or c.isspace() or not c.isprintable() for c in name):
@@ -28,13 +25,20 @@ def _plain_name(name: str) -> str:
     return name
 
 
-def _per_dimension(values: tuple[Any, ...]) -> tuple[Any, ...]:
-    if len(values) != DIMENSION:
-        raise ValueError(f"must have {DIMENSION} components, not {len(values)}")
-    return values
+def _of_length(length: int) -> Callable[[tuple[Any, ...]], tuple[Any, ...]]:
+    def check(values: tuple[Any, ...]) -> tuple[Any, ...]:
+        if len(values) != length:
+            raise ValueError(f"must have {length} components, not {len(values)}")
+        return values
+
+    return check
 
 
-PER_DIMENSION = AfterValidator(_per_dimension)
+class PerDimension:
+    """Marks a tuple with one entry per space dimension; `Scenario` checks their number."""
+
+
+PER_DIMENSION = PerDimension()
 """Asks of a tuple one entry per space dimension."""
 
 Number = Annotated[float, Field(strict=True)]
@@ -50,7 +54,19 @@ Count = Annotated[int, Field(strict=True, ge=1, le=1_000_000_000)]
 """An integer of one or more, and at most 10⁹."""
 
 Vector = Annotated[tuple[Number, ...], PER_DIMENSION]
-"""One number per space dimension, shape [2]."""
+"""One number per space dimension, shape [D]."""
+
+InPlane = AfterValidator(_of_length(2))
+"""Asks of a tuple two entries."""
+
+InSpace = AfterValidator(_of_length(3))
+"""Asks of a tuple three entries."""
+
+PlaneVector = Annotated[tuple[Number, ...], InPlane]
+"""Two numbers, shape [2]."""
+
+SpaceVector = Annotated[tuple[Number, ...], InSpace]
+"""Three numbers, shape [3]."""
 
 Name = Annotated[str, AfterValidator(_plain_name)]
 """A name that can be a part of a dotted path, of a column title and of a file name."""
@@ -81,3 +97,23 @@ class Description(BaseModel):
             if key not in cls.model_fields:
                 raise problem(f"unknown key; {known(str(key), cls.model_fields)}", key=str(key))
         return data
+
+    def vectors(self, path: str = "") -> Iterator[tuple[str, tuple[float, ...]]]:
+        """Yield what has one entry per space dimension here and below, with its dotted path."""
+        for name, field in type(self).model_fields.items():
+            key, value = f"{path}{name}", getattr(self, name)
+            asked = [*field.metadata, *_metadata(field.annotation)]
+            if isinstance(value, Description):
+                yield from value.vectors(f"{key}.")
+            elif isinstance(value, tuple) and any(isinstance(a, PerDimension) for a in asked):
+                yield key, value
+            elif isinstance(value, tuple):
+                for index, entry in enumerate(value):
+                    if isinstance(entry, Description):
+                        yield from entry.vectors(f"{key}.{index}.")
+
+
+def _metadata(annotation: object) -> Iterator[object]:
+    """Yield what is asked of a value, or of one member of a union."""
+    for part in get_args(annotation):
+        yield from getattr(part, "__metadata__", ())

@@ -1,13 +1,25 @@
-"""Meshes that carom generates."""
+"""Meshes that carom generates.
+
+Every class says of which ``dimension`` its bodies are and what ``facet_sets`` they have; None is
+what only the mesh itself can tell.
+"""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 from typing_extensions import Self
 
-from carom.description import PER_DIMENSION, Count, Description, Positive, Vector
+from carom.description import (
+    Count,
+    Description,
+    InPlane,
+    InSpace,
+    PlaneVector,
+    Positive,
+    SpaceVector,
+)
 from carom.messages import problem
 
 CellKind = Literal["quad4", "tri3"]
@@ -16,6 +28,8 @@ CellKind = Literal["quad4", "tri3"]
 
 class Disc(Description):
     """A disc meshed as an O-grid: a square core of n × n cells within rings of 4n cells.
+
+    Its set of facets is ``surface``.
 
     Parameters
     ----------
@@ -31,8 +45,11 @@ class Disc(Description):
         Kind of cell.
     """
 
+    dimension: ClassVar[int | None] = 2
+    facet_sets: ClassVar[tuple[str, ...] | None] = ("all", "surface")
+
     kind: Literal["disc"] = "disc"
-    centre: Vector
+    centre: PlaneVector
     radius: Positive
     divisions: Count
     rings: Count | None = None
@@ -52,6 +69,8 @@ class Disc(Description):
 class Rectangle(Description):
     """An upright rectangle of equal cells.
 
+    Its sets of facets are ``left``, ``right``, ``bottom`` and ``top``.
+
     Parameters
     ----------
     corner
@@ -67,12 +86,42 @@ class Rectangle(Description):
         cannot spin. Nothing else repeats itself, and contact is looked for with this period only.
     """
 
+    dimension: ClassVar[int | None] = 2
+    facet_sets: ClassVar[tuple[str, ...] | None] = ("all", "left", "right", "bottom", "top")
+
     kind: Literal["rectangle"] = "rectangle"
-    corner: Vector
-    size: Annotated[tuple[Positive, ...], PER_DIMENSION]
-    divisions: Annotated[tuple[Count, ...], PER_DIMENSION]
+    corner: PlaneVector
+    size: Annotated[tuple[Positive, ...], InPlane]
+    divisions: Annotated[tuple[Count, ...], InPlane]
     cell: CellKind = "quad4"
     periodic: Annotated[bool, Field(strict=True)] = False
 
 
-Mesh = Annotated[Disc | Rectangle, Field(discriminator="kind")]
+class Box(Description):
+    """An upright box of equal eight-node hexahedra.
+
+    Its sets of facets are ``left`` and ``right`` (smallest and largest x), ``front`` and ``back``
+    (y), ``bottom`` and ``top`` (z).
+
+    Parameters
+    ----------
+    corner
+        Corner of the smallest coordinates [m], shape [3].
+    size
+        Sides [m], shape [3].
+    divisions
+        Cells along the sides, shape [3].
+    """
+
+    dimension: ClassVar[int | None] = 3
+    facet_sets: ClassVar[tuple[str, ...] | None] = (
+        *("all", "left", "right", "front", "back", "bottom", "top"),
+    )
+
+    kind: Literal["box"] = "box"
+    corner: SpaceVector
+    size: Annotated[tuple[Positive, ...], InSpace]
+    divisions: Annotated[tuple[Count, ...], InSpace]
+
+
+Mesh = Annotated[Disc | Rectangle | Box, Field(discriminator="kind")]

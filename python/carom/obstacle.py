@@ -23,11 +23,11 @@ class Plane(Description):
     name
         Unique over bodies, obstacles and tracked points.
     point
-        A point of the plane [m], shape [2].
+        A point of the plane [m], shape [D].
     normal
-        Direction towards the free side, of any length but zero, shape [2].
+        Direction towards the free side, of any length but zero, shape [D].
     velocity
-        Constant velocity [m/s], shape [2]; its work on the bodies is in the ledger as
+        Constant velocity [m/s], shape [D]; None is none. Its work on the bodies is in the ledger as
         ``prescribed``.
     """
 
@@ -35,7 +35,7 @@ class Plane(Description):
     kind: Literal["plane"] = "plane"
     point: Vector
     normal: Annotated[Vector, AfterValidator(_nonzero)]
-    velocity: Vector = (0.0, 0.0)
+    velocity: Vector | None = None
 
 
 Obstacle = Plane

@@ -27,7 +27,7 @@ class Track(Description):
     body
         Name of the body.
     point
-        Reference position [m], shape [2]; the nearest node of the body is taken.
+        Reference position [m], shape [D]; the nearest node of the body is taken.
     """
 
     name: Name

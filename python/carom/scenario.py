@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from typing_extensions import Self
@@ -31,6 +31,8 @@ class Scenario(Description):
     ----------
     title
         What the plots and the results are headed with.
+    dimension
+        Dimension of space, 2 or 3. Vectors have as many components.
     analysis
         How the motion is computed.
     output
@@ -46,6 +48,7 @@ class Scenario(Description):
     """
 
     title: str = ""
+    dimension: Literal[2, 3] = 2
     analysis: Analysis
     output: Output = Output()
     materials: dict[Name, Material]
@@ -111,6 +114,31 @@ class Scenario(Description):
                     value=name,
                 )
             first_use[name] = key
+        return self
+
+    @model_validator(mode="after")
+    def _shapes_and_vectors_are_of_the_dimension(self) -> Self:
+        for index, body in enumerate(self.bodies):
+            path, shape = f"bodies.{index}", body.mesh.dimension
+            if shape not in (None, self.dimension):
+                raise problem(
+                    f"a {body.mesh.kind} is a body in {shape}D; set dimension = {shape} at the "
+                    "top, or choose another shape",
+                    key=f"{path}.mesh.kind",
+                    value=body.mesh.kind,
+                )
+            if body.spin is not None and isinstance(body.spin, tuple) != (self.dimension == 3):
+                form = "three components" if self.dimension == 3 else "a number"
+                raise problem(
+                    f"a spin in {self.dimension}D is {form}", key=f"{path}.spin", value=body.spin
+                )
+        for key, vector in self.vectors():
+            if len(vector) != self.dimension:
+                raise problem(
+                    f"must have {self.dimension} components, not {len(vector)}",
+                    key=key,
+                    value=vector,
+                )
         return self
 
     @model_validator(mode="after")

@@ -47,8 +47,8 @@ def exact_velocity(time: Array) -> Array:
 
 
 MASSLESS = (
-    'bodies.0.contact_sides=["right"]',
-    'bodies.1.contact_sides=["left"]',
+    'bodies.0.contact_sets=["right"]',
+    'bodies.1.contact_sets=["left"]',
 )
 """With the condition ``massless``: the ends that meet. The bars are one element high, so that no
 mass would be left inside if all sides could touch."""

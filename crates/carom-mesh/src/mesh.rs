@@ -151,6 +151,14 @@ impl<const D: usize> Mesh<D> {
         &self.ties
     }
 
+    /// The same mesh, if space has `E` dimensions as here: for code that learns the dimension while it runs.
+    #[must_use]
+    pub fn in_space<const E: usize>(self) -> Option<Mesh<E>> {
+        let Self { nodes, blocks, ties, sets } = self;
+        let nodes = nodes.iter().map(|x| Vector::from_fn(|i, _| x[i]));
+        (D == E).then(|| Mesh { nodes: nodes.collect(), blocks, ties, sets })
+    }
+
     /// For every node the one whose motion it makes: itself, unless it is tied.
     #[must_use]
     pub fn masters(&self) -> Vec<u32> {

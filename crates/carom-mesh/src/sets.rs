@@ -1,3 +1,5 @@
+//! Named parts of a mesh.
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::{Facet, Mesh, Surface, Vector};

@@ -5,6 +5,7 @@ mod arrays;
 mod error;
 mod friction;
 mod friction_global;
+mod mesh;
 mod simulation;
 
 use pyo3::prelude::*;

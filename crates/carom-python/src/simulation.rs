@@ -7,8 +7,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::Serialize;
 
-use crate::arrays;
 use crate::error::{input_error, run_error};
+use crate::{arrays, mesh};
 
 /// Wall time between two looks for Ctrl-C [s]; a step that takes longer is followed by one.
 const SIGNAL_INTERVAL: f64 = 0.02;
@@ -16,7 +16,23 @@ const SIGNAL_INTERVAL: f64 = 0.02;
 /// A scenario built into meshes, matrices and a state that steps through time.
 #[pyclass(module = "carom._carom")]
 pub struct Simulation {
-    inner: carom::Simulation<2>,
+    inner: Inner,
+}
+
+/// The run, in the dimension of space that its scenario says.
+enum Inner {
+    Plane(carom::Simulation<2>),
+    Space(carom::Simulation<3>),
+}
+
+/// Evaluates an expression of the run, whatever its dimension.
+macro_rules! with {
+    ($simulation:expr, $run:ident => $value:expr) => {
+        match $simulation {
+            Inner::Plane($run) => $value,
+            Inner::Space($run) => $value,
+        }
+    };
 }
 
 /// A serialisable value as Python objects.
@@ -28,40 +44,53 @@ fn to_python<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py
 #[pymethods]
 impl Simulation {
     #[new]
-    fn new(py: Python<'_>, scenario: &str) -> PyResult<Self> {
+    #[pyo3(signature = (scenario, meshes=None))]
+    fn new(py: Python<'_>, scenario: &str, meshes: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let scenario: Scenario = serde_json::from_str(scenario)
             .map_err(|e| input_error(py, &carom::InputError::new("", format!("not a scenario: {e}"))))?;
-        let inner = py.detach(|| carom::Simulation::new(&scenario)).map_err(|e| input_error(py, &e))?;
-        Ok(Self { inner })
+        let inner = match scenario.dimension {
+            3 => {
+                let meshes = mesh::meshes(py, meshes)?;
+                py.detach(|| carom::Simulation::with_meshes(&scenario, meshes)).map(Inner::Space)
+            }
+            _ => {
+                let meshes = mesh::meshes(py, meshes)?;
+                py.detach(|| carom::Simulation::with_meshes(&scenario, meshes)).map(Inner::Plane)
+            }
+        };
+        Ok(Self { inner: inner.map_err(|e| input_error(py, &e))? })
     }
 
     #[getter]
     fn time(&self) -> f64 {
-        self.inner.time()
+        with!(&self.inner, run => run.time())
     }
 
     #[getter]
     fn step(&self) -> u64 {
-        self.inner.step()
+        with!(&self.inner, run => run.step())
     }
 
     #[getter]
     fn steps(&self) -> u64 {
-        self.inner.steps()
+        with!(&self.inner, run => run.steps())
     }
 
     fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        to_python(py, self.inner.description())
+        with!(&self.inner, run => to_python(py, run.description()))
     }
 
     fn mesh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let model = self.inner.model();
-        let meshes = model.bodies.iter().map(|b| (b.first_node, b.body.mesh()));
-        arrays::grid(py, &model.reference[..model.node_count()], meshes)
+        with!(&self.inner, run => {
+            let model = run.model();
+            let meshes = model.bodies.iter().map(|b| (b.first_node, b.body.mesh()));
+            arrays::grid(py, &model.reference[..model.node_count()], meshes)
+        })
     }
 
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let fields = self.inner.fields();
+        with!(&self.inner, run => {
+        let fields = run.fields();
         let stress = fields
             .cells
             .iter()
@@ -75,89 +104,108 @@ impl Simulation {
         out.set_item("stress", arrays::table(py, stress, 6)?)?;
         out.set_item("energy_density", PyArray1::from_vec(py, density))?;
         Ok(out)
+        })
     }
 
     /// The facets that may touch others, as a grid on the points of `mesh`.
     fn surface<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let model = self.inner.model();
-        let surfaces = model.bodies.iter().map(|b| (b.first_node, b.body.surface()));
-        arrays::surface_grid(py, &model.reference[..model.node_count()], surfaces)
+        with!(&self.inner, run => {
+            let model = run.model();
+            let surfaces = model.bodies.iter().map(|b| (b.first_node, b.body.surface()));
+            arrays::surface_grid(py, &model.reference[..model.node_count()], surfaces)
+        })
     }
 
     fn surface_fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let fields = self.inner.surface_fields();
+        with!(&self.inner, run => {
+        let fields = run.surface_fields();
         let out = PyDict::new(py);
-        out.set_item("displacement", arrays::vectors(py, self.inner.fields().displacement)?)?;
+        out.set_item("displacement", arrays::vectors(py, run.fields().displacement)?)?;
         out.set_item("friction_energy", PyArray1::from_vec(py, fields.friction_energy))?;
         out.set_item("pressure", PyArray1::from_vec(py, fields.pressure))?;
         out.set_item("area", PyArray1::from_vec(py, fields.area))?;
         Ok(out)
+        })
     }
 
     /// The entries of the ledger table: the bodies, then the pairs as "a|b".
     fn ledger_entries(&self) -> Vec<String> {
-        let model = self.inner.model();
-        let bodies = model.bodies.iter().map(|b| b.name.clone());
-        bodies.chain(model.groups.iter().map(|g| g.between.join("|"))).collect()
+        with!(&self.inner, run => {
+            let bodies = run.model().bodies.iter().map(|b| b.name.clone());
+            bodies.chain(run.model().groups.iter().map(|g| g.between.join("|"))).collect()
+        })
     }
 
     fn take_ledger<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        arrays::table(py, self.inner.take_ledger(), carom::LedgerTable::WIDTH)
+        arrays::table(py, with!(&mut self.inner, run => run.take_ledger()), carom::LedgerTable::WIDTH)
     }
 
     /// The last step made, as its two states and its energy terms; None before the first.
     fn last_step<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let Some(step) = self.inner.last_step() else { return Ok(None) };
+        with!(&self.inner, run => {
+        let Some(step) = run.last_step() else { return Ok(None) };
         let out = PyDict::new(py);
         for (name, state) in [("start", step.start), ("end", step.end)] {
-            out.set_item(name, arrays::state(py, self.inner.model(), state)?)?;
+            out.set_item(name, arrays::state(py, run.model(), state)?)?;
         }
         out.set_item("blend", PyArray1::from_slice(py, step.blend))?;
         out.set_item("ledger", to_python(py, &step.ledger)?)?;
         Ok(Some(out))
+        })
     }
 
     fn history_columns(&self) -> Vec<String> {
-        self.inner.history_columns().to_vec()
+        with!(&self.inner, run => run.history_columns().to_vec())
     }
 
     fn take_history<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let width = self.inner.history_columns().len();
-        arrays::table(py, self.inner.take_history(), width)
+        with!(&mut self.inner, run => {
+            let width = run.history_columns().len();
+            arrays::table(py, run.take_history(), width)
+        })
     }
 
     /// Runs to `until` [s] or for `budget` seconds of wall time, one step at least; whether `until` is reached.
     fn advance(&mut self, py: Python<'_>, until: f64, budget: f64) -> PyResult<bool> {
-        let inner = &mut self.inner;
-        let (outcome, interrupt) = py.detach(|| {
-            let start = Instant::now();
-            let mut last_look = 0.0;
-            let mut interrupt = None;
-            let outcome = inner.advance(until, || {
-                let elapsed = start.elapsed().as_secs_f64();
-                if elapsed - last_look >= SIGNAL_INTERVAL {
-                    last_look = elapsed;
-                    interrupt = Python::attach(|py| py.check_signals()).err();
-                }
-                interrupt.is_some() || elapsed >= budget
-            });
-            (outcome, interrupt)
-        });
-        if let Some(interrupt) = interrupt {
-            return Err(interrupt);
-        }
-        Ok(outcome.map_err(|e| run_error(py, &e, inner.posed_problem()))? == Outcome::Reached)
+        with!(&mut self.inner, run => advance(py, run, until, budget))
     }
 
     fn finish(&mut self) {
-        self.inner.finish();
+        with!(&mut self.inner, run => run.finish());
     }
 
     fn progress<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        to_python(py, &self.inner.progress())
+        with!(&self.inner, run => to_python(py, &run.progress()))
     }
 
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        to_python(py, &self.inner.summary())
+        with!(&self.inner, run => to_python(py, &run.summary()))
     }
+}
+
+/// Runs to `until` [s] or for `budget` seconds of wall time, one step at least; whether `until` is reached.
+fn advance<const D: usize>(
+    py: Python<'_>,
+    run: &mut carom::Simulation<D>,
+    until: f64,
+    budget: f64,
+) -> PyResult<bool> {
+    let (outcome, interrupt) = py.detach(|| {
+        let start = Instant::now();
+        let mut last_look = 0.0;
+        let mut interrupt = None;
+        let outcome = run.advance(until, || {
+            let elapsed = start.elapsed().as_secs_f64();
+            if elapsed - last_look >= SIGNAL_INTERVAL {
+                last_look = elapsed;
+                interrupt = Python::attach(|py| py.check_signals()).err();
+            }
+            interrupt.is_some() || elapsed >= budget
+        });
+        (outcome, interrupt)
+    });
+    if let Some(interrupt) = interrupt {
+        return Err(interrupt);
+    }
+    Ok(outcome.map_err(|e| run_error(py, &e, run.posed_problem()))? == Outcome::Reached)
 }

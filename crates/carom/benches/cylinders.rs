@@ -20,7 +20,7 @@ fn main() {
             bencher.iter_custom(|runs| {
                 let mut total = Duration::ZERO;
                 for _ in 0..runs {
-                    let mut simulation = Simulation::new(&scenario).expect("valid");
+                    let mut simulation = Simulation::<2>::new(&scenario).expect("valid");
                     let start = Instant::now();
                     simulation.advance(f64::INFINITY, || false).expect("runs");
                     times.push(start.elapsed());

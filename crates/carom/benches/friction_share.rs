@@ -39,7 +39,7 @@ impl Times {
 
 /// The contact steps of a run, and all its steps.
 fn run(condition: &str, solver: SolverKind) -> [Times; 2] {
-    let mut simulation = Simulation::new(&scenario(0.2, condition, solver.name())).expect("valid");
+    let mut simulation = Simulation::<2>::new(&scenario(0.2, condition, solver.name())).expect("valid");
     let [mut contact, mut all] = <[Times; 2]>::default();
     while simulation.step() < STEPS {
         let (start, friction) = (Instant::now(), simulation.friction_time());

@@ -7,7 +7,7 @@ use carom::{Scenario, Simulation};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let path = std::env::args().nth(1).ok_or("which scenario? give the path of a JSON file")?;
     let scenario: Scenario = serde_json::from_str(&std::fs::read_to_string(path)?)?;
-    let mut simulation = Simulation::new(&scenario)?;
+    let mut simulation = Simulation::<2>::new(&scenario)?;
     let start = std::time::Instant::now();
     simulation.advance(f64::INFINITY, || false)?;
     let elapsed = start.elapsed().as_secs_f64();

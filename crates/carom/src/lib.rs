@@ -41,7 +41,7 @@ mod step_control;
 mod surface_fields;
 mod workspace;
 
-pub use build::build;
+pub use build::{Meshes, build};
 pub use condition::ContactCondition;
 pub use cross_check::{CrossCheck, CrossCheckSummary};
 pub use describe::{BodyDescription, Description, PairDescription};

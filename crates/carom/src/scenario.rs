@@ -15,6 +15,9 @@ pub struct Scenario {
     /// Title.
     #[serde(default)]
     pub title: String,
+    /// Dimension of space: 2 or 3.
+    #[serde(default = "two")]
+    pub dimension: usize,
     /// What is computed.
     pub analysis: Analysis,
     /// What is kept.
@@ -119,27 +122,28 @@ pub struct BodyEntry {
     pub mass: MassKind,
     /// Mesh.
     pub mesh: MeshSpec,
-    /// Sides of a rectangle that may touch others; all if not given.
+    /// Sets of facets that may touch others; the whole boundary if not given.
     #[serde(default)]
-    pub contact_sides: Option<Vec<Side>>,
-    /// Initial velocity [m/s].
-    pub velocity: Vec<f64>,
+    pub contact_sets: Option<Vec<String>>,
+    /// Initial velocity [m/s]; none if not given.
+    #[serde(default)]
+    pub velocity: Option<Vec<f64>>,
     /// Initial spin about the centre of mass [rad/s].
-    pub spin: f64,
+    #[serde(default)]
+    pub spin: Spin,
 }
 
-/// Sides of a rectangle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Side {
-    /// Smallest x.
-    Left,
-    /// Largest x.
-    Right,
-    /// Smallest y.
-    Bottom,
-    /// Largest y.
-    Top,
+/// Angular velocity of a body.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Spin {
+    /// None.
+    #[default]
+    None,
+    /// In the plane [rad/s].
+    InPlane(f64),
+    /// In space: (ω_x, ω_y, ω_z) [rad/s].
+    InSpace([f64; 3]),
 }
 
 /// Hypotheses of 2D bodies.
@@ -194,6 +198,33 @@ pub enum MeshSpec {
         #[serde(default)]
         periodic: bool,
     },
+    /// A box of equal hexahedra.
+    Box {
+        /// Corner of the smallest coordinates [m].
+        corner: [f64; 3],
+        /// Sides [m].
+        size: [f64; 3],
+        /// Cells per side.
+        divisions: [usize; 3],
+    },
+    /// A mesh that is given along with the scenario, read from a file.
+    File {
+        /// The file, for messages.
+        file: String,
+    },
+}
+
+impl MeshSpec {
+    /// The kind, as the case file names it.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            MeshSpec::Disc { .. } => "disc",
+            MeshSpec::Rectangle { .. } => "rectangle",
+            MeshSpec::Box { .. } => "box",
+            MeshSpec::File { .. } => "file",
+        }
+    }
 }
 
 /// A rigid obstacle.
@@ -201,9 +232,9 @@ pub enum MeshSpec {
 pub struct ObstacleEntry {
     /// Name.
     pub name: String,
-    /// Velocity [m/s].
-    #[serde(default = "still")]
-    pub velocity: Vec<f64>,
+    /// Velocity [m/s]; none if not given.
+    #[serde(default)]
+    pub velocity: Option<Vec<f64>>,
     /// Shape.
     #[serde(flatten)]
     pub shape: ObstacleShape,
@@ -296,8 +327,8 @@ pub struct PairEntry {
     pub enabled: bool,
 }
 
-fn still() -> Vec<f64> {
-    vec![0.0; 2]
+fn two() -> usize {
+    2
 }
 
 fn yes() -> bool {

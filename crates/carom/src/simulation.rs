@@ -4,7 +4,7 @@ use carom_fem::CellState;
 use carom_mesh::Vector;
 use serde::Serialize;
 
-use crate::build::build;
+use crate::build::{Meshes, build};
 use crate::cross_check::CrossCheckSummary;
 use crate::describe::{Description, describe};
 use crate::error::{InputError, RunError};
@@ -232,13 +232,21 @@ pub struct Fields<'a, const D: usize> {
     pub cells: Vec<CellState>,
 }
 
-impl Simulation<2> {
-    /// Builds a run from its scenario.
+impl<const D: usize> Simulation<D> {
+    /// Builds a run from its scenario, which generates all its meshes.
     ///
     /// # Errors
     /// If the scenario cannot be run; see [`build`].
     pub fn new(scenario: &Scenario) -> Result<Self, InputError> {
-        let (model, method, state) = build(scenario)?;
+        Self::with_meshes(scenario, Meshes::new())
+    }
+
+    /// Builds a run from its scenario and the `meshes` that it takes from files.
+    ///
+    /// # Errors
+    /// If the scenario cannot be run; see [`build`].
+    pub fn with_meshes(scenario: &Scenario, meshes: Meshes<D>) -> Result<Self, InputError> {
+        let (model, method, state) = build(scenario, meshes)?;
         let mut tracks = Vec::new();
         for (i, entry) in scenario.output.track.iter().enumerate() {
             tracks.push(track(&model, i, entry)?);
@@ -302,7 +310,7 @@ impl Simulation<2> {
 }
 
 /// The node of a body nearest to a tracked point.
-fn track(model: &Model<2>, index: usize, entry: &TrackEntry) -> Result<Track, InputError> {
+fn track<const D: usize>(model: &Model<D>, index: usize, entry: &TrackEntry) -> Result<Track, InputError> {
     let key = format!("output.track.{index}");
     let body = model.bodies.iter().find(|b| b.name == entry.body).ok_or_else(|| {
         let known: Vec<&str> = model.bodies.iter().map(|b| b.name.as_str()).collect();
@@ -311,10 +319,10 @@ fn track(model: &Model<2>, index: usize, entry: &TrackEntry) -> Result<Track, In
             format!("there is no body {:?}; known are {known:?}", entry.body),
         )
     })?;
-    if entry.point.len() != 2 || !entry.point.iter().all(|x| x.is_finite()) {
+    if entry.point.len() != D || !entry.point.iter().all(|x| x.is_finite()) {
         return Err(InputError::new(
             format!("{key}.point"),
-            format!("{:?} must be 2 finite numbers", entry.point),
+            format!("{:?} must be {D} finite numbers", entry.point),
         ));
     }
     let point = Vector::from_column_slice(&entry.point);

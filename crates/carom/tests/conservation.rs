@@ -30,7 +30,7 @@ fn impact(law: &str, condition: &str, friction: f64) -> Simulation<2> {
     case["contact"]["condition"] = json!(condition);
     case["contact"]["targets"] = json!(if condition == "massless" { "smooth" } else { "faceted" });
     case["contact"]["friction"] = json!(friction);
-    Simulation::new(&parse(&case)).expect("valid")
+    Simulation::<2>::new(&parse(&case)).expect("valid")
 }
 
 /// Linear and angular momentum about the origin.

@@ -22,7 +22,7 @@ fn scene() -> Value {
 fn the_problem_that_failed_can_be_solved_again_and_ends_the_same_way() {
     let mut case = scene();
     case["contact"]["solver"]["max_iterations"] = json!(1);
-    let mut simulation = Simulation::new(&parse(&case)).expect("valid");
+    let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
     let error = simulation.advance(f64::INFINITY, || false).expect_err("one sweep is not enough");
     let RunError { halvings: 8, reason: StepError::Friction { contacts, report }, .. } = error else {
         panic!("{error}");
@@ -44,7 +44,7 @@ fn the_problem_that_failed_can_be_solved_again_and_ends_the_same_way() {
 
 #[test]
 fn there_is_no_contact_problem_before_the_first_contact() {
-    let mut simulation = Simulation::new(&parse(&scene())).expect("valid");
+    let mut simulation = Simulation::<2>::new(&parse(&scene())).expect("valid");
     simulation.advance(1e-3, || false).expect("runs");
     assert!(simulation.posed_problem().is_none());
 }
@@ -55,7 +55,7 @@ fn a_second_solver_agrees_and_changes_nothing() {
     let alone = scene();
     let mut checked = alone.clone();
     checked["contact"]["solver"]["cross_check"] = json!(true);
-    let [mut alone, mut checked] = [alone, checked].map(|c| Simulation::new(&parse(&c)).expect("valid"));
+    let [mut alone, mut checked] = [alone, checked].map(|c| Simulation::<2>::new(&parse(&c)).expect("valid"));
     for simulation in [&mut alone, &mut checked] {
         simulation.advance(f64::INFINITY, || false).expect("runs");
     }

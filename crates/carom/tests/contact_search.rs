@@ -12,7 +12,7 @@ fn bar(corner: [f64; 2], size: [f64; 2], divisions: [usize; 2]) -> Value {
 
 fn refused(bodies: &[Value]) -> InputError {
     let case = scenario(0.1, 1e-3, bodies, &[]);
-    Simulation::new(&parse(&case)).err().expect("bodies overlap")
+    Simulation::<2>::new(&parse(&case)).err().expect("bodies overlap")
 }
 
 /// Symptom: bars of equal height pushed into one another, bars that cross and identical bodies passed for bodies that touch,
@@ -39,7 +39,7 @@ fn aligned_meshes_collide_with_both_sides_as_sources() {
         case["contact"]["sources"] = json!("both");
         case["contact"]["condition"] = json!(condition);
         case["contact"]["friction"] = json!(0.2);
-        let mut simulation = Simulation::new(&parse(&case)).expect("valid");
+        let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
         simulation.advance(f64::INFINITY, || false).expect("converges");
         let v = simulation.model().bodies[0]
             .body
@@ -62,7 +62,7 @@ fn a_ball_does_not_fall_through_a_coarse_body() {
     ];
     let mut case = scenario(0.3, 1e-3, &bodies, &[]);
     case["contact"]["sources"] = json!("finer");
-    let mut simulation = Simulation::new(&parse(&case)).expect("valid");
+    let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
     simulation.advance(f64::INFINITY, || false).expect("runs");
     let summary = simulation.summary();
     assert_eq!(summary.contacts.len(), 1);
@@ -78,7 +78,7 @@ fn a_corner_passing_beside_another_is_not_caught() {
         body("passing", bar([1.01, 1.02], [1.0, 1.0], [2, 2]), [0.0, -2.0]),
         body("fast", disc([50.0, 0.0], 1.0, 4), [40.0, 0.0]),
     ];
-    let mut simulation = Simulation::new(&parse(&scenario(0.1, 1e-3, &bodies, &[]))).expect("valid");
+    let mut simulation = Simulation::<2>::new(&parse(&scenario(0.1, 1e-3, &bodies, &[]))).expect("valid");
     simulation.advance(f64::INFINITY, || false).expect("runs");
     let summary = simulation.summary();
     assert!(summary.contacts.is_empty(), "{:?}", summary.contacts);
@@ -93,7 +93,7 @@ fn a_bounce_is_one_event_however_little_is_merged() {
     let mut case = scenario(0.25, 1e-3, &discs, &[]);
     case["output"]["merge_contacts"] = json!(0.0);
     case["contact"]["condition"] = json!("endpoint");
-    let mut simulation = Simulation::new(&parse(&case)).expect("valid");
+    let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
     simulation.advance(f64::INFINITY, || false).expect("runs");
     let events = simulation.summary().contacts;
     assert!(!events.is_empty() && events.len() < 10, "{} events", events.len());

@@ -8,7 +8,7 @@ use common::{body, disc, parse, plane, scenario};
 use serde_json::{Value, json};
 
 fn run(case: &Value) -> (Simulation<2>, Summary) {
-    let mut simulation = Simulation::new(&parse(case)).expect("valid");
+    let mut simulation = Simulation::<2>::new(&parse(case)).expect("valid");
     simulation.advance(f64::INFINITY, || false).expect("runs");
     let summary = simulation.summary();
     (simulation, summary)
@@ -133,7 +133,7 @@ fn action_is_reaction() {
         case["obstacles"] = json!([]);
         case["bodies"][0]["velocity"] = json!([1.0, 0.4]);
         case["contact"]["sources"] = json!(sources);
-        let mut simulation = Simulation::new(&parse(&case)).expect("valid");
+        let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
         let momentum = |s: &Simulation<2>| -> Vector<2> {
             s.model()
                 .bodies
@@ -153,7 +153,7 @@ fn action_is_reaction() {
 fn a_run_in_slices_is_bit_identical() {
     let case = scene(0.0, [0.0; 2], 1.0, 1.0, 1.0);
     let (whole, _) = run(&case);
-    let mut sliced = Simulation::new(&parse(&case)).expect("valid");
+    let mut sliced = Simulation::<2>::new(&parse(&case)).expect("valid");
     for k in 1..=25 {
         sliced.advance(k as f64 * 0.01, || k % 2 == 0).expect("runs");
     }

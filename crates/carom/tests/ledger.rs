@@ -27,7 +27,7 @@ fn collision(scheme: &str, condition: &str) -> Simulation<2> {
     case["contact"]["condition"] = json!(condition);
     case["contact"]["friction"] = json!(0.3);
     case["contact"]["targets"] = json!("smooth");
-    let mut simulation = Simulation::new(&parse(&case)).expect("a valid case");
+    let mut simulation = Simulation::<2>::new(&parse(&case)).expect("a valid case");
     simulation.advance(f64::INFINITY, || false).expect("converges");
     simulation
 }

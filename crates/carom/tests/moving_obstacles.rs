@@ -34,7 +34,7 @@ fn impact(scheme: &str, condition: &str, boost: [f64; 2]) -> Simulation<2> {
     case["obstacles"][0]["velocity"] = json!(boost);
     case["contact"]["condition"] = json!(condition);
     case["contact"]["friction"] = json!(0.3);
-    let mut simulation = Simulation::new(&parse(&case)).expect("a valid case");
+    let mut simulation = Simulation::<2>::new(&parse(&case)).expect("a valid case");
     simulation.advance(f64::INFINITY, || false).expect("converges");
     simulation
 }

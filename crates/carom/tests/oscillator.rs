@@ -31,7 +31,7 @@ fn error(theta: f64, xi: f64, dt: f64) -> (f64, f64, carom::Summary) {
         "kind": "linear-elastic", "young": 2700.0, "poisson": 0.0, "density": 1.0,
         "damping": {"mass": ALPHA, "stiffness": BETA},
     });
-    let mut simulation = Simulation::new(&common::parse(&case)).expect("valid");
+    let mut simulation = Simulation::<2>::new(&common::parse(&case)).expect("valid");
     let velocity = simulation
         .model()
         .reference

@@ -22,7 +22,7 @@ fn oblique_impact(cells: usize, corner: f64, law: &str) -> Simulation<2> {
     let mut case = scenario(0.1, 5e-4, &[layer([corner, 0.002], cells, [1.0, -1.0])], &[floor]);
     case["materials"]["elastic"]["kind"] = json!(law);
     case["contact"]["friction"] = json!(0.2);
-    Simulation::new(&parse(&case)).expect("valid")
+    Simulation::<2>::new(&parse(&case)).expect("valid")
 }
 
 fn momentum(simulation: &Simulation<2>) -> Vector<2> {
@@ -101,7 +101,7 @@ fn disc_on_layer(x: f64, friction: f64) -> Simulation<2> {
     let mut case = scenario(0.2, 5e-4, &bodies, &[]);
     case["contact"]["friction"] = json!(friction);
     case["contact"]["sources"] = json!("second");
-    Simulation::new(&parse(&case)).expect("valid")
+    Simulation::<2>::new(&parse(&case)).expect("valid")
 }
 
 #[test]
@@ -148,7 +148,7 @@ fn forces_on_images_act_on_their_masters() {
 fn translation_is_free_and_where_the_layer_starts_does_not_matter() {
     let mut case = scenario(1.0, 1e-2, &[layer([3.0, -1.0], 4, [2.0, -0.5])], &[]);
     case["bodies"][0]["mass"] = json!("lumped");
-    let mut flying = Simulation::new(&parse(&case)).expect("valid");
+    let mut flying = Simulation::<2>::new(&parse(&case)).expect("valid");
     flying.advance(f64::INFINITY, || false).expect("runs");
     for u in &flying.state().displacement {
         assert!((u - Vector::<2>::new(2.0, -0.5)).norm() < 1e-12);
@@ -168,7 +168,7 @@ fn translation_is_free_and_where_the_layer_starts_does_not_matter() {
 fn a_periodic_body_cannot_spin() {
     let mut case = scenario(0.1, 1e-3, &[layer([0.0, 0.0], 2, [0.0, 0.0])], &[]);
     case["bodies"][0]["spin"] = json!(0.1);
-    let error = Simulation::new(&parse(&case)).err().expect("refused");
+    let error = Simulation::<2>::new(&parse(&case)).err().expect("refused");
     assert_eq!(error.key, "bodies.0.spin");
     assert!(error.to_string().contains("periodic"), "{error}");
 }

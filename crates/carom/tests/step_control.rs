@@ -18,7 +18,7 @@ fn drop_on_floor() -> Value {
 fn failed_steps_are_halved_and_the_time_grid_stays() {
     let mut case = drop_on_floor();
     case["analysis"]["newton"]["max_iterations"] = json!(5);
-    let mut simulation = Simulation::new(&parse(&case)).expect("valid");
+    let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
     assert_eq!(simulation.advance(f64::INFINITY, || false), Ok(Outcome::Reached));
     let summary = simulation.summary();
     assert!(summary.retried_steps > 0, "five iterations are too few for the first impact of these steps");
@@ -36,7 +36,7 @@ fn a_run_that_cannot_go_on_says_why_and_keeps_the_last_good_state() {
     let mut case = drop_on_floor();
     case["analysis"]["newton"]["max_iterations"] = json!(1);
     case["analysis"]["max_halvings"] = json!(3);
-    let mut simulation = Simulation::new(&parse(&case)).expect("valid");
+    let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
     let error =
         simulation.advance(f64::INFINITY, || false).expect_err("one iteration cannot solve an impact");
     assert!(matches!(error.reason, StepError::Newton { iterations: 1, .. }), "{error}");

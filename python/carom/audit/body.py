@@ -167,9 +167,9 @@ class AuditBody:
 
 def _contact_facets(entry: Body, facets: Indices, points: Array) -> Indices:
     """Return the facets of a boundary that may touch others."""
-    if entry.contact_sides is None or not isinstance(entry.mesh, Rectangle):
+    if entry.contact_sets is None or not isinstance(entry.mesh, Rectangle):
         return facets
-    return facets[_on_sides(entry, facets, points, entry.contact_sides)]
+    return facets[_on_sides(entry, facets, points, entry.contact_sets)]
 
 
 def _on_sides(
@@ -180,6 +180,8 @@ def _on_sides(
     corner, size = entry.mesh.corner, entry.mesh.size
     keep = np.zeros(len(facets), dtype=bool)
     for side in sides:
+        if side == "all":
+            return np.ones_like(keep)
         axis = 0 if side in ("left", "right") else 1
         at = corner[axis] + (size[axis] if side in ("right", "top") else 0.0)
         on = np.abs(points[:, axis] - at) <= 1e-9 * size[axis]

@@ -14,7 +14,7 @@ from carom.audit.model import AuditModel
 from carom.audit.report import Findings
 from carom.audit.scales import ROUND_OFF, Scales
 from carom.body import Body
-from carom.mesh import Disc
+from carom.mesh import Disc, Rectangle
 
 
 def check_mesh(model: AuditModel, findings: Findings) -> None:
@@ -32,6 +32,7 @@ def _misfit(entry: Body, body: AuditBody) -> float:
     if isinstance(mesh, Disc):
         rim = body.points[body.surface] - np.array(mesh.centre)
         return float(np.abs(np.linalg.norm(rim, axis=1) - mesh.radius).max())
+    assert isinstance(mesh, Rectangle)
     low, high = body.points.min(axis=0), body.points.max(axis=0)
     corner = np.array(mesh.corner)
     return float(np.abs([low - corner, high - corner - np.array(mesh.size)]).max())
@@ -43,6 +44,7 @@ def _cell_count(entry: Body) -> int:
         n, rings = mesh.divisions, mesh.rings or mesh.divisions // 2
         count = n * n + 4 * n * rings
     else:
+        assert isinstance(mesh, Rectangle)
         count = mesh.divisions[0] * mesh.divisions[1]
     return count * (2 if mesh.cell == "tri3" else 1)
 
@@ -52,7 +54,9 @@ def check_start(model: AuditModel, frame: Frame, scales: Scales, findings: Findi
     findings.check("initial velocity", frame.displacement, 0.0, "displacement at t = 0")
     for entry, body in zip(model.scenario.bodies, model.bodies, strict=True):
         arms = body.points - body.mass.mean(body.points)
-        wanted = np.array(entry.velocity) + turned(arms, entry.spin)
+        spin = entry.spin or 0.0
+        assert not isinstance(spin, tuple)
+        wanted = np.array(entry.velocity or (0.0, 0.0)) + turned(arms, spin)
         error = frame.velocity[body.span] - wanted
         findings.check("initial velocity", error, ROUND_OFF * scales.speed, f"{entry.name}, t = 0")
 

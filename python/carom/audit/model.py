@@ -91,6 +91,8 @@ class AuditModel:
     def __init__(
         self, scenario: Scenario, points: Array, cells: list[Indices], types: list[int]
     ) -> None:
+        if scenario.dimension != 2:
+            raise InputError("cannot audit a case in 3D yet")
         self.scenario = scenario
         self.points = points
         condition = scenario.contact.condition
@@ -224,5 +226,5 @@ def _plane(entry: Plane) -> AuditPlane:
     return AuditPlane(
         point=np.array(entry.point),
         normal=normal / np.linalg.norm(normal),
-        velocity=np.array(entry.velocity),
+        velocity=np.array(entry.velocity or (0.0, 0.0)),
     )

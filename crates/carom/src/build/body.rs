@@ -1,0 +1,82 @@
+use std::collections::BTreeSet;
+
+use carom_fem::{Body, BodySpec, FemError};
+use carom_mesh::sets::facet_key;
+use carom_mesh::{Mesh, Surface};
+
+use super::mesh::mesh;
+use crate::error::InputError;
+use crate::scenario::{BodyEntry, PairEntry, Scenario};
+
+/// Body number `index`; `given` is its mesh if that comes from a file.
+pub(super) fn body<const D: usize>(
+    scenario: &Scenario,
+    index: usize,
+    entry: &BodyEntry,
+    given: Option<Mesh<D>>,
+) -> Result<Body<D>, InputError> {
+    let key = format!("bodies.{index}");
+    let material = scenario.materials.get(&entry.material).ok_or_else(|| {
+        let known: Vec<&str> = scenario.materials.keys().map(String::as_str).collect();
+        let message = format!("there is no material {:?}; known are {known:?}", entry.material);
+        InputError::new(format!("{key}.material"), message)
+    })?;
+    let mesh = mesh(&format!("{key}.mesh"), &entry.mesh, given)?;
+    let spec = BodySpec {
+        law: material.law,
+        density: material.density,
+        damping: material.damping,
+        mass: entry.mass,
+        thickness: entry.thickness,
+        massless_contact: scenario.contact.condition.is_massless() && may_touch(scenario, &entry.name),
+    };
+    let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
+    Body::with_contact_surface(mesh, surface, &spec).map_err(|e| match e {
+        FemError::MaterialConstant { name: "thickness", .. } => {
+            InputError::new(format!("{key}.thickness"), e.to_string())
+        }
+        FemError::MaterialConstant { name, .. } => {
+            InputError::new(format!("materials.{}.{name}", entry.material), e.to_string())
+        }
+        _ => InputError::mesh(format!("{key}.mesh"), e.to_string()),
+    })
+}
+
+/// Whether anything is there that a body may touch.
+fn may_touch(scenario: &Scenario, name: &str) -> bool {
+    let enabled = |other: &str| {
+        let between = |p: &&PairEntry| {
+            let [a, b] = &p.between;
+            (a == name && b == other) || (a == other && b == name)
+        };
+        scenario.contact.pairs.iter().find(between).is_none_or(|p| p.enabled)
+    };
+    let others = scenario.bodies.iter().map(|b| b.name.as_str()).filter(|&other| other != name);
+    others.chain(scenario.obstacles.iter().map(|o| o.name.as_str())).any(enabled)
+}
+
+/// The boundary of a body, or the sets of it that may touch others.
+fn contact_surface<const D: usize>(
+    key: &str,
+    entry: &BodyEntry,
+    mesh: &Mesh<D>,
+) -> Result<Surface, InputError> {
+    let whole = Surface::of(mesh);
+    let Some(names) = &entry.contact_sets else { return Ok(whole) };
+    if names.is_empty() {
+        return Err(InputError::new(key, "name one set at least, or disable the pairs of the body"));
+    }
+    let mut chosen = BTreeSet::new();
+    for name in names {
+        let part = mesh.surface_of(name, &whole).ok_or_else(|| {
+            let known = mesh.sets().facet_names();
+            InputError::new(key, format!("{name:?}: the mesh has no such set of facets; known are {known:?}"))
+        })?;
+        chosen.extend(part.facets().iter().map(|f| facet_key(&f.nodes)));
+    }
+    let part = whole.part(|f| chosen.contains(&facet_key(&f.nodes)));
+    if part.facets().is_empty() {
+        return Err(InputError::new(key, format!("{names:?}: no facet of these sets is on the boundary")));
+    }
+    Ok(part)
+}

@@ -1,0 +1,88 @@
+use carom_contact::{ContactModel, ContactSurface, Pair, Target};
+use carom_mesh::Facet;
+
+use super::number;
+use super::obstacle::obstacle;
+use crate::error::InputError;
+use crate::model::{Group, ModelBody};
+use crate::scenario::{Scenario, Sources, Targets};
+
+/// The largest friction coefficient.
+const MAX_FRICTION: f64 = 1e3;
+
+/// Refuses friction coefficients that are negative, or so large that round-off of μ|w_t| would hide the normal motion.
+fn check_friction(key: &str, friction: f64) -> Result<(), InputError> {
+    number(key, friction, (0.0..=MAX_FRICTION).contains(&friction), "friction must be between 0 and 1000")
+}
+
+/// Every pair of a body with another body or an obstacle, less the exceptions of the scenario.
+pub(super) fn contact<const D: usize>(
+    scenario: &Scenario,
+    bodies: &[ModelBody<D>],
+) -> Result<(ContactModel<D>, Vec<Group>), InputError> {
+    let mut model = ContactModel::default();
+    for b in bodies {
+        let surface = ContactSurface::new(b.body.surface(), b.first_node as u32);
+        let reference = |n: u32| b.body.mesh().nodes()[n as usize - b.first_node];
+        model.surfaces.push(match scenario.contact.targets {
+            Targets::Smooth => surface.smoothed(&reference),
+            Targets::Faceted => surface,
+        });
+    }
+    for (i, entry) in scenario.obstacles.iter().enumerate() {
+        model.obstacles.push(obstacle(&format!("obstacles.{i}"), &entry.shape)?);
+    }
+    let default = scenario.contact.friction;
+    check_friction("contact.friction", default)?;
+    let mut groups = Vec::new();
+    let names: Vec<&str> = bodies.iter().map(|b| b.name.as_str()).collect();
+    let obstacle_names: Vec<&str> = scenario.obstacles.iter().map(|o| o.name.as_str()).collect();
+    for (a, &first) in names.iter().enumerate() {
+        let others = names.iter().enumerate().skip(a + 1).map(|(b, &name)| (Target::Surface(b), name));
+        let obstacles = obstacle_names.iter().enumerate().map(|(o, &name)| (Target::Obstacle(o), name));
+        for (target, second) in others.chain(obstacles) {
+            let found = scenario.contact.pairs.iter().enumerate().find(|(_, p)| {
+                let [x, y] = &p.between;
+                (x == first && y == second) || (x == second && y == first)
+            });
+            let (mut friction, mut sources, mut swapped) = (default, scenario.contact.sources, false);
+            if let Some((k, entry)) = found {
+                if !entry.enabled {
+                    continue;
+                }
+                friction = entry.friction.unwrap_or(friction);
+                sources = entry.sources.unwrap_or(sources);
+                // An order is only meant where the entry says which side is the source.
+                swapped = entry.sources.is_some() && entry.between[0] == second;
+                check_friction(&format!("contact.pairs.{k}.friction"), friction)?;
+            }
+            let group = groups.len();
+            groups.push(Group { between: [first.to_string(), second.to_string()], friction });
+            let forward = Pair { source: a, target, friction, group };
+            match target {
+                Target::Obstacle(_) => model.pairs.push(forward),
+                Target::Surface(b) => {
+                    let backward = Pair { source: b, target: Target::Surface(a), ..forward };
+                    match (sources, swapped) {
+                        (Sources::Finer, _) if is_finer(&bodies[b], &bodies[a]) => model.pairs.push(backward),
+                        (Sources::Finer, _) => model.pairs.push(forward),
+                        (Sources::Both, _) => model.pairs.extend([forward, backward]),
+                        (Sources::First, false) | (Sources::Second, true) => model.pairs.push(forward),
+                        (Sources::First, true) | (Sources::Second, false) => model.pairs.push(backward),
+                    }
+                }
+            }
+        }
+    }
+    Ok((model, groups))
+}
+
+/// Whether the facets of `a` are on average clearly smaller than those of `b`.
+fn is_finer<const D: usize>(a: &ModelBody<D>, b: &ModelBody<D>) -> bool {
+    let mean_width = |body: &ModelBody<D>| {
+        let facets = body.body.surface().facets();
+        let width = |f: &Facet| f.area_vector(body.body.mesh()).norm().powf(1.0 / (D as f64 - 1.0));
+        facets.iter().map(width).sum::<f64>() / facets.len() as f64
+    };
+    mean_width(a) < 0.99 * mean_width(b)
+}

@@ -1,0 +1,59 @@
+use carom_friction::{Criterion, StoppingRule};
+
+use super::number;
+use crate::Scheme;
+use crate::error::InputError;
+use crate::model::{Method, NewtonRule};
+use crate::scenario::Scenario;
+
+/// How the scenario is taken through time.
+pub(super) fn method<const D: usize>(scenario: &Scenario) -> Result<Method<D>, InputError> {
+    let analysis = &scenario.analysis;
+    let (dt, end) = (analysis.time_step, analysis.end_time);
+    number("analysis.time_step", dt, dt > 0.0, "the time step must be greater than 0 s")?;
+    number("analysis.end_time", end, end >= dt, "the end time must be at least one time step")?;
+    match analysis.scheme {
+        Scheme::Theta { theta, xi } => {
+            let key = "analysis.scheme.theta";
+            number(key, theta, theta > 0.0 && theta <= 1.0, "theta must be greater than 0 and at most 1")?;
+            number("analysis.scheme.xi", xi, (0.0..=1.0).contains(&xi), "xi must be between 0 and 1")?;
+        }
+        Scheme::Conserving => {}
+    }
+    let newton = analysis.newton;
+    let key = "analysis.newton.tolerance";
+    number(key, newton.tolerance, newton.tolerance > 0.0, "the tolerance must be greater than 0")?;
+    let solver = scenario.contact.solver;
+    let key = "contact.solver.tolerance";
+    number(key, solver.tolerance, solver.tolerance > 0.0, "the tolerance must be greater than 0")?;
+    let (key, tolerance) = ("contact.certificate_tolerance", scenario.contact.certificate_tolerance);
+    number(key, tolerance, tolerance > 0.0, "the tolerance must be greater than 0")?;
+    for (key, count) in [
+        ("analysis.newton.max_iterations", newton.max_iterations),
+        ("contact.solver.max_iterations", solver.max_iterations),
+    ] {
+        number(key, count as f64, count > 0, "at least 1 iteration is needed")?;
+    }
+    let key = "analysis.max_halvings";
+    number(
+        key,
+        f64::from(analysis.max_halvings),
+        analysis.max_halvings <= 30,
+        "at most 30 halvings make sense",
+    )?;
+    Ok(Method {
+        scheme: analysis.scheme,
+        condition: scenario.contact.condition,
+        solver: solver.kind.solver(),
+        stopping: StoppingRule {
+            tolerance: solver.tolerance,
+            criterion: Criterion::Natural,
+            max_iterations: solver.max_iterations,
+            time_limit: None,
+        },
+        cross_check: solver.cross_check,
+        newton: NewtonRule { tolerance: newton.tolerance, max_iterations: newton.max_iterations },
+        max_halvings: analysis.max_halvings,
+        certificate_tolerance: scenario.contact.certificate_tolerance,
+    })
+}

@@ -1,0 +1,87 @@
+//! From a scenario to a model, a method and the state at t = 0. Everything that can be wrong is found here.
+
+mod body;
+mod contact;
+mod mesh;
+mod method;
+mod obstacle;
+mod overlaps;
+mod velocity;
+
+use std::collections::BTreeMap;
+
+use carom_mesh::{Mesh, Vector};
+
+use crate::State;
+use crate::error::InputError;
+use crate::model::{Method, Model, ModelBody};
+use crate::scenario::Scenario;
+
+/// Meshes that a scenario takes from files, by the names of their bodies.
+pub type Meshes<const D: usize> = BTreeMap<String, Mesh<D>>;
+
+/// Builds what a scenario in D dimensions describes; `meshes` are those that it takes from files.
+///
+/// # Errors
+/// If a value is out of range, a mesh has an inverted cell, or bodies overlap or are outside their obstacles at the start.
+pub fn build<const D: usize>(
+    scenario: &Scenario,
+    mut meshes: Meshes<D>,
+) -> Result<(Model<D>, Method<D>, State<D>), InputError> {
+    if scenario.dimension != D {
+        return Err(InputError::new(
+            "dimension",
+            format!("{}: the core was asked for {D}", scenario.dimension),
+        ));
+    }
+    let method = method::method(scenario)?;
+    let mut bodies: Vec<ModelBody<D>> = Vec::new();
+    for (i, entry) in scenario.bodies.iter().enumerate() {
+        let first_node = bodies.last().map_or(0, |b| b.nodes().end);
+        let body = body::body(scenario, i, entry, meshes.remove(&entry.name))?;
+        bodies.push(ModelBody { name: entry.name.clone(), body, first_node });
+    }
+    if bodies.is_empty() {
+        return Err(InputError::new("bodies", "there is no body; add one [[bodies]] table at least"));
+    }
+    let (contact, groups) = contact::contact(scenario, &bodies)?;
+    let gravity = match &scenario.analysis.gravity {
+        Some(g) => vector("analysis.gravity", g)?,
+        None => Vector::zeros(),
+    };
+    let velocities = scenario
+        .obstacles
+        .iter()
+        .enumerate()
+        .map(|(i, o)| match &o.velocity {
+            Some(v) => vector(&format!("obstacles.{i}.velocity"), v),
+            None => Ok(Vector::zeros()),
+        })
+        .collect::<Result<_, _>>()?;
+    let model = Model::new(bodies, contact, groups, gravity).with_obstacle_velocities(velocities);
+    overlaps::check_overlaps(scenario, &model)?;
+    let velocity = velocity::initial_velocity(scenario, &model)?;
+    let state = State::initial(&model, velocity);
+    if !state.is_finite() {
+        return Err(InputError::new(
+            "bodies",
+            "the initial energy is not finite; check velocities and material constants",
+        ));
+    }
+    Ok((model, method, state))
+}
+
+/// Checks that a number is finite and satisfies `valid`.
+pub(crate) fn number(key: &str, value: f64, valid: bool, remedy: &str) -> Result<(), InputError> {
+    if valid && value.is_finite() { Ok(()) } else { Err(InputError::new(key, format!("{value}: {remedy}"))) }
+}
+
+pub(crate) fn vector<const D: usize>(key: &str, values: &[f64]) -> Result<Vector<D>, InputError> {
+    if values.len() != D {
+        return Err(InputError::new(key, format!("{values:?} must have {D} components")));
+    }
+    if !values.iter().all(|v| v.is_finite()) {
+        return Err(InputError::new(key, format!("{values:?} must be finite numbers")));
+    }
+    Ok(Vector::from_column_slice(values))
+}

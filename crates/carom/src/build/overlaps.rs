@@ -1,0 +1,76 @@
+use carom_contact::{Pair, Target};
+use carom_mesh::Vector;
+
+use crate::error::InputError;
+use crate::model::{Model, ModelBody};
+use crate::scenario::Scenario;
+
+/// Overlaps at the start deeper than this, relative to the smallest edge, are an error.
+const TOUCHING: f64 = 1e-9;
+
+/// Refuses bodies that overlap one another or an obstacle before anything has moved.
+pub(super) fn check_overlaps<const D: usize>(
+    scenario: &Scenario,
+    model: &Model<D>,
+) -> Result<(), InputError> {
+    let at = |n: u32| model.reference[n as usize];
+    for pair in &model.contact.pairs {
+        // Both directions are checked, whichever the contact condition uses.
+        let mut directions = vec![*pair];
+        if let Target::Surface(b) = pair.target {
+            directions.push(Pair { source: b, target: Target::Surface(pair.source), ..*pair });
+        }
+        for direction in directions {
+            let points = sample(&model.bodies[direction.source]);
+            let Some(closest) = model.contact.closest(points, direction.target, &at) else {
+                continue;
+            };
+            let source = &model.bodies[direction.source];
+            if closest.gap >= -TOUCHING * source.body.mesh().smallest_edge() {
+                continue;
+            }
+            let [a, b] = &model.groups[pair.group].between;
+            let place: Vec<String> = closest.at.iter().map(|x| format!("{x:.6}")).collect();
+            let place = format!("({})", place.join(", "));
+            let index = direction.source;
+            return Err(match direction.target {
+                Target::Surface(_) => InputError::new(
+                    format!("bodies.{index}.mesh"),
+                    format!(
+                        "bodies {a:?} and {b:?} overlap at the start: {:?} at {place} is {:.6} m inside; \
+                         move one of them",
+                        source.name, -closest.gap
+                    ),
+                ),
+                Target::Obstacle(o) => {
+                    let plane = &model.contact.obstacles[o];
+                    let outside = source.nodes().all(|n| plane.gap(&model.reference[n], &at).0 < 0.0);
+                    let fact = if outside { "lies outside, behind" } else { "overlaps" };
+                    InputError::new(
+                        format!("bodies.{index}.mesh"),
+                        format!(
+                            "body {a:?} {fact} obstacle {b:?} at the start: its node at {place} is {:.6} m behind it; \
+                             move the body or turn the normal of obstacles.{} ({:?})",
+                            -closest.gap, o, scenario.obstacles[o].name
+                        ),
+                    )
+                }
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Nodes, centres of facets and centres of cells of a body: bars of equal height pushed into one another have all nodes on
+/// sides of the other, and identical bodies in the same place their facets too.
+fn sample<const D: usize>(body: &ModelBody<D>) -> impl Iterator<Item = Vector<D>> {
+    let mesh = body.body.mesh();
+    let centre = |nodes: &[u32]| {
+        nodes.iter().map(|&n| mesh.nodes()[n as usize]).sum::<Vector<D>>() / nodes.len() as f64
+    };
+    let surface = body.body.surface();
+    let nodes = surface.nodes().iter().map(|&n| mesh.nodes()[n as usize]);
+    let facets = surface.facets().iter().map(move |f| centre(&f.nodes));
+    let cells = mesh.blocks().iter().flat_map(move |b| b.cells().map(centre));
+    nodes.chain(facets).chain(cells)
+}
