@@ -18,7 +18,7 @@ from carom.errors import (
 )
 from carom.io.history import read_history
 from carom.material import Damping, LinearElastic, NeoHookean, SaintVenantKirchhoff
-from carom.mesh import Box, Disc, Rectangle
+from carom.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring, Tube
 from carom.obstacle import Plane
 from carom.output import Output, Track
 from carom.result import Result
@@ -26,6 +26,11 @@ from carom.scenario import Scenario
 from carom.simulation import Progress, run
 
 __all__ = [
+    "Tube",
+    "Ring",
+    "MeshFile",
+    "Cylinder",
+    "Ball",
     "Audit",
     "Body",
     "Box",

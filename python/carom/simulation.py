@@ -12,6 +12,8 @@ from pathlib import Path
 from carom._carom import Simulation
 from carom.contact import FrictionSolver
 from carom.errors import CertificateError, ConvergenceError
+from carom.mesh import MeshFile
+from carom.mesh_file import MeshArrays, read_body_mesh
 from carom.recorder import Recorder
 from carom.result import Result
 from carom.scenario import Scenario
@@ -61,7 +63,22 @@ def build(scenario: Scenario) -> Simulation:
     InputError
         The scenario cannot be run, such as bodies that overlap at the start.
     """
-    return Simulation(scenario.to_json())
+    return Simulation(scenario.to_json(), _meshes(scenario))
+
+
+def _meshes(scenario: Scenario) -> dict[str, MeshArrays]:
+    """Read the meshes of the bodies that have theirs in a file."""
+    return {
+        body.name: read_body_mesh(
+            body.mesh.file,
+            body=body.mesh.body,
+            scale=body.mesh.scale,
+            space=scenario.dimension,
+            key=f"bodies.{index}.mesh",
+        )
+        for index, body in enumerate(scenario.bodies)
+        if isinstance(body.mesh, MeshFile)
+    }
 
 
 def run(
