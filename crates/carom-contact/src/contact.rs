@@ -1,39 +1,65 @@
-use carom_mesh::{Matrix, Vector, cell};
+use carom_mesh::{Matrix, Vector};
+use smallvec::SmallVec;
 
-/// A source node near its target: gap, frame, and the stencil that maps nodal to relative motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Nodes of a stencil that are kept without an allocation: a source node and a facet of nine.
+const INLINE: usize = 10;
+
+/// What may touch at one place: gap, frame, and the stencil that maps nodal to relative motion.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Contact<const D: usize> {
-    /// Distance along the normal [m]; negative = penetration.
+    /// Distance along the normal [m]; negative = penetration. Of a mortar row the mean under its multiplier.
     pub gap: f64,
     /// Rows n, t₁, t₂; n points from the target to the source.
     pub frame: Matrix<D>,
-    nodes: [u32; cell::MAX_NODES + 1],
-    weights: [f64; cell::MAX_NODES + 1],
-    len: usize,
+    /// The area [m^(D−1)] that a reaction is spread over, so that the pressure is r_n over it and the thickness; 0 where a node
+    /// stands for it.
+    pub area: f64,
+    stencil: SmallVec<[(u32, f64); INLINE]>,
+    /// How many entries of the stencil are source nodes; they come first.
+    sources: usize,
 }
 
 impl<const D: usize> Contact<D> {
     /// A contact of the node `source` with a target whose `nodes` follow the target point with these `weights`.
     pub(crate) fn new(gap: f64, frame: Matrix<D>, source: u32, target: &[u32], weights: &[f64]) -> Self {
-        let mut contact = Self {
-            gap,
-            frame,
-            nodes: [source; cell::MAX_NODES + 1],
-            weights: [0.0; cell::MAX_NODES + 1],
-            len: 1 + target.len(),
-        };
-        contact.weights[0] = 1.0;
-        for (k, (&node, &weight)) in target.iter().zip(weights).enumerate() {
-            contact.nodes[k + 1] = node;
-            contact.weights[k + 1] = -weight;
-        }
-        contact
+        let target = target.iter().zip(weights).map(|(&node, &weight)| (node, -weight));
+        let stencil = std::iter::once((source, 1.0)).chain(target).collect();
+        Self { gap, frame, area: 0.0, stencil, sources: 1 }
     }
 
-    /// The nodes involved with their weights: +1 for the source, minus the shape functions for the target.
+    /// The contact of a multiplier that covers `area`: its gap is the mean of the offsets along the normal.
+    pub(crate) fn of_multiplier(
+        area: f64,
+        frame: Matrix<D>,
+        sources: impl ExactSizeIterator<Item = (u32, f64)>,
+        targets: impl ExactSizeIterator<Item = (u32, f64)>,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Self {
+        let source_count = sources.len();
+        let stencil = sources.chain(targets).collect();
+        Self { gap: 0.0, frame, area, stencil, sources: source_count }.moved(position)
+    }
+
+    /// The same contact of a multiplier with its gap where nodes are at `position`.
+    pub(crate) fn moved(&self, position: &impl Fn(u32) -> Vector<D>) -> Self {
+        Self { gap: self.relative(|n| position(n as u32))[0], ..self.clone() }
+    }
+
+    /// The nodes involved with their weights, source nodes first: of a single node +1, and minus the shape functions for the target.
+    /// The weights of either side sum to ±1.
     #[inline]
     pub fn stencil(&self) -> impl ExactSizeIterator<Item = (usize, f64)> {
-        self.nodes[..self.len].iter().map(|&n| n as usize).zip(self.weights[..self.len].iter().copied())
+        self.stencil.iter().map(|&(node, weight)| (node as usize, weight))
+    }
+
+    /// The part of the stencil on the source.
+    pub fn sources(&self) -> impl ExactSizeIterator<Item = (usize, f64)> {
+        self.stencil().take(self.sources)
+    }
+
+    /// The part of the stencil on the target.
+    pub fn targets(&self) -> impl ExactSizeIterator<Item = (usize, f64)> {
+        self.stencil().skip(self.sources)
     }
 
     /// H d: the relative motion in the frame of a nodal motion `d`.

@@ -33,7 +33,7 @@ impl<const D: usize> ContactModel<D> {
     /// `start` and `end` are the positions at the start of the step and those predicted for its end. A node keeps its facet for
     /// the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
     /// the closest facet alone is ambiguous. Nodes are found inside a target to a depth of `DEPTH` facets. On a smooth target
-    /// the closest point may move on to other facets.
+    /// the closest point may move on to other facets. Mortar pairs are left to `detect_mortar`.
     pub fn detect(
         &self,
         start: &impl Fn(u32) -> Vector<D>,
@@ -58,6 +58,7 @@ impl<const D: usize> ContactModel<D> {
                         mirrored: false,
                     }));
                 }
+                Target::Surface(_) if self.is_mortar(p) => {}
                 Target::Surface(t) => self.detect_facets(pair_index, t, start, end, margin, out),
             }
         }

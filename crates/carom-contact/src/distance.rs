@@ -95,7 +95,7 @@ mod tests {
     use carom_mesh::{Surface, generate};
 
     use super::*;
-    use crate::Obstacle;
+    use crate::{Discretisation, Obstacle};
 
     fn two_discs(distance: f64) -> (ContactModel<2>, Vec<Vector<2>>) {
         let disc = |x: f64| {
@@ -115,8 +115,20 @@ mod tests {
                 (a.nodes().len() + b.nodes().len()) as u32,
             )],
             pairs: vec![
-                Pair { source: 0, target: Target::Surface(1), friction: 0.0, group: 0 },
-                Pair { source: 0, target: Target::Obstacle(0), friction: 0.0, group: 1 },
+                Pair {
+                    source: 0,
+                    target: Target::Surface(1),
+                    friction: 0.0,
+                    group: 0,
+                    discretisation: Discretisation::NodeToSegment,
+                },
+                Pair {
+                    source: 0,
+                    target: Target::Obstacle(0),
+                    friction: 0.0,
+                    group: 1,
+                    discretisation: Discretisation::NodeToSegment,
+                },
             ],
         };
         (model, a.nodes().iter().chain(b.nodes()).copied().chain([Vector::zeros()]).collect())
@@ -176,7 +188,13 @@ mod tests {
             let model = ContactModel::<2> {
                 surfaces: vec![ContactSurface::new(&Surface::of(&left), 0), target],
                 obstacles: vec![],
-                pairs: vec![Pair { source: 0, target: Target::Surface(1), friction: 0.0, group: 0 }],
+                pairs: vec![Pair {
+                    source: 0,
+                    target: Target::Surface(1),
+                    friction: 0.0,
+                    group: 0,
+                    discretisation: Discretisation::NodeToSegment,
+                }],
             };
             for shift in [-1e-3, 0.0, 1e-9, 1e-3] {
                 let at = |n: u32| x[n as usize] + Vector::<2>::new(if n < count { shift } else { 0.0 }, 0.0);

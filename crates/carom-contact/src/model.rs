@@ -1,4 +1,4 @@
-use crate::{ContactSurface, Obstacle};
+use crate::{ContactSurface, Discretisation, Obstacle};
 
 /// What a source surface is checked against.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,6 +20,8 @@ pub struct Pair {
     pub friction: f64,
     /// The named pair that this belongs to; both directions of a two-sided check share it.
     pub group: usize,
+    /// Whether the source is checked node by node or in the mean.
+    pub discretisation: Discretisation,
 }
 
 /// All surfaces, obstacles and pairs.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use carom_contact::{Candidate, Contact, ContactModel, ContactSurface, Pair, Target};
+use carom_contact::{Candidate, Contact, ContactModel, ContactSurface, Discretisation, Pair, Target};
 use carom_mesh::{Matrix, Mesh, Surface, Vector, generate};
 
 type Vector2 = Vector<2>;
@@ -26,7 +26,13 @@ impl Scene {
         let model = ContactModel {
             surfaces: vec![target, ContactSurface::new(&Surface::of(source), probe)],
             obstacles: vec![],
-            pairs: vec![Pair { source: 1, target: Target::Surface(0), friction: 0.3, group: 0 }],
+            pairs: vec![Pair {
+                source: 1,
+                target: Target::Surface(0),
+                friction: 0.3,
+                group: 0,
+                discretisation: Discretisation::NodeToSegment,
+            }],
         };
         Self { model, reference, probe }
     }

@@ -57,7 +57,7 @@ fn keep_contacts<const D: usize>(
     method: &Method<D>,
     next: &mut State<D>,
     map: &StepMap,
-    work: &Workspace<D>,
+    work: &mut Workspace<D>,
     report: &mut StepReport,
 ) {
     next.reactions.clear();
@@ -68,17 +68,20 @@ fn keep_contacts<const D: usize>(
     report.residual = carom_friction::measure(&work.problem, &work.reactions).natural_residual;
     let weight = method.condition.reaction_weight(map);
     let end = |n: u32| model.reference[n as usize] + next.displacement[n as usize];
+    model.contact.evaluate_all(&work.candidates, &end, &mut work.mortar, &mut work.end_contacts);
+    for contact in &work.end_contacts {
+        report.min_gap = report.min_gap.min(contact.gap);
+    }
     for (i, (candidate, contact)) in work.candidates.iter().zip(&work.contacts).enumerate() {
         let r = work.reactions[i] / weight;
         let mut w = contact.relative(|n| work.motion[n]);
         w[0] += work.offsets[i];
         report.certificate += cone::bipotential_gap(&w, &r, work.friction[i]);
-        report.min_gap = report.min_gap.min(model.contact.evaluate(candidate, &end).gap);
         contact.add_force(&r, &mut next.contact_force);
         if r[0] > 0.0 {
             report.contacts += 1;
             let Candidate { pair, node, .. } = *candidate;
-            next.reactions.push(Reaction { pair, node, contact: *contact, force: r });
+            next.reactions.push(Reaction { pair, node, contact: contact.clone(), force: r });
         }
     }
 }
@@ -205,13 +208,14 @@ fn driven<const D: usize>(model: &Model<D>, reaction: &Reaction<D>, motion: &[Ve
 
 /// Leaves the energy that friction takes at a contact to its nodes: half to the source, half to those of a deformable target.
 fn deposit<const D: usize>(model: &Model<D>, contact: &Contact<D>, energy: f64, nodes: &mut [f64]) {
-    let targets = || contact.stencil().skip(1).filter(|&(node, _)| node < model.node_count());
-    let whole: f64 = targets().map(|(_, weight)| weight.abs()).sum();
-    let to_target = if whole > 0.0 { 0.5 * energy } else { 0.0 };
-    for (node, _) in contact.stencil().take(1) {
-        nodes[node] += energy - to_target;
+    let targets = || contact.targets().filter(|&(node, _)| node < model.node_count());
+    let whole = |side: &mut dyn Iterator<Item = (usize, f64)>| side.map(|(_, w)| w.abs()).sum::<f64>();
+    let (source_whole, target_whole) = (whole(&mut contact.sources()), whole(&mut targets()));
+    let to_target = if target_whole > 0.0 { 0.5 * energy } else { 0.0 };
+    for (node, weight) in contact.sources() {
+        nodes[node] += (energy - to_target) * weight.abs() / source_whole;
     }
     for (node, weight) in targets() {
-        nodes[node] += to_target * weight.abs() / whole;
+        nodes[node] += to_target * weight.abs() / target_whole;
     }
 }

@@ -23,8 +23,7 @@ pub(crate) fn evaluate_contacts<const D: usize>(
         let n = n as usize;
         model.reference[n] + state.displacement[n] + motion[n] * weight
     };
-    work.contacts.clear();
-    work.contacts.extend(work.candidates.iter().map(|c| model.contact.evaluate(c, &position)));
+    model.contact.evaluate_all(&work.candidates, &position, &mut work.mortar, &mut work.contacts);
 }
 
 /// What the contacts mean for the balance of their bodies: those of the step, and those that it starts with and loses.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use carom_contact::Discretisation;
 use carom_fem::material::LawSpec;
 use carom_fem::{MassKind, RayleighDamping};
 use carom_friction::SolverKind;
@@ -194,6 +195,9 @@ pub struct ContactSpec {
     pub sources: Sources,
     /// What they are checked against.
     pub targets: Targets,
+    /// How contact between two bodies is written in pairs that say nothing else.
+    #[serde(default)]
+    pub discretisation: Discretisation,
     /// The bi-potential gap of a step that a certified run may have, relative to the largest energy of the run.
     pub certificate_tolerance: f64,
     /// Exceptions for pairs.
@@ -250,6 +254,8 @@ pub struct PairEntry {
     pub friction: Option<f64>,
     /// Whose nodes are checked.
     pub sources: Option<Sources>,
+    /// How contact between the two is written.
+    pub discretisation: Option<Discretisation>,
     /// Whether the two may touch at all.
     #[serde(default = "yes")]
     pub enabled: bool,

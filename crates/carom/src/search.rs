@@ -18,6 +18,7 @@ pub(crate) fn search<const D: usize>(
     let motion = &work.motion;
     let end = |n: u32| start(n) + motion[n as usize];
     model.contact.detect(&start, &end, margin, &mut work.candidates);
+    model.contact.detect_mortar(&start, &end, margin, &mut work.mortar, &mut work.candidates);
 }
 
 /// Keeps the candidates that take part in the step and recalls their last reactions.
@@ -33,8 +34,10 @@ pub(crate) fn select_active<const D: usize>(
     work.searched.clear();
     work.searched.extend(work.candidates.iter().map(|c| (c.pair, c.node)));
     work.start_gaps.clear();
+    contact.evaluate_all(&work.candidates, &start, &mut work.mortar, &mut work.contacts);
+    let mut gaps = work.contacts.iter().map(|c| c.gap);
     work.candidates.retain(|c| {
-        let gap = contact.evaluate(c, &start).gap;
+        let gap = gaps.next().unwrap_or(f64::INFINITY);
         let active = !c.mirrored && method.condition.is_active(gap);
         if active {
             work.start_gaps.push(if contact.is_two_sided(c.pair as usize) { gap.min(0.0) } else { 0.0 });
@@ -87,9 +90,10 @@ pub(crate) fn missed_a_contact<const D: usize>(
         return false;
     }
     let end = |n: u32| model.reference[n as usize] + next.displacement[n as usize];
-    model.contact.detect(&end, &end, 0.0, &mut work.missed);
-    work.missed.iter().any(|m| {
-        let known = work.searched.binary_search(&(m.pair, m.node)).is_ok();
-        !known && model.contact.evaluate(m, &end).gap < -model.round_off()
-    })
+    let Workspace { missed, missed_mortar, end_contacts, .. } = work;
+    model.contact.detect(&end, &end, 0.0, missed);
+    model.contact.detect_mortar(&end, &end, 0.0, missed_mortar, missed);
+    missed.retain(|m| work.searched.binary_search(&(m.pair, m.node)).is_err());
+    model.contact.evaluate_all(missed, &end, missed_mortar, end_contacts);
+    end_contacts.iter().any(|c| c.gap < -model.round_off())
 }

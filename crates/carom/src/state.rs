@@ -4,7 +4,7 @@ use carom_mesh::Vector;
 use crate::{Energies, Model};
 
 /// A contact that pressed in the last step.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Reaction<const D: usize> {
     /// Index of the pair.
     pub pair: u32,

@@ -1,6 +1,6 @@
 use std::time::Duration;
 
-use carom_contact::{Candidate, Contact};
+use carom_contact::{Candidate, Contact, Mortar};
 use carom_friction::{ContactProblem, SolverKind};
 use carom_mesh::Vector;
 
@@ -64,6 +64,10 @@ pub struct Workspace<const D: usize> {
     pub(crate) searched: Vec<(u32, u32)>,
     pub(crate) missed: Vec<Candidate>,
     pub(crate) contacts: Vec<Contact<D>>,
+    /// Contacts at the end of the step.
+    pub(crate) end_contacts: Vec<Contact<D>>,
+    pub(crate) mortar: Mortar<D>,
+    pub(crate) missed_mortar: Mortar<D>,
     pub(crate) friction: Vec<f64>,
     /// Penetration [m] that a contact may keep, negative: see `ContactCondition::normal_offset`.
     pub(crate) start_gaps: Vec<f64>,
@@ -127,6 +131,9 @@ impl<const D: usize> Workspace<D> {
             searched: Vec::new(),
             missed: Vec::new(),
             contacts: Vec::new(),
+            end_contacts: Vec::new(),
+            mortar: Mortar::default(),
+            missed_mortar: Mortar::default(),
             friction: Vec::new(),
             start_gaps: Vec::new(),
             offsets: Vec::new(),

@@ -1,7 +1,7 @@
 //! The same step in 3D: a cube of hexahedra dropped on a plane and on another cube.
 
 use carom::{ContactCondition, Group, Method, Model, ModelBody, NewtonRule, Scheme, State, Workspace, step};
-use carom_contact::{ContactModel, ContactSurface, Obstacle, Pair, Target};
+use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
 use carom_fem::material::{ElasticConstants, LawSpec};
 use carom_fem::{Body, BodySpec, MassKind, RayleighDamping};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
@@ -80,7 +80,13 @@ fn run(
 #[test]
 fn cube_with_friction_on_a_plane_loses_what_friction_and_contact_take() {
     let floor = Obstacle::plane(Vector::zeros(), Vector::<3>::new(0.0, 0.0, 1.0), u32::MAX);
-    let pair = Pair { source: 0, target: Target::Obstacle(0), friction: 0.3, group: 0 };
+    let pair = Pair {
+        source: 0,
+        target: Target::Obstacle(0),
+        friction: 0.3,
+        group: 0,
+        discretisation: Discretisation::NodeToSegment,
+    };
     let model = model(vec![cube("cube", [0.0, 0.0, 0.00513], 0)], vec![floor], vec![pair]);
     let speed = Vector::<3>::new(2.0, 1.0, -2.0);
     let velocity = vec![speed; model.node_count()];
@@ -102,7 +108,13 @@ fn cubes_with_facing_quadrilaterals_exchange_momentum() {
     let a = cube("a", [0.0, 0.0, 0.0], 0);
     let b = cube("b", [0.13, 0.21, 1.00513], a.body.node_count());
     let nodes = a.body.node_count();
-    let pair = Pair { source: 1, target: Target::Surface(0), friction: 0.0, group: 0 };
+    let pair = Pair {
+        source: 1,
+        target: Target::Surface(0),
+        friction: 0.0,
+        group: 0,
+        discretisation: Discretisation::NodeToSegment,
+    };
     let model = model(vec![a, b], vec![], vec![pair]);
     let velocity =
         (0..2 * nodes).map(|n| Vector::<3>::new(0.0, 0.0, if n < nodes { 0.5 } else { -0.5 })).collect();
@@ -120,7 +132,13 @@ fn cubes_with_facing_quadrilaterals_exchange_momentum() {
 fn massless_cube_conserves_energy_and_momenta_and_does_not_penetrate() {
     for friction in [0.0, 0.3] {
         let floor = Obstacle::plane(Vector::zeros(), Vector::<3>::new(0.0, 0.0, 1.0), u32::MAX);
-        let pair = Pair { source: 0, target: Target::Obstacle(0), friction, group: 0 };
+        let pair = Pair {
+            source: 0,
+            target: Target::Obstacle(0),
+            friction,
+            group: 0,
+            discretisation: Discretisation::NodeToSegment,
+        };
         let cube = massless_cube("cube", [0.0, 0.0, 0.00513], 0);
         let model = model(vec![cube], vec![floor], vec![pair]);
         let speed = Vector::<3>::new(2.0, 1.0, -2.0);
@@ -148,7 +166,13 @@ fn massless_cubes_conserve_energy_and_momenta() {
     let a = massless_cube("a", [0.0, 0.0, 0.0], 0);
     let nodes = a.body.node_count();
     let b = massless_cube("b", [0.13, 0.21, 1.00513], nodes);
-    let pair = Pair { source: 1, target: Target::Surface(0), friction: 0.0, group: 0 };
+    let pair = Pair {
+        source: 1,
+        target: Target::Surface(0),
+        friction: 0.0,
+        group: 0,
+        discretisation: Discretisation::NodeToSegment,
+    };
     let model = model(vec![a, b], vec![], vec![pair]);
     let velocity: Vec<_> =
         (0..2 * nodes).map(|n| Vector::<3>::new(0.0, 0.0, if n < nodes { 0.5 } else { -0.5 })).collect();

@@ -46,11 +46,11 @@ pub trait Material: Send + Sync + Debug {
     /// than this.
     fn discrete_stress(&self, f0: &Mat3, f1: &Mat3) -> Mat3 {
         let (c0, c1) = (f0.transpose() * f0, f1.transpose() * f1);
-        // S(C̄) = U⁻¹ P(U) with the stretch U = √C̄.
-        let mut mean = ((c0 + c1) * 0.5).symmetric_eigen();
-        mean.eigenvalues.apply(|x| *x = x.sqrt());
-        let stretch = mean.recompose();
-        let stress = carom_mesh::tensor::inverse(&stretch).0 * self.stress(&stretch);
+        // S(C̄) = G⁻¹ P(G) for any G with GᵀG = C̄: here the triangular one. A stretch by eigenvectors would lose six digits where
+        // stretches are nearly equal, and Newton's iterations would not converge.
+        let Some(root) = ((c0 + c1) * 0.5).cholesky() else { return Mat3::repeat(f64::NAN) };
+        let mean = root.l().transpose();
+        let stress = carom_mesh::tensor::inverse(&mean).0 * self.stress(&mean);
         let mut stress = (stress + stress.transpose()) * 0.5;
         let change = (c1 - c0) * 0.5;
         let size = change.norm_squared();

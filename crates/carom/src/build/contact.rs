@@ -1,6 +1,7 @@
-use carom_contact::{ContactModel, ContactSurface, Pair, Target};
+use carom_contact::{ContactModel, ContactSurface, Discretisation, Pair, Target};
 use carom_mesh::Facet;
 
+use super::mortar::discretisation;
 use super::number;
 use super::obstacle::obstacle;
 use crate::error::InputError;
@@ -56,9 +57,13 @@ pub(super) fn contact<const D: usize>(
                 swapped = entry.sources.is_some() && entry.between[0] == second;
                 check_friction(&format!("contact.pairs.{k}.friction"), friction)?;
             }
+            let discretisation = match target {
+                Target::Surface(b) => discretisation(scenario, found, sources, [&bodies[a], &bodies[b]])?,
+                Target::Obstacle(_) => Discretisation::NodeToSegment,
+            };
             let group = groups.len();
             groups.push(Group { between: [first.to_string(), second.to_string()], friction });
-            let forward = Pair { source: a, target, friction, group };
+            let forward = Pair { source: a, target, friction, group, discretisation };
             match target {
                 Target::Obstacle(_) => model.pairs.push(forward),
                 Target::Surface(b) => {

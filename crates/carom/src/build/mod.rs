@@ -4,6 +4,7 @@ mod body;
 mod contact;
 mod mesh;
 mod method;
+mod mortar;
 mod obstacle;
 mod overlaps;
 mod velocity;

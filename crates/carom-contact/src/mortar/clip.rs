@@ -1,0 +1,129 @@
+//! What two convex polygons in a plane, or two segments of a line, have in common.
+
+use smallvec::SmallVec;
+
+/// Coordinates in a plane; on a line the second is 0.
+pub(super) type Point = [f64; 2];
+
+/// The corners of a convex polygon, counter-clockwise, or the ends of a segment. Two quadrilaterals have eight corners in common
+/// at most.
+pub(super) type Polygon = SmallVec<[Point; 8]>;
+
+/// The corners of a simplex; of a segment the third is not used.
+pub(super) type Simplex = [Point; 3];
+
+/// Turns corners that are given clockwise, or ends in falling order.
+pub(super) fn orient(dimension: usize, corners: &mut Polygon) {
+    let turned = match dimension {
+        1 => corners[1][0] < corners[0][0],
+        _ => simplices(dimension, corners).map(|s| size(dimension, &s)).sum::<f64>() < 0.0,
+    };
+    if turned {
+        corners.reverse();
+    }
+}
+
+/// The common part; without corners if there is none.
+///
+/// In a plane by Sutherland and Hodgman (Comm. ACM 17, 1974): `subject` is cut along every side of `window`.
+pub(super) fn intersection(dimension: usize, subject: &Polygon, window: &Polygon) -> Polygon {
+    if dimension == 1 {
+        let (low, high) = (subject[0][0].max(window[0][0]), subject[1][0].min(window[1][0]));
+        return if low < high { Polygon::from_slice(&[[low, 0.0], [high, 0.0]]) } else { Polygon::new() };
+    }
+    let mut part = subject.clone();
+    let mut rest = Polygon::new();
+    for (k, a) in window.iter().enumerate() {
+        let b = &window[(k + 1) % window.len()];
+        let inside = |p: &Point| cross(a, b, p);
+        std::mem::swap(&mut part, &mut rest);
+        part.clear();
+        for (m, p) in rest.iter().enumerate() {
+            let q = &rest[(m + 1) % rest.len()];
+            let (from, to) = (inside(p), inside(q));
+            if from >= 0.0 {
+                part.push(*p);
+            }
+            if (from > 0.0 && to < 0.0) || (from < 0.0 && to > 0.0) {
+                let s = from / (from - to);
+                part.push([p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1])]);
+            }
+        }
+    }
+    part
+}
+
+/// The simplices that make up a polygon or a segment.
+pub(super) fn simplices(dimension: usize, polygon: &Polygon) -> impl Iterator<Item = Simplex> {
+    let count = if polygon.is_empty() { 0 } else { polygon.len() - dimension };
+    (0..count).map(move |k| {
+        if dimension == 1 {
+            [polygon[0], polygon[1], polygon[1]]
+        } else {
+            [polygon[0], polygon[k + 1], polygon[k + 2]]
+        }
+    })
+}
+
+/// Length of a segment or area of a triangle; negative if it is turned.
+pub(super) fn size(dimension: usize, [a, b, c]: &Simplex) -> f64 {
+    if dimension == 1 { b[0] - a[0] } else { 0.5 * cross(a, b, c) }
+}
+
+/// Twice the area of the triangle a, b, c.
+fn cross(a: &Point, b: &Point, c: &Point) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn area(dimension: usize, polygon: &Polygon) -> f64 {
+        simplices(dimension, polygon).map(|s| size(dimension, &s)).sum()
+    }
+
+    fn square(x: f64, y: f64, side: f64) -> Polygon {
+        Polygon::from_slice(&[[x, y], [x + side, y], [x + side, y + side], [x, y + side]])
+    }
+
+    #[test]
+    fn common_part_of_squares_that_overlap_touch_hold_and_miss_one_another() {
+        let whole = square(0.0, 0.0, 2.0);
+        for (other, expected) in [
+            (square(1.0, 1.0, 2.0), 1.0),
+            (square(0.5, 0.5, 1.0), 1.0),
+            (square(-1.0, -1.0, 4.0), 4.0),
+            (square(0.0, 0.0, 2.0), 4.0),
+            (square(2.0, 0.0, 2.0), 0.0),
+            (square(3.0, 3.0, 1.0), 0.0),
+        ] {
+            assert!((area(2, &intersection(2, &whole, &other)) - expected).abs() < 1e-15);
+            assert!((area(2, &intersection(2, &other, &whole)) - expected).abs() < 1e-15);
+        }
+    }
+
+    /// A square and the same turned by 45° have a regular octagon in common: 8(√2 − 1) for sides of 2.
+    #[test]
+    fn common_part_of_a_square_and_a_turned_one_is_an_octagon() {
+        let r = 2.0_f64.sqrt();
+        let mut turned = Polygon::from_slice(&[[0.0, r], [r, 0.0], [0.0, -r], [-r, 0.0]]);
+        assert!(area(2, &turned) < 0.0);
+        orient(2, &mut turned);
+        let common = intersection(2, &square(-1.0, -1.0, 2.0), &turned);
+        assert_eq!(common.len(), 8);
+        assert!((area(2, &common) - 8.0 * (r - 1.0)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn common_part_of_segments() {
+        let mut segment = Polygon::from_slice(&[[3.0, 0.0], [1.0, 0.0]]);
+        orient(1, &mut segment);
+        for (ends, expected) in
+            [([0.0, 2.0], 1.0), ([1.5, 2.0], 0.5), ([0.0, 4.0], 2.0), ([3.0, 4.0], 0.0), ([5.0, 6.0], 0.0)]
+        {
+            let other = Polygon::from_slice(&[[ends[0], 0.0], [ends[1], 0.0]]);
+            assert!((area(1, &intersection(1, &segment, &other)) - expected).abs() < 1e-15);
+        }
+    }
+}

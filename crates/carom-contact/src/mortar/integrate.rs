@@ -1,0 +1,92 @@
+//! The integrals of the multipliers of one source facet against the target facets that it faces.
+
+use carom_mesh::{Facet, Vector};
+use smallvec::SmallVec;
+
+use super::clip::{intersection, simplices, size};
+use super::parts::{MAX_FACET_NODES, parts};
+use super::plane::{Image, Plane};
+use super::quadrature::rule;
+use super::row::Row;
+
+/// Overlaps of two parts smaller than this fraction of the one on the source are round-off.
+const NEGLIGIBLE: f64 = 1e-14;
+
+/// The integrals of two corners' multipliers and the shape functions of a facet.
+type Products = [[f64; MAX_FACET_NODES]; 4];
+
+/// Adds to the rows of the nodes of `source` what they see of the facets `targets`. `row_of` knows the places of the rows.
+///
+/// Each part of the source is a plane, in which the facets are cut against it exactly; along its normal the points of both sides
+/// face one another. Multipliers are the linear shape functions of the parts, and motions the shape functions of the facets.
+pub(super) fn integrate<'a, const D: usize>(
+    source: &Facet,
+    targets: impl Iterator<Item = &'a Facet> + Clone,
+    position: &impl Fn(u32) -> Vector<D>,
+    row_of: &impl Fn(u32) -> Option<usize>,
+    rows: &mut [Row<D>],
+) {
+    let dimension = D - 1;
+    for &(kind, corners) in parts(source.kind) {
+        let places: SmallVec<[Vector<D>; 4]> = corners.iter().map(|&a| position(source.nodes[a])).collect();
+        let Some(plane) = Plane::through(&places) else { continue };
+        let in_plane = |&n: &u32| plane.coordinates(&position(n));
+        let own = Image::new(source.kind, source.nodes.iter().map(in_plane));
+        let part = Image::new(kind, places.iter().map(|x| plane.coordinates(x)));
+        let outline = own.polygon(corners);
+        let whole: f64 = simplices(dimension, &outline).map(|s| size(dimension, &s)).sum();
+        let mut covered = [0.0; 4];
+        let mut with_source: Products = Default::default();
+        let row: SmallVec<[Option<usize>; 4]> = corners.iter().map(|&a| row_of(source.nodes[a])).collect();
+        for target in targets.clone() {
+            let other = Image::new(target.kind, target.nodes.iter().map(in_plane));
+            let points = rule(dimension, source.kind != kind || parts(target.kind).len() > 1);
+            let mut with_target: Products = Default::default();
+            let mut overlap = 0.0;
+            for &(_, target_corners) in parts(target.kind) {
+                let common = intersection(dimension, &outline, &other.polygon(target_corners));
+                for simplex in simplices(dimension, &common) {
+                    let simplex_size = size(dimension, &simplex);
+                    if simplex_size <= NEGLIGIBLE * whole {
+                        continue;
+                    }
+                    overlap += simplex_size;
+                    let mut values = [[0.0; MAX_FACET_NODES]; 3];
+                    for (barycentric, share) in points {
+                        let point = std::array::from_fn(|i| {
+                            barycentric.iter().zip(&simplex).map(|(l, corner)| l * corner[i]).sum()
+                        });
+                        let [multiplier, source_shape, target_shape] = &mut values;
+                        part.shape_at(&point, multiplier);
+                        own.shape_at(&point, source_shape);
+                        other.shape_at(&point, target_shape);
+                        for v in 0..corners.len() {
+                            let weight = share * simplex_size * multiplier[v];
+                            covered[v] += weight;
+                            for a in 0..source.nodes.len() {
+                                with_source[v][a] += weight * source_shape[a];
+                            }
+                            for c in 0..target.nodes.len() {
+                                with_target[v][c] += weight * target_shape[c];
+                            }
+                        }
+                    }
+                }
+            }
+            if overlap > 0.0 {
+                for (row, products) in row.iter().zip(&with_target) {
+                    let Some(k) = *row else { continue };
+                    target.nodes.iter().zip(products).for_each(|(&n, &m)| rows[k].add_target(n, m));
+                }
+            }
+        }
+        for (v, row) in row.iter().enumerate() {
+            let Some(k) = *row else { continue };
+            rows[k].add_whole(whole / corners.len() as f64);
+            if covered[v] > 0.0 {
+                rows[k].add_covered(covered[v], &plane.normal());
+                source.nodes.iter().zip(&with_source[v]).for_each(|(&n, &d)| rows[k].add_source(n, d));
+            }
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! Mortar rows: contact in the mean over the surface instead of at its nodes (Puso & Laursen, Comput. Methods Appl. Mech. Engrg.
+//! 193, 2004).
+//!
+//! Every source node A has a multiplier Φ_A, and its row is that of a weighted motion,
+//!
+//! ```text
+//! w_A = frame_A · [Σ_B ∫Φ_A N_B dΓ d_B − Σ_C ∫Φ_A N_C dΓ d_C] / ∫Φ_A dΓ,     n_A ∥ −∫Φ_A n dΓ,
+//! ```
+//!
+//! over the part of the source that the target covers, with n the outward normal of the source; its gap is the same sum of
+//! positions, along n_A. The rows have the form of those of nodes, so the reduced problem and its solvers know no difference. A
+//! reaction is a force [N], spread by the same weights, and r_n/∫Φ_A (and the thickness) is the pressure at the node.
+//!
+//! **Standard, not dual multipliers.** Φ_A is the linear shape function of the node, on quadratic facets that of their parts. It
+//! is nowhere negative: the gap is a mean, p ≥ 0 holds everywhere and not at nodes only. Dual functions (Popp, Gitterle, Gee & Wall,
+//! Int. J. Numer. Meth. Engng 83, 2010) make ∫Φ_A N_B diagonal, which pays where multipliers are condensed out of the global matrix.
+//! Here they never enter one, and where the target covers a facet in part, dual functions would have to be made anew from a
+//! mass matrix that degenerates with the part (Cichosz & Bischoff 2011). Standard functions are simply integrated over what is
+//! covered, so that a uniform pressure is exact whichever side reaches beyond the other.
+
+mod clip;
+mod facing;
+mod integrate;
+mod parts;
+mod plane;
+mod quadrature;
+mod row;
+
+use std::ops::Range;
+
+use carom_mesh::Vector;
+use serde::{Deserialize, Serialize};
+
+use self::facing::Facing;
+use self::integrate::integrate;
+use self::row::Row;
+use crate::{Candidate, Contact, ContactModel, Target};
+
+/// How contact between two surfaces is written for finitely many nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Discretisation {
+    /// The gap of every source node: a force at a node.
+    #[default]
+    NodeToSegment,
+    /// The mean gap under the shape function of every source node: a pressure on the surface. Rigid obstacles have no facets
+    /// to integrate over and are always checked node by node.
+    Mortar,
+}
+
+/// What the mortar pairs of a model have found in a step, and scratch. It may be dropped at any moment between two steps.
+#[derive(Debug, Clone, Default)]
+pub struct Mortar<const D: usize> {
+    /// Facets that may face one another, ascending.
+    facing: Vec<Facing>,
+    /// The rows of the candidates where they were found: of one that the target leaves within the step, the last there is.
+    found: Vec<(Candidate, Contact<D>)>,
+    rows: Vec<Row<D>>,
+    nodes: Vec<u32>,
+}
+
+impl<const D: usize> ContactModel<D> {
+    /// Finds the multipliers of mortar pairs whose gap comes within `margin` [m] and adds them to the candidates `out`.
+    ///
+    /// `start` and `end` are the positions at the start of the step and those predicted for its end. A multiplier counts where the
+    /// target covers it at the predicted middle of the step or at its end.
+    pub fn detect_mortar(
+        &self,
+        start: &impl Fn(u32) -> Vector<D>,
+        end: &impl Fn(u32) -> Vector<D>,
+        margin: f64,
+        mortar: &mut Mortar<D>,
+        out: &mut Vec<Candidate>,
+    ) {
+        mortar.facing.clear();
+        mortar.found.clear();
+        let middle = |n: u32| (start(n) + end(n)) * 0.5;
+        for pair in self.mortar_pairs() {
+            let first = mortar.facing.len();
+            self.find_facing(pair, start, end, margin, &mut mortar.facing);
+            let surface = &self.surfaces[self.pairs[pair].source];
+            let mut nodes = std::mem::take(&mut mortar.nodes);
+            nodes.clear();
+            for facing in &mortar.facing[first..] {
+                nodes.extend(&surface.facets[facing.source as usize].nodes);
+            }
+            nodes.sort_unstable();
+            nodes.dedup();
+            nodes.retain(|n| surface.sources.binary_search(n).is_ok());
+            let candidate = |&node: &u32| Candidate { pair: pair as u32, node, facet: None, mirrored: false };
+            let first = mortar.found.len();
+            self.integrate_rows(pair, &nodes, &middle, mortar);
+            for (node, row) in nodes.iter().zip(&mortar.rows) {
+                let contact = row.contact(&middle).filter(|c| c.gap <= margin);
+                mortar.found.extend(contact.map(|c| (candidate(node), c)));
+            }
+            let known = mortar.found.len();
+            self.integrate_rows(pair, &nodes, end, mortar);
+            for (node, row) in nodes.iter().zip(&mortar.rows) {
+                let is_new = mortar.found[first..known].binary_search_by_key(node, |(c, _)| c.node).is_err();
+                let contact = row.contact(end).filter(|c| is_new && c.gap <= margin);
+                mortar.found.extend(contact.map(|c| (candidate(node), c)));
+            }
+            mortar.found[first..].sort_unstable_by_key(|(c, _)| *c);
+            mortar.nodes = nodes;
+        }
+        if !mortar.found.is_empty() {
+            out.extend(mortar.found.iter().map(|(c, _)| *c));
+            out.sort_unstable();
+        }
+    }
+
+    /// Writes gap, frame and stencil of every candidate, ascending, to `out`, where the nodes are at `position`.
+    pub fn evaluate_all(
+        &self,
+        candidates: &[Candidate],
+        position: &impl Fn(u32) -> Vector<D>,
+        mortar: &mut Mortar<D>,
+        out: &mut Vec<Contact<D>>,
+    ) {
+        out.clear();
+        for of_pair in candidates.chunk_by(|a, b| a.pair == b.pair) {
+            let pair = of_pair[0].pair as usize;
+            if !self.is_mortar(pair) {
+                out.extend(of_pair.iter().map(|c| self.evaluate(c, position)));
+                continue;
+            }
+            let mut nodes = std::mem::take(&mut mortar.nodes);
+            nodes.clear();
+            nodes.extend(of_pair.iter().map(|c| c.node));
+            self.integrate_rows(pair, &nodes, position, mortar);
+            mortar.nodes = nodes;
+            for (candidate, row) in of_pair.iter().zip(&mortar.rows) {
+                out.push(row.contact(position).unwrap_or_else(|| mortar.found(candidate).moved(position)));
+            }
+        }
+    }
+
+    /// Whether the rows of a pair are those of multipliers.
+    #[must_use]
+    pub fn is_mortar(&self, pair: usize) -> bool {
+        let pair = &self.pairs[pair];
+        pair.discretisation == Discretisation::Mortar && matches!(pair.target, Target::Surface(_))
+    }
+
+    fn mortar_pairs(&self) -> impl Iterator<Item = usize> {
+        (0..self.pairs.len()).filter(|&p| self.is_mortar(p))
+    }
+
+    /// Fills `mortar.rows`, one for each of `nodes`, which ascend.
+    fn integrate_rows(
+        &self,
+        pair: usize,
+        nodes: &[u32],
+        position: &impl Fn(u32) -> Vector<D>,
+        mortar: &mut Mortar<D>,
+    ) {
+        let Target::Surface(target) = self.pairs[pair].target else { return };
+        let (source, target) = (&self.surfaces[self.pairs[pair].source], &self.surfaces[target]);
+        mortar.rows.resize_with(nodes.len(), Row::default);
+        mortar.rows.iter_mut().for_each(Row::clear);
+        let row_of = |n: u32| nodes.binary_search(&n).ok();
+        for facing in mortar.facing[mortar.of_pair(pair)].chunk_by(|a, b| a.source == b.source) {
+            let facet = &source.facets[facing[0].source as usize];
+            if facet.nodes.iter().any(|&n| row_of(n).is_some()) {
+                let targets = facing.iter().map(|f| &target.facets[f.target as usize]);
+                integrate(facet, targets, position, &row_of, &mut mortar.rows);
+            }
+        }
+    }
+}
+
+impl<const D: usize> Mortar<D> {
+    /// A candidate where it was found.
+    fn found(&self, candidate: &Candidate) -> &Contact<D> {
+        match self.found.binary_search_by_key(candidate, |(c, _)| *c) {
+            Ok(k) => &self.found[k].1,
+            Err(_) => unreachable!("candidates of mortar pairs come from detect_mortar"),
+        }
+    }
+
+    /// The facing facets of a pair.
+    fn of_pair(&self, pair: usize) -> Range<usize> {
+        let start = self.facing.partition_point(|f| (f.pair as usize) < pair);
+        start..self.facing.partition_point(|f| f.pair as usize <= pair)
+    }
+}
