@@ -129,7 +129,9 @@ class _Reader:
         if keyword in ("PART", "INSTANCE"):
             self.parts += keyword == "PART"
             if self.parts > 1 or (keyword == "INSTANCE" and rows):
-                raise ValueError("it has several parts or moved instances; write one part to a file")
+                raise ValueError(
+                    "it has several parts or moved instances; write one part to a file"
+                )
         elif keyword == "NODE":
             numbers = [int(row[0]) for row in rows]
             for number, row in zip(numbers, rows, strict=True):
@@ -219,13 +221,17 @@ class _Reader:
     def _surface(self, options: dict[str, str], rows: list[list[str]]) -> None:
         name = options.get("NAME", "")
         if options.get("TYPE", "ELEMENT").upper() == "NODE":
-            self._add(self.node_sets, name, self._members(self.node_sets, {}, [r[:1] for r in rows]))
+            self._add(
+                self.node_sets, name, self._members(self.node_sets, {}, [r[:1] for r in rows])
+            )
             return
         self.names.setdefault(name.upper(), name)
         faces = self.surfaces.setdefault(name.upper(), [])
         for row in rows:
             face = row[1].upper() if len(row) > 1 else ""
-            faces.extend((number, face) for number in self._members(self.element_sets, {}, [row[:1]]))
+            faces.extend(
+                (number, face) for number in self._members(self.element_sets, {}, [row[:1]])
+            )
 
     def _faces(
         self, name: str, faces: list[tuple[int, str]], place: dict[int, tuple[int, int]]
@@ -241,7 +247,9 @@ class _Reader:
             face_kind, local = _FACES[kind]
             digits = re.fullmatch(r"S([1-6])", face)
             if digits is None or int(digits[1]) > len(local):
-                raise ValueError(f'surface {name} has a face "{face}", which a {kind} does not have')
+                raise ValueError(
+                    f'surface {name} has a face "{face}", which a {kind} does not have'
+                )
             nodes = elements[number]
             found.setdefault(face_kind, []).append([nodes[k] for k in local[int(digits[1]) - 1]])
         return list(found.items())
@@ -260,6 +268,8 @@ def _indices(index: dict[int, int], numbers: list[int] | list[list[int]]) -> Ind
     """Return node numbers as indices."""
     array = np.array(numbers, dtype=np.int64)
     try:
-        return np.array([index[n] for n in array.ravel().tolist()], dtype=np.int64).reshape(array.shape)
+        return np.array([index[n] for n in array.ravel().tolist()], dtype=np.int64).reshape(
+            array.shape
+        )
     except KeyError as error:
         raise ValueError(f"node {error} is not there") from None

@@ -52,12 +52,16 @@ def _body(mesh: FileMesh, body: str | None, scale: float, space: int) -> MeshArr
     for (kind, nodes), cells in zip(mesh.blocks, chosen, strict=True):
         if len(cells) and kind not in KINDS:
             taken = ", ".join(k.name for k in KINDS.values() if k.dimension == space)
-            raise Refused(f"has {count(len(cells), f'{kind} cell')}, which carom does not know; use {taken}")
+            raise Refused(
+                f"has {count(len(cells), f'{kind} cell')}, which carom does not know; use {taken}"
+            )
         outside = nodes[(nodes < 0) | (nodes >= len(mesh.points))]
         if outside.size:
             raise Refused(f"a {kind} cell refers to point {outside[0]} of {len(mesh.points)}")
     used = np.unique(
-        np.concatenate([nodes[c].ravel() for (_, nodes), c in zip(mesh.blocks, chosen, strict=True)])
+        np.concatenate(
+            [nodes[c].ravel() for (_, nodes), c in zip(mesh.blocks, chosen, strict=True)]
+        )
     )
     points = _positions(mesh.points, used, scale, space)
     number = np.full(len(mesh.points), -1, dtype=np.int64)
@@ -97,7 +101,9 @@ def _refuse_wrong_dimension(mesh: FileMesh, space: int) -> None:
         )
     if highest < space:
         what = "volume cells" if space == 3 else "plane cells"
-        remedy = "set dimension = 2, or mesh the volume" if highest == 2 else f"mesh the {what[:-6]}"
+        remedy = (
+            "set dimension = 2, or mesh the volume" if highest == 2 else f"mesh the {what[:-6]}"
+        )
         raise Refused(f"has no {what}, only {_kinds(mesh)}; {remedy}")
 
 
@@ -223,5 +229,3 @@ def _cell_sets(mesh: FileMesh, chosen: list[Indices]) -> dict[str, Indices]:
         if any(map(len, members)):
             sets[name] = np.concatenate(members).astype(np.int64)
     return sets
-
-

@@ -47,7 +47,9 @@ def _by_meshio(path: Path) -> FileMesh:
         raise Refused(f"reading this format needs the package {error.name}; install it") from None
     except (Exception, SystemExit) as error:  # whatever a reader trips over, and meshio's way out
         said = [line.strip() for line in printed.getvalue().splitlines() if line.strip()]
-        reason = " ".join(said) if isinstance(error, SystemExit) else f"{error or type(error).__name__}"
+        reason = (
+            " ".join(said) if isinstance(error, SystemExit) else f"{error or type(error).__name__}"
+        )
         raise Refused(f"cannot be read: {' '.join(reason.split())}") from None
     blocks = [
         (str(block.type), np.asarray(block.data, dtype=np.int64))
@@ -93,7 +95,9 @@ def _names(mesh: Any, title: str, tag: int, of_dimension: int) -> list[str]:  # 
     if title == "cell_tags":  # families of MED
         return [str(name) for name in getattr(mesh, "cell_tags", {}).get(tag, [])]
     if title == "gmsh:physical":  # 0 is no group, and a group without a name has its number
-        named = [str(n) for n, entry in mesh.field_data.items() if tuple(entry) == (tag, of_dimension)]
+        named = [
+            str(n) for n, entry in mesh.field_data.items() if tuple(entry) == (tag, of_dimension)
+        ]
         return named or ([str(tag)] if tag else [])
     return [f"{title}:{tag}"]
 

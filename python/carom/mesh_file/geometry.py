@@ -27,7 +27,9 @@ def meshed(path: Path, space: int) -> Iterator[Path]:
     try:
         import gmsh  # noqa: PLC0415 (an extra, and slow to load)
     except ImportError as error:
-        raise Refused(f'is a geometry, which needs Gmsh ({error}): pip install "carom[gmsh]"') from None
+        raise Refused(
+            f'is a geometry, which needs Gmsh ({error}): pip install "carom[gmsh]"'
+        ) from None
     with tempfile.TemporaryDirectory() as directory:
         file = Path(directory) / "mesh.msh"
         gmsh.initialize(readConfigFiles=False, interruptible=False)
