@@ -22,9 +22,14 @@ class Body(Description):
     material
         Name of one of the scenario's materials.
     hypothesis
-        What the plane model assumes about the third direction.
+        What a body of the plane is in space: a slice of a long body without strain across the plane,
+        a sheet without stress across it, or a body of revolution, of which x is the radius and y runs
+        along the axis. Masses, forces and energies of the last are those of the whole body.
+    formulation
+        How the deformation follows from the displacements; mean-dilatation has one change of volume
+        per quad4 or hex8 cell, so that nearly incompressible bodies do not lock.
     thickness
-        Thickness in the third direction [m].
+        Thickness in the third direction [m]; not used of a body of revolution.
     mass
         Mass matrix: consistent, or lumped to the nodes.
     mesh
@@ -39,7 +44,8 @@ class Body(Description):
 
     name: Name
     material: str
-    hypothesis: Literal["plane-strain"] = "plane-strain"
+    hypothesis: Literal["plane-strain", "plane-stress", "axisymmetric"] = "plane-strain"
+    formulation: Literal["standard", "mean-dilatation"] = "standard"
     thickness: Positive = 1.0
     mass: Literal["consistent", "lumped"] = "consistent"
     mesh: Mesh

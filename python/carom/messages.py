@@ -91,7 +91,11 @@ def input_error(error: ValidationError, data: Mapping[str, Any]) -> InputError:
         What it was given, needed to tell keys from the tags of unions.
     """
     first, *others = error.errors(include_url=False)
-    others = [other for other in others if other["loc"] != first["loc"][: len(other["loc"])]]
+    # What fits no member of a union is one problem, though pydantic tells of every member.
+    path = _without_tags(first["loc"], data)
+    others = [
+        other for other in others if (p := _without_tags(other["loc"], data)) != path[: len(p)]
+    ]
     key, value, what = _read(first, data)
     line = f"{key} = {show(value)}: {what}" if value is not _ABSENT else f"{key}: {what}"
     if others:
@@ -125,6 +129,8 @@ def _without_tags(location: Sequence[int | str], data: object) -> list[str]:
     path: list[str] = []
     entered: object = None
     for part in location:
+        if isinstance(part, str) and isinstance(data, int | float | str | Sequence):
+            continue  # a member of a union of plain types
         if isinstance(data, Mapping):
             if data is not entered and _kind(data) == part:
                 entered = data

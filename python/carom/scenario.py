@@ -128,6 +128,12 @@ class Scenario(Description):
                     key=f"{path}.mesh.kind",
                     value=body.mesh.kind,
                 )
+            if self.dimension == 3 and body.hypothesis != "plane-strain":
+                raise problem(
+                    "is of 2D bodies; leave it out in 3D",
+                    key=f"{path}.hypothesis",
+                    value=body.hypothesis,
+                )
             if body.spin is not None and isinstance(body.spin, tuple) != (self.dimension == 3):
                 form = "three components" if self.dimension == 3 else "a number"
                 raise problem(

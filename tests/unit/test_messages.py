@@ -130,7 +130,11 @@ NUMBERS = [
 @pytest.mark.parametrize("number", [float("nan"), float("inf"), float("-inf")])
 @pytest.mark.parametrize("path", NUMBERS)
 def test_what_is_not_finite_is_refused_everywhere(scenario, path, number):
-    given = ["analysis.gravity=[0, -9.81]", 'analysis.scheme={kind="theta"}']
+    given = [
+        "analysis.gravity=[0, -9.81]",
+        "bodies.0.velocity=[0, 1]",
+        'analysis.scheme={kind="theta"}',
+    ]
     data = scenario.with_overrides(given).model_dump(mode="json")
     spoil(data, path, number)
     with pytest.raises(InputError, match=rf"^{path} = [-+]?(nan|inf): must be") as caught:

@@ -113,7 +113,7 @@ def test_json_for_the_native_core_has_every_default_as_a_number(box):
         "cross_check": False,
     }
     assert data["analysis"]["gravity"] is None
-    assert data["bodies"][0]["velocity"] == [0.0, 0.0]
+    assert data["bodies"][0]["velocity"] is None
     assert data["contact"]["pairs"][0]["sources"] is None
 
 

@@ -19,6 +19,17 @@ impl<const D: usize> Aabb<D> {
         Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
     }
 
+    /// The point in the middle.
+    pub fn centre(&self) -> Vector<D> {
+        (self.low + self.high) * 0.5
+    }
+
+    /// The box grown by `factor` of its own half sides.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let grow = (self.high - self.low) * (0.5 * factor);
+        Self { low: self.low - grow, high: self.high + grow }
+    }
+
     /// The box grown by `margin` on all sides.
     pub fn inflated(&self, margin: f64) -> Self {
         Self { low: self.low.add_scalar(-margin), high: self.high.add_scalar(margin) }
@@ -35,6 +46,11 @@ impl<const D: usize> Aabb<D> {
     /// Distance of a point to the box, zero inside.
     pub fn distance(&self, x: &Vector<D>) -> f64 {
         (0..D).map(|i| (self.low[i] - x[i]).max(x[i] - self.high[i]).max(0.0).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// The axis along which the box is longest.
+    pub fn longest_axis(&self) -> usize {
+        (self.high - self.low).imax()
     }
 
     /// Length of the diagonal.

@@ -1,4 +1,5 @@
-use carom_mesh::{Vector, cell};
+use carom_mesh::Vector;
+use carom_mesh::cell::MAX_FACET_NODES;
 
 use crate::ContactSurface;
 use crate::project::{BEYOND, Projection, Reach, normal};
@@ -142,7 +143,7 @@ impl Segment {
     ) -> Projection<'_, D> {
         let (value, slope) = (powers(xi), slopes(xi));
         let basis: [f64; 4] = std::array::from_fn(|j| value[j] + beyond * slope[j]);
-        let mut weights = [0.0; cell::MAX_NODES];
+        let mut weights = [0.0; MAX_FACET_NODES];
         for (weight, own) in weights.iter_mut().zip(&self.weights[..self.len]) {
             *weight = own.iter().zip(&basis).map(|(c, b)| c * b).sum();
         }

@@ -1,9 +1,10 @@
 use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
+use crate::facing::{Projected, TIE, faced};
 use crate::frame::frame;
 use crate::project::{Reach, project};
-use crate::{Contact, ContactModel, Target};
+use crate::{Contact, ContactModel, Search, Target};
 
 /// A source node that may touch its target within a step. Ordered by pair, then node: this is the order of the contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -18,12 +19,6 @@ pub struct Candidate {
     pub mirrored: bool,
 }
 
-/// How deep inside a target surface a node is still found, in diameters of the facet it faces.
-const DEPTH: f64 = 0.5;
-
-/// A node this close to lying on a facet, relative to its size, is not beside it.
-const ALIGNED: f64 = 1e-6;
-
 /// A node is checked once where it faces another that faces it, to this fraction of the facet.
 const MIRRORED: f64 = 0.02;
 
@@ -32,16 +27,18 @@ impl<const D: usize> ContactModel<D> {
     ///
     /// `start` and `end` are the positions at the start of the step and those predicted for its end. A node keeps its facet for
     /// the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
-    /// the closest facet alone is ambiguous. Nodes are found inside a target to a depth of `DEPTH` facets. On a smooth target
+    /// the closest facet alone is ambiguous. Nodes are found inside a target to a depth of half a facet. On a smooth target
     /// the closest point may move on to other facets. Mortar pairs are left to `detect_mortar`.
     pub fn detect(
         &self,
         start: &impl Fn(u32) -> Vector<D>,
         end: &impl Fn(u32) -> Vector<D>,
         margin: f64,
+        search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
         out.clear();
+        search.sweep(self, start, end);
         for (p, pair) in self.pairs.iter().enumerate() {
             let pair_index = p as u32;
             let source = &self.surfaces[pair.source];
@@ -49,7 +46,8 @@ impl<const D: usize> ContactModel<D> {
                 Target::Obstacle(o) => {
                     let obstacle = &self.obstacles[o];
                     let near = |&&node: &&u32| {
-                        obstacle.gap(&start(node), start).0.min(obstacle.gap(&end(node), end).0) <= margin
+                        obstacle.is_near(&start(node), margin, start)
+                            || obstacle.is_near(&end(node), margin, end)
                     };
                     out.extend(source.sources.iter().filter(near).map(|&node| Candidate {
                         pair: pair_index,
@@ -59,7 +57,7 @@ impl<const D: usize> ContactModel<D> {
                     }));
                 }
                 Target::Surface(_) if self.is_mortar(p) => {}
-                Target::Surface(t) => self.detect_facets(pair_index, t, start, end, margin, out),
+                Target::Surface(t) => self.detect_facets(pair_index, t, start, end, margin, search, out),
             }
         }
         self.mark_mirrored(&|n| (start(n) + end(n)) * 0.5, out);
@@ -95,59 +93,50 @@ impl<const D: usize> ContactModel<D> {
         start: &impl Fn(u32) -> Vector<D>,
         end: &impl Fn(u32) -> Vector<D>,
         margin: f64,
+        search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
-        let source = &self.surfaces[self.pairs[pair as usize].source];
-        let target = &self.surfaces[target];
-        let source_box = Aabb::of(source.sources.iter().flat_map(|&n| [start(n), end(n)])).inflated(margin);
-        let swept = |f: u32| target.bounds(f, start).union(&target.bounds(f, end));
-        let facets = 0..target.facets.len() as u32;
-        let target_box = facets.clone().fold(Aabb::of([]), |all, f| all.union(&swept(f))).inflated(margin);
+        let Search { surfaces, near, projected } = search;
+        let source_index = self.pairs[pair as usize].source;
+        let source_box = surfaces[source_index].sources.inflated(margin);
+        let swept = &mut surfaces[target];
+        let target_box = swept.whole.inflated(margin);
         if !source_box.overlaps(&target_box) {
             return;
         }
+        swept.fit(margin);
+        let (source, target) = (&self.surfaces[source_index], &self.surfaces[target]);
         let middle = |n: u32| (start(n) + end(n)) * 0.5;
-        let facets: Vec<(u32, Aabb<D>)> = facets
-            .map(|f| {
-                let facet_box = swept(f);
-                (f, facet_box.inflated(margin + DEPTH * facet_box.diameter()))
-            })
-            .filter(|(_, b)| b.overlaps(&source_box))
-            .collect();
         for &node in &source.sources {
             let (x0, x1) = (start(node), end(node));
             if !(target_box.contains(&x0) || target_box.contains(&x1)) {
                 continue;
             }
-            let node_box = Aabb::of([x0, x1]);
             let x = middle(node);
-            let outward = source.node_normal(node, &middle);
-            let mut best: Option<(f64, f64, u32)> = None;
-            for (f, facet_box) in &facets {
-                if !facet_box.overlaps(&node_box) {
-                    continue;
-                }
-                let p = target.project(*f, &x, Reach::Facet, &middle);
-                if p.normal.dot(&outward) >= 0.0 {
-                    continue;
-                }
-                let offset = x - p.point;
-                let (distance, gap) = (offset.norm(), p.normal.dot(&offset));
-                // In front of the facet or behind it, not beside it: in front of a convex corner a node may stand as far
-                // beside either facet as before it, but one behind and beside a facet is next to the body.
-                let beside = (offset - p.normal * gap).norm();
-                if gap > margin || beside > gap.max(0.0) + ALIGNED * facet_box.diameter() {
-                    continue;
-                }
-                // Facets that share the closest point: the one the node is farthest in front of.
-                let tie = 1e-12 * facet_box.diameter();
-                let better =
-                    best.is_none_or(|(d, g, _)| distance < d - tie || (distance <= d + tie && gap > g));
-                if better {
-                    best = Some((distance, gap, *f));
-                }
+            near.clear();
+            swept.tree.overlapping(&Aabb::of([x0, x1]), |f, room| {
+                near.push((swept.facets[f as usize].distance(&x), f, room.diameter()));
+            });
+            if near.is_empty() {
+                continue;
             }
-            if let Some((_, _, facet)) = best {
+            near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let outward = source.node_normal(node, &middle);
+            projected.clear();
+            let mut reach = f64::INFINITY;
+            for &(at_least, facet, size) in near.iter() {
+                // Nothing farther away than a facet that the node faces squarely has a say.
+                if at_least > reach + TIE * size {
+                    break;
+                }
+                let p = Projected::new(facet, size, &x, &target.project(facet, &x, Reach::Facet, &middle));
+                if p.faces(&outward) && p.gap <= margin && p.is_square() {
+                    reach = reach.min(p.distance);
+                }
+                projected.push(p);
+            }
+            projected.sort_unstable_by_key(|p| p.facet);
+            if let Some(facet) = faced(projected, &outward, margin) {
                 out.push(Candidate { pair, node, facet: Some(facet), mirrored: false });
             }
         }

@@ -1,6 +1,7 @@
 use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
+use crate::bvh::Bvh;
 use crate::project::Reach;
 use crate::{ContactModel, ContactSurface, Pair, Target};
 
@@ -43,9 +44,9 @@ impl<const D: usize> ContactModel<D> {
             }
             Target::Surface(t) => {
                 let target = &self.surfaces[t];
-                let boxes: Vec<Aabb<D>> =
-                    (0..target.facets.len() as u32).map(|f| target.bounds(f, position)).collect();
-                let whole = boxes.iter().fold(Aabb::of([]), |all, b| all.union(b));
+                let boxes = || (0..target.facets.len() as u32).map(|f| target.bounds(f, position));
+                let whole = boxes().fold(Aabb::of([]), |all, b| all.union(&b));
+                let tree = Bvh::new(boxes());
                 // The nearest to the target's box first, so that most points need no closer look.
                 let mut points: Vec<(f64, Vector<D>)> = points.map(|x| (whole.distance(&x), x)).collect();
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -54,7 +55,7 @@ impl<const D: usize> ContactModel<D> {
                     if distance > smallest.max(0.0) {
                         break;
                     }
-                    let gap = signed_distance(&x, target, &boxes, position);
+                    let gap = signed_distance(&x, target, &tree, position);
                     smallest = smallest.min(gap);
                     keep(gap, x);
                 }
@@ -68,15 +69,12 @@ impl<const D: usize> ContactModel<D> {
 fn signed_distance<const D: usize>(
     x: &Vector<D>,
     surface: &ContactSurface,
-    boxes: &[Aabb<D>],
+    tree: &Bvh<D>,
     position: &impl Fn(u32) -> Vector<D>,
 ) -> f64 {
     let (mut distance, mut side) = (f64::INFINITY, 0.0);
-    for (f, facet_box) in (0..).zip(boxes) {
+    tree.nearest(x, |f, facet_box| {
         let tie = 1e-9 * facet_box.diameter();
-        if facet_box.distance(x) > distance + tie {
-            continue;
-        }
         let p = surface.project(f, x, Reach::Facet, position);
         let d = (x - p.point).norm();
         let front = p.normal.dot(&(x - p.point));
@@ -86,7 +84,8 @@ fn signed_distance<const D: usize>(
             // At a shared corner the facet seen most squarely decides the side.
             (distance, side) = (distance.min(d), front);
         }
-    }
+        distance + tie
+    });
     distance.copysign(side)
 }
 
@@ -95,7 +94,7 @@ mod tests {
     use carom_mesh::{Surface, generate};
 
     use super::*;
-    use crate::{Discretisation, Obstacle};
+    use crate::{Discretisation, Obstacle, Search};
 
     fn two_discs(distance: f64) -> (ContactModel<2>, Vec<Vector<2>>) {
         let disc = |x: f64| {
@@ -143,7 +142,7 @@ mod tests {
         assert!((between.gap - 0.5).abs() < 1e-12);
         assert!((model.proximity(&model.pairs[1], &at).expect("nodes").gap - 1.0).abs() < 1e-12);
         let mut candidates = Vec::new();
-        model.detect(&at, &at, 0.1, &mut candidates);
+        model.detect(&at, &at, 0.1, &mut Search::default(), &mut candidates);
         assert!(candidates.is_empty());
     }
 
@@ -160,7 +159,7 @@ mod tests {
         let (model, x) = two_discs(2.01);
         let at = |n: u32| x[n as usize];
         let mut candidates = Vec::new();
-        model.detect(&at, &at, 0.02, &mut candidates);
+        model.detect(&at, &at, 0.02, &mut Search::default(), &mut candidates);
         assert!(!candidates.is_empty());
         for candidate in &candidates {
             let contact = model.evaluate(candidate, &at);
@@ -199,7 +198,7 @@ mod tests {
             for shift in [-1e-3, 0.0, 1e-9, 1e-3] {
                 let at = |n: u32| x[n as usize] + Vector::<2>::new(if n < count { shift } else { 0.0 }, 0.0);
                 let mut candidates = Vec::new();
-                model.detect(&at, &at, 0.01, &mut candidates);
+                model.detect(&at, &at, 0.01, &mut Search::default(), &mut candidates);
                 assert_eq!(candidates.len(), 5);
                 for candidate in &candidates {
                     let contact = model.evaluate(candidate, &at);

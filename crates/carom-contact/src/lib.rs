@@ -8,15 +8,19 @@
 //! laws.
 
 mod aabb;
+mod bvh;
 mod contact;
 mod curve;
 mod detect;
 mod distance;
+mod facing;
 mod frame;
 mod model;
 mod mortar;
 mod obstacle;
+mod patch;
 mod project;
+mod search;
 mod surface;
 
 pub use contact::Contact;
@@ -24,5 +28,6 @@ pub use detect::Candidate;
 pub use distance::Proximity;
 pub use model::{ContactModel, Pair, Target};
 pub use mortar::{Discretisation, Mortar};
-pub use obstacle::{Obstacle, RigidShape};
+pub use obstacle::{ClosedSurface, Obstacle, RigidShape, SurfaceDefect};
+pub use search::Search;
 pub use surface::ContactSurface;

@@ -4,7 +4,8 @@ use carom_mesh::{CellKind, Facet, Surface, Vector};
 
 use crate::aabb::Aabb;
 use crate::curve::Curve;
-use crate::project::{Projection, Reach, project};
+use crate::patch::Patch;
+use crate::project::{Projection, Reach, area_normal, project};
 
 /// The boundary of a body, its nodes numbered over all bodies.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,7 +90,10 @@ impl ContactSurface {
     /// A box around what the surface is over the facet `f`.
     pub(crate) fn bounds<const D: usize>(&self, f: u32, position: &impl Fn(u32) -> Vector<D>) -> Aabb<D> {
         match &self.shape {
-            Shape::Faceted => Aabb::of(self.facets[f as usize].nodes.iter().map(|&n| position(n))),
+            Shape::Faceted => {
+                let facet = &self.facets[f as usize];
+                Aabb::of(facet.nodes.iter().map(|&n| position(n))).scaled(overshoot(facet.kind))
+            }
             Shape::Curved(curve) => Aabb::of(curve.control_points(f, position)),
         }
     }
@@ -100,11 +104,24 @@ impl ContactSurface {
         node: u32,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Vector<D> {
-        let x = position(node);
         self.around(node).iter().fold(Vector::zeros(), |sum, &f| {
-            let facet = &self.facets[f as usize];
-            let size = (position(facet.nodes[1]) - position(facet.nodes[0])).norm();
-            sum + project(&x, facet, Reach::Facet, position).normal * size
+            sum + area_normal(&Patch::new(&self.facets[f as usize], position).middle().tangents)
         })
+    }
+}
+
+/// How far a facet of this kind may bulge out of the box around its nodes, in half sides of the box: the largest sum of the absolute
+/// values of its shape functions, less 1.
+fn overshoot(kind: CellKind) -> f64 {
+    match kind.node_count() {
+        // Three nodes on a line: 5/4; on a triangle they are its corners.
+        3 if kind.dimension() == 1 => 0.25,
+        // Six on a triangle: 5/3, at its middle.
+        6 => 2.0 / 3.0,
+        // Eight on a square: 3, at its middle.
+        8 => 2.0,
+        // Nine: that of the line, squared.
+        9 => 0.5625,
+        _ => 0.0,
     }
 }

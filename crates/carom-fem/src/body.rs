@@ -1,16 +1,18 @@
 use std::sync::Arc;
 
-use carom_mesh::{Matrix, Mesh, Surface, Vector, tensor};
+use carom_mesh::{Facet, Matrix, Mesh, Surface, Vector, tensor};
 use serde::{Deserialize, Serialize};
 
-use crate::FemError;
-use crate::elements::{CellState, Elements, StepForces, add_mass, elements};
+use crate::elements::{CellState, Elements, StepForces, add_mass, add_scaled_diagonal_mass, elements};
 use crate::massless::{followers, redistributed};
-use crate::material::{
-    Confined, LawSpec, LinearElastic, Material, NeoHookean, PointLaw, SaintVenantKirchhoff,
-};
+use crate::material::LawSpec;
 use crate::rigid::RigidMass;
+use crate::shape_table::{Cells, Depth, facet_area};
 use crate::sparse::{NodalMatrix, NodeGraph};
+use crate::{FemError, Formulation, Hypothesis};
+
+/// A node whose radius is below this, relative to the size of the body, is on the axis.
+const ON_THE_AXIS: f64 = 1e-9;
 
 /// How the mass of a body is shared among its nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -19,7 +21,8 @@ pub enum MassKind {
     /// ∫ρ N_a N_b dV.
     #[default]
     Consistent,
-    /// Row sums of the consistent mass.
+    /// Row sums of the consistent mass; on quadratic cells, where these may be negative, its diagonal, scaled so that every
+    /// cell keeps its mass.
     Lumped,
 }
 
@@ -51,7 +54,11 @@ pub struct BodySpec {
     pub damping: RayleighDamping,
     /// Mass matrix.
     pub mass: MassKind,
-    /// Thickness in 2D [m]; 1 in 3D.
+    /// What a 2D body is in space.
+    pub hypothesis: Hypothesis,
+    /// How the deformation follows from the displacements.
+    pub formulation: Formulation,
+    /// Thickness in 2D [m], but of a body of revolution; 1 in 3D.
     pub thickness: f64,
     /// Whether the mass of the nodes that may touch others moves inside; total mass, centre and inertia stay.
     pub massless_contact: bool,
@@ -71,7 +78,7 @@ pub struct Body<const D: usize> {
     nodal_mass: Vec<f64>,
     massless_stiffness: Vec<f64>,
     total_mass: f64,
-    thickness: f64,
+    depth: Depth,
     volume: f64,
     damping: RayleighDamping,
     damping_stiffness: Option<NodalMatrix<Matrix<D>>>,
@@ -94,21 +101,6 @@ impl<const D: usize> Body<D> {
     /// # Errors
     /// As for [`Body::new`].
     pub fn with_contact_surface(mesh: Mesh<D>, surface: Surface, spec: &BodySpec) -> Result<Self, FemError> {
-        match &spec.law {
-            LawSpec::SaintVenantKirchhoff(c) => {
-                Self::of_law(mesh, surface, spec, SaintVenantKirchhoff::new(c)?)
-            }
-            LawSpec::LinearElastic(c) => Self::of_law(mesh, surface, spec, LinearElastic::new(c)?),
-            LawSpec::NeoHookean(c) => Self::of_law(mesh, surface, spec, NeoHookean::new(c)?),
-        }
-    }
-
-    fn of_law<M: Material + Clone + 'static>(
-        mesh: Mesh<D>,
-        surface: Surface,
-        spec: &BodySpec,
-        law: M,
-    ) -> Result<Self, FemError> {
         let positive = |name, value: f64, remedy| {
             if value.is_finite() && value > 0.0 {
                 Ok(value)
@@ -125,24 +117,26 @@ impl<const D: usize> Body<D> {
                 return Err(FemError::MaterialConstant { name, value, remedy: "damping cannot be negative" });
             }
         }
-        // What repeats itself along a line cannot turn.
-        let turns = law.is_objective() && mesh.ties().is_empty();
-        let law = Confined(law);
-        let mass = mass_matrix(&mesh, &surface, spec)?;
+        let depth = depth(&mesh, spec)?;
+        let law = spec.law.point_law::<D>(spec.hypothesis)?;
+        // What repeats itself along a line or around an axis cannot turn.
+        let turns = law.is_objective() && mesh.ties().is_empty() && depth != Depth::Revolution;
+        let mass = mass_matrix(&mesh, &surface, spec, depth)?;
         let graph = Arc::clone(mass.shared_graph());
         let mut blocks = Vec::new();
         let mut first_cell = 0;
         for block in mesh.blocks() {
-            blocks.push(elements(&law, &mesh, block, first_cell, spec.thickness, &graph)?);
+            let cells = Cells { mesh: &mesh, block, first: first_cell, depth };
+            blocks.push(elements(spec, &cells, &graph)?);
             first_cell += block.cells().len();
         }
         let nodal_mass = mass.row_sums();
-        let (_, tangent) = PointLaw::<D>::stress_and_tangent(&law, &Matrix::identity());
+        let (_, tangent) = law.stress_and_tangent(&Matrix::identity());
         let total_mass: f64 = nodal_mass.iter().sum();
         let mut body = Self {
             surface,
             total_mass,
-            thickness: spec.thickness,
+            depth,
             volume: total_mass / spec.density,
             wave_speed: (tangent[0][0][0][0] / spec.density).sqrt(),
             damping: spec.damping,
@@ -230,10 +224,30 @@ impl<const D: usize> Body<D> {
         self.total_mass
     }
 
-    /// Thickness in 2D [m]; 1 in 3D.
+    /// Area of a facet of the reference configuration [m²]: its size times the depth of the body.
     #[must_use]
-    pub fn thickness(&self) -> f64 {
-        self.thickness
+    pub fn facet_area(&self, facet: &Facet) -> f64 {
+        facet_area(&self.mesh, facet, self.depth)
+    }
+
+    /// How far the body goes on beyond its D dimensions at a point [m]: the thickness in 2D, 2πR of a body of revolution, 1 in 3D.
+    #[must_use]
+    pub fn depth(&self, x: &Vector<D>) -> f64 {
+        self.depth.at(x)
+    }
+
+    /// Whether the body is one of revolution around x = 0.
+    #[must_use]
+    pub fn is_axisymmetric(&self) -> bool {
+        self.depth == Depth::Revolution
+    }
+
+    /// The nodes, ascending, that lie on the axis of a body of revolution: they have no radial displacement.
+    #[must_use]
+    pub fn axis_nodes(&self) -> Vec<u32> {
+        let limit = ON_THE_AXIS * self.mesh.diameter();
+        let on_axis = |n: &u32| self.is_axisymmetric() && self.mesh.nodes()[*n as usize][0] <= limit;
+        (0..self.node_count() as u32).filter(on_axis).collect()
     }
 
     /// Volume of the reference configuration [m³].
@@ -338,10 +352,21 @@ impl<const D: usize> Body<D> {
         self.turns
     }
 
-    /// Mean of a nodal vector, weighted by mass: the velocity of the centre of mass for `v`.
+    /// Mean of a nodal vector, weighted by mass: the velocity of the centre of mass for `v`. In a body of revolution what is
+    /// radial cancels around the axis.
     #[must_use]
     pub fn mean(&self, v: &[Vector<D>]) -> Vector<D> {
-        self.nodal_mass.iter().zip(v).fold(Vector::zeros(), |s, (&m, v)| s + v * m) / self.total_mass
+        let sum = self.nodal_mass.iter().zip(v).fold(Vector::zeros(), |s, (&m, v)| s + v * m);
+        self.resultant(sum) / self.total_mass
+    }
+
+    /// The resultant of a `sum` over the nodes: without its radial component in a body of revolution, where that cancels.
+    #[must_use]
+    pub fn resultant(&self, mut sum: Vector<D>) -> Vector<D> {
+        if self.is_axisymmetric() {
+            sum[0] = 0.0;
+        }
+        sum
     }
 
     /// The mean rotation R of the body: the polar factor of Σ m (x − c) ⊗ (X − C).
@@ -391,10 +416,14 @@ impl<const D: usize> Body<D> {
         [spin[0], spin[1], spin[2]]
     }
 
-    /// Angular momentum [kg m²/s] about the origin of a body with momentum density `mv` = M v [kg m/s] per node.
+    /// Angular momentum [kg m²/s] about the origin of a body with momentum density `mv` = M v [kg m/s] per node; none of a body
+    /// of revolution, in which it cancels.
     #[must_use]
     pub fn angular_momentum(&self, u: &[Vector<D>], mv: &[Vector<D>]) -> [f64; 3] {
         let mut sum = [0.0; 3];
+        if self.is_axisymmetric() {
+            return sum;
+        }
         for ((u, mv), x) in u.iter().zip(mv).zip(self.mesh.nodes()) {
             let moment = tensor::cross(&(x + u), mv);
             (0..3).for_each(|i| sum[i] += moment[i]);
@@ -403,17 +432,43 @@ impl<const D: usize> Body<D> {
     }
 }
 
+/// What the body is in space.
+fn depth<const D: usize>(mesh: &Mesh<D>, spec: &BodySpec) -> Result<Depth, FemError> {
+    match spec.hypothesis {
+        Hypothesis::PlaneStrain => Ok(Depth::Thickness(spec.thickness)),
+        Hypothesis::PlaneStress if D == 2 => Ok(Depth::Thickness(spec.thickness)),
+        Hypothesis::Axisymmetric if D == 2 => {
+            let limit = -ON_THE_AXIS * mesh.diameter();
+            match mesh.nodes().iter().position(|x| x[0] < limit) {
+                Some(node) => {
+                    let at = mesh.nodes()[node].iter().copied().collect();
+                    Err(FemError::NegativeRadius { node, at })
+                }
+                None => Ok(Depth::Revolution),
+            }
+        }
+        Hypothesis::PlaneStress => Err(FemError::Hypothesis { name: "plane-stress" }),
+        Hypothesis::Axisymmetric => Err(FemError::Hypothesis { name: "axisymmetric" }),
+    }
+}
+
 /// The mass matrix on the graph of the body.
 fn mass_matrix<const D: usize>(
     mesh: &Mesh<D>,
     surface: &Surface,
     spec: &BodySpec,
+    depth: Depth,
 ) -> Result<NodalMatrix<f64>, FemError> {
     let graph = Arc::new(NodeGraph::of(mesh));
     let mut mass = NodalMatrix::filled(&graph, 0.0);
     let mut first_cell = 0;
     for block in mesh.blocks() {
-        add_mass(mesh, block, first_cell, spec.density * spec.thickness, &mut mass)?;
+        let cells = Cells { mesh, block, first: first_cell, depth };
+        if spec.mass == MassKind::Lumped && block.kind.is_quadratic() {
+            add_scaled_diagonal_mass(&cells, spec.density, &mut mass)?;
+        } else {
+            add_mass(&cells, spec.density, &mut mass)?;
+        }
         first_cell += block.cells().len();
     }
     if spec.mass == MassKind::Lumped {

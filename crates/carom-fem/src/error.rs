@@ -30,6 +30,30 @@ pub enum FemError {
         /// What is allowed.
         remedy: &'static str,
     },
+    /// A hypothesis of the plane was given to a body in space.
+    #[error("hypothesis {name:?} is one of 2D bodies; leave it out in 3D")]
+    Hypothesis {
+        /// Name as in the case file.
+        name: &'static str,
+    },
+    /// A formulation is not one for the cells, the law or the hypothesis of a body.
+    #[error("formulation \"mean-dilatation\" does not suit this body of {cell} cells: {remedy}")]
+    Formulation {
+        /// Name of the cells.
+        cell: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A node of a body of revolution lies on the wrong side of the axis.
+    #[error(
+        "node {node} at {at:?} has a negative radius; the axis of an axisymmetric body is x = 0, with the body at x ≥ 0"
+    )]
+    NegativeRadius {
+        /// The node.
+        node: usize,
+        /// Its position [m].
+        at: Vec<f64>,
+    },
     /// A massless node has no massive nodes near it that could carry its mass.
     #[error(
         "the mass of boundary node {node} at {at:?} finds no nodes inside to move to; \

@@ -6,6 +6,7 @@
 mod body;
 mod elements;
 mod error;
+mod hypothesis;
 mod massless;
 pub mod material;
 mod quadrature;
@@ -16,4 +17,5 @@ pub mod sparse;
 pub use body::{Body, BodySpec, MassKind, RayleighDamping};
 pub use elements::{CellState, Elements, StepForces};
 pub use error::FemError;
+pub use hypothesis::{Formulation, Hypothesis};
 pub use rigid::RigidMass;

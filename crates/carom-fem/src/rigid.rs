@@ -11,6 +11,8 @@ pub struct RigidMass<const D: usize> {
     /// The centre of mass [m].
     pub centre: Vector<D>,
     mass: f64,
+    /// Whether the body is one of revolution, which moves rigidly only along its axis.
+    axial: bool,
     inertia: Matrix<3>,
 }
 
@@ -37,12 +39,17 @@ impl<const D: usize> RigidMass<D> {
             polar += y.dot(&sum);
         }
         inertia += Matrix::<3>::identity() * polar;
-        Self { centre, mass: body.total_mass(), inertia }
+        Self { centre, mass: body.total_mass(), axial: body.is_axisymmetric(), inertia }
     }
 
     /// The rigid acceleration [m/s²], [1/s²] under a force of this `resultant` [N] and `moment` [N m] about the centre.
     #[must_use]
     pub fn acceleration(&self, resultant: &Vector<D>, moment: &[f64; 3]) -> (Vector<D>, [f64; 3]) {
+        if self.axial {
+            let mut acceleration = resultant / self.mass;
+            acceleration[0] = 0.0;
+            return (acceleration, [0.0; 3]);
+        }
         let spin = if D == 2 {
             [0.0, 0.0, moment[2] / self.inertia[(2, 2)]]
         } else {

@@ -187,22 +187,13 @@ impl<const D: usize> Mesh<D> {
         self.nodes.iter().fold(first, |(low, high), x| (low.inf(x), high.sup(x)))
     }
 
-    /// Length of the shortest edge between two nodes of a facet of a cell [m].
+    /// The shortest distance between neighbouring nodes along an edge of a cell [m].
     #[must_use]
     pub fn smallest_edge(&self) -> f64 {
-        let mut smallest = f64::INFINITY;
-        for block in &self.blocks {
-            for nodes in block.cells() {
-                for (_, facet) in block.kind.reference().facets {
-                    for k in 0..facet.len() {
-                        let a = self.nodes[nodes[facet[k]] as usize];
-                        let b = self.nodes[nodes[facet[(k + 1) % facet.len()]] as usize];
-                        smallest = smallest.min((a - b).norm());
-                    }
-                }
-            }
-        }
-        smallest
+        let of =
+            |block: &CellBlock, cell: &[u32]| block.kind.smallest_edge(&|a| self.nodes[cell[a] as usize]);
+        let edges = self.blocks.iter().flat_map(|block| block.cells().map(move |cell| of(block, cell)));
+        edges.fold(f64::INFINITY, f64::min)
     }
 }
 

@@ -160,7 +160,7 @@ impl<const D: usize> History<D> {
             let (u, v) = (&state.displacement[b.nodes()], &state.velocity[b.nodes()]);
             let mut mv = vec![Vector::zeros(); v.len()];
             b.body.mass().multiply(v, &mut mv);
-            momentum += mv.iter().sum::<Vector<D>>();
+            momentum += b.body.resultant(mv.iter().sum());
             let l = b.body.angular_momentum(u, &mv);
             (0..3).for_each(|i| moment[i] += l[i]);
         }

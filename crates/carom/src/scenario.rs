@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use carom_contact::Discretisation;
 use carom_fem::material::LawSpec;
+pub use carom_fem::{Formulation, Hypothesis};
 use carom_fem::{MassKind, RayleighDamping};
 use carom_friction::SolverKind;
 use serde::{Deserialize, Serialize};
@@ -116,9 +117,13 @@ pub struct BodyEntry {
     pub name: String,
     /// Name of its material.
     pub material: String,
-    /// What holds it in the third direction, in 2D.
+    /// What it is in space, in 2D.
+    #[serde(default)]
     pub hypothesis: Hypothesis,
-    /// Thickness in 2D [m].
+    /// How its deformation follows from its displacements.
+    #[serde(default)]
+    pub formulation: Formulation,
+    /// Thickness in 2D [m]; not used of a body of revolution.
     pub thickness: f64,
     /// Mass matrix.
     pub mass: MassKind,
@@ -146,14 +151,6 @@ pub enum Spin {
     InPlane(f64),
     /// In space: (ω_x, ω_y, ω_z) [rad/s].
     InSpace([f64; 3]),
-}
-
-/// Hypotheses of 2D bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Hypothesis {
-    /// No strain across the plane.
-    PlaneStrain,
 }
 
 /// A rigid obstacle.

@@ -17,7 +17,7 @@ pub(crate) fn search<const D: usize>(
     let start = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
     let motion = &work.motion;
     let end = |n: u32| start(n) + motion[n as usize];
-    model.contact.detect(&start, &end, margin, &mut work.candidates);
+    model.contact.detect(&start, &end, margin, &mut work.search, &mut work.candidates);
     model.contact.detect_mortar(&start, &end, margin, &mut work.mortar, &mut work.candidates);
 }
 
@@ -90,8 +90,8 @@ pub(crate) fn missed_a_contact<const D: usize>(
         return false;
     }
     let end = |n: u32| model.reference[n as usize] + next.displacement[n as usize];
-    let Workspace { missed, missed_mortar, end_contacts, .. } = work;
-    model.contact.detect(&end, &end, 0.0, missed);
+    let Workspace { search, missed, missed_mortar, end_contacts, .. } = work;
+    model.contact.detect(&end, &end, 0.0, search, missed);
     model.contact.detect_mortar(&end, &end, 0.0, missed_mortar, missed);
     missed.retain(|m| work.searched.binary_search(&(m.pair, m.node)).is_err());
     model.contact.evaluate_all(missed, &end, missed_mortar, end_contacts);

@@ -21,7 +21,7 @@ pub(crate) fn surface_fields<const D: usize>(model: &Model<D>, state: &State<D>)
     for b in &model.bodies {
         let mesh = b.body.mesh();
         let facets = b.body.surface().facets();
-        let size = |f: &carom_mesh::Facet| f.area_vector(mesh).norm() * b.body.thickness();
+        let size = |f: &carom_mesh::Facet| b.body.facet_area(f);
         for facet in facets {
             facet.nodes.iter().for_each(|&n| around[b.first_node + n as usize] += size(facet));
         }

@@ -1,6 +1,6 @@
 use std::time::Duration;
 
-use carom_contact::{Candidate, Contact, Mortar};
+use carom_contact::{Candidate, Contact, Mortar, Search};
 use carom_friction::{ContactProblem, SolverKind};
 use carom_mesh::Vector;
 
@@ -59,6 +59,7 @@ pub struct Workspace<const D: usize> {
     pub(crate) correction: Vec<Vector<D>>,
     pub(crate) residual: Vec<Vector<D>>,
     pub(crate) momentum: Vec<Vector<D>>,
+    pub(crate) search: Search<D>,
     pub(crate) candidates: Vec<Candidate>,
     /// Pair and node of all that the search found, ascending.
     pub(crate) searched: Vec<(u32, u32)>,
@@ -127,6 +128,7 @@ impl<const D: usize> Workspace<D> {
             correction: zeros.clone(),
             residual: zeros.clone(),
             momentum: zeros,
+            search: Search::default(),
             candidates: Vec::new(),
             searched: Vec::new(),
             missed: Vec::new(),

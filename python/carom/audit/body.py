@@ -12,6 +12,7 @@ from carom.audit.cells import Cells, boundary
 from carom.audit.laws import Law
 from carom.audit.mass import Mass
 from carom.body import Body
+from carom.errors import InputError
 from carom.material import Material
 from carom.mesh import Rectangle
 
@@ -47,6 +48,9 @@ class AuditBody:
         first_node: int,
         massless: bool,
     ) -> None:
+        for what in (entry.hypothesis, entry.formulation):
+            if what not in ("plane-strain", "standard"):
+                raise InputError(f"cannot audit a body in {what!r} yet")
         self.name = entry.name
         self.points = points
         self.span = slice(first_node, first_node + len(points))

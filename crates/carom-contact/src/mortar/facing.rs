@@ -2,7 +2,6 @@
 
 use carom_mesh::{Facet, Vector};
 
-use super::parts::corner_count;
 use super::plane::Plane;
 use crate::aabb::Aabb;
 use crate::{ContactModel, ContactSurface, Target};
@@ -73,7 +72,7 @@ impl<const D: usize> ContactModel<D> {
 /// The outward normal of a facet, by its corners.
 fn normal<const D: usize>(facet: &Facet, position: &impl Fn(u32) -> Vector<D>) -> Option<Vector<D>> {
     let mut corners = [Vector::zeros(); 4];
-    let count = corner_count(facet.kind);
+    let count = facet.kind.corner_count();
     corners.iter_mut().zip(&facet.nodes).for_each(|(x, &n)| *x = position(n));
     Plane::through(&corners[..count]).map(|p| p.normal())
 }

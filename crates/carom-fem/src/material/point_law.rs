@@ -4,7 +4,9 @@ use carom_mesh::Matrix;
 
 use super::{Mat3, Material, Tangent};
 
-/// A law as the elements of a D-dimensional body see it at a quadrature point.
+/// A law as elements see it at their quadrature points, where F is D × D.
+///
+/// Elements ask about many points at once, so that a law chosen at run time costs one call for all of them.
 pub trait PointLaw<const D: usize>: Send + Sync + Debug {
     /// Stored energy per reference volume [J/m³].
     fn energy(&self, f: &Matrix<D>) -> f64;
@@ -18,6 +20,29 @@ pub trait PointLaw<const D: usize>: Send + Sync + Debug {
     fn stress_and_tangent(&self, f: &Matrix<D>) -> (Matrix<D>, Tangent<D>);
     /// Cauchy stress in 3D [Pa].
     fn cauchy_stress(&self, f: &Matrix<D>) -> Mat3;
+    /// Whether the energy does not see a rotation, see [`Material::is_objective`].
+    fn is_objective(&self) -> bool;
+
+    /// [`Self::energy`] at many points.
+    fn energies(&self, f: &[Matrix<D>], out: &mut [f64]) {
+        out.iter_mut().zip(f).for_each(|(out, f)| *out = self.energy(f));
+    }
+    /// [`Self::stress`] at many points.
+    fn stresses(&self, f: &[Matrix<D>], out: &mut [Matrix<D>]) {
+        out.iter_mut().zip(f).for_each(|(out, f)| *out = self.stress(f));
+    }
+    /// [`Self::discrete_stress`] at many points.
+    fn discrete_stresses(&self, f0: &[Matrix<D>], f1: &[Matrix<D>], out: &mut [Matrix<D>]) {
+        out.iter_mut().zip(f0.iter().zip(f1)).for_each(|(out, (f0, f1))| *out = self.discrete_stress(f0, f1));
+    }
+    /// [`Self::step_stresses`] at many points.
+    fn all_step_stresses(&self, f0: &[Matrix<D>], f1: &[Matrix<D>], out: &mut [[Matrix<D>; 3]]) {
+        out.iter_mut().zip(f0.iter().zip(f1)).for_each(|(out, (f0, f1))| *out = self.step_stresses(f0, f1));
+    }
+    /// The tangents of [`Self::stress_and_tangent`] at many points.
+    fn tangents(&self, f: &[Matrix<D>], out: &mut [Tangent<D>]) {
+        out.iter_mut().zip(f).for_each(|(out, f)| *out = self.stress_and_tangent(f).1);
+    }
 }
 
 /// A law whose deformation beyond the D dimensions is held at zero: the law itself in 3D, plane strain in 2D.
@@ -36,7 +61,7 @@ fn embed<const D: usize>(f: &Matrix<D>) -> Mat3 {
 }
 
 #[inline]
-fn restrict<const D: usize>(full: &Mat3) -> Matrix<D> {
+pub(super) fn restrict<const D: usize>(full: &Mat3) -> Matrix<D> {
     Matrix::from_fn(|i, j| full[(i, j)])
 }
 
@@ -73,5 +98,9 @@ impl<const D: usize, M: Material> PointLaw<D> for Confined<M> {
     fn cauchy_stress(&self, f: &Matrix<D>) -> Mat3 {
         let f = embed(f);
         self.0.stress(&f) * f.transpose() / f.determinant()
+    }
+
+    fn is_objective(&self) -> bool {
+        self.0.is_objective()
     }
 }

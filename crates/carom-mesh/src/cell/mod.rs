@@ -1,27 +1,49 @@
-//! Reference cells: shape functions, their gradients, corner coordinates and facets. One file per family.
+//! Reference cells: shape functions, their gradients, node coordinates and facets. One file per family.
+//!
+//! Nodes are numbered as VTK and meshio do: corners, then the middles of edges, of sides, of the cell.
 
 mod hexahedron;
 mod line;
+mod quadratic;
 mod quadrilateral;
 mod tetrahedron;
 mod triangle;
 
+use crate::Vector;
+
 /// The most nodes any cell has.
-pub const MAX_NODES: usize = 8;
+pub const MAX_NODES: usize = 27;
+
+/// The most nodes any facet of a cell has.
+pub const MAX_FACET_NODES: usize = 9;
 
 /// The kinds of cells that bodies are meshed with, and the facets of these.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum CellKind {
     /// Linear segment, 2 nodes.
     Line2,
+    /// Quadratic segment, 3 nodes.
+    Line3,
     /// Linear triangle, 3 nodes.
     Tri3,
+    /// Quadratic triangle, 6 nodes.
+    Tri6,
     /// Bilinear quadrilateral, 4 nodes.
     Quad4,
+    /// Quadratic serendipity quadrilateral, 8 nodes.
+    Quad8,
+    /// Biquadratic quadrilateral, 9 nodes.
+    Quad9,
     /// Linear tetrahedron, 4 nodes.
     Tet4,
+    /// Quadratic tetrahedron, 10 nodes.
+    Tet10,
     /// Trilinear hexahedron, 8 nodes.
     Hex8,
+    /// Quadratic serendipity hexahedron, 20 nodes.
+    Hex20,
+    /// Triquadratic hexahedron, 27 nodes.
+    Hex27,
 }
 
 /// Where and how a cell lives on its reference domain.
@@ -30,9 +52,11 @@ pub struct Reference {
     pub name: &'static str,
     /// Dimension of the reference domain.
     pub dimension: usize,
+    /// Degree of the complete polynomials that the shape functions reproduce: 1 or 2.
+    pub degree: usize,
     /// Reference coordinates of the nodes.
     pub nodes: &'static [[f64; 3]],
-    /// Facets with their local nodes, outward normal by the right-hand rule (in 2D: the body is on the left).
+    /// Facets with their local nodes, outward normal by the right-hand rule (in 2D: the body is on the left), all facets alike.
     pub facets: &'static [(CellKind, &'static [usize])],
     /// Values N_a(ξ) of the shape functions.
     pub shape: fn(&[f64; 3], &mut [f64]),
@@ -44,18 +68,37 @@ pub struct Reference {
 
 impl CellKind {
     /// Every kind, for tests and messages.
-    pub const ALL: [CellKind; 5] =
-        [CellKind::Line2, CellKind::Tri3, CellKind::Quad4, CellKind::Tet4, CellKind::Hex8];
+    pub const ALL: [CellKind; 12] = [
+        CellKind::Line2,
+        CellKind::Line3,
+        CellKind::Tri3,
+        CellKind::Tri6,
+        CellKind::Quad4,
+        CellKind::Quad8,
+        CellKind::Quad9,
+        CellKind::Tet4,
+        CellKind::Tet10,
+        CellKind::Hex8,
+        CellKind::Hex20,
+        CellKind::Hex27,
+    ];
 
     /// The reference cell of this kind.
     #[must_use]
     pub fn reference(self) -> &'static Reference {
         match self {
             CellKind::Line2 => &line::LINE2,
+            CellKind::Line3 => &line::LINE3,
             CellKind::Tri3 => &triangle::TRI3,
+            CellKind::Tri6 => &triangle::TRI6,
             CellKind::Quad4 => &quadrilateral::QUAD4,
+            CellKind::Quad8 => &quadrilateral::QUAD8,
+            CellKind::Quad9 => &quadrilateral::QUAD9,
             CellKind::Tet4 => &tetrahedron::TET4,
+            CellKind::Tet10 => &tetrahedron::TET10,
             CellKind::Hex8 => &hexahedron::HEX8,
+            CellKind::Hex20 => &hexahedron::HEX20,
+            CellKind::Hex27 => &hexahedron::HEX27,
         }
     }
 
@@ -69,6 +112,37 @@ impl CellKind {
     #[must_use]
     pub fn dimension(self) -> usize {
         self.reference().dimension
+    }
+
+    /// Number of corners: the nodes that come first.
+    #[must_use]
+    pub fn corner_count(self) -> usize {
+        match self {
+            CellKind::Line2 | CellKind::Line3 => 2,
+            CellKind::Tri3 | CellKind::Tri6 => 3,
+            CellKind::Quad4 | CellKind::Quad8 | CellKind::Quad9 | CellKind::Tet4 | CellKind::Tet10 => 4,
+            CellKind::Hex8 | CellKind::Hex20 | CellKind::Hex27 => 8,
+        }
+    }
+
+    /// Whether the shape functions are quadratic, with nodes on the middles of edges.
+    #[must_use]
+    pub fn is_quadratic(self) -> bool {
+        self.reference().degree == 2
+    }
+
+    /// The shortest distance between neighbouring nodes along an edge of a cell whose nodes are at `position` [m].
+    pub fn smallest_edge<const D: usize>(self, position: &dyn Fn(usize) -> Vector<D>) -> f64 {
+        match self {
+            CellKind::Line2 => (position(1) - position(0)).norm(),
+            CellKind::Line3 => (position(2) - position(0)).norm().min((position(1) - position(2)).norm()),
+            _ => {
+                let facets = self.reference().facets.iter();
+                facets
+                    .map(|(kind, nodes)| kind.smallest_edge(&|k| position(nodes[k])))
+                    .fold(f64::INFINITY, f64::min)
+            }
+        }
     }
 }
 
@@ -129,18 +203,79 @@ mod tests {
         }
     }
 
+    /// Reproduces x^i y^j z^k with i + j + k ≤ degree.
     #[test]
-    fn facets_have_the_right_kind_and_close_the_cell() {
+    fn shape_functions_reproduce_complete_polynomials_of_their_degree() {
         for kind in CellKind::ALL {
-            let mut seen = vec![0; kind.node_count()];
-            for (facet, nodes) in kind.reference().facets {
-                assert_eq!(facet.node_count(), nodes.len());
+            let n = shape(kind, &INSIDE);
+            let (d, degree) = (kind.dimension(), kind.reference().degree as i32);
+            let powers = (0..27).map(|m| [m % 3, m / 3 % 3, m / 9]);
+            for p in powers.filter(|p| p.iter().sum::<i32>() <= degree && p[d..].iter().all(|&k| k == 0)) {
+                let monomial = |x: &[f64; 3]| x[0].powi(p[0]) * x[1].powi(p[1]) * x[2].powi(p[2]);
+                let sum: f64 = n.iter().zip(kind.reference().nodes).map(|(n, x)| n * monomial(x)).sum();
+                assert!((sum - monomial(&INSIDE)).abs() < 1e-15, "{kind:?} {p:?}");
+            }
+        }
+    }
+
+    /// A plane through the corners of a facet has all its nodes on it and the other nodes of the cell inside.
+    #[test]
+    fn facets_are_the_sides_of_the_cell_and_turn_outward() {
+        for kind in CellKind::ALL.into_iter().filter(|k| k.dimension() > 1) {
+            let nodes = kind.reference().nodes;
+            let sides = if nodes[0][0] == 0.0 { kind.dimension() + 1 } else { 2 * kind.dimension() };
+            assert_eq!(kind.reference().facets.len(), sides);
+            for (facet, local) in kind.reference().facets {
+                assert_eq!(facet.node_count(), local.len());
                 assert_eq!(facet.dimension() + 1, kind.dimension());
-                nodes.iter().for_each(|&a| seen[a] += 1);
+                assert_eq!(facet.is_quadratic(), kind.is_quadratic());
+                let x = |a: usize| Vector::<3>::from(nodes[a]);
+                let (s, t) = (x(local[1]) - x(local[0]), x(local[local.len() - 1]) - x(local[0]));
+                let outward =
+                    if kind.dimension() == 2 { Vector::<3>::new(s[1], -s[0], 0.0) } else { s.cross(&t) };
+                for a in 0..nodes.len() {
+                    let height = outward.dot(&(x(a) - x(local[0])));
+                    assert_eq!(height.abs() < 1e-15, local.contains(&a), "{kind:?} node {a}");
+                    assert!(height < 1e-15, "{kind:?} node {a} lies outside {local:?}");
+                }
             }
-            if kind != CellKind::Line2 {
-                assert!(seen.iter().all(|&s| s == kind.dimension()), "{kind:?}");
+        }
+    }
+
+    /// The nodes of a facet stand where the reference facet has them, in its order.
+    #[test]
+    fn nodes_of_facets_are_in_their_order() {
+        for kind in CellKind::ALL.into_iter().filter(|k| k.is_quadratic() && k.dimension() > 1) {
+            for &(facet, local) in kind.reference().facets {
+                let x = |a: usize| Vector::<3>::from(kind.reference().nodes[local[a]]);
+                let linear = match facet.corner_count() {
+                    2 => CellKind::Line2,
+                    3 => CellKind::Tri3,
+                    _ => CellKind::Quad4,
+                };
+                for (a, xi) in facet.reference().nodes.iter().enumerate() {
+                    let n = shape(linear, xi);
+                    let expected: Vector<3> = n.iter().enumerate().map(|(c, n)| x(c) * *n).sum();
+                    assert!((x(a) - expected).norm() < 1e-15, "{kind:?} {local:?} node {a}");
+                }
             }
+        }
+    }
+
+    #[test]
+    fn no_cell_has_more_nodes_than_there_is_room_for() {
+        assert_eq!(CellKind::ALL.iter().map(|k| k.node_count()).max(), Some(MAX_NODES));
+        let facets = CellKind::ALL.iter().flat_map(|k| k.reference().facets);
+        assert_eq!(facets.map(|(f, _)| f.node_count()).max(), Some(MAX_FACET_NODES));
+    }
+
+    #[test]
+    fn the_smallest_edge_lies_between_neighbouring_nodes() {
+        for kind in CellKind::ALL {
+            let nodes = kind.reference().nodes;
+            let edge = if nodes[0][0] == 0.0 { 1.0 } else { 2.0 };
+            let expected = if kind.is_quadratic() { 0.5 * edge } else { edge };
+            assert_eq!(kind.smallest_edge::<3>(&|a| Vector::<3>::from(nodes[a])), expected, "{kind:?}");
         }
     }
 }

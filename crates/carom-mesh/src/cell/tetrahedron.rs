@@ -1,9 +1,12 @@
-use super::{CellKind, Reference};
+use super::{CellKind, Reference, quadratic};
+
+const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
 
 /// Tetrahedron 0 ≤ ξ, η, ζ, ξ + η + ζ ≤ 1.
 pub(super) static TET4: Reference = Reference {
     name: "tet4",
     dimension: 3,
+    degree: 1,
     nodes: &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
     facets: &[
         (CellKind::Tri3, &[0, 2, 1]),
@@ -24,4 +27,32 @@ pub(super) static TET4: Reference = Reference {
         g[3] = [0.0, 0.0, 1.0];
     },
     vtk_type: 10,
+};
+
+/// The corners, then the middles of the edges.
+pub(super) static TET10: Reference = Reference {
+    name: "tet10",
+    dimension: 3,
+    degree: 2,
+    nodes: &[
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [0.5, 0.0, 0.0],
+        [0.5, 0.5, 0.0],
+        [0.0, 0.5, 0.0],
+        [0.0, 0.0, 0.5],
+        [0.5, 0.0, 0.5],
+        [0.0, 0.5, 0.5],
+    ],
+    facets: &[
+        (CellKind::Tri6, &[0, 2, 1, 6, 5, 4]),
+        (CellKind::Tri6, &[0, 1, 3, 4, 8, 7]),
+        (CellKind::Tri6, &[1, 2, 3, 5, 9, 8]),
+        (CellKind::Tri6, &[0, 3, 2, 7, 9, 6]),
+    ],
+    shape: |xi, n| quadratic::simplex(&EDGES, 3, xi, n),
+    gradient: |xi, g| quadratic::simplex_gradient(&EDGES, 3, xi, g),
+    vtk_type: 24,
 };

@@ -27,6 +27,8 @@ pub(super) fn body<const D: usize>(
         density: material.density,
         damping: material.damping,
         mass: entry.mass,
+        hypothesis: entry.hypothesis,
+        formulation: entry.formulation,
         thickness: entry.thickness,
         massless_contact: scenario.contact.condition.is_massless() && may_touch(scenario, &entry.name),
     };
@@ -38,6 +40,8 @@ pub(super) fn body<const D: usize>(
         FemError::MaterialConstant { name, .. } => {
             InputError::new(format!("materials.{}.{name}", entry.material), e.to_string())
         }
+        FemError::Hypothesis { .. } => InputError::new(format!("{key}.hypothesis"), e.to_string()),
+        FemError::Formulation { .. } => InputError::new(format!("{key}.formulation"), e.to_string()),
         _ => InputError::mesh(format!("{key}.mesh"), e.to_string()),
     })
 }

@@ -48,8 +48,13 @@ pub fn build<const D: usize>(
     let (contact, groups) = contact::contact(scenario, &bodies)?;
     let gravity = match &scenario.analysis.gravity {
         Some(g) => vector("analysis.gravity", g)?,
-        None => Vector::zeros(),
+        None => Vector::<D>::zeros(),
     };
+    let axial = bodies.iter().find(|b: &&ModelBody<D>| b.body.is_axisymmetric());
+    if let Some(ModelBody { name, .. }) = axial.filter(|_| gravity[0] != 0.0) {
+        let message = format!("{:?} has a part across the axis of body {name:?}", gravity.as_slice());
+        return Err(InputError::new("analysis.gravity", message + "; let it point along y"));
+    }
     let velocities = scenario
         .obstacles
         .iter()

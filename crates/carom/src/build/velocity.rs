@@ -16,6 +16,12 @@ pub(super) fn initial_velocity<const D: usize>(
             Some(v) => vector(&format!("bodies.{i}.velocity"), v)?,
             None => Vector::zeros(),
         };
+        let axial = b.body.is_axisymmetric();
+        if axial && drift[0] != 0.0 {
+            let message =
+                format!("{:?}: a body of revolution moves along its axis; give [0, v]", drift.as_slice());
+            return Err(InputError::new(format!("bodies.{i}.velocity"), message));
+        }
         let key = format!("bodies.{i}.spin");
         let spin = match (entry.spin, D) {
             (Spin::None, _) => [0.0; 3],
@@ -32,6 +38,7 @@ pub(super) fn initial_velocity<const D: usize>(
         let still = spin == [0.0; 3];
         let free = b.body.mesh().ties().is_empty();
         number(&key, spin[2], free || still, "a periodic body cannot spin; give 0")?;
+        number(&key, spin[2], !axial || still, "an axisymmetric body cannot spin; give 0")?;
         let nodes = b.body.mesh().nodes();
         let centre = b.body.mean(nodes);
         velocity.extend(nodes.iter().map(|x| drift + tensor::rotation_velocity(&spin, &(x - centre))));

@@ -1,9 +1,7 @@
 //! Scenes in which the search for contacts once went wrong. Each test states the symptom.
 
-mod common;
-
+use crate::common::{body, disc, parse, scenario};
 use carom::{InputError, Simulation};
-use common::{body, disc, parse, scenario};
 use serde_json::{Value, json};
 
 fn bar(corner: [f64; 2], size: [f64; 2], divisions: [usize; 2]) -> Value {

@@ -1,9 +1,7 @@
 //! The books: every joule once, by bodies, by pairs, by facets.
 
-mod common;
-
+use crate::common::{body, disc, parse, plane, scenario};
 use carom::Simulation;
-use common::{body, disc, parse, plane, scenario};
 use serde_json::json;
 
 /// Two discs that hit each other and the floor, spinning, with friction.

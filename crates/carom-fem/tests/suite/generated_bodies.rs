@@ -2,19 +2,14 @@
 
 use std::f64::consts::PI;
 
-use carom_fem::material::{ElasticConstants, LawSpec};
-use carom_fem::{Body, BodySpec, MassKind, RayleighDamping};
+use carom_fem::Body;
+use carom_fem::material::LawSpec;
 use carom_mesh::{CellKind, Mesh, MeshError, Surface, Vector, generate};
 
+use crate::common::elastic;
+
 fn volume<const D: usize>(mesh: Mesh<D>) -> f64 {
-    let spec = BodySpec {
-        law: LawSpec::SaintVenantKirchhoff(ElasticConstants { young: 1.0, poisson: 0.3 }),
-        density: 1.0,
-        damping: RayleighDamping::default(),
-        mass: MassKind::Consistent,
-        thickness: 1.0,
-        massless_contact: false,
-    };
+    let spec = crate::common::spec(LawSpec::SaintVenantKirchhoff(elastic()));
     Body::new(mesh, &spec).expect("no inverted cell").volume()
 }
 
@@ -24,8 +19,7 @@ fn kinds(dimension: usize) -> impl Iterator<Item = CellKind> {
 
 /// Facets of straight edges miss the circle by O(h²); through mid nodes on it the error is O(h⁴), as for Simpson's rule.
 fn expected_rate(kind: CellKind) -> f64 {
-    let linear = kind.node_count() == kind.dimension() + 1 || kind.node_count() == 1 << kind.dimension();
-    if linear { 2.0 } else { 4.0 }
+    2.0 * kind.reference().degree as f64
 }
 
 /// The error of the volume at `divisions` and twice as many falls at the rate of the cell.

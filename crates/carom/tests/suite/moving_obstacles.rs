@@ -1,10 +1,8 @@
 //! Obstacles that move: the observer does not matter, and the books have the work of the motion.
 
-mod common;
-
+use crate::common::{body, disc, parse, plane, scenario};
 use carom::Simulation;
 use carom_mesh::Vector;
-use common::{body, disc, parse, plane, scenario};
 use serde_json::json;
 
 const VARIANTS: [(&str, &str); 5] = [

@@ -1,7 +1,5 @@
 //! Scenarios that several tests share.
 
-#![allow(dead_code, reason = "every test file compiles this module and uses a part of it")]
-
 use carom::Scenario;
 use serde_json::{Value, json};
 

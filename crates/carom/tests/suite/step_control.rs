@@ -1,9 +1,7 @@
 //! Steps that fail are halved; those that cannot succeed stop the run and leave the last good state.
 
-mod common;
-
+use crate::common::{body, disc, parse, plane, scenario};
 use carom::{Outcome, Simulation, StepError};
-use common::{body, disc, parse, plane, scenario};
 use serde_json::{Value, json};
 
 /// A disc that hits a floor in steps of 10 ms.

@@ -1,10 +1,8 @@
 //! Bodies that repeat themselves along x: where the cut between one period and the next lies is nowhere to be seen.
 
-mod common;
-
+use crate::common::{body, disc, parse, plane, scenario};
 use carom::Simulation;
 use carom_mesh::Vector;
-use common::{body, disc, parse, plane, scenario};
 use serde_json::{Value, json};
 
 /// A layer of height 1 m, `cells` of 1/8 m wide, from `corner`.

@@ -3,7 +3,7 @@
 use carom::{ContactCondition, Group, Method, Model, ModelBody, NewtonRule, Scheme, State, Workspace, step};
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
 use carom_fem::material::{ElasticConstants, LawSpec};
-use carom_fem::{Body, BodySpec, MassKind, RayleighDamping};
+use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
 use carom_mesh::{Vector, generate};
 
@@ -21,6 +21,8 @@ fn block(name: &str, corner: [f64; 3], first_node: usize, cells: usize, massless
         density: 1.0,
         damping: RayleighDamping::default(),
         mass: MassKind::Consistent,
+        hypothesis: Hypothesis::PlaneStrain,
+        formulation: Formulation::Standard,
         thickness: 1.0,
         massless_contact: massless,
     };

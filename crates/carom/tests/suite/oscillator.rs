@@ -1,7 +1,5 @@
 //! A free bar in its first axial mode with Rayleigh damping is a damped oscillator, and the scheme converges to it at its order.
 
-mod common;
-
 use carom::Simulation;
 use carom_mesh::Vector;
 use serde_json::json;
@@ -25,13 +23,13 @@ fn exact(t: f64) -> f64 {
 fn error(theta: f64, xi: f64, dt: f64) -> (f64, f64, carom::Summary) {
     let mesh =
         json!({"kind": "rectangle", "corner": [0.0, 0.0], "size": [LENGTH, 0.1], "divisions": [CELLS, 1]});
-    let mut case = common::scenario(0.1, dt, &[common::body("bar", mesh, [0.0, 0.0])], &[]);
+    let mut case = crate::common::scenario(0.1, dt, &[crate::common::body("bar", mesh, [0.0, 0.0])], &[]);
     case["analysis"]["scheme"] = json!({"kind": "theta", "theta": theta, "xi": xi});
     case["materials"]["elastic"] = json!({
         "kind": "linear-elastic", "young": 2700.0, "poisson": 0.0, "density": 1.0,
         "damping": {"mass": ALPHA, "stiffness": BETA},
     });
-    let mut simulation = Simulation::<2>::new(&common::parse(&case)).expect("valid");
+    let mut simulation = Simulation::<2>::new(&crate::common::parse(&case)).expect("valid");
     let velocity = simulation
         .model()
         .reference

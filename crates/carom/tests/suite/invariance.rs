@@ -1,10 +1,8 @@
 //! What must not change the physics: where the scene stands and how it is turned, the units, and the two sides of an impact.
 
-mod common;
-
+use crate::common::{body, disc, parse, plane, scenario};
 use carom::{Simulation, Summary};
 use carom_mesh::Vector;
-use common::{body, disc, parse, plane, scenario};
 use serde_json::{Value, json};
 
 fn run(case: &Value) -> (Simulation<2>, Summary) {

@@ -1,11 +1,9 @@
 //! The scheme `conserving` with the conditions `midpoint` and `massless`: energy and momenta of an impact to round-off, whatever
 //! the law.
 
-mod common;
-
+use crate::common::{body, disc, parse, scenario};
 use carom::Simulation;
 use carom_mesh::Vector;
-use common::{body, disc, parse, scenario};
 use serde_json::json;
 
 const LAWS: [&str; 2] = ["saint-venant-kirchhoff", "neo-hookean"];

@@ -1,10 +1,8 @@
 //! The contact problems that steps pose: a failed one is there to look at, and a second solver can check each.
 
-mod common;
-
+use crate::common::{body, disc, parse, plane, scenario};
 use carom::{RunError, Simulation, StepError};
 use carom_friction::{Criterion, SolveStatus, SolverKind, StoppingRule};
-use common::{body, disc, parse, plane, scenario};
 use serde_json::{Value, json};
 
 /// A disc that falls askew on a floor with friction, and another on the first.

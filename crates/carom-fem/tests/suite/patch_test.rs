@@ -1,51 +1,18 @@
-//! Every cell reproduces a constant strain exactly, whatever its shape, and its stiffness is the derivative of its force.
+//! Every cell reproduces a constant strain exactly, whatever its shape; mass, frame and damping of a body.
 
-use carom_fem::material::{ElasticConstants, LawSpec};
-use carom_fem::{Body, BodySpec, MassKind, RayleighDamping};
+use carom_fem::material::LawSpec;
+use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_mesh::{CellBlock, CellKind, Matrix, Mesh, Vector, generate};
 
+use crate::common::{PLANE, SPATIAL, distortion, elastic, grid};
+
 fn spec() -> BodySpec {
-    BodySpec {
-        law: LawSpec::SaintVenantKirchhoff(ElasticConstants { young: 2700.0, poisson: 0.33 }),
-        density: 1.5,
-        damping: RayleighDamping::default(),
-        mass: MassKind::Consistent,
-        thickness: 1.0,
-        massless_contact: false,
-    }
+    crate::common::spec(LawSpec::SaintVenantKirchhoff(elastic()))
 }
 
-/// Moves interior nodes so that cells are distorted.
-fn distorted<const D: usize>(mesh: &Mesh<D>) -> Mesh<D> {
-    let nodes = mesh
-        .nodes()
-        .iter()
-        .enumerate()
-        .map(|(n, x)| {
-            let inside = x.iter().all(|&c| c > 1e-9 && c < 1.0 - 1e-9);
-            if inside { x + Vector::from_fn(|i, _| 0.05 * ((n * 7 + i * 3) as f64).sin()) } else { *x }
-        })
-        .collect();
-    Mesh::new(nodes, mesh.blocks().to_vec()).expect("valid")
-}
-
-/// Each hexahedron cut in six tetrahedra around its diagonal.
-fn tetrahedra(mesh: &Mesh<3>) -> Mesh<3> {
-    let connectivity = mesh.blocks()[0]
-        .cells()
-        .flat_map(|c| {
-            [[0, 1, 2, 6], [0, 2, 3, 6], [0, 3, 7, 6], [0, 7, 4, 6], [0, 4, 5, 6], [0, 5, 1, 6]]
-                .into_iter()
-                .flat_map(|t: [usize; 4]| t.map(|k| c[k]))
-                .collect::<Vec<u32>>()
-        })
-        .collect();
-    Mesh::new(mesh.nodes().to_vec(), vec![CellBlock { kind: CellKind::Tet4, connectivity }]).expect("valid")
-}
-
-fn check<const D: usize>(mesh: Mesh<D>) {
+fn check<const D: usize>(mesh: Mesh<D>, spec: &BodySpec) {
     let kind = mesh.blocks()[0].kind;
-    let body = Body::new(mesh, &spec()).expect("valid");
+    let body = Body::new(mesh, spec).expect("valid");
     assert!((body.volume() - 1.0).abs() < 1e-14);
     assert!((body.total_mass() - 1.5).abs() < 1e-14);
     let gradient = Matrix::<D>::from_fn(|i, j| 0.1 * ((3 * i + 2 * j + 1) as f64).sin());
@@ -61,41 +28,41 @@ fn check<const D: usize>(mesh: Mesh<D>) {
     for state in &states {
         assert!((state.stress - states[0].stress).norm() < 1e-10, "{kind:?}: stress is not constant");
     }
-
-    // K is the derivative of the force, at a state that is not homogeneous.
-    let u: Vec<Vector<D>> = u
-        .iter()
-        .enumerate()
-        .map(|(n, u)| u + Vector::from_fn(|i, _| 0.01 * ((n + i) as f64).cos()))
-        .collect();
-    let direction: Vec<Vector<D>> =
-        (0..u.len()).map(|n| Vector::from_fn(|i, _| ((5 * n + i) as f64).sin())).collect();
-    let mut product = vec![Vector::zeros(); u.len()];
-    body.stiffness(&u).multiply(&direction, &mut product);
-    let h = 1e-6;
-    let at = |s: f64| {
-        let moved: Vec<Vector<D>> = u.iter().zip(&direction).map(|(u, d)| u + d * s).collect();
-        let mut f = vec![Vector::zeros(); u.len()];
-        body.internal_force(&moved, &mut f);
-        (f, body.strain_energy(&moved))
-    };
-    let ((fp, ep), (fm, em)) = (at(h), at(-h));
-    let (f, _) = at(0.0);
-    let power: f64 = f.iter().zip(&direction).map(|(f, d)| f.dot(d)).sum();
-    assert!(((ep - em) / (2.0 * h) - power).abs() < 1e-5 * power.abs().max(1.0), "{kind:?}");
-    for n in 0..u.len() {
-        assert!(((fp[n] - fm[n]) / (2.0 * h) - product[n]).norm() < 1e-4, "{kind:?} node {n}");
-    }
 }
 
 #[test]
 fn every_cell_passes_the_patch_test() {
-    let square = distorted(&generate::grid([0.0; 2], [1.0; 2], [3, 3]).expect("valid"));
-    check(generate::triangulate(&square).expect("valid"));
-    check(square);
-    let cube = distorted(&generate::grid([0.0; 3], [1.0; 3], [3, 3, 3]).expect("valid"));
-    check(tetrahedra(&cube));
-    check(cube);
+    for formulation in [Formulation::Standard, Formulation::MeanDilatation] {
+        let possible = |kind: &CellKind| {
+            formulation == Formulation::Standard || matches!(kind, CellKind::Quad4 | CellKind::Hex8)
+        };
+        for kind in PLANE.into_iter().filter(possible) {
+            for hypothesis in [Hypothesis::PlaneStrain, Hypothesis::PlaneStress] {
+                if formulation == Formulation::Standard || hypothesis == Hypothesis::PlaneStrain {
+                    check(grid::<2>(kind, 3, distortion), &BodySpec { hypothesis, formulation, ..spec() });
+                }
+            }
+        }
+        for kind in SPATIAL.into_iter().filter(possible) {
+            check(grid::<3>(kind, 3, distortion), &BodySpec { formulation, ..spec() });
+        }
+    }
+}
+
+/// Corners of quadratic cells have a lumped mass too, and no mass is lost.
+#[test]
+fn lumped_masses_are_positive_and_sum_to_that_of_the_body() {
+    fn check<const D: usize>(kind: CellKind) {
+        let lumped = BodySpec { mass: MassKind::Lumped, ..spec() };
+        let body = Body::new(grid::<D>(kind, 2, |x| x), &lumped).expect("valid");
+        assert!((body.total_mass() - 1.5).abs() < 1e-13);
+        let least = body.nodal_mass().iter().copied().fold(f64::INFINITY, f64::min);
+        assert!(least > 0.0, "{kind:?}: {least} kg");
+        let middle = body.centre(&vec![Vector::zeros(); body.node_count()]);
+        assert!((middle - Vector::from_element(0.5)).norm() < 1e-13);
+    }
+    PLANE.into_iter().for_each(check::<2>);
+    SPATIAL.into_iter().for_each(check::<3>);
 }
 
 #[test]

@@ -1,0 +1,1 @@
+"""The sections of docs/validation.md, one module each with a function `section`."""

@@ -1,0 +1,136 @@
+//! What cells store, how they resist and what they weigh.
+
+mod block;
+mod dilatation;
+mod kinematics;
+mod mass;
+mod mean_dilatation;
+
+use std::fmt::Debug;
+
+use carom_mesh::{CellKind, Matrix, Vector};
+
+use crate::material::Mat3;
+use crate::shape_table::Cells;
+use crate::sparse::{NodalMatrix, NodeGraph};
+use crate::{BodySpec, FemError, Formulation, Hypothesis};
+use block::{Block, Grid};
+use kinematics::{Embedded, Solid};
+pub use mass::{add_mass, add_scaled_diagonal_mass};
+use mean_dilatation::MeanDilatation;
+
+/// Mean state of a cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CellState {
+    /// Cauchy stress [Pa].
+    pub stress: Mat3,
+    /// Stored energy per reference volume [J/m³].
+    pub energy_density: f64,
+}
+
+/// The forces of a step from u₀ to u₁ that a blend of its start and end stresses is made of [N], one vector per node; F̄ = ½(F₀ + F₁).
+#[derive(Debug)]
+pub struct StepForces<'a, const D: usize> {
+    /// The conserving force ∫ F̄ S̄ ∇N dV: its work is the change of the stored energy.
+    pub conserving: &'a mut [Vector<D>],
+    /// ∫ F̄ (S₁ − S₀) ∇N dV.
+    pub difference: &'a mut [Vector<D>],
+    /// The internal force ∫ F₁ S₁ ∇N dV at the end.
+    pub end: &'a mut [Vector<D>],
+}
+
+impl<const D: usize> StepForces<'_, D> {
+    pub(crate) fn fill_with_zeros(&mut self) {
+        [&mut *self.conserving, &mut *self.difference, &mut *self.end]
+            .into_iter()
+            .for_each(|f| f.fill(Vector::zeros()));
+    }
+}
+
+/// The elements of one block of cells. Chosen once per block; what is inside runs without dispatch.
+///
+/// `u` and `f` hold one vector per node of the body.
+pub trait Elements<const D: usize>: Send + Sync + Debug {
+    /// Stored energy ∫ψ dV [J].
+    fn energy(&self, u: &[Vector<D>]) -> f64;
+    /// Adds the internal force ∂E/∂u = ∫ P·∇N dV [N] to `f`.
+    fn add_internal_force(&self, u: &[Vector<D>], f: &mut [Vector<D>]);
+    /// Adds the force [N] of a step from `u0` to `u1` whose work is the change of the stored energy, f·(u₁ − u₀) = ΔE, to `f`.
+    fn add_conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]);
+    /// Adds the forces of a step from `u0` to `u1`.
+    fn add_step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut StepForces<'_, D>);
+    /// Adds the stiffness ∂²E/∂u² [N/m] to `k`.
+    fn add_stiffness(&self, u: &[Vector<D>], k: &mut NodalMatrix<Matrix<D>>);
+    /// Appends the mean state of every cell.
+    fn cell_states(&self, u: &[Vector<D>], out: &mut Vec<CellState>);
+}
+
+/// Evaluates an expression in which `$n` is the number of nodes of cells of a kind, as a constant.
+macro_rules! with_node_count {
+    ($kind:expr, $n:ident => $body:expr) => {
+        match $kind {
+            CellKind::Line2 => with_node_count!(@ 2, $n, $body),
+            CellKind::Line3 | CellKind::Tri3 => with_node_count!(@ 3, $n, $body),
+            CellKind::Quad4 | CellKind::Tet4 => with_node_count!(@ 4, $n, $body),
+            CellKind::Tri6 => with_node_count!(@ 6, $n, $body),
+            CellKind::Quad8 | CellKind::Hex8 => with_node_count!(@ 8, $n, $body),
+            CellKind::Quad9 => with_node_count!(@ 9, $n, $body),
+            CellKind::Tet10 => with_node_count!(@ 10, $n, $body),
+            CellKind::Hex20 => with_node_count!(@ 20, $n, $body),
+            CellKind::Hex27 => with_node_count!(@ 27, $n, $body),
+        }
+    };
+    (@ $count:literal, $n:ident, $body:expr) => {{
+        const $n: usize = $count;
+        $body
+    }};
+}
+pub(crate) use with_node_count;
+
+/// The elements of `cells` in a body like `spec` with this `graph`.
+///
+/// # Errors
+/// If a material constant is out of range, a cell is inverted or degenerate, or the formulation is not one for these cells.
+pub fn elements<const D: usize>(
+    spec: &BodySpec,
+    cells: &Cells<'_, D>,
+    graph: &NodeGraph,
+) -> Result<Box<dyn Elements<D>>, FemError> {
+    let kind = cells.block.kind;
+    match (spec.formulation, spec.hypothesis) {
+        (Formulation::MeanDilatation, hypothesis) => {
+            let law = spec.law.point_law::<3>(Hypothesis::PlaneStrain)?;
+            let refuse = |remedy| FemError::Formulation { cell: kind.reference().name, remedy };
+            if hypothesis == Hypothesis::PlaneStress {
+                return Err(refuse("a sheet in plane stress does not lock; leave the formulation out"));
+            }
+            if !law.is_objective() {
+                return Err(refuse("it needs a law of large displacements, such as saint-venant-kirchhoff"));
+            }
+            match kind {
+                CellKind::Quad4 => {
+                    Ok(Box::new(MeanDilatation::<D, 4, Embedded> { law, grid: Grid::new(cells, graph)? }))
+                }
+                CellKind::Hex8 => {
+                    Ok(Box::new(MeanDilatation::<D, 8, Embedded> { law, grid: Grid::new(cells, graph)? }))
+                }
+                _ if kind.is_quadratic() => {
+                    Err(refuse("quadratic cells hardly lock; leave the formulation out"))
+                }
+                _ => Err(refuse("mesh the body with quad4, hex8 or quadratic cells")),
+            }
+        }
+        (Formulation::Standard, Hypothesis::Axisymmetric) => {
+            let law = spec.law.point_law::<3>(spec.hypothesis)?;
+            Ok(with_node_count!(kind, N => {
+                Box::new(Block::<D, 3, N, Embedded> { law, grid: Grid::new(cells, graph)? })
+            }))
+        }
+        (Formulation::Standard, _) => {
+            let law = spec.law.point_law::<D>(spec.hypothesis)?;
+            Ok(with_node_count!(kind, N => {
+                Box::new(Block::<D, D, N, Solid> { law, grid: Grid::new(cells, graph)? })
+            }))
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! The tests of elements and bodies, in one program: generic code is compiled once.
+
+mod common;
+mod consistency;
+mod convergence;
+mod generated_bodies;
+mod locking;
+mod patch_test;
+mod revolution;

@@ -1,0 +1,13 @@
+//! The tests of whole steps and runs, in one program: the core is generic, and every program that uses it compiles it anew.
+
+mod common;
+mod conservation;
+mod contact_problems;
+mod contact_search;
+mod invariance;
+mod ledger;
+mod moving_obstacles;
+mod oscillator;
+mod periodic;
+mod space;
+mod step_control;
