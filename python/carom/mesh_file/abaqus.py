@@ -1,8 +1,8 @@
 """The mesh in an Abaqus input file: nodes, elements, sets and surfaces.
 
 meshio's own reader leaves out surfaces, plane strain elements and all but the last block of nodes.
-Keywords that say nothing about the mesh are skipped. The numbering of elements and of their faces is
-that of the Abaqus Analysis User's Guide, "Continuum elements".
+Keywords that say nothing about the mesh are skipped. The numbering of elements and of their faces
+is that of the Abaqus Analysis User's Guide, "Continuum elements".
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ def meshed(path: Path, space: int) -> Iterator[Path]:
     """
     try:
         import gmsh  # noqa: PLC0415 (an extra, and slow to load)
-    except ImportError as error:
+    except (ImportError, OSError) as error:  # its library may lack one of the system
         raise Refused(
             f'is a geometry, which needs Gmsh ({error}): pip install "carom[gmsh]"'
         ) from None
