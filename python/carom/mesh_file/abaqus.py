@@ -8,7 +8,7 @@ is that of the Abaqus Analysis User's Guide, "Continuum elements".
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -44,7 +44,7 @@ _TRIANGLE_FACES = [(0, 1), (1, 2), (2, 0)]
 _QUAD_FACES = [(0, 1), (1, 2), (2, 3), (3, 0)]
 _TETRA_FACES = [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)]
 _HEX_FACES = [(0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
-_FACES = {
+_FACES: dict[str, tuple[str, Sequence[tuple[int, ...]]]] = {
     "triangle": ("line", _TRIANGLE_FACES),
     "triangle6": ("line3", [(0, 1, 3), (1, 2, 4), (2, 0, 5)]),
     "quad": ("line", _QUAD_FACES),

@@ -84,4 +84,4 @@ def smallest_corner(kind: Kind, points: np.ndarray, nodes: Indices) -> np.ndarra
     for corner, neighbours in enumerate(kind.edges):
         edges = [x[:, n] - x[:, corner] for n in neighbours]
         corners.append(np.linalg.det(np.stack(edges, axis=1)))
-    return np.min(corners, axis=0)
+    return np.asarray(np.min(corners, axis=0))
