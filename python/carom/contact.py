@@ -13,6 +13,9 @@ from carom.messages import problem
 Sources = Literal["finer", "first", "second", "both"]
 """Whose nodes are checked against the facets of the other body of a pair."""
 
+Discretisation = Literal["node-to-segment", "mortar"]
+"""How contact between two bodies is written: node by node, or in the mean over the surface."""
+
 Friction = Annotated[Number, Field(ge=0, le=1000)]
 """Coulomb's coefficient."""
 
@@ -66,6 +69,8 @@ class Pair(Description):
         Coulomb's coefficient; None takes the default of `Contact`.
     sources
         Whose nodes are checked, as seen from `between`; None takes the default of `Contact`.
+    discretisation
+        How contact between the two is written; None takes the default of `Contact`.
     enabled
         Whether the two can touch at all.
     """
@@ -73,6 +78,7 @@ class Pair(Description):
     between: tuple[str, ...]
     friction: Friction | None = None
     sources: Sources | None = None
+    discretisation: Discretisation | None = None
     enabled: Annotated[bool, Field(strict=True)] = True
 
     @model_validator(mode="after")
@@ -103,6 +109,12 @@ class Contact(Description):
     targets
         What they are checked against: a smooth curve through the boundary nodes of the other body,
         with a continuous tangent but for corners of more than 40°, or the facets of its mesh.
+    discretisation
+        How contact between two bodies is written that do not state their own: as gaps of the nodes
+        of the source, or (mortar) as their means under the shape functions of these nodes, which
+        carry a uniform pressure exactly between meshes that do not match. Mortar takes the facets
+        of the mesh as targets, whatever `targets` says, one side as the source, and every condition
+        but ``massless``. Obstacles are always checked node by node.
     certificate_tolerance
         Largest distance from Coulomb's law in a step, the sum of bi-potential gaps, relative to the
         largest energy of the run. A run with a larger one is not completed.
@@ -115,5 +127,6 @@ class Contact(Description):
     solver: FrictionSolver = FrictionSolver()
     sources: Sources = "finer"
     targets: Literal["smooth", "faceted"] = "smooth"
+    discretisation: Discretisation = "node-to-segment"
     certificate_tolerance: Positive = 1e-9
     pairs: tuple[Pair, ...] = ()

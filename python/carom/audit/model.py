@@ -102,6 +102,10 @@ class AuditModel:
         condition = scenario.contact.condition
         if condition not in CONDITIONS:
             raise InputError(f"cannot audit the contact condition {condition!r} yet")
+        pairs = scenario.contact.pairs
+        written = [scenario.contact.discretisation, *(p.discretisation for p in pairs)]
+        if "mortar" in written:
+            raise InputError("cannot audit mortar contact yet")
         self.condition = condition
         self.massless = condition == "massless"
         scheme = scenario.analysis.scheme

@@ -55,7 +55,7 @@ pub(super) fn intersection(dimension: usize, subject: &Polygon, window: &Polygon
 
 /// The simplices that make up a polygon or a segment.
 pub(super) fn simplices(dimension: usize, polygon: &Polygon) -> impl Iterator<Item = Simplex> {
-    let count = if polygon.is_empty() { 0 } else { polygon.len() - dimension };
+    let count = polygon.len().saturating_sub(dimension);
     (0..count).map(move |k| {
         if dimension == 1 {
             [polygon[0], polygon[1], polygon[1]]

@@ -1,9 +1,11 @@
 //! Which facets of two surfaces may press on one another in a step.
 
 use carom_mesh::{Facet, Vector};
+use smallvec::SmallVec;
 
 use super::plane::Plane;
 use crate::aabb::Aabb;
+use crate::bvh::Bvh;
 use crate::{ContactModel, ContactSurface, Target};
 
 /// A facet of the source and one of the target that may touch. Ordered by pair, source and target.
@@ -21,8 +23,11 @@ pub(super) struct Facing {
 /// bodies that stand on one another do not.
 const OPPOSED: f64 = 0.5;
 
-/// How deep inside one another facets are still found, in diameters.
-const DEPTH: f64 = 0.5;
+/// How far apart the boxes of facets may be so that a multiplier sees all of the target that covers it, in diameters.
+const REACH: f64 = 1.0;
+
+/// How deep a facet may be behind another, in diameters of the smaller: the far sides of thin bodies that touch are deeper.
+const DEPTH: f64 = 0.25;
 
 impl<const D: usize> ContactModel<D> {
     /// Adds the facing facets of a pair that come within `margin` [m] of one another between `start` and `end`.
@@ -40,39 +45,59 @@ impl<const D: usize> ContactModel<D> {
         let swept = |surface: &ContactSurface, f: usize| {
             let nodes = surface.facets[f].nodes.iter();
             let facet_box = Aabb::of(nodes.flat_map(|&n| [start(n), end(n)]));
-            facet_box.inflated(margin + DEPTH * facet_box.diameter())
+            facet_box.inflated(margin + REACH * facet_box.diameter())
         };
         let whole = |surface: &ContactSurface| {
             Aabb::of(surface.nodes.iter().flat_map(|&n| [start(n), end(n)])).inflated(margin)
         };
         // The facets that come near the other side at all.
-        let near = |surface: &ContactSurface, other: &Aabb<D>| -> Vec<(usize, Aabb<D>, Vector<D>)> {
-            (0..surface.facets.len())
-                .map(|f| (f, swept(surface, f)))
-                .filter(|(_, b)| b.overlaps(other))
-                .filter_map(|(f, b)| Some((f, b, normal(&surface.facets[f], &middle)?)))
+        let near = |surface: &ContactSurface, other: &Aabb<D>| -> Vec<Near<D>> {
+            let all = (0..surface.facets.len()).map(|f| (f, swept(surface, f)));
+            all.filter(|(_, b)| b.overlaps(other))
+                .filter_map(|(f, room)| Near::new(f as u32, &surface.facets[f], room, &middle))
                 .collect()
         };
         let targets = near(target, &whole(source));
         if targets.is_empty() {
             return;
         }
-        for (f, source_box, outward) in near(source, &whole(target)) {
-            let facing =
-                targets.iter().filter(|(_, b, n)| n.dot(&outward) < -OPPOSED && b.overlaps(&source_box));
-            out.extend(facing.map(|&(t, ..)| Facing {
-                pair: pair as u32,
-                source: f as u32,
-                target: t as u32,
-            }));
+        let tree = Bvh::new(targets.iter().map(|t| t.room));
+        for own in near(source, &whole(target)) {
+            let first = out.len();
+            tree.overlapping(&own.room, |k, _| {
+                let other = &targets[k as usize];
+                if own.faces(other, margin) {
+                    out.push(Facing { pair: pair as u32, source: own.facet, target: other.facet });
+                }
+            });
+            out[first..].sort_unstable();
         }
     }
 }
 
-/// The outward normal of a facet, by its corners.
-fn normal<const D: usize>(facet: &Facet, position: &impl Fn(u32) -> Vector<D>) -> Option<Vector<D>> {
-    let mut corners = [Vector::zeros(); 4];
-    let count = facet.kind.corner_count();
-    corners.iter_mut().zip(&facet.nodes).for_each(|(x, &n)| *x = position(n));
-    Plane::through(&corners[..count]).map(|p| p.normal())
+/// A facet that is near the other side.
+struct Near<const D: usize> {
+    facet: u32,
+    /// The box around its path and what it reaches [m].
+    room: Aabb<D>,
+    /// Its plane in the middle of the step.
+    plane: Plane<D>,
+    /// Diameter [m].
+    size: f64,
+}
+
+impl<const D: usize> Near<D> {
+    fn new(number: u32, facet: &Facet, room: Aabb<D>, position: &impl Fn(u32) -> Vector<D>) -> Option<Self> {
+        let corners: SmallVec<[Vector<D>; 4]> =
+            facet.nodes[..facet.kind.corner_count()].iter().map(|&n| position(n)).collect();
+        let size = Aabb::of(corners.iter().copied()).diameter();
+        Some(Self { facet: number, room, plane: Plane::through(&corners)?, size })
+    }
+
+    /// Whether a facet is opposite and not far behind.
+    fn faces(&self, other: &Self, margin: f64) -> bool {
+        let depth = -self.plane.normal().dot(&(other.plane.centre() - self.plane.centre()));
+        self.plane.normal().dot(&other.plane.normal()) < -OPPOSED
+            && depth < margin + DEPTH * self.size.min(other.size)
+    }
 }

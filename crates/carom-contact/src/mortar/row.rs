@@ -6,7 +6,7 @@ use crate::Contact;
 use crate::frame::frame;
 
 /// A multiplier that covers less than this fraction of its whole has no contact.
-const COVERED: f64 = 1e-8;
+const COVERED: f64 = 1e-12;
 
 /// The integrals of a multiplier Φ over the part of the source that faces the target.
 #[derive(Debug, Clone)]

@@ -1,6 +1,7 @@
 use carom_mesh::{Matrix, Tie, Vector};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltError, LltParams, LltRegularization};
+use faer::perm::Perm;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::sparse::linalg::cholesky::{
@@ -12,6 +13,7 @@ use faer::{Par, Side, Spec};
 
 use super::NodeGraph;
 use super::folding::Folding;
+use super::ordering::nested_dissection;
 use super::substitution::Substitution;
 use crate::FemError;
 
@@ -48,7 +50,7 @@ impl<const D: usize> std::fmt::Debug for Factor<D> {
 }
 
 impl<const D: usize> Factor<D> {
-    /// Orders the unknowns (AMD) and finds the structure of the factor of matrices over `graph` whose nodes have these `ties`.
+    /// Orders the unknowns (AMD; nested dissection where there are many) and finds the structure of the factor of matrices over `graph` whose nodes have these `ties`.
     ///
     /// # Errors
     /// If the symbolic factorisation fails, in practice for lack of memory.
@@ -78,10 +80,16 @@ impl<const D: usize> Factor<D> {
             }
         }
         let lower = SymbolicSparseColMat::new_checked(n, n, column_starts, None, rows);
+        let order = nested_dissection(graph).map(|nodes| {
+            let unknowns: Vec<usize> = nodes.iter().flat_map(|n| (0..D).map(move |i| n * D + i)).collect();
+            let mut places = vec![0; n];
+            unknowns.iter().enumerate().for_each(|(k, &u)| places[u] = k);
+            Perm::new_checked(unknowns.into(), places.into(), n)
+        });
         let symbolic = factorize_symbolic_cholesky(
             lower.as_ref(),
             Side::Lower,
-            SymmetricOrdering::Amd,
+            order.as_ref().map_or(SymmetricOrdering::Amd, |p| SymmetricOrdering::Custom(p.as_ref())),
             CholeskySymbolicParams {
                 supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
                 ..Default::default()

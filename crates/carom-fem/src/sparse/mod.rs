@@ -4,6 +4,7 @@ mod factor;
 mod folding;
 mod graph;
 mod nodal_matrix;
+mod ordering;
 mod substitution;
 
 pub use factor::Factor;

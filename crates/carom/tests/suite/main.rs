@@ -2,10 +2,13 @@
 
 mod common;
 mod conservation;
+mod contact_patch;
 mod contact_problems;
 mod contact_search;
+mod hypotheses;
 mod invariance;
 mod ledger;
+mod mortar;
 mod moving_obstacles;
 mod oscillator;
 mod periodic;

@@ -1,0 +1,114 @@
+//! Impacts of bodies with mortar contact: energy, momenta, and how far the surfaces go through one another.
+
+use crate::common::{body, disc, parse, scenario};
+use carom::Simulation;
+use carom_mesh::Vector;
+use serde_json::{Value, json};
+
+/// Two discs of different meshes, with 24 and 16 facets times `refinement`, one spinning, that meet off centre in free space.
+fn impact(refinement: usize, condition: &str, friction: f64) -> Value {
+    let discs = [
+        body("left", disc([0.0, 0.0], 1.0, 6 * refinement), [1.5, 0.3]),
+        body("right", disc([2.05, 0.4], 1.0, 4 * refinement), [-0.5, 0.0]),
+    ];
+    let mut case = scenario(0.3, 1e-3, &discs, &[]);
+    case["bodies"][0]["spin"] = json!(4.0);
+    case["analysis"]["scheme"] = json!({"kind": "conserving"});
+    case["analysis"]["newton"]["tolerance"] = json!(1e-11);
+    case["contact"]["condition"] = json!(condition);
+    case["contact"]["discretisation"] = json!("mortar");
+    case["contact"]["friction"] = json!(friction);
+    case
+}
+
+fn run(case: &Value) -> Simulation<2> {
+    let mut simulation = Simulation::new(&parse(case)).expect("valid");
+    simulation.advance(f64::INFINITY, || false).expect("runs");
+    simulation
+}
+
+/// Linear and angular momentum about the origin.
+fn momenta(simulation: &Simulation<2>) -> (Vector<2>, f64) {
+    let (mut linear, mut angular) = (Vector::zeros(), 0.0);
+    for b in &simulation.model().bodies {
+        let (u, v) = (&simulation.state().displacement[b.nodes()], &simulation.state().velocity[b.nodes()]);
+        let mut mv = vec![Vector::zeros(); v.len()];
+        b.body.mass().multiply(v, &mut mv);
+        linear += mv.iter().sum::<Vector<2>>();
+        angular += b.body.angular_momentum(u, &mv)[2];
+    }
+    (linear, angular)
+}
+
+/// Energy and linear momentum to round-off on any mesh. The forces of both sides are equal and opposite, but not in the same line
+/// where the surfaces curve: angular momentum is kept as far as the mesh resolves the gap.
+#[test]
+fn impact_with_midpoint_keeps_energy_and_linear_momentum() {
+    for (refinement, friction, turning) in [(1, 0.0, 1e-3), (1, 0.3, 5e-3), (2, 0.0, 1e-4), (2, 0.3, 1e-3)] {
+        let case = impact(refinement, "midpoint", friction);
+        let (linear, angular) = momenta(&Simulation::<2>::new(&parse(&case)).expect("valid"));
+        let simulation = run(&case);
+        let summary = simulation.summary();
+        let energy = summary.energy;
+        assert_eq!(summary.contacts.len(), 1, "the discs meet");
+        assert!(summary.contacts[0].peak_force > 10.0, "{:?}", summary.contacts);
+        let defect = energy.max_defect / energy.initial;
+        let (linear_after, angular_after) = momenta(&simulation);
+        let turned = (angular_after - angular).abs() / angular.abs();
+        println!(
+            "refinement {refinement}, friction {friction}: defect {defect:.1e} E0, angular momentum off by {turned:.1e}"
+        );
+        assert!(defect < 1e-10, "friction {friction}: {defect:e}");
+        assert!((linear_after - linear).norm() < 1e-11 * linear.norm(), "{linear_after}");
+        assert!(turned < turning, "friction {friction}: {angular} became {angular_after}");
+        if friction > 0.0 {
+            assert!(energy.friction > 0.01 * energy.initial, "{energy:?}");
+            assert!(summary.least_friction > -1e-12 * energy.initial, "{energy:?}");
+        }
+    }
+}
+
+/// With these conditions normal reactions do work: as with nodes at first touch, and as the weights of a row follow the sliding,
+/// which its gradient leaves out. The latter falls with the mesh.
+#[test]
+fn impact_with_gap_and_endpoint_closes_its_books() {
+    for condition in ["gap", "endpoint"] {
+        let simulation = run(&impact(2, condition, 0.3));
+        let summary = simulation.summary();
+        let energy = summary.energy;
+        assert_eq!(summary.contacts.len(), 1, "{condition}: the discs meet");
+        assert!(energy.max_defect < 1e-10 * energy.initial, "{condition}: {energy:?}");
+        assert!(energy.last < energy.initial, "{condition}: {energy:?}");
+        println!("{condition}: normal reactions take {:.1e} E0", energy.normal_contact / energy.initial);
+        assert!(energy.normal_contact.abs() < 1e-2 * energy.initial, "{condition}: {energy:?}");
+    }
+}
+
+/// Gaps are closed in the mean, so that corners of one polygon go through sides of the other: by no more than the heights of their
+/// facets' arcs.
+#[test]
+fn nodes_go_through_the_target_by_less_than_the_height_of_facets() {
+    let simulation = run(&impact(2, "gap", 0.0));
+    let min_gap = simulation.summary().min_gap;
+    let height = |facets: f64| 1.0 - (std::f64::consts::PI / facets).cos();
+    let heights = height(48.0) + height(32.0);
+    println!("min_gap {min_gap:e} m, heights of facets {heights:e} m");
+    assert!(min_gap < 0.0 && min_gap > -heights, "{min_gap:e}");
+}
+
+#[test]
+fn what_mortar_cannot_do_is_refused_with_a_remedy() {
+    let mut massless = impact(1, "massless", 0.0);
+    massless["contact"]["targets"] = json!("smooth");
+    let mut both = impact(1, "midpoint", 0.0);
+    both["contact"]["discretisation"] = json!("node-to-segment");
+    both["contact"]["pairs"] =
+        json!([{"between": ["left", "right"], "sources": "both", "discretisation": "mortar"}]);
+    for (case, key, part) in [
+        (massless, "contact.discretisation", "massless"),
+        (both, "contact.pairs.0.discretisation", "multipliers"),
+    ] {
+        let error = Simulation::<2>::new(&parse(&case)).err().expect("refused");
+        assert!(error.key == key && error.to_string().contains(part), "{error:?}");
+    }
+}
