@@ -137,6 +137,10 @@ def _plotter(view: View, *, off_screen: bool) -> Iterator[Any]:
         from vtkmodules.vtkCommonCore import vtkLogger  # noqa: PLC0415
     except ImportError as error:
         raise InputError(f'carom view needs PyVista ({error}): pip install "carom[view]"') from None
+    # Without a display VTK draws by EGL or OSMesa, and says so before.
+    verbosity = vtkLogger.GetCurrentVerbosityCutoff()
+    if off_screen:
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
     plotter: Any = pyvista.Plotter(off_screen=off_screen, window_size=list(WINDOW))
     try:
         plotter.set_background("white")
