@@ -19,7 +19,7 @@ from carom.errors import (
 from carom.io.history import read_history
 from carom.material import Damping, LinearElastic, NeoHookean, SaintVenantKirchhoff
 from carom.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring, Tube
-from carom.obstacle import Plane
+from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere, RigidSurface
 from carom.output import Output, Track
 from carom.result import Result
 from carom.scenario import Scenario
@@ -53,6 +53,10 @@ __all__ = [
     "Progress",
     "Rectangle",
     "Result",
+    "RigidBox",
+    "RigidCylinder",
+    "RigidSphere",
+    "RigidSurface",
     "Ring",
     "SaintVenantKirchhoff",
     "Scenario",

@@ -7,14 +7,14 @@ what only the mesh itself can tell.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, field_validator, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from carom.description import (
     Count,
     Description,
+    FilePath,
     InPlane,
     InSpace,
     PlaneVector,
@@ -314,15 +314,9 @@ class MeshFile(Description):
     facet_sets: ClassVar[tuple[str, ...] | None] = None
 
     kind: Literal["file"] = "file"
-    file: str
+    file: FilePath
     body: str | None = None
     scale: Positive = 1.0
-
-    @field_validator("file")
-    @classmethod
-    def _absolute(cls, file: str) -> str:
-        # A results directory has a case file too, and from there the mesh must be found.
-        return str(Path(file).absolute())
 
 
 _Round = Disc | Ball | Cylinder

@@ -8,6 +8,7 @@ mod grid;
 mod lattice;
 mod ring;
 mod tie;
+mod triangulate;
 mod tube;
 mod upright;
 
@@ -17,6 +18,7 @@ pub use disc::Disc;
 pub use grid::{Grid, grid};
 pub use ring::Ring;
 pub use tie::tie_sides;
+pub use triangulate::triangulate;
 pub use tube::Tube;
 pub use upright::Axis;
 
