@@ -30,9 +30,9 @@ from carom.material import (
     Viscosity,
     Yeoh,
 )
-from carom.mesh import Box, Disc, Rectangle
+from carom.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring, Tube
 from carom.motion import Displacement, Fixed, Prescribed
-from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere
+from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere, RigidSurface
 from carom.output import Output, Track
 from carom.result import Result
 from carom.scenario import Scenario
@@ -41,6 +41,7 @@ from carom.simulation import Progress, run
 
 __all__ = [
     "Audit",
+    "Ball",
     "BlatzKo",
     "Body",
     "Box",
@@ -50,6 +51,7 @@ __all__ = [
     "Conserving",
     "Contact",
     "ConvergenceError",
+    "Cylinder",
     "Damping",
     "Disc",
     "Displacement",
@@ -61,6 +63,7 @@ __all__ = [
     "J2Plasticity",
     "LinearElastic",
     "MeshError",
+    "MeshFile",
     "MooneyRivlin",
     "NeoHookean",
     "Newton",
@@ -76,6 +79,8 @@ __all__ = [
     "RigidBox",
     "RigidCylinder",
     "RigidSphere",
+    "RigidSurface",
+    "Ring",
     "SaintVenantKirchhoff",
     "Scenario",
     "Simulation",
@@ -84,6 +89,7 @@ __all__ = [
     "Theta",
     "Track",
     "Traction",
+    "Tube",
     "Viscosity",
     "Yeoh",
     "__version__",

@@ -7,7 +7,15 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, model_validator
 from typing_extensions import Self
 
-from carom.description import PER_DIMENSION, Description, Name, Positive, SpaceVector, Vector
+from carom.description import (
+    PER_DIMENSION,
+    Description,
+    FilePath,
+    Name,
+    Positive,
+    SpaceVector,
+    Vector,
+)
 from carom.messages import problem
 from carom.motion import Displacement
 
@@ -131,4 +139,28 @@ class RigidBox(_Obstacle):
     size: Annotated[tuple[Positive, ...], PER_DIMENSION]
 
 
-Obstacle = Annotated[Plane | RigidSphere | RigidCylinder | RigidBox, Field(discriminator="kind")]
+class RigidSurface(_Obstacle):
+    """What a closed surface of triangles encloses, in 3D; bodies are outside.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    file
+        The file with the triangles, as a rule STL; in a case file a path relative to it.
+    scale
+        What coordinates are multiplied by to be in metres: 0.001 for a file in millimetres.
+    velocity
+        Constant velocity [m/s], shape [3]; None is none.
+    motion
+        Displacement over time, in place of a velocity.
+    """
+
+    kind: Literal["surface"] = "surface"
+    file: FilePath
+    scale: Positive = 1.0
+
+
+Obstacle = Annotated[
+    Plane | RigidSphere | RigidCylinder | RigidBox | RigidSurface, Field(discriminator="kind")
+]

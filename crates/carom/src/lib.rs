@@ -31,6 +31,7 @@ mod ledger;
 mod ledger_table;
 mod linearise;
 mod load;
+mod mesh_spec;
 mod model;
 mod motion;
 mod react;

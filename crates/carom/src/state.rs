@@ -44,6 +44,8 @@ pub struct State<const D: usize> {
     pub support: Vec<Vector<D>>,
     /// What the material of every body remembers, quadrature point by quadrature point; nothing where it is elastic.
     pub history: Vec<Vec<PlasticState>>,
+    /// How far every node has slid along what it touches since the start [m], whichever way; where it touches several, their mean.
+    pub slip: Vec<f64>,
     /// Internal forces ∂E/∂u [N] at `displacement`, kept because every step starts with them.
     pub internal_force: Vec<Vector<D>>,
     /// Energies [J] at `displacement` and `velocity`.
@@ -83,6 +85,7 @@ impl<const D: usize> State<D> {
             friction_energy: vec![0.0; zeros.len()],
             support: vec![Vector::zeros(); model.motions.len()],
             history: model.bodies.iter().map(|b| b.body.virgin()).collect(),
+            slip: vec![0.0; zeros.len()],
             internal_force: zeros,
             energies: Energies::default(),
             body_energies: vec![Energies::default(); model.bodies.len()],
