@@ -1,4 +1,5 @@
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Pair, Target};
+use carom_fem::Hypothesis;
 use carom_mesh::Facet;
 
 use super::mortar::discretisation;
@@ -22,8 +23,11 @@ pub(super) fn contact<const D: usize>(
     bodies: &[ModelBody<D>],
 ) -> Result<(ContactModel<D>, Vec<Group>), InputError> {
     let mut model = ContactModel::default();
-    for b in bodies {
-        let surface = ContactSurface::new(b.body.surface(), b.first_node as u32);
+    for (b, entry) in bodies.iter().zip(&scenario.bodies) {
+        let mut surface = ContactSurface::new(b.body.surface(), b.first_node as u32);
+        if entry.hypothesis == Hypothesis::Axisymmetric {
+            surface = surface.revolved();
+        }
         let reference = |n: u32| b.body.mesh().nodes()[n as usize - b.first_node];
         model.surfaces.push(match scenario.contact.targets {
             Targets::Smooth => surface.smoothed(&reference),
