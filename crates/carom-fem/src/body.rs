@@ -118,6 +118,9 @@ impl<const D: usize> Body<D> {
             }
         }
         let depth = depth(&mesh, spec)?;
+        // The axis is inside a body of revolution.
+        let axis = if depth == Depth::Revolution { axis(&mesh) } else { Vec::new() };
+        let surface = surface.part(|f| f.nodes.iter().any(|n| axis.binary_search(n).is_err()));
         let law = spec.law.point_law::<D>(spec.hypothesis)?;
         // What repeats itself along a line or around an axis cannot turn.
         let turns = law.is_objective() && mesh.ties().is_empty() && depth != Depth::Revolution;
@@ -245,9 +248,7 @@ impl<const D: usize> Body<D> {
     /// The nodes, ascending, that lie on the axis of a body of revolution: they have no radial displacement.
     #[must_use]
     pub fn axis_nodes(&self) -> Vec<u32> {
-        let limit = ON_THE_AXIS * self.mesh.diameter();
-        let on_axis = |n: &u32| self.is_axisymmetric() && self.mesh.nodes()[*n as usize][0] <= limit;
-        (0..self.node_count() as u32).filter(on_axis).collect()
+        if self.is_axisymmetric() { axis(&self.mesh) } else { Vec::new() }
     }
 
     /// Volume of the reference configuration [m³].
@@ -430,6 +431,12 @@ impl<const D: usize> Body<D> {
         }
         sum
     }
+}
+
+/// The nodes on the line x = 0, ascending.
+fn axis<const D: usize>(mesh: &Mesh<D>) -> Vec<u32> {
+    let limit = ON_THE_AXIS * mesh.diameter();
+    (0..mesh.nodes().len() as u32).filter(|&n| mesh.nodes()[n as usize][0] <= limit).collect()
 }
 
 /// What the body is in space.

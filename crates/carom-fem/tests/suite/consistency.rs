@@ -18,10 +18,10 @@ fn bodies<const D: usize>(cells: &[CellKind]) -> Vec<(String, BodySpec, Body<D>)
         _ => &[Hypothesis::PlaneStrain],
     };
     for &kind in cells {
-        for law in laws.map(|law| law(elastic())) {
+        for law in laws {
             for &hypothesis in hypotheses {
                 for formulation in [Formulation::Standard, Formulation::MeanDilatation] {
-                    let spec = BodySpec { hypothesis, formulation, ..spec(law.clone()) };
+                    let spec = BodySpec { hypothesis, formulation, ..spec(law(elastic())) };
                     let mut axis = Vector::zeros();
                     axis[0] = RADIUS;
                     let divisions = if kind.is_quadratic() { 1 } else { 2 };
@@ -30,12 +30,12 @@ fn bodies<const D: usize>(cells: &[CellKind]) -> Vec<(String, BodySpec, Body<D>)
                     let possible = formulation == Formulation::Standard
                         || (locks
                             && hypothesis != Hypothesis::PlaneStress
-                            && !matches!(law, LawSpec::LinearElastic(_)));
+                            && !matches!(spec.law, LawSpec::LinearElastic(_)));
                     match Body::new(mesh, &spec) {
                         Ok(body) => {
                             assert!(possible);
                             bodies.push((
-                                format!("{kind:?} {law:?} {hypothesis:?} {formulation:?}"),
+                                format!("{kind:?} {:?} {hypothesis:?} {formulation:?}", spec.law),
                                 spec,
                                 body,
                             ));

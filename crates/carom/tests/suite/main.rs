@@ -5,6 +5,7 @@ mod conservation;
 mod contact_patch;
 mod contact_problems;
 mod contact_search;
+mod hypotheses;
 mod invariance;
 mod ledger;
 mod mortar;
