@@ -20,6 +20,8 @@ pub struct ContactSurface {
     pub is_meridian: bool,
     /// For every source, the facets around it and its images.
     facets_around: Vec<Vec<u32>>,
+    /// For every source, the facets of this surface that it never touches, ascending; empty if it touches none of them.
+    pub(crate) never_touched: Vec<Vec<u32>>,
     shape: Shape,
 }
 
@@ -53,7 +55,16 @@ impl ContactSurface {
                 }
             }
         }
-        Self { facets, nodes, sources, is_meridian: false, facets_around, shape: Shape::Faceted }
+        let never_touched = Vec::new();
+        Self {
+            facets,
+            nodes,
+            sources,
+            is_meridian: false,
+            facets_around,
+            never_touched,
+            shape: Shape::Faceted,
+        }
     }
 
     /// The same boundary as the meridian of a body of revolution.
