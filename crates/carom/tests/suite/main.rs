@@ -6,6 +6,7 @@ mod contact_patch;
 mod contact_problems;
 mod contact_search;
 mod curved_obstacles;
+mod edges;
 mod hypotheses;
 mod incline;
 mod invariance;
