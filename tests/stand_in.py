@@ -83,6 +83,7 @@ class FallingSimulation:
         return {
             "displacement": self.fields()["displacement"],
             "friction_energy": np.array([self.time, 0.0]),
+            "slip": np.array([0.0, self.time]),
             "pressure": np.array([0.0, self.time]),
             "area": np.ones(2),
         }

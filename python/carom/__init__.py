@@ -18,8 +18,8 @@ from carom.errors import (
 )
 from carom.io.history import read_history
 from carom.material import Damping, LinearElastic, NeoHookean, SaintVenantKirchhoff
-from carom.mesh import Box, Disc, Rectangle
-from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere
+from carom.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring, Tube
+from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere, RigidSurface
 from carom.output import Output, Track
 from carom.result import Result
 from carom.scenario import Scenario
@@ -27,6 +27,7 @@ from carom.simulation import Progress, run
 
 __all__ = [
     "Audit",
+    "Ball",
     "Body",
     "Box",
     "CaromError",
@@ -35,6 +36,7 @@ __all__ = [
     "Conserving",
     "Contact",
     "ConvergenceError",
+    "Cylinder",
     "Damping",
     "Disc",
     "Dynamic",
@@ -42,6 +44,7 @@ __all__ = [
     "InputError",
     "LinearElastic",
     "MeshError",
+    "MeshFile",
     "NeoHookean",
     "Newton",
     "Output",
@@ -53,11 +56,14 @@ __all__ = [
     "RigidBox",
     "RigidCylinder",
     "RigidSphere",
+    "RigidSurface",
+    "Ring",
     "SaintVenantKirchhoff",
     "Scenario",
     "Simulation",
     "Theta",
     "Track",
+    "Tube",
     "__version__",
     "audit",
     "check",

@@ -37,6 +37,25 @@ def read(path: Path) -> dict[str, Any]:
         raise InputError(f"not TOML: {error}") from error
 
 
+def with_paths_from(directory: Path, data: dict[str, Any]) -> dict[str, Any]:
+    """Return a case whose relative paths, which begin at its own file, begin at a directory."""
+
+    def placed(value: object) -> object:
+        if isinstance(value, dict):
+            return {
+                key: str(directory / entry)
+                if key == "file" and isinstance(entry, str)
+                else placed(entry)
+                for key, entry in value.items()
+            }
+        return [placed(entry) for entry in value] if isinstance(value, list) else value
+
+    return {
+        key: placed(value) if key in ("bodies", "obstacles") else value
+        for key, value in data.items()
+    }
+
+
 def write(scenario: Description, *, complete: bool = False) -> str:
     """Return the TOML text of a scenario; if not `complete`, without what equals its default."""
     writer = _Writer(complete=complete)

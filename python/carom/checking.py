@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from carom.mesh import MeshFile
 from carom.scenario import Scenario
 from carom.simulation import build
 
@@ -13,6 +14,13 @@ COARSE_STEP = 5.0
 
 SPLIT = 1e-6
 """Rest of a step at the end of the run, in steps, that is more than round-off."""
+
+
+WAVE_SPEEDS = (10.0, 2e4)
+"""Speeds of pressure waves [m/s] between that of the softest foam and that of diamond."""
+
+LARGE = 100.0
+"""Size of a body out of a file above which millimetres are likely [m]."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +49,37 @@ def check(scenario: Scenario) -> Check:
         The scenario cannot be run.
     """
     description = build(scenario).describe()
-    return Check(description=description, warnings=tuple(_warnings(scenario, description)))
+    warnings = (*unit_warnings(scenario, description), *_warnings(scenario, description))
+    return Check(description=description, warnings=warnings)
+
+
+def unit_warnings(scenario: Scenario, description: dict[str, Any]) -> list[str]:
+    """Return what points to units that are not SI, a line for each body.
+
+    Parameters
+    ----------
+    scenario
+        The case.
+    description
+        What the native simulation says of it.
+    """
+    warnings = []
+    slowest, fastest = WAVE_SPEEDS
+    for body, built in zip(scenario.bodies, description["bodies"], strict=True):
+        speed, size = built["wave_speed"], built["diameter"]
+        if not slowest <= speed <= fastest:
+            density = scenario.materials[body.material].density
+            warnings.append(
+                f"body {body.name}: waves run at {speed:.3g} m/s in materials.{body.material}, no "
+                f"solid between foam and diamond has that; give moduli in Pa and density "
+                f"({density:g}) in kg/m³"
+            )
+        if isinstance(body.mesh, MeshFile) and size > LARGE:
+            warnings.append(
+                f"body {body.name} is {size:.4g} m large; if its file is in millimetres, set scale "
+                f"= {body.mesh.scale * 1e-3:g} in its mesh"
+            )
+    return warnings
 
 
 def _warnings(scenario: Scenario, description: dict[str, Any]) -> list[str]:

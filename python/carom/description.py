@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 from typing import Annotated, Any, get_args
 
 from pydantic import (
@@ -70,6 +71,10 @@ SpaceVector = Annotated[tuple[Number, ...], InSpace]
 
 Name = Annotated[str, AfterValidator(_plain_name)]
 """A name that can be a part of a dotted path, of a column title and of a file name."""
+
+
+FilePath = Annotated[str, AfterValidator(lambda file: str(Path(file).absolute()))]
+"""A file, kept as an absolute path: a results directory has a case file too, which must find it."""
 
 
 class Description(BaseModel):

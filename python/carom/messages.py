@@ -132,7 +132,7 @@ def _without_tags(location: Sequence[int | str], data: object) -> list[str]:
         if isinstance(part, str) and isinstance(data, int | float | str | Sequence):
             continue  # a member of a union of plain types
         if isinstance(data, Mapping):
-            if data is not entered and data.get("kind") == part:
+            if data is not entered and _kind(data) == part:
                 entered = data
                 continue
             data = data.get(part)
@@ -140,3 +140,8 @@ def _without_tags(location: Sequence[int | str], data: object) -> list[str]:
             data = data[part] if part < len(data) else None
         path.append(str(part))
     return [part for part in path if part != "[key]"]
+
+
+def _kind(table: Mapping[str, object]) -> object:
+    """Return the kind of a table; a mesh with a file need not say that it is one."""
+    return table.get("kind", "file" if "file" in table else None)

@@ -6,7 +6,15 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
-from carom.description import PER_DIMENSION, Description, Name, Positive, SpaceVector, Vector
+from carom.description import (
+    PER_DIMENSION,
+    Description,
+    FilePath,
+    Name,
+    Positive,
+    SpaceVector,
+    Vector,
+)
 
 
 def _nonzero(vector: tuple[float, ...]) -> tuple[float, ...]:
@@ -116,4 +124,28 @@ class RigidBox(Description):
     velocity: Vector | None = None
 
 
-Obstacle = Annotated[Plane | RigidSphere | RigidCylinder | RigidBox, Field(discriminator="kind")]
+class RigidSurface(Description):
+    """What a closed surface of triangles encloses, in 3D; bodies are outside.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    file
+        The file with the triangles, as a rule STL; in a case file a path relative to it.
+    scale
+        What coordinates are multiplied by to be in metres: 0.001 for a file in millimetres.
+    velocity
+        Constant velocity [m/s], shape [3]; None is none.
+    """
+
+    name: Name
+    kind: Literal["surface"] = "surface"
+    file: FilePath
+    scale: Positive = 1.0
+    velocity: Vector | None = None
+
+
+Obstacle = Annotated[
+    Plane | RigidSphere | RigidCylinder | RigidBox | RigidSurface, Field(discriminator="kind")
+]

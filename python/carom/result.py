@@ -81,7 +81,7 @@ class Result:
     @property
     def scenario(self) -> Scenario:
         """The scenario as it was run, overrides included."""
-        return Scenario.from_toml(self.path / layout.CASE)
+        return read_case(self.path)
 
     def __repr__(self) -> str:
         summary = self.summary
@@ -92,3 +92,14 @@ class Result:
 
     def __rich__(self) -> Table:
         return summary_table(self.summary, where=self.path)
+
+
+def read_case(directory: Path) -> Scenario:
+    """Read the case of a results directory, whose run may still be going on.
+
+    Raises
+    ------
+    InputError
+        There is no case in the directory.
+    """
+    return Scenario.from_toml(directory / layout.CASE)

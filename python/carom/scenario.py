@@ -67,7 +67,8 @@ class Scenario(Description):
             the file, the key and the value.
         """
         with naming(path):
-            return cls.from_dict(case_file.read(Path(path)))
+            data = case_file.read(Path(path))
+            return cls.from_dict(case_file.with_paths_from(Path(path).parent, data))
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Self:

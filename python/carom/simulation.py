@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 import shlex
@@ -12,6 +13,9 @@ from pathlib import Path
 from carom._carom import Simulation
 from carom.contact import FrictionSolver
 from carom.errors import CertificateError, ConvergenceError
+from carom.mesh import MeshFile
+from carom.mesh_file import MeshArrays, read_body_mesh, read_surface
+from carom.obstacle import RigidSurface
 from carom.recorder import Recorder
 from carom.result import Result
 from carom.scenario import Scenario
@@ -61,7 +65,34 @@ def build(scenario: Scenario) -> Simulation:
     InputError
         The scenario cannot be run, such as bodies that overlap at the start.
     """
-    return Simulation(scenario.to_json())
+    return Simulation(_json(scenario), _meshes(scenario))
+
+
+def _json(scenario: Scenario) -> str:
+    """Return the scenario as the native core reads it, the triangles of obstacles included."""
+    data = json.loads(scenario.to_json())
+    for index, obstacle in enumerate(scenario.obstacles):
+        if isinstance(obstacle, RigidSurface):
+            key = f"obstacles.{index}"
+            surface = read_surface(obstacle.file, scale=obstacle.scale, key=key)
+            data["obstacles"][index]["vertices"] = surface.points.tolist()
+            data["obstacles"][index]["triangles"] = surface.triangles.tolist()
+    return json.dumps(data)
+
+
+def _meshes(scenario: Scenario) -> dict[str, MeshArrays]:
+    """Read the meshes of the bodies that have theirs in a file."""
+    return {
+        body.name: read_body_mesh(
+            body.mesh.file,
+            body=body.mesh.body,
+            scale=body.mesh.scale,
+            space=scenario.dimension,
+            key=f"bodies.{index}.mesh",
+        )
+        for index, body in enumerate(scenario.bodies)
+        if isinstance(body.mesh, MeshFile)
+    }
 
 
 def run(

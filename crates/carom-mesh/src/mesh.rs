@@ -122,6 +122,11 @@ impl<const D: usize> Mesh<D> {
         Self { sets, ..self }
     }
 
+    /// The same mesh elsewhere.
+    pub(crate) fn moved(self, to: impl Fn(&Vector<D>) -> Vector<D>) -> Self {
+        Self { nodes: self.nodes.iter().map(to).collect(), ..self }
+    }
+
     /// The named sets.
     #[must_use]
     pub fn sets(&self) -> &Sets {

@@ -36,6 +36,9 @@ impl Sets {
     }
 }
 
+/// A name and what tells its members among `T`.
+type Named<'a, T> = (&'a str, &'a dyn Fn(&T) -> bool);
+
 /// What identifies a facet whichever way it turns: its nodes in ascending order.
 #[must_use]
 pub fn facet_key(nodes: &[u32]) -> Vec<u32> {
@@ -78,26 +81,47 @@ impl<const D: usize> Mesh<D> {
     /// The same mesh with one more set of facets: those of the boundary that pass `keep`. It replaces one of the same name.
     #[must_use]
     pub fn with_facet_set(self, name: &str, keep: impl Fn(&Facet) -> bool) -> Self {
+        self.with_facet_sets(&[(name, &keep)])
+    }
+
+    /// The same mesh with sets of those facets of the boundary of which all nodes are `on` something.
+    #[must_use]
+    pub fn with_facets_on(self, sets: &[Named<'_, Vector<D>>]) -> Self {
+        let nodes = self.nodes().to_vec();
+        let tests: Vec<_> =
+            sets.iter().map(|(_, on)| |f: &Facet| f.nodes.iter().all(|&n| on(&nodes[n as usize]))).collect();
+        let sets: Vec<Named<'_, Facet>> = sets
+            .iter()
+            .zip(&tests)
+            .map(|((name, _), test)| (*name, test as &dyn Fn(&Facet) -> bool))
+            .collect();
+        self.with_facet_sets(&sets)
+    }
+
+    fn with_facet_sets(self, named: &[Named<'_, Facet>]) -> Self {
         let surface = Surface::of(&self);
-        let set = surface.facets().iter().filter(|f| keep(f)).map(|f| facet_key(&f.nodes)).collect();
         let mut sets = self.sets().clone();
-        sets.facets.insert(name.to_string(), set);
+        for (name, keep) in named {
+            let set = surface.facets().iter().filter(|f| keep(f)).map(|f| facet_key(&f.nodes)).collect();
+            sets.facets.insert((*name).to_string(), set);
+        }
         self.with_sets_unchecked(sets)
     }
 
     /// The same mesh with its upright sides named: for each direction the side of the smallest and that of the largest coordinate.
     #[must_use]
-    pub fn with_sides(mut self, names: [[&str; 2]; D]) -> Self {
+    pub fn with_sides(self, names: [[&str; 2]; D]) -> Self {
         let (low, high) = self.bounds();
         let reach: Vector<D> = (high - low) * 1e-9;
-        for (axis, pair) in names.iter().enumerate() {
-            for (name, at) in pair.iter().zip([low[axis], high[axis]]) {
-                let nodes = self.nodes().to_vec();
-                let on = |n: &u32| (nodes[*n as usize][axis] - at).abs() <= reach[axis];
-                self = self.with_facet_set(name, |f| f.nodes.iter().all(on));
-            }
-        }
-        self
+        let on = |axis: usize, at: f64| move |x: &Vector<D>| (x[axis] - at).abs() <= reach[axis];
+        let tests: Vec<_> = (0..D).flat_map(|k| [on(k, low[k]), on(k, high[k])]).collect();
+        let sets: Vec<Named<'_, Vector<D>>> = names
+            .iter()
+            .flatten()
+            .zip(&tests)
+            .map(|(name, test)| (*name, test as &dyn Fn(&Vector<D>) -> bool))
+            .collect();
+        self.with_facets_on(&sets)
     }
 }
 

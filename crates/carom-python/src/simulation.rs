@@ -122,6 +122,7 @@ impl Simulation {
         let out = PyDict::new(py);
         out.set_item("displacement", arrays::vectors(py, run.fields().displacement)?)?;
         out.set_item("friction_energy", PyArray1::from_vec(py, fields.friction_energy))?;
+        out.set_item("slip", PyArray1::from_vec(py, fields.slip))?;
         out.set_item("pressure", PyArray1::from_vec(py, fields.pressure))?;
         out.set_item("area", PyArray1::from_vec(py, fields.area))?;
         Ok(out)

@@ -159,6 +159,8 @@ fn close_contacts<const D: usize>(
         work.groups[group].normal_force += reaction.force[0];
         work.groups[group].ledger.has_touched = true;
     }
+    next.slip.copy_from_slice(&state.slip);
+    add_slip(model, next, work);
     next.friction_energy.copy_from_slice(&state.friction_energy);
     let mut book = |group: &mut GroupReport, contact: &Contact<D>, dissipation: f64| {
         group.ledger.friction += dissipation;
@@ -192,6 +194,34 @@ fn close_contacts<const D: usize>(
             let dissipation = -share * (1..D).map(|t| reaction.force[t] * motion[t]).sum::<f64>();
             book(group, &reaction.contact, dissipation);
         }
+    }
+}
+
+/// Adds to the slip of every node how far it has slid in the step along what presses on it at the end.
+fn add_slip<const D: usize>(model: &Model<D>, next: &mut State<D>, work: &mut Workspace<D>) {
+    let nodes = |contact: &Contact<D>, visit: &mut dyn FnMut(usize, f64)| {
+        contact.sources().chain(contact.targets()).for_each(|(node, weight)| {
+            if node < model.node_count() {
+                visit(node, weight.abs());
+            }
+        });
+    };
+    for reaction in next.reactions.iter().filter(|r| r.force[0] > 0.0) {
+        let motion = reaction.contact.relative(|n| work.motion[n]);
+        let distance = (1..D).map(|t| motion[t] * motion[t]).sum::<f64>().sqrt();
+        nodes(&reaction.contact, &mut |node, weight| {
+            work.slid[node][0] += weight;
+            work.slid[node][1] += weight * distance;
+        });
+    }
+    let slip = &mut next.slip;
+    for reaction in next.reactions.iter().filter(|r| r.force[0] > 0.0) {
+        nodes(&reaction.contact, &mut |node, _| {
+            let [weight, distance] = std::mem::take(&mut work.slid[node]);
+            if weight > 0.0 {
+                slip[node] += distance / weight;
+            }
+        });
     }
 }
 

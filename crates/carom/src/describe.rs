@@ -38,6 +38,8 @@ pub struct BodyDescription {
     pub volume: f64,
     /// Speed of pressure waves [m/s].
     pub wave_speed: f64,
+    /// Length of the diagonal of the bounding box [m].
+    pub diameter: f64,
     /// Shortest edge [m].
     pub smallest_edge: f64,
     /// Time of a pressure wave through it [s].
@@ -77,6 +79,7 @@ pub(crate) fn describe<const D: usize>(
                 mass: b.body.total_mass(),
                 volume: b.body.volume(),
                 wave_speed,
+                diameter: b.body.mesh().diameter(),
                 smallest_edge,
                 suggested_time_step: smallest_edge / wave_speed,
             }

@@ -29,6 +29,7 @@ mod history;
 mod ledger;
 mod ledger_table;
 mod linearise;
+mod mesh_spec;
 mod model;
 mod react;
 mod scenario;

@@ -9,6 +9,7 @@ use carom_fem::{MassKind, RayleighDamping};
 use carom_friction::SolverKind;
 use serde::{Deserialize, Serialize};
 
+pub use crate::mesh_spec::{Cell, MeshSpec};
 use crate::{ContactCondition, Scheme};
 
 /// A complete case.
@@ -153,79 +154,6 @@ pub enum Spin {
     InPlane(f64),
     /// In space: (ω_x, ω_y, ω_z) [rad/s].
     InSpace([f64; 3]),
-}
-
-/// Cells of generated 2D meshes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum PlaneCell {
-    /// Bilinear quadrilaterals.
-    #[default]
-    Quad4,
-    /// Linear triangles.
-    Tri3,
-}
-
-/// Where a mesh comes from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
-pub enum MeshSpec {
-    /// A disc meshed by an O-grid.
-    Disc {
-        /// Centre [m].
-        centre: [f64; 2],
-        /// Radius [m].
-        radius: f64,
-        /// Cells along a side of the core.
-        divisions: usize,
-        /// Rings around the core; half of `divisions` if not given.
-        rings: Option<usize>,
-        /// Cells.
-        #[serde(default)]
-        cell: PlaneCell,
-    },
-    /// A rectangle of equal cells.
-    Rectangle {
-        /// Lower left corner [m].
-        corner: [f64; 2],
-        /// Sides [m].
-        size: [f64; 2],
-        /// Cells per side.
-        divisions: [usize; 2],
-        /// Cells.
-        #[serde(default)]
-        cell: PlaneCell,
-        /// Whether the right side moves as the left one does: the body repeats itself along x.
-        #[serde(default)]
-        periodic: bool,
-    },
-    /// A box of equal hexahedra.
-    Box {
-        /// Corner of the smallest coordinates [m].
-        corner: [f64; 3],
-        /// Sides [m].
-        size: [f64; 3],
-        /// Cells per side.
-        divisions: [usize; 3],
-    },
-    /// A mesh that is given along with the scenario, read from a file.
-    File {
-        /// The file, for messages.
-        file: String,
-    },
-}
-
-impl MeshSpec {
-    /// The kind, as the case file names it.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
-        match self {
-            MeshSpec::Disc { .. } => "disc",
-            MeshSpec::Rectangle { .. } => "rectangle",
-            MeshSpec::Box { .. } => "box",
-            MeshSpec::File { .. } => "file",
-        }
-    }
 }
 
 /// A rigid obstacle.

@@ -39,6 +39,8 @@ pub struct State<const D: usize> {
     pub contact_force: Vec<Vector<D>>,
     /// What friction has dissipated at every node since the start [J], half of it on either side of a contact.
     pub friction_energy: Vec<f64>,
+    /// How far every node has slid along what it touches since the start [m], whichever way; where it touches several, their mean.
+    pub slip: Vec<f64>,
     /// Internal forces ∂E/∂u [N] at `displacement`, kept because every step starts with them.
     pub internal_force: Vec<Vector<D>>,
     /// Energies [J] at `displacement` and `velocity`.
@@ -69,6 +71,7 @@ impl<const D: usize> State<D> {
             reactions: Vec::new(),
             contact_force: zeros.clone(),
             friction_energy: vec![0.0; zeros.len()],
+            slip: vec![0.0; zeros.len()],
             internal_force: zeros,
             energies: Energies::default(),
             body_energies: vec![Energies::default(); model.bodies.len()],

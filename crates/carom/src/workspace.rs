@@ -80,6 +80,8 @@ pub struct Workspace<const D: usize> {
     /// Reactions of the state whose contacts have no part in the step.
     pub(crate) lost: Vec<usize>,
     pub(crate) rubbing: Vec<Rubbing>,
+    /// For every node the sum of weights and of weighted sliding distances [m] of its contacts; zero between steps.
+    pub(crate) slid: Vec<[f64; 2]>,
     pub(crate) blend: Blend<D>,
     pub(crate) problem: ContactProblem<D>,
     /// The reactions that the friction solver last started from.
@@ -114,7 +116,7 @@ impl<const D: usize> Workspace<D> {
     /// If the structure of a factor cannot be found.
     pub fn new(model: &Model<D>) -> Result<Self, StepError> {
         let zeros = vec![Vector::zeros(); model.reference.len()];
-        let bodies = model.bodies.len();
+        let (bodies, positions) = (model.bodies.len(), zeros.len());
         Ok(Self {
             operators: model.bodies.iter().map(|b| BodyOperator::new(&b.body)).collect::<Result<_, _>>()?,
             compliances: model.bodies.iter().map(|b| Compliance::new(&b.body)).collect(),
@@ -142,6 +144,7 @@ impl<const D: usize> Workspace<D> {
             reactions: Vec::new(),
             start_forces: Vec::new(),
             lost: Vec::new(),
+            slid: vec![[0.0; 2]; positions],
             rubbing: Vec::new(),
             blend: Blend::new(model),
             problem: ContactProblem::default(),

@@ -13,6 +13,7 @@ from carom.audit.body import AuditBody
 from carom.audit.target import Target
 from carom.contact import Pair
 from carom.errors import InputError
+from carom.mesh import Disc, Rectangle
 from carom.obstacle import Obstacle, Plane
 from carom.scenario import Scenario
 
@@ -93,6 +94,9 @@ class AuditModel:
     ) -> None:
         if scenario.dimension != 2:
             raise InputError("cannot audit a case in 3D yet")
+        for entry in scenario.bodies:
+            if not isinstance(entry.mesh, Disc | Rectangle):
+                raise InputError(f"cannot audit a mesh of the kind {entry.mesh.kind!r} yet")
         if any(body.self_contact for body in scenario.bodies):
             raise InputError("cannot audit a body in contact with itself yet")
         self.scenario = scenario

@@ -1,4 +1,4 @@
-"""The command line: ``carom run``, ``check``, ``audit``, ``plot`` and ``friction``."""
+"""The command line: ``carom run``, ``check``, ``audit``, ``plot``, ``view`` and ``friction``."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from carom.cli.check import check
 from carom.cli.friction import app as friction
 from carom.cli.plot import plot
 from carom.cli.run import run
+from carom.cli.view import view
 
 app = typer.Typer(
     help="Frictional impact of deformable bodies, every joule accounted for.",
@@ -23,6 +24,7 @@ app.command()(run)
 app.command()(check)
 app.command()(audit)
 app.command()(plot)
+app.command()(view)
 app.add_typer(friction, name="friction")
 
 

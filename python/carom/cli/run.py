@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from carom.checking import unit_warnings
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import failures
 from carom.cli.progress import shown_progress
@@ -35,6 +36,8 @@ def run(
         _spare_the_case(case, directory)
         with naming(case):
             simulation = build(scenario)
+        for warning in unit_warnings(scenario, simulation.describe()):
+            console.print(f"warning: {warning}", markup=False, highlight=False, soft_wrap=True)
         try:
             with shown_progress(console) as observer:
                 result = drive(simulation, scenario, directory, observer)

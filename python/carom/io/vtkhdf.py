@@ -26,9 +26,10 @@ CELL_FIELDS = {"stress": 6, "energy_density": 1}
 SURFACE_POINT_FIELDS = ("displacement",)
 """Vectors at the points of a boundary [m]."""
 
-SURFACE_CELL_FIELDS = {"friction_energy": 1, "pressure": 1, "area": 1}
-"""On facets: energy dissipated by friction [J/m²], contact pressure [Pa], area [m²]; the first two
-per area of the reference configuration, so that energy times area sums to the ledger's friction."""
+SURFACE_CELL_FIELDS = {"friction_energy": 1, "slip": 1, "pressure": 1, "area": 1}
+"""On facets: energy dissipated by friction [J/m²], distance slid [m], contact pressure [Pa], area
+[m²]; energy and pressure per area of the reference configuration, so that energy times area sums
+to the ledger's friction."""
 
 _CHUNK_ROWS = 16_384
 

@@ -3,6 +3,7 @@
 mod common;
 mod consistency;
 mod convergence;
+mod generated_bodies;
 mod locking;
 mod patch_test;
 mod revolution;

@@ -1,7 +1,7 @@
-use carom_mesh::{Mesh, MeshError, generate};
+use carom_mesh::{CellKind, Mesh, MeshError, generate};
 
 use crate::error::InputError;
-use crate::scenario::{MeshSpec, PlaneCell};
+use crate::scenario::{Cell, MeshSpec};
 
 /// The mesh that `spec`, under `key` in the case file, describes; `given` is the one that was read from a file.
 pub(super) fn mesh<const D: usize>(
@@ -33,33 +33,42 @@ pub(super) fn mesh<const D: usize>(
 
 /// Shapes in the plane.
 fn plane(spec: &MeshSpec) -> Result<Option<Mesh<2>>, MeshError> {
-    let (mesh, cell) = match *spec {
+    let kind = |cell: Option<Cell>| cell.map_or(CellKind::Quad4, |cell| cell.0);
+    let mesh = match *spec {
         MeshSpec::Disc { centre, radius, divisions, rings, cell } => {
-            (generate::Disc { centre, radius, divisions, rings }.quadrilaterals()?, cell)
+            generate::Disc { centre, radius, divisions, rings }.mesh(kind(cell))?
         }
         MeshSpec::Rectangle { corner, size, divisions, cell, periodic } => {
-            let mesh = generate::grid(corner, size, divisions)?;
-            (if periodic { generate::tie_sides(mesh, 0)? } else { mesh }, cell)
+            let mesh = generate::Grid { corner, size, divisions }.mesh(kind(cell))?;
+            if periodic { generate::tie_sides(mesh, 0)? } else { mesh }
+        }
+        MeshSpec::Ring { centre, inner_radius, outer_radius, divisions, cell } => {
+            generate::Ring { centre, inner_radius, outer_radius, divisions }.mesh(kind(cell))?
         }
         _ => return Ok(None),
     };
-    let mesh = match cell {
-        PlaneCell::Quad4 => mesh,
-        PlaneCell::Tri3 => generate::triangulate(&mesh)?,
-    };
-    Ok(Some(match spec {
-        MeshSpec::Rectangle { .. } => mesh.with_sides([["left", "right"], ["bottom", "top"]]),
-        _ => mesh.with_facet_set("surface", |_| true),
-    }))
+    Ok(Some(mesh))
 }
 
 /// Shapes in space.
 fn solid(spec: &MeshSpec) -> Result<Option<Mesh<3>>, MeshError> {
-    Ok(match *spec {
-        MeshSpec::Box { corner, size, divisions } => {
-            let sides = [["left", "right"], ["front", "back"], ["bottom", "top"]];
-            Some(generate::grid(corner, size, divisions)?.with_sides(sides))
+    let kind = |cell: Option<Cell>| cell.map_or(CellKind::Hex8, |cell| cell.0);
+    let mesh = match *spec {
+        MeshSpec::Box { corner, size, divisions, cell } => {
+            generate::Grid { corner, size, divisions }.mesh(kind(cell))?
         }
-        _ => None,
-    })
+        MeshSpec::Ball { centre, radius, divisions, rings, cell } => {
+            generate::Ball { centre, radius, divisions, rings }.mesh(kind(cell))?
+        }
+        MeshSpec::Cylinder { base, axis, radius, height, divisions, rings, layers, cell } => {
+            let axis = generate::Axis { base, direction: axis, height };
+            generate::Cylinder { axis, radius, divisions, rings, layers }.mesh(kind(cell))?
+        }
+        MeshSpec::Tube { base, axis, inner_radius, outer_radius, height, divisions, cell } => {
+            let axis = generate::Axis { base, direction: axis, height };
+            generate::Tube { axis, inner_radius, outer_radius, divisions }.mesh(kind(cell))?
+        }
+        _ => return Ok(None),
+    };
+    Ok(Some(mesh))
 }

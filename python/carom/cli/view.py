@@ -1,0 +1,67 @@
+"""``carom view``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from carom.cli.failures import failures
+from carom.io import layout
+from carom.io.frames import Frames
+from carom.result import read_case
+from carom.view import View, animate, screenshot, show, shown
+
+
+def view(
+    directory: Annotated[
+        Path, typer.Argument(help="Results directory of `carom run`.", metavar="DIR")
+    ],
+    *,
+    field: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="What gives the colours: von-mises, hydrostatic-pressure, displacement, velocity, "
+            "reaction, strain, energy_density; with --surface pressure, slip, friction_energy.",
+        ),
+    ] = None,
+    time: Annotated[
+        float | None, typer.Option(help="Time of the frame [s]; default the last.")
+    ] = None,
+    surface: Annotated[
+        bool, typer.Option("--surface", help="Show what happened on the boundaries.")
+    ] = False,
+    magnification: Annotated[
+        float, typer.Option(metavar="M", help="What displacements are multiplied by.")
+    ] = 1.0,
+    edges: Annotated[bool, typer.Option(help="Draw the edges of cells.")] = True,
+    screenshot_file: Annotated[
+        Path | None,
+        typer.Option(
+            "--screenshot", metavar="FILE", help="Draw into a picture; no display needed."
+        ),
+    ] = None,
+    animation: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Draw all frames into a .gif or .mp4.")
+    ] = None,
+) -> None:
+    """Show results in space: bodies as they deform, coloured by a field."""
+    with failures(directory):
+        frames = Frames(directory / (layout.SURFACE if surface else layout.FIELDS))
+        scene = View(
+            frames,
+            shown(frames, field),
+            read_case(directory),
+            magnification=magnification,
+            edges=edges,
+        )
+        if screenshot_file is not None:
+            screenshot(scene, frames.nearest(time), screenshot_file)
+        if animation is not None:
+            animate(scene, animation)
+        if screenshot_file is None and animation is None:
+            show(scene, frames.nearest(time))
+        for file in filter(None, (screenshot_file, animation)):
+            typer.echo(file)

@@ -1,0 +1,83 @@
+"""Reading ``fields.vtkhdf`` and ``surface.vtkhdf`` back, frame by frame."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.errors import InputError
+
+
+class Frames:
+    """The mesh and the fields of a file that a run has written.
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    Attributes
+    ----------
+    times
+        Times of the frames [s], shape [frame_count].
+    points
+        Reference positions [m], shape [point_count, 3].
+    connectivity, offsets, types, body
+        Cells as VTK numbers them, and the index of the body of each.
+
+    Raises
+    ------
+    InputError
+        The file is not there, or is none of carom's.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        try:
+            with h5py.File(path, "r") as file:
+                root = file["VTKHDF"]
+                count = int(root["Steps"].attrs["NSteps"])
+                self.times = root["Steps/Values"][:count]
+                self.points = root["Points"][:]
+                self.connectivity = root["Connectivity"][:]
+                self.offsets = root["Offsets"][:]
+                self.types = root["Types"][:]
+                self.body = root["CellData/body"][:]
+                self._point_fields = list(root["PointData"])
+                self._cell_fields = [name for name in root["CellData"] if name != "body"]
+        except FileNotFoundError:
+            raise InputError(
+                f"{path}: no such file; name a results directory of `carom run`"
+            ) from None
+        except (OSError, KeyError) as error:
+            raise InputError(f"{path}: no fields of carom: {error}") from None
+        if not count:
+            raise InputError(f"{path}: has no frames yet")
+
+    @property
+    def names(self) -> list[str]:
+        """The fields at points, then those on cells."""
+        return [*self._point_fields, *self._cell_fields]
+
+    def is_on_points(self, name: str) -> bool:
+        """Whether a field has its values at points."""
+        return name in self._point_fields
+
+    def nearest(self, time: float | None) -> int:
+        """Return the frame nearest to a time [s]; the last if that is None."""
+        if time is None:
+            return len(self.times) - 1
+        return int(np.abs(self.times - time).argmin())
+
+    def field(self, name: str, frame: int) -> NDArray[np.float64]:
+        """Return the values of a field, shape [point_count or cell_count, components]."""
+        group, rows = ("PointData", len(self.points))
+        if not self.is_on_points(name):
+            group, rows = ("CellData", len(self.types))
+        with h5py.File(self._path, "r") as file:
+            start = int(file[f"VTKHDF/Steps/{group}Offsets/{name}"][frame])
+            values: NDArray[np.float64] = file[f"VTKHDF/{group}/{name}"][start : start + rows]
+        return values

@@ -1,0 +1,275 @@
+"""The mesh in an Abaqus input file: nodes, elements, sets and surfaces.
+
+meshio's own reader leaves out surfaces, plane strain elements and all but the last block of nodes.
+Keywords that say nothing about the mesh are skipped. The numbering of elements and of their faces
+is that of the Abaqus Analysis User's Guide, "Continuum elements".
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from carom.mesh_file.arrays import FileMesh, Indices, Refused
+
+_ELEMENTS = {  # nodes per element: kind, by the letters that begin its name
+    "C3D": {4: "tetra", 10: "tetra10", 8: "hexahedron", 20: "hexahedron20", 27: "hexahedron27"}
+    | {6: "wedge", 15: "wedge15"},
+    "CPE": {3: "triangle", 6: "triangle6", 4: "quad", 8: "quad8"},
+    "CPS": {3: "triangle", 6: "triangle6", 4: "quad", 8: "quad8"},
+    "CAX": {3: "triangle", 6: "triangle6", 4: "quad", 8: "quad8"},
+    "M3D": {3: "triangle", 6: "triangle6", 4: "quad", 8: "quad8", 9: "quad9"},
+    "SFM3D": {3: "triangle", 6: "triangle6", 4: "quad", 8: "quad8"},
+    "S": {3: "triangle", 6: "triangle6", 4: "quad", 8: "quad8", 9: "quad9"},
+    "STRI": {3: "triangle", 65: "triangle6"},
+    "R3D": {3: "triangle", 4: "quad"},
+    "T3D": {2: "line", 3: "line3"},
+    "T2D": {2: "line", 3: "line3"},
+    "B3": {1: "line", 2: "line3"},
+    "B2": {1: "line", 2: "line3"},
+    "R2D": {2: "line"},
+}
+_NODES = {
+    "line": 2, "line3": 3, "triangle": 3, "triangle6": 6, "quad": 4, "quad8": 8, "quad9": 9,
+    "tetra": 4, "tetra10": 10, "hexahedron": 8, "hexahedron20": 20, "hexahedron27": 27, "wedge": 6,
+    "wedge15": 15,
+}  # fmt: skip
+
+# Faces 1, 2, … of an element: kind and local nodes.
+_TRIANGLE_FACES = [(0, 1), (1, 2), (2, 0)]
+_QUAD_FACES = [(0, 1), (1, 2), (2, 3), (3, 0)]
+_TETRA_FACES = [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)]
+_HEX_FACES = [(0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
+_FACES: dict[str, tuple[str, Sequence[tuple[int, ...]]]] = {
+    "triangle": ("line", _TRIANGLE_FACES),
+    "triangle6": ("line3", [(0, 1, 3), (1, 2, 4), (2, 0, 5)]),
+    "quad": ("line", _QUAD_FACES),
+    "quad8": ("line3", [(0, 1, 4), (1, 2, 5), (2, 3, 6), (3, 0, 7)]),
+    "tetra": ("triangle", _TETRA_FACES),
+    "tetra10": (
+        "triangle6",
+        [(0, 1, 2, 4, 5, 6), (0, 3, 1, 7, 8, 4), (1, 3, 2, 8, 9, 5), (2, 3, 0, 9, 7, 6)],
+    ),
+    "hexahedron": ("quad", _HEX_FACES),
+    "hexahedron20": (
+        "quad8",
+        [
+            (0, 1, 2, 3, 8, 9, 10, 11),
+            (4, 7, 6, 5, 15, 14, 13, 12),
+            (0, 4, 5, 1, 16, 12, 17, 8),
+            (1, 5, 6, 2, 17, 13, 18, 9),
+            (2, 6, 7, 3, 18, 14, 19, 10),
+            (3, 7, 4, 0, 19, 15, 16, 11),
+        ],
+    ),
+}
+
+
+def read_abaqus(path: Path) -> FileMesh:
+    """Read the mesh of one part, or of a flat file.
+
+    Raises
+    ------
+    Refused
+        The file is not as the format asks, or has several parts or instances.
+    """
+    reader = _Reader()
+    try:
+        for keyword, options, rows in _sections(path):
+            reader.take(keyword, options, rows)
+        return reader.mesh()
+    except (OSError, UnicodeDecodeError, ValueError, IndexError) as error:
+        raise Refused(f"cannot be read: {error}") from None
+
+
+def _sections(path: Path) -> Iterator[tuple[str, dict[str, str], list[list[str]]]]:
+    """Yield each keyword with its options and its lines of data, split at commas."""
+    keyword: str | None = None
+    options: dict[str, str] = {}
+    rows: list[list[str]] = []
+    text = path.read_text(encoding="utf-8", errors="replace")
+    for line in text.splitlines():
+        if line.startswith("**") or not line.strip():
+            continue
+        if not line.startswith("*"):
+            rows.append([entry.strip() for entry in line.rstrip().rstrip(",").split(",")])
+            continue
+        if keyword is not None:
+            yield keyword, options, rows
+        name, *given = (part.strip() for part in line[1:].split(","))
+        keyword, rows = " ".join(name.upper().split()), []
+        options = {}
+        for option in given:
+            key, _, value = option.partition("=")
+            options[key.strip().upper()] = value.strip().strip('"')
+        if keyword == "INCLUDE":
+            yield from _sections(path.parent / options.get("INPUT", ""))
+            keyword = None
+    if keyword is not None:
+        yield keyword, options, rows
+
+
+@dataclass
+class _Reader:
+    """What has been read; names of sets are the same in capitals and small letters."""
+
+    points: dict[int, list[float]] = field(default_factory=dict)
+    blocks: list[tuple[str, dict[int, list[int]]]] = field(default_factory=list)
+    node_sets: dict[str, list[int]] = field(default_factory=dict)
+    element_sets: dict[str, list[int]] = field(default_factory=dict)
+    surfaces: dict[str, list[tuple[int, str]]] = field(default_factory=dict)
+    names: dict[str, str] = field(default_factory=dict)
+    parts: int = 0
+
+    def take(self, keyword: str, options: dict[str, str], rows: list[list[str]]) -> None:
+        if keyword in ("PART", "INSTANCE"):
+            self.parts += keyword == "PART"
+            if self.parts > 1 or (keyword == "INSTANCE" and rows):
+                raise ValueError(
+                    "it has several parts or moved instances; write one part to a file"
+                )
+        elif keyword == "NODE":
+            numbers = [int(row[0]) for row in rows]
+            for number, row in zip(numbers, rows, strict=True):
+                x = [float(entry) for entry in row[1:4]]
+                self.points[number] = x + [0.0] * (3 - len(x))
+            self._add(self.node_sets, options.get("NSET"), numbers)
+        elif keyword == "ELEMENT":
+            self._elements(options, rows)
+        elif keyword in ("NSET", "ELSET"):
+            sets = self.node_sets if keyword == "NSET" else self.element_sets
+            self._add(sets, options.get(keyword), self._members(sets, options, rows))
+        elif keyword == "SURFACE":
+            self._surface(options, rows)
+
+    def mesh(self) -> FileMesh:
+        """Return what was read, numbered from 0."""
+        index = {number: k for k, number in enumerate(self.points)}
+        place = {
+            number: (block, k)
+            for block, (_, elements) in enumerate(self.blocks)
+            for k, number in enumerate(elements)
+        }
+        blocks = [(kind, _indices(index, list(cells.values()))) for kind, cells in self.blocks]
+        cell_sets: dict[str, list[list[int]]] = {}
+        for name, numbers in self.element_sets.items():
+            members: list[list[int]] = [[] for _ in blocks]
+            for number in numbers:
+                if number not in place:
+                    raise ValueError(f"element set {name} has element {number}, which is not there")
+                block, k = place[number]
+                members[block].append(k)
+            cell_sets[name] = members
+        for name, faces in self.surfaces.items():
+            for kind, nodes in self._faces(name, faces, place):
+                cell_sets.setdefault(name, [[] for _ in blocks])
+                cell_sets[name] += [[] for _ in range(len(blocks) - len(cell_sets[name]))]
+                cell_sets[name].append(list(range(len(nodes))))
+                blocks.append((kind, _indices(index, nodes)))
+        return FileMesh(
+            points=np.array(list(self.points.values()), dtype=np.float64).reshape(-1, 3),
+            blocks=blocks,
+            point_sets={
+                self.names[n]: _indices(index, members) for n, members in self.node_sets.items()
+            },
+            cell_sets={
+                self.names[name]: [
+                    np.array(members[k] if k < len(members) else [], dtype=np.int64)
+                    for k in range(len(blocks))
+                ]
+                for name, members in cell_sets.items()
+            },
+        )
+
+    def _add(self, sets: dict[str, list[int]], name: str | None, members: list[int]) -> None:
+        if name:
+            self.names.setdefault(name.upper(), name)
+            sets.setdefault(name.upper(), []).extend(members)
+
+    def _elements(self, options: dict[str, str], rows: list[list[str]]) -> None:
+        kind = _kind(options.get("TYPE", "").upper())
+        flat = [int(entry) for row in rows for entry in row if entry]
+        width = 1 + _NODES[kind]
+        if len(flat) % width:
+            raise ValueError(f"elements of type {options['TYPE']} need {width - 1} nodes each")
+        elements = {flat[k]: flat[k + 1 : k + width] for k in range(0, len(flat), width)}
+        self.blocks.append((kind, elements))
+        self._add(self.element_sets, options.get("ELSET"), list(elements))
+
+    def _members(
+        self, sets: dict[str, list[int]], options: dict[str, str], rows: list[list[str]]
+    ) -> list[int]:
+        members: list[int] = []
+        for row in rows:
+            if "GENERATE" in options:
+                first, last, step = (*map(int, row), 1)[:3]
+                members.extend(range(first, last + 1, step))
+                continue
+            for entry in filter(None, row):
+                if re.fullmatch(r"\d+", entry):
+                    members.append(int(entry))
+                elif entry.upper() in sets:
+                    members.extend(sets[entry.upper()])
+                else:
+                    raise ValueError(f"there is no set {entry}")
+        return members
+
+    def _surface(self, options: dict[str, str], rows: list[list[str]]) -> None:
+        name = options.get("NAME", "")
+        if options.get("TYPE", "ELEMENT").upper() == "NODE":
+            self._add(
+                self.node_sets, name, self._members(self.node_sets, {}, [r[:1] for r in rows])
+            )
+            return
+        self.names.setdefault(name.upper(), name)
+        faces = self.surfaces.setdefault(name.upper(), [])
+        for row in rows:
+            face = row[1].upper() if len(row) > 1 else ""
+            faces.extend(
+                (number, face) for number in self._members(self.element_sets, {}, [row[:1]])
+            )
+
+    def _faces(
+        self, name: str, faces: list[tuple[int, str]], place: dict[int, tuple[int, int]]
+    ) -> list[tuple[str, list[list[int]]]]:
+        """Return the nodes of the faces of a surface, by kind."""
+        found: dict[str, list[list[int]]] = {}
+        for number, face in faces:
+            if number not in place:
+                raise ValueError(f"surface {name} has element {number}, which is not there")
+            kind, elements = self.blocks[place[number][0]]
+            if kind not in _FACES:
+                continue
+            face_kind, local = _FACES[kind]
+            digits = re.fullmatch(r"S([1-6])", face)
+            if digits is None or int(digits[1]) > len(local):
+                raise ValueError(
+                    f'surface {name} has a face "{face}", which a {kind} does not have'
+                )
+            nodes = elements[number]
+            found.setdefault(face_kind, []).append([nodes[k] for k in local[int(digits[1]) - 1]])
+        return list(found.items())
+
+
+def _kind(element: str) -> str:
+    """Return the kind of cell that a type of element is."""
+    match = re.match(r"([A-Z]+(?:3D|2D)?|B[23])(\d+)", element)
+    kind = _ELEMENTS.get(match[1], {}).get(int(match[2])) if match else None
+    if kind is None:
+        raise ValueError(f"elements of type {element or '(none)'} are not known")
+    return kind
+
+
+def _indices(index: dict[int, int], numbers: list[int] | list[list[int]]) -> Indices:
+    """Return node numbers as indices."""
+    array = np.array(numbers, dtype=np.int64)
+    try:
+        return np.array([index[n] for n in array.ravel().tolist()], dtype=np.int64).reshape(
+            array.shape
+        )
+    except KeyError as error:
+        raise ValueError(f"node {error} is not there") from None

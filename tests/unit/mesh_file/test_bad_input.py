@@ -1,0 +1,157 @@
+"""Files that make no body: one message with the place, the value, the fact and the remedy."""
+
+import sys
+
+import meshio
+import numpy as np
+import pytest
+
+from carom.errors import MeshError
+from carom.mesh_file import read_body_mesh, read_surface
+
+TETS = np.array([[0, 1, 2, 3], [1, 2, 3, 4]])
+POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], dtype=float)
+
+
+def refusal(mesh, tmp_path, *, name="part.vtu", **given):
+    file = tmp_path / name
+    if mesh is not None:
+        meshio.write(file, mesh)
+    options = {"body": None, "scale": 1.0, "space": 3, "key": "bodies.1.mesh"} | given
+    with pytest.raises(MeshError) as caught:
+        read_body_mesh(file, **options)
+    message = str(caught.value)
+    assert "\n" not in message
+    assert message.startswith(f"{caught.value.key} = ")
+    return message
+
+
+def test_a_missing_file_is_named(tmp_path):
+    message = refusal(None, tmp_path)
+    assert message.startswith(f'bodies.1.mesh.file = "{tmp_path / "part.vtu"}": no such file')
+
+
+@pytest.mark.parametrize("name", ["part.msh", "part.vtk", "part.vtu", "part.inp", "part.med"])
+def test_what_is_no_mesh_is_refused_and_nothing_is_printed(tmp_path, capfd, name):
+    (tmp_path / name).write_text("*ELEMENT, TYPE=C3D8\n1, 2, 3\n" if name.endswith("inp") else "?")
+    assert "cannot be read" in refusal(None, tmp_path, name=name)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_an_unknown_format_is_refused(tmp_path):
+    (tmp_path / "part.xyz").write_text("?")
+    assert "Could not deduce file format" in refusal(None, tmp_path, name="part.xyz")
+
+
+def test_a_surface_is_no_body(tmp_path):
+    mesh = meshio.Mesh(POINTS, [("triangle", TETS[:, :3]), ("line", [[0, 1]])])
+    message = refusal(mesh, tmp_path)
+    assert "has no volume cells, only 2 triangle, 1 line; set dimension = 2, or mesh" in message
+
+
+def test_a_volume_is_no_body_in_the_plane(tmp_path):
+    mesh = meshio.Mesh(POINTS, [("tetra", TETS), ("triangle", TETS[:, :3])])
+    message = refusal(mesh, tmp_path, space=2)
+    assert "has cells of 3 dimensions (2 tetra) in a case of 2; set dimension = 3" in message
+
+
+def test_a_plane_mesh_must_be_plane(tmp_path):
+    mesh = meshio.Mesh(POINTS, [("triangle", TETS[:, :3])])
+    assert "is not plane: z goes from 0 m to 1 m" in refusal(mesh, tmp_path, space=2)
+
+
+def test_an_unknown_set_is_answered_with_the_known_ones(tmp_path):
+    mesh = meshio.Mesh(POINTS, [("tetra", TETS)], cell_data={"part": [np.array([1, 2])]})
+    message = refusal(mesh, tmp_path, body="part:3")
+    assert message.startswith('bodies.1.mesh.body = "part:3": no such set of cells; did you mean')
+    assert "(known: part:1, part:2)" in message
+
+
+def test_a_set_of_facets_is_no_body(tmp_path):
+    cells = [("tetra", TETS), ("triangle", TETS[:1, :3])]
+    mesh = meshio.Mesh(POINTS, cells, cell_data={"part": [np.array([1, 1]), np.array([2])]})
+    assert "this set has no volume cells; " in refusal(mesh, tmp_path, body="part:2")
+
+
+def test_unknown_cells_are_named(tmp_path):
+    points = np.vstack([POINTS, [[2, 2, 2]]])
+    mesh = meshio.Mesh(points, [("wedge", [[0, 1, 2, 3, 4, 5]])])
+    message = refusal(mesh, tmp_path)
+    assert "has 1 wedge cell, which carom does not know; use tet4, tet10, hex8" in message
+
+
+def test_inverted_cells_are_counted(tmp_path):
+    cells = TETS.copy()
+    mesh = meshio.Mesh(POINTS, [("tetra", cells)])
+    volumes = [np.linalg.det(POINTS[c[1:]] - POINTS[c[0]]) for c in cells]
+    wrong = int(np.argmin(volumes))
+    if min(volumes) > 0:
+        cells[1] = cells[1][[0, 2, 1, 3]]
+        wrong = 1
+    message = refusal(mesh, tmp_path)
+    assert f"1 of 2 cells are inverted or flat (tet4 {wrong} from 0 in their order" in message
+
+
+def test_duplicate_cells_are_counted(tmp_path):
+    cells = np.vstack([TETS[:1], TETS[:1][:, [1, 2, 0, 3]], TETS[:1]])
+    message = refusal(meshio.Mesh(POINTS, [("tetra", cells)]), tmp_path)
+    assert "2 tet4 cells with the nodes of another one (1, 2 from 0 in their order" in message
+
+
+def test_what_is_not_a_number_is_counted(tmp_path):
+    points = POINTS.copy()
+    points[[1, 3], 0] = np.nan
+    message = refusal(meshio.Mesh(points, [("tetra", TETS[:1])]), tmp_path)
+    assert "2 points with a coordinate that is not a finite number (1, 3 from 0)" in message
+
+
+def test_several_parts_in_an_abaqus_file_are_refused(tmp_path):
+    (tmp_path / "part.inp").write_text("*Part, name=a\n*End Part\n*Part, name=b\n*End Part\n")
+    assert "it has several parts" in refusal(None, tmp_path, name="part.inp")
+
+
+def test_unknown_elements_of_abaqus_are_named(tmp_path):
+    (tmp_path / "part.inp").write_text("*NODE\n1,0,0,0\n*ELEMENT, TYPE=COH3D8\n1,1,1,1,1,1,1,1,1\n")
+    assert "elements of type COH3D8 are not known" in refusal(None, tmp_path, name="part.inp")
+
+
+def test_a_geometry_without_gmsh_says_how_to_get_it(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "gmsh", None)
+    (tmp_path / "part.geo").write_text("Sphere(1) = {0, 0, 0, 1};")
+    message = refusal(None, tmp_path, name="part.geo")
+    assert "is a geometry, which needs Gmsh" in message
+    assert 'pip install "carom[gmsh]"' in message
+
+
+SIDES = np.array(
+    [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
+)  # of the first tetrahedron, seen from outside
+
+
+def stl(tmp_path, triangles, *, points=POINTS[:4]):
+    file = tmp_path / "surface.stl"
+    meshio.write(file, meshio.Mesh(points, [("triangle", triangles)]), binary=True)
+    return file
+
+
+def test_a_closed_surface_is_read_and_points_outward(tmp_path):
+    for triangles in (SIDES, SIDES[:, ::-1]):
+        surface = read_surface(stl(tmp_path, triangles), scale=2.0, key="obstacles.0")
+        assert len(surface.points) == 4
+        a, b, c = np.moveaxis(surface.points[surface.triangles], 1, 0)
+        assert np.einsum("ij,ij", a, np.cross(b, c)) / 6 == pytest.approx(8 / 6)
+
+
+@pytest.mark.parametrize(
+    ("triangles", "message"),
+    [
+        (SIDES[:3], "has 3 edges on one triangle only (the first at"),
+        (np.vstack([SIDES, [[0, 2, 1]]]), "has 3 edges on more than two triangles"),
+        (np.vstack([SIDES[:3], SIDES[3:, ::-1]]), "has 3 edges through which two triangles run"),
+    ],
+)
+def test_a_surface_that_does_not_close_is_refused(tmp_path, triangles, message):
+    with pytest.raises(MeshError) as caught:
+        read_surface(stl(tmp_path, triangles), scale=1.0, key="obstacles.0")
+    assert str(caught.value).startswith('obstacles.0.file = "')
+    assert message in str(caught.value)

@@ -1,0 +1,118 @@
+"""`carom view` draws what a run left, without a display."""
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import carom
+from carom.cli import app
+from carom.io.frames import Frames
+from carom.view import shown
+
+pytest.importorskip("pyvista")
+
+BALL = {
+    "title": "ball",
+    "dimension": 3,
+    "analysis": {"end_time": 4e-3, "time_step": 1e-3, "scheme": {"kind": "theta"}},
+    "materials": {"rubber": {"kind": "neo-hookean", "young": 1e4, "poisson": 0.3, "density": 1.0}},
+    "bodies": [
+        {
+            "name": "ball",
+            "material": "rubber",
+            "mesh": {
+                "kind": "ball",
+                "centre": [0, 0, 1.001],
+                "radius": 1,
+                "divisions": 2,
+                "cell": "hex20",
+            },
+            "velocity": [0, 0, -1.0],
+        }
+    ],
+    "obstacles": [{"name": "floor", "point": [0, 0, 0], "normal": [0, 0, 1]}],
+    "output": {"fields_every": 2e-3},
+}
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    directory = tmp_path_factory.mktemp("ball")
+    carom.run(carom.Scenario.from_dict(BALL), out=directory)
+    return directory
+
+
+def view(*arguments):
+    return CliRunner().invoke(app, ["view", *map(str, arguments)])
+
+
+@pytest.mark.parametrize(
+    "options", [(), ("--field", "velocity", "--time", "0"), ("--surface", "--field", "slip")]
+)
+def test_a_picture_shows_the_body(results, tmp_path, options):
+    import matplotlib.image
+
+    file = tmp_path / "ball.png"
+    answer = view(results, "--screenshot", file, *options)
+    assert answer.exit_code == 0, answer.output
+    assert answer.output.strip() == str(file)
+    pixels = matplotlib.image.imread(file)[:, :, :3]
+    centre = pixels[pixels.shape[0] // 3 : 2 * pixels.shape[0] // 3]
+    coloured = np.ptp(centre, axis=2) > 0.1
+    assert coloured.sum() > 5000, "more than the axes"
+
+
+def test_frames_are_read_back(results):
+    frames = Frames(results / "fields.vtkhdf")
+    np.testing.assert_allclose(frames.times, [0, 2e-3, 4e-3])
+    assert frames.nearest(1.9e-3) == 1
+    assert frames.nearest(None) == 2
+    assert set(frames.types) == {25}
+    fall = frames.field("displacement", 2)[:, 2]
+    assert fall.mean() == pytest.approx(-4e-3, rel=0.1)
+    speed = shown(frames, "velocity").values(frames, 0)
+    np.testing.assert_allclose(speed, 1.0)
+
+
+def test_equivalent_stress_of_pure_tension_is_the_tension(results, monkeypatch):
+    frames = Frames(results / "fields.vtkhdf")
+    tension = np.array([[7.0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 7.0 / np.sqrt(3)]])
+    monkeypatch.setattr(frames, "field", lambda name, frame: tension)
+    np.testing.assert_allclose(shown(frames, "von-mises").values(frames, 0), 7.0)
+    np.testing.assert_allclose(shown(frames, "hydrostatic-pressure").values(frames, 0), [-7 / 3, 0])
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--field", "velocty"), '--field velocty: no such field; did you mean "velocity"? (known'),
+        (("--screenshot", "ball.pdf"), "--screenshot ball.pdf: must end in .png"),
+        (("--animation", "ball.avi"), "--animation ball.avi: must end in .gif or .mp4"),
+    ],
+)
+def test_bad_input_is_named(results, options, message):
+    answer = view(results, *options)
+    assert answer.exit_code == 2
+    assert message in answer.output
+
+
+def test_without_a_display_a_file_is_asked_for(results, monkeypatch):
+    monkeypatch.setattr("carom.view.scene._is_headless", lambda: True)
+    answer = view(results)
+    assert answer.exit_code == 2
+    assert "there is no display; give --screenshot FILE" in answer.output
+
+
+def test_a_directory_without_results_is_refused(tmp_path):
+    answer = view(tmp_path, "--screenshot", "x.png")
+    assert answer.exit_code == 2
+    assert "fields.vtkhdf: no such file" in answer.output
+
+
+def test_a_missing_pyvista_says_how_to_get_it(results, monkeypatch):
+    import sys
+
+    monkeypatch.setitem(sys.modules, "pyvista", None)
+    answer = view(results, "--screenshot", "x.png")
+    assert answer.exit_code == 2
+    assert 'pip install "carom[view]"' in answer.output
