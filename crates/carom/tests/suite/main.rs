@@ -7,6 +7,7 @@ mod contact_problems;
 mod contact_search;
 mod curved_obstacles;
 mod driven_bodies;
+mod edges;
 mod hypotheses;
 mod incline;
 mod invariance;
