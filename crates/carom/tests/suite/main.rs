@@ -13,4 +13,5 @@ mod moving_obstacles;
 mod oscillator;
 mod periodic;
 mod space;
+mod sphere_impact;
 mod step_control;
