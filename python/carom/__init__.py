@@ -19,7 +19,7 @@ from carom.errors import (
 from carom.io.history import read_history
 from carom.material import Damping, LinearElastic, NeoHookean, SaintVenantKirchhoff
 from carom.mesh import Box, Disc, Rectangle
-from carom.obstacle import Plane
+from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere
 from carom.output import Output, Track
 from carom.result import Result
 from carom.scenario import Scenario
@@ -50,6 +50,9 @@ __all__ = [
     "Progress",
     "Rectangle",
     "Result",
+    "RigidBox",
+    "RigidCylinder",
+    "RigidSphere",
     "SaintVenantKirchhoff",
     "Scenario",
     "Simulation",
