@@ -20,4 +20,5 @@ mod periodic;
 mod plasticity;
 mod self_contact;
 mod space;
+mod sphere_impact;
 mod step_control;
