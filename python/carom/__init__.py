@@ -30,7 +30,7 @@ from carom.material import (
     Yeoh,
 )
 from carom.mesh import Box, Disc, Rectangle
-from carom.obstacle import Plane
+from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere
 from carom.output import Output, Track
 from carom.result import Result
 from carom.scenario import Scenario
@@ -65,6 +65,9 @@ __all__ = [
     "Progress",
     "Rectangle",
     "Result",
+    "RigidBox",
+    "RigidCylinder",
+    "RigidSphere",
     "SaintVenantKirchhoff",
     "Scenario",
     "Simulation",

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator
+from pydantic import AfterValidator, Field
 
-from carom.description import Description, Name, Vector
+from carom.description import PER_DIMENSION, Description, Name, Positive, SpaceVector, Vector
 
 
 def _nonzero(vector: tuple[float, ...]) -> tuple[float, ...]:
@@ -38,4 +38,82 @@ class Plane(Description):
     velocity: Vector | None = None
 
 
-Obstacle = Plane
+class RigidSphere(Description):
+    """A rigid ball, in 2D a disc, or a ball-shaped cavity.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    centre
+        Centre [m], shape [D].
+    radius
+        Radius [m].
+    cavity
+        Whether bodies are inside, and all around is solid.
+    velocity
+        Constant velocity [m/s], shape [D]; None is none.
+    """
+
+    name: Name
+    kind: Literal["sphere"] = "sphere"
+    centre: Vector
+    radius: Positive
+    cavity: Annotated[bool, Field(strict=True)] = False
+    velocity: Vector | None = None
+
+
+class RigidCylinder(Description):
+    """A rigid cylinder without ends in 3D, or a bore of that shape.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    point
+        A point of the axis [m], shape [3].
+    axis
+        Direction of the axis, of any length but zero, shape [3].
+    radius
+        Radius [m].
+    cavity
+        Whether bodies are inside, and all around is solid.
+    velocity
+        Constant velocity [m/s], shape [3]; None is none.
+    """
+
+    name: Name
+    kind: Literal["cylinder"] = "cylinder"
+    point: SpaceVector
+    axis: Annotated[SpaceVector, AfterValidator(_nonzero)]
+    radius: Positive
+    cavity: Annotated[bool, Field(strict=True)] = False
+    velocity: Vector | None = None
+
+
+class RigidBox(Description):
+    """A rigid box with sides along the axes, in 2D a rectangle; bodies are outside.
+
+    Nodes that come into it are pushed out of the nearest face; beyond its edges and corners they
+    feel the nearest point.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    corner
+        Corner of the smallest coordinates [m], shape [D].
+    size
+        Sides [m], shape [D].
+    velocity
+        Constant velocity [m/s], shape [D]; None is none.
+    """
+
+    name: Name
+    kind: Literal["box"] = "box"
+    corner: Vector
+    size: Annotated[tuple[Positive, ...], PER_DIMENSION]
+    velocity: Vector | None = None
+
+
+Obstacle = Annotated[Plane | RigidSphere | RigidCylinder | RigidBox, Field(discriminator="kind")]

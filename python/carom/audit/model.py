@@ -13,7 +13,7 @@ from carom.audit.body import AuditBody
 from carom.audit.target import Target
 from carom.contact import Pair
 from carom.errors import InputError
-from carom.obstacle import Plane
+from carom.obstacle import Obstacle, Plane
 from carom.scenario import Scenario
 
 CONDITIONS = ("gap", "midpoint", "endpoint", "massless")
@@ -93,6 +93,8 @@ class AuditModel:
     ) -> None:
         if scenario.dimension != 2:
             raise InputError("cannot audit a case in 3D yet")
+        if any(body.self_contact for body in scenario.bodies):
+            raise InputError("cannot audit a body in contact with itself yet")
         self.scenario = scenario
         self.points = points
         condition = scenario.contact.condition
@@ -114,7 +116,7 @@ class AuditModel:
         self.bodies = list(self._build_bodies(cells, types))
         smooth = scenario.contact.targets == "smooth"
         self.targets = [Target(b.facets, b.points, smooth=smooth) for b in self.bodies]
-        self.planes = [_plane(plane) for plane in scenario.obstacles]
+        self.planes = [_plane(obstacle) for obstacle in scenario.obstacles]
         self.sides = list(self._build_sides())
         self.size = max(float(np.linalg.norm(np.ptp(b.points, axis=0))) for b in self.bodies)
 
@@ -225,7 +227,9 @@ class AuditModel:
         return float(lengths.mean())
 
 
-def _plane(entry: Plane) -> AuditPlane:
+def _plane(entry: Obstacle) -> AuditPlane:
+    if not isinstance(entry, Plane):
+        raise InputError(f"cannot audit obstacles of kind {entry.kind!r} yet")
     normal = np.array(entry.normal)
     return AuditPlane(
         point=np.array(entry.point),
