@@ -36,10 +36,6 @@ fn plastic_work_and_friction_are_all_that_is_lost_in_an_impact() {
         case["contact"]["friction"] = json!(0.2);
         let (simulation, summary) = run(&case);
         let energy = summary.energy;
-        eprintln!(
-            "{formulation}: {energy:?} {} iterations {} factorisations {} retried",
-            summary.newton_iterations, summary.factorisations, summary.retried_steps
-        );
         assert!(energy.plastic > 0.2 * energy.initial, "{formulation}: {energy:?}");
         assert!(energy.friction > 0.0);
         assert!(energy.max_defect < 1e-9 * energy.initial, "{formulation}: defect {:e}", energy.max_defect);
@@ -72,14 +68,23 @@ fn an_impact_that_does_not_yield_loses_nothing() {
 #[test]
 fn the_paper_s_scheme_converges_to_the_same_plastic_work() {
     let mut case = bar(0.227, [4, 8]);
-    let reference = run(&case).1.energy;
-    case["analysis"]["scheme"] = json!({"kind": "theta", "theta": 0.5, "xi": 0.5});
-    let coarse = run(&case).1.energy;
+    let energy = |case: &Value| run(case).1.energy;
+    let paper_s = |case: &mut Value| {
+        case["analysis"]["scheme"] = json!({"kind": "theta", "theta": 0.5, "xi": 0.5});
+    };
     case["analysis"]["time_step"] = json!(0.0125);
-    let fine = run(&case).1.energy;
-    eprintln!("{reference:?}\n{coarse:?}\n{fine:?}");
-    assert!((fine.plastic / reference.plastic - 1.0).abs() < 0.02, "{} {}", fine.plastic, reference.plastic);
-    assert!(fine.max_defect < 0.5 * coarse.max_defect, "{:e} {:e}", fine.max_defect, coarse.max_defect);
+    let conserving = energy(&case);
+    paper_s(&mut case);
+    let fine = energy(&case);
+    case["analysis"]["time_step"] = json!(0.05);
+    let coarse = energy(&case);
+    assert!(
+        (fine.plastic / conserving.plastic - 1.0).abs() < 2e-3,
+        "{} {}",
+        fine.plastic,
+        conserving.plastic
+    );
+    assert!(fine.max_defect < 0.25 * coarse.max_defect, "{:e} {:e}", fine.max_defect, coarse.max_defect);
 }
 
 #[test]
