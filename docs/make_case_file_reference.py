@@ -66,8 +66,8 @@ RULES = """\
   `output.track.N.body` a body.
 - A tracked point is at most a quarter of the diagonal of the body's bounding box away from a node.
 - Every body may touch every other body and every obstacle, unless `contact.pairs` says otherwise.
-  An entry of `contact.pairs` names two different bodies, or a body and an obstacle, and no two
-  entries name the same pair.
+  An entry of `contact.pairs` names two different bodies, a body and an obstacle, or twice a body
+  with `self_contact`, and no two entries name the same pair.
 - `contact.sources` and `contact.pairs.N.sources` matter between two bodies only: against an
   obstacle the nodes of the body are checked. `"first"` is the body that comes first in
   `[[bodies]]`, or, where the pair has an entry in `contact.pairs`, in `between` of that entry.
@@ -183,7 +183,7 @@ def allowed(field: FieldInfo) -> str:
             rules.append(", ".join(f'`"{value}"`' for value in get_args(item)))
         if get_origin(item) is Annotated:
             asked += [
-                inner for outer in get_args(item)[1:] for inner in getattr(outer, "metadata", [])
+                inner for outer in get_args(item)[1:] for inner in getattr(outer, "metadata", ())
             ]
     if set(get_args(Name)[1:]) & {one for one in asked if one.__hash__}:
         rules.append("no `.`, `/`, `\\` or space")

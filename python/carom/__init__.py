@@ -21,7 +21,7 @@ from carom.load import Force, Pressure, Traction
 from carom.material import Damping, LinearElastic, NeoHookean, SaintVenantKirchhoff
 from carom.mesh import Box, Disc, Rectangle
 from carom.motion import Displacement, Fixed, Prescribed
-from carom.obstacle import Plane
+from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere
 from carom.output import Output, Track
 from carom.result import Result
 from carom.scenario import Scenario
@@ -58,6 +58,9 @@ __all__ = [
     "Progress",
     "Rectangle",
     "Result",
+    "RigidBox",
+    "RigidCylinder",
+    "RigidSphere",
     "SaintVenantKirchhoff",
     "Scenario",
     "Simulation",

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 from typing_extensions import Self
 
 from carom.description import Description, Name, Number, Positive, SpaceVector, Vector
@@ -36,6 +36,8 @@ class Body(Description):
         Reference geometry and its cells.
     contact_sets
         Sets of facets that may touch others, such as the sides of a rectangle; None for all.
+    self_contact
+        Whether the body may touch itself: its nodes its own facets, but those close to them.
     velocity
         Initial velocity of the centre of mass [m/s], shape [D]; None is none.
     spin
@@ -50,6 +52,7 @@ class Body(Description):
     mass: Literal["consistent", "lumped"] = "consistent"
     mesh: Mesh
     contact_sets: tuple[str, ...] | None = None
+    self_contact: Annotated[bool, Field(strict=True)] = False
     velocity: Vector | None = None
     spin: Number | SpaceVector | None = None
 

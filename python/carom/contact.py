@@ -65,7 +65,7 @@ class Pair(Description):
     Parameters
     ----------
     between
-        Names of two bodies, or of a body and an obstacle.
+        Names of two bodies, or of a body and an obstacle; twice that of a body with `self_contact`.
     friction
         Coulomb's coefficient; None takes the default of `Contact`.
     sources
@@ -84,8 +84,8 @@ class Pair(Description):
 
     @model_validator(mode="after")
     def _of_two(self) -> Self:
-        if not len(self.between) == len(set(self.between)) == 2:
-            raise problem("must be two different names", key="between", value=self.between)
+        if len(self.between) != 2:
+            raise problem("must be two names", key="between", value=self.between)
         return self
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, model_validator
+from pydantic import AfterValidator, Field, model_validator
 from typing_extensions import Self
 
-from carom.description import Description, Name, Vector
+from carom.description import PER_DIMENSION, Description, Name, Positive, SpaceVector, Vector
 from carom.messages import problem
 from carom.motion import Displacement
 
@@ -18,7 +18,20 @@ def _nonzero(vector: tuple[float, ...]) -> tuple[float, ...]:
     return vector
 
 
-class Plane(Description):
+class _Moving(Description):
+    """What may move as prescribed: by a velocity or by a motion."""
+
+    @model_validator(mode="after")
+    def _moves_in_one_way(self) -> Self:
+        if (
+            getattr(self, "velocity", None) is not None
+            and getattr(self, "motion", None) is not None
+        ):
+            raise problem("give velocity or motion, not both", key="motion")
+        return self
+
+
+class Plane(_Moving):
     """A rigid half-space bounded by a plane.
 
     Parameters
@@ -43,11 +56,92 @@ class Plane(Description):
     velocity: Vector | None = None
     motion: Displacement | None = None
 
-    @model_validator(mode="after")
-    def _moves_in_one_way(self) -> Self:
-        if self.velocity is not None and self.motion is not None:
-            raise problem("give velocity or motion, not both", key="motion")
-        return self
+
+class RigidSphere(_Moving):
+    """A rigid ball, in 2D a disc, or a ball-shaped cavity.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    centre
+        Centre [m], shape [D].
+    radius
+        Radius [m].
+    cavity
+        Whether bodies are inside, and all around is solid.
+    velocity
+        Constant velocity [m/s], shape [D]; None is none.
+    motion
+        Displacement over time, in place of a velocity.
+    """
+
+    name: Name
+    kind: Literal["sphere"] = "sphere"
+    centre: Vector
+    radius: Positive
+    cavity: Annotated[bool, Field(strict=True)] = False
+    velocity: Vector | None = None
+    motion: Displacement | None = None
 
 
-Obstacle = Plane
+class RigidCylinder(_Moving):
+    """A rigid cylinder without ends in 3D, or a bore of that shape.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    point
+        A point of the axis [m], shape [3].
+    axis
+        Direction of the axis, of any length but zero, shape [3].
+    radius
+        Radius [m].
+    cavity
+        Whether bodies are inside, and all around is solid.
+    velocity
+        Constant velocity [m/s], shape [3]; None is none.
+    motion
+        Displacement over time, in place of a velocity.
+    """
+
+    name: Name
+    kind: Literal["cylinder"] = "cylinder"
+    point: SpaceVector
+    axis: Annotated[SpaceVector, AfterValidator(_nonzero)]
+    radius: Positive
+    cavity: Annotated[bool, Field(strict=True)] = False
+    velocity: Vector | None = None
+    motion: Displacement | None = None
+
+
+class RigidBox(_Moving):
+    """A rigid box with sides along the axes, in 2D a rectangle; bodies are outside.
+
+    Nodes that come into it are pushed out of the nearest face; beyond its edges and corners they
+    feel the nearest point.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    corner
+        Corner of the smallest coordinates [m], shape [D].
+    size
+        Sides [m], shape [D].
+    velocity
+        Constant velocity [m/s], shape [D]; None is none.
+    motion
+        Displacement over time, in place of a velocity.
+    """
+
+    name: Name
+    kind: Literal["box"] = "box"
+    corner: Vector
+    size: Annotated[tuple[Positive, ...], PER_DIMENSION]
+    velocity: Vector | None = None
+    motion: Displacement | None = None
+
+
+Obstacle = Annotated[Plane | RigidSphere | RigidCylinder | RigidBox, Field(discriminator="kind")]

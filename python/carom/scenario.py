@@ -195,6 +195,7 @@ class Scenario(Description):
     @model_validator(mode="after")
     def _pairs_exist_once(self) -> Self:
         obstacles = {obstacle.name for obstacle in self.obstacles}
+        touch_themselves = {body.name for body in self.bodies if body.self_contact}
         names = [body.name for body in self.bodies] + sorted(obstacles)
         first_use: dict[frozenset[str], str] = {}
         for index, pair in enumerate(self.contact.pairs):
@@ -204,6 +205,12 @@ class Scenario(Description):
             if obstacles.issuperset(pair.between):
                 raise problem("two obstacles never touch; name a body", key=key, value=pair.between)
             two = frozenset(pair.between)
+            if len(two) == 1 and two.isdisjoint(touch_themselves):
+                raise problem(
+                    "must be two different names, unless the body has self_contact = true",
+                    key=key,
+                    value=pair.between,
+                )
             if two in first_use:
                 raise problem(
                     f"pair already given by {first_use[two]}", key=key, value=pair.between

@@ -68,6 +68,22 @@ BAD = [
     ("bodies.1.name", "", 'bodies.1.name = "": a name has'),
     ("obstacles.0.name", "left", 'obstacles.0.name = "left": name already used'),
     ("obstacles.0.normal", [0, 0], "obstacles.0.normal = [0, 0]: must not be the zero vector"),
+    ("obstacles.0.kind", "spere", "obstacles.0.kind = \"spere\": must be one of 'plane', 'sphere'"),
+    (
+        "obstacles.0",
+        {"name": "ball", "kind": "sphere", "centre": [0, 9], "radius": 0},
+        "obstacles.0.radius = 0: must be greater than 0",
+    ),
+    (
+        "obstacles.0",
+        {"name": "step", "kind": "box", "corner": [0, -2], "size": [1, -1]},
+        "obstacles.0.size.1 = -1: must be greater than 0",
+    ),
+    (
+        "obstacles.0",
+        {"name": "pipe", "kind": "cylinder", "point": [0, 0, 0], "axis": [0, 0, 0], "radius": 1},
+        "obstacles.0.axis = [0, 0, 0]: must not be the zero vector",
+    ),
     ("contact.friction", -0.1, "contact.friction = -0.1: must be at least 0"),
     ("contact.solver", {"kind": "nlgs"}, 'contact.solver.kind = "nlgs": must be \''),
     ("contact.pairs.0.between", ["left", "flor"], 'no such body or obstacle; did you mean "floor"'),
@@ -143,7 +159,7 @@ def test_what_is_not_finite_is_refused_everywhere(scenario, path, number):
 
 
 def test_two_obstacles_are_no_pair(box):
-    box["obstacles"].append({"name": "west", "point": [0, 0], "normal": [1, 0]})
+    box["obstacles"].append({"name": "west", "kind": "plane", "point": [0, 0], "normal": [1, 0]})
     box["contact"]["pairs"] = [{"between": ["floor", "west"]}]
     with pytest.raises(InputError, match=r"contact\.pairs\.0\.between .*two obstacles never touch"):
         Scenario.from_dict(box)

@@ -69,12 +69,15 @@ impl<const D: usize> ContactModel<D> {
         for k in 0..candidates.len() {
             let c = candidates[k];
             let group = self.pairs[c.pair as usize].group;
+            let own = self.is_self_contact(c.pair as usize).then_some(c.pair as usize);
             let first_side = self.pairs[..c.pair as usize].iter().position(|p| p.group == group);
-            let Some(first) = first_side else { continue };
+            let Some(first) = own.or(first_side) else { continue };
             let Some(faced) = self.faced_node(&c, position) else { continue };
-            candidates[k].mirrored = candidates
-                .binary_search_by_key(&(first as u32, faced), |o| (o.pair, o.node))
-                .is_ok_and(|other| self.faced_node(&candidates[other], position) == Some(c.node));
+            // Of a body with itself, the first of the two nodes stays.
+            candidates[k].mirrored = (own.is_none() || faced < c.node)
+                && candidates
+                    .binary_search_by_key(&(first as u32, faced), |o| (o.pair, o.node))
+                    .is_ok_and(|other| self.faced_node(&candidates[other], position) == Some(c.node));
         }
     }
 
@@ -107,7 +110,8 @@ impl<const D: usize> ContactModel<D> {
         swept.fit(margin);
         let (source, target) = (&self.surfaces[source_index], &self.surfaces[target]);
         let middle = |n: u32| (start(n) + end(n)) * 0.5;
-        for &node in &source.sources {
+        let is_own = self.is_self_contact(pair as usize);
+        for (k, &node) in source.sources.iter().enumerate() {
             let (x0, x1) = (start(node), end(node));
             if !(target_box.contains(&x0) || target_box.contains(&x1)) {
                 continue;
@@ -115,6 +119,9 @@ impl<const D: usize> ContactModel<D> {
             let x = middle(node);
             near.clear();
             swept.tree.overlapping(&Aabb::of([x0, x1]), |f, room| {
+                if is_own && !source.may_touch_itself(k, f) {
+                    return;
+                }
                 near.push((swept.facets[f as usize].distance(&x), f, room.diameter()));
             });
             if near.is_empty() {

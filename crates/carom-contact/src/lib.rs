@@ -15,12 +15,14 @@ mod detect;
 mod distance;
 mod facing;
 mod frame;
+mod manifold;
 mod model;
 mod mortar;
 mod obstacle;
 mod patch;
 mod project;
 mod search;
+mod self_contact;
 mod surface;
 
 pub use contact::Contact;

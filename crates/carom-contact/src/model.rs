@@ -36,10 +36,10 @@ pub struct ContactModel<const D: usize> {
 }
 
 impl<const D: usize> ContactModel<D> {
-    /// Whether the bodies of a pair are checked from both sides.
+    /// Whether the bodies of a pair are checked from both sides, as a body with itself always is.
     #[must_use]
     pub fn is_two_sided(&self, pair: usize) -> bool {
         let group = self.pairs[pair].group;
-        self.pairs.iter().filter(|p| p.group == group).count() > 1
+        self.is_self_contact(pair) || self.pairs.iter().filter(|p| p.group == group).count() > 1
     }
 }

@@ -18,6 +18,8 @@ pub struct ContactSurface {
     pub sources: Vec<u32>,
     /// For every source, the facets around it and its images.
     facets_around: Vec<Vec<u32>>,
+    /// For every source, the facets of this surface that it never touches, ascending; empty if it touches none of them.
+    pub(crate) never_touched: Vec<Vec<u32>>,
     shape: Shape,
 }
 
@@ -51,7 +53,7 @@ impl ContactSurface {
                 }
             }
         }
-        Self { facets, nodes, sources, facets_around, shape: Shape::Faceted }
+        Self { facets, nodes, sources, facets_around, never_touched: Vec::new(), shape: Shape::Faceted }
     }
 
     /// The same boundary with a normal that turns continuously from facet to facet: as a target, a line is a cubic curve through

@@ -145,6 +145,9 @@ pub struct BodyEntry {
     /// Sets of facets that may touch others; the whole boundary if not given.
     #[serde(default)]
     pub contact_sets: Option<Vec<String>>,
+    /// Whether the body may touch itself.
+    #[serde(default)]
+    pub self_contact: bool,
     /// Initial velocity [m/s]; none if not given.
     #[serde(default)]
     pub velocity: Option<Vec<f64>>,
@@ -265,6 +268,42 @@ pub enum ObstacleShape {
         point: Vec<f64>,
         /// Normal towards the free side, of any length.
         normal: Vec<f64>,
+    },
+    /// A ball, in 2D a disc.
+    Sphere {
+        /// Centre [m].
+        centre: Vec<f64>,
+        /// Radius [m].
+        radius: f64,
+        /// Whether the inside is free, and not the outside.
+        #[serde(default)]
+        cavity: bool,
+    },
+    /// A cylinder without ends, in 3D.
+    Cylinder {
+        /// A point of the axis [m].
+        point: Vec<f64>,
+        /// Direction of the axis, of any length.
+        axis: Vec<f64>,
+        /// Radius [m].
+        radius: f64,
+        /// Whether the inside is free, and not the outside.
+        #[serde(default)]
+        cavity: bool,
+    },
+    /// A box with sides along the axes, in 2D a rectangle.
+    Box {
+        /// The corner with the smallest coordinates [m].
+        corner: Vec<f64>,
+        /// Sides [m].
+        size: Vec<f64>,
+    },
+    /// What a closed surface of triangles encloses, in 3D.
+    Surface {
+        /// Vertices [m].
+        vertices: Vec<Vec<f64>>,
+        /// The vertices of every triangle, counter-clockwise as seen from outside.
+        triangles: Vec<[u32; 3]>,
     },
 }
 

@@ -13,7 +13,7 @@ from carom.audit.body import AuditBody
 from carom.audit.target import Target
 from carom.contact import Pair
 from carom.errors import InputError
-from carom.obstacle import Plane
+from carom.obstacle import Obstacle, Plane
 from carom.scenario import Scenario
 
 CONDITIONS = ("gap", "midpoint", "endpoint", "massless")
@@ -94,6 +94,8 @@ class AuditModel:
         if scenario.dimension != 2:
             raise InputError("cannot audit a case in 3D yet")
         _refuse_what_is_driven(scenario)
+        if any(body.self_contact for body in scenario.bodies):
+            raise InputError("cannot audit a body in contact with itself yet")
         self.scenario = scenario
         self.points = points
         condition = scenario.contact.condition
@@ -117,7 +119,7 @@ class AuditModel:
         self.bodies = list(self._build_bodies(cells, types))
         smooth = scenario.contact.targets == "smooth"
         self.targets = [Target(b.facets, b.points, smooth=smooth) for b in self.bodies]
-        self.planes = [_plane(plane) for plane in scenario.obstacles]
+        self.planes = [_plane(obstacle) for obstacle in scenario.obstacles]
         self.sides = list(self._build_sides())
         self.size = max(float(np.linalg.norm(np.ptp(b.points, axis=0))) for b in self.bodies)
 
@@ -228,7 +230,9 @@ class AuditModel:
         return float(lengths.mean())
 
 
-def _plane(entry: Plane) -> AuditPlane:
+def _plane(entry: Obstacle) -> AuditPlane:
+    if not isinstance(entry, Plane):
+        raise InputError(f"cannot audit obstacles of kind {entry.kind!r} yet")
     normal = np.array(entry.normal)
     return AuditPlane(
         point=np.array(entry.point),

@@ -36,6 +36,15 @@ LAYER = {
 """An endless layer in the place of the second disc."""
 
 
+FLOOR = {
+    "name": "floor",
+    "kind": "plane",
+    "point": [0, 0],
+    "normal": [0, 1],
+    "velocity": [0.5, 0.1],
+}
+
+
 def scenario(condition="gap", scheme="theta", **changes):
     """Two coarse discs that meet and fall on a floor that moves, with friction: 100 steps."""
     case = {
@@ -64,7 +73,7 @@ def scenario(condition="gap", scheme="theta", **changes):
                 "velocity": [-3, -2],
             },
         ],
-        "obstacles": [{"name": "floor", "point": [0, 0], "normal": [0, 1], "velocity": [0.5, 0.1]}],
+        "obstacles": [FLOOR],
         "contact": {"condition": condition, "friction": 0.2},
     }
     return carom.Scenario.from_dict(case).with_overrides(

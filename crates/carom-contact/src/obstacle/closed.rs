@@ -6,7 +6,7 @@ use carom_mesh::{CellKind, Facet, Vector};
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::patch::Patch;
-use crate::project::normal;
+use crate::project::{area_normal, normal};
 
 use super::{TOUCHING, along};
 
@@ -32,6 +32,8 @@ pub struct ClosedSurface<const D: usize> {
 /// Why triangles enclose nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SurfaceDefect {
+    /// The space has not three dimensions.
+    NotInSpace,
     /// There are no triangles.
     Empty,
     /// A coordinate is not a finite number.
@@ -92,6 +94,7 @@ impl fmt::Display for SurfaceDefect {
             )
         };
         match self {
+            Self::NotInSpace => write!(f, "a surface of triangles encloses something in 3D only"),
             Self::Empty => write!(f, "the surface has no triangles"),
             Self::NotFinite { vertex } => {
                 write!(f, "vertex {vertex} has a coordinate that is not a finite number")
@@ -130,23 +133,23 @@ impl fmt::Display for SurfaceDefect {
 
 impl std::error::Error for SurfaceDefect {}
 
-impl ClosedSurface<3> {
+impl<const D: usize> ClosedSurface<D> {
     /// The body inside `triangles` of these `vertices` [m]; normals point outwards by the right-hand rule.
     ///
     /// # Errors
     /// If the triangles are not the boundary of a body: see [`SurfaceDefect`].
-    pub fn new(vertices: Vec<Vector<3>>, triangles: &[[u32; 3]]) -> Result<Self, SurfaceDefect> {
+    pub fn new(vertices: Vec<Vector<D>>, triangles: &[[u32; 3]]) -> Result<Self, SurfaceDefect> {
         check(&vertices, triangles)?;
         let x = |n: u32| vertices[n as usize];
-        let normals: Vec<Vector<3>> =
+        let normals: Vec<Vector<D>> =
             triangles.iter().map(|&[a, b, c]| normal(&[x(b) - x(a), x(c) - x(a)])).collect();
         let mut vertex_normals = vec![Vector::zeros(); vertices.len()];
-        let mut of_edge: BTreeMap<[u32; 2], Vector<3>> = BTreeMap::new();
+        let mut of_edge: BTreeMap<[u32; 2], Vector<D>> = BTreeMap::new();
         for (t, n) in triangles.iter().zip(&normals) {
             for k in 0..3 {
                 let [a, b, c] = [t[k], t[(k + 1) % 3], t[(k + 2) % 3]];
                 vertex_normals[a as usize] += n * (x(b) - x(a)).angle(&(x(c) - x(a)));
-                *of_edge.entry([b.min(c), b.max(c)]).or_default() += n;
+                *of_edge.entry([b.min(c), b.max(c)]).or_insert_with(Vector::zeros) += n;
             }
         }
         let edge_normals = triangles
@@ -164,9 +167,7 @@ impl ClosedSurface<3> {
         let bounds = Aabb::of(vertices.iter().copied());
         Ok(Self { vertices, facets, normals, edge_normals, vertex_normals, bounds, tree })
     }
-}
 
-impl<const D: usize> ClosedSurface<D> {
     pub(super) fn bounds(&self) -> &Aabb<D> {
         &self.bounds
     }
@@ -203,7 +204,10 @@ impl<const D: usize> ClosedSurface<D> {
 }
 
 /// Whether the triangles are the oriented boundary of a body.
-fn check(vertices: &[Vector<3>], triangles: &[[u32; 3]]) -> Result<(), SurfaceDefect> {
+fn check<const D: usize>(vertices: &[Vector<D>], triangles: &[[u32; 3]]) -> Result<(), SurfaceDefect> {
+    if D != 3 {
+        return Err(SurfaceDefect::NotInSpace);
+    }
     if triangles.is_empty() {
         return Err(SurfaceDefect::Empty);
     }
@@ -216,9 +220,9 @@ fn check(vertices: &[Vector<3>], triangles: &[[u32; 3]]) -> Result<(), SurfaceDe
     let x = |n: u32| vertices[n as usize];
     let flat = |&[a, b, c]: &[u32; 3]| {
         let (s, t) = (x(b) - x(a), x(c) - x(a));
-        s.cross(&t).norm() <= 1e-12 * s.norm_squared().max(t.norm_squared())
+        area_normal(&[s, t]).norm() <= 1e-12 * s.norm_squared().max(t.norm_squared())
     };
-    let at = |n: u32| <[f64; 3]>::from(x(n));
+    let at = |n: u32| std::array::from_fn(|i| x(n)[i]);
     if let Some(triangle) = triangles.iter().position(flat) {
         let count = triangles.iter().filter(|&t| flat(t)).count();
         return Err(SurfaceDefect::Degenerate { count, triangle, at: at(triangles[triangle][0]) });
@@ -245,7 +249,7 @@ fn check(vertices: &[Vector<3>], triangles: &[[u32; 3]]) -> Result<(), SurfaceDe
         return Err(SurfaceDefect::Twisted { count, at });
     }
     let origin = vertices[0];
-    let volume = |&[a, b, c]: &[u32; 3]| (x(a) - origin).dot(&(x(b) - origin).cross(&(x(c) - origin)));
+    let volume = |&[a, b, c]: &[u32; 3]| (x(a) - origin).dot(&area_normal(&[x(b) - origin, x(c) - origin]));
     if triangles.iter().map(volume).sum::<f64>() <= 0.0 {
         return Err(SurfaceDefect::InsideOut);
     }

@@ -47,7 +47,7 @@ pub(super) fn body<const D: usize>(
 }
 
 /// Whether anything is there that a body may touch.
-fn may_touch(scenario: &Scenario, name: &str) -> bool {
+pub(super) fn may_touch(scenario: &Scenario, name: &str) -> bool {
     let enabled = |other: &str| {
         let between = |p: &&PairEntry| {
             let [a, b] = &p.between;
@@ -55,7 +55,7 @@ fn may_touch(scenario: &Scenario, name: &str) -> bool {
         };
         scenario.contact.pairs.iter().find(between).is_none_or(|p| p.enabled)
     };
-    let others = scenario.bodies.iter().map(|b| b.name.as_str()).filter(|&other| other != name);
+    let others = scenario.bodies.iter().filter(|b| b.name != name || b.self_contact).map(|b| b.name.as_str());
     others.chain(scenario.obstacles.iter().map(|o| o.name.as_str())).any(enabled)
 }
 

@@ -1,9 +1,10 @@
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Pair, Target};
-use carom_mesh::Facet;
+use carom_mesh::{Facet, Vector};
 
+use super::body::may_touch;
 use super::mortar::discretisation;
-use super::number;
 use super::obstacle::obstacle;
+use super::{number, place};
 use crate::error::InputError;
 use crate::model::{Group, ModelBody};
 use crate::scenario::{Scenario, Sources, Targets};
@@ -22,13 +23,17 @@ pub(super) fn contact<const D: usize>(
     bodies: &[ModelBody<D>],
 ) -> Result<(ContactModel<D>, Vec<Group>), InputError> {
     let mut model = ContactModel::default();
-    for b in bodies {
+    for (i, (b, entry)) in bodies.iter().zip(&scenario.bodies).enumerate() {
         let surface = ContactSurface::new(b.body.surface(), b.first_node as u32);
         let reference = |n: u32| b.body.mesh().nodes()[n as usize - b.first_node];
-        model.surfaces.push(match scenario.contact.targets {
+        if may_touch(scenario, &b.name) {
+            check_manifold(&format!("bodies.{i}.mesh"), &surface, &reference)?;
+        }
+        let surface = match scenario.contact.targets {
             Targets::Smooth => surface.smoothed(&reference),
             Targets::Faceted => surface,
-        });
+        };
+        model.surfaces.push(if entry.self_contact { surface.touching_itself(&reference) } else { surface });
     }
     for (i, entry) in scenario.obstacles.iter().enumerate() {
         model.obstacles.push(obstacle(&format!("obstacles.{i}"), &entry.shape)?);
@@ -39,7 +44,8 @@ pub(super) fn contact<const D: usize>(
     let names: Vec<&str> = bodies.iter().map(|b| b.name.as_str()).collect();
     let obstacle_names: Vec<&str> = scenario.obstacles.iter().map(|o| o.name.as_str()).collect();
     for (a, &first) in names.iter().enumerate() {
-        let others = names.iter().enumerate().skip(a + 1).map(|(b, &name)| (Target::Surface(b), name));
+        let others = names.iter().enumerate().skip(a).map(|(b, &name)| (Target::Surface(b), name));
+        let others = others.filter(|&(t, _)| t != Target::Surface(a) || scenario.bodies[a].self_contact);
         let obstacles = obstacle_names.iter().enumerate().map(|(o, &name)| (Target::Obstacle(o), name));
         for (target, second) in others.chain(obstacles) {
             let found = scenario.contact.pairs.iter().enumerate().find(|(_, p)| {
@@ -58,6 +64,8 @@ pub(super) fn contact<const D: usize>(
                 check_friction(&format!("contact.pairs.{k}.friction"), friction)?;
             }
             let discretisation = match target {
+                // Nodes of a body against its own facets: neither side is the source.
+                Target::Surface(b) if b == a => Discretisation::NodeToSegment,
                 Target::Surface(b) => discretisation(scenario, found, sources, [&bodies[a], &bodies[b]])?,
                 Target::Obstacle(_) => Discretisation::NodeToSegment,
             };
@@ -66,6 +74,7 @@ pub(super) fn contact<const D: usize>(
             let forward = Pair { source: a, target, friction, group, discretisation };
             match target {
                 Target::Obstacle(_) => model.pairs.push(forward),
+                Target::Surface(b) if b == a => model.pairs.push(forward),
                 Target::Surface(b) => {
                     let backward = Pair { source: b, target: Target::Surface(a), ..forward };
                     match (sources, swapped) {
@@ -80,6 +89,23 @@ pub(super) fn contact<const D: usize>(
         }
     }
     Ok((model, groups))
+}
+
+/// Refuses a surface that has no two sides everywhere.
+fn check_manifold<const D: usize>(
+    key: &str,
+    surface: &ContactSurface,
+    position: &impl Fn(u32) -> Vector<D>,
+) -> Result<(), InputError> {
+    let edges = surface.non_manifold_edges();
+    let Some(ends) = edges.first() else { return Ok(()) };
+    let [from, to] = ends.map(|n| place(&position(n)));
+    let count = edges.len();
+    let message = format!(
+        "the contact surface is not manifold: more than two facets meet at {count} of its edges, the first from {from} to {to}; \
+         join the parts that touch there by a face, or separate them"
+    );
+    Err(InputError::mesh(key, message))
 }
 
 /// Whether the facets of `a` are on average clearly smaller than those of `b`.

@@ -83,3 +83,9 @@ pub(crate) fn vector<const D: usize>(key: &str, values: &[f64]) -> Result<Vector
     }
     Ok(Vector::from_column_slice(values))
 }
+
+/// A place as messages show it.
+fn place<const D: usize>(x: &Vector<D>) -> String {
+    let components: Vec<String> = x.iter().map(|x| format!("{x:.6}")).collect();
+    format!("({})", components.join(", "))
+}

@@ -1,6 +1,7 @@
-use carom_contact::{Pair, Target};
+use carom_contact::{Pair, RigidShape, Target};
 use carom_mesh::Vector;
 
+use super::place;
 use crate::error::InputError;
 use crate::model::{Model, ModelBody};
 use crate::scenario::Scenario;
@@ -14,7 +15,8 @@ pub(super) fn check_overlaps<const D: usize>(
     model: &Model<D>,
 ) -> Result<(), InputError> {
     let at = |n: u32| model.reference[n as usize];
-    for pair in &model.contact.pairs {
+    let is_other = |pair: &&Pair| pair.target != Target::Surface(pair.source);
+    for pair in model.contact.pairs.iter().filter(is_other) {
         // Both directions are checked, whichever the contact condition uses.
         let mut directions = vec![*pair];
         if let Target::Surface(b) = pair.target {
@@ -30,8 +32,7 @@ pub(super) fn check_overlaps<const D: usize>(
                 continue;
             }
             let [a, b] = &model.groups[pair.group].between;
-            let place: Vec<String> = closest.at.iter().map(|x| format!("{x:.6}")).collect();
-            let place = format!("({})", place.join(", "));
+            let place = place(&closest.at);
             let index = direction.source;
             return Err(match direction.target {
                 Target::Surface(_) => InputError::new(
@@ -43,14 +44,21 @@ pub(super) fn check_overlaps<const D: usize>(
                     ),
                 ),
                 Target::Obstacle(o) => {
-                    let plane = &model.contact.obstacles[o];
-                    let outside = source.nodes().all(|n| plane.gap(&model.reference[n], &at).0 < 0.0);
+                    let obstacle = &model.contact.obstacles[o];
+                    let outside = source.nodes().all(|n| obstacle.gap(&model.reference[n], &at).0 < 0.0);
                     let fact = if outside { "lies outside, behind" } else { "overlaps" };
+                    let free = match obstacle.shape {
+                        RigidShape::Plane { .. } => "turn the normal of",
+                        RigidShape::Sphere { .. } | RigidShape::Cylinder { .. } => {
+                            "set or leave out `cavity` of"
+                        }
+                        RigidShape::Box { .. } | RigidShape::Surface(_) => "move",
+                    };
                     InputError::new(
                         format!("bodies.{index}.mesh"),
                         format!(
                             "body {a:?} {fact} obstacle {b:?} at the start: its node at {place} is {:.6} m behind it; \
-                             move the body or turn the normal of obstacles.{} ({:?})",
+                             move the body or {free} obstacles.{} ({:?})",
                             -closest.gap, o, scenario.obstacles[o].name
                         ),
                     )

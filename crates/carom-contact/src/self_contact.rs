@@ -1,0 +1,64 @@
+//! Which facets of its own surface a node never touches.
+
+use carom_mesh::Vector;
+
+use crate::aabb::Aabb;
+use crate::bvh::Bvh;
+use crate::project::Reach;
+use crate::{ContactModel, ContactSurface, Target};
+
+/// How far behind a facet a node still belongs to the other side of the same wall, in diameters of the facet.
+const WALL: f64 = 2.0;
+
+impl ContactSurface {
+    /// The same boundary as one whose nodes may touch its own facets.
+    ///
+    /// A node never touches the facets around it and those next to these, nor, through the body, facets that it is close behind in
+    /// the `reference` configuration [m]: those of the other side of a thin wall. All others it may touch if it faces them.
+    #[must_use]
+    pub fn touching_itself<const D: usize>(mut self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
+        let facets = 0..self.facets.len() as u32;
+        let room = |f: u32| {
+            let facet = self.bounds(f, reference);
+            facet.inflated(WALL * facet.diameter())
+        };
+        let tree = Bvh::new(facets.map(room));
+        let never = |&node: &u32| {
+            let mut never = self.next_to(node);
+            let x = reference(node);
+            tree.overlapping(&Aabb::of([x]), |f, _| {
+                let p = self.project(f, &x, Reach::Facet, reference);
+                if p.normal.dot(&(x - p.point)) < 0.0 {
+                    never.push(f);
+                }
+            });
+            never.sort_unstable();
+            never.dedup();
+            never
+        };
+        self.never_touched = self.sources.iter().map(never).collect();
+        self
+    }
+
+    /// The facets around a source, and those that share a node with them.
+    fn next_to(&self, node: u32) -> Vec<u32> {
+        let around = self.around(node);
+        let nodes = around.iter().flat_map(|&f| &self.facets[f as usize].nodes);
+        around.iter().chain(nodes.flat_map(|&n| self.around(n))).copied().collect()
+    }
+
+    /// Whether the source number `k` may touch the facet `f` of its own surface.
+    #[inline]
+    pub(crate) fn may_touch_itself(&self, k: usize, f: u32) -> bool {
+        self.never_touched.get(k).is_some_and(|never| never.binary_search(&f).is_err())
+    }
+}
+
+impl<const D: usize> ContactModel<D> {
+    /// Whether a pair is that of a surface with itself.
+    #[must_use]
+    pub fn is_self_contact(&self, pair: usize) -> bool {
+        let pair = &self.pairs[pair];
+        pair.target == Target::Surface(pair.source)
+    }
+}
