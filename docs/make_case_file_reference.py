@@ -18,7 +18,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 import annotated_types
 from pydantic.fields import FieldInfo
 
-from carom import Scenario
+from carom import Scenario, Table
 from carom.description import PER_DIMENSION, Description, InPlane, InSpace, Name
 
 PAGE = Path(__file__).with_name("case-file.md")
@@ -38,6 +38,13 @@ status 2) that name the file, the key and the value.
 [examples/two_bars.toml](../examples/two_bars.toml) are complete cases. Every table is a class of
 the Python package with the same field names; the class is named under the heading of the table. An
 object of a class knows its `kind`; where a table of the file can be of several kinds, it must say.
+
+A *signal* is a function of time: a number; a formula of the time `t` as text, such as
+`"0.1*(1 - cos(pi*t))"`; or a table `{ time = [0, 1], value = [0, 5] }` with straight lines between
+its points, constant before and after (Python: `carom.Table`). A formula knows `+ - * / ^` (or
+`**`), brackets, comparisons (`<`, `<=`, `>`, `>=`, 1 where true and 0 where not), the constants
+`pi` and `e`, and abs, acos, asin, atan, cos, cosh, exp, log (natural), max, min, sign, sin, sinh,
+sqrt, step(x) (1 from x = 0 on), tan, tanh and where(condition, a, b).
 
 A value can be replaced on the command line: `--set KEY=VALUE`, with a dotted key, list indices from
 0, and a TOML value (a bare word counts as a string):
@@ -94,7 +101,7 @@ def sections(model: type[Description], path: str = "") -> Iterator[Section]:
     """Yield the tables within a table, depth first, in the order of its fields."""
     for name, field in fields(model):
         kinds = models(field.annotation)
-        if not kinds:
+        if not kinds or Table in kinds:
             continue
         key = f"{path}.{name}" if path else name
         origin = get_origin(field.annotation)
@@ -134,11 +141,13 @@ def parts(field: FieldInfo) -> tuple[object, list[object]]:
 PLAIN = {float: "number", int: "integer", str: "string", bool: "boolean"}
 
 
-def type_of(field: FieldInfo) -> str:
+def type_of(field: FieldInfo) -> str:  # noqa: PLR0911 (one per type)
     """Return the TOML type of a field."""
     annotation, asked = parts(field)
     if annotation in PLAIN:
         return PLAIN[annotation]
+    if Table in models(annotation):
+        return "D signals" if PER_DIMENSION in asked else "signal"
     if get_origin(annotation) is Literal:
         return "string"
     if get_origin(annotation) is tuple:

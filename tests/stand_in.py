@@ -23,6 +23,7 @@ def made_up_fields(time):
         "reaction": values * 1e-30,
         "stress": np.arange(12.0).reshape(2, 6) + time,
         "energy_density": np.array([time, 2 * time]),
+        "plastic_strain": np.array([0.0, time]),
     }
 
 
@@ -32,6 +33,7 @@ COLUMNS = (
     "strain",
     "total",
     "friction",
+    "plastic",
     "contacts",
     "tip.u_x",
     "tip.u_y",
@@ -62,7 +64,7 @@ class FallingSimulation:
 
     def _row(self, time):
         kinetic = 8.0 * np.cos(time) ** 2
-        return [time, kinetic, 8.0 - kinetic, 8.0, time / 3, 1, *np.sin(time + np.arange(6))]
+        return [time, kinetic, 8.0 - kinetic, 8.0, time / 3, 0.0, 1, *np.sin(time + np.arange(6))]
 
     def mesh(self):
         return copy.deepcopy(MESH)
@@ -92,8 +94,8 @@ class FallingSimulation:
         return ["left", "left|floor"]
 
     def take_ledger(self):
-        body = [self.time, 0, 1, 2, 3, 4, 5, 6, np.nan, np.nan, np.nan, 7]
-        pair = [self.time, 1, *[np.nan] * 6, 8, 9, 10, np.nan]
+        body = [self.time, 0, 1, 2, 3, 4, 0, 5, 6, np.nan, np.nan, np.nan, 7]
+        pair = [self.time, 1, *[np.nan] * 7, 8, 9, 10, np.nan]
         return np.array([body, pair], dtype=float)
 
     def history_columns(self):

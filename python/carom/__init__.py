@@ -4,7 +4,7 @@ from importlib import import_module
 from types import ModuleType
 
 from carom._carom import Simulation, __version__
-from carom.analysis import Conserving, Dynamic, Newton, Theta
+from carom.analysis import Conserving, Dynamic, Newton, Static, Theta
 from carom.audit import Audit, audit
 from carom.body import Body
 from carom.checking import Check, check
@@ -17,17 +17,32 @@ from carom.errors import (
     MeshError,
 )
 from carom.io.history import read_history
-from carom.material import Damping, LinearElastic, NeoHookean, SaintVenantKirchhoff
+from carom.load import Force, Pressure, Traction
+from carom.material import (
+    BlatzKo,
+    Damping,
+    J2Plasticity,
+    LinearElastic,
+    MooneyRivlin,
+    NeoHookean,
+    Ogden,
+    SaintVenantKirchhoff,
+    Viscosity,
+    Yeoh,
+)
 from carom.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring, Tube
+from carom.motion import Displacement, Fixed, Prescribed
 from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere, RigidSurface
 from carom.output import Output, Track
 from carom.result import Result
 from carom.scenario import Scenario
+from carom.signal import Table
 from carom.simulation import Progress, run
 
 __all__ = [
     "Audit",
     "Ball",
+    "BlatzKo",
     "Body",
     "Box",
     "CaromError",
@@ -39,17 +54,25 @@ __all__ = [
     "Cylinder",
     "Damping",
     "Disc",
+    "Displacement",
     "Dynamic",
+    "Fixed",
+    "Force",
     "FrictionSolver",
     "InputError",
+    "J2Plasticity",
     "LinearElastic",
     "MeshError",
     "MeshFile",
+    "MooneyRivlin",
     "NeoHookean",
     "Newton",
+    "Ogden",
     "Output",
     "Pair",
     "Plane",
+    "Prescribed",
+    "Pressure",
     "Progress",
     "Rectangle",
     "Result",
@@ -61,9 +84,14 @@ __all__ = [
     "SaintVenantKirchhoff",
     "Scenario",
     "Simulation",
+    "Static",
+    "Table",
     "Theta",
     "Track",
+    "Traction",
     "Tube",
+    "Viscosity",
+    "Yeoh",
     "__version__",
     "audit",
     "check",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeVar
 
 from pydantic import Field, model_validator
 from typing_extensions import Self
@@ -87,13 +87,55 @@ class Dynamic(Description):
 
     @model_validator(mode="after")
     def _at_least_one_step(self) -> Self:
-        if self.end_time < self.time_step:
-            raise problem(
-                f"must be at least one time_step ({self.time_step:g} s)",
-                key="end_time",
-                value=self.end_time,
-            )
-        return self
+        return _whole_steps(self)
 
 
-Analysis = Dynamic
+class Static(Description):
+    """Balance of forces without inertia, as loads and supports change with time.
+
+    Time only says how far they have come. Each step balances the forces at its end; steps that
+    fail are halved, and doubled again, up to `time_step`, after steps that were easy. The contact
+    condition is ``"gap"``. Bodies that nothing holds but contact are allowed, if forces press them
+    on; what friction does depends on the path, and so on the steps.
+
+    Parameters
+    ----------
+    end_time
+        Time at which the run ends [s].
+    time_step
+        Largest length of a step [s].
+    newton
+        Newton's iteration.
+    max_halvings
+        How often a step that failed is halved before the run stops.
+    gravity
+        Acceleration of all bodies [m/s²], shape [D]; None is none.
+    """
+
+    kind: Literal["static"] = "static"
+    end_time: Positive
+    time_step: Positive
+    newton: Newton = Newton()
+    max_halvings: Annotated[int, Field(strict=True, ge=0, le=30)] = 12
+    gravity: Vector | None = None
+
+    @model_validator(mode="after")
+    def _at_least_one_step(self) -> Self:
+        return _whole_steps(self)
+
+
+_Timed = TypeVar("_Timed", Dynamic, Static)
+
+
+def _whole_steps(analysis: _Timed) -> _Timed:
+    """Refuse an analysis that is shorter than a step."""
+    if analysis.end_time < analysis.time_step:
+        raise problem(
+            f"must be at least one time_step ({analysis.time_step:g} s)",
+            key="end_time",
+            value=analysis.end_time,
+        )
+    return analysis
+
+
+Analysis = Annotated[Dynamic | Static, Field(discriminator="kind")]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
@@ -95,10 +96,11 @@ class Contact(Description):
     ----------
     condition
         Where in time the unilateral condition is written: on the gap at the end of the step (the
-        paper's), on the increment over the step, on the velocity at its end, or again on the gap
-        at the end but between nodes without mass. With the scheme ``conserving`` the second keeps
-        the energy and lets nodes in by less than a step's travel; the last keeps the energy, is
-        quiet and never penetrates, but takes more time and does not bear every case yet.
+        paper's, and that of every static analysis), on the increment over the step, on the velocity
+        at its end, or again on the gap at the end but between nodes without mass. With the scheme
+        ``conserving`` the second keeps the energy and lets nodes in by less than a step's travel;
+        the last keeps the energy, is quiet and never penetrates, but takes more time and does not
+        bear every case yet.
     friction
         Coulomb's coefficient of every pair that does not state its own.
     solver
@@ -130,3 +132,12 @@ class Contact(Description):
     discretisation: Discretisation = "node-to-segment"
     certificate_tolerance: Positive = 1e-9
     pairs: tuple[Pair, ...] = ()
+
+
+def for_load_steps(contact: object) -> object:
+    """Return the law of contact of a static analysis, whose condition is by default the gap."""
+    if isinstance(contact, Contact) and "condition" not in contact.model_fields_set:
+        return contact.model_copy(update={"condition": "gap"})
+    if isinstance(contact, Mapping) and "condition" not in contact:
+        return {**contact, "condition": "gap"}
+    return contact

@@ -124,7 +124,8 @@ def _read(details: ErrorDetails, data: Mapping[str, Any]) -> tuple[str, object, 
 def _without_tags(location: Sequence[int | str], data: object) -> list[str]:
     """Return pydantic's location without the union tags it inserts.
 
-    A tag stands where a table of that kind was entered, before any of its keys.
+    A tag stands where a table of that kind was entered, before any of its keys; those in brackets
+    tell forms of a value apart.
     """
     path: list[str] = []
     entered: object = None
@@ -139,7 +140,7 @@ def _without_tags(location: Sequence[int | str], data: object) -> list[str]:
         elif isinstance(data, Sequence) and isinstance(part, int):
             data = data[part] if part < len(data) else None
         path.append(str(part))
-    return [part for part in path if part != "[key]"]
+    return [part for part in path if not part.startswith("[")]
 
 
 def _kind(table: Mapping[str, object]) -> object:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, model_validator
+from typing_extensions import Self
 
 from carom.description import (
     PER_DIMENSION,
@@ -15,6 +16,8 @@ from carom.description import (
     SpaceVector,
     Vector,
 )
+from carom.messages import problem
+from carom.motion import Displacement
 
 
 def _nonzero(vector: tuple[float, ...]) -> tuple[float, ...]:
@@ -23,7 +26,19 @@ def _nonzero(vector: tuple[float, ...]) -> tuple[float, ...]:
     return vector
 
 
-class Plane(Description):
+class _Obstacle(Description):
+    name: Name
+    velocity: Vector | None = None
+    motion: Displacement | None = None
+
+    @model_validator(mode="after")
+    def _moves_in_one_way(self) -> Self:
+        if self.velocity is not None and self.motion is not None:
+            raise problem("give velocity or motion, not both", key="motion")
+        return self
+
+
+class Plane(_Obstacle):
     """A rigid half-space bounded by a plane.
 
     Parameters
@@ -37,16 +52,16 @@ class Plane(Description):
     velocity
         Constant velocity [m/s], shape [D]; None is none. Its work on the bodies is in the ledger as
         ``prescribed``.
+    motion
+        Displacement over time, in place of a velocity.
     """
 
-    name: Name
     kind: Literal["plane"] = "plane"
     point: Vector
     normal: Annotated[Vector, AfterValidator(_nonzero)]
-    velocity: Vector | None = None
 
 
-class RigidSphere(Description):
+class RigidSphere(_Obstacle):
     """A rigid ball, in 2D a disc, or a ball-shaped cavity.
 
     Parameters
@@ -61,17 +76,17 @@ class RigidSphere(Description):
         Whether bodies are inside, and all around is solid.
     velocity
         Constant velocity [m/s], shape [D]; None is none.
+    motion
+        Displacement over time, in place of a velocity.
     """
 
-    name: Name
     kind: Literal["sphere"] = "sphere"
     centre: Vector
     radius: Positive
     cavity: Annotated[bool, Field(strict=True)] = False
-    velocity: Vector | None = None
 
 
-class RigidCylinder(Description):
+class RigidCylinder(_Obstacle):
     """A rigid cylinder without ends in 3D, or a bore of that shape.
 
     Parameters
@@ -88,18 +103,18 @@ class RigidCylinder(Description):
         Whether bodies are inside, and all around is solid.
     velocity
         Constant velocity [m/s], shape [3]; None is none.
+    motion
+        Displacement over time, in place of a velocity.
     """
 
-    name: Name
     kind: Literal["cylinder"] = "cylinder"
     point: SpaceVector
     axis: Annotated[SpaceVector, AfterValidator(_nonzero)]
     radius: Positive
     cavity: Annotated[bool, Field(strict=True)] = False
-    velocity: Vector | None = None
 
 
-class RigidBox(Description):
+class RigidBox(_Obstacle):
     """A rigid box with sides along the axes, in 2D a rectangle; bodies are outside.
 
     Nodes that come into it are pushed out of the nearest face; beyond its edges and corners they
@@ -115,16 +130,16 @@ class RigidBox(Description):
         Sides [m], shape [D].
     velocity
         Constant velocity [m/s], shape [D]; None is none.
+    motion
+        Displacement over time, in place of a velocity.
     """
 
-    name: Name
     kind: Literal["box"] = "box"
     corner: Vector
     size: Annotated[tuple[Positive, ...], PER_DIMENSION]
-    velocity: Vector | None = None
 
 
-class RigidSurface(Description):
+class RigidSurface(_Obstacle):
     """What a closed surface of triangles encloses, in 3D; bodies are outside.
 
     Parameters
@@ -137,13 +152,13 @@ class RigidSurface(Description):
         What coordinates are multiplied by to be in metres: 0.001 for a file in millimetres.
     velocity
         Constant velocity [m/s], shape [3]; None is none.
+    motion
+        Displacement over time, in place of a velocity.
     """
 
-    name: Name
     kind: Literal["surface"] = "surface"
     file: FilePath
     scale: Positive = 1.0
-    velocity: Vector | None = None
 
 
 Obstacle = Annotated[

@@ -12,11 +12,13 @@ from typing_extensions import Self
 from carom import case_file, overrides
 from carom.analysis import Analysis
 from carom.body import Body
-from carom.contact import Contact
+from carom.contact import Contact, for_load_steps
 from carom.description import Description, Name
 from carom.errors import naming
+from carom.load import Load
 from carom.material import Material
 from carom.messages import known, problem
+from carom.motion import Motion
 from carom.obstacle import Obstacle
 from carom.output import Output, Track
 
@@ -43,6 +45,10 @@ class Scenario(Description):
         Deformable bodies, at least one.
     obstacles
         Rigid obstacles.
+    loads
+        Forces on bodies.
+    motions
+        Prescribed motion of parts of bodies.
     contact
         Contact and friction.
     """
@@ -54,6 +60,8 @@ class Scenario(Description):
     materials: dict[Name, Material]
     bodies: Annotated[tuple[Body, ...], Field(min_length=1)]
     obstacles: tuple[Obstacle, ...] = ()
+    loads: tuple[Load, ...] = ()
+    motions: tuple[Motion, ...] = ()
     contact: Contact = Contact()
 
     @classmethod
@@ -152,6 +160,30 @@ class Scenario(Description):
     def _materials_exist(self) -> Self:
         for index, body in enumerate(self.bodies):
             _require(body.material, self.materials, what="material", key=f"bodies.{index}.material")
+        return self
+
+    @model_validator(mode="before")
+    @classmethod
+    def _kind_of_analysis(cls, data: object) -> object:
+        """Take an analysis that names no kind for dynamic; load steps rule the gap."""
+        if not isinstance(data, Mapping):
+            return data
+        analysis = data.get("analysis")
+        if isinstance(analysis, Mapping) and "kind" not in analysis:
+            analysis = {"kind": "dynamic", **analysis}
+            data = {**data, "analysis": analysis}
+        kind = analysis["kind"] if isinstance(analysis, Mapping) else getattr(analysis, "kind", "")
+        if kind != "static":
+            return data
+        return {**data, "contact": for_load_steps(data.get("contact", {}))}
+
+    @model_validator(mode="after")
+    def _driven_bodies_exist(self) -> Self:
+        bodies = [body.name for body in self.bodies]
+        for index, load in enumerate(self.loads):
+            _require(load.body, bodies, what="body", key=f"loads.{index}.body")
+        for index, motion in enumerate(self.motions):
+            _require(motion.body, bodies, what="body", key=f"motions.{index}.body")
         return self
 
     @model_validator(mode="after")

@@ -27,6 +27,45 @@ BAD = [
     ("materials", ABSENT, "materials: required key is missing"),
     ("materials.el astic", {}, "materials.el astic"),
     (
+        "materials.elastic",
+        {"kind": "mooney-rivlin", "c10": 1, "c01": -1.5, "bulk": 9, "density": 1},
+        "materials.elastic.c01 = -1.5: c10 + c01, half the shear modulus, must be greater than 0",
+    ),
+    (
+        "materials.elastic",
+        {"kind": "ogden", "mu": [1.0, 2.0], "alpha": [2.0], "bulk": 9, "density": 1},
+        "materials.elastic.alpha = [2.0]: must have as many entries as mu, 2",
+    ),
+    (
+        "materials.elastic",
+        {"kind": "ogden", "mu": [1.0], "alpha": [-2.0], "bulk": 9, "density": 1},
+        "materials.elastic.mu = [1.0]: half the sum of mu times alpha",
+    ),
+    (
+        "materials.elastic",
+        {"kind": "ogden", "mu": [1.0], "alpha": [0.0], "bulk": 9, "density": 1},
+        "materials.elastic.alpha = [0.0]: an exponent cannot be 0; leave the term out",
+    ),
+    (
+        "materials.elastic",
+        {
+            **{"kind": "j2-plasticity", "young": 1, "poisson": 0, "density": 1},
+            **{"yield_stress": 4, "saturation_stress": 3},
+        },
+        "materials.elastic.saturation_stress = 3: the saturation stress cannot be below the yield",
+    ),
+    ("materials.elastic.viscosity", {"shear": -1}, "viscosity.shear = -1: must be at least 0"),
+    (
+        "materials.elastic",
+        {"kind": "blatz-ko", "shear": 1, "poisson": 0.5, "density": 1},
+        "materials.elastic.poisson = 0.5: must be less than 0.5",
+    ),
+    (
+        "materials.elastic",
+        {"kind": "yeoh", "c10": 0, "bulk": 9, "density": 1},
+        "materials.elastic.c10 = 0: must be greater than 0",
+    ),
+    (
         "analysis.scheme",
         {"kind": "theta", "theta": 0},
         "analysis.scheme.theta = 0: must be greater than 0",
@@ -41,7 +80,7 @@ BAD = [
     ("analysis.time_step", 0.0, "analysis.time_step = 0.0: must be greater than 0"),
     ("analysis.time_step", -1e-3, "analysis.time_step = -0.001: must be greater than 0"),
     ("analysis.time_step", 2.0, "analysis.end_time = 1.0: must be at least one time_step (2 s)"),
-    ("analysis.kind", "static", "analysis.kind = \"static\": must be 'dynamic'"),
+    ("analysis.kind", "modal", "analysis.kind = \"modal\": must be one of 'dynamic', 'static'"),
     ("analysis.max_halvings", 1.5, "analysis.max_halvings = 1.5: must be an integer"),
     ("analysis.gravity", [0, -9.81, 0], "must have 2 components, not 3"),
     ("output.history_every", 1e-3, "output.history_every = 0.001: must be at least one analysis"),

@@ -11,8 +11,8 @@ pub struct Contact<const D: usize> {
     pub gap: f64,
     /// Rows n, t₁, t₂; n points from the target to the source.
     pub frame: Matrix<D>,
-    /// The area [m^(D−1)] that a reaction is spread over, so that the pressure is r_n over it and the thickness; 0 where a node
-    /// stands for it.
+    /// The area that a reaction is spread over, so that the pressure is r_n over it: of a body in the plane a length [m], to be
+    /// multiplied by the thickness, else [m²]. 0 where a node stands for it.
     pub area: f64,
     stencil: SmallVec<[(u32, f64); INLINE]>,
     /// How many entries of the stencil are source nodes; they come first.

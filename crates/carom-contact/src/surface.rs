@@ -16,6 +16,8 @@ pub struct ContactSurface {
     pub nodes: Vec<u32>,
     /// The nodes that may touch a target, ascending: all but those that follow another. The two would be one contact twice.
     pub sources: Vec<u32>,
+    /// Whether this is the meridian of a body of revolution about the second axis, so that every point stands for a circle.
+    pub is_meridian: bool,
     /// For every source, the facets around it and its images.
     facets_around: Vec<Vec<u32>>,
     /// For every source, the facets of this surface that it never touches, ascending; empty if it touches none of them.
@@ -53,7 +55,22 @@ impl ContactSurface {
                 }
             }
         }
-        Self { facets, nodes, sources, facets_around, never_touched: Vec::new(), shape: Shape::Faceted }
+        let never_touched = Vec::new();
+        Self {
+            facets,
+            nodes,
+            sources,
+            is_meridian: false,
+            facets_around,
+            never_touched,
+            shape: Shape::Faceted,
+        }
+    }
+
+    /// The same boundary as the meridian of a body of revolution.
+    #[must_use]
+    pub fn revolved(self) -> Self {
+        Self { is_meridian: true, ..self }
     }
 
     /// The same boundary with a normal that turns continuously from facet to facet: as a target, a line is a cubic curve through

@@ -127,6 +127,39 @@ fn uniform_pressure_loads_both_sides_consistently() {
     }
 }
 
+/// The nodal forces of 1 Pa on a disc of radius 1, ∫ 2πr N dr, are πh²k·2 at r = kh and a third of πh² on the axis.
+#[test]
+fn uniform_pressure_on_bodies_of_revolution_acts_on_circles() {
+    let upper = block([0.0, 0.0], [1.0, 1.0], [4, 1]);
+    let lower = block([0.0, -1.0], [1.0, 1.0], [3, 1]);
+    let mut scene = Scene::new(&upper, &lower);
+    scene.model.surfaces = scene.model.surfaces.into_iter().map(ContactSurface::revolved).collect();
+    let force = scene.uniform_pressure();
+    let count = upper.nodes().len();
+    for (range, h, sign) in [(0..count, 0.25, 1.0), (count..scene.nodes.len(), 1.0 / 3.0, -1.0)] {
+        let mut total = 0.0;
+        for n in range {
+            let x = scene.nodes[n];
+            if x[1] != 0.0 {
+                continue;
+            }
+            let load = std::f64::consts::PI
+                * match x[0] {
+                    0.0 => h * h / 3.0,
+                    1.0 => h * (1.0 - h / 3.0),
+                    r => 2.0 * h * r,
+                };
+            total += load;
+            assert!(
+                (force[n] - Vector::<2>::new(0.0, sign * load)).norm() < 1e-14,
+                "{} and not {load}",
+                force[n]
+            );
+        }
+        assert!((total - std::f64::consts::PI).abs() < 1e-14, "{total}");
+    }
+}
+
 /// Whichever side reaches beyond the other, and at any angle: the side that is wholly covered has the forces of the pressure, and
 /// the other the same resultant in the same place.
 #[test]

@@ -3,12 +3,17 @@ use std::sync::Arc;
 use carom_mesh::{Facet, Matrix, Mesh, Surface, Vector, tensor};
 use serde::{Deserialize, Serialize};
 
-use crate::elements::{CellState, Elements, StepForces, add_mass, add_scaled_diagonal_mass, elements};
+use crate::elements::{
+    CellState, Dashpots, Elements, StepForces, add_mass, add_scaled_diagonal_mass, dashpots, elements,
+};
+use crate::held::{Held, HeldDof};
+use crate::loose::is_loose;
 use crate::massless::{followers, redistributed};
-use crate::material::LawSpec;
+use crate::material::{LawSpec, PlasticState, Viscosity};
 use crate::rigid::RigidMass;
 use crate::shape_table::{Cells, Depth, facet_area};
 use crate::sparse::{NodalMatrix, NodeGraph};
+use crate::worked::Worked;
 use crate::{FemError, Formulation, Hypothesis};
 
 /// A node whose radius is below this, relative to the size of the body, is on the axis.
@@ -52,6 +57,8 @@ pub struct BodySpec {
     pub density: f64,
     /// Damping.
     pub damping: RayleighDamping,
+    /// Viscosity.
+    pub viscosity: Viscosity,
     /// Mass matrix.
     pub mass: MassKind,
     /// What a 2D body is in space.
@@ -74,6 +81,9 @@ pub struct Body<const D: usize> {
     massless_contact: bool,
     graph: Arc<NodeGraph>,
     elements: Vec<Box<dyn Elements<D>>>,
+    dashpots: Vec<Box<dyn Dashpots<D>>>,
+    /// Quadrature points that remember.
+    memory: usize,
     mass: NodalMatrix<f64>,
     nodal_mass: Vec<f64>,
     massless_stiffness: Vec<f64>,
@@ -84,6 +94,7 @@ pub struct Body<const D: usize> {
     damping_stiffness: Option<NodalMatrix<Matrix<D>>>,
     turns: bool,
     wave_speed: f64,
+    held: Held,
 }
 
 impl<const D: usize> Body<D> {
@@ -126,18 +137,24 @@ impl<const D: usize> Body<D> {
         let turns = law.is_objective() && mesh.ties().is_empty() && depth != Depth::Revolution;
         let mass = mass_matrix(&mesh, &surface, spec, depth)?;
         let graph = Arc::clone(mass.shared_graph());
-        let mut blocks = Vec::new();
+        spec.viscosity.check()?;
+        let (mut blocks, mut viscous) = (Vec::new(), Vec::new());
         let mut first_cell = 0;
         for block in mesh.blocks() {
             let cells = Cells { mesh: &mesh, block, first: first_cell, depth };
             blocks.push(elements(spec, &cells, &graph)?);
+            if spec.viscosity.is_active() {
+                viscous.push(dashpots(spec, law.is_objective(), &cells, &graph)?);
+            }
             first_cell += block.cells().len();
         }
         let nodal_mass = mass.row_sums();
         let (_, tangent) = law.stress_and_tangent(&Matrix::identity());
         let total_mass: f64 = nodal_mass.iter().sum();
+        let memory = if law.remembers() { blocks.iter().map(|b| b.point_count()).sum() } else { 0 };
         let mut body = Self {
             surface,
+            memory,
             total_mass,
             depth,
             volume: total_mass / spec.density,
@@ -147,12 +164,15 @@ impl<const D: usize> Body<D> {
             mesh,
             graph,
             elements: blocks,
+            dashpots: viscous,
             mass,
             massless_stiffness: Vec::new(),
             massless_contact: spec.massless_contact,
             nodal_mass,
             turns,
+            held: Held::default(),
         };
+        body.hold(body.axis_nodes().into_iter().map(|node| HeldDof { node, component: 0 }));
         if spec.massless_contact {
             let stiffness = body.stiffness(&vec![Vector::zeros(); body.node_count()]);
             body.massless_stiffness = body
@@ -191,10 +211,29 @@ impl<const D: usize> Body<D> {
         self.mesh.nodes().len()
     }
 
-    /// Number of unknown displacements: those of the nodes that follow no other.
+    /// Number of unknown displacements: those of the nodes that follow no other, less what is held.
     #[must_use]
     pub fn dofs(&self) -> usize {
-        D * (self.node_count() - self.mesh.ties().len())
+        let masters = self.mesh.masters();
+        let held = self.held.dofs().iter().filter(|dof| masters[dof.node as usize] == dof.node).count();
+        D * (self.node_count() - self.mesh.ties().len()) - held
+    }
+
+    /// Holds more displacements. Of nodes that move alike all are to be named.
+    pub fn hold(&mut self, dofs: impl IntoIterator<Item = HeldDof>) {
+        self.held.add(self.mesh.nodes().len(), dofs);
+    }
+
+    /// The displacements that are not free.
+    #[must_use]
+    pub fn held(&self) -> &Held {
+        &self.held
+    }
+
+    /// Whether what is held leaves the body a rigid motion.
+    #[must_use]
+    pub fn is_loose(&self) -> bool {
+        is_loose(self)
     }
 
     /// Mass matrix [kg], one number per pair of nodes (mass is isotropic).
@@ -269,36 +308,48 @@ impl<const D: usize> Body<D> {
         self.damping
     }
 
-    /// Stored energy [J].
+    /// The blocks of elements.
+    pub(crate) fn elements(&self) -> &[Box<dyn Elements<D>>] {
+        &self.elements
+    }
+
+    /// The body with what its material remembers, quadrature point by quadrature point.
+    #[must_use]
+    pub fn after<'a>(&'a self, history: &'a [PlasticState]) -> Worked<'a, D> {
+        Worked::new(self, history)
+    }
+
+    /// What the material of a virgin body remembers: nothing in an elastic one, otherwise an entry per quadrature point.
+    #[must_use]
+    pub fn virgin(&self) -> Vec<PlasticState> {
+        vec![PlasticState::default(); self.memory]
+    }
+
+    /// Stored energy of the virgin body [J].
     #[must_use]
     pub fn strain_energy(&self, u: &[Vector<D>]) -> f64 {
-        self.elements.iter().map(|e| e.energy(u)).sum()
+        self.after(&[]).strain_energy(u)
     }
 
-    /// Writes the internal force ∂E/∂u [N] to `f`.
+    /// Writes the internal force ∂E/∂u [N] of the virgin body to `f`.
     pub fn internal_force(&self, u: &[Vector<D>], f: &mut [Vector<D>]) {
-        f.fill(Vector::zeros());
-        self.elements.iter().for_each(|e| e.add_internal_force(u, f));
+        self.after(&[]).internal_force(u, f);
     }
 
-    /// Writes the force [N] of a step from `u0` to `u1` whose work is the change of the strain energy to `f`.
+    /// Writes the force [N] of a step of the virgin body from `u0` to `u1` whose work is the change of the strain energy to `f`.
     pub fn conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]) {
-        f.fill(Vector::zeros());
-        self.elements.iter().for_each(|e| e.add_conserving_force(u0, u1, f));
+        self.after(&[]).conserving_force(u0, u1, f);
     }
 
-    /// Writes the forces [N] of a step from `u0` to `u1` that a blend of its stresses is made of.
+    /// Writes the forces [N] of a step of the virgin body from `u0` to `u1` that a blend of its stresses is made of.
     pub fn step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut StepForces<'_, D>) {
-        f.fill_with_zeros();
-        self.elements.iter().for_each(|e| e.add_step_forces(u0, u1, f));
+        self.after(&[]).step_forces(u0, u1, f);
     }
 
-    /// The stiffness ∂²E/∂u² [N/m] at `u`.
+    /// The stiffness ∂²E/∂u² [N/m] of the virgin body at `u`.
     #[must_use]
     pub fn stiffness(&self, u: &[Vector<D>]) -> NodalMatrix<Matrix<D>> {
-        let mut k = NodalMatrix::filled(&self.graph, Matrix::zeros());
-        self.elements.iter().for_each(|e| e.add_stiffness(u, &mut k));
-        k
+        self.after(&[]).stiffness(u)
     }
 
     /// The stiffness K₀ that damping is made of, if there is any.
@@ -307,12 +358,10 @@ impl<const D: usize> Body<D> {
         self.damping_stiffness.as_ref()
     }
 
-    /// Mean stress and energy density of every cell, in the order of the mesh.
+    /// Mean state of every cell of the virgin body, in the order of the mesh.
     #[must_use]
     pub fn cell_states(&self, u: &[Vector<D>]) -> Vec<CellState> {
-        let mut out = Vec::with_capacity(self.mesh.cell_count());
-        self.elements.iter().for_each(|e| e.cell_states(u, &mut out));
-        out
+        self.after(&[]).cell_states(u)
     }
 
     /// The viscous force C v [N], written to `f`; `frame` is the rotation of the body and `scratch` as long as `v`.
@@ -339,6 +388,29 @@ impl<const D: usize> Body<D> {
                 *f += mv * self.damping.mass;
             }
         }
+    }
+
+    /// Whether anything resists velocities: damping or viscosity.
+    #[must_use]
+    pub fn is_damped(&self) -> bool {
+        self.damping.is_active() || !self.dashpots.is_empty()
+    }
+
+    /// Adds the force [N] of the material's viscosity in a step from `u0` to `u1` in `dt` [s] to `f`: its work is what the step
+    /// dissipates.
+    pub fn add_viscous_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], dt: f64, f: &mut [Vector<D>]) {
+        self.dashpots.iter().for_each(|d| d.add_force(u0, u1, dt, f));
+    }
+
+    /// The derivative of the viscous force by the velocities [N s/m] at `u`, if there is any viscosity.
+    #[must_use]
+    pub fn viscosity(&self, u: &[Vector<D>]) -> Option<NodalMatrix<Matrix<D>>> {
+        if self.dashpots.is_empty() {
+            return None;
+        }
+        let mut c = NodalMatrix::filled(&self.graph, Matrix::zeros());
+        self.dashpots.iter().for_each(|d| d.add_damping(u, &mut c));
+        Some(c)
     }
 
     /// Centre of mass of the deformed body [m].

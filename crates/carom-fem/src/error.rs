@@ -36,6 +36,12 @@ pub enum FemError {
         /// Name as in the case file.
         name: &'static str,
     },
+    /// A material of which a sheet in plane stress cannot be.
+    #[error("{what} has no plane-stress hypothesis; choose another hypothesis or leave it out")]
+    PlaneStress {
+        /// What the material has.
+        what: &'static str,
+    },
     /// A formulation is not one for the cells, the law or the hypothesis of a body.
     #[error("formulation \"mean-dilatation\" does not suit this body of {cell} cells: {remedy}")]
     Formulation {

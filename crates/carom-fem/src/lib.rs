@@ -6,16 +6,23 @@
 mod body;
 mod elements;
 mod error;
+mod facets;
+mod held;
 mod hypothesis;
+mod loose;
 mod massless;
 pub mod material;
 mod quadrature;
 mod rigid;
 mod shape_table;
 pub mod sparse;
+mod worked;
 
 pub use body::{Body, BodySpec, MassKind, RayleighDamping};
 pub use elements::{CellState, Elements, StepForces};
 pub use error::FemError;
+pub use facets::FacetPatch;
+pub use held::{Held, HeldDof};
 pub use hypothesis::{Formulation, Hypothesis};
 pub use rigid::RigidMass;
+pub use worked::Worked;

@@ -97,12 +97,14 @@ impl Simulation {
             .flat_map(|c| [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|ij| c.stress[ij]))
             .collect();
         let density = fields.cells.iter().map(|c| c.energy_density).collect();
+        let plastic_strain = fields.cells.iter().map(|c| c.plastic_strain).collect();
         let out = PyDict::new(py);
         out.set_item("displacement", arrays::vectors(py, fields.displacement)?)?;
         out.set_item("velocity", arrays::vectors(py, fields.velocity)?)?;
         out.set_item("reaction", arrays::vectors(py, fields.reaction)?)?;
         out.set_item("stress", arrays::table(py, stress, 6)?)?;
         out.set_item("energy_density", PyArray1::from_vec(py, density))?;
+        out.set_item("plastic_strain", PyArray1::from_vec(py, plastic_strain))?;
         Ok(out)
         })
     }

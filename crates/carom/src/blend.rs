@@ -59,12 +59,12 @@ pub(crate) struct Rubbing {
     pub start: f64,
     pub end: f64,
     pub slip: f64,
-    /// Work [J] that the motion of an obstacle would do with the reactions of the start and of the end.
+    /// Work [J] that prescribed motion, as of an obstacle, would do with the reactions of the start and of the end.
     pub driven: [f64; 2],
 }
 
 impl Rubbing {
-    /// Work [J] that the prescribed motion of the obstacle does on the body.
+    /// Work [J] that prescribed motion does through the contact.
     pub fn prescribed(&self, weight: f64) -> f64 {
         (0.5 - weight) * self.driven[0] + (0.5 + weight) * self.driven[1]
     }
@@ -108,7 +108,7 @@ impl<const D: usize> Blend<D> {
             &mut self.end[nodes.clone()],
         );
         let mut forces = StepForces { conserving, difference, end };
-        body.step_forces(step.start, step.displacement, &mut forces);
+        step.worked.step_forces(step.start, step.displacement, &mut forces);
         let StepForces { conserving, difference, end } = forces;
         let viscous = step.viscous_force(scratch);
         let (middle, arms) = (&mut self.middle[nodes.clone()], &mut self.arms[nodes]);
@@ -121,11 +121,15 @@ impl<const D: usize> Blend<D> {
         let (mut excess, mut excess_moment) = ([Vector::zeros(); 2], [[0.0; 3]; 2]);
         for (&n, k) in body.massless().iter().zip(body.massless_stiffness()) {
             let n = n as usize;
-            let d = step.motion[n];
+            // What supports hold is theirs: contact neither moves it nor receives its work.
+            let held = body.held();
+            let d = held.free_part(n, &step.motion[n]);
             let x1 = body.mesh().nodes()[n] + step.displacement[n] - rigid.centre;
-            let (x0, x_mid) = (x1 - d, x1 - d * 0.5);
-            let (p0, p1) = (step.contact_force[n], end[n] + viscous[n] + step.steadying_force(n, *k));
-            let inner = [conserving[n] + viscous[n], difference[n]];
+            let (x0, x_mid) = (x1 - step.motion[n], x1 - step.motion[n] * 0.5);
+            let balance_at_end = end[n] + viscous[n] + step.steadying_force(n, *k) - step.end_load(n);
+            let [p0, p1] = [step.contact_force[n], balance_at_end].map(|p| held.free_part(n, &p));
+            let inner = [conserving[n] + viscous[n] - step.mean_load(n), difference[n]]
+                .map(|f| held.free_part(n, &f));
             balance.missing += inner[0].dot(&d);
             let outer = [[p0 * 0.5, p1 * 0.5], [-p0, p1]];
             for k in 0..2 {
@@ -152,7 +156,7 @@ impl<const D: usize> Blend<D> {
         }
         // The rows of massless nodes have no part in what is available.
         for n in body.massless().iter().map(|&n| n as usize) {
-            balance.available -= difference[n].dot(&step.motion[n]);
+            balance.available -= difference[n].dot(&body.held().free_part(n, &step.motion[n]));
         }
         self.balances[index] = balance;
     }

@@ -1,9 +1,10 @@
 //! The equation of motion of one body over a step.
 
-use carom_fem::Body;
+use carom_fem::{Body, Worked};
 use carom_mesh::{Matrix, Vector};
 
-use crate::model::{Model, ModelBody};
+use crate::drive::BodyDrive;
+use crate::model::Model;
 use crate::state::{State, dot};
 use crate::{StepMap, StressRule};
 
@@ -13,8 +14,12 @@ pub(crate) const STEADYING: f64 = 0.1;
 /// Where a step stands: the part of one body of a state, of its guess for the end, and of what stays fixed in between.
 pub(crate) struct BodyStep<'a, const D: usize> {
     pub body: &'a Body<D>,
+    /// The body with the history of its material at the start.
+    pub worked: Worked<'a, D>,
     pub map: &'a StepMap,
     gravity: &'a Vector<D>,
+    /// Loads and prescribed velocities.
+    drive: &'a BodyDrive<D>,
     /// Frame of the body in this step.
     frame: &'a Matrix<D>,
     /// How far the body turns in the step at its spin.
@@ -22,7 +27,7 @@ pub(crate) struct BodyStep<'a, const D: usize> {
     /// Mean velocity at the start.
     drift: &'a Vector<D>,
     /// v at the start.
-    velocity: &'a [Vector<D>],
+    pub velocity: &'a [Vector<D>],
     /// u at the start.
     pub start: &'a [Vector<D>],
     /// ∂E/∂u at the start.
@@ -67,28 +72,32 @@ impl<const D: usize> ResidualScratch<D> {
         Self { force: zeros.clone(), velocity: zeros.clone(), viscous: zeros.clone(), product: zeros }
     }
 
-    /// C v̄ [N] as it was last computed; zero without damping.
+    /// C v̄ [N] as it was last computed; zero without damping and viscosity.
     pub fn viscous(&self) -> &[Vector<D>] {
         &self.viscous
     }
 }
 
 impl<'a, const D: usize> BodyStep<'a, D> {
-    /// The part of body `b` with its `pose`; `motion` and `displacement` are those of the whole model.
+    /// The part of body `index` with its `pose` and `drive`; `motion` and `displacement` are those of the whole model.
     pub fn new(
         model: &'a Model<D>,
-        b: &'a ModelBody<D>,
+        index: usize,
         map: &'a StepMap,
         pose: &'a Pose<D>,
+        drive: &'a BodyDrive<D>,
         state: &'a State<D>,
         motion: &'a [Vector<D>],
         displacement: &'a [Vector<D>],
     ) -> Self {
+        let b = &model.bodies[index];
         let nodes = b.nodes();
         Self {
             body: &b.body,
+            worked: b.body.after(&state.history[index]),
             map,
             gravity: &model.gravity,
+            drive,
             frame: &pose.frame,
             turn: &pose.turn,
             drift: &pose.drift,
@@ -102,34 +111,38 @@ impl<'a, const D: usize> BodyStep<'a, D> {
     }
 
     /// Writes the residual F̄ + F̄_acc (3) without reactions [N] to `out`:
-    /// M(g − (v₊ − v)/Δt) − f̄ − C v̄, with v̄ = (1 − ξ)v + ξv₊ and f̄ by the scheme's [`StressRule`], and in the rows of nodes
-    /// without mass −ξ(f(u₊) + C v̄ + s), with s the [`Self::steadying_force`].
+    /// M(g − (v₊ − v)/Δt) + F̄ − f̄ − C v̄, with v̄ = (1 − ξ)v + ξv₊ and f̄ by the scheme's [`StressRule`], and in the rows of nodes
+    /// without mass −ξ(f(u₊) + C v̄ + s − F₊), with s the [`Self::steadying_force`]. What is left in held rows is for the supports.
     pub fn residual(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
         self.inertia_and_damping(scratch, out);
         let map = self.map;
         match map.stress {
             StressRule::Weighted => {
-                self.body.internal_force(self.displacement, &mut scratch.force);
+                self.worked.internal_force(self.displacement, &mut scratch.force);
                 for ((out, f0), f1) in out.iter_mut().zip(self.internal_force).zip(&scratch.force) {
                     *out -= f0 * (1.0 - map.xi) + f1 * map.xi;
                 }
             }
             StressRule::Conserving => {
-                self.body.conserving_force(self.start, self.displacement, &mut scratch.force);
+                self.worked.conserving_force(self.start, self.displacement, &mut scratch.force);
                 out.iter_mut().zip(&scratch.force).for_each(|(out, f)| *out -= f);
             }
         }
         self.balance_massless(&scratch.force, &scratch.viscous, out);
     }
 
-    /// Writes M(g − (v₊ − v)/Δt) − C v̄ to `out`; C v̄ stays in `scratch`.
+    /// Writes M(g − (v₊ − v)/Δt) + F̄ − C v̄ to `out`; C v̄ stays in `scratch`.
     pub fn inertia_and_damping(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
         let map = self.map;
         for ((a, d), v) in scratch.velocity.iter_mut().zip(self.motion).zip(self.velocity) {
             *a = self.gravity - (map.end_velocity(v, d) - v) / map.dt;
         }
+        self.each_held(|n, i, rate| {
+            scratch.velocity[n][i] = self.gravity[i] - (rate - self.velocity[n][i]) / map.dt;
+        });
         self.body.mass().multiply(&scratch.velocity, out);
-        if self.body.damping().is_active() {
+        out.iter_mut().zip(&self.drive.mean).for_each(|(out, f)| *out += f);
+        if self.body.is_damped() {
             let viscous = self.viscous_force(scratch);
             out.iter_mut().zip(viscous).for_each(|(out, f)| *out -= f);
         }
@@ -139,7 +152,30 @@ impl<'a, const D: usize> BodyStep<'a, D> {
     pub fn balance_massless(&self, end: &[Vector<D>], viscous: &[Vector<D>], out: &mut [Vector<D>]) {
         for (&n, k) in self.body.massless().iter().zip(self.body.massless_stiffness()) {
             let n = n as usize;
-            out[n] = -(end[n] + viscous[n] + self.steadying_force(n, *k)) * self.map.xi;
+            let static_row =
+                -(end[n] + viscous[n] + self.steadying_force(n, *k) - self.end_load(n)) * self.map.xi;
+            // Supports see to what they hold as they do inside: over the whole step.
+            out[n] = self.body.held().free_part(n, &static_row) + self.body.held().part(n, &out[n]);
+        }
+    }
+
+    /// F̄ [N] at a node.
+    #[inline]
+    pub fn mean_load(&self, node: usize) -> Vector<D> {
+        self.drive.mean.get(node).copied().unwrap_or_else(Vector::zeros)
+    }
+
+    /// F₊ [N] at a node.
+    #[inline]
+    pub fn end_load(&self, node: usize) -> Vector<D> {
+        self.drive.end.get(node).copied().unwrap_or_else(Vector::zeros)
+    }
+
+    /// Calls `f` with node, component and v₊ of everything that is held.
+    #[inline]
+    fn each_held(&self, mut f: impl FnMut(usize, usize, f64)) {
+        for (dof, &rate) in self.body.held().dofs().iter().zip(&self.drive.rates) {
+            f(dof.node as usize, dof.component as usize, rate);
         }
     }
 
@@ -154,7 +190,7 @@ impl<'a, const D: usize> BodyStep<'a, D> {
         (self.motion[node] - expected * self.map.dt) * (STEADYING * stiffness)
     }
 
-    /// Writes v₊ [m/s] to `out`; a node without mass moves at the mean velocity of the step.
+    /// Writes v₊ [m/s] to `out`; a node without mass moves at the mean velocity of the step, and what is held as prescribed.
     pub fn end_velocity(&self, out: &mut [Vector<D>]) {
         for ((v1, v0), d) in out.iter_mut().zip(self.velocity).zip(self.motion) {
             *v1 = self.map.end_velocity(v0, d);
@@ -162,19 +198,20 @@ impl<'a, const D: usize> BodyStep<'a, D> {
         for n in self.body.massless().iter().map(|&n| n as usize) {
             out[n] = self.motion[n] / self.map.dt;
         }
+        self.each_held(|n, i, rate| out[n][i] = rate);
     }
 
-    /// Work of gravity and dissipation by damping over the step [J].
+    /// Work of gravity and loads and dissipation by damping over the step [J].
     pub fn external_and_viscous_work(&self, scratch: &mut ResidualScratch<D>) -> (f64, f64) {
-        let external = self.gravity.dot(&self.body.mean(self.motion)) * self.body.total_mass();
-        let damped = self.body.damping().is_active();
-        let viscous = if damped { dot(self.motion, self.viscous_force(scratch)) } else { 0.0 };
+        let mut external = self.gravity.dot(&self.body.mean(self.motion)) * self.body.total_mass();
+        external += self.drive.mean.iter().zip(self.motion).map(|(f, d)| f.dot(d)).sum::<f64>();
+        let viscous = if self.body.is_damped() { dot(self.motion, self.viscous_force(scratch)) } else { 0.0 };
         (external, viscous)
     }
 
-    /// The viscous force C v̄ [N]; zero without damping.
+    /// The viscous force C v̄ [N] of damping and viscosity; zero without.
     pub fn viscous_force<'s>(&self, scratch: &'s mut ResidualScratch<D>) -> &'s [Vector<D>] {
-        if self.body.damping().is_active() {
+        if self.body.is_damped() {
             let ResidualScratch { velocity, viscous, product, .. } = scratch;
             for ((mean, d), v) in velocity.iter_mut().zip(self.motion).zip(self.velocity) {
                 *mean = self.map.mean_velocity(v, d);
@@ -182,7 +219,11 @@ impl<'a, const D: usize> BodyStep<'a, D> {
             for n in self.body.massless().iter().map(|&n| n as usize) {
                 velocity[n] = self.motion[n] / self.map.dt;
             }
+            if !self.map.is_static() {
+                self.each_held(|n, i, _| velocity[n][i] = self.motion[n][i] / self.map.dt);
+            }
             self.body.damping_force(self.frame, velocity, viscous, product);
+            self.body.add_viscous_force(self.start, self.displacement, self.map.dt, viscous);
         }
         &scratch.viscous
     }

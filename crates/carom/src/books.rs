@@ -1,13 +1,14 @@
 //! The end of a step: the new state, and what happened to the energy.
 
-use carom_contact::{Candidate, Contact, Target};
+use carom_contact::{Candidate, Contact};
 use carom_friction::cone;
 use carom_mesh::Vector;
 
 use crate::body_step::BodyStep;
+use crate::drive::{load_body, support_work};
 use crate::error::StepError;
 use crate::ledger::BodyLedger;
-use crate::react::measure_rubbing;
+use crate::react::{driven, measure_rubbing};
 use crate::state::{Reaction, State, dot};
 use crate::workspace::{GroupReport, StepReport, Workspace};
 use crate::{Energies, Method, Model, StepMap};
@@ -29,7 +30,10 @@ pub(crate) fn commit<const D: usize>(
         report.blend = work.blend.largest_weight();
     }
     let nodes = model.node_count();
-    next.velocity[nodes..].copy_from_slice(&state.velocity[nodes..]);
+    for (v, motion) in next.velocity[nodes..].iter_mut().zip(&model.obstacle_motions) {
+        *v = motion.velocity(next.time);
+    }
+    next.support.fill(Vector::zeros());
     for i in 0..model.bodies.len() {
         close_body(model, method, state, next, map, work, i);
     }
@@ -39,7 +43,9 @@ pub(crate) fn commit<const D: usize>(
         report.ledger.kinetic += body.kinetic;
         report.ledger.strain += body.strain;
         report.ledger.external += body.external;
+        report.ledger.prescribed += body.prescribed;
         report.ledger.viscous += body.viscous;
+        report.ledger.plastic += body.plastic;
         report.ledger.scheme += body.scheme;
     }
     for group in &work.groups {
@@ -98,7 +104,10 @@ fn close_body<const D: usize>(
 ) {
     let b = &model.bodies[index];
     let nodes = b.nodes();
-    let step = BodyStep::new(model, b, map, &work.poses[index], state, &work.motion, &next.displacement);
+    load_body(model, state, next, map, work, index);
+    let drive = &work.drives[index];
+    let step =
+        BodyStep::new(model, index, map, &work.poses[index], drive, state, &work.motion, &next.displacement);
     let scratch = &mut work.residual_scratch[index];
     let (v0, v1) = (&state.velocity[nodes.clone()], &mut next.velocity[nodes.clone()]);
     step.end_velocity(v1);
@@ -108,19 +117,45 @@ fn close_body<const D: usize>(
         internal_force.copy_from_slice(&work.blend.end[nodes.clone()]);
         Some(work.blend.exchanged(index))
     } else {
-        b.body.internal_force(step.displacement, internal_force);
+        step.worked.internal_force(step.displacement, internal_force);
         None
     };
+    let held = b.body.held();
+    let weights = method.contact_weights(map);
+    let mut prescribed = 0.0;
+    if !held.is_empty() {
+        let residual = &mut work.residual[nodes.clone()];
+        if method.is_blended() {
+            work.blend.residual(model, index, &step, scratch, residual);
+        } else {
+            step.residual(scratch, residual);
+        }
+        let (change, product) = (&mut work.correction[nodes.clone()], &mut work.momentum[nodes.clone()]);
+        change.iter_mut().zip(&*v1).zip(v0).for_each(|((c, v1), v0)| *c = v1 - v0);
+        b.body.mass().multiply(change, product);
+        prescribed = support_work(&step, &drive.rates, residual, product);
+        for (dof, driver) in held.dofs().iter().zip(model.drivers(index)) {
+            let Some(k) = driver else { continue };
+            let (n, i) = (dof.node as usize, dof.component as usize);
+            let contact =
+                weights[0] * step.contact_force[n][i] + weights[1] * next.contact_force[b.first_node + n][i];
+            next.support[k][i] -= residual[n][i] + contact;
+        }
+    }
     let momentum = &mut work.momentum[nodes.clone()];
     b.body.mass().multiply(v1, momentum);
-    let energies =
-        Energies { kinetic: 0.5 * dot(v1, momentum), strain: b.body.strain_energy(step.displacement) };
+    let history = &mut next.history[index];
+    let plastic = step.worked.update(step.displacement, history);
+    let strain = b.body.after(history).strain_energy(step.displacement);
+    let energies = Energies { kinetic: 0.5 * dot(v1, momentum), strain };
     let (external, viscous) = step.external_and_viscous_work(scratch);
     let mut scheme = 0.0;
     if map.kinetic_dissipation != 0.0 {
         let jump = &mut work.correction[nodes.clone()];
         jump.iter_mut().zip(&*v1).zip(v0).for_each(|((j, v1), v0)| *j = v1 - v0);
         b.body.mass().multiply(jump, momentum);
+        // What is held moves as prescribed, not as the scheme would have it.
+        held.clear(jump);
         scheme += map.kinetic_dissipation * dot(jump, momentum);
     }
     if map.strain_dissipation != 0.0 {
@@ -128,15 +163,17 @@ fn close_body<const D: usize>(
         scheme += map.strain_dissipation * (dot(step.motion, internal_force) - dot(step.motion, start));
     }
     let contact = exchanged.unwrap_or_else(|| {
-        let [start, end] = method.contact_weights(map);
-        start * dot(step.motion, step.contact_force) + end * dot(step.motion, &next.contact_force[nodes])
+        let work_of = |force: &[Vector<D>]| dot(step.motion, force) - held.dot(step.motion, force);
+        weights[0] * work_of(step.contact_force) + weights[1] * work_of(&next.contact_force[nodes])
     });
     let before = state.body_energies[index];
     work.bodies[index] = BodyLedger {
         kinetic: energies.kinetic - before.kinetic,
         strain: energies.strain - before.strain,
         external,
+        prescribed,
         viscous,
+        plastic,
         scheme,
         contact,
     };
@@ -177,7 +214,10 @@ fn close_contacts<const D: usize>(
             book(&mut work.groups[c.group], contact, c.dissipation(weight));
         }
         next.excess.copy_from_slice(&state.excess);
-        let surplus = work.bodies.iter().map(|b| b.kinetic + b.strain + b.viscous - b.external);
+        let surplus = work
+            .bodies
+            .iter()
+            .map(|b| b.kinetic + b.strain + b.viscous + b.plastic - b.external - b.prescribed);
         work.blend.carry(surplus, &work.rubbing, &mut next.excess);
         return;
     }
@@ -190,7 +230,8 @@ fn close_contacts<const D: usize>(
             let motion = reaction.contact.relative(|n| work.motion[n]);
             let group = &mut work.groups[model.contact.pairs[reaction.pair as usize].group];
             group.ledger.normal_contact -= share * reaction.force[0] * motion[0];
-            group.ledger.prescribed += share * driven(model, reaction, &work.motion);
+            group.ledger.prescribed +=
+                share * driven(model, &reaction.contact, &reaction.force, &work.motion);
             let dissipation = -share * (1..D).map(|t| reaction.force[t] * motion[t]).sum::<f64>();
             book(group, &reaction.contact, dissipation);
         }
@@ -222,17 +263,6 @@ fn add_slip<const D: usize>(model: &Model<D>, next: &mut State<D>, work: &mut Wo
                 slip[node] += distance / weight;
             }
         });
-    }
-}
-
-/// Work [J] that the prescribed motion of an obstacle does with a reaction.
-fn driven<const D: usize>(model: &Model<D>, reaction: &Reaction<D>, motion: &[Vector<D>]) -> f64 {
-    match model.contact.pairs[reaction.pair as usize].target {
-        Target::Obstacle(o) => {
-            let travel = motion[model.contact.obstacles[o].node as usize];
-            reaction.force.dot(&(reaction.contact.frame * travel))
-        }
-        Target::Surface(_) => 0.0,
     }
 }
 

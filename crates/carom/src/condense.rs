@@ -68,6 +68,36 @@ impl<const D: usize> Compliance<D> {
     }
 }
 
+/// A direction along a facet that yields less than this, relative to the normal, is held.
+const RIGID: f64 = 1e-9;
+/// What a held direction yields in W, relative to the normal, where the contact does not slide along it, and where it does: any
+/// number serves, as no force moves it, so long as what is there of sliding decides the friction.
+const HELD_COMPLIANCE: [f64; 2] = [1.0, 1e-3];
+/// Sliding below this, relative to the motion of the contact, is round-off.
+const NO_SLIDING: f64 = 1e-9;
+
+/// Makes the compliance of a contact regular where supports hold its nodes along the facet and W would be singular.
+fn support<const D: usize>(model: &Model<D>, contact: &Contact<D>, q: &Vector<D>, block: &mut Matrix<D>) {
+    for (node, _) in contact.stencil() {
+        let Some(&b) = model.body_of_node.get(node) else { continue };
+        let b = &model.bodies[b as usize];
+        let held = b.body.held();
+        if !held.touches(node - b.first_node) {
+            continue;
+        }
+        for component in (0..D).filter(|&i| held.holds(node - b.first_node, i)) {
+            let mut along: Vector<D> = contact.frame.column(component).into();
+            along[0] = 0.0;
+            let Some(along) = along.try_normalize(RIGID) else { continue };
+            if along.dot(&(*block * along)) < RIGID * block[(0, 0)] {
+                let slides = along.dot(q).abs() > NO_SLIDING * q.amax();
+                let compliance = HELD_COMPLIANCE[usize::from(slides)] * block[(0, 0)];
+                *block += along * along.transpose() * compliance;
+            }
+        }
+    }
+}
+
 /// Writes W, q and μ of `contacts` to `problem`.
 ///
 /// `motion` is the nodal motion d that the step would make without reactions, `offsets` what the normal components lack of the
@@ -116,6 +146,9 @@ pub(crate) fn condense<const D: usize>(
                     block += row.frame * turn * response * turn.transpose() * column.frame.transpose();
                     coupled = true;
                 }
+            }
+            if i == j {
+                support(model, row, &q, &mut block);
             }
             coupled.then_some((j, block))
         }));

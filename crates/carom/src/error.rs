@@ -55,6 +55,15 @@ pub enum StepError {
         /// The widest margin tried [m].
         margin: f64,
     },
+    /// In a static analysis nothing keeps a body where it is.
+    #[error(
+        "body {body:?} is not held: neither supports nor contact resist the forces on it; fix what would move, start it in \
+         contact, or give friction"
+    )]
+    NotHeld {
+        /// The body.
+        body: String,
+    },
     /// Something was not a finite number.
     #[error("the {0} is not finite")]
     NotFinite(&'static str),

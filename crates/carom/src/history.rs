@@ -52,6 +52,7 @@ impl<const D: usize> History<D> {
             "total",
             "friction",
             "viscous",
+            "plastic",
             "scheme",
             "normal_contact",
             "external",
@@ -88,6 +89,9 @@ impl<const D: usize> History<D> {
             ]
             .map(String::from),
         );
+        for m in &model.motions {
+            columns.extend(axes.iter().map(|a| format!("{}.force_{a}", m.name)));
+        }
         for t in &tracks {
             for quantity in ["u", "v", "vmid"] {
                 columns.extend(axes.iter().map(|a| format!("{}.{quantity}_{a}", t.name)));
@@ -148,6 +152,7 @@ impl<const D: usize> History<D> {
             e.total(),
             ledger.friction,
             ledger.viscous,
+            ledger.plastic,
             ledger.scheme,
             ledger.normal_contact,
             ledger.external,
@@ -192,6 +197,7 @@ impl<const D: usize> History<D> {
             since.blend,
             since.step_defect,
         ]);
+        state.support.iter().for_each(|force| self.rows.extend(force.iter()));
         for (t, trail) in self.tracks.iter().zip(&self.trails) {
             self.rows.extend(state.displacement[t.node].iter());
             self.rows.extend(state.velocity[t.node].iter());

@@ -31,7 +31,7 @@ impl Sum for Energies {
 
 /// What happened to the energy of a body in a step, or since the start [J]:
 ///
-/// ΔE_kinetic + ΔE_strain = external + contact − viscous − scheme + defect.
+/// ΔE_kinetic + ΔE_strain = external + prescribed + contact − viscous − plastic − scheme + defect.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct BodyLedger {
     /// Change of kinetic energy.
@@ -40,11 +40,15 @@ pub struct BodyLedger {
     pub strain: f64,
     /// Work of gravity and loads.
     pub external: f64,
-    /// Dissipated by damping.
+    /// Work of its supports, less that of the contacts that press on them.
+    pub prescribed: f64,
+    /// Dissipated by damping and viscosity.
     pub viscous: f64,
+    /// Plastic work ∫ σ_y dα.
+    pub plastic: f64,
     /// Dissipated by the time scheme's own algebra.
     pub scheme: f64,
-    /// Received through contact: the work of the contact forces on the body.
+    /// Received through contact: the work of the contact forces on what of the body is free.
     pub contact: f64,
 }
 
@@ -52,7 +56,10 @@ impl BodyLedger {
     /// What the other terms do not explain [J].
     #[must_use]
     pub fn defect(&self) -> f64 {
-        self.kinetic + self.strain - self.external - self.contact + self.viscous + self.scheme
+        self.kinetic + self.strain - self.external - self.prescribed - self.contact
+            + self.viscous
+            + self.plastic
+            + self.scheme
     }
 }
 
@@ -61,7 +68,9 @@ impl AddAssign for BodyLedger {
         self.kinetic += step.kinetic;
         self.strain += step.strain;
         self.external += step.external;
+        self.prescribed += step.prescribed;
         self.viscous += step.viscous;
+        self.plastic += step.plastic;
         self.scheme += step.scheme;
         self.contact += step.contact;
     }
@@ -69,7 +78,7 @@ impl AddAssign for BodyLedger {
 
 /// What happened to the energy in a step, or since the start [J]. Every term is computed from its own definition:
 ///
-/// ΔE_kinetic + ΔE_strain = external + prescribed − friction − viscous − scheme − normal_contact + defect.
+/// ΔE_kinetic + ΔE_strain = external + prescribed − friction − viscous − plastic − scheme − normal_contact + defect.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Ledger {
     /// Change of kinetic energy.
@@ -78,12 +87,14 @@ pub struct Ledger {
     pub strain: f64,
     /// Work of gravity and loads.
     pub external: f64,
-    /// Work of prescribed motion: of obstacles that move.
+    /// Work of prescribed motion: of supports and of obstacles that move.
     pub prescribed: f64,
     /// Dissipated by friction: −Σ r_t·Δu_t ≥ 0.
     pub friction: f64,
-    /// Dissipated by damping: Δu·C v̄.
+    /// Dissipated by damping and viscosity: Δu·C v̄.
     pub viscous: f64,
+    /// Plastic work ∫ σ_y dα ≥ 0.
+    pub plastic: f64,
     /// Dissipated by the time scheme's own algebra (θ, ξ > ½).
     pub scheme: f64,
     /// Taken by normal reactions: −Σ r_n Δu_n.
@@ -97,6 +108,7 @@ impl Ledger {
         self.kinetic + self.strain - self.external - self.prescribed
             + self.friction
             + self.viscous
+            + self.plastic
             + self.scheme
             + self.normal_contact
     }
@@ -110,6 +122,7 @@ impl AddAssign for Ledger {
         self.prescribed += step.prescribed;
         self.friction += step.friction;
         self.viscous += step.viscous;
+        self.plastic += step.plastic;
         self.scheme += step.scheme;
         self.normal_contact += step.normal_contact;
     }
@@ -122,7 +135,7 @@ pub struct PairLedger {
     pub friction: f64,
     /// Taken by normal reactions.
     pub normal_contact: f64,
-    /// Work of the prescribed motion of its obstacle.
+    /// Work of prescribed motion through its contacts: of its obstacle, or of supports that are pressed on.
     pub prescribed: f64,
     /// Whether there was a reaction.
     pub has_touched: bool,

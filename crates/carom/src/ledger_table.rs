@@ -3,7 +3,7 @@ use crate::Books;
 /// The books over time, a row per body and per pair that has touched.
 ///
 /// A row is: time [s]; entry, the index of the body or, after the bodies, of the pair; and what happened since the start [J]:
-/// kinetic, strain, external, viscous, scheme, contact, friction, normal_contact, prescribed, defect. What does not belong to an entry is NaN.
+/// kinetic, strain, external, viscous, plastic, scheme, contact, friction, normal_contact, prescribed, defect. What does not belong to an entry is NaN.
 #[derive(Debug, Default)]
 pub struct LedgerTable {
     rows: Vec<f64>,
@@ -11,19 +11,19 @@ pub struct LedgerTable {
 
 impl LedgerTable {
     /// Numbers in a row.
-    pub const WIDTH: usize = 12;
+    pub const WIDTH: usize = 13;
 
     /// Appends the rows of a moment [s].
     pub(crate) fn record(&mut self, time: f64, books: &Books) {
         let none = f64::NAN;
         for (i, b) in books.bodies.iter().enumerate() {
-            self.rows
-                .extend([time, i as f64, b.kinetic, b.strain, b.external, b.viscous, b.scheme, b.contact]);
-            self.rows.extend([none, none, none, b.defect()]);
+            self.rows.extend([time, i as f64, b.kinetic, b.strain, b.external]);
+            self.rows.extend([b.viscous, b.plastic, b.scheme, b.contact]);
+            self.rows.extend([none, none, b.prescribed, b.defect()]);
         }
         for (i, p) in books.pairs.iter().enumerate().filter(|(_, p)| p.has_touched) {
             self.rows.extend([time, (books.bodies.len() + i) as f64]);
-            self.rows.extend([none; 6]);
+            self.rows.extend([none; 7]);
             self.rows.extend([p.friction, p.normal_contact, p.prescribed, none]);
         }
     }

@@ -1,30 +1,45 @@
 //! The iteration matrix K̄ of each body.
 
-use carom_fem::Body;
 use carom_fem::sparse::{Factor, NodalMatrix};
+use carom_fem::{Body, Held, Worked};
 use carom_mesh::{Matrix, Vector};
 
 use crate::StepMap;
 use crate::body_step::STEADYING;
 use crate::error::StepError;
 
+/// Share of the square of the lowest elastic frequency, by its scale c/L, that stands in for inertia where nothing else keeps K̄
+/// from being singular: far below what a contact resists with, far above round-off.
+const PROXIMAL: f64 = 1e-4;
+
+/// The factor of M [1/s²] that makes K̄ of a loose body regular in a static analysis; 0 where supports hold it.
+///
+/// It is in K̄ alone, never in a residual: each iteration is held back towards the last guess, and the solution is the same.
+fn proximal_coefficient<const D: usize>(body: &Body<D>) -> f64 {
+    if body.is_loose() { PROXIMAL * (body.wave_speed() / body.mesh().diameter()).powi(2) } else { 0.0 }
+}
+
 /// The factor of K̄ = ξ K + ξ/(θΔt) C + M/(θΔt²) (3) of one body.
 ///
 /// Reactions never enter K̄, so bodies are uncoupled in it and one factor serves for many steps: it is made in one
 /// configuration and applied in the frame that turns with the body since (M is isotropic and an objective law turns its
 /// stiffness along). Newton's iterations then converge linearly but fast, and the factor is renewed where they do not. Tied nodes are its affair
-/// alone: it takes and gives vectors of all nodes (see [`Factor`]), and what starts equal at two of them stays so.
+/// alone: it takes and gives vectors of all nodes (see [`Factor`]), and what starts equal at two of them stays so. Held displacements
+/// have rows of their own in K̄: forces on them move nothing. As they are held in the axes of space, such a body's factor does not turn.
 #[derive(Debug)]
 pub(crate) struct BodyOperator<const D: usize> {
     factor: Factor<D>,
-    /// The map that K̄ was made for.
-    map: Option<StepMap>,
+    /// The factors of K, C and M that K̄ was made with.
+    coefficients: Option<[f64; 3]>,
+    /// What a body that its supports leave loose has in place of inertia in a static analysis [1/s²].
+    proximal: f64,
     /// Frame of the body in the configuration of K.
     factor_frame: Matrix<D>,
     /// Rotation since then.
     turn: Matrix<D>,
     /// Grows with every factorisation, so that what was derived from a factor knows when it is stale.
     pub generation: u64,
+    held: Held,
     scratch: Vec<Vector<D>>,
 }
 
@@ -32,17 +47,30 @@ impl<const D: usize> BodyOperator<D> {
     pub fn new(body: &Body<D>) -> Result<Self, StepError> {
         Ok(Self {
             factor: Factor::new(body.graph(), body.mesh().ties())?,
-            map: None,
+            coefficients: None,
+            proximal: proximal_coefficient(body),
             factor_frame: Matrix::identity(),
             turn: Matrix::identity(),
             generation: 0,
+            held: body.held().clone(),
             scratch: vec![Vector::zeros(); body.node_count()],
         })
     }
 
     /// Whether the factor belongs to steps like `map`.
     pub fn fits(&self, map: &StepMap) -> bool {
-        self.factor.is_factorized() && self.map == Some(*map)
+        self.factor.is_factorized() && self.coefficients == Some(self.coefficients(map))
+    }
+
+    /// The factors of K, C and M in K̄.
+    fn coefficients(&self, map: &StepMap) -> [f64; 3] {
+        let mass = if map.is_static() { self.proximal } else { map.mass_coefficient() };
+        [map.stiffness_coefficient(), map.damping_coefficient(), mass]
+    }
+
+    /// Whether only contact, or nothing, keeps the body from moving rigidly.
+    pub fn is_loose(&self) -> bool {
+        self.proximal > 0.0
     }
 
     /// Makes the factor with the stiffness at `u`, where the frame of the body is `frame`.
@@ -51,13 +79,18 @@ impl<const D: usize> BodyOperator<D> {
     /// reference configuration, turned, serves there: slower, but it never is.
     pub fn factorize(
         &mut self,
-        body: &Body<D>,
+        worked: &Worked<'_, D>,
         map: &StepMap,
         u: &[Vector<D>],
         frame: &Matrix<D>,
     ) -> Result<(), StepError> {
-        self.factorize_at(body, map, u, frame).or_else(|_| {
-            self.factorize_at(body, map, &vec![Vector::zeros(); u.len()], &Matrix::identity())?;
+        self.factorize_at(worked, map, u, frame).or_else(|_| {
+            self.factorize_at(
+                &worked.body.after(&[]),
+                map,
+                &vec![Vector::zeros(); u.len()],
+                &Matrix::identity(),
+            )?;
             self.turn_to(frame);
             Ok(())
         })
@@ -65,30 +98,38 @@ impl<const D: usize> BodyOperator<D> {
 
     fn factorize_at(
         &mut self,
-        body: &Body<D>,
+        worked: &Worked<'_, D>,
         map: &StepMap,
         u: &[Vector<D>],
         frame: &Matrix<D>,
     ) -> Result<(), StepError> {
-        let mut stiffness = body.stiffness(u);
+        let body = worked.body;
+        let mut stiffness = worked.stiffness(u);
         for (&n, k) in body.massless().iter().zip(body.massless_stiffness()) {
             stiffness.values[body.graph().entry(n, n)] += Matrix::from_diagonal_element(STEADYING * k);
         }
-        let (k, c, m) = (map.stiffness_coefficient(), map.damping_coefficient(), map.mass_coefficient());
+        let coefficients = self.coefficients(map);
+        let [k, c, m] = coefficients;
         let damping = body.damping();
         let mass_coefficient = m + c * damping.mass;
         let mass: &NodalMatrix<f64> = body.mass();
         let damping_stiffness = body.damping_stiffness();
-        self.map = None;
-        self.factor.factorize(|entry| {
-            let mut block = stiffness.values[entry] * k
-                + Matrix::from_diagonal_element(mass.values[entry] * mass_coefficient);
+        // The force of viscosity is that of the mean rate of the step, d/Δt, whatever the scheme.
+        let viscosity = body.viscosity(u);
+        self.coefficients = None;
+        for (entry, block) in stiffness.values.iter_mut().enumerate() {
+            *block *= k;
+            *block += Matrix::from_diagonal_element(mass.values[entry] * mass_coefficient);
             if let Some(k0) = damping_stiffness {
-                block += frame * k0.values[entry] * frame.transpose() * (c * damping.stiffness);
+                *block += frame * k0.values[entry] * frame.transpose() * (c * damping.stiffness);
             }
-            block
-        })?;
-        self.map = Some(*map);
+            if let Some(viscosity) = &viscosity {
+                *block += viscosity.values[entry] / map.dt;
+            }
+        }
+        self.held.uncouple(&mut stiffness);
+        self.factor.factorize(|entry| stiffness.values[entry])?;
+        self.coefficients = Some(coefficients);
         self.factor_frame = *frame;
         self.turn = Matrix::identity();
         self.generation += 1;
@@ -97,7 +138,9 @@ impl<const D: usize> BodyOperator<D> {
 
     /// Follows the body, whose frame is now `frame`.
     pub fn turn_to(&mut self, frame: &Matrix<D>) {
-        self.turn = frame * self.factor_frame.transpose();
+        if self.held.is_empty() {
+            self.turn = frame * self.factor_frame.transpose();
+        }
     }
 
     /// The rotation of the body since the factor was made.
@@ -105,11 +148,12 @@ impl<const D: usize> BodyOperator<D> {
         &self.turn
     }
 
-    /// Overwrites `x` with K̄⁻¹ x.
+    /// Overwrites `x` with K̄⁻¹ x; zero where displacements are held.
     pub fn solve(&mut self, x: &mut [Vector<D>]) {
         for (s, x) in self.scratch.iter_mut().zip(x.iter()) {
             *s = self.turn.tr_mul(x);
         }
+        self.held.clear(&mut self.scratch);
         self.factor.solve(&mut self.scratch);
         for (s, x) in self.scratch.iter().zip(x) {
             *x = self.turn * s;
@@ -118,6 +162,7 @@ impl<const D: usize> BodyOperator<D> {
 
     /// Overwrites `x` with the factor's solution, in the frame of the factor.
     pub fn solve_in_factor_frame(&mut self, x: &mut [Vector<D>]) {
+        self.held.clear(x);
         self.factor.solve(x);
     }
 }

@@ -3,7 +3,8 @@ use carom_fem::Body;
 use carom_friction::{FrictionSolver, StoppingRule};
 use carom_mesh::Vector;
 
-use crate::{ContactCondition, Scheme, StepMap};
+use crate::motion::Drivers;
+use crate::{ContactCondition, Dual, Load, Motion, ObstacleMotion, Scheme, StepMap};
 
 /// A body in its place in the model.
 #[derive(Debug)]
@@ -47,8 +48,14 @@ pub struct Model<const D: usize> {
     /// Reference positions of all nodes [m]; after those of the bodies, zero for every obstacle, whose displacement says how far
     /// it has moved.
     pub reference: Vec<Vector<D>>,
-    /// Velocities of the obstacles [m/s].
-    pub obstacle_velocities: Vec<Vector<D>>,
+    /// How the obstacles move.
+    pub obstacle_motions: Vec<ObstacleMotion<D>>,
+    /// Prescribed motion of nodes.
+    pub motions: Vec<Motion<D>>,
+    /// What drives the held displacements of every body.
+    drivers: Vec<Drivers>,
+    /// The loads of every body.
+    pub loads: Vec<Vec<Load<D>>>,
     /// The body that each node belongs to.
     pub body_of_node: Vec<u32>,
     /// Diameter of the largest body [m].
@@ -76,7 +83,10 @@ impl<const D: usize> Model<D> {
                 .flat_map(|b| b.body.mesh().nodes().iter().copied())
                 .chain(fixed)
                 .collect(),
-            obstacle_velocities: vec![Vector::zeros(); contact.obstacles.len()],
+            obstacle_motions: vec![ObstacleMotion::Velocity(Vector::zeros()); contact.obstacles.len()],
+            motions: Vec::new(),
+            drivers: bodies.iter().map(|b| Drivers(vec![None; b.body.held().dofs().len()])).collect(),
+            loads: bodies.iter().map(|_| Vec::new()).collect(),
             body_of_node: bodies
                 .iter()
                 .enumerate()
@@ -90,12 +100,56 @@ impl<const D: usize> Model<D> {
         }
     }
 
-    /// The same with obstacles that move at these velocities [m/s].
+    /// The same with obstacles that move like this.
     #[must_use]
-    pub fn with_obstacle_velocities(mut self, velocities: Vec<Vector<D>>) -> Self {
-        assert_eq!(velocities.len(), self.contact.obstacles.len(), "one velocity per obstacle");
-        self.obstacle_velocities = velocities;
+    pub fn with_obstacle_motions(mut self, motions: Vec<ObstacleMotion<D>>) -> Self {
+        assert_eq!(motions.len(), self.contact.obstacles.len(), "one motion per obstacle");
+        self.obstacle_motions = motions;
         self
+    }
+
+    /// The same with these prescribed motions instead of its own. Of two that prescribe the same displacement the first has it.
+    #[must_use]
+    pub fn with_motions(mut self, motions: Vec<Motion<D>>) -> Self {
+        let bodies = self.bodies.iter_mut().enumerate();
+        self.drivers = bodies.map(|(i, b)| Drivers::of(i, b, &motions)).collect();
+        self.motions = motions;
+        self
+    }
+
+    /// The same with one more load on body `index`.
+    #[must_use]
+    pub fn with_load(mut self, index: usize, load: Load<D>) -> Self {
+        self.loads[index].push(load);
+        self
+    }
+
+    /// The motion that drives each held displacement of body `index`, in the order of `Body::held`; none where symmetry holds it.
+    pub(crate) fn drivers(&self, index: usize) -> impl Iterator<Item = Option<usize>> + '_ {
+        self.drivers[index].0.iter().map(|driver| driver.map(|k| k as usize))
+    }
+
+    /// Displacement [m] and velocity [m/s] that motion `k` prescribes to a component at time `t` [s].
+    pub(crate) fn signal(&self, k: usize, component: usize, t: f64) -> Dual {
+        self.motions[k].components[component].as_ref().map_or_else(Dual::default, |signal| signal.at(t))
+    }
+
+    /// The part of a vector at a node of the model that is prescribed: all of it at obstacles.
+    #[inline]
+    pub(crate) fn prescribed_part(&self, node: usize, v: &Vector<D>) -> Vector<D> {
+        match self.body_of_node.get(node) {
+            Some(&b) => {
+                let b = &self.bodies[b as usize];
+                b.body.held().part(node - b.first_node, v)
+            }
+            None => *v,
+        }
+    }
+
+    /// The part of a vector at a node of the model that can answer to a force: nothing of it at obstacles.
+    #[inline]
+    pub(crate) fn free_part(&self, node: usize, v: &Vector<D>) -> Vector<D> {
+        v - self.prescribed_part(node, v)
     }
 
     /// Lengths below this are round-off of the coordinates [m].

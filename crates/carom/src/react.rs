@@ -1,6 +1,6 @@
 //! The contacts at the present guess, and their reactions.
 
-use carom_contact::{Contact, Target};
+use carom_contact::Contact;
 use carom_mesh::Vector;
 
 use crate::blend::Rubbing;
@@ -26,6 +26,20 @@ pub(crate) fn evaluate_contacts<const D: usize>(
     model.contact.evaluate_all(&work.candidates, &position, &mut work.mortar, &mut work.contacts);
 }
 
+/// Work [J] that prescribed motion does through a contact with the reaction `r`: of an obstacle that moves, and of what supports
+/// hold of the nodes around.
+pub(crate) fn driven<const D: usize>(
+    model: &Model<D>,
+    contact: &Contact<D>,
+    r: &Vector<D>,
+    motion: &[Vector<D>],
+) -> f64 {
+    let travel = contact.stencil().fold(Vector::zeros(), |sum: Vector<D>, (node, weight)| {
+        sum - model.prescribed_part(node, &motion[node]) * weight
+    });
+    r.dot(&(contact.frame * travel))
+}
+
 /// What the contacts mean for the balance of their bodies: those of the step, and those that it starts with and loses.
 pub(crate) fn measure_rubbing<const D: usize>(
     model: &Model<D>,
@@ -39,13 +53,7 @@ pub(crate) fn measure_rubbing<const D: usize>(
     let rubbing = |pair: u32, contact: &Contact<D>, start: Vector<D>, end: Vector<D>| {
         let pair = &model.contact.pairs[pair as usize];
         let w = contact.relative(|n| motion[n]);
-        let driven = match pair.target {
-            Target::Obstacle(o) => {
-                let travel = contact.frame * motion[model.contact.obstacles[o].node as usize];
-                [start.dot(&travel), end.dot(&travel)]
-            }
-            Target::Surface(_) => [0.0; 2],
-        };
+        let driven = [start, end].map(|r| driven(model, contact, &r, motion));
         Rubbing {
             group: pair.group,
             source: pair.source,

@@ -1,13 +1,17 @@
 //! The scenario as data: what the case file and the Python objects describe. Field names are those of the case file.
 
+mod drive;
+
 use std::collections::BTreeMap;
 
 use carom_contact::Discretisation;
-use carom_fem::material::LawSpec;
+use carom_fem::material::{LawSpec, Viscosity};
 pub use carom_fem::{Formulation, Hypothesis};
 use carom_fem::{MassKind, RayleighDamping};
 use carom_friction::SolverKind;
 use serde::{Deserialize, Serialize};
+
+pub use drive::{Axis, Displacement, LoadEntry, LoadSpec, MotionEntry, MotionSpec};
 
 pub use crate::mesh_spec::{Cell, MeshSpec};
 use crate::{ContactCondition, Scheme};
@@ -32,6 +36,12 @@ pub struct Scenario {
     /// Rigid obstacles.
     #[serde(default)]
     pub obstacles: Vec<ObstacleEntry>,
+    /// Forces on bodies.
+    #[serde(default)]
+    pub loads: Vec<LoadEntry>,
+    /// Prescribed motion of parts of bodies.
+    #[serde(default)]
+    pub motions: Vec<MotionEntry>,
     /// Contact.
     pub contact: ContactSpec,
 }
@@ -45,7 +55,8 @@ pub struct Analysis {
     pub end_time: f64,
     /// Length of a step [s].
     pub time_step: f64,
-    /// Time scheme.
+    /// Time scheme of a dynamic analysis.
+    #[serde(default = "none")]
     pub scheme: Scheme,
     /// Newton's iterations.
     pub newton: NewtonSpec,
@@ -56,11 +67,14 @@ pub struct Analysis {
 }
 
 /// Kinds of analysis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum AnalysisKind {
     /// Motion in time.
+    #[default]
     Dynamic,
+    /// Balance of forces, step by step.
+    Static,
 }
 
 /// When Newton's iterations stop.
@@ -108,6 +122,9 @@ pub struct MaterialSpec {
     /// Damping.
     #[serde(default)]
     pub damping: RayleighDamping,
+    /// Kelvin–Voigt viscosity.
+    #[serde(default)]
+    pub viscosity: Viscosity,
 }
 
 /// A deformable body.
@@ -164,6 +181,9 @@ pub struct ObstacleEntry {
     /// Velocity [m/s]; none if not given.
     #[serde(default)]
     pub velocity: Option<Vec<f64>>,
+    /// Displacement [m], in place of a velocity.
+    #[serde(default)]
+    pub motion: Option<Displacement>,
     /// Shape.
     #[serde(flatten)]
     pub shape: ObstacleShape,
@@ -295,6 +315,10 @@ pub struct PairEntry {
     /// Whether the two may touch at all.
     #[serde(default = "yes")]
     pub enabled: bool,
+}
+
+fn none() -> Scheme {
+    Scheme::Static
 }
 
 fn two() -> usize {

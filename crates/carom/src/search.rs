@@ -1,11 +1,14 @@
 //! Which contacts take part in a step.
 
-use carom_contact::{Pair, Target};
+use carom_contact::{Contact, Pair, Target};
 use carom_mesh::Vector;
 
 use crate::state::{Reaction, State};
 use crate::workspace::Workspace;
 use crate::{Method, Model, StepMap};
+
+/// A contact of which less than this fraction of the normal is free has nothing to move.
+const UNRESPONSIVE: f64 = 1e-6;
 
 /// Finds the candidates of the step between its start and the predicted end.
 pub(crate) fn search<const D: usize>(
@@ -35,10 +38,11 @@ pub(crate) fn select_active<const D: usize>(
     work.searched.extend(work.candidates.iter().map(|c| (c.pair, c.node)));
     work.start_gaps.clear();
     contact.evaluate_all(&work.candidates, &start, &mut work.mortar, &mut work.contacts);
-    let mut gaps = work.contacts.iter().map(|c| c.gap);
+    let mut at_starts = work.contacts.iter();
     work.candidates.retain(|c| {
-        let gap = gaps.next().unwrap_or(f64::INFINITY);
-        let active = !c.mirrored && method.condition.is_active(gap);
+        let Some(at_start) = at_starts.next() else { return false };
+        let gap = at_start.gap;
+        let active = !c.mirrored && method.condition.is_active(gap) && answers(model, at_start);
         if active {
             work.start_gaps.push(if contact.is_two_sided(c.pair as usize) { gap.min(0.0) } else { 0.0 });
         }
@@ -68,6 +72,12 @@ pub(crate) fn select_active<const D: usize>(
             touch(&mut work.touched, &contact.pairs[reaction.pair as usize]);
         }
     }
+}
+
+/// Whether a normal reaction could move anything: not where both sides are prescribed, as where a support stands on an obstacle.
+fn answers<const D: usize>(model: &Model<D>, contact: &Contact<D>) -> bool {
+    let normal = contact.frame.row(0).transpose();
+    contact.stencil().any(|(n, weight)| (model.free_part(n, &normal) * weight).norm() > UNRESPONSIVE)
 }
 
 fn touch(touched: &mut [bool], pair: &Pair) {

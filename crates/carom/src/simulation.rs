@@ -42,6 +42,8 @@ pub struct Simulation<const D: usize> {
     end_time: f64,
     steps: u64,
     step: u64,
+    /// How often the steps of a static analysis are halved at present.
+    halvings: u32,
     history_every: f64,
     history_rows: u64,
     last_recorded: Option<f64>,
@@ -119,8 +121,10 @@ pub struct EnergySummary {
     pub strain: f64,
     /// Dissipated by friction.
     pub friction: f64,
-    /// Dissipated by damping.
+    /// Dissipated by damping and viscosity.
     pub viscous: f64,
+    /// Plastic work.
+    pub plastic: f64,
     /// Dissipated by the time scheme.
     pub scheme: f64,
     /// Taken by normal reactions.
@@ -277,6 +281,7 @@ impl<const D: usize> Simulation<D> {
             end_time: end,
             steps,
             step: 0,
+            halvings: 0,
             history_every: scenario.output.history_every,
             history_rows: 0,
             last_recorded: None,
@@ -455,6 +460,7 @@ impl<const D: usize> Simulation<D> {
             cross_checks,
             initial_energies,
             last_step,
+            halvings,
             ..
         } = self;
         let mut previous_time = state.time;
@@ -469,6 +475,7 @@ impl<const D: usize> Simulation<D> {
             length,
             work,
             &mut failed,
+            halvings,
             |state, report, work| {
                 books.add(report.ledger, &work.bodies, work.groups.iter().map(|g| g.ledger));
                 books.set_changes(initial_energies, &state.body_energies);
@@ -566,7 +573,8 @@ impl<const D: usize> Simulation<D> {
                 .model
                 .bodies
                 .iter()
-                .flat_map(|b| b.body.cell_states(&s.displacement[b.nodes()]))
+                .zip(&s.history)
+                .flat_map(|(b, history)| b.body.after(history).cell_states(&s.displacement[b.nodes()]))
                 .collect(),
         }
     }
@@ -590,6 +598,7 @@ impl<const D: usize> Simulation<D> {
                 strain: e.strain,
                 friction: l.friction,
                 viscous: l.viscous,
+                plastic: l.plastic,
                 scheme: l.scheme,
                 normal_contact: l.normal_contact,
                 prescribed: l.prescribed,

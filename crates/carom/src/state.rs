@@ -1,4 +1,5 @@
 use carom_contact::Contact;
+use carom_fem::material::PlasticState;
 use carom_mesh::Vector;
 
 use crate::{Energies, Model};
@@ -39,6 +40,10 @@ pub struct State<const D: usize> {
     pub contact_force: Vec<Vector<D>>,
     /// What friction has dissipated at every node since the start [J], half of it on either side of a contact.
     pub friction_energy: Vec<f64>,
+    /// What the supports of every motion pressed on their nodes in the last step [N].
+    pub support: Vec<Vector<D>>,
+    /// What the material of every body remembers, quadrature point by quadrature point; nothing where it is elastic.
+    pub history: Vec<Vec<PlasticState>>,
     /// How far every node has slid along what it touches since the start [m], whichever way; where it touches several, their mean.
     pub slip: Vec<f64>,
     /// Internal forces ∂E/∂u [N] at `displacement`, kept because every step starts with them.
@@ -53,7 +58,7 @@ pub struct State<const D: usize> {
 
 impl<const D: usize> State<D> {
     /// The state at t = 0 with these velocities of the nodes of all bodies, and the bodies in their reference configuration. Tied nodes start as their
-    /// masters do.
+    /// masters do, and what is prescribed as prescribed.
     #[must_use]
     pub fn initial(model: &Model<D>, mut velocity: Vec<Vector<D>>) -> Self {
         for b in &model.bodies {
@@ -62,7 +67,14 @@ impl<const D: usize> State<D> {
             }
         }
         assert_eq!(velocity.len(), model.node_count(), "one velocity per node");
-        velocity.extend(&model.obstacle_velocities);
+        for (i, b) in model.bodies.iter().enumerate() {
+            for (dof, driver) in b.body.held().dofs().iter().zip(model.drivers(i)) {
+                let component = dof.component as usize;
+                velocity[b.first_node + dof.node as usize][component] =
+                    driver.map_or(0.0, |k| model.signal(k, component, 0.0).rate);
+            }
+        }
+        velocity.extend(model.obstacle_motions.iter().map(|m| m.velocity(0.0)));
         let zeros = vec![Vector::zeros(); velocity.len()];
         let mut state = Self {
             time: 0.0,
@@ -71,6 +83,8 @@ impl<const D: usize> State<D> {
             reactions: Vec::new(),
             contact_force: zeros.clone(),
             friction_energy: vec![0.0; zeros.len()],
+            support: vec![Vector::zeros(); model.motions.len()],
+            history: model.bodies.iter().map(|b| b.body.virgin()).collect(),
             slip: vec![0.0; zeros.len()],
             internal_force: zeros,
             energies: Energies::default(),
@@ -84,11 +98,12 @@ impl<const D: usize> State<D> {
     /// Recomputes forces and energies from displacements and velocities.
     pub(crate) fn refresh(&mut self, model: &Model<D>) {
         let mut momentum = vec![Vector::zeros(); self.velocity.len()];
-        for (b, energies) in model.bodies.iter().zip(&mut self.body_energies) {
+        for ((b, energies), history) in model.bodies.iter().zip(&mut self.body_energies).zip(&self.history) {
             let nodes = b.nodes();
-            b.body.internal_force(&self.displacement[nodes.clone()], &mut self.internal_force[nodes.clone()]);
+            let worked = b.body.after(history);
+            worked.internal_force(&self.displacement[nodes.clone()], &mut self.internal_force[nodes.clone()]);
             b.body.mass().multiply(&self.velocity[nodes.clone()], &mut momentum[nodes.clone()]);
-            energies.strain = b.body.strain_energy(&self.displacement[nodes.clone()]);
+            energies.strain = worked.strain_energy(&self.displacement[nodes.clone()]);
             energies.kinetic = 0.5 * dot(&self.velocity[nodes.clone()], &momentum[nodes]);
         }
         self.energies = self.body_energies.iter().copied().sum();

@@ -5,6 +5,7 @@ use carom_mesh::tensor;
 use crate::body_step::{BodyStep, Pose, predicted_motion};
 use crate::books::commit;
 use crate::cross_check::cross_check;
+use crate::drive::{load_body, prescribe};
 use crate::error::StepError;
 use crate::react::{evaluate_contacts, measure_rubbing, react};
 use crate::search::{missed_a_contact, search, select_active};
@@ -20,6 +21,12 @@ const MAX_SEARCHES: usize = 4;
 const SLOW_CONTRACTION: f64 = 0.3;
 /// See `SLOW_CONTRACTION`.
 const PATIENCE: usize = 6;
+/// The same in a static analysis, whose steps are long and few.
+const STATIC_PATIENCE: usize = 3;
+/// The least margin of the contact search in a static analysis, where no velocity foretells the motion, in sizes of the model.
+const STATIC_MARGIN: f64 = 1e-3;
+/// A loose body whose corrections shrink no faster than this is driven away by forces that nothing resists.
+const NO_CONTRACTION: f64 = 0.95;
 
 /// Takes `state` one step of length `dt` [s] further and writes the result to `next`.
 ///
@@ -35,9 +42,12 @@ pub fn step<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<StepReport, StepError> {
     let map = method.scheme.step_map(dt);
-    predict(model, state, &map, work)?;
-    let motion = predicted_motion(state, &model.gravity, dt);
+    let driven = predict(model, state, &map, work)?;
+    let motion = predicted_motion(state, &model.gravity, dt).max(driven);
     let mut margin = SEARCH_MARGIN * motion;
+    if map.is_static() {
+        margin = margin.max(STATIC_MARGIN * model.size);
+    }
     let mut iterations = 0;
     for _ in 0..MAX_SEARCHES {
         search(model, state, margin, work);
@@ -51,16 +61,18 @@ pub fn step<const D: usize>(
     Err(StepError::MissedContact { margin: margin / 4.0 })
 }
 
-/// The start of the iterations: free flight, d = Δt v; the frame of every body and a factor that fits the step.
+/// The start of the iterations: free flight, d = Δt v, but for what is prescribed; the frame of every body and a factor that fits
+/// the step. Returns the largest prescribed motion [m].
 fn predict<const D: usize>(
     model: &Model<D>,
     state: &State<D>,
     map: &StepMap,
     work: &mut Workspace<D>,
-) -> Result<(), StepError> {
+) -> Result<f64, StepError> {
     for (d, v) in work.motion.iter_mut().zip(&state.velocity) {
         *d = v * map.dt;
     }
+    let driven = prescribe(model, state, map, work)?;
     for (i, b) in model.bodies.iter().enumerate() {
         let nodes = b.nodes();
         let middle = &mut work.correction[nodes.clone()];
@@ -77,12 +89,17 @@ fn predict<const D: usize>(
             work.poses[i].drift = b.body.mean(v);
         }
         if !work.operators[i].fits(map) {
-            work.operators[i].factorize(&b.body, map, middle, &work.poses[i].frame)?;
+            work.operators[i].factorize(
+                &b.body.after(&state.history[i]),
+                map,
+                middle,
+                &work.poses[i].frame,
+            )?;
             work.factorisations += 1;
         }
         work.operators[i].turn_to(&work.poses[i].frame);
     }
-    Ok(())
+    Ok(driven)
 }
 
 /// Newton's iterations with a kept factor; returns how many were made. Writes u₊ to `next` and d to `work`.
@@ -105,20 +122,36 @@ fn iterate<const D: usize>(
         residuals(model, method, state, next, map, work);
         react(model, method, state, map, work)?;
         let motion = correct(model, state, next, work)?;
+        if map.is_static() && motion > model.size {
+            return Err(not_held(model, work).unwrap_or(StepError::NotFinite("displacement")));
+        }
         let wanted = (method.newton.tolerance * motion.max(predicted)).max(model.round_off());
         if settle(work, wanted) {
             return Ok(iteration);
         }
         let slowest = work.progress.iter().filter(|p| !p.settled);
         if iteration >= method.newton.max_iterations {
+            if let (true, Some(error)) = (map.is_static(), not_held(model, work)) {
+                return Err(error);
+            }
             let correction = slowest.map(|p| p.correction).fold(0.0, f64::max);
             return Err(StepError::Newton { iterations: iteration, correction, wanted });
         }
-        if iteration >= PATIENCE && slowest.map(|p| p.contraction).fold(0.0, f64::max) > SLOW_CONTRACTION {
+        let patience = if map.is_static() { STATIC_PATIENCE } else { PATIENCE };
+        if iteration >= patience && slowest.map(|p| p.contraction).fold(0.0, f64::max) > SLOW_CONTRACTION {
             refactorize(model, state, next, map, work)?;
         }
     }
     unreachable!("the loop ends at max_iterations")
+}
+
+/// Says which loose body nothing holds, if its corrections are the largest and do not shrink.
+fn not_held<const D: usize>(model: &Model<D>, work: &Workspace<D>) -> Option<StepError> {
+    let bodies = model.bodies.iter().zip(&work.operators).zip(&work.progress);
+    bodies
+        .filter(|((_, operator), p)| operator.is_loose() && !p.settled && p.contraction > NO_CONTRACTION)
+        .max_by(|(_, a), (_, b)| a.correction.total_cmp(&b.correction))
+        .map(|((b, _), _)| StepError::NotHeld { body: b.name.clone() })
 }
 
 /// Marks the bodies that have converged and says whether all have. Bodies in contact depend on one another and settle together.
@@ -151,7 +184,11 @@ fn residuals<const D: usize>(
             continue;
         }
         let nodes = b.nodes();
-        let body_step = BodyStep::new(model, b, map, &work.poses[i], state, &work.motion, &next.displacement);
+        if !method.is_blended() {
+            load_body(model, state, next, map, work, i);
+        }
+        let (pose, drive) = (&work.poses[i], &work.drives[i]);
+        let body_step = BodyStep::new(model, i, map, pose, drive, state, &work.motion, &next.displacement);
         let residual = &mut work.residual[nodes.clone()];
         if method.is_blended() {
             work.blend.residual(model, i, &body_step, &mut work.residual_scratch[i], residual);
@@ -172,8 +209,13 @@ fn blend<const D: usize>(
     map: &StepMap,
     work: &mut Workspace<D>,
 ) {
-    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !work.progress[i].settled) {
-        let body_step = BodyStep::new(model, b, map, &work.poses[i], state, &work.motion, &next.displacement);
+    for i in 0..model.bodies.len() {
+        if work.progress[i].settled {
+            continue;
+        }
+        load_body(model, state, next, map, work, i);
+        let (pose, drive) = (&work.poses[i], &work.drives[i]);
+        let body_step = BodyStep::new(model, i, map, pose, drive, state, &work.motion, &next.displacement);
         work.blend.measure(model, i, &body_step, &mut work.residual_scratch[i]);
     }
     measure_rubbing(model, method, state, map, work);
@@ -226,7 +268,7 @@ fn refactorize<const D: usize>(
         {
             *m = (u0 + u1) * 0.5;
         }
-        work.operators[i].factorize(&b.body, map, middle, &work.poses[i].frame)?;
+        work.operators[i].factorize(&b.body.after(&state.history[i]), map, middle, &work.poses[i].frame)?;
         work.factorisations += 1;
     }
     Ok(())

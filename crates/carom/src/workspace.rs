@@ -8,6 +8,7 @@ use crate::blend::{Blend, Rubbing};
 use crate::body_step::{Pose, ResidualScratch};
 use crate::condense::Compliance;
 use crate::cross_check::CrossCheck;
+use crate::drive::BodyDrive;
 use crate::error::StepError;
 use crate::ledger::{BodyLedger, PairLedger};
 use crate::linearise::BodyOperator;
@@ -53,6 +54,7 @@ pub struct Workspace<const D: usize> {
     pub(crate) compliances: Vec<Compliance<D>>,
     pub(crate) residual_scratch: Vec<ResidualScratch<D>>,
     pub(crate) poses: Vec<Pose<D>>,
+    pub(crate) drives: Vec<BodyDrive<D>>,
     /// d = u₊ − u.
     pub(crate) motion: Vec<Vector<D>>,
     /// The correction of d, and before that the residual.
@@ -126,6 +128,7 @@ impl<const D: usize> Workspace<D> {
                 .map(|b| ResidualScratch::new(b.body.node_count()))
                 .collect(),
             poses: vec![Pose::default(); bodies],
+            drives: (0..bodies).map(|i| BodyDrive::new(model, i)).collect(),
             motion: zeros.clone(),
             correction: zeros.clone(),
             residual: zeros.clone(),

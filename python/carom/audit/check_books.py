@@ -15,7 +15,7 @@ from carom.audit.scales import EPS, ROUND_OFF, SAFETY, Scales
 
 Books = Mapping[str, Array]
 
-SUMMED = ("friction", "viscous", "scheme", "normal_contact", "external", "prescribed")
+SUMMED = ("friction", "viscous", "plastic", "scheme", "normal_contact", "external", "prescribed")
 """Terms of the ledger that are sums since the start."""
 
 
@@ -92,7 +92,8 @@ class BookChecks:
         off = ROUND_OFF * self._scales.energy
         self._rows("row: total", h["total"] - h["kinetic"] - h["strain"], off)
         change = h["kinetic"] - h["kinetic"][0] + h["strain"] - h["strain"][0]
-        taken = h["friction"] + h["viscous"] + h["scheme"] + h["normal_contact"]
+        taken = h["friction"] + h["viscous"] + h["plastic"] + h["scheme"]
+        taken = taken + h["normal_contact"]
         taken = taken - h["external"] - h["prescribed"]
         scale = sum((np.abs(h[name]) for name in SUMMED), np.zeros(len(change)))
         self._rows("row: defect", h["defect"] - change - taken, off + ROUND_OFF * scale)

@@ -14,7 +14,7 @@ from carom.audit.report import Findings
 from carom.audit.scales import ROUND_OFF, Scales
 from carom.audit.step import BODY_ENERGIES, Step
 
-BODY_COLUMNS = (*BODY_ENERGIES, "contact", "defect")
+BODY_COLUMNS = (*BODY_ENERGIES, "plastic", "contact", "defect")
 PAIR_COLUMNS = ("friction", "normal_contact", "prescribed")
 
 Entry = Mapping[str, Array]
@@ -85,7 +85,7 @@ class LedgerChecks:
 
     def _sums(self) -> None:
         h = self._history
-        for name in BODY_ENERGIES:
+        for name in (*BODY_ENERGIES, "plastic"):
             parts = [entry[name] for entry in self._bodies.values()]
             whole = h[name] - (h[name][0] if name in ("kinetic", "strain") else 0.0)
             self._sum(name, parts, whole)
@@ -106,7 +106,8 @@ class LedgerChecks:
         model, h = self._model, self._history
         for body in model.bodies:
             entry = self._bodies[body.name]
-            given = entry["external"] + entry["contact"] - entry["viscous"] - entry["scheme"]
+            given = entry["external"] + entry["contact"]
+            given = given - entry["viscous"] - entry["plastic"] - entry["scheme"]
             size = sum(np.abs(entry[name]) for name in BODY_COLUMNS)
             off = ROUND_OFF * (self._scales.energy + size)
             defect = entry["kinetic"] + entry["strain"] - given

@@ -49,6 +49,8 @@ class Frame:
         Nodal vectors [m], [m/s], [N], shape [node_count, 2].
     stress, energy_density
         Cauchy stress xx yy zz xy yz xz [Pa] and stored energy [J/m³] of the cells.
+    plastic_strain
+        Equivalent plastic strain of the cells; no law that can be audited has any.
     flat
         Largest component out of the plane, which must be zero.
     """
@@ -59,6 +61,7 @@ class Frame:
     reaction: Array
     stress: Array
     energy_density: Array
+    plastic_strain: Array
     flat: float
 
 

@@ -11,15 +11,19 @@ import numpy as np
 
 from carom.audit.arrays import Array, einsum
 from carom.errors import InputError
-from carom.material import Material
+from carom.material import (
+    LinearElastic,
+    Material,
+    NeoHookean,
+    SaintVenantKirchhoff,
+    Viscosity,
+)
 
 IDENTITY = np.eye(2)
 
 SMALL_STRAIN = 1e-6
 """Changes of strain below this are worked on by the mean stress: the discrete gradient divides by
 their square, and its correction, of third order, is below round-off."""
-
-KINDS = ("saint-venant-kirchhoff", "linear-elastic", "neo-hookean")
 
 
 def transposed(tensor: Array) -> Array:
@@ -57,8 +61,10 @@ class Law:
         InputError
             The auditor does not know the law.
         """
-        if material.kind not in KINDS:
+        if not isinstance(material, SaintVenantKirchhoff | LinearElastic | NeoHookean):
             raise InputError(f"cannot audit the law {material.kind!r} yet")
+        if material.viscosity != Viscosity():
+            raise InputError("cannot audit a material with viscosity yet")
         young, poisson = material.young, material.poisson
         first = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
         return cls(kind=material.kind, first=first, second=young / (2 * (1 + poisson)))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.analysis import Conserving, Theta
+from carom.analysis import Conserving, Static, Theta
 from carom.audit.arrays import Array, Indices
 from carom.audit.body import AuditBody
 from carom.audit.target import Target
@@ -99,6 +99,7 @@ class AuditModel:
                 raise InputError(f"cannot audit a mesh of the kind {entry.mesh.kind!r} yet")
         if any(body.self_contact for body in scenario.bodies):
             raise InputError("cannot audit a body in contact with itself yet")
+        _refuse_what_is_driven(scenario)
         self.scenario = scenario
         self.points = points
         condition = scenario.contact.condition
@@ -110,6 +111,8 @@ class AuditModel:
             raise InputError("cannot audit mortar contact yet")
         self.condition = condition
         self.massless = condition == "massless"
+        if isinstance(scenario.analysis, Static):
+            raise InputError("cannot audit a static analysis yet")
         scheme = scenario.analysis.scheme
         if not isinstance(scheme, Theta | Conserving):
             raise InputError(f"cannot audit the scheme {scheme.kind!r} yet")
@@ -240,3 +243,13 @@ def _plane(entry: Obstacle) -> AuditPlane:
         normal=normal / np.linalg.norm(normal),
         velocity=np.array(entry.velocity or (0.0, 0.0)),
     )
+
+
+def _refuse_what_is_driven(scenario: Scenario) -> None:
+    """Refuse what the auditor has no second implementation of."""
+    moving = any(obstacle.motion is not None for obstacle in scenario.obstacles)
+    for given, what in ((scenario.loads, "loads"), (scenario.motions, "motions")):
+        if given:
+            raise InputError(f"cannot audit a case with {what} yet")
+    if moving:
+        raise InputError("cannot audit an obstacle with a motion yet")

@@ -17,6 +17,7 @@ COLUMNS = (
     "strain",
     "external",
     "viscous",
+    "plastic",
     "scheme",
     "contact",
     "friction",
@@ -26,10 +27,10 @@ COLUMNS = (
 )
 """Time [s], the body or the pair ``a|b``, and what happened since the start [J].
 
-A body has: change of kinetic and strain energy, work of gravity and loads, what damping and the
-scheme took, what it received through contact, and what these do not explain. A pair, from its
-first touch on, has what friction dissipated, what normal reactions took, and the work of the
-motion of its obstacle.
+A body has: change of kinetic and strain energy, work of gravity and loads, what damping, plastic
+flow and the scheme took, what it received through contact, and what these do not explain. A pair,
+from its first touch on, has what friction dissipated, what normal reactions took, and the work of
+the motion of its obstacle.
 """
 
 

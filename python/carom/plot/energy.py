@@ -5,7 +5,16 @@ from __future__ import annotations
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from carom.plot.style import BLACK, BLUE, GREEN, ORANGE, PALE_BLUE, PALE_GREY, figure
+from carom.plot.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PALE_BLUE,
+    PALE_GREY,
+    PURPLE,
+    figure,
+)
 from carom.result import Result
 
 CURVES = (
@@ -13,16 +22,22 @@ CURVES = (
     ("strain", r"$E_e$ strain", ORANGE, "-"),
     ("total", r"$E_t = E_c + E_e$", BLACK, "-"),
     ("friction", r"$D_\mathrm{friction}$", GREEN, "--"),
+    ("plastic", r"$D_\mathrm{plastic}$", PURPLE, "--"),
 )
 """Column of the history, label, colour and line of each curve."""
 
+IF_ANY = ("plastic",)
+"""Columns that are drawn only where there is any."""
+
 
 def energy_figure(result: Result) -> Figure:
-    """Draw E_c, E_e, E_t and D_friction [J] over time [s], with the contacts as shades."""
+    """Draw energies and what is dissipated [J] over time [s], with the contacts as shades."""
     time = result.history["time"]
     with figure(height=3.6) as picture:
         axes = picture.add_subplot()
         for column, label, colour, line in CURVES:
+            if column in IF_ANY and not result.history[column].any():
+                continue
             axes.plot(time, result.history[column], line, color=colour, label=label)
         _shade_contacts(axes, result)
         axes.set_xlabel("time $t$ [s]")

@@ -247,8 +247,9 @@ POINTS = "fields.vtkhdf:VTKHDF/PointData"
 SURFACE_POINTS = "surface.vtkhdf:VTKHDF/PointData"
 
 COLUMNS = [
-    *("time", "kinetic", "strain", "total", "friction", "viscous", "scheme", "normal_contact"),
-    *("external", "defect", "momentum_x", "angular_momentum", "a.x", "b.v_y", "a.spin"),
+    *("time", "kinetic", "strain", "total", "friction", "viscous", "plastic", "scheme"),
+    *("normal_contact", "external", "defect", "momentum_x", "angular_momentum"),
+    *("a.x", "b.v_y", "a.spin"),
     *("contacts", "min_gap", "normal_force", "certificate", "residual", "newton_iterations"),
     *("prescribed", "blend", "step_defect"),
     *("tip.u_x", "tip.v_y", "tip.vmid_x"),

@@ -1,5 +1,7 @@
 //! The integrals of the multipliers of one source facet against the target facets that it faces.
 
+use std::f64::consts::TAU;
+
 use carom_mesh::{Facet, Vector};
 use smallvec::SmallVec;
 
@@ -18,10 +20,12 @@ type Products = [[f64; MAX_FACET_NODES]; 4];
 /// Adds to the rows of the nodes of `source` what they see of the facets `targets`. `row_of` knows the places of the rows.
 ///
 /// Each part of the source is a plane, in which the facets are cut against it exactly; along its normal the points of both sides
-/// face one another. Multipliers are the linear shape functions of the parts, and motions the shape functions of the facets.
+/// face one another. Multipliers are the linear shape functions of the parts, and motions the shape functions of the facets. On the
+/// meridian of a body of revolution a point counts as its circle, 2πr.
 pub(super) fn integrate<'a, const D: usize>(
     source: &Facet,
     targets: impl Iterator<Item = &'a Facet> + Clone,
+    is_meridian: bool,
     position: &impl Fn(u32) -> Vector<D>,
     row_of: &impl Fn(u32) -> Option<usize>,
     rows: &mut [Row<D>],
@@ -57,11 +61,21 @@ pub(super) fn integrate<'a, const D: usize>(
                             barycentric.iter().zip(&simplex).map(|(l, corner)| l * corner[i]).sum()
                         });
                         let [multiplier, source_shape, target_shape] = &mut values;
-                        part.shape_at(&point, multiplier);
                         own.shape_at(&point, source_shape);
+                        if kind == source.kind {
+                            *multiplier = *source_shape;
+                        } else {
+                            part.shape_at(&point, multiplier);
+                        }
                         other.shape_at(&point, target_shape);
+                        let mut measure = share * simplex_size;
+                        if is_meridian {
+                            let nodes = source.nodes.iter().zip(&*source_shape);
+                            let radius: f64 = nodes.map(|(&n, shape)| shape * position(n)[0]).sum();
+                            measure *= TAU * radius;
+                        }
                         for v in 0..corners.len() {
-                            let weight = share * simplex_size * multiplier[v];
+                            let weight = measure * multiplier[v];
                             covered[v] += weight;
                             for a in 0..source.nodes.len() {
                                 with_source[v][a] += weight * source_shape[a];
@@ -82,7 +96,8 @@ pub(super) fn integrate<'a, const D: usize>(
         }
         for (v, row) in row.iter().enumerate() {
             let Some(k) = *row else { continue };
-            rows[k].add_whole(whole / corners.len() as f64);
+            let circle = if is_meridian { TAU * places[v][0].abs() } else { 1.0 };
+            rows[k].add_whole(whole * circle / corners.len() as f64);
             if covered[v] > 0.0 {
                 rows[k].add_covered(covered[v], &plane.normal());
                 source.nodes.iter().zip(&with_source[v]).for_each(|(&n, &d)| rows[k].add_source(n, d));

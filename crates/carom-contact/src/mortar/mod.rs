@@ -164,7 +164,7 @@ impl<const D: usize> ContactModel<D> {
             let facet = &source.facets[facing[0].source as usize];
             if facet.nodes.iter().any(|&n| row_of(n).is_some()) {
                 let targets = facing.iter().map(|f| &target.facets[f.target as usize]);
-                integrate(facet, targets, position, &row_of, &mut mortar.rows);
+                integrate(facet, targets, source.is_meridian, position, &row_of, &mut mortar.rows);
             }
         }
     }

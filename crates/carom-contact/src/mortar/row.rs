@@ -11,7 +11,7 @@ const COVERED: f64 = 1e-12;
 /// The integrals of a multiplier Φ over the part of the source that faces the target.
 #[derive(Debug, Clone)]
 pub(super) struct Row<const D: usize> {
-    /// ∫ Φ [m^(D−1)].
+    /// ∫ Φ [m^(D−1)], or [m²] of a body of revolution.
     area: f64,
     /// The same without regard to what the target covers.
     whole: f64,

@@ -7,7 +7,7 @@ use carom_mesh::{Matrix, Vector};
 use super::kinematics::Kinematics;
 use super::{CellState, Elements, StepForces};
 use crate::FemError;
-use crate::material::{Mat3, PointLaw, Tangent};
+use crate::material::{Mat3, PlasticState, PointLaw, Tangent};
 use crate::quadrature::Integrand;
 use crate::shape_table::{Cells, ShapeTable};
 use crate::sparse::{NodalMatrix, NodeGraph};
@@ -62,6 +62,21 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
     #[inline]
     pub fn points(&self, cells: &Range<usize>) -> Range<usize> {
         cells.start * self.points_per_cell..cells.end * self.points_per_cell
+    }
+
+    /// The part of `history` that the points of a run of cells have, if they have one.
+    #[inline]
+    pub fn part<'h>(&self, cells: &Range<usize>, history: &'h [PlasticState]) -> &'h [PlasticState] {
+        history.get(self.points(cells)).unwrap_or_default()
+    }
+
+    /// Mean equivalent plastic strain of a cell.
+    pub fn plastic_strain(&self, cell: usize, history: &[PlasticState]) -> f64 {
+        let cell = cell..cell + 1;
+        let weights = &self.weights[self.points(&cell)];
+        let states = self.part(&cell, history).iter();
+        let sum: f64 = states.zip(weights).map(|(state, w)| w * state.equivalent_strain).sum();
+        sum / weights.iter().sum::<f64>()
     }
 
     /// Writes F at the points of `cells` to `f` and returns that part of it.
@@ -151,12 +166,16 @@ pub(crate) struct Block<const D: usize, const S: usize, const N: usize, K> {
 }
 
 impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elements<D> for Block<D, S, N, K> {
-    fn energy(&self, u: &[Vector<D>]) -> f64 {
+    fn point_count(&self) -> usize {
+        self.grid.weights.len()
+    }
+
+    fn energy(&self, u: &[Vector<D>], history: &[PlasticState]) -> f64 {
         let (mut f, mut densities) = ([Matrix::zeros(); BATCH], [0.0; BATCH]);
         let mut energy = 0.0;
         for cells in self.grid.batches() {
             let f = self.grid.deform(&cells, u, &mut f);
-            self.law.energies(f, &mut densities);
+            self.law.energies(f, self.grid.part(&cells, history), &mut densities);
             for (weight, density) in self.grid.weights[self.grid.points(&cells)].iter().zip(&densities) {
                 energy += weight * density;
             }
@@ -164,31 +183,43 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         energy
     }
 
-    fn add_internal_force(&self, u: &[Vector<D>], force: &mut [Vector<D>]) {
+    fn add_internal_force(&self, u: &[Vector<D>], history: &[PlasticState], force: &mut [Vector<D>]) {
         let (mut f, mut stresses) = ([Matrix::zeros(); BATCH], [Matrix::zeros(); BATCH]);
         for cells in self.grid.batches() {
             let f = self.grid.deform(&cells, u, &mut f);
-            self.law.stresses(f, &mut stresses);
+            self.law.stresses(f, self.grid.part(&cells, history), &mut stresses);
             self.grid.add_forces(&cells, &stresses, force);
         }
     }
 
-    fn add_conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], force: &mut [Vector<D>]) {
+    fn add_conserving_force(
+        &self,
+        u0: &[Vector<D>],
+        u1: &[Vector<D>],
+        history: &[PlasticState],
+        force: &mut [Vector<D>],
+    ) {
         let (mut f0, mut f1, mut stresses) =
             ([Matrix::zeros(); BATCH], [Matrix::zeros(); BATCH], [Matrix::zeros(); BATCH]);
         for cells in self.grid.batches() {
             let (f0, f1) = (self.grid.deform(&cells, u0, &mut f0), self.grid.deform(&cells, u1, &mut f1));
-            self.law.discrete_stresses(f0, f1, &mut stresses);
+            self.law.discrete_stresses(f0, f1, self.grid.part(&cells, history), &mut stresses);
             self.grid.add_forces(&cells, &stresses, force);
         }
     }
 
-    fn add_step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], force: &mut StepForces<'_, D>) {
+    fn add_step_forces(
+        &self,
+        u0: &[Vector<D>],
+        u1: &[Vector<D>],
+        history: &[PlasticState],
+        force: &mut StepForces<'_, D>,
+    ) {
         let (mut f0, mut f1, mut stresses) =
             ([Matrix::zeros(); BATCH], [Matrix::zeros(); BATCH], [[Matrix::zeros(); 3]; BATCH]);
         for cells in self.grid.batches() {
             let (f0, f1) = (self.grid.deform(&cells, u0, &mut f0), self.grid.deform(&cells, u1, &mut f1));
-            self.law.all_step_stresses(f0, f1, &mut stresses);
+            self.law.all_step_stresses(f0, f1, self.grid.part(&cells, history), &mut stresses);
             let points = self.grid.points(&cells);
             let mut points =
                 self.grid.gradients[points.clone()].iter().zip(&self.grid.weights[points]).zip(&stresses);
@@ -211,12 +242,12 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         }
     }
 
-    fn add_stiffness(&self, u: &[Vector<D>], k: &mut NodalMatrix<Matrix<D>>) {
+    fn add_stiffness(&self, u: &[Vector<D>], history: &[PlasticState], k: &mut NodalMatrix<Matrix<D>>) {
         let mut f = [Matrix::zeros(); BATCH];
         let mut tangents: Vec<Tangent<S>> = vec![[[[[0.0; S]; S]; S]; S]; BATCH];
         for cells in self.grid.batches() {
             let f = self.grid.deform(&cells, u, &mut f);
-            self.law.tangents(f, &mut tangents);
+            self.law.tangents(f, self.grid.part(&cells, history), &mut tangents);
             for (cell, tangents) in cells.zip(tangents.chunks_exact(self.grid.points_per_cell)) {
                 let mut local = [[Matrix::<D>::zeros(); N]; N];
                 self.grid.add_local_stiffness(cell, tangents, &mut local);
@@ -225,17 +256,23 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         }
     }
 
-    fn cell_states(&self, u: &[Vector<D>], out: &mut Vec<CellState>) {
-        let mut f = [Matrix::zeros(); BATCH];
+    fn cell_states(&self, u: &[Vector<D>], history: &[PlasticState], out: &mut Vec<CellState>) {
+        let (mut f, mut densities, mut stresses) =
+            ([Matrix::zeros(); BATCH], [0.0; BATCH], [Mat3::zeros(); BATCH]);
         for cells in self.grid.batches() {
-            let mut points = self.grid.deform(&cells, u, &mut f).iter();
+            let f = self.grid.deform(&cells, u, &mut f);
+            let own = self.grid.part(&cells, history);
+            self.law.energies(f, own, &mut densities);
+            self.law.cauchy_stresses(f, own, &mut stresses);
+            let mut points = stresses.iter().zip(&densities);
             for cell in cells {
-                let mut mean = CellState { stress: Mat3::zeros(), energy_density: 0.0 };
+                let plastic_strain = self.grid.plastic_strain(cell, history);
+                let mut mean = CellState { stress: Mat3::zeros(), energy_density: 0.0, plastic_strain };
                 let mut volume = 0.0;
                 let weights = &self.grid.weights[self.grid.points(&(cell..cell + 1))];
-                for (weight, f) in weights.iter().zip(points.by_ref()) {
-                    mean.stress += self.law.cauchy_stress(f) * *weight;
-                    mean.energy_density += self.law.energy(f) * weight;
+                for (weight, (stress, density)) in weights.iter().zip(points.by_ref()) {
+                    mean.stress += stress * *weight;
+                    mean.energy_density += density * weight;
                     volume += weight;
                 }
                 mean.stress /= volume;
@@ -243,5 +280,21 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
                 out.push(mean);
             }
         }
+    }
+
+    fn update(&self, u: &[Vector<D>], history: &mut [PlasticState]) -> f64 {
+        let mut f = [Matrix::zeros(); BATCH];
+        let mut work = 0.0;
+        for cells in self.grid.batches() {
+            let f = self.grid.deform(&cells, u, &mut f);
+            let points = self.grid.points(&cells);
+            let Some(own) = history.get_mut(points.clone()) else { return 0.0 };
+            for ((state, f), weight) in own.iter_mut().zip(f).zip(&self.grid.weights[points]) {
+                let (next, density) = self.law.update(f, state);
+                *state = next;
+                work += weight * density;
+            }
+        }
+        work
     }
 }

@@ -1,6 +1,7 @@
 //! What cells store, how they resist and what they weigh.
 
 mod block;
+mod dashpots;
 mod dilatation;
 mod kinematics;
 mod mass;
@@ -10,11 +11,13 @@ use std::fmt::Debug;
 
 use carom_mesh::{CellKind, Matrix, Vector};
 
-use crate::material::Mat3;
+use crate::material::{Mat3, PlasticState};
 use crate::shape_table::Cells;
 use crate::sparse::{NodalMatrix, NodeGraph};
 use crate::{BodySpec, FemError, Formulation, Hypothesis};
 use block::{Block, Grid};
+pub use dashpots::Dashpots;
+use dashpots::ViscousBlock;
 use kinematics::{Embedded, Solid};
 pub use mass::{add_mass, add_scaled_diagonal_mass};
 use mean_dilatation::MeanDilatation;
@@ -26,6 +29,8 @@ pub struct CellState {
     pub stress: Mat3,
     /// Stored energy per reference volume [J/m³].
     pub energy_density: f64,
+    /// Equivalent plastic strain; zero in what is elastic.
+    pub plastic_strain: f64,
 }
 
 /// The forces of a step from u₀ to u₁ that a blend of its start and end stresses is made of [N], one vector per node; F̄ = ½(F₀ + F₁).
@@ -49,20 +54,37 @@ impl<const D: usize> StepForces<'_, D> {
 
 /// The elements of one block of cells. Chosen once per block; what is inside runs without dispatch.
 ///
-/// `u` and `f` hold one vector per node of the body.
+/// `u` and `f` hold one vector per node of the body; `history` what the quadrature points of the block remember at the start of the step,
+/// nothing if they are elastic or virgin.
 pub trait Elements<const D: usize>: Send + Sync + Debug {
-    /// Stored energy ∫ψ dV [J].
-    fn energy(&self, u: &[Vector<D>]) -> f64;
+    /// Number of quadrature points of all cells.
+    fn point_count(&self) -> usize;
+    /// Stored energy ∫ψ dV [J], and plastic work since the start of the step.
+    fn energy(&self, u: &[Vector<D>], history: &[PlasticState]) -> f64;
     /// Adds the internal force ∂E/∂u = ∫ P·∇N dV [N] to `f`.
-    fn add_internal_force(&self, u: &[Vector<D>], f: &mut [Vector<D>]);
+    fn add_internal_force(&self, u: &[Vector<D>], history: &[PlasticState], f: &mut [Vector<D>]);
     /// Adds the force [N] of a step from `u0` to `u1` whose work is the change of the stored energy, f·(u₁ − u₀) = ΔE, to `f`.
-    fn add_conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]);
+    fn add_conserving_force(
+        &self,
+        u0: &[Vector<D>],
+        u1: &[Vector<D>],
+        history: &[PlasticState],
+        f: &mut [Vector<D>],
+    );
     /// Adds the forces of a step from `u0` to `u1`.
-    fn add_step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut StepForces<'_, D>);
+    fn add_step_forces(
+        &self,
+        u0: &[Vector<D>],
+        u1: &[Vector<D>],
+        history: &[PlasticState],
+        f: &mut StepForces<'_, D>,
+    );
     /// Adds the stiffness ∂²E/∂u² [N/m] to `k`.
-    fn add_stiffness(&self, u: &[Vector<D>], k: &mut NodalMatrix<Matrix<D>>);
+    fn add_stiffness(&self, u: &[Vector<D>], history: &[PlasticState], k: &mut NodalMatrix<Matrix<D>>);
     /// Appends the mean state of every cell.
-    fn cell_states(&self, u: &[Vector<D>], out: &mut Vec<CellState>);
+    fn cell_states(&self, u: &[Vector<D>], history: &[PlasticState], out: &mut Vec<CellState>);
+    /// Replaces what the points remember by what they will at the end of a step to `u`; returns the plastic work of the step [J].
+    fn update(&self, u: &[Vector<D>], history: &mut [PlasticState]) -> f64;
 }
 
 /// Evaluates an expression in which `$n` is the number of nodes of cells of a kind, as a constant.
@@ -132,5 +154,27 @@ pub fn elements<const D: usize>(
                 Box::new(Block::<D, D, N, Solid> { law, grid: Grid::new(cells, graph)? })
             }))
         }
+    }
+}
+
+/// The viscous resistance of `cells` in a body like `spec`; `objective` says whether its law is one of large displacements.
+///
+/// # Errors
+/// If a cell is inverted or degenerate, or the body is a sheet in plane stress, whose change of thickness is not known.
+pub fn dashpots<const D: usize>(
+    spec: &BodySpec,
+    objective: bool,
+    cells: &Cells<'_, D>,
+    graph: &NodeGraph,
+) -> Result<Box<dyn Dashpots<D>>, FemError> {
+    let viscosity = spec.viscosity;
+    match spec.hypothesis {
+        Hypothesis::PlaneStrain => Ok(with_node_count!(cells.block.kind, N => {
+            Box::new(ViscousBlock::<D, D, N, Solid> { viscosity, objective, grid: Grid::new(cells, graph)? })
+        })),
+        Hypothesis::Axisymmetric => Ok(with_node_count!(cells.block.kind, N => {
+            Box::new(ViscousBlock::<D, 3, N, Embedded> { viscosity, objective, grid: Grid::new(cells, graph)? })
+        })),
+        Hypothesis::PlaneStress => Err(FemError::PlaneStress { what: "viscosity" }),
     }
 }

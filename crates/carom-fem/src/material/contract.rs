@@ -2,14 +2,37 @@
 
 use proptest::prelude::*;
 
-use super::{ElasticConstants, LinearElastic, Mat3, Material, NeoHookean, SaintVenantKirchhoff};
+use super::{
+    BlatzKo, ByInvariants, ByStretches, ElasticConstants, Hyperelastic, J2Plasticity, LinearElastic, Mat3,
+    Material, MooneyRivlin, NeoHookean, Ogden, PlasticState, SaintVenantKirchhoff, Yeoh,
+};
 
 fn laws() -> Vec<Box<dyn Material>> {
     let constants = ElasticConstants { young: 2700.0, poisson: 0.33 };
+    let (lambda, shear) = constants.lame().expect("valid");
+    let bulk = lambda + 2.0 / 3.0 * shear;
+    let mooney_rivlin = MooneyRivlin { c10: 0.35 * shear, c01: 0.15 * shear, bulk };
+    let yeoh = Yeoh { c10: 0.5 * shear, c20: -0.05 * shear, c30: 0.02 * shear, bulk };
+    // ½ Σ μ_p α_p = μ.
+    let ogden = Ogden { mu: vec![0.8 * shear, 0.1 * shear, -0.3 * shear], alpha: vec![1.3, 3.6, -2.0], bulk };
+    let blatz_ko = BlatzKo { shear, poisson: 0.33, fraction: 0.3 };
+    // Without flow it is Hencky's law; its flow has tests of its own.
+    let hencky = J2Plasticity {
+        elastic: constants,
+        yield_stress: 1e9,
+        hardening: 0.0,
+        saturation_stress: None,
+        saturation_rate: 0.0,
+    };
     vec![
         Box::new(SaintVenantKirchhoff::new(&constants).expect("valid")),
         Box::new(LinearElastic::new(&constants).expect("valid")),
         Box::new(NeoHookean::new(&constants).expect("valid")),
+        Box::new(Hyperelastic(ByInvariants(mooney_rivlin.checked().expect("valid")))),
+        Box::new(Hyperelastic(ByInvariants(yeoh.checked().expect("valid")))),
+        Box::new(Hyperelastic(ByStretches(ogden.checked().expect("valid")))),
+        Box::new(hencky.checked().expect("valid").after(&PlasticState::default())),
+        Box::new(Hyperelastic(ByInvariants(blatz_ko.checked().expect("valid")))),
     ]
 }
 
@@ -132,6 +155,17 @@ fn the_reference_is_free_of_energy_and_stress() {
     }
 }
 
+/// Laws that know the volume refuse a material turned inside out, and no law panics on what is not a number.
+#[test]
+fn a_cell_turned_inside_out_has_no_energy() {
+    let inside_out = Mat3::from_diagonal(&[1.0, 1.0, -0.5].into());
+    for law in laws().into_iter().skip(2) {
+        assert!(!law.energy(&inside_out).is_finite(), "{law:?}");
+        assert!(!law.energy(&Mat3::from_element(f64::NAN)).is_finite(), "{law:?}");
+        assert!(!law.discrete_stress(&Mat3::identity(), &inside_out).sum().is_finite(), "{law:?}");
+    }
+}
+
 /// Small uniaxial strain: P-wave modulus λ + 2μ = E(1−ν)/((1+ν)(1−2ν)).
 #[test]
 fn all_laws_agree_with_linear_elasticity_at_small_strain() {
@@ -141,5 +175,43 @@ fn all_laws_agree_with_linear_elasticity_at_small_strain() {
     f[(0, 0)] += strain;
     for law in laws() {
         assert!((law.stress(&f)[(0, 0)] / strain / modulus - 1.0).abs() < 1e-5, "{law:?}");
+    }
+}
+
+/// Small simple shear: the shear modulus E/(2(1+ν)).
+#[test]
+fn all_laws_have_the_same_shear_modulus_at_small_strain() {
+    let strain = 1e-6;
+    let mut f = Mat3::identity();
+    f[(0, 1)] += strain;
+    for law in laws() {
+        let modulus = law.stress(&f)[(0, 1)] / strain;
+        assert!((modulus / (2700.0 / 2.66) - 1.0).abs() < 1e-5, "{law:?}");
+    }
+}
+
+proptest! {
+    #[test]
+    fn the_tangent_has_the_symmetry_of_a_second_derivative(f in deformation()) {
+        for law in laws() {
+            let (_, a) = law.stress_and_tangent(&f);
+            for n in 0..81 {
+                let [i, j, k, l] = [n / 27, n / 9 % 3, n / 3 % 3, n % 3];
+                prop_assert!((a[i][j][k][l] - a[k][l][i][j]).abs() < 1e-10 * SCALE, "{law:?}");
+            }
+        }
+    }
+
+    /// The blend of start and end stresses: P̄, F̄ (S₁ − S₀) and P₁.
+    #[test]
+    fn step_stresses_are_those_of_start_and_end(f0 in deformation(), f1 in deformation()) {
+        for law in laws().into_iter().filter(|law| law.is_objective()) {
+            let [work, difference, end] = law.step_stresses(&f0, &f1);
+            prop_assert!((work - law.discrete_stress(&f0, &f1)).norm() < 1e-10 * SCALE, "{law:?}");
+            prop_assert!((end - law.stress(&f1)).norm() < 1e-10 * SCALE, "{law:?}");
+            let second = |f: &Mat3| f.try_inverse().expect("det F > 0") * law.stress(f);
+            let expected = (f0 + f1) * 0.5 * (second(&f1) - second(&f0));
+            prop_assert!((difference - expected).norm() < 1e-10 * SCALE, "{law:?}");
+        }
     }
 }

@@ -1,15 +1,31 @@
 //! Hyperelastic laws, written once in 3D. A new law is a file here, a line in [`LawSpec`] and
 //! one in [`LawSpec::point_law`].
 
+mod blatz_ko;
 #[cfg(test)]
 mod contract;
 pub(crate) mod discrete_gradient;
 mod elastic_constants;
+mod flowing;
+mod invariants;
+mod j2_plasticity;
 mod linear_elastic;
+mod mooney_rivlin;
 mod neo_hookean;
+mod ogden;
 mod plane_stress;
+#[cfg(test)]
+mod plasticity_contract;
 mod point_law;
+pub(crate) mod ranges;
+#[cfg(test)]
+mod rubber_contract;
 mod saint_venant_kirchhoff;
+mod spectrum;
+mod strain_law;
+mod viscosity;
+mod volumetric;
+mod yeoh;
 
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -18,12 +34,23 @@ use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
 use crate::{FemError, Hypothesis};
+pub use blatz_ko::BlatzKo;
 pub use elastic_constants::ElasticConstants;
+pub use flowing::Flowing;
+pub use invariants::{ByInvariants, InvariantEnergy, Jet};
+pub use j2_plasticity::{Flow, J2Plasticity, PlasticState, Relative};
 pub use linear_elastic::LinearElastic;
+pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;
+pub use ogden::Ogden;
 pub use plane_stress::PlaneStress;
 pub use point_law::{Confined, PointLaw};
+pub(crate) use point_law::{embed, restrict};
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
+pub use spectrum::{ByStretches, Spectrum, StretchEnergy};
+pub use strain_law::{Hyperelastic, StrainLaw};
+pub use viscosity::Viscosity;
+pub use yeoh::Yeoh;
 
 /// A second-order tensor in 3D.
 pub type Mat3 = Matrix3<f64>;
@@ -65,7 +92,7 @@ pub trait Material: Send + Sync + Debug {
 }
 
 /// A law and its constants, as the case file names them.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum LawSpec {
     /// Saint-Venant–Kirchhoff: large displacement, small strain.
@@ -74,6 +101,17 @@ pub enum LawSpec {
     LinearElastic(ElasticConstants),
     /// Compressible neo-Hookean: large strain.
     NeoHookean(ElasticConstants),
+    /// Mooney–Rivlin: rubber.
+    MooneyRivlin(MooneyRivlin),
+    /// Yeoh: rubber that stiffens.
+    Yeoh(Yeoh),
+    /// Ogden: rubber by its principal stretches.
+    Ogden(Ogden),
+    /// Blatz–Ko: foam.
+    BlatzKo(BlatzKo),
+    /// Elastoplasticity: metal.
+    #[serde(rename = "j2-plasticity")]
+    J2Plasticity(J2Plasticity),
 }
 
 impl LawSpec {
@@ -98,6 +136,14 @@ impl LawSpec {
             Self::SaintVenantKirchhoff(c) => under(hypothesis, SaintVenantKirchhoff::new(c)?),
             Self::LinearElastic(c) => under(hypothesis, LinearElastic::new(c)?),
             Self::NeoHookean(c) => under(hypothesis, NeoHookean::new(c)?),
+            Self::MooneyRivlin(c) => under(hypothesis, Hyperelastic(ByInvariants(c.checked()?))),
+            Self::Yeoh(c) => under(hypothesis, Hyperelastic(ByInvariants(c.checked()?))),
+            Self::Ogden(c) => under(hypothesis, Hyperelastic(ByStretches(c.clone().checked()?))),
+            Self::BlatzKo(c) => under(hypothesis, Hyperelastic(ByInvariants(c.checked()?))),
+            Self::J2Plasticity(_) if hypothesis == Hypothesis::PlaneStress => {
+                return Err(FemError::PlaneStress { what: "j2-plasticity" });
+            }
+            Self::J2Plasticity(c) => Arc::new(Flowing(c.checked()?)),
         })
     }
 }

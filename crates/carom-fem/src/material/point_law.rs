@@ -2,7 +2,7 @@ use std::fmt::Debug;
 
 use carom_mesh::Matrix;
 
-use super::{Mat3, Material, Tangent};
+use super::{Mat3, Material, PlasticState, Tangent};
 
 /// A law as elements see it at their quadrature points, where F is D × D.
 ///
@@ -23,25 +23,51 @@ pub trait PointLaw<const D: usize>: Send + Sync + Debug {
     /// Whether the energy does not see a rotation, see [`Material::is_objective`].
     fn is_objective(&self) -> bool;
 
+    /// Whether the law depends on what a point has gone through. If so, the methods above are those of a virgin point, and those
+    /// below take what the points remember at the start of the step, nothing if they are virgin; if not, they ignore it.
+    fn remembers(&self) -> bool {
+        false
+    }
+    /// What a point remembers at the end of a step to F, and the plastic work of the step per reference volume [J/m³].
+    fn update(&self, _f: &Matrix<D>, state: &PlasticState) -> (PlasticState, f64) {
+        (*state, 0.0)
+    }
+
     /// [`Self::energy`] at many points.
-    fn energies(&self, f: &[Matrix<D>], out: &mut [f64]) {
+    fn energies(&self, f: &[Matrix<D>], _history: &[PlasticState], out: &mut [f64]) {
         out.iter_mut().zip(f).for_each(|(out, f)| *out = self.energy(f));
     }
     /// [`Self::stress`] at many points.
-    fn stresses(&self, f: &[Matrix<D>], out: &mut [Matrix<D>]) {
+    fn stresses(&self, f: &[Matrix<D>], _history: &[PlasticState], out: &mut [Matrix<D>]) {
         out.iter_mut().zip(f).for_each(|(out, f)| *out = self.stress(f));
     }
     /// [`Self::discrete_stress`] at many points.
-    fn discrete_stresses(&self, f0: &[Matrix<D>], f1: &[Matrix<D>], out: &mut [Matrix<D>]) {
+    fn discrete_stresses(
+        &self,
+        f0: &[Matrix<D>],
+        f1: &[Matrix<D>],
+        _history: &[PlasticState],
+        out: &mut [Matrix<D>],
+    ) {
         out.iter_mut().zip(f0.iter().zip(f1)).for_each(|(out, (f0, f1))| *out = self.discrete_stress(f0, f1));
     }
     /// [`Self::step_stresses`] at many points.
-    fn all_step_stresses(&self, f0: &[Matrix<D>], f1: &[Matrix<D>], out: &mut [[Matrix<D>; 3]]) {
+    fn all_step_stresses(
+        &self,
+        f0: &[Matrix<D>],
+        f1: &[Matrix<D>],
+        _history: &[PlasticState],
+        out: &mut [[Matrix<D>; 3]],
+    ) {
         out.iter_mut().zip(f0.iter().zip(f1)).for_each(|(out, (f0, f1))| *out = self.step_stresses(f0, f1));
     }
     /// The tangents of [`Self::stress_and_tangent`] at many points.
-    fn tangents(&self, f: &[Matrix<D>], out: &mut [Tangent<D>]) {
+    fn tangents(&self, f: &[Matrix<D>], _history: &[PlasticState], out: &mut [Tangent<D>]) {
         out.iter_mut().zip(f).for_each(|(out, f)| *out = self.stress_and_tangent(f).1);
+    }
+    /// [`Self::cauchy_stress`] at many points.
+    fn cauchy_stresses(&self, f: &[Matrix<D>], _history: &[PlasticState], out: &mut [Mat3]) {
+        out.iter_mut().zip(f).for_each(|(out, f)| *out = self.cauchy_stress(f));
     }
 }
 
@@ -50,7 +76,7 @@ pub trait PointLaw<const D: usize>: Send + Sync + Debug {
 pub struct Confined<M>(pub M);
 
 #[inline]
-fn embed<const D: usize>(f: &Matrix<D>) -> Mat3 {
+pub(crate) fn embed<const D: usize>(f: &Matrix<D>) -> Mat3 {
     let mut full = Mat3::identity();
     for i in 0..D {
         for j in 0..D {
@@ -61,7 +87,7 @@ fn embed<const D: usize>(f: &Matrix<D>) -> Mat3 {
 }
 
 #[inline]
-pub(super) fn restrict<const D: usize>(full: &Mat3) -> Matrix<D> {
+pub(crate) fn restrict<const D: usize>(full: &Mat3) -> Matrix<D> {
     Matrix::from_fn(|i, j| full[(i, j)])
 }
 

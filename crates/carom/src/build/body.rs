@@ -1,5 +1,6 @@
 use std::collections::BTreeSet;
 
+use carom_fem::material::LawSpec;
 use carom_fem::{Body, BodySpec, FemError};
 use carom_mesh::sets::facet_key;
 use carom_mesh::{Mesh, Surface};
@@ -22,15 +23,22 @@ pub(super) fn body<const D: usize>(
         InputError::new(format!("{key}.material"), message)
     })?;
     let mesh = mesh(&format!("{key}.mesh"), &entry.mesh, given)?;
+    let massless_contact = scenario.contact.condition.is_massless() && may_touch(scenario, &entry.name);
+    if massless_contact && matches!(material.law, LawSpec::J2Plasticity(_)) {
+        let message =
+            format!("\"massless\" contact of body {:?}, whose material flows; choose \"gap\"", entry.name);
+        return Err(InputError::new("contact.condition", message));
+    }
     let spec = BodySpec {
-        law: material.law,
+        law: material.law.clone(),
         density: material.density,
         damping: material.damping,
+        viscosity: material.viscosity,
         mass: entry.mass,
         hypothesis: entry.hypothesis,
         formulation: entry.formulation,
         thickness: entry.thickness,
-        massless_contact: scenario.contact.condition.is_massless() && may_touch(scenario, &entry.name),
+        massless_contact,
     };
     let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
     Body::with_contact_surface(mesh, surface, &spec).map_err(|e| match e {
@@ -40,7 +48,9 @@ pub(super) fn body<const D: usize>(
         FemError::MaterialConstant { name, .. } => {
             InputError::new(format!("materials.{}.{name}", entry.material), e.to_string())
         }
-        FemError::Hypothesis { .. } => InputError::new(format!("{key}.hypothesis"), e.to_string()),
+        FemError::Hypothesis { .. } | FemError::PlaneStress { .. } => {
+            InputError::new(format!("{key}.hypothesis"), e.to_string())
+        }
         FemError::Formulation { .. } => InputError::new(format!("{key}.formulation"), e.to_string()),
         _ => InputError::mesh(format!("{key}.mesh"), e.to_string()),
     })

@@ -1,4 +1,5 @@
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Pair, Target};
+use carom_fem::Hypothesis;
 use carom_mesh::{Facet, Vector};
 
 use super::body::may_touch;
@@ -24,7 +25,10 @@ pub(super) fn contact<const D: usize>(
 ) -> Result<(ContactModel<D>, Vec<Group>), InputError> {
     let mut model = ContactModel::default();
     for (i, (b, entry)) in bodies.iter().zip(&scenario.bodies).enumerate() {
-        let surface = ContactSurface::new(b.body.surface(), b.first_node as u32);
+        let mut surface = ContactSurface::new(b.body.surface(), b.first_node as u32);
+        if entry.hypothesis == Hypothesis::Axisymmetric {
+            surface = surface.revolved();
+        }
         let reference = |n: u32| b.body.mesh().nodes()[n as usize - b.first_node];
         if may_touch(scenario, &b.name) {
             check_manifold(&format!("bodies.{i}.mesh"), &surface, &reference)?;

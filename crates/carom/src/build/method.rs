@@ -1,10 +1,10 @@
 use carom_friction::{Criterion, StoppingRule};
 
 use super::number;
-use crate::Scheme;
 use crate::error::InputError;
 use crate::model::{Method, NewtonRule};
-use crate::scenario::Scenario;
+use crate::scenario::{AnalysisKind, Scenario, Spin};
+use crate::{ContactCondition, Scheme};
 
 /// How the scenario is taken through time.
 pub(super) fn method<const D: usize>(scenario: &Scenario) -> Result<Method<D>, InputError> {
@@ -12,13 +12,29 @@ pub(super) fn method<const D: usize>(scenario: &Scenario) -> Result<Method<D>, I
     let (dt, end) = (analysis.time_step, analysis.end_time);
     number("analysis.time_step", dt, dt > 0.0, "the time step must be greater than 0 s")?;
     number("analysis.end_time", end, end >= dt, "the end time must be at least one time step")?;
-    match analysis.scheme {
+    let scheme = match analysis.kind {
+        AnalysisKind::Dynamic => analysis.scheme,
+        AnalysisKind::Static => Scheme::Static,
+    };
+    match scheme {
         Scheme::Theta { theta, xi } => {
             let key = "analysis.scheme.theta";
             number(key, theta, theta > 0.0 && theta <= 1.0, "theta must be greater than 0 and at most 1")?;
             number("analysis.scheme.xi", xi, (0.0..=1.0).contains(&xi), "xi must be between 0 and 1")?;
         }
         Scheme::Conserving => {}
+        Scheme::Static if analysis.kind == AnalysisKind::Static => {
+            if scenario.contact.condition != ContactCondition::Gap {
+                return Err(InputError::new(
+                    "contact.condition",
+                    "a static analysis rules the gap at the end of the step; write condition = \"gap\"",
+                ));
+            }
+            refuse_velocities(scenario)?;
+        }
+        Scheme::Static => {
+            return Err(InputError::new("analysis.scheme", "a dynamic analysis needs a time scheme"));
+        }
     }
     let newton = analysis.newton;
     let key = "analysis.newton.tolerance";
@@ -42,7 +58,7 @@ pub(super) fn method<const D: usize>(scenario: &Scenario) -> Result<Method<D>, I
         "at most 30 halvings make sense",
     )?;
     Ok(Method {
-        scheme: analysis.scheme,
+        scheme,
         condition: scenario.contact.condition,
         solver: solver.kind.solver(),
         stopping: StoppingRule {
@@ -56,4 +72,23 @@ pub(super) fn method<const D: usize>(scenario: &Scenario) -> Result<Method<D>, I
         max_halvings: analysis.max_halvings,
         certificate_tolerance: scenario.contact.certificate_tolerance,
     })
+}
+
+/// Refuses initial velocities where there is no inertia.
+fn refuse_velocities(scenario: &Scenario) -> Result<(), InputError> {
+    for (i, body) in scenario.bodies.iter().enumerate() {
+        let moves = body.velocity.iter().flatten().any(|v| *v != 0.0);
+        let spins = match body.spin {
+            Spin::None => false,
+            Spin::InPlane(spin) => spin != 0.0,
+            Spin::InSpace(spin) => spin != [0.0; 3],
+        };
+        for (name, given) in [("velocity", moves), ("spin", spins)] {
+            if given {
+                let message = "a static analysis knows no velocities; leave it out";
+                return Err(InputError::new(format!("bodies.{i}.{name}"), message));
+            }
+        }
+    }
+    Ok(())
 }

@@ -2,6 +2,7 @@
 
 mod body;
 mod contact;
+mod drive;
 mod mesh;
 mod method;
 mod mortar;
@@ -46,7 +47,7 @@ pub fn build<const D: usize>(
         return Err(InputError::new("bodies", "there is no body; add one [[bodies]] table at least"));
     }
     let (contact, groups) = contact::contact(scenario, &bodies)?;
-    let gravity = match &scenario.analysis.gravity {
+    let gravity: Vector<D> = match &scenario.analysis.gravity {
         Some(g) => vector("analysis.gravity", g)?,
         None => Vector::<D>::zeros(),
     };
@@ -55,16 +56,7 @@ pub fn build<const D: usize>(
         let message = format!("{:?} has a part across the axis of body {name:?}", gravity.as_slice());
         return Err(InputError::new("analysis.gravity", message + "; let it point along y"));
     }
-    let velocities = scenario
-        .obstacles
-        .iter()
-        .enumerate()
-        .map(|(i, o)| match &o.velocity {
-            Some(v) => vector(&format!("obstacles.{i}.velocity"), v),
-            None => Ok(Vector::zeros()),
-        })
-        .collect::<Result<_, _>>()?;
-    let model = Model::new(bodies, contact, groups, gravity).with_obstacle_velocities(velocities);
+    let model = drive::drive(scenario, Model::new(bodies, contact, groups, gravity))?;
     overlaps::check_overlaps(scenario, &model)?;
     let velocity = velocity::initial_velocity(scenario, &model)?;
     let state = State::initial(&model, velocity);

@@ -2,6 +2,7 @@
 //! The solver never learns the name of the scheme.
 
 mod conserving;
+mod quasi_static;
 mod theta;
 
 use carom_mesh::Vector;
@@ -20,6 +21,9 @@ pub enum Scheme {
     },
     /// The energy–momentum scheme.
     Conserving,
+    /// Load stepping without inertia: that of every static analysis, which names no scheme.
+    #[serde(skip)]
+    Static,
 }
 
 impl Scheme {
@@ -29,6 +33,7 @@ impl Scheme {
         match *self {
             Scheme::Theta { theta, xi } => theta::step_map(theta, xi, dt),
             Scheme::Conserving => conserving::step_map(dt),
+            Scheme::Static => quasi_static::step_map(dt),
         }
     }
 }
@@ -74,6 +79,12 @@ impl StepMap {
     #[must_use]
     pub fn mean_velocity<const D: usize>(&self, v: &Vector<D>, d: &Vector<D>) -> Vector<D> {
         v * (1.0 - self.xi) + self.end_velocity(v, d) * self.xi
+    }
+
+    /// Whether there is no inertia: the balance of forces at the end of the step, and no velocities.
+    #[must_use]
+    pub fn is_static(&self) -> bool {
+        self.velocity_of_motion == 0.0
     }
 
     /// Factor of M in the iteration matrix K̄ [1/s²].

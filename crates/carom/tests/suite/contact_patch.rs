@@ -5,7 +5,7 @@
 //! nothing rubs. The exact solution is uniaxial stress: −E δ/2h for blocks of height h = 1, with E/(1 − ν²) in plane strain.
 
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Mortar, Pair, Search, Target};
-use carom_fem::material::{ElasticConstants, LawSpec};
+use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_friction::{BlockMatrix, ContactProblem, Criterion, SolverKind, StoppingRule};
 use carom_mesh::{CellBlock, CellKind, Mesh, Vector, generate};
@@ -31,6 +31,7 @@ fn body<const D: usize>(mesh: Mesh<D>) -> Body<D> {
         law: LawSpec::LinearElastic(ElasticConstants { young: YOUNG, poisson: POISSON }),
         density: 1.0,
         damping: RayleighDamping::default(),
+        viscosity: Viscosity::default(),
         mass: MassKind::Consistent,
         hypothesis: Hypothesis::PlaneStrain,
         formulation: Formulation::Standard,

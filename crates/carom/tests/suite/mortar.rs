@@ -68,6 +68,52 @@ fn impact_with_midpoint_keeps_energy_and_linear_momentum() {
     }
 }
 
+/// Two blocks of hexahedra that do not match, one spinning and both askew, meet in free space: a face, then an edge of it.
+#[test]
+fn impact_in_space_keeps_energy_and_linear_momentum() {
+    for friction in [0.0, 0.3] {
+        let block = |name: &str,
+                     corner: [f64; 3],
+                     divisions: [usize; 3],
+                     velocity: [f64; 3],
+                     spin: [f64; 3]| {
+            json!({
+                "name": name, "material": "elastic", "hypothesis": "plane-strain", "thickness": 1.0,
+                "mass": "consistent", "velocity": velocity, "spin": spin,
+                "mesh": {"kind": "box", "corner": corner, "size": [1.0, 1.0, 0.5], "divisions": divisions},
+            })
+        };
+        let blocks = [
+            block("lower", [0.0, 0.0, 0.0], [3, 2, 1], [0.0, 0.0, 0.5], [0.0; 3]),
+            block("upper", [0.2, 0.3, 0.503], [2, 3, 1], [0.4, 0.1, -0.5], [0.3, 0.2, 0.4]),
+        ];
+        let mut case = scenario(0.06, 1e-3, &blocks, &[]);
+        case["dimension"] = json!(3);
+        case["analysis"]["scheme"] = json!({"kind": "conserving"});
+        case["analysis"]["newton"]["tolerance"] = json!(1e-11);
+        case["contact"]["condition"] = json!("midpoint");
+        case["contact"]["discretisation"] = json!("mortar");
+        case["contact"]["friction"] = json!(friction);
+        let mut simulation = Simulation::<3>::new(&parse(&case)).expect("valid");
+        let momentum = |simulation: &Simulation<3>| {
+            let bodies = simulation.model().bodies.iter();
+            bodies.fold(Vector::zeros(), |sum: Vector<3>, b| {
+                sum + b.body.mean(&simulation.state().velocity[b.nodes()]) * b.body.total_mass()
+            })
+        };
+        let before = momentum(&simulation);
+        simulation.advance(f64::INFINITY, || false).expect("runs");
+        let summary = simulation.summary();
+        let energy = summary.energy;
+        assert_eq!(summary.contacts.len(), 1, "the blocks meet");
+        assert!(summary.contacts[0].peak_force > 1.0, "{:?}", summary.contacts);
+        println!("friction {friction}: defect {:.1e} E0", energy.max_defect / energy.initial);
+        assert!(energy.max_defect < 1e-10 * energy.initial, "friction {friction}: {energy:?}");
+        assert!((momentum(&simulation) - before).norm() < 1e-12, "friction {friction}");
+        assert!((friction == 0.0) == (energy.friction == 0.0), "{energy:?}");
+    }
+}
+
 /// With these conditions normal reactions do work: as with nodes at first touch, and as the weights of a row follow the sliding,
 /// which its gradient leaves out. The latter falls with the mesh.
 #[test]

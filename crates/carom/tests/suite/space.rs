@@ -2,7 +2,7 @@
 
 use carom::{ContactCondition, Group, Method, Model, ModelBody, NewtonRule, Scheme, State, Workspace, step};
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
-use carom_fem::material::{ElasticConstants, LawSpec};
+use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
 use carom_mesh::{Vector, generate};
@@ -20,6 +20,7 @@ fn block(name: &str, corner: [f64; 3], first_node: usize, cells: usize, massless
         law: LawSpec::SaintVenantKirchhoff(ElasticConstants { young: 2700.0, poisson: 0.33 }),
         density: 1.0,
         damping: RayleighDamping::default(),
+        viscosity: Viscosity::default(),
         mass: MassKind::Consistent,
         hypothesis: Hypothesis::PlaneStrain,
         formulation: Formulation::Standard,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use carom_fem::material::{ElasticConstants, LawSpec};
+use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
 use carom_fem::sparse::Factor;
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_mesh::{CellBlock, CellKind, Matrix, Mesh, Vector, generate};
@@ -20,6 +20,7 @@ pub fn spec(law: LawSpec) -> BodySpec {
         law,
         density: 1.5,
         damping: RayleighDamping::default(),
+        viscosity: Viscosity::default(),
         mass: MassKind::Consistent,
         hypothesis: Hypothesis::PlaneStrain,
         formulation: Formulation::Standard,

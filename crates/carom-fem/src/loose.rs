@@ -1,0 +1,80 @@
+//! Whether supports hold a body, or leave it rigid motions.
+
+use carom_mesh::{Vector, tensor};
+use nalgebra::DMatrix;
+
+use crate::Body;
+
+/// Rigid motions that move what is held by less than this, relative to the body, are free.
+const FREE: f64 = 1e-6;
+
+/// Whether the supports of a body leave it a rigid motion.
+pub(crate) fn is_loose<const D: usize>(body: &Body<D>) -> bool {
+    // A body that repeats itself cannot turn, and one of revolution moves along its axis only.
+    let turns = if body.mesh().ties().is_empty() { D * (D - 1) / 2 } else { 0 };
+    let (first, last) = if body.is_axisymmetric() { (1, D) } else { (0, D + turns) };
+    let modes = last - first;
+    let centre = body.mean(body.mesh().nodes());
+    let size = body.mesh().diameter();
+    let mode = |k: usize, arm: &Vector<D>| -> Vector<D> {
+        if k < D {
+            Vector::from_fn(|i, _| if i == k { 1.0 } else { 0.0 })
+        } else {
+            // About z in the plane, about each axis in space.
+            let axis = if D == 2 { 2 } else { k - D };
+            let spin: [f64; 3] = std::array::from_fn(|i| if i == axis { 1.0 / size } else { 0.0 });
+            tensor::rotation_velocity(&spin, arm)
+        }
+    };
+    let mut gram = DMatrix::<f64>::zeros(modes, modes);
+    for dof in body.held().dofs() {
+        let arm = body.mesh().nodes()[dof.node as usize] - centre;
+        let at: Vec<f64> = (first..last).map(|k| mode(k, &arm)[dof.component as usize]).collect();
+        for i in 0..modes {
+            for j in 0..modes {
+                gram[(i, j)] += at[i] * at[j];
+            }
+        }
+    }
+    let held = gram.symmetric_eigenvalues().min();
+    held <= FREE * FREE * body.held().dofs().len().max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::{ElasticConstants, LawSpec};
+    use crate::{BodySpec, Formulation, HeldDof, Hypothesis, MassKind, RayleighDamping};
+    use carom_mesh::generate;
+
+    fn cube(held: &[(u32, u8)]) -> bool {
+        let spec = BodySpec {
+            law: LawSpec::NeoHookean(ElasticConstants { young: 1.0, poisson: 0.3 }),
+            density: 1.0,
+            damping: RayleighDamping::default(),
+            mass: MassKind::Consistent,
+            thickness: 1.0,
+            hypothesis: Hypothesis::PlaneStrain,
+            formulation: Formulation::Standard,
+            massless_contact: false,
+        };
+        let mesh = generate::grid([0.0; 3], [1.0; 3], [1, 1, 1]).expect("valid");
+        let mut body = Body::new(mesh, &spec).expect("valid");
+        body.hold(held.iter().map(|&(node, component)| HeldDof { node, component }));
+        is_loose(&body)
+    }
+
+    /// Three nodes held in 3, 2 and 1 components hold a solid; less does not, nor do 6 components along one line.
+    #[test]
+    fn six_supports_in_the_right_places_hold_a_solid() {
+        let three_two_one = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+        assert!(!cube(&three_two_one));
+        for left_out in 0..6 {
+            let mut five = three_two_one.to_vec();
+            five.remove(left_out);
+            assert!(cube(&five), "{left_out}");
+        }
+        assert!(cube(&[(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2)]), "a hinge");
+        assert!(cube(&[]));
+    }
+}

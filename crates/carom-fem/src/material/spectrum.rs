@@ -1,0 +1,158 @@
+//! Isotropic laws as functions of the logarithmic principal stretches ε_A = ln λ_A.
+
+use std::fmt::Debug;
+
+use super::strain_law::StrainLaw;
+use super::{Mat3, Tangent};
+
+/// Principal values whose squares of stretch differ by less than this, relatively, are taken as equal: there the divided
+/// difference of their stresses is the mean of its limits, whose error is of second order.
+const COINCIDENT: f64 = 1e-5;
+
+/// Sweeps of Jacobi's rotations after which a tensor is taken as diagonal; a handful suffices for any that is finite.
+const SWEEPS: usize = 30;
+
+/// ψ(ε₁, ε₂, ε₃), symmetric in its arguments.
+pub trait StretchEnergy: Send + Sync + Debug {
+    /// ψ [J/m³].
+    fn energy(&self, e: &[f64; 3]) -> f64;
+    /// Principal Kirchhoff stresses τ_A = ∂ψ/∂ε_A [Pa].
+    fn stress(&self, e: &[f64; 3]) -> [f64; 3];
+    /// ∂τ_A/∂ε_B [Pa].
+    fn modulus(&self, e: &[f64; 3]) -> [[f64; 3]; 3];
+}
+
+/// Eigenvalues λ_A² of C and its eigenvectors, column by column; not numbers where C is not.
+#[derive(Debug, Clone, Copy)]
+pub struct Spectrum {
+    /// λ_A².
+    pub values: [f64; 3],
+    /// N_A.
+    pub vectors: Mat3,
+}
+
+impl Spectrum {
+    /// The spectrum of a symmetric tensor, by Jacobi's rotations: in 3 × 3 they take few sweeps and leave no more error than
+    /// round-off in eigenvalues and vectors, however close the eigenvalues are.
+    #[must_use]
+    pub fn of(c: &Mat3) -> Self {
+        let (mut c, mut vectors) = (*c, Mat3::identity());
+        for _ in 0..SWEEPS {
+            let mut rotated = false;
+            for (p, q) in [(0, 1), (0, 2), (1, 2)] {
+                let coupling = c[(p, q)];
+                if coupling.abs() <= 0.25 * f64::EPSILON * (c[(p, p)] * c[(q, q)]).abs().sqrt() {
+                    continue;
+                }
+                rotated = true;
+                // The smaller root t = tan φ of t² + 2 t cot 2φ − 1 = 0.
+                let cot = (c[(q, q)] - c[(p, p)]) / (2.0 * coupling);
+                let tan = cot.signum() / (cot.abs() + cot.hypot(1.0));
+                let cos = 1.0 / tan.hypot(1.0);
+                let sin = tan * cos;
+                let other = 3 - p - q;
+                let (to_p, to_q) = (c[(p, other)], c[(q, other)]);
+                c[(p, p)] -= tan * coupling;
+                c[(q, q)] += tan * coupling;
+                for (i, j, value) in
+                    [(p, q, 0.0), (p, other, cos * to_p - sin * to_q), (q, other, sin * to_p + cos * to_q)]
+                {
+                    c[(i, j)] = value;
+                    c[(j, i)] = value;
+                }
+                for i in 0..3 {
+                    let (v, w) = (vectors[(i, p)], vectors[(i, q)]);
+                    vectors[(i, p)] = cos * v - sin * w;
+                    vectors[(i, q)] = sin * v + cos * w;
+                }
+            }
+            if !rotated {
+                break;
+            }
+        }
+        Self { values: [c[(0, 0)], c[(1, 1)], c[(2, 2)]], vectors }
+    }
+
+    /// ε_A = ½ ln λ_A².
+    #[must_use]
+    pub fn logarithms(&self) -> [f64; 3] {
+        self.values.map(|c| 0.5 * c.ln())
+    }
+
+    /// Σ x_A N_A ⊗ N_A.
+    #[must_use]
+    pub fn compose(&self, x: &[f64; 3]) -> Mat3 {
+        self.vectors * Mat3::from_diagonal(&(*x).into()) * self.vectors.transpose()
+    }
+
+    /// The derivative by E = ½(C − I) of S = Σ s_A(λ²) N_A ⊗ N_A, with `slope` = 2 ∂s_A/∂λ_B²: dS has the components Σ_B slope_AB dE_BB on the
+    /// diagonal and 2 (s_A − s_B)/(λ_A² − λ_B²) dE_AB beside it, in the axes N.
+    #[must_use]
+    pub fn derivative(&self, s: &[f64; 3], slope: &[[f64; 3]; 3]) -> Tangent<3> {
+        let mut shear = [[0.0; 3]; 3];
+        for a in 0..3 {
+            for b in 0..3 {
+                let difference = self.values[a] - self.values[b];
+                shear[a][b] = if difference.abs() > COINCIDENT * self.values[a] {
+                    2.0 * (s[a] - s[b]) / difference
+                } else {
+                    0.5 * (slope[a][a] - slope[a][b] + slope[b][b] - slope[b][a])
+                };
+            }
+        }
+        let n = &self.vectors;
+        let mut out: Tangent<3> = [[[[0.0; 3]; 3]; 3]; 3];
+        for a in 0..3 {
+            for b in 0..3 {
+                for i in 0..3 {
+                    for j in 0..3 {
+                        let (direct, crossed) = (n[(i, a)] * n[(j, a)], n[(i, a)] * n[(j, b)]);
+                        for k in 0..3 {
+                            for l in 0..3 {
+                                let mut sum = slope[a][b] * direct * n[(k, b)] * n[(l, b)];
+                                if a != b {
+                                    let twin = n[(k, a)] * n[(l, b)] + n[(k, b)] * n[(l, a)];
+                                    sum += 0.5 * shear[a][b] * crossed * twin;
+                                }
+                                out[i][j][k][l] += sum;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        out
+    }
+}
+
+/// A law of the principal stretches as a law of C.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ByStretches<L>(pub L);
+
+impl<L: StretchEnergy> StrainLaw for ByStretches<L> {
+    fn energy(&self, c: &Mat3) -> f64 {
+        self.0.energy(&Spectrum::of(c).logarithms())
+    }
+
+    fn second_piola(&self, c: &Mat3) -> Mat3 {
+        let spectrum = Spectrum::of(c);
+        let stress = self.0.stress(&spectrum.logarithms());
+        spectrum.compose(&std::array::from_fn(|a| stress[a] / spectrum.values[a]))
+    }
+
+    /// S_A = τ_A/λ_A², 2 ∂S_A/∂λ_B² = (∂τ_A/∂ε_B)/(λ_A² λ_B²) − 2 δ_AB τ_A/λ_A⁴.
+    fn elasticity(&self, c: &Mat3) -> (Mat3, Tangent<3>) {
+        let spectrum = Spectrum::of(c);
+        let e = spectrum.logarithms();
+        let (stress, modulus) = (self.0.stress(&e), self.0.modulus(&e));
+        let squares = &spectrum.values;
+        let s: [f64; 3] = std::array::from_fn(|a| stress[a] / squares[a]);
+        let slope = std::array::from_fn(|a| {
+            std::array::from_fn(|b| {
+                let own = if a == b { 2.0 * s[a] / squares[a] } else { 0.0 };
+                modulus[a][b] / (squares[a] * squares[b]) - own
+            })
+        });
+        (spectrum.compose(&s), spectrum.derivative(&s, &slope))
+    }
+}

@@ -1,0 +1,87 @@
+use carom_mesh::{Matrix, Vector};
+
+use crate::Body;
+use crate::elements::{CellState, StepForces};
+use crate::material::PlasticState;
+use crate::sparse::NodalMatrix;
+
+/// A body whose material has gone through something: what its laws remember, quadrature point by quadrature point.
+///
+/// All forces and energies are those of a step that starts from this history. Of an elastic body, and of one that is virgin, the
+/// history is empty.
+#[derive(Debug, Clone, Copy)]
+pub struct Worked<'a, const D: usize> {
+    /// The body.
+    pub body: &'a Body<D>,
+    history: &'a [PlasticState],
+}
+
+impl<'a, const D: usize> Worked<'a, D> {
+    pub(crate) fn new(body: &'a Body<D>, history: &'a [PlasticState]) -> Self {
+        Self { body, history }
+    }
+
+    /// The blocks of elements, each with its part of the history.
+    fn blocks(&self) -> impl Iterator<Item = (&'a dyn crate::elements::Elements<D>, &'a [PlasticState])> {
+        let mut rest = self.history;
+        self.body.elements().iter().map(move |e| {
+            let (own, others) = rest.split_at(e.point_count().min(rest.len()));
+            rest = others;
+            (&**e, own)
+        })
+    }
+
+    /// Stored energy and plastic work of the step so far [J]. At the start of a step it is the stored energy alone.
+    #[must_use]
+    pub fn strain_energy(&self, u: &[Vector<D>]) -> f64 {
+        self.blocks().map(|(e, history)| e.energy(u, history)).sum()
+    }
+
+    /// Writes the internal force ∂E/∂u [N] to `f`.
+    pub fn internal_force(&self, u: &[Vector<D>], f: &mut [Vector<D>]) {
+        f.fill(Vector::zeros());
+        self.blocks().for_each(|(e, history)| e.add_internal_force(u, history, f));
+    }
+
+    /// Writes the force [N] of a step from `u0` to `u1` whose work is the change of [`Self::strain_energy`] to `f`.
+    pub fn conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]) {
+        f.fill(Vector::zeros());
+        self.blocks().for_each(|(e, history)| e.add_conserving_force(u0, u1, history, f));
+    }
+
+    /// Writes the forces [N] of a step from `u0` to `u1` that a blend of its stresses is made of.
+    pub fn step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut StepForces<'_, D>) {
+        f.fill_with_zeros();
+        self.blocks().for_each(|(e, history)| e.add_step_forces(u0, u1, history, f));
+    }
+
+    /// The stiffness ∂²E/∂u² [N/m] at `u`.
+    #[must_use]
+    pub fn stiffness(&self, u: &[Vector<D>]) -> NodalMatrix<Matrix<D>> {
+        let mut k = NodalMatrix::filled(self.body.graph(), Matrix::zeros());
+        self.blocks().for_each(|(e, history)| e.add_stiffness(u, history, &mut k));
+        k
+    }
+
+    /// Mean stress, energy density and plastic strain of every cell, in the order of the mesh.
+    #[must_use]
+    pub fn cell_states(&self, u: &[Vector<D>]) -> Vec<CellState> {
+        let mut out = Vec::with_capacity(self.body.mesh().cell_count());
+        self.blocks().for_each(|(e, history)| e.cell_states(u, history, &mut out));
+        out
+    }
+
+    /// Writes the history at the end of a step to `u` to `next`; returns the plastic work of the step [J].
+    pub fn update(&self, u: &[Vector<D>], next: &mut [PlasticState]) -> f64 {
+        next.copy_from_slice(self.history);
+        let mut rest = next;
+        let mut work = 0.0;
+        for e in self.body.elements() {
+            let count = e.point_count().min(rest.len());
+            let (own, others) = rest.split_at_mut(count);
+            work += e.update(u, own);
+            rest = others;
+        }
+        work
+    }
+}

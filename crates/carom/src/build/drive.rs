@@ -1,0 +1,234 @@
+//! Loads, supports and moving obstacles of a scenario.
+
+use carom_mesh::{Facet, Surface};
+
+use super::vector;
+use crate::error::InputError;
+use crate::model::{Model, ModelBody};
+use crate::scenario::{Axis, Displacement, LoadSpec, MotionSpec, ObstacleEntry, Scenario};
+use crate::{Load, Motion, ObstacleMotion, Signal, SignalSpec};
+
+/// Names of the components.
+const AXES: [&str; 3] = ["x", "y", "z"];
+/// At how many moments of a run a function of time is looked at before it starts.
+const SAMPLES: usize = 1000;
+/// A displacement below this at the start, relative to the model, is round-off [1].
+const AT_START: f64 = 1e-12;
+
+/// The model with everything that drives it.
+pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Result<Model<D>, InputError> {
+    let end = scenario.analysis.end_time;
+    let mut motions: Vec<Motion<D>> = Vec::new();
+    for (k, entry) in scenario.motions.iter().enumerate() {
+        let key = format!("motions.{k}");
+        let (index, body) = find_body(&model, &key, &entry.body)?;
+        let nodes = body.body.mesh().nodes_of(&entry.on).ok_or_else(|| {
+            let known = body.body.mesh().sets().names();
+            let message =
+                format!("{:?}: body {:?} has no such set; known are {known:?}", entry.on, entry.body);
+            InputError::new(format!("{key}.on"), message)
+        })?;
+        let components = match &entry.motion {
+            MotionSpec::Fixed { components } => fixed(&key, components.as_deref())?,
+            MotionSpec::Prescribed(d) => displacement(&key, d, end, model.size)?,
+        };
+        let motion = Motion { name: name(&motions, &entry.body, &entry.on), body: index, nodes, components };
+        refuse_contradictions(&key, &motions, &motion, model.bodies[index].body.mesh().masters().as_slice())?;
+        motions.push(motion);
+    }
+    let mut obstacle_motions = Vec::new();
+    for (k, entry) in scenario.obstacles.iter().enumerate() {
+        obstacle_motions.push(obstacle_motion(&format!("obstacles.{k}"), entry, end, model.size)?);
+    }
+    let mut model = model.with_motions(motions).with_obstacle_motions(obstacle_motions);
+    for (k, entry) in scenario.loads.iter().enumerate() {
+        let key = format!("loads.{k}");
+        let (index, body) = find_body(&model, &key, &entry.body)?;
+        let load = match &entry.load {
+            LoadSpec::Force { force } => {
+                let nodes = body.body.mesh().nodes_of(&entry.on).ok_or_else(|| {
+                    let known = body.body.mesh().sets().names();
+                    let message =
+                        format!("{:?}: body {:?} has no such set; known are {known:?}", entry.on, entry.body);
+                    InputError::new(format!("{key}.on"), message)
+                })?;
+                Load::nodal_force(&nodes, signals(&format!("{key}.force"), force, end)?)
+            }
+            LoadSpec::Traction { traction } => {
+                let traction = signals(&format!("{key}.traction"), traction, end)?;
+                Load::traction(&body.body, facets(&key, body, &entry.on)?, traction)
+            }
+            LoadSpec::Pressure { pressure, follower } => {
+                let pressure = signal(&format!("{key}.pressure"), pressure, end)?;
+                let facets = facets(&key, body, &entry.on)?;
+                if *follower {
+                    Load::follower_pressure(&body.body, facets, pressure)
+                } else {
+                    Load::dead_pressure(&body.body, facets, pressure)
+                }
+            }
+        };
+        model = model.with_load(index, load);
+    }
+    Ok(model)
+}
+
+fn find_body<'a, const D: usize>(
+    model: &'a Model<D>,
+    key: &str,
+    name: &str,
+) -> Result<(usize, &'a ModelBody<D>), InputError> {
+    model.bodies.iter().enumerate().find(|(_, b)| b.name == name).ok_or_else(|| {
+        let known: Vec<&str> = model.bodies.iter().map(|b| b.name.as_str()).collect();
+        InputError::new(format!("{key}.body"), format!("there is no body {name:?}; known are {known:?}"))
+    })
+}
+
+/// What the supports of a motion are called in the history: its body and set, and a number where that is not unique.
+fn name<const D: usize>(before: &[Motion<D>], body: &str, on: &str) -> String {
+    let plain = format!("{body}.{on}");
+    let taken = |name: &str| before.iter().any(|m| m.name == name);
+    let numbered = (2..).map(|k| format!("{plain}.{k}"));
+    std::iter::once(plain.clone()).chain(numbered).find(|name| !taken(name)).unwrap_or(plain)
+}
+
+/// The facets of a set on the boundary of a body.
+fn facets<const D: usize>(key: &str, body: &ModelBody<D>, on: &str) -> Result<Vec<Facet>, InputError> {
+    let mesh = body.body.mesh();
+    let key = format!("{key}.on");
+    let part = mesh.surface_of(on, &Surface::of(mesh)).ok_or_else(|| {
+        let known = mesh.sets().facet_names();
+        let message = format!("{on:?}: body {:?} has no such set of facets; known are {known:?}", body.name);
+        InputError::new(&key, message)
+    })?;
+    if part.facets().is_empty() {
+        return Err(InputError::new(&key, format!("{on:?}: no facet of this set is on the boundary")));
+    }
+    Ok(part.facets().to_vec())
+}
+
+/// The function of time under `key`, finite wherever it is looked at until `end` [s].
+fn signal(key: &str, spec: &SignalSpec, end: f64) -> Result<Signal, InputError> {
+    let signal = Signal::new(spec).map_err(|e| InputError::new(key, e.to_string()))?;
+    for k in 0..=SAMPLES {
+        let t = end * k as f64 / SAMPLES as f64;
+        let value = signal.at(t).value;
+        if !value.is_finite() {
+            return Err(InputError::new(
+                key,
+                format!("its value at t = {t} s is {value}: it must be finite"),
+            ));
+        }
+    }
+    Ok(signal)
+}
+
+/// A vector of functions of time.
+fn signals<const D: usize>(key: &str, specs: &[SignalSpec], end: f64) -> Result<[Signal; D], InputError> {
+    if specs.len() != D {
+        return Err(InputError::new(key, format!("must have {D} components, not {}", specs.len())));
+    }
+    let mut signals = std::array::from_fn(|_| Signal::Constant(0.0));
+    for (i, (signal_i, spec)) in signals.iter_mut().zip(specs).enumerate() {
+        *signal_i = signal(&format!("{key}.{i}"), spec, end)?;
+    }
+    Ok(signals)
+}
+
+/// Zero for the components that are named, or for all.
+fn fixed<const D: usize>(key: &str, components: Option<&[Axis]>) -> Result<[Option<Signal>; D], InputError> {
+    let zero = || Some(Signal::Constant(0.0));
+    let Some(named) = components else { return Ok(std::array::from_fn(|_| zero())) };
+    let mut signals = std::array::from_fn(|_| None);
+    for axis in named.iter().map(|&a| a as usize) {
+        let signal = signals.get_mut(axis).ok_or_else(|| {
+            let message = format!("{:?}: there are {D} dimensions", AXES[axis]);
+            InputError::new(format!("{key}.components"), message)
+        })?;
+        *signal = zero();
+    }
+    Ok(signals)
+}
+
+/// The displacement under `key`, which starts from zero.
+fn displacement<const D: usize>(
+    key: &str,
+    spec: &Displacement,
+    end: f64,
+    size: f64,
+) -> Result<[Option<Signal>; D], InputError> {
+    let mut signals = std::array::from_fn(|_| None);
+    for (i, spec) in [&spec.x, &spec.y, &spec.z].into_iter().enumerate() {
+        let Some(spec) = spec else { continue };
+        let key = format!("{key}.{}", AXES[i]);
+        let place = signals
+            .get_mut(i)
+            .ok_or_else(|| InputError::new(&key, format!("there are {D} dimensions; leave it out")))?;
+        let signal = signal(&key, spec, end)?;
+        let start = signal.at(0.0);
+        if start.value.abs() > AT_START * size {
+            let message = format!(
+                "the displacement at t = 0 is {} m, where the run starts from none; let it grow from 0, as t*{0} does",
+                start.value
+            );
+            return Err(InputError::new(&key, message));
+        }
+        if !start.rate.is_finite() {
+            let message = format!("the velocity at t = 0 is {} m/s: it must be finite", start.rate);
+            return Err(InputError::new(&key, message));
+        }
+        *place = Some(signal);
+    }
+    if signals.iter().all(Option::is_none) {
+        return Err(InputError::new(key, "give one of x, y, z at least; those left out are free"));
+    }
+    Ok(signals)
+}
+
+/// Refuses a motion that prescribes something else for what another one prescribes already.
+fn refuse_contradictions<const D: usize>(
+    key: &str,
+    before: &[Motion<D>],
+    motion: &Motion<D>,
+    masters: &[u32],
+) -> Result<(), InputError> {
+    for (k, other) in before.iter().enumerate().filter(|(_, m)| m.body == motion.body) {
+        let clash = (0..D).find(|&i| match (&motion.components[i], &other.components[i]) {
+            (Some(a), Some(b)) => a != b,
+            _ => false,
+        });
+        let Some(component) = clash else { continue };
+        let shared = |n: &&u32| other.nodes.iter().any(|m| masters[*m as usize] == masters[**n as usize]);
+        if let Some(node) = motion.nodes.iter().find(shared) {
+            let message = format!(
+                "node {node} is in {:?} of motions.{k} too, which moves it along {} differently; \
+                 leave that component out of one of them",
+                other.name, AXES[component]
+            );
+            return Err(InputError::new(format!("{key}.on"), message));
+        }
+    }
+    Ok(())
+}
+
+/// How the obstacle under `key` moves.
+fn obstacle_motion<const D: usize>(
+    key: &str,
+    entry: &ObstacleEntry,
+    end: f64,
+    size: f64,
+) -> Result<ObstacleMotion<D>, InputError> {
+    match (&entry.velocity, &entry.motion) {
+        (Some(_), Some(_)) => {
+            let message = "an obstacle has a velocity or a motion, not both; leave one out";
+            Err(InputError::new(format!("{key}.motion"), message))
+        }
+        (Some(v), None) => vector(&format!("{key}.velocity"), v).map(ObstacleMotion::Velocity),
+        (None, Some(motion)) => {
+            let signals = displacement::<D>(&format!("{key}.motion"), motion, end, size)?;
+            let still = || Signal::Constant(0.0);
+            Ok(ObstacleMotion::Displacement(Box::new(signals.map(|s| s.unwrap_or_else(still)))))
+        }
+        (None, None) => Ok(ObstacleMotion::Velocity(carom_mesh::Vector::zeros())),
+    }
+}

@@ -1,0 +1,93 @@
+//! Loads and prescribed motion, as the case file names them.
+
+use serde::{Deserialize, Serialize};
+
+use crate::SignalSpec;
+
+/// Forces on a named set of a body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LoadEntry {
+    /// Body.
+    pub body: String,
+    /// The set.
+    pub on: String,
+    /// What acts on it.
+    #[serde(flatten)]
+    pub load: LoadSpec,
+}
+
+/// Kinds of loads.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum LoadSpec {
+    /// The same force on every node of the set [N].
+    Force {
+        /// Its components.
+        force: Vec<SignalSpec>,
+    },
+    /// A force per reference area of the facets of the set [Pa].
+    Traction {
+        /// Its components.
+        traction: Vec<SignalSpec>,
+    },
+    /// A pressure against the facets of the set [Pa].
+    Pressure {
+        /// The pressure.
+        pressure: SignalSpec,
+        /// Whether it acts on the present area and normal, or on those of the reference configuration.
+        #[serde(default)]
+        follower: bool,
+    },
+}
+
+/// Prescribed displacements of a named set of a body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MotionEntry {
+    /// Body.
+    pub body: String,
+    /// The set.
+    pub on: String,
+    /// How it moves.
+    #[serde(flatten)]
+    pub motion: MotionSpec,
+}
+
+/// Kinds of prescribed motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum MotionSpec {
+    /// No displacement.
+    Fixed {
+        /// Components that are held; all if not given.
+        #[serde(default)]
+        components: Option<Vec<Axis>>,
+    },
+    /// Displacements [m]; components that are not given are free.
+    Prescribed(Displacement),
+}
+
+/// A displacement by components [m].
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Displacement {
+    /// Along x.
+    #[serde(default)]
+    pub x: Option<SignalSpec>,
+    /// Along y.
+    #[serde(default)]
+    pub y: Option<SignalSpec>,
+    /// Along z.
+    #[serde(default)]
+    pub z: Option<SignalSpec>,
+}
+
+/// Axes of space.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Axis {
+    /// The first.
+    X,
+    /// The second.
+    Y,
+    /// The third.
+    Z,
+}
