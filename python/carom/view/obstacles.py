@@ -22,7 +22,9 @@ def draw_obstacles(
     high: NDArray[np.float64],
     time: float,
 ) -> None:
-    """Draw the obstacles where they are at a time; what has no end, as large as the bodies.
+    """Draw the obstacles where their velocity took them; what has no end, as large as the bodies.
+
+    Those with a ``motion``, which only the native core evaluates, are drawn where they start.
 
     Parameters
     ----------
