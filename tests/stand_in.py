@@ -22,6 +22,7 @@ def made_up_fields(time):
         "velocity": -values / 7,
         "reaction": values * 1e-30,
         "stress": np.arange(12.0).reshape(2, 6) + time,
+        "strain": np.arange(12.0).reshape(2, 6) * 1e-3,
         "energy_density": np.array([time, 2 * time]),
         "plastic_strain": np.array([0.0, time]),
     }

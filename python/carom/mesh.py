@@ -134,8 +134,10 @@ class Ring(Description):
     ----------
     centre
         Centre [m], shape [2].
-    inner_radius, outer_radius
-        Radii of the hole and of the outer circle [m].
+    inner_radius
+        Radius of the hole [m].
+    outer_radius
+        Radius of the outer circle [m].
     divisions
         Cells around, 3 or more, and from the inside to the outside, shape [2].
     cell
@@ -228,8 +230,10 @@ class Cylinder(Description):
         Centre of the bottom [m], shape [3].
     axis
         Direction from the bottom to the top, of any length, shape [3].
-    radius, height
-        Radius and distance between bottom and top [m].
+    radius
+        Radius [m].
+    height
+        Distance between bottom and top [m].
     divisions
         Cells along a side of the core; even unless `rings` is given.
     rings
@@ -267,8 +271,10 @@ class Tube(Description):
         Centre of the bottom [m], shape [3].
     axis
         Direction from the bottom to the top, of any length, shape [3].
-    inner_radius, outer_radius
-        Radii of the hole and of the outside [m].
+    inner_radius
+        Radius of the hole [m].
+    outer_radius
+        Radius of the outside [m].
     height
         Distance between bottom and top [m].
     divisions

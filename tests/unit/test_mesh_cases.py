@@ -26,6 +26,7 @@ mesh = { file = "brick.vtu", scale = 1e-3 }
 velocity = [0.0, 0.0, -1.0]
 [[obstacles]]
 name = "floor"
+kind = "plane"
 point = [0.0, 0.0, -0.001]
 normal = [0.0, 0.0, 1.0]
 """
@@ -108,3 +109,32 @@ def test_moduli_in_other_units_are_suspected(case, young, speed):
     output = command("check", case).output
     assert f"warning: body brick: waves run at {speed} m/s in materials.rubber" in output
     assert "give moduli in Pa and density (1000) in kg/m³" in output
+
+
+def test_a_brick_falls_on_a_surface_out_of_a_file(case):
+    """A flat tetrahedron with its face at z = −0.001 m is the floor, whose thickness is plenty."""
+    points = np.array([[-500, -500, -1], [900, -500, -1], [-500, 900, -1], [0, 0, -900]], float)
+    sides = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [0, 2, 3]]
+    meshio.write(case.parent / "floor.stl", meshio.Mesh(points, [("triangle", sides)]), binary=True)
+    plane = 'kind = "plane"\npoint = [0.0, 0.0, -0.001]\nnormal = [0.0, 0.0, 1.0]\n'
+    assert plane in CASE
+    energies = []
+    for floor in (plane, 'kind = "surface"\nfile = "floor.stl"\nscale = 1e-3\n'):
+        case.write_text(CASE.replace(plane, floor).replace("end_time = 2e-3", "end_time = 5e-3"))
+        answer = command("run", case, "--out", case.parent / "out")
+        assert answer.exit_code == 0, answer.output
+        energies.append(carom.Result.open(case.parent / "out").history["kinetic"])
+    np.testing.assert_allclose(energies[0], energies[1], rtol=1e-9)
+    assert energies[0].min() < 0.99 * energies[0][0], "it has hit the floor"
+
+
+def test_an_open_surface_is_no_obstacle(case):
+    mesh = meshio.Mesh(np.eye(3), [("triangle", [[0, 1, 2]])])
+    meshio.write(case.parent / "floor.stl", mesh, binary=True)
+    start = CASE.index("[[obstacles]]")
+    surface = '[[obstacles]]\nname = "floor"\nkind = "surface"\nfile = "floor.stl"\n'
+    case.write_text(CASE[:start] + surface)
+    answer = command("check", case)
+    assert answer.exit_code == 2
+    assert "obstacles.0.file = " in answer.output
+    assert "has 3 edges on one triangle only" in answer.output

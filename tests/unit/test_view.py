@@ -30,7 +30,7 @@ BALL = {
             "velocity": [0, 0, -1.0],
         }
     ],
-    "obstacles": [{"name": "floor", "point": [0, 0, 0], "normal": [0, 0, 1]}],
+    "obstacles": [{"name": "floor", "kind": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}],
     "output": {"fields_every": 2e-3},
 }
 

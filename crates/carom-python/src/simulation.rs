@@ -91,11 +91,10 @@ impl Simulation {
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         with!(&self.inner, run => {
         let fields = run.fields();
-        let stress = fields
-            .cells
-            .iter()
-            .flat_map(|c| [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|ij| c.stress[ij]))
-            .collect();
+        let voigt = |tensor: &dyn Fn(usize) -> [f64; 6]| (0..fields.cells.len()).flat_map(tensor).collect();
+        let six = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
+        let stress = voigt(&|c| six.map(|ij| fields.cells[c].stress[ij]));
+        let strain = voigt(&|c| six.map(|ij| fields.cells[c].strain[ij]));
         let density = fields.cells.iter().map(|c| c.energy_density).collect();
         let plastic_strain = fields.cells.iter().map(|c| c.plastic_strain).collect();
         let out = PyDict::new(py);
@@ -103,6 +102,7 @@ impl Simulation {
         out.set_item("velocity", arrays::vectors(py, fields.velocity)?)?;
         out.set_item("reaction", arrays::vectors(py, fields.reaction)?)?;
         out.set_item("stress", arrays::table(py, stress, 6)?)?;
+        out.set_item("strain", arrays::table(py, strain, 6)?)?;
         out.set_item("energy_density", PyArray1::from_vec(py, density))?;
         out.set_item("plastic_strain", PyArray1::from_vec(py, plastic_strain))?;
         Ok(out)

@@ -223,7 +223,9 @@ impl<'a, const D: usize> BodyStep<'a, D> {
                 self.each_held(|n, i, _| velocity[n][i] = self.motion[n][i] / self.map.dt);
             }
             self.body.damping_force(self.frame, velocity, viscous, product);
-            self.body.add_viscous_force(self.start, self.displacement, self.map.dt, viscous);
+            if !self.map.is_static() {
+                self.body.add_viscous_force(self.start, self.displacement, self.map.dt, viscous);
+            }
         }
         &scratch.viscous
     }

@@ -115,7 +115,7 @@ impl<const D: usize> BodyOperator<D> {
         let mass: &NodalMatrix<f64> = body.mass();
         let damping_stiffness = body.damping_stiffness();
         // The force of viscosity is that of the mean rate of the step, d/Δt, whatever the scheme.
-        let viscosity = body.viscosity(u);
+        let viscosity = if map.is_static() { None } else { body.viscosity(u) };
         self.coefficients = None;
         for (entry, block) in stiffness.values.iter_mut().enumerate() {
             *block *= k;

@@ -49,6 +49,8 @@ class Frame:
         Nodal vectors [m], [m/s], [N], shape [node_count, 2].
     stress, energy_density
         Cauchy stress xx yy zz xy yz xz [Pa] and stored energy [J/m³] of the cells.
+    strain
+        Green–Lagrange strain of the cells, which no check needs.
     plastic_strain
         Equivalent plastic strain of the cells; no law that can be audited has any.
     flat
@@ -60,6 +62,7 @@ class Frame:
     velocity: Array
     reaction: Array
     stress: Array
+    strain: Array
     energy_density: Array
     plastic_strain: Array
     flat: float
@@ -75,7 +78,7 @@ class SurfaceFrame:
         Time [s].
     displacement
         Of all nodes [m], shape [node_count, 2].
-    friction_energy, pressure, area
+    friction_energy, slip, pressure, area
         Of the facets, see `carom.io.vtkhdf`, shape [facet_count].
     flat
         Largest component out of the plane, which must be zero.
@@ -84,6 +87,7 @@ class SurfaceFrame:
     time: float
     displacement: Array
     friction_energy: Array
+    slip: Array
     pressure: Array
     area: Array
     flat: float

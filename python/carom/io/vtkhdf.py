@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 POINT_FIELDS = ("displacement", "velocity", "reaction")
 """Vectors at the points [m], [m/s], [N]; stored with 3 components."""
 
-CELL_FIELDS = {"stress": 6, "energy_density": 1, "plastic_strain": 1}
-"""Cauchy stress xx yy zz xy yz xz [Pa], strain energy density [J/m³] and equivalent plastic strain,
-with components."""
+CELL_FIELDS = {"stress": 6, "strain": 6, "energy_density": 1, "plastic_strain": 1}
+"""Cauchy stress [Pa] and Green–Lagrange strain, both xx yy zz xy yz xz, strain energy density
+[J/m³] and equivalent plastic strain, with components."""
 
 SURFACE_POINT_FIELDS = ("displacement",)
 """Vectors at the points of a boundary [m]."""

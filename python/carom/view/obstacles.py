@@ -7,9 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.mesh_file import read_surface
+from carom.obstacle import Obstacle, Plane, RigidBox, RigidCylinder, RigidSphere
 from carom.scenario import Scenario
 
 _LOOK = {"color": "lightgrey", "opacity": 0.5}
+_LINE = {"color": "grey", "line_width": 2}
 
 
 def draw_obstacles(
@@ -19,26 +22,89 @@ def draw_obstacles(
     high: NDArray[np.float64],
     time: float,
 ) -> None:
-    """Draw planes as large as the bodies between `low` and `high` [m], where they are at a time."""
+    """Draw the obstacles where their velocity took them; what has no end, as large as the bodies.
+
+    Those with a ``motion``, which only the native core evaluates, are drawn where they start.
+
+    Parameters
+    ----------
+    plotter
+        PyVista's plotter.
+    scenario
+        The case.
+    low, high
+        Corners of the box around the bodies [m], shape [3].
+    time
+        Time [s].
+    """
+    size = 1.3 * float(np.linalg.norm(high - low))
+    flat = scenario.dimension == 2
+    for index, obstacle in enumerate(scenario.obstacles):
+        travel = _spatial(obstacle.velocity or (0.0,)) * time
+        middle = (low + high) / 2 - travel
+        if flat:
+            shape = _line(obstacle, middle, size)
+        else:
+            shape = _solid(obstacle, middle, size, key=f"obstacles.{index}")
+        plotter.add_mesh(shape.translate(travel), **(_LINE if flat else _LOOK))
+
+
+def _line(obstacle: Obstacle, middle: NDArray[np.float64], size: float) -> Any:  # noqa: ANN401
+    """Return the outline of an obstacle of the plane where it has not moved."""
     import pyvista  # noqa: PLC0415 (an extra)
 
-    size = 1.3 * float(np.linalg.norm(high - low))
-    middle = (low + high) / 2
-    for obstacle in scenario.obstacles:
-        if obstacle.kind != "plane":
-            continue
-        velocity = _spatial(obstacle.velocity or (0.0,))
-        normal = _spatial(obstacle.normal) / np.linalg.norm(obstacle.normal)
-        point = _spatial(obstacle.point) + velocity * time
-        centre = middle - normal * float((middle - point) @ normal)
-        if scenario.dimension == 2:
-            along = np.array([-normal[1], normal[0], 0.0]) * size / 2
-            plotter.add_mesh(
-                pyvista.Line(centre - along, centre + along), color="grey", line_width=2
-            )
-        else:
-            plane = pyvista.Plane(center=centre, direction=normal, i_size=size, j_size=size)
-            plotter.add_mesh(plane, **_LOOK)
+    if isinstance(obstacle, Plane):
+        normal, centre = _plane(obstacle, middle)
+        along = np.array([-normal[1], normal[0], 0.0]) * size / 2
+        return pyvista.Line(centre - along, centre + along)
+    if isinstance(obstacle, RigidSphere):
+        circle = pyvista.Circle(radius=obstacle.radius).translate(_spatial(obstacle.centre))
+        return circle.extract_feature_edges()
+    if isinstance(obstacle, RigidBox):
+        return _box(obstacle).extract_feature_edges()
+    raise AssertionError(f"{obstacle.kind} is no obstacle of the plane")
+
+
+def _solid(obstacle: Obstacle, middle: NDArray[np.float64], size: float, *, key: str) -> Any:  # noqa: ANN401 (PyVista is optional)
+    """Return the surface of an obstacle in space where it has not moved."""
+    import pyvista  # noqa: PLC0415 (an extra)
+
+    if isinstance(obstacle, Plane):
+        normal, centre = _plane(obstacle, middle)
+        return pyvista.Plane(center=centre, direction=normal, i_size=size, j_size=size)
+    if isinstance(obstacle, RigidSphere):
+        return pyvista.Sphere(radius=obstacle.radius, center=obstacle.centre)
+    if isinstance(obstacle, RigidCylinder):
+        axis = np.array(obstacle.axis) / np.linalg.norm(obstacle.axis)
+        point = np.array(obstacle.point)
+        centre = point + axis * float((middle - point) @ axis)
+        return pyvista.Cylinder(
+            center=centre,
+            direction=axis,
+            radius=obstacle.radius,
+            height=size,
+            resolution=60,
+            capping=False,
+        )
+    if isinstance(obstacle, RigidBox):
+        return _box(obstacle)
+    surface = read_surface(obstacle.file, scale=obstacle.scale, key=key)
+    return pyvista.PolyData.from_regular_faces(surface.points, surface.triangles)
+
+
+def _plane(
+    plane: Plane, middle: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the unit normal of a plane, and its point nearest to the middle of the bodies."""
+    normal = _spatial(plane.normal) / np.linalg.norm(plane.normal)
+    return normal, middle - normal * float((middle - _spatial(plane.point)) @ normal)
+
+
+def _box(box: RigidBox) -> Any:  # noqa: ANN401 (PyVista is optional)
+    import pyvista  # noqa: PLC0415 (an extra)
+
+    low, size = _spatial(box.corner), _spatial(box.size)
+    return pyvista.Box(np.column_stack([low, low + size]).ravel())
 
 
 def _spatial(vector: tuple[float, ...]) -> NDArray[np.float64]:

@@ -60,7 +60,7 @@ def test_vtk_sees_every_value(reader, step):
         read = vtk_to_numpy(grid.GetPointData().GetArray(name))
         np.testing.assert_array_equal(read[:, :2], fields[name])
         np.testing.assert_array_equal(read[:, 2], 0.0)
-    for name in ("stress", "energy_density", "plastic_strain"):
+    for name in ("stress", "strain", "energy_density", "plastic_strain"):
         read = vtk_to_numpy(grid.GetCellData().GetArray(name))
         np.testing.assert_array_equal(read, fields[name])
     np.testing.assert_array_equal(vtk_to_numpy(grid.GetCellData().GetArray("body")), MESH["body"])

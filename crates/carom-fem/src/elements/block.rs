@@ -5,7 +5,7 @@ use std::sync::Arc;
 use carom_mesh::{Matrix, Vector};
 
 use super::kinematics::Kinematics;
-use super::{CellState, Elements, StepForces};
+use super::{CellState, Elements, StepForces, green_lagrange};
 use crate::FemError;
 use crate::material::{Mat3, PlasticState, PointLaw, Tangent};
 use crate::quadrature::Integrand;
@@ -264,18 +264,20 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
             let own = self.grid.part(&cells, history);
             self.law.energies(f, own, &mut densities);
             self.law.cauchy_stresses(f, own, &mut stresses);
-            let mut points = stresses.iter().zip(&densities);
+            let mut points = stresses.iter().zip(&densities).zip(f);
             for cell in cells {
                 let plastic_strain = self.grid.plastic_strain(cell, history);
-                let mut mean = CellState { stress: Mat3::zeros(), energy_density: 0.0, plastic_strain };
+                let mut mean = CellState::empty(plastic_strain);
                 let mut volume = 0.0;
                 let weights = &self.grid.weights[self.grid.points(&(cell..cell + 1))];
-                for (weight, (stress, density)) in weights.iter().zip(points.by_ref()) {
+                for (weight, ((stress, density), f)) in weights.iter().zip(points.by_ref()) {
                     mean.stress += stress * *weight;
+                    mean.strain += green_lagrange(f) * *weight;
                     mean.energy_density += density * weight;
                     volume += weight;
                 }
                 mean.stress /= volume;
+                mean.strain /= volume;
                 mean.energy_density /= volume;
                 out.push(mean);
             }

@@ -6,7 +6,7 @@ use carom_mesh::{Matrix, Vector};
 use super::block::{BATCH, Grid};
 use super::dilatation::Cell;
 use super::kinematics::Kinematics;
-use super::{CellState, Elements, StepForces};
+use super::{CellState, Elements, StepForces, green_lagrange};
 use crate::material::discrete_gradient::{SMALL_STRAIN, deformation, second_piola, stress_difference};
 use crate::material::{Mat3, PlasticState, PointLaw, Tangent};
 use crate::sparse::NodalMatrix;
@@ -205,9 +205,10 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
             for (index, (cell, points)) in cells.clone().zip(self.split(&cells, f)) {
                 let volume: f64 = cell.weights.iter().sum();
                 let plastic_strain = self.grid.plastic_strain(index, history);
-                let mut mean = CellState { stress: Mat3::zeros(), energy_density: 0.0, plastic_strain };
+                let mut mean = CellState::empty(plastic_strain);
                 for (q, weight) in points.zip(cell.weights) {
                     mean.stress += stresses[q] * f[q].transpose() * (weight / (volume * f[q].determinant()));
+                    mean.strain += green_lagrange(&f[q]) * (weight / volume);
                     mean.energy_density += energies[q] / volume;
                 }
                 out.push(mean);

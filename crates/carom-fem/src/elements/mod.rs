@@ -11,7 +11,7 @@ use std::fmt::Debug;
 
 use carom_mesh::{CellKind, Matrix, Vector};
 
-use crate::material::{Mat3, PlasticState};
+use crate::material::{Mat3, PlasticState, embed};
 use crate::shape_table::Cells;
 use crate::sparse::{NodalMatrix, NodeGraph};
 use crate::{BodySpec, FemError, Formulation, Hypothesis};
@@ -27,10 +27,25 @@ use mean_dilatation::MeanDilatation;
 pub struct CellState {
     /// Cauchy stress [Pa].
     pub stress: Mat3,
+    /// Green–Lagrange strain ½(FᵀF − 1) of the motion of the nodes; a sheet without stress across it has none there either.
+    pub strain: Mat3,
     /// Stored energy per reference volume [J/m³].
     pub energy_density: f64,
     /// Equivalent plastic strain; zero in what is elastic.
     pub plastic_strain: f64,
+}
+
+impl CellState {
+    /// Nothing yet to be a mean of.
+    fn empty(plastic_strain: f64) -> Self {
+        Self { stress: Mat3::zeros(), strain: Mat3::zeros(), energy_density: 0.0, plastic_strain }
+    }
+}
+
+/// Green–Lagrange strain of a deformation gradient.
+fn green_lagrange<const S: usize>(f: &Matrix<S>) -> Mat3 {
+    let f = embed(f);
+    (f.tr_mul(&f) - Mat3::identity()) * 0.5
 }
 
 /// The forces of a step from u₀ to u₁ that a blend of its start and end stresses is made of [N], one vector per node; F̄ = ½(F₀ + F₁).

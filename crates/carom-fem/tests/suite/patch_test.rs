@@ -27,6 +27,10 @@ fn check<const D: usize>(mesh: Mesh<D>, spec: &BodySpec) {
     let states = body.cell_states(&u);
     for state in &states {
         assert!((state.stress - states[0].stress).norm() < 1e-10, "{kind:?}: stress is not constant");
+        let strain = (gradient + gradient.transpose() + gradient.transpose() * gradient) * 0.5;
+        for (i, j) in (0..D).flat_map(|i| (0..D).map(move |j| (i, j))) {
+            assert!((state.strain[(i, j)] - strain[(i, j)]).abs() < 1e-12, "{kind:?}: strain");
+        }
     }
 }
 
