@@ -91,7 +91,9 @@ class HalfCylinder:
         ring = [starts] + [
             len(core) + k * len(starts) + np.arange(len(starts)) for k in range(len(rings))
         ]
-        quads = [_quads(number)] + [_quads(np.stack([a, b])) for a, b in zip(ring, ring[1:], strict=False)]
+        quads = [_quads(number)] + [
+            _quads(np.stack([a, b])) for a, b in zip(ring, ring[1:], strict=False)
+        ]
         flat = np.flatnonzero(np.abs(points[:, 1]) < 1e-9 * RADIUS)
         near_axis = (np.abs(points[:, 0]) < 1e-9 * RADIUS) & (points[:, 1] < 0.5 * CORE * RADIUS)
         cells = np.concatenate(quads)
@@ -108,7 +110,9 @@ class HalfCylinder:
         lines = ["*NODE"]
         lines += [f"{n}, {x!r}, {y!r}" for n, (x, y) in enumerate(self.points.tolist(), 1)]
         lines += ["*ELEMENT, TYPE=CPE4, ELSET=body"]
-        lines += [f"{e}, {', '.join(map(str, c))}" for e, c in enumerate((self.cells + 1).tolist(), 1)]
+        lines += [
+            f"{e}, {', '.join(map(str, c))}" for e, c in enumerate((self.cells + 1).tolist(), 1)
+        ]
         for name, nodes in (("axis", self.axis), ("base", self.flat)):
             lines += [f"*NSET, NSET={name}", *(str(n + 1) for n in nodes)]
         lines += ["*SURFACE, NAME=flat, TYPE=ELEMENT"]
