@@ -14,6 +14,7 @@ line through the values inside is a², or c².
 
 from __future__ import annotations
 
+import itertools
 import math
 import sys
 import tempfile
@@ -91,9 +92,7 @@ class HalfCylinder:
         ring = [starts] + [
             len(core) + k * len(starts) + np.arange(len(starts)) for k in range(len(rings))
         ]
-        quads = [_quads(number)] + [
-            _quads(np.stack([a, b])) for a, b in zip(ring, ring[1:], strict=False)
-        ]
+        quads = [_quads(number)] + [_quads(np.stack([a, b])) for a, b in itertools.pairwise(ring)]
         flat = np.flatnonzero(np.abs(points[:, 1]) < 1e-9 * RADIUS)
         near_axis = (np.abs(points[:, 0]) < 1e-9 * RADIUS) & (points[:, 1] < 0.5 * CORE * RADIUS)
         cells = np.concatenate(quads)
