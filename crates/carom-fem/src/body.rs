@@ -469,9 +469,12 @@ impl<const D: usize> Body<D> {
     }
 
     /// Mean spin [rad/s] about the centre of mass, as (z) in 2D and (x, y, z) in 3D: the inertia tensor's inverse times the
-    /// angular momentum about the centre.
+    /// angular momentum about the centre. A body of revolution has none.
     #[must_use]
     pub fn spin(&self, u: &[Vector<D>], v: &[Vector<D>]) -> [f64; 3] {
+        if self.is_axisymmetric() {
+            return [0.0; 3];
+        }
         let (centre, drift) = (self.centre(u), self.mean(v));
         let mut momentum = [0.0; 3];
         let mut inertia = Matrix::<3>::zeros();

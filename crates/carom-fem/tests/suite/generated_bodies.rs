@@ -37,8 +37,11 @@ fn check_rate<const D: usize>(
     }
 }
 
-/// The nodes of each set are where `place` puts them, and all the sets together are the boundary.
-fn check_sets<const D: usize>(mesh: &Mesh<D>, sets: &[(&str, &dyn Fn(&Vector<D>) -> f64)]) {
+/// How far a point is from where the nodes of a set belong [m].
+type Distance<'a, const D: usize> = &'a dyn Fn(&Vector<D>) -> f64;
+
+/// The nodes of each set are where they belong, and all the sets together are the boundary.
+fn check_sets<const D: usize>(mesh: &Mesh<D>, sets: &[(&str, Distance<'_, D>)]) {
     let surface = Surface::of(mesh);
     let mut facets = 0;
     for (name, distance) in sets {

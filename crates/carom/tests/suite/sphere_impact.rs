@@ -1,6 +1,10 @@
 //! A steel sphere strikes a rigid plane: time, force and depth of the contact by Hertz's quasi-static theory (Johnson, *Contact
 //! Mechanics*, § 11.4): with K = 4/3 √R E/(1 − ν²) and the mass m, depth (5 m v²/4K)^(2/5), force K depth^(3/2) and
-//! time 2.9432 depth/v. Axisymmetric.
+//! time 2.9432 depth/v. Axisymmetric, with 5 facets along the radius of the contact, 0.42 mm.
+//!
+//! The theory is that of half-spaces: in a sphere, of which the contact is 4 % of the radius, the centre is not far away, and what
+//! lies between it and infinity, some 3 % of the depth by Boussinesq's solution, is missing. Refined further, the sphere stays
+//! 1.5 % stiffer in time, force and depth.
 
 use crate::common::{body, parse, plane, scenario};
 use carom::{Meshes, Simulation};
@@ -51,32 +55,34 @@ fn a_steel_sphere_rebounds_from_a_plane_as_hertz_found() {
     case["materials"]["elastic"] =
         json!({"kind": "linear-elastic", "young": young, "poisson": poisson, "density": density});
     case["analysis"]["scheme"] = json!({"kind": "conserving"});
-    case["contact"]["condition"] = json!("massless");
+    case["contact"]["condition"] = json!("gap");
     case["output"]["merge_contacts"] = json!(5e-6);
-    let meshes = Meshes::from([("sphere".to_string(), meridian(32, 0.75))]);
+    let meshes = Meshes::from([("sphere".to_string(), meridian(32, 0.7))]);
     let mut run = Simulation::<2>::with_meshes(&parse(&case), meshes).expect("valid");
     let measured = run.model().bodies[0].body.total_mass();
     assert!((measured / mass - 1.0).abs() < 0.01, "{measured}");
     let start = run.model().bodies[0].body.centre(&run.state().displacement)[1];
-    let (mut deepest, mut strongest) = (0.0_f64, 0.0_f64);
+    let mut deepest = 0.0_f64;
     for k in 1..=260 {
         run.advance(f64::from(k) * step, || false).expect("runs");
         let centre = run.model().bodies[0].body.centre(&run.state().displacement)[1];
         deepest = deepest.max(start - centre);
-        strongest = strongest.max(run.state().contact_force.iter().map(|f| f[1]).sum());
     }
     let summary = run.summary();
-    let (onset, release) = (summary.contacts[0].onset, summary.contacts[0].release.expect("it rebounds"));
+    let contact = &summary.contacts[0];
+    // The event begins with the end of the first step that has a reaction.
+    let (lasted, strongest) =
+        (contact.release.expect("it rebounds") - contact.onset + step, contact.peak_force);
     println!(
-        "time {:.2} µs of {:.2}, force {strongest:.1} N of {force:.1}, depth {:.3} µm of {:.3}; drift {:.1e}",
-        1e6 * (release - onset),
+        "time {:.2} µs of {:.2}, force {strongest:.1} N of {force:.1}, depth {:.3} µm of {:.3}; defect {:.1e}",
+        1e6 * lasted,
         1e6 * time,
         1e6 * deepest,
         1e6 * depth,
-        summary.energy.max_drift / summary.energy.initial
+        summary.energy.max_defect / summary.energy.initial
     );
-    assert!(((release - onset) / time - 1.0).abs() < 0.02);
+    assert!((lasted / time - 1.0).abs() < 0.02);
     assert!((strongest / force - 1.0).abs() < 0.02);
     assert!((deepest / depth - 1.0).abs() < 0.02);
-    assert!(summary.energy.max_drift < 1e-10 * summary.energy.initial);
+    assert!(summary.energy.max_defect < 1e-10 * summary.energy.initial);
 }
