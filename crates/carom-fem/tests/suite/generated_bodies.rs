@@ -194,3 +194,17 @@ fn impossible_bodies_are_refused_with_the_parameter() {
     let refused = ball.mesh(CellKind::Quad4);
     assert_eq!(refused, Err(MeshError::WrongDimension { kind: "quad4", dimension: 3 }));
 }
+
+#[test]
+fn inverted_cells_are_counted_and_named() {
+    let mesh = generate::grid([0.0; 3], [4.0, 1.0, 1.0], [4, 1, 1]).expect("valid");
+    let mut block = mesh.blocks()[0].clone();
+    for cell in [1, 3] {
+        block.connectivity[8 * cell..8 * (cell + 1)].rotate_left(4);
+    }
+    let mesh = Mesh::new(mesh.nodes().to_vec(), vec![block]).expect("valid");
+    let spec = crate::common::spec(LawSpec::SaintVenantKirchhoff(elastic()));
+    let message = Body::new(mesh, &spec).expect_err("inverted").to_string();
+    assert!(message.starts_with("cell 1 with nodes ["), "{message}");
+    assert!(message.contains("is inverted, and so are 1 more: [3]"), "{message}");
+}

@@ -12,6 +12,7 @@ mod hypotheses;
 mod incline;
 mod invariance;
 mod ledger;
+mod load_steps;
 mod materials;
 mod mortar;
 mod moving_obstacles;
