@@ -12,7 +12,7 @@ GEOMETRY = Path(__file__).with_name("bracket.geo")
 SPEED = 2.0  # [m/s]
 
 
-def scenario(geometry: Path = GEOMETRY, *, end_time: float = 4e-4) -> carom.Scenario:
+def scenario(geometry: Path = GEOMETRY, *, end_time: float = 3.6e-4) -> carom.Scenario:
     """Describe the bracket just above the floor; its geometry is in millimetres."""
     polymer = carom.NeoHookean(young=2.3e9, poisson=0.35, density=1050.0)
     mesh = carom.MeshFile(file=str(geometry), body="bracket", scale=1e-3)
@@ -21,8 +21,8 @@ def scenario(geometry: Path = GEOMETRY, *, end_time: float = 4e-4) -> carom.Scen
     return carom.Scenario(
         title="A bracket on the floor",
         dimension=3,
-        analysis=carom.Dynamic(end_time=end_time, time_step=2e-6, scheme=carom.Theta()),
-        output=carom.Output(fields_every=1e-5),
+        analysis=carom.Dynamic(end_time=end_time, time_step=4e-6, scheme=carom.Theta()),
+        output=carom.Output(fields_every=2e-5),
         materials={"polymer": polymer},
         bodies=[bracket],
         obstacles=[floor],

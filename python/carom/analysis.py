@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeVar
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 from typing_extensions import Self
@@ -87,7 +87,8 @@ class Dynamic(Description):
 
     @model_validator(mode="after")
     def _at_least_one_step(self) -> Self:
-        return _whole_steps(self)
+        _refuse_less_than_a_step(self)
+        return self
 
 
 class Static(Description):
@@ -121,13 +122,11 @@ class Static(Description):
 
     @model_validator(mode="after")
     def _at_least_one_step(self) -> Self:
-        return _whole_steps(self)
+        _refuse_less_than_a_step(self)
+        return self
 
 
-_Timed = TypeVar("_Timed", Dynamic, Static)
-
-
-def _whole_steps(analysis: _Timed) -> _Timed:
+def _refuse_less_than_a_step(analysis: Dynamic | Static) -> None:
     """Refuse an analysis that is shorter than a step."""
     if analysis.end_time < analysis.time_step:
         raise problem(
@@ -135,7 +134,6 @@ def _whole_steps(analysis: _Timed) -> _Timed:
             key="end_time",
             value=analysis.end_time,
         )
-    return analysis
 
 
 Analysis = Annotated[Dynamic | Static, Field(discriminator="kind")]

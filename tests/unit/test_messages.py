@@ -49,10 +49,14 @@ BAD = [
     (
         "materials.elastic",
         {
-            **{"kind": "j2-plasticity", "young": 1, "poisson": 0, "density": 1},
-            **{"yield_stress": 4, "saturation_stress": 3},
+            "kind": "j2-plasticity",
+            "young": 1,
+            "poisson": 0,
+            "density": 1,
+            "yield_stress": 4,
+            "saturation_stress": 3,
         },
-        "materials.elastic.saturation_stress = 3: the saturation stress cannot be below the yield",
+        "saturation_stress = 3.0: the saturation stress cannot be below the yield stress",
     ),
     ("materials.elastic.viscosity", {"shear": -1}, "viscosity.shear = -1: must be at least 0"),
     (

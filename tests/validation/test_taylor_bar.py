@@ -7,10 +7,10 @@ The mesh here is coarse, 4 × 40 cells.
 
 import numpy as np
 import pytest
+from runs import EXAMPLES
 
 import carom
 from carom import Scenario
-from runs import EXAMPLES
 
 LENGTH, RADIUS = 32.4e-3, 3.2e-3
 

@@ -29,6 +29,10 @@ impl<const D: usize> ContactModel<D> {
     /// the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
     /// the closest facet alone is ambiguous. Nodes are found inside a target to a depth of half a facet. On a smooth target
     /// the closest point may move on to other facets. Mortar pairs are left to `detect_mortar`.
+    ///
+    /// Nodes see facets and no edges: bodies in space that meet with crossed edges alone sink into one another until a node faces a
+    /// facet, by less than a facet where both sides are sources. A node that slides over the rim of its target while it is a little
+    /// inside, as the condition `midpoint` lets it, is beside the target from then on.
     pub fn detect(
         &self,
         start: &impl Fn(u32) -> Vector<D>,

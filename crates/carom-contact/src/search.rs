@@ -210,6 +210,9 @@ mod tests {
         let tree = (time(&mut search), time(&mut search));
         search.surfaces[1].tree = Bvh::flat(surface.facets().iter().map(|_| Aabb::of([])));
         let scan = time(&mut search);
+        let start = std::time::Instant::now();
+        let closest = model.proximity(&model.pairs[0], &at).expect("nodes");
+        println!("closest {:e} m after {:?}", closest.gap, start.elapsed());
         println!(
             "{} facets: tree {:?} (first {:?}), scan {:?}",
             surface.facets().len(),

@@ -6,9 +6,10 @@ use thiserror::Error;
 pub enum FemError {
     /// A cell is inverted or has no volume in the reference configuration.
     #[error(
-        "cell {cell} with nodes {nodes:?} near {at:?} is {}; \
+        "cell {cell} with nodes {nodes:?} near {at:?} is {}{}; \
          list its nodes counter-clockwise and give it a volume",
-        if *.volume < 0.0 { "inverted" } else { "degenerate" }
+        if *.volume < 0.0 { "inverted" } else { "degenerate" },
+        and_more(.others)
     )]
     InvertedCell {
         /// Index of the cell in its mesh.
@@ -19,6 +20,8 @@ pub enum FemError {
         at: Vec<f64>,
         /// Jacobian determinant relative to the size of the cell.
         volume: f64,
+        /// More such cells of its kind.
+        others: Vec<usize>,
     },
     /// A material constant is out of range.
     #[error("{name} = {value}: {remedy}")]
@@ -80,4 +83,13 @@ pub enum FemError {
     /// The ordering of a sparse matrix failed.
     #[error("the symbolic factorisation failed: {0}")]
     Symbolic(String),
+}
+
+/// How many other cells there are and which: the first few.
+fn and_more(cells: &[usize]) -> String {
+    match cells {
+        [] => String::new(),
+        _ if cells.len() <= 5 => format!(", and so are {} more: {cells:?}", cells.len()),
+        _ => format!(", and so are {} more, the first of them {:?}", cells.len(), &cells[..5]),
+    }
 }

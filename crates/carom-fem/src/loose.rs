@@ -43,7 +43,7 @@ pub(crate) fn is_loose<const D: usize>(body: &Body<D>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::{ElasticConstants, LawSpec};
+    use crate::material::{ElasticConstants, LawSpec, Viscosity};
     use crate::{BodySpec, Formulation, HeldDof, Hypothesis, MassKind, RayleighDamping};
     use carom_mesh::generate;
 
@@ -52,6 +52,7 @@ mod tests {
             law: LawSpec::NeoHookean(ElasticConstants { young: 1.0, poisson: 0.3 }),
             density: 1.0,
             damping: RayleighDamping::default(),
+            viscosity: Viscosity::default(),
             mass: MassKind::Consistent,
             thickness: 1.0,
             hypothesis: Hypothesis::PlaneStrain,

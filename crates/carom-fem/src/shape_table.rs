@@ -103,7 +103,8 @@ impl<const D: usize, const N: usize> ShapeTable<D, N> {
             curvatures: Vec::new(),
             values,
         };
-        for (cell, nodes) in block.cells().enumerate() {
+        let mut inverted: Option<FemError> = None;
+        'cells: for (cell, nodes) in block.cells().enumerate() {
             let size = nodes
                 .iter()
                 .map(|&n| (mesh.nodes()[n as usize] - mesh.nodes()[nodes[0] as usize]).norm())
@@ -118,12 +119,18 @@ impl<const D: usize, const N: usize> ShapeTable<D, N> {
                 let (inverse, det) = tensor::inverse(&jacobian);
                 let volume = det / size.powi(D as i32);
                 if volume.is_nan() || volume <= DEGENERATE {
-                    return Err(FemError::InvertedCell {
-                        cell: first + cell,
-                        nodes: nodes.to_vec(),
-                        at: mesh.nodes()[nodes[0] as usize].iter().copied().collect(),
-                        volume,
-                    });
+                    if let Some(FemError::InvertedCell { others, .. }) = &mut inverted {
+                        others.push(first + cell);
+                    } else {
+                        inverted = Some(FemError::InvertedCell {
+                            cell: first + cell,
+                            nodes: nodes.to_vec(),
+                            at: mesh.nodes()[nodes[0] as usize].iter().copied().collect(),
+                            volume,
+                            others: Vec::new(),
+                        });
+                    }
+                    continue 'cells;
                 }
                 let inverse_transposed = inverse.transpose();
                 table.gradients.push(std::array::from_fn(|a| {
@@ -137,7 +144,7 @@ impl<const D: usize, const N: usize> ShapeTable<D, N> {
                 table.weights.push(point.weight * det * depth.at(&at));
             }
         }
-        Ok(table)
+        inverted.map_or(Ok(table), Err)
     }
 
     /// N_a/R [1/m] at a point; zero but in a body of revolution.

@@ -89,7 +89,8 @@ def _solid(obstacle: Obstacle, middle: NDArray[np.float64], size: float, *, key:
     if isinstance(obstacle, RigidBox):
         return _box(obstacle)
     surface = read_surface(obstacle.file, scale=obstacle.scale, key=key)
-    return pyvista.PolyData.from_regular_faces(surface.points, surface.triangles)
+    triangles: Any = surface.triangles
+    return pyvista.PolyData.from_regular_faces(surface.points, triangles)
 
 
 def _plane(

@@ -442,7 +442,7 @@ def test_mortar_contact_is_not_audited(results, tmp_path):
     shutil.copytree(results("gap", "theta"), directory)
     case = directory / "case.toml"
     text = case.read_text(encoding="utf-8")
-    case.write_text(text.replace("[contact]\n", '[contact]\ndiscretisation = "mortar"\n'))
+    case.write_text(text.replace('discretisation = "node-to-segment"', 'discretisation = "mortar"'))
     with pytest.raises(InputError, match="cannot audit mortar contact yet"):
         carom.audit(directory)
 

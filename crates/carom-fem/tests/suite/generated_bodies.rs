@@ -37,8 +37,11 @@ fn check_rate<const D: usize>(
     }
 }
 
-/// The nodes of each set are where `place` puts them, and all the sets together are the boundary.
-fn check_sets<const D: usize>(mesh: &Mesh<D>, sets: &[(&str, &dyn Fn(&Vector<D>) -> f64)]) {
+/// How far a point is from where the nodes of a set belong [m].
+type Distance<'a, const D: usize> = &'a dyn Fn(&Vector<D>) -> f64;
+
+/// The nodes of each set are where they belong, and all the sets together are the boundary.
+fn check_sets<const D: usize>(mesh: &Mesh<D>, sets: &[(&str, Distance<'_, D>)]) {
     let surface = Surface::of(mesh);
     let mut facets = 0;
     for (name, distance) in sets {
@@ -190,4 +193,18 @@ fn impossible_bodies_are_refused_with_the_parameter() {
     assert_eq!(parameter(generate::Cylinder { axis: flat, ..cylinder }.mesh(kind)), "height");
     let refused = ball.mesh(CellKind::Quad4);
     assert_eq!(refused, Err(MeshError::WrongDimension { kind: "quad4", dimension: 3 }));
+}
+
+#[test]
+fn inverted_cells_are_counted_and_named() {
+    let mesh = generate::grid([0.0; 3], [4.0, 1.0, 1.0], [4, 1, 1]).expect("valid");
+    let mut block = mesh.blocks()[0].clone();
+    for cell in [1, 3] {
+        block.connectivity[8 * cell..8 * (cell + 1)].rotate_left(4);
+    }
+    let mesh = Mesh::new(mesh.nodes().to_vec(), vec![block]).expect("valid");
+    let spec = crate::common::spec(LawSpec::SaintVenantKirchhoff(elastic()));
+    let message = Body::new(mesh, &spec).expect_err("inverted").to_string();
+    assert!(message.starts_with("cell 1 with nodes ["), "{message}");
+    assert!(message.contains("is inverted, and so are 1 more: [3]"), "{message}");
 }

@@ -83,17 +83,20 @@ fn a_cylinder_falls_as_one_and_its_axis_touches_nothing() {
     assert!((summary.energy.last - summary.energy.external).abs() < 1e-12);
 }
 
+/// What makes a case one that is refused.
+type Change<'a> = &'a dyn Fn(&mut Value);
+
 /// What a body of revolution cannot do is refused by its key.
 #[test]
 fn motion_across_the_axis_is_refused() {
     let mesh = json!({"kind": "rectangle", "corner": [0.0, 0.0], "size": [1.0, 1.0], "divisions": [2, 2]});
-    let refused = |change: &dyn Fn(&mut Value)| {
+    let refused = |change: Change<'_>| {
         let mut case = scenario(0.1, 1e-2, &[body("cylinder", mesh.clone(), [0.0, 0.0])], &[]);
         case["bodies"][0]["hypothesis"] = json!("axisymmetric");
         change(&mut case);
         Simulation::<2>::new(&parse(&case)).err().expect("refused")
     };
-    let refusals: [(&str, &dyn Fn(&mut Value)); 5] = [
+    let refusals: [(&str, Change<'_>); 5] = [
         ("analysis.gravity", &|case| case["analysis"]["gravity"] = json!([1.0, 0.0])),
         ("bodies.0.velocity", &|case| case["bodies"][0]["velocity"] = json!([1.0, 0.0])),
         ("bodies.0.spin", &|case| case["bodies"][0]["spin"] = json!(1.0)),
