@@ -95,6 +95,15 @@ impl<const D: usize> State<D> {
         state
     }
 
+    /// The state that a static analysis starts from: there are no velocities, whatever the rate at which supports set out.
+    #[must_use]
+    pub fn at_rest(model: &Model<D>) -> Self {
+        let mut state = Self::initial(model, vec![Vector::zeros(); model.node_count()]);
+        state.velocity.fill(Vector::zeros());
+        state.refresh(model);
+        state
+    }
+
     /// Recomputes forces and energies from displacements and velocities.
     pub(crate) fn refresh(&mut self, model: &Model<D>) {
         let mut momentum = vec![Vector::zeros(); self.velocity.len()];
