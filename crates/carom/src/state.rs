@@ -95,6 +95,12 @@ impl<const D: usize> State<D> {
         state
     }
 
+    /// Takes the velocities from the bodies: in a static analysis what is prescribed has none, however fast it changes.
+    pub(crate) fn rest(&mut self, model: &Model<D>) {
+        self.velocity[..model.node_count()].fill(Vector::zeros());
+        self.refresh(model);
+    }
+
     /// Recomputes forces and energies from displacements and velocities.
     pub(crate) fn refresh(&mut self, model: &Model<D>) {
         let mut momentum = vec![Vector::zeros(); self.velocity.len()];

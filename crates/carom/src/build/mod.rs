@@ -14,10 +14,10 @@ use std::collections::BTreeMap;
 
 use carom_mesh::{Mesh, Vector};
 
-use crate::State;
 use crate::error::InputError;
 use crate::model::{Method, Model, ModelBody};
 use crate::scenario::Scenario;
+use crate::{Scheme, State};
 
 /// Meshes that a scenario takes from files, by the names of their bodies.
 pub type Meshes<const D: usize> = BTreeMap<String, Mesh<D>>;
@@ -59,7 +59,10 @@ pub fn build<const D: usize>(
     let model = drive::drive(scenario, Model::new(bodies, contact, groups, gravity))?;
     overlaps::check_overlaps(scenario, &model)?;
     let velocity = velocity::initial_velocity(scenario, &model)?;
-    let state = State::initial(&model, velocity);
+    let mut state = State::initial(&model, velocity);
+    if method.scheme == Scheme::Static {
+        state.rest(&model);
+    }
     if !state.is_finite() {
         return Err(InputError::new(
             "bodies",
