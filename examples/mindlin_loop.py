@@ -28,7 +28,7 @@ SHEAR = YOUNG / (2 * (1 + POISSON))
 CONTACT = 0.02 * RADIUS
 DEPTH = CONTACT**2 / RADIUS
 FORCE = 4 * COMPOSITE * CONTACT**3 / (3 * RADIUS)
-AMPLITUDE = 0.75  # of the tangential force, in terms of μP, if the equator moved as the theory says
+AMPLITUDE = 0.97  # of the tangential force, in terms of μP, if the equator moved as the theory says
 SHIFT = 3 * FRICTION * FORCE / (16 * CONTACT) * (2 - POISSON) / SHEAR
 SHIFT *= 1 - (1 - AMPLITUDE) ** (2 / 3)
 
@@ -82,11 +82,11 @@ def scenario(file: Path, steps: int) -> carom.Scenario:
     )
 
 
-def cycle(divisions: int, *, steps: int = 20, growth: float = 2.5) -> Loop:
-    """Run a cycle on half a sphere with as many cells across the fine block, 1.4 a wide."""
+def cycle(divisions: int, *, steps: int = 12, growth: float = 2.5) -> Loop:
+    """Run a cycle on half a sphere with as many cells across the fine block, 1.15 a wide."""
     sphere = GradedSphere.make(
         RADIUS,
-        patch=1.4 * CONTACT,
+        patch=1.15 * CONTACT,
         divisions=divisions,
         dimension=3,
         half=True,
@@ -105,7 +105,7 @@ def cycle(divisions: int, *, steps: int = 20, growth: float = 2.5) -> Loop:
 
 
 def main(
-    out: str | Path | None = None, *, meshes: tuple[int, ...] = (5, 8), steps: int = 20
+    out: str | Path | None = None, *, meshes: tuple[int, ...] = (4, 6), steps: int = 12
 ) -> None:
     """Print what a cycle takes on a row of meshes; check that of the finest."""
     del out
@@ -114,11 +114,11 @@ def main(
         loop = cycle(divisions, steps=steps)
         error = loop.dissipated / loop.theory() - 1
         print(
-            f"{divisions / 1.4:12.1f} {loop.normal:10.4f} "
+            f"{divisions / 1.15:12.1f} {loop.normal:10.4f} "
             f"{loop.tangential / (FRICTION * loop.normal):8.4f} {loop.dissipated:10.4e} "
             f"{loop.theory():12.4e} {error:+8.2%}"
         )
-        assert abs(error) < (0.03 if divisions >= 8 else 0.1)
+        assert abs(error) < (0.03 if divisions >= 6 else 0.1)
 
 
 if __name__ == "__main__":

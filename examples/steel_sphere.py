@@ -7,8 +7,9 @@ R = 10 mm, ρ = 7800 kg/m³, E = 210 GPa, ν = 0.3. Hertz's quasi-static theory 
     force  K depth^(3/2) = 2300.9 N
     time   2.9432 depth/v = 52.24 µs.
 
-The depth is the approach of the centre of mass. Waves cross the sphere seven times while it
-touches, so that they take little: less than what the mesh leaves.
+The depth is the approach of the centre of mass. The theory takes the sphere for a half space: its
+centre is where a half space would still have moved by 0.5 P/ER, so that a sphere is stiffer by the
+order of a/R, the radius of the contact over its own, here 4 %. The errors converge to that.
 """
 
 from __future__ import annotations
@@ -113,7 +114,7 @@ def main(
             f"{found.depth * 1e6:10.2f}  " + " ".join(f"{error:+7.2%}" for error in errors)
         )
         assert abs(found.energy - 1.0) < 1e-6
-        assert max(map(abs, errors)) < (0.02 if divisions >= 12 or dimension == 3 else 0.1)
+        assert max(map(abs, errors)) < (0.02 if divisions >= 12 else 0.03)
 
 
 if __name__ == "__main__":

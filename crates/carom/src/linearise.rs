@@ -9,8 +9,8 @@ use crate::body_step::STEADYING;
 use crate::error::StepError;
 
 /// Share of the square of the lowest elastic frequency, by its scale c/L, that stands in for inertia where nothing else keeps K̄
-/// from being singular: far below what a contact resists with, far above round-off.
-const PROXIMAL: f64 = 1e-4;
+/// from being singular: below what a contact resists with, and far enough above round-off for W to stay well-conditioned.
+const PROXIMAL: f64 = 1e-2;
 
 /// The factor of M [1/s²] that makes K̄ of a loose body regular in a static analysis; 0 where supports hold it.
 ///

@@ -95,10 +95,13 @@ impl<const D: usize> State<D> {
         state
     }
 
-    /// Takes the velocities from the bodies: in a static analysis what is prescribed has none, however fast it changes.
-    pub(crate) fn rest(&mut self, model: &Model<D>) {
-        self.velocity[..model.node_count()].fill(Vector::zeros());
-        self.refresh(model);
+    /// The state that a static analysis starts from: there are no velocities, whatever the rate at which supports set out.
+    #[must_use]
+    pub fn at_rest(model: &Model<D>) -> Self {
+        let mut state = Self::initial(model, vec![Vector::zeros(); model.node_count()]);
+        state.velocity.fill(Vector::zeros());
+        state.refresh(model);
+        state
     }
 
     /// Recomputes forces and energies from displacements and velocities.

@@ -59,10 +59,10 @@ pub fn build<const D: usize>(
     let model = drive::drive(scenario, Model::new(bodies, contact, groups, gravity))?;
     overlaps::check_overlaps(scenario, &model)?;
     let velocity = velocity::initial_velocity(scenario, &model)?;
-    let mut state = State::initial(&model, velocity);
-    if method.scheme == Scheme::Static {
-        state.rest(&model);
-    }
+    let state = match method.scheme {
+        Scheme::Static => State::at_rest(&model),
+        _ => State::initial(&model, velocity),
+    };
     if !state.is_finite() {
         return Err(InputError::new(
             "bodies",

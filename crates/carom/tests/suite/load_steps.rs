@@ -16,6 +16,8 @@ fn block(steps: usize) -> Value {
     });
     case["materials"]["elastic"] =
         json!({"kind": "linear-elastic", "young": 1000.0, "poisson": 0.0, "density": 1.0});
+    // Loose bodies make W ill-conditioned; the default solver bears it.
+    case["contact"]["solver"]["kind"] = json!("auto");
     case["output"] = json!({"fields_every": 0.5, "history_every": 1.0 / steps as f64, "merge_contacts": 0.0});
     case
 }
@@ -66,7 +68,8 @@ fn block_rests_on_its_weight() {
         let mut simulation = run(&case);
         let force = last(&mut simulation, "normal_force");
         assert!((force - 20.0).abs() < 1e-7, "{slope}: {force} N");
-        let along: f64 = simulation.state().contact_force.iter().map(|f| f[0]).sum();
+        let nodes = simulation.model().node_count();
+        let along: f64 = simulation.state().contact_force[..nodes].iter().map(|f| f[0]).sum();
         assert!((along + 20.0 * slope).abs() < 1e-7, "{slope}: {along} N");
         let top = simulation.state().displacement.iter().map(|u| u[1]).fold(0.0, f64::min);
         // ρ g H²/2E without lateral strain, where friction lets go of the sides.
@@ -110,7 +113,7 @@ fn dragged_block_slides_at_coulombs_force() {
     assert!((drag - 0.3 * press).abs() < 1e-7 * press, "{drag} N of {press} N");
     // While it slides as a whole nothing is stored: friction takes μ N times the way.
     let taken = at(row, "friction") - at(before, "friction");
-    assert!((taken - 0.3 * press * 0.08).abs() < 1e-4 * taken, "{taken} J");
+    assert!((taken - 0.3 * press * 0.1).abs() < 1e-4 * taken, "{taken} J");
     assert!((at(row, "prescribed") - at(before, "prescribed") - taken).abs() < 1e-4 * taken);
     assert!(ledger.defect().abs() < 1e-10 * ledger.prescribed && ledger.kinetic == 0.0, "{ledger:?}");
 }
