@@ -73,6 +73,11 @@ impl<const D: usize> BodyOperator<D> {
         self.proximal > 0.0
     }
 
+    /// Lets no step rely on the factor.
+    pub fn forget(&mut self) {
+        self.coefficients = None;
+    }
+
     /// Makes the factor with the stiffness at `u`, where the frame of the body is `frame`.
     ///
     /// A configuration under strong compression, or a guess on the way to one, may be where K̄ is indefinite. The stiffness of the

@@ -7,6 +7,7 @@ use crate::books::commit;
 use crate::cross_check::cross_check;
 use crate::drive::{load_body, prescribe};
 use crate::error::StepError;
+use crate::linearise::BodyOperator;
 use crate::react::{evaluate_contacts, measure_rubbing, react};
 use crate::search::{missed_a_contact, search, select_active};
 use crate::state::State;
@@ -51,7 +52,12 @@ pub fn step<const D: usize>(
     let mut iterations = 0;
     for _ in 0..MAX_SEARCHES {
         search(model, state, margin, work);
-        iterations += iterate(model, method, state, next, &map, motion, work)?;
+        let made = iterate(model, method, state, next, &map, motion, work);
+        if made.is_err() {
+            // A factor that was made on the way to nowhere would mislead the next attempt.
+            work.operators.iter_mut().for_each(BodyOperator::forget);
+        }
+        iterations += made?;
         if !missed_a_contact(model, method, next, work) {
             let report = commit(model, method, state, next, &map, work, iterations)?;
             return Ok(StepReport { cross_check: cross_check(method, &map, work), ..report });

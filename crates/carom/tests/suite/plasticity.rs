@@ -87,6 +87,39 @@ fn the_paper_s_scheme_converges_to_the_same_plastic_work() {
     assert!(fine.max_defect < 0.25 * coarse.max_defect, "{:e} {:e}", fine.max_defect, coarse.max_defect);
 }
 
+/// A round bar drawn to 1.5 times its length: τ = σ_y(α), α = ln λ − τ/E, and it bears A₀ τ/λ. It hardens by more than it bears, so that it does
+/// not neck.
+#[test]
+fn round_bar_in_tension_bears_what_its_hardening_says() {
+    for formulation in ["standard", "mean-dilatation"] {
+        let mesh =
+            json!({"kind": "rectangle", "corner": [0.0, 0.0], "size": [1.0, 2.0], "divisions": [2, 3]});
+        let mut case = scenario(1.0, 0.05, &[body("bar", mesh, [0.0, 0.0])], &[]);
+        case["analysis"] = json!({
+            "kind": "static", "end_time": 1.0, "time_step": 0.05, "max_halvings": 8, "gravity": null,
+            "newton": {"tolerance": 1e-11, "max_iterations": 50},
+        });
+        case["bodies"][0]["hypothesis"] = json!("axisymmetric");
+        case["bodies"][0]["formulation"] = json!(formulation);
+        case["materials"] = bar(0.0, [1, 1])["materials"].clone();
+        case["materials"]["elastic"]["hardening"] = json!(2.0);
+        case["output"] = json!({"fields_every": 1.0, "history_every": 1.0, "merge_contacts": 0.0});
+        case["motions"] = json!([
+            {"kind": "fixed", "body": "bar", "on": "bottom", "components": ["y"]},
+            {"kind": "prescribed", "body": "bar", "on": "top", "y": "t"},
+        ]);
+        let (simulation, summary) = run(&case);
+        let alpha = (1.5_f64.ln() - 0.4 / 117.0) / (1.0 + 2.0 / 117.0);
+        let force = std::f64::consts::PI * (0.4 + 2.0 * alpha) / 1.5;
+        let state = simulation.state();
+        let top = simulation.model().reference.iter().zip(&state.internal_force).filter(|(x, _)| x[1] > 1.99);
+        let borne: f64 = top.map(|(_, f)| f[1]).sum();
+        assert!((borne / force - 1.0).abs() < 1e-8, "{formulation}: {borne} {force}");
+        let work = 2.0 * std::f64::consts::PI * (0.4 * alpha + alpha * alpha);
+        assert!((summary.energy.plastic / work - 1.0).abs() < 1e-8, "{formulation}: {:?}", summary.energy);
+    }
+}
+
 #[test]
 fn what_cannot_flow_is_refused() {
     let refusal = |case: &Value| Simulation::<2>::new(&parse(case)).err().expect("refused").to_string();
