@@ -92,7 +92,7 @@ def press(dimension: int, divisions: int) -> Pressed:
 
 
 def main(
-    out: str | Path | None = None, *, plane: tuple[int, ...] = (6, 12, 24), space: int = 8
+    out: str | Path | None = None, *, plane: tuple[int, ...] = (6, 12, 24), space: int = 6
 ) -> None:
     """Print radius, peak pressure and depth on a row of meshes; check those of the finest."""
     del out

@@ -5,7 +5,7 @@ from pathlib import Path
 import carom
 
 
-def cylinder(name: str, *, centre: list[float], velocity: list[float]) -> carom.Body:
+def cylinder(name: str, *, centre: list[float], velocity: list[float] | None = None) -> carom.Body:
     """Describe a cylinder of radius 1 m."""
     mesh = carom.Disc(centre=centre, radius=1.0, divisions=8)
     return carom.Body(name=name, material="elastic", mesh=mesh, velocity=velocity)
@@ -21,7 +21,7 @@ def scenario(*, friction: float) -> carom.Scenario:
         materials={"elastic": elastic},
         bodies=[
             cylinder("left", centre=[2.0, 4.0], velocity=[1.0, -2.0]),
-            cylinder("right", centre=[6.0, 4.0], velocity=[0.0, 0.0]),
+            cylinder("right", centre=[6.0, 4.0]),
         ],
         obstacles=[
             carom.Plane(name="floor", point=[0.0, 0.0], normal=[0.0, 1.0]),

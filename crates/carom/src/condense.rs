@@ -68,16 +68,22 @@ impl<const D: usize> Compliance<D> {
     }
 }
 
-/// A direction along a facet that yields less than this, relative to the normal, is held.
-const RIGID: f64 = 1e-9;
-/// What a held direction yields in W, relative to the normal, where the contact does not slide along it, and where it does: any
-/// number serves, as no force moves it, so long as what is there of sliding decides the friction.
+/// A direction along a facet that yields less than this where the normal is held, relative to the normal, is held itself.
+const RIGID: f64 = 1e-6;
+/// What a held direction yields in W, relative to the normal, where nothing is driven along it, and where something is: any
+/// number serves, as no force moves it, so long as it is the prescribed sliding that decides the friction.
 const HELD_COMPLIANCE: [f64; 2] = [1.0, 1e-3];
 /// Sliding below this, relative to the motion of the contact, is round-off.
 const NO_SLIDING: f64 = 1e-9;
 
 /// Makes the compliance of a contact regular where supports hold its nodes along the facet and W would be singular.
-fn support<const D: usize>(model: &Model<D>, contact: &Contact<D>, q: &Vector<D>, block: &mut Matrix<D>) {
+fn support<const D: usize>(
+    model: &Model<D>,
+    contact: &Contact<D>,
+    q: &Vector<D>,
+    motion: &[Vector<D>],
+    block: &mut Matrix<D>,
+) {
     for (node, _) in contact.stencil() {
         let Some(&b) = model.body_of_node.get(node) else { continue };
         let b = &model.bodies[b as usize];
@@ -89,8 +95,11 @@ fn support<const D: usize>(model: &Model<D>, contact: &Contact<D>, q: &Vector<D>
             let mut along: Vector<D> = contact.frame.column(component).into();
             along[0] = 0.0;
             let Some(along) = along.try_normalize(RIGID) else { continue };
-            if along.dot(&(*block * along)) < RIGID * block[(0, 0)] {
-                let slides = along.dot(q).abs() > NO_SLIDING * q.amax();
+            let response = *block * along;
+            // A tilted facet couples both directions: what counts is how far the pair of them is from singular.
+            if along.dot(&response) - response[0] * response[0] / block[(0, 0)] < RIGID * block[(0, 0)] {
+                let driven = contact.relative(|n| model.prescribed_part(n, &motion[n]));
+                let slides = along.dot(&driven).abs() > NO_SLIDING * q.amax();
                 let compliance = HELD_COMPLIANCE[usize::from(slides)] * block[(0, 0)];
                 *block += along * along.transpose() * compliance;
             }
@@ -148,7 +157,7 @@ pub(crate) fn condense<const D: usize>(
                 }
             }
             if i == j {
-                support(model, row, &q, &mut block);
+                support(model, row, &q, motion, &mut block);
             }
             coupled.then_some((j, block))
         }));
