@@ -216,6 +216,29 @@ mod tests {
         assert!(!factor.is_factorized());
     }
 
+    /// In space the last separators are hundreds of columns wide: their panels are inverted in blocks.
+    #[test]
+    fn wide_panels_are_solved_with_as_well_as_narrow_ones() {
+        let mesh = generate::grid([0.0; 3], [1.0; 3], [9, 9, 9]).expect("valid");
+        let graph = Arc::new(NodeGraph::of(&mesh));
+        let mut a = NodalMatrix::filled(&graph, Matrix::<3>::identity() * -0.15);
+        for node in 0..graph.node_count() {
+            let x = node as f64;
+            a.values[graph.entry(node as u32, node as u32)] =
+                Matrix::<3>::new(5.0, 0.4, 0.1, 0.4, 6.0, 0.2, 0.1, 0.2, 5.5 + 0.5 * x.sin());
+        }
+        let x: Vec<Vector<3>> =
+            (0..graph.node_count()).map(|n| Vector::from_fn(|i, _| ((3 * n + i) as f64).cos())).collect();
+        let mut b = vec![Vector::zeros(); x.len()];
+        a.multiply(&x, &mut b);
+        let mut factor = Factor::new(&graph, &[]).expect("symbolic");
+        factor.factorize(|entry| a.values[entry]).expect("positive definite");
+        factor.solve(&mut b);
+        for (b, x) in b.iter().zip(&x) {
+            assert!((b - x).norm() < 1e-12);
+        }
+    }
+
     /// With ties: x is the motion of the free nodes spread to all, and Tᵀ A x = Tᵀ b.
     #[test]
     fn tied_nodes_move_alike_and_share_their_forces() {

@@ -1,10 +1,14 @@
+use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
+use faer::{MatMut, MatRef, Par};
 use pulp::{Arch, Simd, WithSimd};
 
 /// Rows of a panel are padded with zeros to a multiple of this, so that SIMD loops have no remainder.
 const PADDING: usize = 4;
 /// Columns taken together, so that what is loaded once serves them all.
 const COLUMNS: usize = 4;
+/// Columns from which a panel is inverted in blocks, by faer: the large ones of bodies in space.
+const BLOCKED: usize = 96;
 
 /// Forward and backward substitution with a supernodal Cholesky factor, for one right-hand side.
 ///
@@ -54,20 +58,7 @@ impl Substitution {
             self.rows.extend(pattern.iter().map(|&r| r as u32));
             self.values.resize(panel.first_value + padded * columns, 0.0);
             let z = &mut self.values[panel.first_value..];
-            // Z L₁₁ = [I; L₂₁], solved column by column from the last.
-            for j in (0..columns).rev() {
-                for i in j..columns + below {
-                    let right = if i >= columns {
-                        l[(i, j)]
-                    } else if i == j {
-                        1.0
-                    } else {
-                        0.0
-                    };
-                    let known: f64 = (j + 1..columns).map(|k| z[k * padded + i] * l[(k, j)]).sum();
-                    z[j * padded + i] = (right - known) / l[(j, j)];
-                }
-            }
+            invert(l, z, padded, columns + below);
             largest = largest.max(padded);
             self.panels.push(panel);
         }
@@ -77,6 +68,40 @@ impl Substitution {
     /// Overwrites `x`, in the order of elimination, with the solution.
     pub fn solve(&mut self, x: &mut [f64]) {
         Arch::new().dispatch(Solve { substitution: self, x });
+    }
+}
+
+/// Solves Z L₁₁ = [I; L₂₁] for the panel `z` of so many `rows`, which is zero, `padded` numbers from column to column.
+fn invert(l: MatRef<'_, f64>, z: &mut [f64], padded: usize, rows: usize) {
+    let columns = l.ncols();
+    if columns > BLOCKED {
+        for j in 0..columns {
+            z[j * padded + j] = 1.0;
+            (columns..rows).for_each(|i| z[j * padded + i] = l[(i, j)]);
+        }
+        let z = MatMut::from_column_major_slice_with_stride_mut(z, rows, columns, padded);
+        let l11 = l.subrows(0, columns);
+        solve_upper_triangular_in_place(l11.transpose(), z.transpose_mut(), Par::Seq);
+        return;
+    }
+    // Column by column from the last.
+    for j in (0..columns).rev() {
+        let (z_j, later) = z[j * padded..].split_at_mut(padded);
+        for k in j + 1..columns {
+            let factor = l[(k, j)];
+            let z_k = &later[(k - j - 1) * padded..][..rows];
+            z_j[k..rows].iter_mut().zip(&z_k[k..]).for_each(|(known, z)| *known += z * factor);
+        }
+        for (i, z) in z_j.iter_mut().enumerate().take(rows).skip(j) {
+            let right = if i >= columns {
+                l[(i, j)]
+            } else if i == j {
+                1.0
+            } else {
+                0.0
+            };
+            *z = (right - *z) / l[(j, j)];
+        }
     }
 }
 
