@@ -10,7 +10,7 @@ use crate::error::StepError;
 
 /// Share of the square of the lowest elastic frequency, by its scale c/L, that stands in for inertia where nothing else keeps K̄
 /// from being singular: below what a contact resists with, and far enough above round-off for W to stay well-conditioned.
-const PROXIMAL: f64 = 1e-2;
+const PROXIMAL: f64 = 0.05;
 
 /// The factor of M [1/s²] that makes K̄ of a loose body regular in a static analysis; 0 where supports hold it.
 ///
