@@ -21,7 +21,9 @@ def hertz(examples):
 
 
 @pytest.mark.parametrize("discretisation", ["mortar", "node-to-segment"])
-def test_pressed_cylinders_have_hertzs_pressure_and_stick_where_mindlin_says(hertz, discretisation):
+def test_pressed_cylinders_have_the_pressure_of_hertz_and_stick_where_mindlin_says(
+    hertz, discretisation
+):
     press = hertz.Press(20, discretisation=discretisation)
     pushed = press.profile(0.18, 0.03)
     normal, tangential = pushed.force[0], abs(pushed.force[1])
