@@ -66,7 +66,7 @@ pub enum FemError {
     /// A massless node has no massive nodes near it that could carry its mass.
     #[error(
         "the mass of boundary node {node} at {at:?} finds no nodes inside to move to; \
-         refine the mesh, name fewer contact_sides, or choose a contact condition that keeps the mass, such as \"gap\""
+         refine the mesh, name fewer contact_sets, or choose a contact condition that keeps the mass, such as \"gap\""
     )]
     NoMassInside {
         /// The node.
