@@ -14,7 +14,7 @@ use carom_mesh::{Matrix, Vector};
 use common::{Scene, paper_scene, scene};
 
 /// Runs of every case, interleaved.
-const RUNS: usize = 5;
+const RUNS: usize = 3;
 /// Repetitions of a kernel.
 const REPEATS: usize = 400;
 
