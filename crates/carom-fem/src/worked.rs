@@ -43,6 +43,13 @@ impl<'a, const D: usize> Worked<'a, D> {
         self.blocks().for_each(|(e, history)| e.add_internal_force(u, history, f));
     }
 
+    /// Writes the internal force [N] to `f` and returns the [`Self::strain_energy`] [J].
+    #[must_use]
+    pub fn internal_force_and_energy(&self, u: &[Vector<D>], f: &mut [Vector<D>]) -> f64 {
+        f.fill(Vector::zeros());
+        self.blocks().map(|(e, history)| e.add_internal_force_of_energy(u, history, f)).sum()
+    }
+
     /// Writes the force [N] of a step from `u0` to `u1` whose work is the change of [`Self::strain_energy`] to `f`.
     pub fn conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]) {
         f.fill(Vector::zeros());
@@ -69,6 +76,12 @@ impl<'a, const D: usize> Worked<'a, D> {
         let mut out = Vec::with_capacity(self.body.mesh().cell_count());
         self.blocks().for_each(|(e, history)| e.cell_states(u, history, &mut out));
         out
+    }
+
+    /// Whether the material remembers nothing.
+    #[must_use]
+    pub fn is_virgin(&self) -> bool {
+        self.history.is_empty()
     }
 
     /// Writes the history at the end of a step to `u` to `next`; returns the plastic work of the step [J].

@@ -69,6 +69,14 @@ impl<const D: usize> BlockMatrix<D> {
         &self.blocks[self.diagonal[i]]
     }
 
+    /// The block in row `i` and column `j`, if it is stored.
+    #[must_use]
+    pub fn block(&self, i: usize, j: usize) -> Option<&Matrix<D>> {
+        let row = self.starts[i]..self.starts[i + 1];
+        let place = self.columns[row.clone()].binary_search(&(j as u32)).ok()?;
+        Some(&self.blocks[row.start + place])
+    }
+
     /// The blocks of row `i` with their columns.
     pub fn row(&self, i: usize) -> impl ExactSizeIterator<Item = (usize, &Matrix<D>)> {
         let range = self.starts[i]..self.starts[i + 1];

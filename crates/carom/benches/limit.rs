@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use carom::{Scenario, Simulation};
 use carom_fem::Body;
-use carom_fem::sparse::Factor;
+use carom_fem::sparse::{Factor, Precision};
 use carom_mesh::{Matrix, Vector};
 use common::{Scene, paper_scene, scene};
 
@@ -98,7 +98,7 @@ fn kernels(body: &Body<2>, dt: f64, conserving: bool) -> (f64, f64) {
     let mass = body.mass();
     let mut factor = Factor::new(body.graph(), &[]).expect("structure");
     factor
-        .factorize(|e| {
+        .factorize(Precision::Single, |e| {
             stiffness.values[e] * 0.5 + Matrix::<2>::from_diagonal_element(2.0 / (dt * dt) * mass.values[e])
         })
         .expect("positive definite");

@@ -112,12 +112,15 @@ fn close_body<const D: usize>(
     let (v0, v1) = (&state.velocity[nodes.clone()], &mut next.velocity[nodes.clone()]);
     step.end_velocity(v1);
     let internal_force = &mut next.internal_force[nodes.clone()];
+    let mut elastic = None;
     let exchanged = if method.is_blended() {
         work.blend.measure(model, index, &step, scratch);
         internal_force.copy_from_slice(&work.blend.end[nodes.clone()]);
         Some(work.blend.exchanged(index))
     } else {
-        step.worked.internal_force(step.displacement, internal_force);
+        // After plastic flow the stored energy is another: that of the new history.
+        let energy = step.worked.internal_force_and_energy(step.displacement, internal_force);
+        elastic = step.worked.is_virgin().then_some(energy);
         None
     };
     let held = b.body.held();
@@ -146,7 +149,7 @@ fn close_body<const D: usize>(
     b.body.mass().multiply(v1, momentum);
     let history = &mut next.history[index];
     let plastic = step.worked.update(step.displacement, history);
-    let strain = b.body.after(history).strain_energy(step.displacement);
+    let strain = elastic.unwrap_or_else(|| b.body.after(history).strain_energy(step.displacement));
     let energies = Energies { kinetic: 0.5 * dot(v1, momentum), strain };
     let (external, viscous) = step.external_and_viscous_work(scratch);
     let mut scheme = 0.0;

@@ -114,7 +114,7 @@ fn support<const D: usize>(
 ///
 /// `motion` is the nodal motion d that the step would make with the `reactions` known so far, and q what W leaves of it without them:
 /// once these no longer change, the law holds for the motion itself, whatever the accuracy of W. `offsets` are what the normal components
-/// lack of the contact condition's variable. The columns of W were prepared.
+/// lack of the contact condition's variable. The columns of W were prepared; `row_blocks` is scratch.
 pub(crate) fn condense<const D: usize>(
     model: &Model<D>,
     operators: &[BodyOperator<D>],
@@ -124,6 +124,7 @@ pub(crate) fn condense<const D: usize>(
     offsets: &[f64],
     motion: &[Vector<D>],
     reactions: &[Vector<D>],
+    row_blocks: &mut Vec<(usize, Matrix<D>)>,
     problem: &mut ContactProblem<D>,
 ) {
     // The motion of obstacles is prescribed: they do not respond.
@@ -136,7 +137,12 @@ pub(crate) fn condense<const D: usize>(
         let mut q = row.relative(|n| motion[n]);
         q[0] += offsets[i];
         problem.q.push(q);
-        problem.w.push_row(contacts.iter().enumerate().filter_map(|(j, column)| {
+        row_blocks.clear();
+        row_blocks.extend(contacts.iter().enumerate().filter_map(|(j, column)| {
+            if j < i {
+                // W is symmetric, also where round-off is not.
+                return problem.w.block(j, i).map(|block| (j, block.transpose()));
+            }
             // Nodes of one body respond to one another; contacts that share no body do not couple.
             let mut block = Matrix::zeros();
             let mut coupled = i == j;
@@ -163,6 +169,7 @@ pub(crate) fn condense<const D: usize>(
             }
             coupled.then_some((j, block))
         }));
+        problem.w.push_row(row_blocks.drain(..));
     }
     for (i, q) in problem.q.iter_mut().enumerate() {
         *q -= problem.w.row_times(i, reactions);

@@ -1,6 +1,6 @@
 //! The iteration matrix K̄ of each body.
 
-use carom_fem::sparse::{Factor, NodalMatrix};
+use carom_fem::sparse::{Factor, NodalMatrix, Precision};
 use carom_fem::{Body, Held, Worked};
 use carom_mesh::{Matrix, Vector};
 
@@ -40,7 +40,45 @@ pub(crate) struct BodyOperator<const D: usize> {
     /// Grows with every factorisation, so that what was derived from a factor knows when it is stale.
     pub generation: u64,
     held: Held,
+    translation: Option<Translation<D>>,
     scratch: Vec<Vector<D>>,
+}
+
+/// The uniform part of a solution, which mass alone resists: Σ m x = Σ b over the coefficient of M, whatever the stiffness. A factor in
+/// single precision would miss it by 10⁻⁷, and momentum with it.
+#[derive(Debug)]
+struct Translation<const D: usize> {
+    nodal_mass: Vec<f64>,
+    total_mass: f64,
+    /// 1 for the components that are free, 0 for the radial one of a body of revolution.
+    free: Vector<D>,
+    /// The coefficient of M [1/s²].
+    coefficient: f64,
+    /// Σ b.
+    resultant: Vector<D>,
+}
+
+impl<const D: usize> Translation<D> {
+    /// None where something else than mass resists: supports, and what steadies nodes without mass.
+    fn of(body: &Body<D>) -> Option<Self> {
+        let alone = body.held().is_empty() && body.massless().is_empty();
+        alone.then(|| Self {
+            nodal_mass: body.nodal_mass().to_vec(),
+            total_mass: body.total_mass(),
+            free: body.resultant(Vector::from_element(1.0)),
+            coefficient: 0.0,
+            resultant: Vector::zeros(),
+        })
+    }
+
+    /// Makes the uniform part of `x` exact.
+    fn correct(&self, x: &mut [Vector<D>]) {
+        let sum =
+            self.nodal_mass.iter().zip(&*x).fold(Vector::zeros(), |sum: Vector<D>, (&m, x)| sum + x * m);
+        let missing = (self.resultant / self.coefficient - sum) / self.total_mass;
+        let missing = missing.component_mul(&self.free);
+        x.iter_mut().for_each(|x| *x += missing);
+    }
 }
 
 impl<const D: usize> BodyOperator<D> {
@@ -53,6 +91,7 @@ impl<const D: usize> BodyOperator<D> {
             turn: Matrix::identity(),
             generation: 0,
             held: body.held().clone(),
+            translation: Translation::of(body),
             scratch: vec![Vector::zeros(); body.node_count()],
         })
     }
@@ -80,6 +119,8 @@ impl<const D: usize> BodyOperator<D> {
 
     /// Makes the factor with the stiffness at `u`, where the frame of the body is `frame`.
     ///
+    /// In `precision` double is for what is not regular by its mass, and where iterations are slow for whatever reason.
+    ///
     /// A configuration under strong compression, or a guess on the way to one, may be where K̄ is indefinite. The stiffness of the
     /// reference configuration, turned, serves there: slower, but it never is.
     pub fn factorize(
@@ -88,13 +129,15 @@ impl<const D: usize> BodyOperator<D> {
         map: &StepMap,
         u: &[Vector<D>],
         frame: &Matrix<D>,
+        precision: Precision,
     ) -> Result<(), StepError> {
-        self.factorize_at(worked, map, u, frame).or_else(|_| {
+        self.factorize_at(worked, map, u, frame, precision).or_else(|_| {
             self.factorize_at(
                 &worked.body.after(&[]),
                 map,
                 &vec![Vector::zeros(); u.len()],
                 &Matrix::identity(),
+                precision,
             )?;
             self.turn_to(frame);
             Ok(())
@@ -107,6 +150,7 @@ impl<const D: usize> BodyOperator<D> {
         map: &StepMap,
         u: &[Vector<D>],
         frame: &Matrix<D>,
+        precision: Precision,
     ) -> Result<(), StepError> {
         let body = worked.body;
         let mut stiffness = worked.stiffness(u);
@@ -133,8 +177,9 @@ impl<const D: usize> BodyOperator<D> {
             }
         }
         self.held.uncouple(&mut stiffness);
-        self.factor.factorize(|entry| stiffness.values[entry])?;
+        self.factor.factorize(precision, |entry| stiffness.values[entry])?;
         self.coefficients = Some(coefficients);
+        self.translation.iter_mut().for_each(|t| t.coefficient = mass_coefficient);
         self.factor_frame = *frame;
         self.turn = Matrix::identity();
         self.generation += 1;
@@ -159,12 +204,18 @@ impl<const D: usize> BodyOperator<D> {
             *s = self.turn.tr_mul(x);
         }
         self.held.clear(&mut self.scratch);
+        if let Some(translation) = &mut self.translation {
+            translation.resultant = self.scratch.iter().sum();
+        }
         self.factor.begin(&mut self.scratch);
     }
 
     /// Writes K̄⁻¹ x for the `x` that was begun with, and what was added to it, to `out`; zero where displacements are held.
     pub fn end(&mut self, out: &mut [Vector<D>]) {
         self.factor.end(&mut self.scratch);
+        if let (Some(translation), Precision::Single) = (&self.translation, self.factor.precision()) {
+            translation.correct(&mut self.scratch);
+        }
         for (s, out) in self.scratch.iter().zip(out) {
             *out = self.turn * s;
         }
@@ -187,8 +238,12 @@ impl<const D: usize> BodyOperator<D> {
 
     /// Adds `forces`, each at a node of the reach, to `x`.
     pub fn add(&mut self, forces: impl Iterator<Item = (usize, Vector<D>)>) {
-        let Self { factor, turn, held, .. } = self;
-        factor.add(forces.map(|(node, force)| (node, held.free_part(node, &turn.tr_mul(&force)))));
+        let Self { factor, turn, held, translation, .. } = self;
+        factor.add(forces.map(|(node, force)| {
+            let force = held.free_part(node, &turn.tr_mul(&force));
+            translation.iter_mut().for_each(|t| t.resultant += force);
+            (node, force)
+        }));
     }
 
     /// Overwrites `x` with the factor's solution, in the frame of the factor.

@@ -138,6 +138,7 @@ pub(crate) fn react<const D: usize>(
         &work.offsets,
         &work.momentum,
         &work.reactions,
+        &mut work.row_blocks,
         &mut work.problem,
     );
     work.guess.clone_from(&work.reactions);

@@ -1,5 +1,6 @@
 //! One step: predict, detect, then linearise, condense, solve and correct until converged, and commit.
 
+use carom_fem::sparse::Precision;
 use carom_mesh::tensor;
 
 use crate::acceleration::accelerate;
@@ -96,11 +97,13 @@ fn predict<const D: usize>(
             work.poses[i].drift = b.body.mean(v);
         }
         if !work.operators[i].fits(map) {
+            let precision = if map.is_static() { Precision::Double } else { Precision::Single };
             work.operators[i].factorize(
                 &b.body.after(&state.history[i]),
                 map,
                 middle,
                 &work.poses[i].frame,
+                precision,
             )?;
             work.factorisations += 1;
         }
@@ -305,7 +308,13 @@ fn refactorize<const D: usize>(
         {
             *m = (u0 + u1) * 0.5;
         }
-        work.operators[i].factorize(&b.body.after(&state.history[i]), map, middle, &work.poses[i].frame)?;
+        work.operators[i].factorize(
+            &b.body.after(&state.history[i]),
+            map,
+            middle,
+            &work.poses[i].frame,
+            Precision::Double,
+        )?;
         work.factorisations += 1;
     }
     Ok(())

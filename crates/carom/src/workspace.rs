@@ -2,7 +2,7 @@ use std::time::Duration;
 
 use carom_contact::{Candidate, Contact, Mortar, Search};
 use carom_friction::{ContactProblem, SolverKind};
-use carom_mesh::Vector;
+use carom_mesh::{Matrix, Vector};
 
 use crate::acceleration::Acceleration;
 use crate::blend::{Blend, Rubbing};
@@ -89,6 +89,8 @@ pub struct Workspace<const D: usize> {
     pub(crate) slid: Vec<[f64; 2]>,
     pub(crate) blend: Blend<D>,
     pub(crate) problem: ContactProblem<D>,
+    /// A row of W on its way to the problem.
+    pub(crate) row_blocks: Vec<(usize, Matrix<D>)>,
     /// The reactions that the friction solver last started from.
     pub(crate) guess: Vec<Vector<D>>,
     /// The solver that gave the last reactions.
@@ -156,6 +158,7 @@ impl<const D: usize> Workspace<D> {
             rubbing: Vec::new(),
             blend: Blend::new(model),
             problem: ContactProblem::default(),
+            row_blocks: Vec::new(),
             guess: Vec::new(),
             solved_by: SolverKind::default(),
             touched: vec![false; bodies],

@@ -43,6 +43,26 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         }
     }
 
+    fn add_internal_force_of_energy(
+        &self,
+        u: &[Vector<D>],
+        history: &[PlasticState],
+        force: &mut [Vector<D>],
+    ) -> f64 {
+        let (mut f, mut stresses, mut densities) = (Batch::zeros(), Batch::zeros(), [0.0; BATCH]);
+        let mut energy = 0.0;
+        for pack in 0..self.grid.packs() {
+            self.grid.deform(pack, u, &mut f);
+            let history = self.grid.part(pack, history);
+            self.law.stresses(self.grid.batch(), &f, history, &mut stresses);
+            self.law.energies(self.grid.batch(), &f, history, &mut densities);
+            self.grid.add_forces(pack, &stresses, force);
+            let weights = self.grid.weights(pack);
+            energy += self.grid.sum(pack, |q| weights[q] * densities[q]);
+        }
+        energy
+    }
+
     fn add_conserving_force(
         &self,
         u0: &[Vector<D>],

@@ -68,9 +68,7 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
             cells: count,
             points_per_cell,
             nodes: (0..packs)
-                .map(|pack| {
-                    std::array::from_fn(|a| std::array::from_fn(|lane| cells[cell(pack, lane)][a]))
-                })
+                .map(|pack| std::array::from_fn(|a| std::array::from_fn(|lane| cells[cell(pack, lane)][a])))
                 .collect(),
             gradients,
             weights,
@@ -218,7 +216,9 @@ struct Deform<'a, const D: usize, const S: usize, const N: usize, K> {
     f: &'a mut Batch<S>,
 }
 
-impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> WithSimd for Deform<'_, D, S, N, K> {
+impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> WithSimd
+    for Deform<'_, D, S, N, K>
+{
     type Output = ();
 
     #[inline(always)]
@@ -270,7 +270,9 @@ struct Forces<'a, const D: usize, const S: usize, const N: usize, K> {
     local: &'a mut Local<D, N>,
 }
 
-impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> WithSimd for Forces<'_, D, S, N, K> {
+impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> WithSimd
+    for Forces<'_, D, S, N, K>
+{
     type Output = ();
 
     #[inline(always)]

@@ -80,6 +80,16 @@ pub trait Elements<const D: usize>: Send + Sync + Debug {
     fn energy(&self, u: &[Vector<D>], history: &[PlasticState]) -> f64;
     /// Adds the internal force ∂E/∂u = ∫ P·∇N dV [N] to `f`.
     fn add_internal_force(&self, u: &[Vector<D>], history: &[PlasticState], f: &mut [Vector<D>]);
+    /// Adds the internal force to `f` and returns the stored energy, in one pass where that is cheaper.
+    fn add_internal_force_of_energy(
+        &self,
+        u: &[Vector<D>],
+        history: &[PlasticState],
+        f: &mut [Vector<D>],
+    ) -> f64 {
+        self.add_internal_force(u, history, f);
+        self.energy(u, history)
+    }
     /// Adds the force [N] of a step from `u0` to `u1` whose work is the change of the stored energy, f·(u₁ − u₀) = ΔE, to `f`.
     fn add_conserving_force(
         &self,

@@ -14,7 +14,7 @@ use faer::{Par, Side, Spec};
 use super::NodeGraph;
 use super::folding::Folding;
 use super::ordering::nested_dissection;
-use super::substitution::Substitution;
+use super::triangular::{Precision, Triangular};
 use crate::FemError;
 
 /// Supernodal Cholesky factor of a symmetric matrix of D × D blocks over a node graph.
@@ -28,19 +28,12 @@ pub struct Factor<const D: usize> {
     symbolic: SymbolicCholesky<usize>,
     /// For every stored value of the lower triangle: its entry in the graph and its place in the block.
     sources: Vec<(u32, u8, u8)>,
-    lower_values: Vec<f64>,
-    values: Vec<f64>,
-    memory: MemBuffer,
-    substitution: Substitution,
+    triangular: Box<dyn Triangular>,
+    precision: Precision,
     /// The unknown eliminated k-th.
     ordering: Vec<usize>,
     /// When an unknown is eliminated.
     places: Vec<u32>,
-    /// The right-hand side and what becomes of it, in the order of elimination.
-    ordered: Vec<f64>,
-    /// The same within the reach of some nodes.
-    partial: Vec<f64>,
-    reach: Vec<u32>,
     /// None without ties.
     folding: Option<Folding<D>>,
     factorized: bool,
@@ -50,7 +43,7 @@ impl<const D: usize> std::fmt::Debug for Factor<D> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Factor")
             .field("rows", &self.lower.nrows())
-            .field("values", &self.values.len())
+            .field("values", &self.symbolic.len_val())
             .finish()
     }
 }
@@ -105,18 +98,11 @@ impl<const D: usize> Factor<D> {
         let ordering = symbolic.perm().map_or_else(|| (0..n).collect(), |p| p.arrays().0.to_vec());
         let mut places = vec![0; n];
         ordering.iter().enumerate().for_each(|(k, &unknown)| places[unknown] = k as u32);
-        let request =
-            symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::<LltParams, f64>::default());
         Ok(Self {
-            lower_values: vec![0.0; sources.len()],
-            values: vec![0.0; symbolic.len_val()],
-            memory: MemBuffer::new(request),
-            substitution: Substitution::default(),
+            triangular: Precision::default().triangular(n),
+            precision: Precision::default(),
             ordering,
             places,
-            ordered: vec![0.0; n],
-            partial: vec![0.0; n],
-            reach: Vec::new(),
             lower,
             symbolic,
             sources,
@@ -125,35 +111,52 @@ impl<const D: usize> Factor<D> {
         })
     }
 
-    /// Factorises the matrix whose block at a graph entry is `block(entry)`.
+    /// Factorises the matrix whose block at a graph entry is `block(entry)`, in double precision, and keeps the factor in
+    /// `precision`. What else it takes is given back: a factor is made seldom, and in space it is most of the memory.
     ///
     /// # Errors
     /// If the matrix is not positive definite.
-    pub fn factorize(&mut self, block: impl Fn(usize) -> Matrix<D>) -> Result<(), FemError> {
+    pub fn factorize(
+        &mut self,
+        precision: Precision,
+        block: impl Fn(usize) -> Matrix<D>,
+    ) -> Result<(), FemError> {
         self.factorized = false;
-        match &mut self.folding {
-            None => fill(&mut self.lower_values, &self.sources, block),
+        self.precision = precision;
+        self.triangular = precision.triangular(0);
+        let lower_values = match &self.folding {
+            None => lower_triangle(&self.sources, block),
             Some(folding) => {
-                folding.fold_matrix(block);
-                fill(&mut self.lower_values, &self.sources, |entry| folding.blocks[entry]);
+                let blocks = folding.fold_matrix(block);
+                lower_triangle(&self.sources, |entry| blocks[entry])
             }
-        }
+        };
+        let mut values = vec![0.0; self.symbolic.len_val()];
+        let request =
+            self.symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::<LltParams, f64>::default());
         self.symbolic
             .factorize_numeric_llt(
-                &mut self.values,
-                SparseColMatRef::new(self.lower.as_ref(), &self.lower_values),
+                &mut values,
+                SparseColMatRef::new(self.lower.as_ref(), &lower_values),
                 Side::Lower,
                 LltRegularization::default(),
                 Par::Seq,
-                MemStack::new(&mut self.memory),
+                MemStack::new(&mut MemBuffer::new(request)),
                 Spec::default(),
             )
             .map_err(|LltError::NonPositivePivot { index }| FemError::NotPositiveDefinite { pivot: index })?;
         if let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() {
-            self.substitution.load(&SupernodalLltRef::new(symbolic, &self.values));
+            self.triangular = precision.triangular(self.ordering.len());
+            self.triangular.load(&SupernodalLltRef::new(symbolic, &values));
             self.factorized = true;
         }
         Ok(())
+    }
+
+    /// The numbers that the factor is kept in.
+    #[must_use]
+    pub fn precision(&self) -> Precision {
+        self.precision
     }
 
     /// Whether there is a factor to solve with.
@@ -182,20 +185,12 @@ impl<const D: usize> Factor<D> {
         if let Some(folding) = &self.folding {
             folding.fold(x);
         }
-        let values: &[f64] = bytemuck::cast_slice(x);
-        for (ordered, &k) in self.ordered.iter_mut().zip(&self.ordering) {
-            *ordered = values[k];
-        }
-        self.substitution.forward(&mut self.ordered);
+        self.triangular.begin(bytemuck::cast_slice(x), &self.ordering);
     }
 
     /// The backward substitution: writes the solution to `x`.
     pub fn end(&mut self, x: &mut [Vector<D>]) {
-        self.substitution.backward(&mut self.ordered);
-        let values: &mut [f64] = bytemuck::cast_slice_mut(x);
-        for (ordered, &k) in self.ordered.iter().zip(&self.ordering) {
-            values[k] = *ordered;
-        }
+        self.triangular.end(bytemuck::cast_slice_mut(x), &self.ordering);
         if let Some(folding) = &self.folding {
             folding.unfold(x);
         }
@@ -203,45 +198,34 @@ impl<const D: usize> Factor<D> {
 
     /// Names the nodes at which [`Self::look`] and [`Self::add`] are wanted.
     pub fn set_reach(&mut self, nodes: impl Iterator<Item = usize>) {
-        let Self { reach, places, folding, substitution, .. } = self;
-        let columns = nodes.flat_map(|node| {
+        let Self { triangular, places, folding, .. } = self;
+        let mut wanted = nodes.flat_map(|node| {
             let first = master(folding.as_ref(), node) * D;
             places[first..first + D].iter().map(|&place| place as usize)
         });
-        substitution.reach(columns, reach);
+        triangular.set_reach(&mut wanted);
     }
 
     /// Solves for the right-hand side as it is at the nodes of the reach: see [`Self::seen`].
     pub fn look(&mut self) {
-        for columns in self.substitution.columns_within(&self.reach) {
-            self.partial[columns.clone()].copy_from_slice(&self.ordered[columns]);
-        }
-        self.substitution.backward_within(&self.reach, &mut self.partial);
+        self.triangular.look();
     }
 
     /// What [`Self::look`] saw at a node of the reach.
     #[must_use]
     pub fn seen(&self, node: usize) -> Vector<D> {
         let first = master(self.folding.as_ref(), node) * D;
-        Vector::from_fn(|i, _| self.partial[self.places[first + i] as usize])
+        Vector::from_fn(|i, _| self.triangular.seen(self.places[first + i] as usize))
     }
 
     /// Adds `forces`, each at a node of the reach, to the right-hand side.
     pub fn add(&mut self, forces: impl Iterator<Item = (usize, Vector<D>)>) {
-        for columns in self.substitution.columns_within(&self.reach) {
-            self.partial[columns].fill(0.0);
-        }
-        for (node, force) in forces {
-            let first = master(self.folding.as_ref(), node) * D;
-            for i in 0..D {
-                self.partial[self.places[first + i] as usize] += force[i];
-            }
-        }
-        self.substitution.forward_within(&self.reach, &mut self.partial);
-        for columns in self.substitution.columns_within(&self.reach) {
-            let (ordered, partial) = (&mut self.ordered[columns.clone()], &self.partial[columns]);
-            ordered.iter_mut().zip(partial).for_each(|(ordered, partial)| *ordered += partial);
-        }
+        let Self { triangular, places, folding, .. } = self;
+        let mut values = forces.flat_map(|(node, force)| {
+            let first = master(folding.as_ref(), node) * D;
+            std::array::from_fn::<_, D, _>(|i| (places[first + i] as usize, force[i]))
+        });
+        triangular.add(&mut values);
     }
 }
 
@@ -250,11 +234,9 @@ fn master<const D: usize>(folding: Option<&Folding<D>>, node: usize) -> usize {
     folding.map_or(node, |folding| folding.masters[node] as usize)
 }
 
-/// Gathers the values of the lower triangle from the blocks.
-fn fill<const D: usize>(values: &mut [f64], sources: &[(u32, u8, u8)], block: impl Fn(usize) -> Matrix<D>) {
-    for (value, &(entry, i, j)) in values.iter_mut().zip(sources) {
-        *value = block(entry as usize)[(i as usize, j as usize)];
-    }
+/// The values of the lower triangle of a matrix of blocks.
+fn lower_triangle<const D: usize>(sources: &[(u32, u8, u8)], block: impl Fn(usize) -> Matrix<D>) -> Vec<f64> {
+    sources.iter().map(|&(entry, i, j)| block(entry as usize)[(i as usize, j as usize)]).collect()
 }
 
 #[cfg(test)]
@@ -283,12 +265,12 @@ mod tests {
         let mut b = vec![Vector::zeros(); x.len()];
         a.multiply(&x, &mut b);
         let mut factor = Factor::new(&graph, &[]).expect("symbolic");
-        factor.factorize(|entry| a.values[entry]).expect("positive definite");
+        factor.factorize(Precision::Double, |entry| a.values[entry]).expect("positive definite");
         factor.solve(&mut b);
         for (b, x) in b.iter().zip(&x) {
             assert!((b - x).norm() < 1e-13);
         }
-        assert!(factor.factorize(|entry| -a.values[entry]).is_err());
+        assert!(factor.factorize(Precision::Double, |entry| -a.values[entry]).is_err());
         assert!(!factor.is_factorized());
     }
 
@@ -308,7 +290,7 @@ mod tests {
         let mut b = vec![Vector::zeros(); x.len()];
         a.multiply(&x, &mut b);
         let mut factor = Factor::new(&graph, &[]).expect("symbolic");
-        factor.factorize(|entry| a.values[entry]).expect("positive definite");
+        factor.factorize(Precision::Double, |entry| a.values[entry]).expect("positive definite");
         factor.solve(&mut b);
         for (b, x) in b.iter().zip(&x) {
             assert!((b - x).norm() < 1e-12);
@@ -338,7 +320,7 @@ mod tests {
                 .map(|n| Vector::<2>::new((n as f64).sin(), (n as f64 * 0.7).cos()))
                 .collect();
             let mut factor = Factor::new(&graph, mesh.ties()).expect("symbolic");
-            factor.factorize(|entry| a.values[entry]).expect("positive definite");
+            factor.factorize(Precision::Double, |entry| a.values[entry]).expect("positive definite");
             let mut x = b.clone();
             factor.solve(&mut x);
             for tie in mesh.ties() {
@@ -364,7 +346,7 @@ mod tests {
                 a.values[graph.entry(node as u32, node as u32)] = Matrix::<2>::new(5.0, 0.4, 0.4, 6.0);
             }
             let mut factor = Factor::new(&graph, mesh.ties()).expect("symbolic");
-            factor.factorize(|entry| a.values[entry]).expect("positive definite");
+            factor.factorize(Precision::Double, |entry| a.values[entry]).expect("positive definite");
             let b: Vec<_> = (0..n).map(|k| Vector::<2>::new((k as f64).sin(), (k as f64).cos())).collect();
             let (nodes, force) = ([0, 12, 40, n - 1], Vector::<2>::new(0.7, -0.2));
             let mut whole = b.clone();

@@ -1,3 +1,5 @@
+use std::marker::PhantomData;
+
 use carom_mesh::{Matrix, Tie, Vector};
 
 use super::NodeGraph;
@@ -13,8 +15,8 @@ pub(super) struct Folding<const D: usize> {
     entries: Vec<u32>,
     /// The diagonal entries of every image and its master.
     diagonals: Vec<(usize, usize)>,
-    /// The blocks of the folded matrix.
-    pub blocks: Vec<Matrix<D>>,
+    folded_entries: usize,
+    dimension: PhantomData<Matrix<D>>,
 }
 
 impl<const D: usize> Folding<D> {
@@ -32,7 +34,8 @@ impl<const D: usize> Folding<D> {
         let diagonal = |n: u32| folded.entry(n, n);
         let folding = Self {
             diagonals: ties.iter().map(|t| (diagonal(t.image), diagonal(t.master))).collect(),
-            blocks: vec![Matrix::zeros(); folded.entry_count()],
+            folded_entries: folded.entry_count(),
+            dimension: PhantomData,
             ties: ties.to_vec(),
             masters,
             entries,
@@ -40,16 +43,17 @@ impl<const D: usize> Folding<D> {
         (folding, folded)
     }
 
-    /// Makes `blocks` from the matrix whose block at an entry of the graph of all nodes is `block(entry)`.
-    pub fn fold_matrix(&mut self, block: impl Fn(usize) -> Matrix<D>) {
-        self.blocks.fill(Matrix::zeros());
+    /// The blocks of the folded matrix, from the matrix whose block at an entry of the graph of all nodes is `block(entry)`.
+    pub fn fold_matrix(&self, block: impl Fn(usize) -> Matrix<D>) -> Vec<Matrix<D>> {
+        let mut blocks = vec![Matrix::zeros(); self.folded_entries];
         for (entry, &folded) in self.entries.iter().enumerate() {
-            self.blocks[folded as usize] += block(entry);
+            blocks[folded as usize] += block(entry);
         }
         // Any positive definite block will do for an image, whose row stands alone; its master's has the size of the others.
         for &(image, master) in &self.diagonals {
-            self.blocks[image] = self.blocks[master];
+            blocks[image] = blocks[master];
         }
+        blocks
     }
 
     /// Moves what stands at images to their masters.

@@ -5,8 +5,11 @@ mod folding;
 mod graph;
 mod nodal_matrix;
 mod ordering;
+mod real;
 mod substitution;
+mod triangular;
 
 pub use factor::Factor;
 pub use graph::NodeGraph;
 pub use nodal_matrix::NodalMatrix;
+pub use triangular::Precision;

@@ -5,8 +5,8 @@ use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::{MatMut, MatRef, Par};
 use pulp::{Arch, Simd, WithSimd};
 
-/// Rows of a panel are padded with zeros to a multiple of this, so that SIMD loops have no remainder.
-const PADDING: usize = 4;
+use super::real::Real;
+
 /// Columns taken together, so that what is loaded once serves them all.
 const COLUMNS: usize = 4;
 /// Columns from which a panel is inverted in blocks, by faer: the large ones of bodies in space.
@@ -19,13 +19,15 @@ const BLOCKED: usize = 96;
 /// dependent loops. A factor is made once and solved with thousands of times, so the set-up does not count, and small
 /// panels, where a general library spends most of its time on dispatch, are what 2D bodies consist of.
 #[derive(Debug, Default)]
-pub(super) struct Substitution {
+pub(super) struct Substitution<T> {
     panels: Vec<Panel>,
     /// The panel of every column.
     panel_of: Vec<u32>,
     rows: Vec<u32>,
-    values: Vec<f64>,
-    gathered: Vec<f64>,
+    values: Vec<T>,
+    gathered: Vec<T>,
+    /// A panel on its way to `values`.
+    inverted: Vec<f64>,
 }
 
 /// The supernode of columns `start..start + columns`; its rows below are `rows[first_row..first_row + below]`.
@@ -39,7 +41,7 @@ struct Panel {
     padded: usize,
 }
 
-impl Substitution {
+impl<T: Real> Substitution<T> {
     /// Takes over the values of a factor.
     pub fn load(&mut self, factor: &SupernodalLltRef<'_, usize, f64>) {
         self.panels.clear();
@@ -47,11 +49,17 @@ impl Substitution {
         self.rows.clear();
         self.values.clear();
         let mut largest = 0;
+        let size = |s: usize| {
+            let supernode = factor.supernode(s);
+            let (columns, below) = (supernode.val().ncols(), supernode.pattern().len());
+            (columns + below).next_multiple_of(T::PADDING) * columns
+        };
+        self.values.reserve_exact((0..factor.symbolic().n_supernodes()).map(size).sum());
         for s in 0..factor.symbolic().n_supernodes() {
             let supernode = factor.supernode(s);
             let (l, pattern) = (supernode.val(), supernode.pattern());
             let (columns, below) = (l.ncols(), pattern.len());
-            let padded = (columns + below).next_multiple_of(PADDING);
+            let padded = (columns + below).next_multiple_of(T::PADDING);
             let panel = Panel {
                 start: supernode.start(),
                 columns,
@@ -61,36 +69,38 @@ impl Substitution {
                 padded,
             };
             self.rows.extend(pattern.iter().map(|&r| r as u32));
-            self.values.resize(panel.first_value + padded * columns, 0.0);
-            let z = &mut self.values[panel.first_value..];
-            invert(l, z, padded, columns + below);
+            self.inverted.clear();
+            self.inverted.resize(padded * columns, 0.0);
+            invert(l, &mut self.inverted, padded, columns + below);
+            self.values.extend(self.inverted.iter().map(|&z| T::of(z)));
             largest = largest.max(padded);
             self.panel_of.resize(panel.start + columns, self.panels.len() as u32);
             self.panels.push(panel);
         }
-        self.gathered.resize(largest, 0.0);
+        self.gathered.resize(largest, T::default());
+        self.inverted = Vec::new();
     }
 
     /// Overwrites `x`, in the order of elimination, with L⁻¹ x.
-    pub fn forward(&mut self, x: &mut [f64]) {
+    pub fn forward(&mut self, x: &mut [T]) {
         let panels = 0..self.panels.len();
         Arch::new().dispatch(Forward { substitution: self, panels, x });
     }
 
     /// Overwrites `x`, in the order of elimination, with L⁻ᵀ x.
-    pub fn backward(&mut self, x: &mut [f64]) {
+    pub fn backward(&mut self, x: &mut [T]) {
         let panels = (0..self.panels.len()).rev();
         Arch::new().dispatch(Backward { substitution: self, panels, x });
     }
 
     /// [`Self::forward`] where `x` is zero outside of a [`Self::reach`], and stays so.
-    pub fn forward_within(&mut self, reach: &[u32], x: &mut [f64]) {
+    pub fn forward_within(&mut self, reach: &[u32], x: &mut [T]) {
         let panels = reach.iter().map(|&p| p as usize);
         Arch::new().dispatch(Forward { substitution: self, panels, x });
     }
 
     /// [`Self::backward`], only for the columns of a [`Self::reach`].
-    pub fn backward_within(&mut self, reach: &[u32], x: &mut [f64]) {
+    pub fn backward_within(&mut self, reach: &[u32], x: &mut [T]) {
         let panels = reach.iter().rev().map(|&p| p as usize);
         Arch::new().dispatch(Backward { substitution: self, panels, x });
     }
@@ -159,18 +169,19 @@ fn invert(l: MatRef<'_, f64>, z: &mut [f64], padded: usize, rows: usize) {
     }
 }
 
-struct Forward<'a, I> {
-    substitution: &'a mut Substitution,
+struct Forward<'a, T, I> {
+    substitution: &'a mut Substitution<T>,
     panels: I,
-    x: &'a mut [f64],
+    x: &'a mut [T],
 }
 
-impl<I: Iterator<Item = usize>> WithSimd for Forward<'_, I> {
+impl<T: Real, I: Iterator<Item = usize>> WithSimd for Forward<'_, T, I> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { substitution: Substitution { panels, rows, values, gathered, .. }, panels: order, x } = self;
+        let Self { substitution: Substitution { panels, rows, values, gathered, .. }, panels: order, x } =
+            self;
         for p in order {
             let p = &panels[p];
             let z = &values[p.first_value..p.first_value + p.padded * p.columns];
@@ -181,24 +192,25 @@ impl<I: Iterator<Item = usize>> WithSimd for Forward<'_, I> {
                 *x = *t;
             }
             for (&row, t) in rows[p.first_row..p.first_row + p.below].iter().zip(&t[p.columns..]) {
-                x[row as usize] -= t;
+                x[row as usize] -= *t;
             }
         }
     }
 }
 
-struct Backward<'a, I> {
-    substitution: &'a mut Substitution,
+struct Backward<'a, T, I> {
+    substitution: &'a mut Substitution<T>,
     panels: I,
-    x: &'a mut [f64],
+    x: &'a mut [T],
 }
 
-impl<I: Iterator<Item = usize>> WithSimd for Backward<'_, I> {
+impl<T: Real, I: Iterator<Item = usize>> WithSimd for Backward<'_, T, I> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { substitution: Substitution { panels, rows, values, gathered, .. }, panels: order, x } = self;
+        let Self { substitution: Substitution { panels, rows, values, gathered, .. }, panels: order, x } =
+            self;
         for p in order {
             let p = &panels[p];
             let z = &values[p.first_value..p.first_value + p.padded * p.columns];
@@ -210,7 +222,7 @@ impl<I: Iterator<Item = usize>> WithSimd for Backward<'_, I> {
                 *t = -x[row as usize];
             }
             for t in &mut t[p.columns + p.below..] {
-                *t = 0.0;
+                *t = T::default();
             }
             transposed_product(simd, z, t, &mut x[p.start..p.start + p.columns]);
         }
@@ -219,69 +231,72 @@ impl<I: Iterator<Item = usize>> WithSimd for Backward<'_, I> {
 
 /// `t` = Z `x`, with Z stored column by column.
 #[inline(always)]
-fn product<S: Simd>(simd: S, z: &[f64], x: &[f64], t: &mut [f64]) {
+fn product<T: Real, S: Simd>(simd: S, z: &[T], x: &[T], t: &mut [T]) {
     let rows = t.len();
     let mut columns = z.chunks_exact(COLUMNS * rows);
     let mut factors = x.chunks_exact(COLUMNS);
-    let (t_simd, t_tail) = S::as_mut_simd_f64s(t);
+    let (t_simd, t_tail) = T::lanes_mut::<S>(t);
     for t in &mut *t_simd {
-        *t = simd.splat_f64s(0.0);
+        *t = T::splat(simd, T::default());
     }
     for t in &mut *t_tail {
-        *t = 0.0;
+        *t = T::default();
     }
     for (z, x) in columns.by_ref().zip(factors.by_ref()) {
-        let [a, b, c, d] = [0, 1, 2, 3].map(|k| S::as_simd_f64s(&z[k * rows..(k + 1) * rows]));
-        let [xa, xb, xc, xd] = [x[0], x[1], x[2], x[3]].map(|x| simd.splat_f64s(x));
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| T::lanes::<S>(&z[k * rows..(k + 1) * rows]));
+        let [xa, xb, xc, xd] = [x[0], x[1], x[2], x[3]].map(|x| T::splat(simd, x));
         for ((((t, a), b), c), d) in t_simd.iter_mut().zip(a.0).zip(b.0).zip(c.0).zip(d.0) {
-            let ab = simd.mul_add_e_f64s(*a, xa, simd.mul_add_e_f64s(*b, xb, *t));
-            *t = simd.mul_add_e_f64s(*c, xc, simd.mul_add_e_f64s(*d, xd, ab));
+            let ab = T::mul_add(simd, *a, xa, T::mul_add(simd, *b, xb, *t));
+            *t = T::mul_add(simd, *c, xc, T::mul_add(simd, *d, xd, ab));
         }
         for ((((t, a), b), c), d) in t_tail.iter_mut().zip(a.1).zip(b.1).zip(c.1).zip(d.1) {
-            *t += a * x[0] + b * x[1] + c * x[2] + d * x[3];
+            *t += *a * x[0];
+            *t += *b * x[1];
+            *t += *c * x[2];
+            *t += *d * x[3];
         }
     }
     for (z, &x) in columns.remainder().chunks_exact(rows).zip(factors.remainder()) {
-        let (z_simd, z_tail) = S::as_simd_f64s(z);
-        let x_simd = simd.splat_f64s(x);
+        let (z_simd, z_tail) = T::lanes::<S>(z);
+        let x_simd = T::splat(simd, x);
         for (t, z) in t_simd.iter_mut().zip(z_simd) {
-            *t = simd.mul_add_e_f64s(*z, x_simd, *t);
+            *t = T::mul_add(simd, *z, x_simd, *t);
         }
         for (t, z) in t_tail.iter_mut().zip(z_tail) {
-            *t += z * x;
+            *t += *z * x;
         }
     }
 }
 
 /// `x` = Zᵀ `t`, with Z stored column by column.
 #[inline(always)]
-fn transposed_product<S: Simd>(simd: S, z: &[f64], t: &[f64], x: &mut [f64]) {
+fn transposed_product<T: Real, S: Simd>(simd: S, z: &[T], t: &[T], x: &mut [T]) {
     let rows = t.len();
-    let (t_simd, t_tail) = S::as_simd_f64s(t);
+    let (t_simd, t_tail) = T::lanes::<S>(t);
     let mut columns = z.chunks_exact(COLUMNS * rows);
     let mut results = x.chunks_exact_mut(COLUMNS);
     for (z, x) in columns.by_ref().zip(results.by_ref()) {
-        let [a, b, c, d] = [0, 1, 2, 3].map(|k| S::as_simd_f64s(&z[k * rows..(k + 1) * rows]));
-        let zero = simd.splat_f64s(0.0);
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| T::lanes::<S>(&z[k * rows..(k + 1) * rows]));
+        let zero = T::splat(simd, T::default());
         let (mut sa, mut sb, mut sc, mut sd) = (zero, zero, zero, zero);
         for ((((t, a), b), c), d) in t_simd.iter().zip(a.0).zip(b.0).zip(c.0).zip(d.0) {
-            sa = simd.mul_add_e_f64s(*a, *t, sa);
-            sb = simd.mul_add_e_f64s(*b, *t, sb);
-            sc = simd.mul_add_e_f64s(*c, *t, sc);
-            sd = simd.mul_add_e_f64s(*d, *t, sd);
+            sa = T::mul_add(simd, *a, *t, sa);
+            sb = T::mul_add(simd, *b, *t, sb);
+            sc = T::mul_add(simd, *c, *t, sc);
+            sd = T::mul_add(simd, *d, *t, sd);
         }
-        let tail = |z: &[f64]| -> f64 { z.iter().zip(t_tail).map(|(z, t)| z * t).sum() };
-        x[0] = simd.reduce_sum_f64s(sa) + tail(a.1);
-        x[1] = simd.reduce_sum_f64s(sb) + tail(b.1);
-        x[2] = simd.reduce_sum_f64s(sc) + tail(c.1);
-        x[3] = simd.reduce_sum_f64s(sd) + tail(d.1);
+        for (x, (sum, tail)) in x.iter_mut().zip([(sa, a.1), (sb, b.1), (sc, c.1), (sd, d.1)]) {
+            *x = T::sum(simd, sum);
+            tail.iter().zip(t_tail).for_each(|(z, t)| *x += *z * *t);
+        }
     }
     for (z, x) in columns.remainder().chunks_exact(rows).zip(results.into_remainder()) {
-        let (z_simd, z_tail) = S::as_simd_f64s(z);
-        let mut sum = simd.splat_f64s(0.0);
+        let (z_simd, z_tail) = T::lanes::<S>(z);
+        let mut sum = T::splat(simd, T::default());
         for (t, z) in t_simd.iter().zip(z_simd) {
-            sum = simd.mul_add_e_f64s(*z, *t, sum);
+            sum = T::mul_add(simd, *z, *t, sum);
         }
-        *x = simd.reduce_sum_f64s(sum) + z_tail.iter().zip(t_tail).map(|(z, t)| z * t).sum::<f64>();
+        *x = T::sum(simd, sum);
+        z_tail.iter().zip(t_tail).for_each(|(z, t)| *x += *z * *t);
     }
 }

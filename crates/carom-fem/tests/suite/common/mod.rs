@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
-use carom_fem::sparse::Factor;
+use carom_fem::sparse::{Factor, Precision};
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_mesh::{CellBlock, CellKind, Matrix, Mesh, Vector, generate};
 
@@ -130,7 +130,7 @@ pub fn equilibrium<const D: usize>(
         }
         let stiffness = body.stiffness(u);
         factor
-            .factorize(|entry| {
+            .factorize(Precision::Double, |entry| {
                 let (a, b) = ends[entry];
                 Matrix::from_fn(|i, k| match (fixed(a, i) || fixed(b, k), a == b && i == k) {
                     (true, diagonal) => f64::from(u8::from(diagonal)),
