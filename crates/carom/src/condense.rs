@@ -76,14 +76,15 @@ const HELD_COMPLIANCE: [f64; 2] = [1.0, 1e-3];
 /// Sliding below this, relative to the motion of the contact, is round-off.
 const NO_SLIDING: f64 = 1e-9;
 
-/// Makes the compliance of a contact regular where supports hold its nodes along the facet and W would be singular.
+/// What makes the compliance `block` of a contact regular where supports hold its nodes along the facet and W would be singular.
 fn support<const D: usize>(
     model: &Model<D>,
     contact: &Contact<D>,
     q: &Vector<D>,
     motion: &[Vector<D>],
-    block: &mut Matrix<D>,
-) {
+    block: &Matrix<D>,
+) -> Matrix<D> {
+    let mut support = Matrix::zeros();
     for (node, _) in contact.stencil() {
         let Some(&b) = model.body_of_node.get(node) else { continue };
         let b = &model.bodies[b as usize];
@@ -95,40 +96,38 @@ fn support<const D: usize>(
             let mut along: Vector<D> = contact.frame.column(component).into();
             along[0] = 0.0;
             let Some(along) = along.try_normalize(RIGID) else { continue };
-            let response = *block * along;
+            let block = block + support;
+            let response = block * along;
             // A tilted facet couples both directions: what counts is how far the pair of them is from singular.
             if along.dot(&response) - response[0] * response[0] / block[(0, 0)] < RIGID * block[(0, 0)] {
                 let driven = contact.relative(|n| model.prescribed_part(n, &motion[n]));
                 let slides = along.dot(&driven).abs() > NO_SLIDING * q.amax();
                 let compliance = HELD_COMPLIANCE[usize::from(slides)] * block[(0, 0)];
-                *block += along * along.transpose() * compliance;
+                support += along * along.transpose() * compliance;
             }
         }
     }
+    support
 }
 
 /// Writes W, q and μ of `contacts` to `problem`.
 ///
-/// `motion` is the nodal motion d that the step would make without reactions, `offsets` what the normal components lack of the
-/// contact condition's variable.
+/// `motion` is the nodal motion d that the step would make with the `reactions` known so far, and q what W leaves of it without them:
+/// once these no longer change, the law holds for the motion itself, whatever the accuracy of W. `offsets` are what the normal components
+/// lack of the contact condition's variable. The columns of W were prepared.
 pub(crate) fn condense<const D: usize>(
     model: &Model<D>,
-    operators: &mut [BodyOperator<D>],
-    compliances: &mut [Compliance<D>],
+    operators: &[BodyOperator<D>],
+    compliances: &[Compliance<D>],
     contacts: &[Contact<D>],
     friction: &[f64],
     offsets: &[f64],
     motion: &[Vector<D>],
+    reactions: &[Vector<D>],
     problem: &mut ContactProblem<D>,
 ) {
     // The motion of obstacles is prescribed: they do not respond.
     let body_of = |node: usize| model.body_of_node.get(node).map(|&b| b as usize);
-    for contact in contacts {
-        for (node, _) in contact.stencil() {
-            let Some(b) = body_of(node) else { continue };
-            compliances[b].prepare(&mut operators[b], node - model.bodies[b].first_node);
-        }
-    }
     problem.w.clear();
     problem.q.clear();
     problem.mu.clear();
@@ -157,9 +156,15 @@ pub(crate) fn condense<const D: usize>(
                 }
             }
             if i == j {
-                support(model, row, &q, motion, &mut block);
+                // A stand-in, which moves nothing: it has no part in the motion.
+                let support = support(model, row, &q, motion, &block);
+                problem.q[i] += support * reactions[i];
+                block += support;
             }
             coupled.then_some((j, block))
         }));
+    }
+    for (i, q) in problem.q.iter_mut().enumerate() {
+        *q -= problem.w.row_times(i, reactions);
     }
 }

@@ -15,6 +15,7 @@
 //! Source of the method: B. Magnain, Z.-Q. Feng, J.-M. Cros, *Modélisation des problèmes d'impact avec dissipation d'énergie par
 //! frottement*, C. R. Mécanique 333 (2005) 419–424; its equations are cited as (1)–(4).
 
+mod acceleration;
 mod blend;
 mod body_step;
 mod books;

@@ -153,16 +153,42 @@ impl<const D: usize> BodyOperator<D> {
         &self.turn
     }
 
-    /// Overwrites `x` with K̄⁻¹ x; zero where displacements are held.
-    pub fn solve(&mut self, x: &mut [Vector<D>]) {
-        for (s, x) in self.scratch.iter_mut().zip(x.iter()) {
+    /// Starts on K̄⁻¹ x: what [`Self::end`] will give can be seen, and `x` added to, at the nodes of [`Self::set_reach`].
+    pub fn begin(&mut self, x: &[Vector<D>]) {
+        for (s, x) in self.scratch.iter_mut().zip(x) {
             *s = self.turn.tr_mul(x);
         }
         self.held.clear(&mut self.scratch);
-        self.factor.solve(&mut self.scratch);
-        for (s, x) in self.scratch.iter().zip(x) {
-            *x = self.turn * s;
+        self.factor.begin(&mut self.scratch);
+    }
+
+    /// Writes K̄⁻¹ x for the `x` that was begun with, and what was added to it, to `out`; zero where displacements are held.
+    pub fn end(&mut self, out: &mut [Vector<D>]) {
+        self.factor.end(&mut self.scratch);
+        for (s, out) in self.scratch.iter().zip(out) {
+            *out = self.turn * s;
         }
+    }
+
+    /// Names the nodes of [`Self::seen`] and [`Self::add`].
+    pub fn set_reach(&mut self, nodes: impl Iterator<Item = usize>) {
+        self.factor.set_reach(nodes);
+    }
+
+    /// Solves at the nodes of the reach, for [`Self::seen`].
+    pub fn look(&mut self) {
+        self.factor.look();
+    }
+
+    /// K̄⁻¹ x at a node of the reach, as it was at the last look.
+    pub fn seen(&self, node: usize) -> Vector<D> {
+        self.turn * self.factor.seen(node)
+    }
+
+    /// Adds `forces`, each at a node of the reach, to `x`.
+    pub fn add(&mut self, forces: impl Iterator<Item = (usize, Vector<D>)>) {
+        let Self { factor, turn, held, .. } = self;
+        factor.add(forces.map(|(node, force)| (node, held.free_part(node, &turn.tr_mul(&force)))));
     }
 
     /// Overwrites `x` with the factor's solution, in the frame of the factor.

@@ -75,7 +75,35 @@ pub(crate) fn measure_rubbing<const D: usize>(
     }
 }
 
-/// Solves the reduced problem of the contacts and adds the effect of their reactions to the corrections.
+/// Gets the bodies ready to respond at the nodes of the contacts: their compliance there, and the reach of these nodes.
+pub(crate) fn prepare_contacts<const D: usize>(model: &Model<D>, work: &mut Workspace<D>) {
+    work.contact_nodes.iter_mut().for_each(Vec::clear);
+    for contact in &work.contacts {
+        for (node, _) in contact.stencil() {
+            // The motion of obstacles is prescribed: they do not respond.
+            let Some(&b) = model.body_of_node.get(node) else { continue };
+            let b = b as usize;
+            work.contact_nodes[b].push((node - model.bodies[b].first_node) as u32);
+        }
+    }
+    for ((nodes, operator), compliance) in
+        work.contact_nodes.iter_mut().zip(&mut work.operators).zip(&mut work.compliances)
+    {
+        if nodes.is_empty() {
+            continue;
+        }
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes.iter().for_each(|&node| compliance.prepare(operator, node as usize));
+        operator.set_reach(nodes.iter().map(|&node| node as usize));
+    }
+}
+
+/// Solves the reduced problem of the contacts, while the bodies in contact are between [`BodyOperator::begin`] and
+/// [`BodyOperator::end`], and gives them the change of the reactions.
+///
+/// [`BodyOperator::begin`]: crate::linearise::BodyOperator::begin
+/// [`BodyOperator::end`]: crate::linearise::BodyOperator::end
 pub(crate) fn react<const D: usize>(
     model: &Model<D>,
     method: &Method<D>,
@@ -83,30 +111,33 @@ pub(crate) fn react<const D: usize>(
     map: &StepMap,
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
-    if work.candidates.is_empty() {
-        return Ok(());
-    }
-    // The bodies in contact settle together; while others still move, these keep their reactions.
-    if work.progress.iter().zip(&work.touched).any(|(p, &touched)| touched && p.settled) {
-        return Ok(());
-    }
     let motion = &work.motion;
     work.offsets.clear();
     work.offsets.extend(work.contacts.iter().zip(&work.start_gaps).map(|(contact, &kept)| {
         method.condition.normal_offset(contact, kept, map, |n| motion[n], |n| state.velocity[n])
     }));
-    // The motion without reactions is d plus the correction; `momentum` is free here and holds it.
-    for ((free, d), c) in work.momentum.iter_mut().zip(&work.motion).zip(&work.correction) {
-        *free = d + c;
+    // The motion with the reactions known so far, at the nodes of contacts.
+    let obstacles = model.node_count()..;
+    work.momentum[obstacles.clone()].copy_from_slice(&work.motion[obstacles]);
+    for ((b, nodes), operator) in model.bodies.iter().zip(&work.contact_nodes).zip(&mut work.operators) {
+        if nodes.is_empty() {
+            continue;
+        }
+        operator.look();
+        for node in nodes.iter().map(|&node| node as usize) {
+            let n = b.first_node + node;
+            work.momentum[n] = work.motion[n] + operator.seen(node);
+        }
     }
     condense(
         model,
-        &mut work.operators,
-        &mut work.compliances,
+        &work.operators,
+        &work.compliances,
         &work.contacts,
         &work.friction,
         &work.offsets,
         &work.momentum,
+        &work.reactions,
         &mut work.problem,
     );
     work.guess.clone_from(&work.reactions);
@@ -121,14 +152,18 @@ pub(crate) fn react<const D: usize>(
             StepError::NotFinite("free motion of the contacts")
         });
     }
-    // r as an external load: a second solve for the bodies in contact.
-    for (contact, r) in work.contacts.iter().zip(&work.reactions) {
-        contact.add_force(r, &mut work.residual);
+    // The change of the reactions as an external load; `momentum` is free again.
+    for (b, nodes) in model.bodies.iter().zip(&work.contact_nodes) {
+        nodes.iter().for_each(|&node| work.momentum[b.first_node + node as usize] = Vector::zeros());
     }
-    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| work.touched[i]) {
-        let nodes = b.nodes();
-        work.correction[nodes.clone()].copy_from_slice(&work.residual[nodes.clone()]);
-        work.operators[i].solve(&mut work.correction[nodes]);
+    for ((contact, r), before) in work.contacts.iter().zip(&work.reactions).zip(&work.guess) {
+        contact.add_force(&(r - before), &mut work.momentum);
+    }
+    for ((b, nodes), operator) in model.bodies.iter().zip(&work.contact_nodes).zip(&mut work.operators) {
+        if !nodes.is_empty() {
+            let force = &work.momentum[b.nodes()];
+            operator.add(nodes.iter().map(|&node| (node as usize, force[node as usize])));
+        }
     }
     Ok(())
 }

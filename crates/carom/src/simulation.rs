@@ -413,6 +413,12 @@ impl<const D: usize> Simulation<D> {
         self.work.posed_problem()
     }
 
+    /// Newton iterations made so far.
+    #[must_use]
+    pub fn newton_iterations(&self) -> u64 {
+        self.totals.newton_iterations
+    }
+
     /// Time spent in the friction solver so far.
     #[must_use]
     pub fn friction_time(&self) -> Duration {

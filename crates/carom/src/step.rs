@@ -2,13 +2,14 @@
 
 use carom_mesh::tensor;
 
+use crate::acceleration::accelerate;
 use crate::body_step::{BodyStep, Pose, predicted_motion};
 use crate::books::commit;
 use crate::cross_check::cross_check;
 use crate::drive::{load_body, prescribe};
 use crate::error::StepError;
 use crate::linearise::BodyOperator;
-use crate::react::{evaluate_contacts, measure_rubbing, react};
+use crate::react::{evaluate_contacts, measure_rubbing, prepare_contacts, react};
 use crate::search::{missed_a_contact, search, select_active};
 use crate::state::State;
 use crate::workspace::{BodyProgress, StepReport, Workspace};
@@ -120,13 +121,23 @@ fn iterate<const D: usize>(
 ) -> Result<usize, StepError> {
     select_active(model, method, state, map, work);
     work.progress.fill(BodyProgress::default());
+    work.acceleration.restart();
     for ((u1, u0), d) in next.displacement.iter_mut().zip(&state.displacement).zip(&work.motion) {
         *u1 = u0 + d;
     }
     for iteration in 1.. {
-        evaluate_contacts(model, method, state, work);
+        // The bodies in contact settle together; while others still move, these keep their reactions.
+        let kept = work.progress.iter().zip(&work.touched).any(|(p, &touched)| touched && p.settled);
+        if !kept {
+            evaluate_contacts(model, method, state, work);
+            prepare_contacts(model, work);
+        }
+        let reacts = !kept && !work.contacts.is_empty();
         residuals(model, method, state, next, map, work);
-        react(model, method, state, map, work)?;
+        begin_solves(model, reacts, work);
+        if reacts {
+            react(model, method, state, map, work)?;
+        }
         let motion = correct(model, state, next, work)?;
         if map.is_static() && motion > model.size {
             return Err(not_held(model, work).unwrap_or(StepError::NotFinite("displacement")));
@@ -173,7 +184,7 @@ fn settle<const D: usize>(work: &mut Workspace<D>, wanted: f64) -> bool {
     work.progress.iter().all(|p| p.settled)
 }
 
-/// Residuals without reactions, and from them the corrections without reactions, of the bodies that still move.
+/// Residuals without reactions of the bodies that still move.
 fn residuals<const D: usize>(
     model: &Model<D>,
     method: &Method<D>,
@@ -201,8 +212,18 @@ fn residuals<const D: usize>(
         } else {
             body_step.residual(&mut work.residual_scratch[i], residual);
         }
-        work.correction[nodes.clone()].copy_from_slice(residual);
-        work.operators[i].solve(&mut work.correction[nodes]);
+    }
+}
+
+/// Adds the reactions known so far to the residuals of the bodies that still move, and starts to solve for their corrections.
+fn begin_solves<const D: usize>(model: &Model<D>, reacts: bool, work: &mut Workspace<D>) {
+    if reacts {
+        for (contact, r) in work.contacts.iter().zip(&work.reactions) {
+            contact.add_force(r, &mut work.residual);
+        }
+    }
+    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !work.progress[i].settled) {
+        work.operators[i].begin(&work.residual[b.nodes()]);
     }
 }
 
@@ -228,32 +249,38 @@ fn blend<const D: usize>(
     work.blend.weigh(&work.rubbing, &state.excess, state.energies.total());
 }
 
-/// Applies the corrections; returns the largest motion of a node in the step so far [m].
+/// Ends the solves and applies the corrections; returns the largest motion of a node in the step so far [m].
 fn correct<const D: usize>(
     model: &Model<D>,
     state: &State<D>,
     next: &mut State<D>,
     work: &mut Workspace<D>,
 ) -> Result<f64, StepError> {
-    let mut motion: f64 = 0.0;
     for (i, b) in model.bodies.iter().enumerate() {
         if work.progress[i].settled {
             continue;
         }
-        let mut correction: f64 = 0.0;
-        let mut sum = 0.0;
-        for n in b.nodes() {
-            work.motion[n] += work.correction[n];
-            next.displacement[n] = state.displacement[n] + work.motion[n];
-            correction = correction.max(work.correction[n].amax());
-            motion = motion.max(work.motion[n].amax());
-            sum += work.correction[n].sum();
+        let correction = &mut work.correction[b.nodes()];
+        work.operators[i].end(correction);
+        let (mut largest, mut sum): (f64, f64) = (0.0, 0.0);
+        for c in correction.iter() {
+            largest = largest.max(c.amax());
+            sum += c.sum();
         }
         // `max` ignores NaN, a sum does not.
         if !sum.is_finite() {
             return Err(StepError::NotFinite("displacement"));
         }
-        work.progress[i].note(correction);
+        work.progress[i].note(largest);
+    }
+    accelerate(model, work);
+    let mut motion: f64 = 0.0;
+    for (_, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !work.progress[i].settled) {
+        for n in b.nodes() {
+            work.motion[n] += work.correction[n];
+            next.displacement[n] = state.displacement[n] + work.motion[n];
+            motion = motion.max(work.motion[n].amax());
+        }
     }
     Ok(motion)
 }
@@ -266,6 +293,7 @@ fn refactorize<const D: usize>(
     map: &StepMap,
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
+    work.acceleration.restart();
     for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !work.progress[i].settled) {
         let nodes = b.nodes();
         let middle = &mut work.correction[nodes.clone()];

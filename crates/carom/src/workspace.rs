@@ -4,6 +4,7 @@ use carom_contact::{Candidate, Contact, Mortar, Search};
 use carom_friction::{ContactProblem, SolverKind};
 use carom_mesh::Vector;
 
+use crate::acceleration::Acceleration;
 use crate::blend::{Blend, Rubbing};
 use crate::body_step::{Pose, ResidualScratch};
 use crate::condense::Compliance;
@@ -67,6 +68,8 @@ pub struct Workspace<const D: usize> {
     pub(crate) searched: Vec<(u32, u32)>,
     pub(crate) missed: Vec<Candidate>,
     pub(crate) contacts: Vec<Contact<D>>,
+    /// The nodes of every body that contacts act on, ascending.
+    pub(crate) contact_nodes: Vec<Vec<u32>>,
     /// Contacts at the end of the step.
     pub(crate) end_contacts: Vec<Contact<D>>,
     pub(crate) mortar: Mortar<D>,
@@ -92,6 +95,7 @@ pub struct Workspace<const D: usize> {
     pub(crate) solved_by: SolverKind,
     pub(crate) touched: Vec<bool>,
     pub(crate) progress: Vec<BodyProgress>,
+    pub(crate) acceleration: Acceleration<D>,
     /// What the groups did in the last step, in the order of the model.
     pub groups: Vec<GroupReport>,
     /// What happened to the energy of each body in the last step.
@@ -138,6 +142,7 @@ impl<const D: usize> Workspace<D> {
             searched: Vec::new(),
             missed: Vec::new(),
             contacts: Vec::new(),
+            contact_nodes: vec![Vec::new(); bodies],
             end_contacts: Vec::new(),
             mortar: Mortar::default(),
             missed_mortar: Mortar::default(),
@@ -155,6 +160,7 @@ impl<const D: usize> Workspace<D> {
             solved_by: SolverKind::default(),
             touched: vec![false; bodies],
             progress: vec![BodyProgress::default(); bodies],
+            acceleration: Acceleration::new(positions, bodies),
             groups: vec![GroupReport::default(); model.groups.len()],
             bodies: vec![BodyLedger::default(); bodies],
             factorisations: 0,

@@ -4,9 +4,9 @@ use std::fmt::Debug;
 
 use carom_mesh::{Matrix, Vector};
 
-use super::block::{BATCH, Grid};
+use super::grid::Grid;
 use super::kinematics::Kinematics;
-use crate::material::{Tangent, Viscosity, embed, restrict};
+use crate::material::{Batch, Tangent, Viscosity, embed, restrict};
 use crate::sparse::NodalMatrix;
 
 /// The viscosity of one block of cells; `u` and `f` hold one vector per node of the body.
@@ -30,29 +30,30 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Dashpo
     for ViscousBlock<D, S, N, K>
 {
     fn add_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], dt: f64, force: &mut [Vector<D>]) {
-        let (mut f0, mut f1, mut stresses) =
-            ([Matrix::zeros(); BATCH], [Matrix::zeros(); BATCH], [Matrix::zeros(); BATCH]);
-        for cells in self.grid.batches() {
-            let (f0, f1) = (self.grid.deform(&cells, u0, &mut f0), self.grid.deform(&cells, u1, &mut f1));
-            for (stress, (f0, f1)) in stresses.iter_mut().zip(f0.iter().zip(f1)) {
-                let (f0, f1) = (embed(f0), embed(f1));
-                *stress = restrict(&if self.objective {
+        let (mut f0, mut f1, mut stresses) = (Batch::zeros(), Batch::zeros(), Batch::zeros());
+        for pack in 0..self.grid.packs() {
+            self.grid.deform(pack, u0, &mut f0);
+            self.grid.deform(pack, u1, &mut f1);
+            for q in 0..self.grid.batch() {
+                let (f0, f1) = (embed(&f0.get(q)), embed(&f1.get(q)));
+                let stress = if self.objective {
                     self.viscosity.stress(&f0, &f1, dt)
                 } else {
                     self.viscosity.small_stress(&f0, &f1, dt)
-                });
+                };
+                stresses.set(q, &restrict(&stress));
             }
-            self.grid.add_forces(&cells, &stresses, force);
+            self.grid.add_forces(pack, &stresses, force);
         }
     }
 
     fn add_damping(&self, u: &[Vector<D>], c: &mut NodalMatrix<Matrix<D>>) {
-        let mut f = [Matrix::identity(); BATCH];
-        let mut tangents: Vec<Tangent<S>> = vec![[[[[0.0; S]; S]; S]; S]; BATCH];
-        for cells in self.grid.batches() {
-            let deformed = self.grid.deform(&cells, u, &mut f);
-            for (tangent, f) in tangents.iter_mut().zip(deformed) {
-                let f = if self.objective { embed(f) } else { Matrix::identity() };
+        let mut f = Batch::zeros();
+        let mut tangents: Vec<Tangent<S>> = vec![[[[[0.0; S]; S]; S]; S]; self.grid.batch()];
+        for pack in 0..self.grid.packs() {
+            self.grid.deform(pack, u, &mut f);
+            for (q, tangent) in tangents.iter_mut().enumerate() {
+                let f = if self.objective { embed(&f.get(q)) } else { Matrix::identity() };
                 let full = self.viscosity.tangent(&f);
                 *tangent = std::array::from_fn(|i| {
                     std::array::from_fn(|j| {
@@ -60,10 +61,9 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Dashpo
                     })
                 });
             }
-            for (cell, tangents) in cells.zip(tangents.chunks_exact(self.grid.points_per_cell)) {
-                let mut local = [[Matrix::<D>::zeros(); N]; N];
-                self.grid.add_local_stiffness(cell, tangents, &mut local);
-                self.grid.scatter(cell, &local, c);
+            for (lane, cell) in self.grid.cells(pack).enumerate() {
+                let of_cell = self.grid.points(lane).map(|q| &tangents[q]);
+                self.grid.scatter(cell, &self.grid.local_stiffness(pack, lane, of_cell), c);
             }
         }
     }

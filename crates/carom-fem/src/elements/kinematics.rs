@@ -1,6 +1,7 @@
 use std::fmt::Debug;
 
 use carom_mesh::{Matrix, Vector};
+use pulp::Simd;
 
 use crate::material::Tangent;
 
@@ -10,13 +11,13 @@ pub(crate) trait Kinematics<const D: usize, const S: usize>: Send + Sync + Debug
     /// The gradient g of a node from that of its shape function ∂N/∂X [1/m] and its `hoop` N/R, which is zero but in a body of
     /// revolution.
     fn gradient(shape: &Vector<D>, hoop: f64) -> Vector<S>;
-    /// Adds L(u, g) to `f`.
-    fn add_displacement(f: &mut Matrix<S>, u: &Vector<D>, g: &Vector<S>);
-    /// The nodal force of a stress P: Σ_ij P_ij ∂L_ij/∂u.
-    fn force(p: &Matrix<S>, g: &Vector<S>) -> Vector<D>;
+    /// Adds L(u, g) to `f`, at as many points as a register has lanes.
+    fn add_displacement<V: Simd>(simd: V, f: &mut [[V::f64s; S]; S], u: &[V::f64s; D], g: &[V::f64s; S]);
+    /// Adds the nodal force of a stress P, Σ_ij P_ij ∂L_ij/∂u, to `force`.
+    fn add_force<V: Simd>(simd: V, force: &mut [V::f64s; D], p: &[[V::f64s; S]; S], g: &[V::f64s; S]);
     /// For every component of the displacement of a node the stress that it causes, Σ_ij w ∂L_ij/∂u A_ijkl.
     fn stress_of_displacement(tangent: &Tangent<S>, g: &Vector<S>, weight: f64) -> [Matrix<S>; D];
-    /// Adds the forces [`Self::force`] of these stresses, one per row, to `k`.
+    /// Adds the forces of these stresses, one per row, to `k`.
     fn add_forces(k: &mut Matrix<D>, stresses: &[Matrix<S>; D], g: &Vector<S>);
 }
 
@@ -29,14 +30,22 @@ impl<const D: usize> Kinematics<D, D> for Solid {
         *shape
     }
 
-    #[inline]
-    fn add_displacement(f: &mut Matrix<D>, u: &Vector<D>, g: &Vector<D>) {
-        *f += u * g.transpose();
+    #[inline(always)]
+    fn add_displacement<V: Simd>(simd: V, f: &mut [[V::f64s; D]; D], u: &[V::f64s; D], g: &[V::f64s; D]) {
+        for i in 0..D {
+            for j in 0..D {
+                f[i][j] = simd.mul_add_e_f64s(u[i], g[j], f[i][j]);
+            }
+        }
     }
 
-    #[inline]
-    fn force(p: &Matrix<D>, g: &Vector<D>) -> Vector<D> {
-        p * g
+    #[inline(always)]
+    fn add_force<V: Simd>(simd: V, force: &mut [V::f64s; D], p: &[[V::f64s; D]; D], g: &[V::f64s; D]) {
+        for i in 0..D {
+            for j in 0..D {
+                force[i] = simd.mul_add_e_f64s(p[i][j], g[j], force[i]);
+            }
+        }
     }
 
     #[inline]
@@ -77,25 +86,28 @@ impl<const D: usize> Kinematics<D, 3> for Embedded {
         Vector::<3>::from_fn(|i, _| if i < D { shape[i] } else { hoop })
     }
 
-    #[inline]
-    fn add_displacement(f: &mut Matrix<3>, u: &Vector<D>, g: &Vector<3>) {
+    #[inline(always)]
+    fn add_displacement<V: Simd>(simd: V, f: &mut [[V::f64s; 3]; 3], u: &[V::f64s; D], g: &[V::f64s; 3]) {
         for i in 0..D {
             for j in 0..D {
-                f[(i, j)] += u[i] * g[j];
+                f[i][j] = simd.mul_add_e_f64s(u[i], g[j], f[i][j]);
             }
         }
         if D == 2 {
-            f[(2, 2)] += u[0] * g[2];
+            f[2][2] = simd.mul_add_e_f64s(u[0], g[2], f[2][2]);
         }
     }
 
-    #[inline]
-    fn force(p: &Matrix<3>, g: &Vector<3>) -> Vector<D> {
-        let mut force = Vector::from_fn(|i, _| (0..D).map(|j| p[(i, j)] * g[j]).sum());
-        if D == 2 {
-            force[0] += p[(2, 2)] * g[2];
+    #[inline(always)]
+    fn add_force<V: Simd>(simd: V, force: &mut [V::f64s; D], p: &[[V::f64s; 3]; 3], g: &[V::f64s; 3]) {
+        for i in 0..D {
+            for j in 0..D {
+                force[i] = simd.mul_add_e_f64s(p[i][j], g[j], force[i]);
+            }
         }
-        force
+        if D == 2 {
+            force[0] = simd.mul_add_e_f64s(p[2][2], g[2], force[0]);
+        }
     }
 
     #[inline]
@@ -112,9 +124,11 @@ impl<const D: usize> Kinematics<D, 3> for Embedded {
     #[inline]
     fn add_forces(matrix: &mut Matrix<D>, stresses: &[Matrix<3>; D], g: &Vector<3>) {
         for (i, stress) in stresses.iter().enumerate() {
-            let force: Vector<D> = Self::force(stress, g);
             for k in 0..D {
-                matrix[(i, k)] += force[k];
+                matrix[(i, k)] += (0..D).map(|l| stress[(k, l)] * g[l]).sum::<f64>();
+            }
+            if D == 2 {
+                matrix[(i, 0)] += stress[(2, 2)] * g[2];
             }
         }
     }

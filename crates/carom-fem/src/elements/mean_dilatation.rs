@@ -1,14 +1,13 @@
-use std::ops::Range;
 use std::sync::Arc;
 
 use carom_mesh::{Matrix, Vector};
 
-use super::block::{BATCH, Grid};
 use super::dilatation::Cell;
+use super::grid::Grid;
 use super::kinematics::Kinematics;
 use super::{CellState, Elements, StepForces, green_lagrange};
 use crate::material::discrete_gradient::{SMALL_STRAIN, deformation, second_piola, stress_difference};
-use crate::material::{Mat3, PlasticState, PointLaw, Tangent};
+use crate::material::{BATCH, Batch, LANES, MAX_POINTS, Mat3, PlasticState, PointLaw, Tangent};
 use crate::sparse::NodalMatrix;
 
 /// Elements whose points share one change of volume per cell: see [`super::dilatation`].
@@ -19,47 +18,78 @@ pub(crate) struct MeanDilatation<const D: usize, const N: usize, K> {
     pub grid: Grid<D, 3, N, K>,
 }
 
-/// One value per point of a batch.
-type Points = [Mat3; BATCH];
+/// One value per point of a cell.
+type Points = [Mat3; MAX_POINTS];
 
-const ZEROS: Points = [Mat3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0); BATCH];
+const ZEROS: Points = [Mat3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0); MAX_POINTS];
 
-impl<const D: usize, const N: usize, K: Kinematics<D, 3>> MeanDilatation<D, N, K> {
-    /// The cells of a batch, with `f` at its points, and their points within the batch.
-    fn split<'a>(
-        &'a self,
-        cells: &Range<usize>,
-        f: &'a [Mat3],
-    ) -> impl Iterator<Item = (Cell<'a>, Range<usize>)> {
-        let count = self.grid.points_per_cell;
-        let weights = self.grid.weights[self.grid.points(cells)].chunks_exact(count);
-        weights
-            .zip(f.chunks_exact(count))
-            .enumerate()
-            .map(move |(k, (weights, f))| (Cell { weights, f }, k * count..(k + 1) * count))
+/// A cell of a pack, taken out of its batches.
+struct Lane {
+    count: usize,
+    lane: usize,
+    weights: [f64; MAX_POINTS],
+    f: Points,
+}
+
+impl Lane {
+    fn cell(&self) -> Cell<'_> {
+        Cell { weights: &self.weights[..self.count], f: &self.f[..self.count] }
     }
 
-    fn modify(&self, cells: &Range<usize>, f: &[Mat3], modified: &mut Points) {
-        for (cell, points) in self.split(cells, f) {
-            cell.modify(&mut modified[points]);
+    /// The part of this cell in a batch.
+    fn take(&self, batch: &Batch<3>) -> Points {
+        let mut points = ZEROS;
+        points.iter_mut().take(self.count).enumerate().for_each(|(q, p)| *p = batch.get(self.at(q)));
+        points
+    }
+
+    fn put(&self, points: &Points, batch: &mut Batch<3>) {
+        points.iter().take(self.count).enumerate().for_each(|(q, p)| batch.set(self.at(q), p));
+    }
+
+    /// The place of a point in its batch.
+    fn at(&self, q: usize) -> usize {
+        q * LANES + self.lane
+    }
+}
+
+impl<const D: usize, const N: usize, K: Kinematics<D, 3>> MeanDilatation<D, N, K> {
+    /// The cells of a pack and the copies that fill it up, with `f` at their points.
+    fn lanes<'a>(&'a self, pack: usize, f: &'a Batch<3>) -> impl Iterator<Item = Lane> + 'a {
+        let (weights, count) = (self.grid.weights(pack), self.grid.batch() / LANES);
+        (0..LANES).map(move |lane| {
+            let mut cell = Lane { count, lane, weights: [0.0; MAX_POINTS], f: ZEROS };
+            (0..count).for_each(|q| cell.weights[q] = weights[cell.at(q)]);
+            cell.f = cell.take(f);
+            cell
+        })
+    }
+
+    fn modify(&self, pack: usize, f: &Batch<3>, modified: &mut Batch<3>) {
+        for lane in self.lanes(pack, f) {
+            let mut points = ZEROS;
+            lane.cell().modify(&mut points[..lane.count]);
+            lane.put(&points, modified);
         }
     }
 
     /// Writes the energies w ψ(F̂) of the points [J] to `out`.
-    fn energies(&self, cells: &Range<usize>, f: &[Mat3], history: &[PlasticState], out: &mut [f64; BATCH]) {
-        let mut modified = ZEROS;
-        self.modify(cells, f, &mut modified);
-        self.law.energies(&modified[..f.len()], self.grid.part(cells, history), out);
-        out.iter_mut().zip(&self.grid.weights[self.grid.points(cells)]).for_each(|(e, w)| *e *= w);
+    fn energies(&self, pack: usize, f: &Batch<3>, history: &[PlasticState], out: &mut [f64; BATCH]) {
+        let mut modified = Batch::zeros();
+        self.modify(pack, f, &mut modified);
+        self.law.energies(self.grid.batch(), &modified, self.grid.part(pack, history), out);
+        out.iter_mut().zip(self.grid.weights(pack)).for_each(|(e, w)| *e *= w);
     }
 
     /// Writes the stresses P, whose work is the change of energy, to `out`.
-    fn stresses(&self, cells: &Range<usize>, f: &[Mat3], history: &[PlasticState], out: &mut Points) {
-        let mut modified = ZEROS;
-        self.modify(cells, f, &mut modified);
-        self.law.stresses(&modified[..f.len()], self.grid.part(cells, history), out);
-        for (cell, points) in self.split(cells, f) {
-            cell.stresses(&modified[points.clone()], &mut out[points]);
+    fn stresses(&self, pack: usize, f: &Batch<3>, history: &[PlasticState], out: &mut Batch<3>) {
+        let mut modified = Batch::zeros();
+        self.modify(pack, f, &mut modified);
+        self.law.stresses(self.grid.batch(), &modified, self.grid.part(pack, history), out);
+        for lane in self.lanes(pack, f) {
+            let (modified, mut stresses) = (lane.take(&modified), lane.take(out));
+            lane.cell().stresses(&modified[..lane.count], &mut stresses[..lane.count]);
+            lane.put(&stresses, out);
         }
     }
 
@@ -68,61 +98,64 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> MeanDilatation<D, N, K
     /// and κ one number per cell.
     fn discrete_stresses(
         &self,
-        cells: &Range<usize>,
-        f0: &[Mat3],
-        f1: &[Mat3],
+        pack: usize,
+        f0: &Batch<3>,
+        f1: &Batch<3>,
         history: &[PlasticState],
-        out: &mut Points,
+        out: &mut Batch<3>,
     ) {
-        let mut mean = ZEROS;
-        for (mean, (f0, f1)) in mean.iter_mut().zip(f0.iter().zip(f1)) {
-            *mean = deformation(&((f0.transpose() * f0 + f1.transpose() * f1) * 0.5));
+        let mut mean = Batch::zeros();
+        for q in 0..self.grid.batch() {
+            let (f0, f1) = (f0.get(q), f1.get(q));
+            mean.set(q, &deformation(&((f0.transpose() * f0 + f1.transpose() * f1) * 0.5)));
         }
-        let mean = &mean[..f0.len()];
-        self.stresses(cells, mean, history, out);
+        self.stresses(pack, &mean, history, out);
         let (mut start, mut end) = ([0.0; BATCH], [0.0; BATCH]);
-        self.energies(cells, f0, history, &mut start);
-        self.energies(cells, f1, history, &mut end);
-        for (cell, points) in self.split(cells, mean) {
+        self.energies(pack, f0, history, &mut start);
+        self.energies(pack, f1, history, &mut end);
+        for lane in self.lanes(pack, &mean) {
+            let (f0, f1, mut stresses) = (lane.take(f0), lane.take(f1), lane.take(out));
+            let cell = lane.cell();
             let (mut missing, mut size) = (0.0, 0.0);
             let strain = |q: usize| (f1[q].transpose() * f1[q] - f0[q].transpose() * f0[q]) * 0.5;
-            for (q, weight) in points.clone().zip(cell.weights) {
-                out[q] = second_piola(&mean[q], &out[q]);
+            for (q, weight) in cell.weights.iter().enumerate() {
+                stresses[q] = second_piola(&cell.f[q], &stresses[q]);
                 let strain = strain(q);
-                missing += end[q] - start[q] - weight * out[q].dot(&strain);
+                missing += end[lane.at(q)] - start[lane.at(q)] - weight * stresses[q].dot(&strain);
                 size += weight * strain.norm_squared();
             }
             let volume: f64 = cell.weights.iter().sum();
             let kappa = if size > volume * SMALL_STRAIN * SMALL_STRAIN { missing / size } else { 0.0 };
-            for q in points {
-                out[q] = (f0[q] + f1[q]) * 0.5 * (out[q] + strain(q) * kappa);
+            for q in 0..lane.count {
+                stresses[q] = (f0[q] + f1[q]) * 0.5 * (stresses[q] + strain(q) * kappa);
             }
+            lane.put(&stresses, out);
         }
     }
 }
 
 impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDilatation<D, N, K> {
     fn point_count(&self) -> usize {
-        self.grid.weights.len()
+        self.grid.point_count()
     }
 
     fn energy(&self, u: &[Vector<D>], history: &[PlasticState]) -> f64 {
-        let (mut f, mut energies) = (ZEROS, [0.0; BATCH]);
+        let (mut f, mut energies) = (Batch::zeros(), [0.0; BATCH]);
         let mut sum = 0.0;
-        for cells in self.grid.batches() {
-            let f = self.grid.deform(&cells, u, &mut f);
-            self.energies(&cells, f, history, &mut energies);
-            sum += energies[..f.len()].iter().sum::<f64>();
+        for pack in 0..self.grid.packs() {
+            self.grid.deform(pack, u, &mut f);
+            self.energies(pack, &f, history, &mut energies);
+            sum += self.grid.sum(pack, |q| energies[q]);
         }
         sum
     }
 
     fn add_internal_force(&self, u: &[Vector<D>], history: &[PlasticState], force: &mut [Vector<D>]) {
-        let (mut f, mut stresses) = (ZEROS, ZEROS);
-        for cells in self.grid.batches() {
-            let f = self.grid.deform(&cells, u, &mut f);
-            self.stresses(&cells, f, history, &mut stresses);
-            self.grid.add_forces(&cells, &stresses, force);
+        let (mut f, mut stresses) = (Batch::zeros(), Batch::zeros());
+        for pack in 0..self.grid.packs() {
+            self.grid.deform(pack, u, &mut f);
+            self.stresses(pack, &f, history, &mut stresses);
+            self.grid.add_forces(pack, &stresses, force);
         }
     }
 
@@ -133,11 +166,12 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
         history: &[PlasticState],
         force: &mut [Vector<D>],
     ) {
-        let (mut f0, mut f1, mut stresses) = (ZEROS, ZEROS, ZEROS);
-        for cells in self.grid.batches() {
-            let (f0, f1) = (self.grid.deform(&cells, u0, &mut f0), self.grid.deform(&cells, u1, &mut f1));
-            self.discrete_stresses(&cells, f0, f1, history, &mut stresses);
-            self.grid.add_forces(&cells, &stresses, force);
+        let (mut f0, mut f1, mut stresses) = (Batch::zeros(), Batch::zeros(), Batch::zeros());
+        for pack in 0..self.grid.packs() {
+            self.grid.deform(pack, u0, &mut f0);
+            self.grid.deform(pack, u1, &mut f1);
+            self.discrete_stresses(pack, &f0, &f1, history, &mut stresses);
+            self.grid.add_forces(pack, &stresses, force);
         }
     }
 
@@ -148,67 +182,88 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
         history: &[PlasticState],
         force: &mut StepForces<'_, D>,
     ) {
-        let (mut f0, mut f1, mut start, mut end, mut other) = (ZEROS, ZEROS, ZEROS, ZEROS, ZEROS);
-        for cells in self.grid.batches() {
-            let (f0, f1) = (self.grid.deform(&cells, u0, &mut f0), self.grid.deform(&cells, u1, &mut f1));
-            self.stresses(&cells, f0, history, &mut start);
-            self.stresses(&cells, f1, history, &mut end);
-            self.grid.add_forces(&cells, &end, force.end);
-            self.discrete_stresses(&cells, f0, f1, history, &mut other);
-            self.grid.add_forces(&cells, &other, force.conserving);
-            for (q, (f0, f1)) in f0.iter().zip(f1).enumerate() {
-                other[q] = stress_difference(f0, &start[q], f1, &end[q]);
+        let (mut f0, mut f1) = (Batch::zeros(), Batch::zeros());
+        let (mut start, mut end, mut other) = (Batch::zeros(), Batch::zeros(), Batch::zeros());
+        for pack in 0..self.grid.packs() {
+            self.grid.deform(pack, u0, &mut f0);
+            self.grid.deform(pack, u1, &mut f1);
+            self.stresses(pack, &f0, history, &mut start);
+            self.stresses(pack, &f1, history, &mut end);
+            self.grid.add_forces(pack, &end, force.end);
+            self.discrete_stresses(pack, &f0, &f1, history, &mut other);
+            self.grid.add_forces(pack, &other, force.conserving);
+            for q in 0..self.grid.batch() {
+                let (f0, f1) = (f0.get(q), f1.get(q));
+                other.set(q, &stress_difference(&f0, &start.get(q), &f1, &end.get(q)));
             }
-            self.grid.add_forces(&cells, &other, force.difference);
+            self.grid.add_forces(pack, &other, force.difference);
         }
     }
 
     fn add_stiffness(&self, u: &[Vector<D>], history: &[PlasticState], k: &mut NodalMatrix<Matrix<D>>) {
-        let (mut f, mut modified, mut stresses) = (ZEROS, ZEROS, ZEROS);
-        let (mut swelling, mut pressing) = (ZEROS, ZEROS);
-        let mut tangents: Vec<Tangent<3>> = vec![[[[[0.0; 3]; 3]; 3]; 3]; BATCH];
-        for cells in self.grid.batches() {
-            let f = self.grid.deform(&cells, u, &mut f);
-            self.modify(&cells, f, &mut modified);
-            self.law.stresses(&modified[..f.len()], self.grid.part(&cells, history), &mut stresses);
-            self.law.tangents(&modified[..f.len()], self.grid.part(&cells, history), &mut tangents);
-            for (index, (cell, points)) in cells.clone().zip(self.split(&cells, f)) {
-                let tangents = &mut tangents[points.clone()];
-                let coupling = cell.tangents(
-                    &modified[points.clone()],
-                    &stresses[points.clone()],
-                    tangents,
-                    &mut swelling[points.clone()],
-                    &mut pressing[points.clone()],
-                );
-                let mut local = [[Matrix::<D>::zeros(); N]; N];
-                self.grid.add_local_stiffness(index, tangents, &mut local);
-                let n = self.grid.local_forces(index, &swelling[points.clone()]);
-                let g = self.grid.local_forces(index, &pressing[points]);
+        let (mut f, mut modified, mut stresses) = (Batch::zeros(), Batch::zeros(), Batch::zeros());
+        let (mut swelling, mut pressing) = (Batch::zeros(), Batch::zeros());
+        let mut tangents: Vec<Tangent<3>> = vec![[[[[0.0; 3]; 3]; 3]; 3]; self.grid.batch()];
+        for pack in 0..self.grid.packs() {
+            self.grid.deform(pack, u, &mut f);
+            self.modify(pack, &f, &mut modified);
+            let history = self.grid.part(pack, history);
+            self.law.stresses(self.grid.batch(), &modified, history, &mut stresses);
+            self.law.tangents(self.grid.batch(), &modified, history, &mut tangents);
+            let couplings: Vec<_> = self
+                .lanes(pack, &f)
+                .map(|lane| {
+                    let (modified, stresses) = (lane.take(&modified), lane.take(&stresses));
+                    let (mut swells, mut presses) = (ZEROS, ZEROS);
+                    let mut own: Vec<_> = (0..lane.count).map(|q| tangents[lane.at(q)]).collect();
+                    let coupling = lane.cell().tangents(
+                        &modified[..lane.count],
+                        &stresses[..lane.count],
+                        &mut own,
+                        &mut swells,
+                        &mut presses,
+                    );
+                    own.iter().enumerate().for_each(|(q, tangent)| tangents[lane.at(q)] = *tangent);
+                    lane.put(&swells, &mut swelling);
+                    lane.put(&presses, &mut pressing);
+                    coupling
+                })
+                .collect();
+            let n = self.grid.local_forces(pack, &swelling);
+            let g = self.grid.local_forces(pack, &pressing);
+            for (lane, cell) in self.grid.cells(pack).enumerate() {
+                let of_cell = self.grid.points(lane).map(|q| &tangents[q]);
+                let mut local = self.grid.local_stiffness(pack, lane, of_cell);
+                let coupling = &couplings[lane];
+                let vector = |all: &[[f64; LANES]; D]| Vector::<D>::from_fn(|i, _| all[i][lane]);
                 for a in 0..N {
                     for b in 0..N {
-                        local[a][b] += (g[a] * n[b].transpose() + n[a] * g[b].transpose()) / coupling.volume
-                            + n[a] * n[b].transpose() * coupling.stiffness;
+                        let [n_a, n_b] = [vector(&n[a]), vector(&n[b])];
+                        let [g_a, g_b] = [vector(&g[a]), vector(&g[b])];
+                        local[a][b] += (g_a * n_b.transpose() + n_a * g_b.transpose()) / coupling.volume
+                            + n_a * n_b.transpose() * coupling.stiffness;
                     }
                 }
-                self.grid.scatter(index, &local, k);
+                self.grid.scatter(cell, &local, k);
             }
         }
     }
 
     fn cell_states(&self, u: &[Vector<D>], history: &[PlasticState], out: &mut Vec<CellState>) {
-        let (mut f, mut stresses, mut energies) = (ZEROS, ZEROS, [0.0; BATCH]);
-        for cells in self.grid.batches() {
-            let f = self.grid.deform(&cells, u, &mut f);
-            self.stresses(&cells, f, history, &mut stresses);
-            self.energies(&cells, f, history, &mut energies);
-            for (index, (cell, points)) in cells.clone().zip(self.split(&cells, f)) {
-                let volume: f64 = cell.weights.iter().sum();
-                let plastic_strain = self.grid.plastic_strain(index, history);
-                let mut mean = CellState::empty(plastic_strain);
-                for (q, weight) in points.zip(cell.weights) {
-                    mean.stress += stresses[q] * f[q].transpose() * (weight / (volume * f[q].determinant()));
-                    mean.strain += green_lagrange(&f[q]) * (weight / volume);
+        let (mut f, mut stresses, mut energies) = (Batch::zeros(), Batch::zeros(), [0.0; BATCH]);
+        for pack in 0..self.grid.packs() {
+            self.grid.deform(pack, u, &mut f);
+            self.stresses(pack, &f, history, &mut stresses);
+            self.energies(pack, &f, history, &mut energies);
+            let weights = self.grid.weights(pack);
+            for lane in 0..self.grid.cells(pack).len() {
+                let volume: f64 = self.grid.points(lane).map(|q| weights[q]).sum();
+                let mut mean = CellState::empty(self.grid.plastic_strain(pack, lane, history));
+                for q in self.grid.points(lane) {
+                    let f = f.get(q);
+                    mean.stress +=
+                        stresses.get(q) * f.transpose() * (weights[q] / (volume * f.determinant()));
+                    mean.strain += green_lagrange(&f) * (weights[q] / volume);
                     mean.energy_density += energies[q] / volume;
                 }
                 out.push(mean);
@@ -217,18 +272,20 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
     }
 
     fn update(&self, u: &[Vector<D>], history: &mut [PlasticState]) -> f64 {
-        let (mut f, mut modified) = (ZEROS, ZEROS);
+        if history.is_empty() {
+            return 0.0;
+        }
+        let (mut f, mut modified, mut densities) = (Batch::zeros(), Batch::zeros(), [0.0; BATCH]);
         let mut work = 0.0;
-        for cells in self.grid.batches() {
-            let f = self.grid.deform(&cells, u, &mut f);
-            self.modify(&cells, f, &mut modified);
-            let points = self.grid.points(&cells);
-            let Some(own) = history.get_mut(points.clone()) else { return 0.0 };
-            for ((state, f), weight) in own.iter_mut().zip(&modified).zip(&self.grid.weights[points]) {
-                let (next, density) = self.law.update(f, state);
-                *state = next;
-                work += weight * density;
+        for pack in 0..self.grid.packs() {
+            self.grid.deform(pack, u, &mut f);
+            self.modify(pack, &f, &mut modified);
+            let states = self.grid.part_mut(pack, history);
+            for (q, (state, density)) in states.iter_mut().zip(&mut densities).enumerate() {
+                (*state, *density) = self.law.update(&modified.get(q), state);
             }
+            let weights = self.grid.weights(pack);
+            work += self.grid.sum(pack, |q| weights[q] * densities[q]);
         }
         work
     }

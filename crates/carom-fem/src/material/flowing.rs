@@ -2,7 +2,7 @@ use carom_mesh::Matrix;
 
 use super::point_law::{Confined, PointLaw, embed};
 use super::strain_law::Hyperelastic;
-use super::{Flow, Mat3, PlasticState, Relative, Tangent};
+use super::{Batch, Flow, Mat3, PlasticState, Relative, Tangent};
 
 /// An elastoplastic law whose deformation beyond the D dimensions is held at zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,19 +15,10 @@ impl Flowing {
         Confined(self.0.after(state))
     }
 
-    /// Calls `each` with the result to write, the law of the step and the place of every point.
+    /// The law of the step of point `k`; a virgin one where there is no history.
     #[inline]
-    fn at<T>(
-        &self,
-        count: usize,
-        history: &[PlasticState],
-        out: &mut [T],
-        each: impl Fn(&Confined<Hyperelastic<Relative>>, usize) -> T,
-    ) {
-        for (k, out) in out.iter_mut().enumerate().take(count) {
-            let law = history.get(k).map_or_else(|| self.after(&PlasticState::default()), |h| self.after(h));
-            *out = each(&law, k);
-        }
+    fn at(&self, k: usize, history: &[PlasticState]) -> Confined<Hyperelastic<Relative>> {
+        history.get(k).map_or_else(|| self.after(&PlasticState::default()), |h| self.after(h))
     }
 }
 
@@ -68,39 +59,46 @@ impl<const D: usize> PointLaw<D> for Flowing {
         self.0.update(state, &embed(f))
     }
 
-    fn energies(&self, f: &[Matrix<D>], history: &[PlasticState], out: &mut [f64]) {
-        self.at(f.len(), history, out, |law, k| law.energy(&f[k]));
+    fn energies(&self, count: usize, f: &Batch<D>, history: &[PlasticState], out: &mut [f64]) {
+        (0..count).for_each(|k| out[k] = self.at(k, history).energy(&f.get(k)));
     }
 
-    fn stresses(&self, f: &[Matrix<D>], history: &[PlasticState], out: &mut [Matrix<D>]) {
-        self.at(f.len(), history, out, |law, k| law.stress(&f[k]));
+    fn stresses(&self, count: usize, f: &Batch<D>, history: &[PlasticState], out: &mut Batch<D>) {
+        (0..count).for_each(|k| out.set(k, &self.at(k, history).stress(&f.get(k))));
     }
 
     fn discrete_stresses(
         &self,
-        f0: &[Matrix<D>],
-        f1: &[Matrix<D>],
+        count: usize,
+        f0: &Batch<D>,
+        f1: &Batch<D>,
         history: &[PlasticState],
-        out: &mut [Matrix<D>],
+        out: &mut Batch<D>,
     ) {
-        self.at(f0.len(), history, out, |law, k| law.discrete_stress(&f0[k], &f1[k]));
+        for k in 0..count {
+            out.set(k, &self.at(k, history).discrete_stress(&f0.get(k), &f1.get(k)));
+        }
     }
 
     fn all_step_stresses(
         &self,
-        f0: &[Matrix<D>],
-        f1: &[Matrix<D>],
+        count: usize,
+        f0: &Batch<D>,
+        f1: &Batch<D>,
         history: &[PlasticState],
-        out: &mut [[Matrix<D>; 3]],
+        out: &mut [Batch<D>; 3],
     ) {
-        self.at(f0.len(), history, out, |law, k| law.step_stresses(&f0[k], &f1[k]));
+        for k in 0..count {
+            let stresses = self.at(k, history).step_stresses(&f0.get(k), &f1.get(k));
+            out.iter_mut().zip(&stresses).for_each(|(out, stress)| out.set(k, stress));
+        }
     }
 
-    fn tangents(&self, f: &[Matrix<D>], history: &[PlasticState], out: &mut [Tangent<D>]) {
-        self.at(f.len(), history, out, |law, k| law.stress_and_tangent(&f[k]).1);
+    fn tangents(&self, count: usize, f: &Batch<D>, history: &[PlasticState], out: &mut [Tangent<D>]) {
+        (0..count).for_each(|k| out[k] = self.at(k, history).stress_and_tangent(&f.get(k)).1);
     }
 
-    fn cauchy_stresses(&self, f: &[Matrix<D>], history: &[PlasticState], out: &mut [Mat3]) {
-        self.at(f.len(), history, out, |law, k| law.cauchy_stress(&f[k]));
+    fn cauchy_stresses(&self, count: usize, f: &Batch<D>, history: &[PlasticState], out: &mut [Mat3]) {
+        (0..count).for_each(|k| out[k] = self.at(k, history).cauchy_stress(&f.get(k)));
     }
 }

@@ -1,6 +1,7 @@
 //! Hyperelastic laws, written once in 3D. A new law is a file here, a line in [`LawSpec`] and
 //! one in [`LawSpec::point_law`].
 
+mod batch;
 mod blatz_ko;
 #[cfg(test)]
 mod contract;
@@ -34,6 +35,7 @@ use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
 use crate::{FemError, Hypothesis};
+pub use batch::{BATCH, Batch, LANES, MAX_POINTS};
 pub use blatz_ko::BlatzKo;
 pub use elastic_constants::ElasticConstants;
 pub use flowing::Flowing;
@@ -83,6 +85,38 @@ pub trait Material: Send + Sync + Debug {
         let (start, end) = (self.stress(f0), self.stress(f1));
         let difference = discrete_gradient::stress_difference(f0, &start, f1, &end);
         [self.discrete_stress(f0, f1), difference, end]
+    }
+
+    /// [`Self::energy`] at the first `count` points of a batch, whose deformation beyond the D dimensions is held at zero. This and
+    /// the next two are what a time step consists of: a law that can works on many points at once.
+    fn energies<const D: usize>(&self, count: usize, f: &Batch<D>, out: &mut [f64])
+    where
+        Self: Sized,
+    {
+        out[..count].iter_mut().enumerate().for_each(|(k, out)| *out = self.energy(&embed(&f.get(k))));
+    }
+
+    /// [`Self::stress`] at the first `count` points of a batch.
+    fn stresses<const D: usize>(&self, count: usize, f: &Batch<D>, out: &mut Batch<D>)
+    where
+        Self: Sized,
+    {
+        (0..count).for_each(|k| out.set(k, &restrict(&self.stress(&embed(&f.get(k))))));
+    }
+
+    /// [`Self::discrete_stress`] at the first `count` points of a batch.
+    fn discrete_stresses<const D: usize>(
+        &self,
+        count: usize,
+        f0: &Batch<D>,
+        f1: &Batch<D>,
+        out: &mut Batch<D>,
+    ) where
+        Self: Sized,
+    {
+        for k in 0..count {
+            out.set(k, &restrict(&self.discrete_stress(&embed(&f0.get(k)), &embed(&f1.get(k)))));
+        }
     }
 
     /// Whether ψ(QF) = ψ(F) for every rotation Q. Only a law of small displacements is not.

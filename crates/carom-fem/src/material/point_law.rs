@@ -2,7 +2,7 @@ use std::fmt::Debug;
 
 use carom_mesh::Matrix;
 
-use super::{Mat3, Material, PlasticState, Tangent};
+use super::{Batch, Mat3, Material, PlasticState, Tangent};
 
 /// A law as elements see it at their quadrature points, where F is D × D.
 ///
@@ -33,41 +33,46 @@ pub trait PointLaw<const D: usize>: Send + Sync + Debug {
         (*state, 0.0)
     }
 
-    /// [`Self::energy`] at many points.
-    fn energies(&self, f: &[Matrix<D>], _history: &[PlasticState], out: &mut [f64]) {
-        out.iter_mut().zip(f).for_each(|(out, f)| *out = self.energy(f));
+    /// [`Self::energy`] at the first `count` points of a batch.
+    fn energies(&self, count: usize, f: &Batch<D>, _history: &[PlasticState], out: &mut [f64]) {
+        out[..count].iter_mut().enumerate().for_each(|(k, out)| *out = self.energy(&f.get(k)));
     }
-    /// [`Self::stress`] at many points.
-    fn stresses(&self, f: &[Matrix<D>], _history: &[PlasticState], out: &mut [Matrix<D>]) {
-        out.iter_mut().zip(f).for_each(|(out, f)| *out = self.stress(f));
+    /// [`Self::stress`] at the first `count` points of a batch.
+    fn stresses(&self, count: usize, f: &Batch<D>, _history: &[PlasticState], out: &mut Batch<D>) {
+        (0..count).for_each(|k| out.set(k, &self.stress(&f.get(k))));
     }
-    /// [`Self::discrete_stress`] at many points.
+    /// [`Self::discrete_stress`] at the first `count` points of a batch.
     fn discrete_stresses(
         &self,
-        f0: &[Matrix<D>],
-        f1: &[Matrix<D>],
+        count: usize,
+        f0: &Batch<D>,
+        f1: &Batch<D>,
         _history: &[PlasticState],
-        out: &mut [Matrix<D>],
+        out: &mut Batch<D>,
     ) {
-        out.iter_mut().zip(f0.iter().zip(f1)).for_each(|(out, (f0, f1))| *out = self.discrete_stress(f0, f1));
+        (0..count).for_each(|k| out.set(k, &self.discrete_stress(&f0.get(k), &f1.get(k))));
     }
-    /// [`Self::step_stresses`] at many points.
+    /// [`Self::step_stresses`] at the first `count` points of a batch.
     fn all_step_stresses(
         &self,
-        f0: &[Matrix<D>],
-        f1: &[Matrix<D>],
+        count: usize,
+        f0: &Batch<D>,
+        f1: &Batch<D>,
         _history: &[PlasticState],
-        out: &mut [[Matrix<D>; 3]],
+        out: &mut [Batch<D>; 3],
     ) {
-        out.iter_mut().zip(f0.iter().zip(f1)).for_each(|(out, (f0, f1))| *out = self.step_stresses(f0, f1));
+        for k in 0..count {
+            let stresses = self.step_stresses(&f0.get(k), &f1.get(k));
+            out.iter_mut().zip(&stresses).for_each(|(out, stress)| out.set(k, stress));
+        }
     }
-    /// The tangents of [`Self::stress_and_tangent`] at many points.
-    fn tangents(&self, f: &[Matrix<D>], _history: &[PlasticState], out: &mut [Tangent<D>]) {
-        out.iter_mut().zip(f).for_each(|(out, f)| *out = self.stress_and_tangent(f).1);
+    /// The tangents of [`Self::stress_and_tangent`] at the first `count` points of a batch.
+    fn tangents(&self, count: usize, f: &Batch<D>, _history: &[PlasticState], out: &mut [Tangent<D>]) {
+        out[..count].iter_mut().enumerate().for_each(|(k, out)| *out = self.stress_and_tangent(&f.get(k)).1);
     }
-    /// [`Self::cauchy_stress`] at many points.
-    fn cauchy_stresses(&self, f: &[Matrix<D>], _history: &[PlasticState], out: &mut [Mat3]) {
-        out.iter_mut().zip(f).for_each(|(out, f)| *out = self.cauchy_stress(f));
+    /// [`Self::cauchy_stress`] at the first `count` points of a batch.
+    fn cauchy_stresses(&self, count: usize, f: &Batch<D>, _history: &[PlasticState], out: &mut [Mat3]) {
+        out[..count].iter_mut().enumerate().for_each(|(k, out)| *out = self.cauchy_stress(&f.get(k)));
     }
 }
 
@@ -128,5 +133,24 @@ impl<const D: usize, M: Material> PointLaw<D> for Confined<M> {
 
     fn is_objective(&self) -> bool {
         self.0.is_objective()
+    }
+
+    fn energies(&self, count: usize, f: &Batch<D>, _: &[PlasticState], out: &mut [f64]) {
+        self.0.energies(count, f, out);
+    }
+
+    fn stresses(&self, count: usize, f: &Batch<D>, _: &[PlasticState], out: &mut Batch<D>) {
+        self.0.stresses(count, f, out);
+    }
+
+    fn discrete_stresses(
+        &self,
+        count: usize,
+        f0: &Batch<D>,
+        f1: &Batch<D>,
+        _: &[PlasticState],
+        out: &mut Batch<D>,
+    ) {
+        self.0.discrete_stresses(count, f0, f1, out);
     }
 }

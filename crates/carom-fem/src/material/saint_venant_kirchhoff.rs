@@ -1,4 +1,6 @@
-use super::{ElasticConstants, Mat3, Material, Tangent};
+use pulp::{Arch, Simd, WithSimd};
+
+use super::{Batch, ElasticConstants, Mat3, Material, Tangent};
 use crate::FemError;
 
 /// Saint-Venant–Kirchhoff: ψ = ½ λ (tr E)² + μ E:E with the Green–Lagrange strain E = ½(FᵀF − I).
@@ -78,5 +80,126 @@ impl Material for SaintVenantKirchhoff {
             }
         }
         (f * s, a)
+    }
+
+    fn energies<const D: usize>(&self, count: usize, f: &Batch<D>, out: &mut [f64]) {
+        Arch::new().dispatch(Energies { law: self, count, f, out });
+    }
+
+    fn stresses<const D: usize>(&self, count: usize, f: &Batch<D>, out: &mut Batch<D>) {
+        Arch::new().dispatch(Stresses { law: self, count, f0: f, f1: f, out });
+    }
+
+    fn discrete_stresses<const D: usize>(
+        &self,
+        count: usize,
+        f0: &Batch<D>,
+        f1: &Batch<D>,
+        out: &mut Batch<D>,
+    ) {
+        Arch::new().dispatch(Stresses { law: self, count, f0, f1, out });
+    }
+}
+
+/// Twice the Green–Lagrange strain, FᵀF − 1, at as many points as a register has lanes; its lower triangle.
+#[inline(always)]
+fn twice_strain<V: Simd, const D: usize>(simd: V, f: &[[V::f64s; D]; D]) -> [[V::f64s; D]; D] {
+    let mut c = [[simd.splat_f64s(0.0); D]; D];
+    for i in 0..D {
+        c[i][i] = simd.splat_f64s(-1.0);
+        for j in 0..=i {
+            for row in f {
+                c[i][j] = simd.mul_add_e_f64s(row[i], row[j], c[i][j]);
+            }
+        }
+    }
+    c
+}
+
+/// The stresses of a step, many points at once. Where F₀ is F₁ they are P.
+struct Stresses<'a, const D: usize> {
+    law: &'a SaintVenantKirchhoff,
+    count: usize,
+    f0: &'a Batch<D>,
+    f1: &'a Batch<D>,
+    out: &'a mut Batch<D>,
+}
+
+impl<const D: usize> WithSimd for Stresses<'_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, simd: V) {
+        let Self { law, count, f0, f1, out } = self;
+        let quarter_lambda = simd.splat_f64s(0.25 * law.lambda);
+        let (half_mu, half) = (simd.splat_f64s(0.5 * law.mu), simd.splat_f64s(0.5));
+        for point in (0..count).step_by(V::F64_LANES) {
+            let (f0, f1) = (f0.load::<V>(point), f1.load::<V>(point));
+            let (c0, c1) = (twice_strain(simd, &f0), twice_strain(simd, &f1));
+            // Four times the mean strain, and its stress; half of F₀ + F₁.
+            let (mut s, mut f) = ([[simd.splat_f64s(0.0); D]; D], f0);
+            let mut trace = simd.splat_f64s(0.0);
+            for i in 0..D {
+                for j in 0..=i {
+                    s[i][j] = simd.add_f64s(c0[i][j], c1[i][j]);
+                }
+                trace = simd.add_f64s(trace, s[i][i]);
+                for j in 0..D {
+                    f[i][j] = simd.mul_f64s(simd.add_f64s(f0[i][j], f1[i][j]), half);
+                }
+            }
+            let pressure = simd.mul_f64s(trace, quarter_lambda);
+            for i in 0..D {
+                for j in 0..=i {
+                    s[i][j] = simd.mul_f64s(s[i][j], half_mu);
+                    s[j][i] = s[i][j];
+                }
+                s[i][i] = simd.add_f64s(s[i][i], pressure);
+            }
+            let mut p = [[simd.splat_f64s(0.0); D]; D];
+            for i in 0..D {
+                for j in 0..D {
+                    for k in 0..D {
+                        p[i][j] = simd.mul_add_e_f64s(f[i][k], s[k][j], p[i][j]);
+                    }
+                }
+            }
+            out.store::<V>(point, p);
+        }
+    }
+}
+
+/// Energy densities, many points at once.
+struct Energies<'a, const D: usize> {
+    law: &'a SaintVenantKirchhoff,
+    count: usize,
+    f: &'a Batch<D>,
+    out: &'a mut [f64],
+}
+
+impl<const D: usize> WithSimd for Energies<'_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, simd: V) {
+        let Self { law, count, f, out } = self;
+        let zero = simd.splat_f64s(0.0);
+        // Of twice the strain.
+        let (lambda, mu) = (simd.splat_f64s(0.125 * law.lambda), simd.splat_f64s(0.25 * law.mu));
+        let two = simd.splat_f64s(2.0);
+        let out = V::as_mut_simd_f64s(&mut out[..count]).0;
+        for (k, out) in out.iter_mut().enumerate() {
+            let c = twice_strain(simd, &f.load::<V>(k * V::F64_LANES));
+            let (mut trace, mut squares, mut beside) = (zero, zero, zero);
+            for i in 0..D {
+                trace = simd.add_f64s(trace, c[i][i]);
+                squares = simd.mul_add_e_f64s(c[i][i], c[i][i], squares);
+                for c in &c[i][..i] {
+                    beside = simd.mul_add_e_f64s(*c, *c, beside);
+                }
+            }
+            squares = simd.mul_add_e_f64s(two, beside, squares);
+            *out = simd.mul_add_e_f64s(simd.mul_f64s(trace, trace), lambda, simd.mul_f64s(squares, mu));
+        }
     }
 }

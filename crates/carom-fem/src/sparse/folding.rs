@@ -7,6 +7,8 @@ use super::NodeGraph;
 #[derive(Debug)]
 pub(super) struct Folding<const D: usize> {
     ties: Vec<Tie>,
+    /// For every node the one that stands for it.
+    pub masters: Vec<u32>,
     /// For every entry of the graph of all nodes: the one of the folded graph that it is added to.
     entries: Vec<u32>,
     /// The diagonal entries of every image and its master.
@@ -32,6 +34,7 @@ impl<const D: usize> Folding<D> {
             diagonals: ties.iter().map(|t| (diagonal(t.image), diagonal(t.master))).collect(),
             blocks: vec![Matrix::zeros(); folded.entry_count()],
             ties: ties.to_vec(),
+            masters,
             entries,
         };
         (folding, folded)

@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::{MatMut, MatRef, Par};
@@ -19,6 +21,8 @@ const BLOCKED: usize = 96;
 #[derive(Debug, Default)]
 pub(super) struct Substitution {
     panels: Vec<Panel>,
+    /// The panel of every column.
+    panel_of: Vec<u32>,
     rows: Vec<u32>,
     values: Vec<f64>,
     gathered: Vec<f64>,
@@ -39,6 +43,7 @@ impl Substitution {
     /// Takes over the values of a factor.
     pub fn load(&mut self, factor: &SupernodalLltRef<'_, usize, f64>) {
         self.panels.clear();
+        self.panel_of.clear();
         self.rows.clear();
         self.values.clear();
         let mut largest = 0;
@@ -60,14 +65,63 @@ impl Substitution {
             let z = &mut self.values[panel.first_value..];
             invert(l, z, padded, columns + below);
             largest = largest.max(padded);
+            self.panel_of.resize(panel.start + columns, self.panels.len() as u32);
             self.panels.push(panel);
         }
         self.gathered.resize(largest, 0.0);
     }
 
-    /// Overwrites `x`, in the order of elimination, with the solution.
-    pub fn solve(&mut self, x: &mut [f64]) {
-        Arch::new().dispatch(Solve { substitution: self, x });
+    /// Overwrites `x`, in the order of elimination, with L⁻¹ x.
+    pub fn forward(&mut self, x: &mut [f64]) {
+        let panels = 0..self.panels.len();
+        Arch::new().dispatch(Forward { substitution: self, panels, x });
+    }
+
+    /// Overwrites `x`, in the order of elimination, with L⁻ᵀ x.
+    pub fn backward(&mut self, x: &mut [f64]) {
+        let panels = (0..self.panels.len()).rev();
+        Arch::new().dispatch(Backward { substitution: self, panels, x });
+    }
+
+    /// [`Self::forward`] where `x` is zero outside of a [`Self::reach`], and stays so.
+    pub fn forward_within(&mut self, reach: &[u32], x: &mut [f64]) {
+        let panels = reach.iter().map(|&p| p as usize);
+        Arch::new().dispatch(Forward { substitution: self, panels, x });
+    }
+
+    /// [`Self::backward`], only for the columns of a [`Self::reach`].
+    pub fn backward_within(&mut self, reach: &[u32], x: &mut [f64]) {
+        let panels = reach.iter().rev().map(|&p| p as usize);
+        Arch::new().dispatch(Backward { substitution: self, panels, x });
+    }
+
+    /// Writes the panels of `columns` and of all that are eliminated after them and depend on them to `reach`, ascending: what a
+    /// right-hand side in these columns touches, and what the solution there depends on (Gilbert 1994).
+    pub fn reach(&self, columns: impl Iterator<Item = usize>, reach: &mut Vec<u32>) {
+        reach.clear();
+        reach.extend(columns.map(|column| self.panel_of[column]));
+        reach.sort_unstable();
+        reach.dedup();
+        // Parents stand behind their children: each is looked at once, when all that lead to it are known.
+        let mut next = 0;
+        while next < reach.len() {
+            let panel = &self.panels[reach[next] as usize];
+            next += 1;
+            if panel.below > 0 {
+                let parent = self.panel_of[self.rows[panel.first_row] as usize];
+                if let Err(place) = reach[next..].binary_search(&parent) {
+                    reach.insert(next + place, parent);
+                }
+            }
+        }
+    }
+
+    /// The columns of the panels of a [`Self::reach`].
+    pub fn columns_within<'a>(&'a self, reach: &'a [u32]) -> impl Iterator<Item = Range<usize>> + 'a {
+        reach.iter().map(|&p| {
+            let panel = &self.panels[p as usize];
+            panel.start..panel.start + panel.columns
+        })
     }
 }
 
@@ -105,18 +159,20 @@ fn invert(l: MatRef<'_, f64>, z: &mut [f64], padded: usize, rows: usize) {
     }
 }
 
-struct Solve<'a> {
+struct Forward<'a, I> {
     substitution: &'a mut Substitution,
+    panels: I,
     x: &'a mut [f64],
 }
 
-impl WithSimd for Solve<'_> {
+impl<I: Iterator<Item = usize>> WithSimd for Forward<'_, I> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { substitution: Substitution { panels, rows, values, gathered }, x } = self;
-        for p in panels.iter() {
+        let Self { substitution: Substitution { panels, rows, values, gathered, .. }, panels: order, x } = self;
+        for p in order {
+            let p = &panels[p];
             let z = &values[p.first_value..p.first_value + p.padded * p.columns];
             let t = &mut gathered[..p.padded];
             product(simd, z, &x[p.start..p.start + p.columns], t);
@@ -125,7 +181,23 @@ impl WithSimd for Solve<'_> {
                 x[row as usize] -= t;
             }
         }
-        for p in panels.iter().rev() {
+    }
+}
+
+struct Backward<'a, I> {
+    substitution: &'a mut Substitution,
+    panels: I,
+    x: &'a mut [f64],
+}
+
+impl<I: Iterator<Item = usize>> WithSimd for Backward<'_, I> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { substitution: Substitution { panels, rows, values, gathered, .. }, panels: order, x } = self;
+        for p in order {
+            let p = &panels[p];
             let z = &values[p.first_value..p.first_value + p.padded * p.columns];
             let t = &mut gathered[..p.padded];
             t[..p.columns].copy_from_slice(&x[p.start..p.start + p.columns]);
