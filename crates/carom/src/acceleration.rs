@@ -4,9 +4,12 @@
 //! corrections cancel best (Walker & Ni, SIAM J. Numer. Anal. 49, 2011). Bodies in contact depend on one another and share a
 //! combination, others have their own. The acceleration is local to a step: contacts of the next one are others.
 
+use std::ops::Range;
+
 use carom_mesh::Vector;
 
 use crate::Model;
+use crate::state::dot;
 use crate::workspace::Workspace;
 
 /// Differences combined.
@@ -15,6 +18,9 @@ const DEPTH: usize = 3;
 const PARALLEL: f64 = 1e-12;
 /// Largest weight of a difference: beyond it the combination is an extrapolation that nothing supports.
 const LARGEST_WEIGHT: f64 = 2.0;
+
+/// A free body whose corrections shrink faster than this is left alone: acceleration would cost more than it saves.
+const FAST: f64 = 0.05;
 
 /// The last guesses and corrections, one vector per node of the model.
 #[derive(Debug)]
@@ -25,10 +31,27 @@ pub(crate) struct Acceleration<const D: usize> {
     guesses: [Vec<Vector<D>>; DEPTH],
     /// Differences from correction to correction, alike.
     corrections: [Vec<Vector<D>>; DEPTH],
-    /// The products of every body that [`weights`] needs.
-    products: Vec<Products>,
-    /// Iterations since the start.
-    recorded: usize,
+    bodies: Vec<Record>,
+}
+
+/// What is known of a body.
+#[derive(Debug, Clone, Copy, Default)]
+struct Record {
+    products: Products,
+    /// Iterations taken note of.
+    count: usize,
+}
+
+impl Record {
+    /// Number of differences there are.
+    fn differences(&self) -> usize {
+        self.count.saturating_sub(1).min(DEPTH)
+    }
+
+    /// Place of the latest difference.
+    fn slot(&self) -> usize {
+        self.count % DEPTH
+    }
 }
 
 /// Inner products of the differences of corrections with one another, and with the last correction.
@@ -83,63 +106,67 @@ impl<const D: usize> Acceleration<D> {
             correction: zeros.clone(),
             guesses: std::array::from_fn(|_| zeros.clone()),
             corrections: std::array::from_fn(|_| zeros.clone()),
-            products: vec![Products::default(); bodies],
-            recorded: 0,
+            bodies: vec![Record::default(); bodies],
         }
     }
 
     /// Forgets all, because the iteration has become another.
     pub fn restart(&mut self) {
-        self.recorded = 0;
+        self.bodies.fill(Record::default());
     }
 
-    /// Takes note of the guess and the correction of a body, at `nodes` of the model.
-    fn record(&mut self, body: usize, nodes: std::ops::Range<usize>, d: &[Vector<D>], f: &[Vector<D>]) {
-        let products = &mut self.products[body];
-        *products = Products::default();
-        if self.recorded > 0 {
-            let slot = self.recorded % DEPTH;
-            for n in nodes.clone() {
-                self.guesses[slot][n] = d[n] - self.guess[n];
-                self.corrections[slot][n] = f[n] - self.correction[n];
-            }
-            for i in 0..DEPTH.min(self.recorded) {
-                let i = (slot + DEPTH - i) % DEPTH;
-                let of = |other: &[Vector<D>]| -> f64 {
-                    self.corrections[i][nodes.clone()].iter().zip(other).map(|(a, b)| a.dot(b)).sum()
-                };
-                products.right[i] = of(&f[nodes.clone()]);
-                for j in 0..DEPTH {
-                    products.matrix[i][j] = of(&self.corrections[j][nodes.clone()]);
-                }
+    /// Takes note of the guess `d` and the correction `f` of a body, at `nodes` of the model.
+    fn record(&mut self, body: usize, nodes: Range<usize>, d: &[Vector<D>], f: &[Vector<D>]) {
+        let record = &mut self.bodies[body];
+        record.count += 1;
+        let (slot, differences) = (record.slot(), record.differences());
+        let (d, f) = (&d[nodes.clone()], &f[nodes.clone()]);
+        let (guess, correction) = (&mut self.guess[nodes.clone()], &mut self.correction[nodes.clone()]);
+        if differences > 0 {
+            difference(d, guess, &mut self.guesses[slot][nodes.clone()]);
+            difference(f, correction, &mut self.corrections[slot][nodes.clone()]);
+            let Products { matrix, right } = &mut record.products;
+            for j in (0..differences).map(|j| (slot + DEPTH - j) % DEPTH) {
+                let other = &self.corrections[j][nodes.clone()];
+                matrix[slot][j] = dot(&self.corrections[slot][nodes.clone()], other);
+                matrix[j][slot] = matrix[slot][j];
+                right[j] = dot(other, f);
             }
         }
-        self.guess[nodes.clone()].copy_from_slice(&d[nodes.clone()]);
-        self.correction[nodes.clone()].copy_from_slice(&f[nodes]);
+        guess.copy_from_slice(d);
+        correction.copy_from_slice(f);
+    }
+}
+
+/// Writes a − b to `out`.
+fn difference<const D: usize>(a: &[Vector<D>], b: &[Vector<D>], out: &mut [Vector<D>]) {
+    for (out, (a, b)) in out.iter_mut().zip(a.iter().zip(b)) {
+        *out = a - b;
     }
 }
 
 /// Replaces the corrections of the bodies that still move by those to better guesses.
-pub(crate) fn accelerate<const D: usize>(model: &Model<D>, work: &mut Workspace<D>) {
+pub(crate) fn accelerate<const D: usize>(model: &Model<D>, first: bool, work: &mut Workspace<D>) {
     let Workspace { acceleration, motion, correction, progress, touched, .. } = work;
-    let moves = |i: usize| !progress[i].settled;
     let mut together = Products::default();
-    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| moves(i)) {
-        acceleration.record(i, b.nodes(), motion, correction);
+    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !progress[i].settled) {
+        let slow = !first && progress[i].contraction > FAST;
+        if touched[i] || slow || acceleration.bodies[i].count > 0 {
+            acceleration.record(i, b.nodes(), motion, correction);
+        }
         if touched[i] {
-            together.add(&acceleration.products[i]);
+            together.add(&acceleration.bodies[i].products);
         }
     }
-    let (count, slot) = (acceleration.recorded.min(DEPTH), acceleration.recorded % DEPTH);
-    acceleration.recorded += 1;
-    if count == 0 {
-        return;
-    }
-    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| moves(i)) {
-        let weights = if touched[i] { &together } else { &acceleration.products[i] }.weights(count, slot);
+    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !progress[i].settled) {
+        let record = &acceleration.bodies[i];
+        let products = if touched[i] { &together } else { &record.products };
+        let weights = products.weights(record.differences(), record.slot());
         for (k, weight) in weights.into_iter().enumerate().filter(|&(_, weight)| weight != 0.0) {
-            for n in b.nodes() {
-                correction[n] -= (acceleration.guesses[k][n] + acceleration.corrections[k][n]) * weight;
+            let (guesses, corrections) =
+                (&acceleration.guesses[k][b.nodes()], &acceleration.corrections[k][b.nodes()]);
+            for (c, (d, f)) in correction[b.nodes()].iter_mut().zip(guesses.iter().zip(corrections)) {
+                *c -= (d + f) * weight;
             }
         }
     }

@@ -140,7 +140,7 @@ fn iterate<const D: usize>(
         if reacts {
             react(model, method, state, map, work)?;
         }
-        let motion = correct(model, state, next, work)?;
+        let motion = correct(model, state, next, iteration == 1, work)?;
         if map.is_static() && motion > model.size {
             return Err(not_held(model, work).unwrap_or(StepError::NotFinite("displacement")));
         }
@@ -256,6 +256,7 @@ fn correct<const D: usize>(
     model: &Model<D>,
     state: &State<D>,
     next: &mut State<D>,
+    first: bool,
     work: &mut Workspace<D>,
 ) -> Result<f64, StepError> {
     for (i, b) in model.bodies.iter().enumerate() {
@@ -275,13 +276,15 @@ fn correct<const D: usize>(
         }
         work.progress[i].note(largest);
     }
-    accelerate(model, work);
+    accelerate(model, first, work);
     let mut motion: f64 = 0.0;
     for (_, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !work.progress[i].settled) {
-        for n in b.nodes() {
-            work.motion[n] += work.correction[n];
-            next.displacement[n] = state.displacement[n] + work.motion[n];
-            motion = motion.max(work.motion[n].amax());
+        let (moved, start) = (&mut next.displacement[b.nodes()], &state.displacement[b.nodes()]);
+        let corrections = &work.correction[b.nodes()];
+        for (((d, c), u1), u0) in work.motion[b.nodes()].iter_mut().zip(corrections).zip(moved).zip(start) {
+            *d += c;
+            *u1 = u0 + *d;
+            motion = motion.max(d.amax());
         }
     }
     Ok(motion)

@@ -18,6 +18,7 @@ pub struct Batch<const S: usize> {
 
 impl<const S: usize> Batch<S> {
     /// Zero at every point.
+    #[inline(always)]
     #[must_use]
     pub fn zeros() -> Self {
         Self { components: [[[0.0; BATCH]; S]; S] }

@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use carom_mesh::Mesh;
 
 /// Which nodes couple: those that share a cell, each with itself, and those that share a mass; rows ascending.
@@ -67,9 +69,17 @@ impl NodeGraph {
     }
 
     /// The entries and neighbours of a node.
+    #[inline]
     pub fn row(&self, node: usize) -> impl ExactSizeIterator<Item = (usize, usize)> {
+        let (range, neighbours) = self.neighbours(node);
+        range.zip(neighbours.iter().map(|&n| n as usize))
+    }
+
+    /// The entries of a node and its neighbours.
+    #[inline]
+    pub(super) fn neighbours(&self, node: usize) -> (Range<usize>, &[u32]) {
         let range = self.starts[node]..self.starts[node + 1];
-        range.clone().zip(self.neighbours[range].iter().map(|&n| n as usize))
+        (range.clone(), &self.neighbours[range])
     }
 
     /// Where the pair (a, b) stands.

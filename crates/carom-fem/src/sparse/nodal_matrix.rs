@@ -38,11 +38,18 @@ impl<T: Copy> NodalMatrix<T> {
         T: Mul<Vector<D>, Output = Vector<D>>,
     {
         for (node, y) in y.iter_mut().enumerate() {
-            let mut sum = Vector::zeros();
-            for (entry, neighbour) in self.graph.row(node) {
-                sum += self.values[entry] * x[neighbour];
+            let (range, neighbours) = self.graph.neighbours(node);
+            // Two sums, so that one addition need not wait for the other.
+            let (mut even, mut odd) = (Vector::zeros(), Vector::zeros());
+            let (values, neighbours) = (self.values[range].chunks_exact(2), neighbours.chunks_exact(2));
+            if let ([value], [neighbour]) = (values.remainder(), neighbours.remainder()) {
+                even += *value * x[*neighbour as usize];
             }
-            *y = sum;
+            for (values, neighbours) in values.zip(neighbours) {
+                even += values[0] * x[neighbours[0] as usize];
+                odd += values[1] * x[neighbours[1] as usize];
+            }
+            *y = even + odd;
         }
     }
 }

@@ -176,7 +176,10 @@ impl<I: Iterator<Item = usize>> WithSimd for Forward<'_, I> {
             let z = &values[p.first_value..p.first_value + p.padded * p.columns];
             let t = &mut gathered[..p.padded];
             product(simd, z, &x[p.start..p.start + p.columns], t);
-            x[p.start..p.start + p.columns].copy_from_slice(&t[..p.columns]);
+            // Panels are small: a call to copy or fill would cost more than it does.
+            for (x, t) in x[p.start..p.start + p.columns].iter_mut().zip(&*t) {
+                *x = *t;
+            }
             for (&row, t) in rows[p.first_row..p.first_row + p.below].iter().zip(&t[p.columns..]) {
                 x[row as usize] -= t;
             }
@@ -200,11 +203,15 @@ impl<I: Iterator<Item = usize>> WithSimd for Backward<'_, I> {
             let p = &panels[p];
             let z = &values[p.first_value..p.first_value + p.padded * p.columns];
             let t = &mut gathered[..p.padded];
-            t[..p.columns].copy_from_slice(&x[p.start..p.start + p.columns]);
+            for (t, x) in t.iter_mut().zip(&x[p.start..p.start + p.columns]) {
+                *t = *x;
+            }
             for (&row, t) in rows[p.first_row..p.first_row + p.below].iter().zip(&mut t[p.columns..]) {
                 *t = -x[row as usize];
             }
-            t[p.columns + p.below..].fill(0.0);
+            for t in &mut t[p.columns + p.below..] {
+                *t = 0.0;
+            }
             transposed_product(simd, z, t, &mut x[p.start..p.start + p.columns]);
         }
     }
@@ -214,10 +221,15 @@ impl<I: Iterator<Item = usize>> WithSimd for Backward<'_, I> {
 #[inline(always)]
 fn product<S: Simd>(simd: S, z: &[f64], x: &[f64], t: &mut [f64]) {
     let rows = t.len();
-    t.fill(0.0);
     let mut columns = z.chunks_exact(COLUMNS * rows);
     let mut factors = x.chunks_exact(COLUMNS);
     let (t_simd, t_tail) = S::as_mut_simd_f64s(t);
+    for t in &mut *t_simd {
+        *t = simd.splat_f64s(0.0);
+    }
+    for t in &mut *t_tail {
+        *t = 0.0;
+    }
     for (z, x) in columns.by_ref().zip(factors.by_ref()) {
         let [a, b, c, d] = [0, 1, 2, 3].map(|k| S::as_simd_f64s(&z[k * rows..(k + 1) * rows]));
         let [xa, xb, xc, xd] = [x[0], x[1], x[2], x[3]].map(|x| simd.splat_f64s(x));
