@@ -1,5 +1,7 @@
 """`carom view` draws what a run left, without a display."""
 
+import itertools
+
 import numpy as np
 import pytest
 from typer.testing import CliRunner
@@ -60,6 +62,20 @@ def test_a_picture_shows_the_body(results, tmp_path, options):
     centre = pixels[pixels.shape[0] // 3 : 2 * pixels.shape[0] // 3]
     coloured = np.ptp(centre, axis=2) > 0.1
     assert coloured.sum() > 5000, "more than the axes"
+
+
+def test_a_film_has_a_picture_of_every_frame(results, tmp_path):
+    pytest.importorskip("imageio")
+    from PIL import Image, ImageSequence
+
+    file = tmp_path / "ball.gif"
+    answer = view(results, "--animation", file)
+    assert answer.exit_code == 0, answer.output
+    assert answer.output.strip() == str(file)
+    with Image.open(file) as film:
+        pictures = [np.asarray(p.convert("L"), float) for p in ImageSequence.Iterator(film)]
+    assert len(pictures) == 3
+    assert all(np.abs(a - b).max() > 20 for a, b in itertools.pairwise(pictures)), "it moves"
 
 
 def test_frames_are_read_back(results):

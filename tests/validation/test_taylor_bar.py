@@ -1,7 +1,7 @@
 """Taylor's anvil test: a copper bar that a rigid wall shortens and mushrooms.
 
 Published axisymmetric solutions of this bar (among them Kamoulakos 1990, Zhu & Cescotto 1995,
-Camacho & Ortiz 1997) end at a length of 21.3 to 21.7 mm and a foot radius of 7.0 to 7.2 mm.
+Camacho & Ortiz 1997) end at a length of 21.4 to 21.5 mm and a foot radius of 7.0 to 7.2 mm.
 The mesh here is coarse, 4 × 40 cells.
 """
 
@@ -23,11 +23,10 @@ def bar(tmp_path_factory):
 
 
 def test_the_bar_ends_as_long_and_as_wide_as_published(bar):
-    u = {name: bar.history[name] for name in ("tail.u_y", "foot.u_x", "foot.u_y")}
-    length = LENGTH + u["tail.u_y"][-1] - u["foot.u_y"][-1]
-    radius = RADIUS + u["foot.u_x"][-1]
-    assert length == pytest.approx(21.45e-3, rel=0.01)
-    assert radius == pytest.approx(7.1e-3, rel=0.02)
+    # Over the wall, on which the foot still stands in its middle; its rim is lifted by 0.1 mm.
+    assert 21.4e-3 < LENGTH + bar.history["tail.u_y"][-1] < 21.5e-3
+    assert 7.0e-3 < RADIUS + bar.history["foot.u_x"][-1] < 7.2e-3
+    assert bar.history["foot.u_y"][-1] == pytest.approx(0.1e-3, abs=0.03e-3)
 
 
 def test_almost_all_energy_goes_into_plastic_work_and_the_books_close(bar):

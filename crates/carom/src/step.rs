@@ -46,7 +46,9 @@ pub fn step<const D: usize>(
 ) -> Result<StepReport, StepError> {
     let map = method.scheme.step_map(dt);
     let driven = predict(model, state, &map, work)?;
-    let motion = predicted_motion(state, &model.gravity, dt).max(driven);
+    // In a static analysis nothing falls: its time says how far the loads have come, not how long they act.
+    let free = if map.is_static() { 0.0 } else { predicted_motion(state, &model.gravity, dt) };
+    let motion = free.max(driven);
     let mut margin = SEARCH_MARGIN * motion;
     if map.is_static() {
         margin = margin.max(STATIC_MARGIN * model.size);

@@ -13,6 +13,7 @@ from carom.mesh_file.abaqus import read_abaqus
 from carom.mesh_file.arrays import FileMesh, Indices, Refused
 from carom.mesh_file.cells import dimension
 from carom.mesh_file.geometry import GEOMETRY, meshed
+from carom.mesh_file.gmsh41 import any_number_of_groups
 
 _MANY = 1000
 """Distinct values above which integer data of cells are no sets."""
@@ -41,7 +42,7 @@ def _by_meshio(path: Path) -> FileMesh:
 
     printed = io.StringIO()
     try:
-        with redirect_stdout(printed), redirect_stderr(printed):
+        with redirect_stdout(printed), redirect_stderr(printed), any_number_of_groups():
             mesh = meshio.read(path)
     except ModuleNotFoundError as error:
         raise Refused(f"reading this format needs the package {error.name}; install it") from None

@@ -38,20 +38,38 @@ def read(file, **given):
     return read_body_mesh(file, **options)
 
 
-def as_format_4(mesh):
-    """Return the text of Gmsh's format 4.1, with an entity and a group for every block."""
+def as_format_4(mesh, *, save_all=False):
+    """Return the text of Gmsh's format 4.1, with an entity and a group for every block.
+
+    With `Mesh.SaveAll` Gmsh writes entities of no group as well: here a point, a line and a side.
+    There the far cube is in a second group.
+    """
     groups = [(2, 1, "left"), (2, 2, "lid"), (3, 1, "near"), (3, 2, "far")]
-    numbers = {"left": 1, "lid": 2, "near": 3, "far": 4}
+    numbers = {"left": "1", "lid": "2", "near": "3", "far": "4"}
+    names = [f'{dim} {numbers[name]} "{name}"' for dim, _, name in groups]
+    if save_all:
+        names.append('3 9 "twin"')
+        numbers["far"] = "4 9"
     box = "0 0 0 2 1 1"
-    lines = ["$MeshFormat", "4.1 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(groups))]
-    lines += [f'{dim} {numbers[name]} "{name}"' for dim, _, name in groups]
-    lines += ["$EndPhysicalNames", "$Entities", "0 0 2 2"]
-    lines += [f"{tag} {box} 1 {numbers[name]} 0" for _, tag, name in groups]
+    lines = ["$MeshFormat", "4.1 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(names))]
+    lines += names
+    lines += ["$EndPhysicalNames", "$Entities", "1 1 3 2" if save_all else "0 0 2 2"]
+    if save_all:
+        lines += ["1 0 0 0 0", f"1 {box} 0 0"]
+    for _, tag, name in groups:
+        if save_all and name == "near":
+            lines.append(f"3 {box} 0 0")
+        lines.append(f"{tag} {box} {len(numbers[name].split())} {numbers[name]} 0")
     lines += ["$EndEntities", "$Nodes", f"1 {len(mesh.points)} 1 {len(mesh.points)}"]
     lines += [f"3 1 0 {len(mesh.points)}", *(str(k + 1) for k in range(len(mesh.points)))]
     lines += [" ".join(map(str, x)) for x in mesh.points]
-    lines += ["$EndNodes", "$Elements", f"{len(mesh.cells)} 5 1 5"]
-    number = 0
+    loose = 3 if save_all else 0
+    count = 5 + loose
+    lines += ["$EndNodes", "$Elements", f"{len(mesh.cells) + loose} {count} 1 {count}"]
+    number = loose
+    if save_all:
+        # Types 15, 1 and 3: a point, a line and a quadrilateral.
+        lines += ["0 1 15 1", "1 1", "1 1 1 1", "2 1 2", "2 3 3 1", "3 1 2 8 7"]
     for (dim, tag, _), block in zip(groups, mesh.cells, strict=True):
         lines.append(f"{dim} {tag} {3 if dim == 2 else 5} {len(block)}")
         for cell in block.data:
@@ -60,12 +78,12 @@ def as_format_4(mesh):
     return "\n".join([*lines, "$EndElements", ""])
 
 
-@pytest.mark.parametrize("version", ["2.2 binary", "2.2", "4.1"])
+@pytest.mark.parametrize("version", ["2.2 binary", "2.2", "4.1", "4.1 with all entities"])
 def test_physical_groups_of_gmsh_become_sets(tmp_path, version):
     file = tmp_path / "cubes.msh"
     mesh = two_cubes()
-    if version == "4.1":
-        file.write_text(as_format_4(mesh))
+    if version.startswith("4.1"):
+        file.write_text(as_format_4(mesh, save_all=version.endswith("entities")))
     else:
         meshio.write(file, mesh, file_format="gmsh22", binary=version.endswith("binary"))
     arrays = read(file)
@@ -75,6 +93,10 @@ def test_physical_groups_of_gmsh_become_sets(tmp_path, version):
     np.testing.assert_array_equal(np.concatenate(arrays.facet_sets["lid"]), TOP)
     np.testing.assert_array_equal(np.concatenate(arrays.facet_sets["left"]), LEFT)
     np.testing.assert_array_equal(arrays.cell_sets["far"], [1])
+    assert set(arrays.facet_sets) == {"left", "lid"}
+    twin = {"twin"} if version.endswith("entities") else set()
+    assert set(arrays.cell_sets) == {"near", "far"} | twin
+    assert all(arrays.cell_sets[name].tolist() == [1] for name in twin)
 
     far = read(file, body="far", scale=1e-3)
     assert len(far.points) == 8
@@ -196,6 +218,18 @@ def test_families_of_med_become_sets(tmp_path):
     assert arrays.cell_sets["far"].tolist() == [1]
     assert len(arrays.facet_sets["lid"][0]) == 2
     assert arrays.node_sets["origin"].tolist() == [0]
+
+
+def test_blocks_and_node_sets_of_exodus_arrive(tmp_path):
+    """Names of blocks and side sets do not: meshio passes over them."""
+    pytest.importorskip("netCDF4")
+    blocks = [("hexahedron", HEXES[:1]), ("hexahedron", HEXES[1:])]
+    file = tmp_path / "cubes.e"
+    meshio.write(file, meshio.Mesh(CUBE, blocks, point_sets={"edge": np.array([0, 3])}))
+    arrays = read(file, scale=1e-3)
+    np.testing.assert_array_equal(np.concatenate([c for _, c in arrays.blocks]), HEXES)
+    np.testing.assert_allclose(arrays.points, 1e-3 * CUBE)
+    assert arrays.node_sets["edge"].tolist() == [0, 3]
 
 
 @pytest.mark.parametrize("ending", ["vtk", "vtu"])

@@ -22,7 +22,11 @@ fn bar(speed: f64, divisions: [usize; 2]) -> Value {
 }
 
 fn run(case: &Value) -> (Simulation<2>, Summary) {
-    let mut simulation = Simulation::<2>::new(&parse(case)).expect("valid");
+    simulate(case)
+}
+
+fn simulate<const D: usize>(case: &Value) -> (Simulation<D>, Summary) {
+    let mut simulation = Simulation::<D>::new(&parse(case)).expect("valid");
     simulation.advance(f64::INFINITY, || false).expect("runs");
     let summary = simulation.summary();
     (simulation, summary)
@@ -85,6 +89,53 @@ fn the_paper_s_scheme_converges_to_the_same_plastic_work() {
         conserving.plastic
     );
     assert!(fine.max_defect < 0.25 * coarse.max_defect, "{:e} {:e}", fine.max_defect, coarse.max_defect);
+}
+
+/// How much shorter a bar is [mm], from the mean motion of its top, with the foot on the plane.
+fn shortening<const D: usize>(simulation: &Simulation<D>) -> f64 {
+    let nodes = simulation.model().reference.iter().zip(&simulation.state().displacement);
+    let (count, sum) = nodes
+        .filter(|(x, _)| x[D - 1] > 6.0 - 1e-9)
+        .fold((0.0, 0.0), |(count, sum), (_, u)| (count + 1.0, sum - u[D - 1]));
+    sum / count
+}
+
+/// Taylor's anvil test in small, in space and as a body of revolution: hexahedra keep the books of the flow as well, and shorten and
+/// take up as much, per volume, as the section does.
+#[test]
+fn round_bar_in_space_is_shortened_as_its_section_is() {
+    let mut section = bar(0.227, [3, 6]);
+    section["bodies"][0]["hypothesis"] = json!("axisymmetric");
+    section["bodies"][0]["formulation"] = json!("mean-dilatation");
+    section["contact"]["condition"] = json!("gap");
+    section["analysis"]["time_step"] = json!(0.1);
+    section["analysis"]["newton"]["tolerance"] = json!(1e-9);
+    let mut space = section.clone();
+    space["dimension"] = json!(3);
+    space["bodies"][0]["spin"] = json!([0.0, 0.0, 0.0]);
+    space["bodies"][0]["hypothesis"] = json!("plane-strain");
+    space["bodies"][0]["velocity"] = json!([0.0, 0.0, -0.227]);
+    space["bodies"][0]["mesh"] = json!({
+        "kind": "cylinder", "base": [0.0, 0.0, 0.0], "axis": [0.0, 0.0, 1.0], "radius": 3.0, "height": 6.0,
+        "divisions": 3, "rings": 1, "layers": 6,
+    });
+    space["obstacles"][0]["point"] = json!([0.0, 0.0, 0.0]);
+    space["obstacles"][0]["normal"] = json!([0.0, 0.0, 1.0]);
+    let (flat, flat_summary) = simulate::<2>(&section);
+    let (solid, solid_summary) = simulate::<3>(&space);
+    for energy in [flat_summary.energy, solid_summary.energy] {
+        assert!(
+            energy.max_defect < 1e-9 * energy.initial,
+            "defect {:e} of {}",
+            energy.max_defect,
+            energy.initial
+        );
+        assert!(energy.plastic > 0.3 * energy.initial, "{energy:?}");
+    }
+    let shares = [flat_summary.energy, solid_summary.energy].map(|e| e.plastic / e.initial);
+    assert!((shares[1] / shares[0] - 1.0).abs() < 0.01, "{shares:?}");
+    let (flat, solid) = (shortening(&flat), shortening(&solid));
+    assert!((solid / flat - 1.0).abs() < 0.01, "{solid} {flat}");
 }
 
 /// A round bar drawn to 1.5 times its length: τ = σ_y(α), α = ln λ − τ/E, and it bears A₀ τ/λ. It hardens by more than it bears, so that it does
