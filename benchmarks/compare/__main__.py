@@ -16,7 +16,7 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
@@ -45,23 +45,30 @@ def main() -> None:
             print(f"{CODES[code].title} is left out; to install it: {CODES[code].install}")
     for name in options.problems:
         problem = PROBLEMS[name].shortened(options.steps)
-        runs: dict[Job, list[Outcome]] = {job: [] for job in jobs(problem, codes, options.steps)}
-        failed: dict[Job, str] = {}
-        for turn in range(options.runs):
-            for job, outcomes in runs.items():
-                if job in failed:
-                    continue
-                told(f"{name}, run {turn + 1} of {options.runs}: {job}")
-                outcome = executed(job, pythons[job.code])
-                if isinstance(outcome, str):
-                    failed[job] = outcome
-                else:
-                    outcomes.append(outcome)
-        print(f"\n{problem.title}; {options.runs} runs\n\n{table(problem, runs)}\n")
+        asked = tuple(jobs(problem, codes, options.steps))
+        runs, failed = taken_in_turns(asked, options.runs, pythons)
+        print(f"\n{problem.title}; median of {options.runs} runs\n\n{table(problem, runs)}\n")
         for job, why in failed.items():
-            print(f"{job} failed: {why}")
+            print(f"{job}: failed: {why}")
         for line in differences(problem, runs):
             print(f"not the same physics: {line}")
+
+
+def taken_in_turns(
+    asked: Sequence[Job], turns: int, pythons: Mapping[str, str]
+) -> tuple[dict[Job, list[Outcome]], dict[Job, str]]:
+    """Run all jobs in each turn; return what came out, and why some are not run again."""
+    runs: dict[Job, list[Outcome]] = {job: [] for job in asked}
+    failed: dict[Job, str] = {}
+    for turn in range(1, turns + 1):
+        for job in (job for job in asked if job not in failed):
+            print(f"{job.problem}, {turn} of {turns}: {job}", file=sys.stderr, flush=True)
+            outcome = executed(job, pythons[job.code])
+            if isinstance(outcome, str):
+                failed[job] = outcome
+            else:
+                runs[job].append(outcome)
+    return runs, failed
 
 
 def parsed() -> argparse.Namespace:
@@ -103,11 +110,6 @@ def executed(job: Job, python: str) -> Outcome | str:
             said = (done.stderr.strip() or done.stdout.strip()).splitlines()
             return said[-1] if said else f"exit status {done.returncode}"
         return Outcome.read(answered)
-
-
-def told(line: str) -> None:
-    """Say what is going on, apart from the table."""
-    print(line, file=sys.stderr, flush=True)
 
 
 if __name__ == "__main__":
