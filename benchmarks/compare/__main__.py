@@ -1,6 +1,7 @@
 """Run carom, Kratos and CalculiX side by side on the same problems.
 
-    python benchmarks/compare [--problems cylinders bars] [--codes carom kratos calculix] [--runs 3]
+    python benchmarks/compare [--problems cylinders bars] [--codes carom kratos calculix]
+        [--frictions 0 0.2] [--runs 3]
 
 Codes that are not installed are left out. Every run is a process of its own with one thread; the
 codes take turns, so that all meet the same machine. CPU time is compared: of carom the native time
@@ -45,13 +46,13 @@ def main() -> None:
             print(f"{CODES[code].title} is left out; to install it: {CODES[code].install}")
     for name in options.problems:
         problem = PROBLEMS[name].shortened(options.steps)
-        asked = tuple(jobs(problem, codes, options.steps))
+        asked = tuple(jobs(problem, codes, options.frictions, options.steps))
         runs, failed = taken_in_turns(asked, options.runs, pythons)
         print(f"\n{problem.title}; median of {options.runs} runs\n\n{table(problem, runs)}\n")
         for job, why in failed.items():
             print(f"{job}: failed: {why}")
         for line in differences(problem, runs):
-            print(f"not the same physics: {line}")
+            print(f"to note: {line}")
 
 
 def taken_in_turns(
@@ -76,6 +77,7 @@ def parsed() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description="carom and other codes, side by side")
     parser.add_argument("--problems", nargs="+", choices=PROBLEMS, default=list(PROBLEMS))
     parser.add_argument("--codes", nargs="+", choices=CODES, default=list(CODES))
+    parser.add_argument("--frictions", nargs="+", type=float, default=[0.0, 0.2])
     parser.add_argument("--runs", type=int, default=3, help="runs of which the median counts")
     parser.add_argument("--steps", type=int, help="only so many steps, for a quick look")
     parser.add_argument(
@@ -84,9 +86,11 @@ def parsed() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def jobs(problem: Problem, codes: Sequence[str], steps: int | None) -> Iterator[Job]:
-    """Yield what is run in each turn, without friction first."""
-    for friction in (0.0, 0.2):
+def jobs(
+    problem: Problem, codes: Sequence[str], frictions: Sequence[float], steps: int | None
+) -> Iterator[Job]:
+    """Yield what is run in each turn."""
+    for friction in frictions:
         for code in codes:
             if friction in CODES[code].frictions[problem.name]:
                 for variant in CODES[code].variants:

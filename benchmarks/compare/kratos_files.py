@@ -19,6 +19,9 @@ from compare.problems import Problem
 TOLERANCE = 1e-7
 """Of the residual and of the displacements; tighter ones are not reached in every step."""
 
+ITERATIONS = 20
+"""Of Newton's method in a step, after which Kratos goes on to the next."""
+
 BOSSAK = -0.3
 """Numerical damping of Bossak's scheme; Kratos' own value."""
 
@@ -190,7 +193,7 @@ def _solver(problem: Problem, contact: str) -> dict[str, Any]:
         "analysis_type": "non_linear",
         "clear_storage": False,
         "reform_dofs_at_each_step": True,
-        "max_iteration": 20,
+        "max_iteration": ITERATIONS,
         "convergence_criterion": "contact_residual_criterion",
         "residual_relative_tolerance": TOLERANCE,
         "residual_absolute_tolerance": 1e-9,

@@ -53,6 +53,8 @@ class Outcome:
         CPU time [s].
     motion
         Energies and velocities, by our own routine.
+    exhausted
+        Steps that took all the iterations that the code was allowed.
     """
 
     version: str
@@ -60,6 +62,7 @@ class Outcome:
     steps: int
     seconds: float
     motion: Motion
+    exhausted: int = 0
 
     @property
     def milliseconds(self) -> float:

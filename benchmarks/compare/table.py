@@ -93,12 +93,14 @@ def _speed(value: float) -> str:
 
 
 def differences(problem: Problem, runs: Runs) -> Iterator[str]:
-    """Yield where a run is not the same physics as carom's in the first scheme."""
+    """Yield where a run did not converge, or not to carom's motion in the first scheme."""
     allowed = LATE * problem.sample_every * problem.time_step * (1 + 1e-9)
     for job, outcomes in runs.items():
         if not (outcomes and (reference := _carom(job, "theta/gap", runs))):
             continue
         motion, expected = outcomes[-1].motion, reference[-1].motion
+        if exhausted := outcomes[-1].exhausted:
+            yield f"{job}: {exhausted} of {outcomes[-1].steps} steps took all iterations allowed"
         for time, known in zip(motion.touches, expected.touches, strict=True):
             both_never = isnan(time) and isnan(known)
             if not (both_never or abs(time - known) <= allowed):

@@ -13,7 +13,7 @@ from KratosMultiphysics.StructuralMechanicsApplication.structural_mechanics_anal
 )
 
 from compare.energy import Sampler
-from compare.kratos_files import everything, material, model, parameters
+from compare.kratos_files import ITERATIONS, everything, material, model, parameters
 from compare.meshes import Points
 from compare.outcome import Outcome
 from compare.problems import Problem
@@ -35,6 +35,7 @@ class Analysis(StructuralMechanicsAnalysis):  # type: ignore[misc]
         self._problem = problem
         self.sampler = Sampler(problem)
         self.steps = 0
+        self.exhausted = 0
         self.seconds = 0.0
         """CPU time of the loop, without that of our own looks [s]."""
 
@@ -58,6 +59,8 @@ class Analysis(StructuralMechanicsAnalysis):  # type: ignore[misc]
         super().FinalizeSolutionStep()
         start = time.process_time()
         self.steps += 1
+        iterations = self.model["Structure"].ProcessInfo[Kratos.NL_ITERATION_NUMBER]
+        self.exhausted += iterations >= ITERATIONS
         if self.steps % self._problem.sample_every == 0:
             self.sampler.take(
                 self.steps * self._problem.time_step,
@@ -89,4 +92,5 @@ def run(problem: Problem, _variant: str, friction: float) -> Outcome:
         steps=analysis.steps,
         seconds=analysis.seconds,
         motion=analysis.sampler.motion,
+        exhausted=analysis.exhausted,
     )
