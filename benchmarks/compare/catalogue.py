@@ -25,7 +25,9 @@ def _calculix_is_there(_python: str) -> bool:
 
 
 def _imports(python: str, *modules: str) -> bool:
-    """Return whether an interpreter imports these modules."""
+    """Return whether there is such an interpreter and it imports these modules."""
+    if shutil.which(python) is None:
+        return False
     command = [python, "-c", f"import {', '.join(modules)}"]
     return subprocess.run(command, capture_output=True, check=False).returncode == 0
 
