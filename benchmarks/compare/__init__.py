@@ -1,0 +1,1 @@
+"""carom and other codes on the same problems, side by side: ``python benchmarks/compare``."""
