@@ -9,7 +9,7 @@ use std::ops::Range;
 use carom_mesh::Vector;
 
 use crate::Model;
-use crate::state::dot;
+use crate::state::{State, dot};
 use crate::workspace::Workspace;
 
 /// Differences combined.
@@ -115,38 +115,44 @@ impl<const D: usize> Acceleration<D> {
         self.bodies.fill(Record::default());
     }
 
-    /// Takes note of the guess `d` and the correction `f` of a body, at `nodes` of the model.
-    fn record(&mut self, body: usize, nodes: Range<usize>, d: &[Vector<D>], f: &[Vector<D>]) {
+    /// Takes note of the correction `f` of a body, at `nodes` of the model, and of the guess that led to it, to the `motion` so far.
+    fn record(&mut self, body: usize, nodes: Range<usize>, motion: &[Vector<D>], f: &[Vector<D>]) {
         let record = &mut self.bodies[body];
         record.count += 1;
         let (slot, differences) = (record.slot(), record.differences());
-        let (d, f) = (&d[nodes.clone()], &f[nodes.clone()]);
+        let f = &f[nodes.clone()];
         let (guess, correction) = (&mut self.guess[nodes.clone()], &mut self.correction[nodes.clone()]);
-        if differences > 0 {
-            difference(d, guess, &mut self.guesses[slot][nodes.clone()]);
-            difference(f, correction, &mut self.corrections[slot][nodes.clone()]);
-            let Products { matrix, right } = &mut record.products;
-            for j in (0..differences).map(|j| (slot + DEPTH - j) % DEPTH) {
-                let other = &self.corrections[j][nodes.clone()];
-                matrix[slot][j] = dot(&self.corrections[slot][nodes.clone()], other);
-                matrix[j][slot] = matrix[slot][j];
-                right[j] = dot(other, f);
-            }
+        let changes = &mut self.guesses[slot][nodes.clone()];
+        for (((change, guess), d), f) in changes.iter_mut().zip(guess).zip(&motion[nodes.clone()]).zip(f) {
+            let before = d - f;
+            *change = before - *guess;
+            *guess = before;
         }
-        guess.copy_from_slice(d);
-        correction.copy_from_slice(f);
+        let changes = &mut self.corrections[slot][nodes.clone()];
+        for ((change, correction), f) in changes.iter_mut().zip(correction).zip(f) {
+            *change = f - *correction;
+            *correction = *f;
+        }
+        let Products { matrix, right } = &mut record.products;
+        for j in (0..differences).map(|j| (slot + DEPTH - j) % DEPTH) {
+            let other = &self.corrections[j][nodes.clone()];
+            matrix[slot][j] = dot(&self.corrections[slot][nodes.clone()], other);
+            matrix[j][slot] = matrix[slot][j];
+            right[j] = dot(other, f);
+        }
     }
 }
 
-/// Writes a − b to `out`.
-fn difference<const D: usize>(a: &[Vector<D>], b: &[Vector<D>], out: &mut [Vector<D>]) {
-    for (out, (a, b)) in out.iter_mut().zip(a.iter().zip(b)) {
-        *out = a - b;
-    }
-}
-
-/// Replaces the corrections of the bodies that still move by those to better guesses.
-pub(crate) fn accelerate<const D: usize>(model: &Model<D>, first: bool, work: &mut Workspace<D>) {
+/// Moves the bodies that are not settled on to better guesses.
+///
+/// Where a step ends its last correction stands as it is: the momentum of the bodies is then balanced by the reactions to round-off.
+pub(crate) fn accelerate<const D: usize>(
+    model: &Model<D>,
+    state: &State<D>,
+    next: &mut State<D>,
+    first: bool,
+    work: &mut Workspace<D>,
+) {
     let Workspace { acceleration, motion, correction, progress, touched, .. } = work;
     let mut together = Products::default();
     for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !progress[i].settled) {
@@ -165,8 +171,14 @@ pub(crate) fn accelerate<const D: usize>(model: &Model<D>, first: bool, work: &m
         for (k, weight) in weights.into_iter().enumerate().filter(|&(_, weight)| weight != 0.0) {
             let (guesses, corrections) =
                 (&acceleration.guesses[k][b.nodes()], &acceleration.corrections[k][b.nodes()]);
-            for (c, (d, f)) in correction[b.nodes()].iter_mut().zip(guesses.iter().zip(corrections)) {
-                *c -= (d + f) * weight;
+            for (m, (d, f)) in motion[b.nodes()].iter_mut().zip(guesses.iter().zip(corrections)) {
+                *m -= (d + f) * weight;
+            }
+        }
+        if weights.iter().any(|&weight| weight != 0.0) {
+            let (moved, start) = (&mut next.displacement[b.nodes()], &state.displacement[b.nodes()]);
+            for ((u1, u0), d) in moved.iter_mut().zip(start).zip(&motion[b.nodes()]) {
+                *u1 = u0 + d;
             }
         }
     }

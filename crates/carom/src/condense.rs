@@ -8,63 +8,66 @@ use carom_mesh::{Matrix, Vector};
 use crate::Model;
 use crate::linearise::BodyOperator;
 
-/// Columns of K̄⁻¹ of one body at boundary nodes, computed when a node first comes into contact and kept with the factor.
+/// The blocks of K̄⁻¹ of one body between the nodes that have been in contact, computed when a node first is and kept with the
+/// factor.
 #[derive(Debug)]
 pub(crate) struct Compliance<const D: usize> {
-    /// Place of each node on the boundary, or `u32::MAX` inside.
-    boundary_index: Vec<u32>,
-    boundary: Vec<u32>,
-    /// For a boundary node: the blocks (K̄⁻¹)_ab for every boundary node a, in the frame of the factor.
-    columns: Vec<Option<Vec<Matrix<D>>>>,
+    /// The nodes, in the order of their first contact.
+    nodes: Vec<u32>,
+    /// Place of every node of the body among them, or `u32::MAX`.
+    places: Vec<u32>,
+    /// The blocks (K̄⁻¹)_ab in the frame of the factor, by the place of b and then that of a, which is no larger.
+    blocks: Vec<Matrix<D>>,
     generation: u64,
-    scratch: Vec<Vector<D>>,
 }
 
 impl<const D: usize> Compliance<D> {
     pub fn new(body: &Body<D>) -> Self {
-        let boundary = body.surface().nodes().to_vec();
-        let mut boundary_index = vec![u32::MAX; body.node_count()];
-        for (k, &node) in boundary.iter().enumerate() {
-            boundary_index[node as usize] = k as u32;
-        }
         Self {
-            columns: vec![None; boundary.len()],
-            scratch: vec![Vector::zeros(); body.node_count() * D],
-            boundary_index,
-            boundary,
+            nodes: Vec::new(),
+            places: vec![u32::MAX; body.node_count()],
+            blocks: Vec::new(),
             generation: 0,
         }
     }
 
-    /// Makes sure that the column of a boundary node is there and belongs to the present factor.
-    pub fn prepare(&mut self, operator: &mut BodyOperator<D>, node: usize) {
+    /// Makes sure that the blocks between `nodes` are there and belong to the present factor.
+    pub fn prepare(&mut self, operator: &mut BodyOperator<D>, nodes: &[u32]) {
         if self.generation != operator.generation {
-            self.columns.fill(None);
+            self.nodes.drain(..).for_each(|node| self.places[node as usize] = u32::MAX);
+            self.blocks.clear();
             self.generation = operator.generation;
         }
-        let b = self.boundary_index[node] as usize;
-        if self.columns[b].is_some() {
+        let known = self.nodes.len();
+        for &node in nodes {
+            let place = &mut self.places[node as usize];
+            if *place == u32::MAX {
+                *place = self.nodes.len() as u32;
+                self.nodes.push(node);
+            }
+        }
+        if self.nodes.len() == known {
             return;
         }
-        let n = self.boundary_index.len();
-        self.scratch.fill(Vector::zeros());
-        for (j, column) in self.scratch.chunks_exact_mut(n).enumerate() {
-            column[node][j] = 1.0;
-            operator.solve_in_factor_frame(column);
+        operator.set_reach(self.nodes.iter().map(|&node| node as usize));
+        for b in known..self.nodes.len() {
+            let first = self.blocks.len();
+            self.blocks.resize(first + b + 1, Matrix::zeros());
+            for component in 0..D {
+                if operator.respond(self.nodes[b] as usize, component) {
+                    for (block, &a) in self.blocks[first..].iter_mut().zip(&self.nodes) {
+                        block.set_column(component, &operator.response(a as usize));
+                    }
+                }
+            }
         }
-        let column = self
-            .boundary
-            .iter()
-            .map(|&a| Matrix::from_fn(|i, j| self.scratch[j * n + a as usize][i]))
-            .collect();
-        self.columns[b] = Some(column);
     }
 
-    /// The block (K̄⁻¹)_ab of two boundary nodes in the frame of the factor; that of `b` was prepared.
+    /// The block (K̄⁻¹)_ab of two nodes that were prepared, in the frame of the factor.
     #[inline]
     fn block(&self, a: usize, b: usize) -> Matrix<D> {
-        let (a, b) = (self.boundary_index[a] as usize, self.boundary_index[b] as usize);
-        self.columns[b].as_ref().map_or_else(Matrix::zeros, |column| column[a])
+        let (a, b) = (self.places[a] as usize, self.places[b] as usize);
+        if a <= b { self.blocks[b * (b + 1) / 2 + a] } else { self.blocks[a * (a + 1) / 2 + b].transpose() }
     }
 }
 

@@ -246,9 +246,23 @@ impl<const D: usize> BodyOperator<D> {
         }));
     }
 
-    /// Overwrites `x` with the factor's solution, in the frame of the factor.
-    pub fn solve_in_factor_frame(&mut self, x: &mut [Vector<D>]) {
-        self.held.clear(x);
-        self.factor.solve(x);
+    /// Solves for a unit force along a component at a node of the reach, in the frame of the factor: see [`Self::response`].
+    /// Where displacements are held a force moves nothing; says whether it moves anything.
+    pub fn respond(&mut self, node: usize, component: usize) -> bool {
+        let moves = !self.held.holds(node, component);
+        if moves {
+            self.factor.respond(node, component);
+        }
+        moves
+    }
+
+    /// What a node of the reach does under that force, in the frame of the factor.
+    pub fn response(&self, node: usize) -> Vector<D> {
+        self.factor.seen(node)
+    }
+
+    /// Memory of the factor [bytes].
+    pub fn bytes(&self) -> usize {
+        self.factor.bytes()
     }
 }

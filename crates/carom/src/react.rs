@@ -94,7 +94,7 @@ pub(crate) fn prepare_contacts<const D: usize>(model: &Model<D>, work: &mut Work
         }
         nodes.sort_unstable();
         nodes.dedup();
-        nodes.iter().for_each(|&node| compliance.prepare(operator, node as usize));
+        compliance.prepare(operator, nodes);
         operator.set_reach(nodes.iter().map(|&node| node as usize));
     }
 }

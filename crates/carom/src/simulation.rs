@@ -413,6 +413,12 @@ impl<const D: usize> Simulation<D> {
         self.work.posed_problem()
     }
 
+    /// Memory of the factors of all bodies [bytes].
+    #[must_use]
+    pub fn factor_bytes(&self) -> usize {
+        self.work.factor_bytes()
+    }
+
     /// Newton iterations made so far.
     #[must_use]
     pub fn newton_iterations(&self) -> u64 {

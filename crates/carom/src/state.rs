@@ -129,6 +129,18 @@ impl<const D: usize> State<D> {
     }
 }
 
+/// The largest size of a component; what is not a number does not count.
+pub(crate) fn largest<const D: usize>(a: &[Vector<D>]) -> f64 {
+    let mut largest = Vector::<D>::zeros();
+    for a in a {
+        for i in 0..D {
+            let size = a[i].abs();
+            largest[i] = if size > largest[i] { size } else { largest[i] };
+        }
+    }
+    largest.max()
+}
+
 /// Σ a·b over the nodes.
 pub(crate) fn dot<const D: usize>(a: &[Vector<D>], b: &[Vector<D>]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()

@@ -1,7 +1,7 @@
 //! One step: predict, detect, then linearise, condense, solve and correct until converged, and commit.
 
 use carom_fem::sparse::Precision;
-use carom_mesh::tensor;
+use carom_mesh::{Vector, tensor};
 
 use crate::acceleration::accelerate;
 use crate::body_step::{BodyStep, Pose, predicted_motion};
@@ -12,7 +12,7 @@ use crate::error::StepError;
 use crate::linearise::BodyOperator;
 use crate::react::{evaluate_contacts, measure_rubbing, prepare_contacts, react};
 use crate::search::{missed_a_contact, search, select_active};
-use crate::state::State;
+use crate::state::{State, largest};
 use crate::workspace::{BodyProgress, StepReport, Workspace};
 use crate::{Method, Model, StepMap};
 
@@ -56,7 +56,7 @@ pub fn step<const D: usize>(
     let mut iterations = 0;
     for _ in 0..MAX_SEARCHES {
         search(model, state, margin, work);
-        let made = iterate(model, method, state, next, &map, motion, work);
+        let made = iterate(model, method, state, next, &map, work);
         if made.is_err() {
             // A factor that was made on the way to nowhere would mislead the next attempt.
             work.operators.iter_mut().for_each(BodyOperator::forget);
@@ -121,11 +121,12 @@ fn iterate<const D: usize>(
     state: &State<D>,
     next: &mut State<D>,
     map: &StepMap,
-    predicted: f64,
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
     select_active(model, method, state, map, work);
-    work.progress.fill(BodyProgress::default());
+    for (progress, b) in work.progress.iter_mut().zip(&model.bodies) {
+        *progress = BodyProgress::new(largest(&work.motion[b.nodes()]));
+    }
     work.acceleration.restart();
     for ((u1, u0), d) in next.displacement.iter_mut().zip(&state.displacement).zip(&work.motion) {
         *u1 = u0 + d;
@@ -143,20 +144,21 @@ fn iterate<const D: usize>(
         if reacts {
             react(model, method, state, map, work)?;
         }
-        let motion = correct(model, state, next, iteration == 1, work)?;
+        let motion = correct(model, state, next, work)?;
         if map.is_static() && motion > model.size {
             return Err(not_held(model, work).unwrap_or(StepError::NotFinite("displacement")));
         }
-        let wanted = (method.newton.tolerance * motion.max(predicted)).max(model.round_off());
-        if settle(work, wanted) {
+        if settle(work, method.newton.tolerance, model.round_off()) {
             return Ok(iteration);
         }
+        accelerate(model, state, next, iteration == 1, work);
         let slowest = work.progress.iter().filter(|p| !p.settled);
         if iteration >= method.newton.max_iterations {
             if let (true, Some(error)) = (map.is_static(), not_held(model, work)) {
                 return Err(error);
             }
             let correction = slowest.map(|p| p.correction).fold(0.0, f64::max);
+            let wanted = (method.newton.tolerance * motion).max(model.round_off());
             return Err(StepError::Newton { iterations: iteration, correction, wanted });
         }
         let patience = if map.is_static() { STATIC_PATIENCE } else { PATIENCE };
@@ -176,15 +178,18 @@ fn not_held<const D: usize>(model: &Model<D>, work: &Workspace<D>) -> Option<Ste
         .map(|((b, _), _)| StepError::NotHeld { body: b.name.clone() })
 }
 
-/// Marks the bodies that have converged and says whether all have. Bodies in contact depend on one another and settle together.
-fn settle<const D: usize>(work: &mut Workspace<D>, wanted: f64) -> bool {
+/// Marks the bodies that have converged and says whether all have: relative to their own motion, down to `round_off` [m]. Bodies in
+/// contact depend on one another and settle together.
+fn settle<const D: usize>(work: &mut Workspace<D>, tolerance: f64, round_off: f64) -> bool {
     // A correction this small, or one after which the next will surely be.
-    let converged =
-        |p: &BodyProgress| p.correction <= wanted || p.correction * (10.0 * p.contraction).min(1.0) <= wanted;
-    let in_contact = |(p, &touched): (&BodyProgress, &bool)| !touched || p.settled || converged(p);
-    let contact_converged = work.progress.iter().zip(&work.touched).all(in_contact);
+    let converged = |p: &BodyProgress, motion: f64| {
+        p.correction * (10.0 * p.contraction).min(1.0) <= (tolerance * motion).max(round_off)
+    };
+    let touched = || work.progress.iter().zip(&work.touched).filter(|&(_, &touched)| touched).map(|(p, _)| p);
+    let motion = touched().map(|p| p.motion).fold(0.0, f64::max);
+    let contact_converged = touched().all(|p| p.settled || converged(p, motion));
     for (p, &touched) in work.progress.iter_mut().zip(&work.touched) {
-        p.settled |= if touched { contact_converged } else { converged(p) };
+        p.settled |= if touched { contact_converged } else { converged(p, p.motion) };
     }
     work.progress.iter().all(|p| p.settled)
 }
@@ -259,36 +264,29 @@ fn correct<const D: usize>(
     model: &Model<D>,
     state: &State<D>,
     next: &mut State<D>,
-    first: bool,
     work: &mut Workspace<D>,
 ) -> Result<f64, StepError> {
+    let mut motion: f64 = 0.0;
     for (i, b) in model.bodies.iter().enumerate() {
         if work.progress[i].settled {
             continue;
         }
         let correction = &mut work.correction[b.nodes()];
         work.operators[i].end(correction);
-        let (mut largest, mut sum): (f64, f64) = (0.0, 0.0);
-        for c in correction.iter() {
-            largest = largest.max(c.amax());
-            sum += c.sum();
-        }
-        // `max` ignores NaN, a sum does not.
-        if !sum.is_finite() {
+        // The largest size does not see what is not a number, a sum does.
+        if !correction.iter().sum::<Vector<D>>().sum().is_finite() {
             return Err(StepError::NotFinite("displacement"));
         }
-        work.progress[i].note(largest);
-    }
-    accelerate(model, first, work);
-    let mut motion: f64 = 0.0;
-    for (_, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !work.progress[i].settled) {
+        let size = largest(correction);
         let (moved, start) = (&mut next.displacement[b.nodes()], &state.displacement[b.nodes()]);
         let corrections = &work.correction[b.nodes()];
         for (((d, c), u1), u0) in work.motion[b.nodes()].iter_mut().zip(corrections).zip(moved).zip(start) {
             *d += c;
             *u1 = u0 + *d;
-            motion = motion.max(d.amax());
         }
+        let moved = largest(&work.motion[b.nodes()]);
+        work.progress[i].note(size, moved);
+        motion = motion.max(moved);
     }
     Ok(motion)
 }

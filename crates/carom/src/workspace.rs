@@ -31,21 +31,25 @@ pub(crate) struct BodyProgress {
     pub correction: f64,
     /// Its ratio to the one before; 1 while there is none.
     pub contraction: f64,
+    /// Largest component of the motion that the iterations started with [m].
+    predicted: f64,
+    /// The larger of that and of the motion in the step so far [m].
+    pub motion: f64,
     /// Whether the body needs no further iterations in this step.
     pub settled: bool,
 }
 
-impl Default for BodyProgress {
-    fn default() -> Self {
-        Self { correction: f64::INFINITY, contraction: 1.0, settled: false }
-    }
-}
-
 impl BodyProgress {
-    /// Takes note of a new correction.
-    pub fn note(&mut self, correction: f64) {
+    /// At the start of the iterations, with the largest component of the `predicted` motion [m].
+    pub fn new(predicted: f64) -> Self {
+        Self { predicted, motion: predicted, correction: f64::INFINITY, contraction: 1.0, settled: false }
+    }
+
+    /// Takes note of a new correction and of the motion that it leads to.
+    pub fn note(&mut self, correction: f64, motion: f64) {
         self.contraction = if self.correction.is_finite() { correction / self.correction } else { 1.0 };
         self.correction = correction;
+        self.motion = self.predicted.max(motion);
     }
 }
 
@@ -162,7 +166,7 @@ impl<const D: usize> Workspace<D> {
             guess: Vec::new(),
             solved_by: SolverKind::default(),
             touched: vec![false; bodies],
-            progress: vec![BodyProgress::default(); bodies],
+            progress: vec![BodyProgress::new(0.0); bodies],
             acceleration: Acceleration::new(positions, bodies),
             groups: vec![GroupReport::default(); model.groups.len()],
             bodies: vec![BodyLedger::default(); bodies],
@@ -177,6 +181,12 @@ impl<const D: usize> Workspace<D> {
     #[must_use]
     pub fn blend_weights(&self) -> &[f64] {
         &self.blend.weight
+    }
+
+    /// Memory of the factors of all bodies [bytes].
+    #[must_use]
+    pub fn factor_bytes(&self) -> usize {
+        self.operators.iter().map(BodyOperator::bytes).sum()
     }
 
     /// The last contact problem that a step posed, solved or not; after [`StepError::Friction`] the one that failed.

@@ -211,7 +211,19 @@ impl<const D: usize> Factor<D> {
         self.triangular.look();
     }
 
-    /// What [`Self::look`] saw at a node of the reach.
+    /// Solves for a unit force along a component at a node of the reach, for [`Self::seen`]: only within the reach.
+    pub fn respond(&mut self, node: usize, component: usize) {
+        let first = master(self.folding.as_ref(), node) * D;
+        self.triangular.respond(self.places[first + component] as usize);
+    }
+
+    /// Memory of the factor [bytes].
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.triangular.bytes()
+    }
+
+    /// What [`Self::look`] or [`Self::respond`] saw at a node of the reach.
     #[must_use]
     pub fn seen(&self, node: usize) -> Vector<D> {
         let first = master(self.folding.as_ref(), node) * D;
@@ -363,6 +375,12 @@ mod tests {
             factor.add(nodes.iter().map(|&k| (k, force)));
             factor.end(&mut x);
             x.iter().zip(&more).for_each(|(x, more)| assert!((x - more).norm() < 1e-14));
+
+            let mut unit = vec![Vector::<2>::zeros(); n];
+            unit[12][1] = 1.0;
+            factor.solve(&mut unit);
+            factor.respond(12, 1);
+            nodes.iter().for_each(|&k| assert!((factor.seen(k) - unit[k]).norm() < 1e-14));
         }
     }
 }

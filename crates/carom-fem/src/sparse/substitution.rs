@@ -81,6 +81,14 @@ impl<T: Real> Substitution<T> {
         self.inverted = Vec::new();
     }
 
+    /// Memory [bytes].
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.values[..])
+            + size_of_val(&self.rows[..])
+            + size_of_val(&self.panels[..])
+            + size_of_val(&self.panel_of[..])
+    }
+
     /// Overwrites `x`, in the order of elimination, with L⁻¹ x.
     pub fn forward(&mut self, x: &mut [T]) {
         let panels = 0..self.panels.len();

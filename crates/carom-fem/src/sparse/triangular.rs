@@ -28,6 +28,8 @@ impl Precision {
 
 /// A triangular factor and a right-hand side on its way through both substitutions; all places are in the order of elimination.
 pub(super) trait Triangular: Debug + Send + Sync {
+    /// Memory [bytes].
+    fn bytes(&self) -> usize;
     /// Takes over the values of a factor.
     fn load(&mut self, factor: &SupernodalLltRef<'_, usize, f64>);
     /// Takes the right-hand side whose k-th value is `x[ordering[k]]` through the forward substitution.
@@ -38,6 +40,8 @@ pub(super) trait Triangular: Debug + Send + Sync {
     fn set_reach(&mut self, places: &mut dyn Iterator<Item = usize>);
     /// Solves for the right-hand side as it is, within the reach.
     fn look(&mut self);
+    /// Solves for the unit vector of a place of the reach, within the reach.
+    fn respond(&mut self, place: usize);
     /// What was seen at a place of the reach.
     fn seen(&self, place: usize) -> f64;
     /// Adds values at places of the reach to the right-hand side.
@@ -52,6 +56,8 @@ struct Halves<T> {
     /// The same within the reach.
     partial: Vec<T>,
     reach: Vec<u32>,
+    /// The reach of one place.
+    path: Vec<u32>,
 }
 
 impl<T: Real> Halves<T> {
@@ -62,11 +68,16 @@ impl<T: Real> Halves<T> {
             ordered: zeros.clone(),
             partial: zeros,
             reach: Vec::new(),
+            path: Vec::new(),
         }
     }
 }
 
 impl<T: Real> Triangular for Halves<T> {
+    fn bytes(&self) -> usize {
+        self.substitution.bytes() + 2 * size_of_val(&self.ordered[..])
+    }
+
     fn load(&mut self, factor: &SupernodalLltRef<'_, usize, f64>) {
         self.substitution.load(factor);
     }
@@ -93,6 +104,16 @@ impl<T: Real> Triangular for Halves<T> {
         for columns in self.substitution.columns_within(&self.reach) {
             self.partial[columns.clone()].copy_from_slice(&self.ordered[columns]);
         }
+        self.substitution.backward_within(&self.reach, &mut self.partial);
+    }
+
+    fn respond(&mut self, place: usize) {
+        for columns in self.substitution.columns_within(&self.reach) {
+            self.partial[columns].fill(T::default());
+        }
+        self.partial[place] = T::of(1.0);
+        self.substitution.reach(std::iter::once(place), &mut self.path);
+        self.substitution.forward_within(&self.path, &mut self.partial);
         self.substitution.backward_within(&self.reach, &mut self.partial);
     }
 
