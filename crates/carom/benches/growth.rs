@@ -165,8 +165,8 @@ fn main() {
     }
     let largest = |k: usize, default: f64| arguments.get(k).and_then(|a| a.parse().ok()).unwrap_or(default);
     for (dimension, largest, divisions) in [
-        (2, largest(0, 1e5), &[7, 14, 28, 56, 112, 160][..]),
-        (3, largest(1, 5e4), &[4, 6, 8, 11, 15, 19][..]),
+        (2, largest(0, 1e5), &[10, 20, 40, 80, 160, 240][..]),
+        (3, largest(1, 5e4), &[6, 8, 12, 16, 20, 26][..]),
     ] {
         let rows = sizes(dimension, largest, divisions);
         println!(
