@@ -1,5 +1,6 @@
 use carom_contact::ContactModel;
 use carom_fem::Body;
+use carom_fem::sparse::Precision;
 use carom_friction::{FrictionSolver, StoppingRule};
 use carom_mesh::Vector;
 
@@ -205,6 +206,17 @@ impl<const D: usize> Method<D> {
     #[must_use]
     pub fn contact_weights(&self, map: &StepMap) -> [f64; 2] {
         if self.condition.is_massless() { [1.0 - map.xi, map.xi] } else { [0.0, 1.0] }
+    }
+
+    /// The numbers that factors are kept in: double precision in a static analysis, where no mass keeps K̄ well-conditioned, and with
+    /// massless contact, whose balance of energy sees the last correction itself and not its square.
+    #[must_use]
+    pub fn precision(&self) -> Precision {
+        if self.scheme == Scheme::Static || self.condition.is_massless() {
+            Precision::Double
+        } else {
+            Precision::Single
+        }
     }
 
     /// Whether the balance of massless contact nodes is closed by a blend of start and end stresses.

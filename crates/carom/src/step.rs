@@ -51,7 +51,7 @@ pub fn step<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<StepReport, StepError> {
     let map = method.scheme.step_map(dt);
-    let driven = predict(model, state, &map, work)?;
+    let driven = predict(model, method, state, &map, work)?;
     // In a static analysis nothing falls: its time says how far the loads have come, not how long they act.
     let free = if map.is_static() { 0.0 } else { predicted_motion(state, &model.gravity, dt) };
     let motion = free.max(driven);
@@ -81,6 +81,7 @@ pub fn step<const D: usize>(
 /// the step. Returns the largest prescribed motion [m].
 fn predict<const D: usize>(
     model: &Model<D>,
+    method: &Method<D>,
     state: &State<D>,
     map: &StepMap,
     work: &mut Workspace<D>,
@@ -105,13 +106,12 @@ fn predict<const D: usize>(
             work.poses[i].drift = b.body.mean(v);
         }
         if !work.operators[i].fits(map) {
-            let precision = if map.is_static() { Precision::Double } else { Precision::Single };
             work.operators[i].factorize(
                 &b.body.after(&state.history[i]),
                 map,
                 middle,
                 &work.poses[i].frame,
-                precision,
+                method.precision(),
             )?;
             work.factorisations += 1;
         }
@@ -173,7 +173,7 @@ fn iterate<const D: usize>(
         let patience = if changed { CHANGED_PATIENCE } else { PATIENCE };
         if iteration >= patience && slowest.map(|p| p.contraction).fold(0.0, f64::max) > SLOW_CONTRACTION {
             // A fresh factor that is no better may lack digits.
-            let precision = if map.is_static() || renewed { Precision::Double } else { Precision::Single };
+            let precision = if renewed { Precision::Double } else { method.precision() };
             refactorize(model, state, next, map, precision, work)?;
             renewed = true;
         }
