@@ -119,7 +119,7 @@ impl<const D: usize> BodyOperator<D> {
 
     /// Makes the factor with the stiffness at `u`, where the frame of the body is `frame`.
     ///
-    /// In `precision` double is for what is not regular by its mass, and where iterations are slow for whatever reason.
+    /// The factor is kept in `precision`: see [`crate::Method::precision`].
     ///
     /// A configuration under strong compression, or a guess on the way to one, may be where K̄ is indefinite. The stiffness of the
     /// reference configuration, turned, serves there: slower, but it never is.
