@@ -1,12 +1,12 @@
-"""Write docs/case-file.md from the classes that read the case file.
+"""Write docs/case-file.md and docs/carom.schema.json from the classes that read the case file.
 
-``python docs/make_case_file_reference.py`` writes the page, ``… --check`` says whether it is
-up to date (exit status 1 if not).
+``python docs/make_case_file_reference.py`` writes them, ``… --check`` says whether they are up to
+date (exit status 1 if not).
 """
 
 from __future__ import annotations
 
-import inspect
+import json
 import re
 import sys
 import types
@@ -20,8 +20,11 @@ from pydantic.fields import FieldInfo
 
 from carom import Scenario, Table
 from carom.description import PER_DIMENSION, Description, InPlane, InSpace, Name
+from carom.docstrings import documented, summary
+from carom.schema import case_file_schema
 
 PAGE = Path(__file__).with_name("case-file.md")
+SCHEMA = Path(__file__).with_name("carom.schema.json")
 
 HEAD = """\
 # The case file
@@ -214,19 +217,6 @@ def default(field: FieldInfo) -> str:
     return f"`{list(value)}`" if isinstance(value, tuple) else f"`{value:g}`"
 
 
-def documented(model: type[Description]) -> dict[str, str]:
-    """Return what the docstring of a class says about each of its parameters."""
-    _, _, body = inspect.getdoc(model).partition("Parameters\n----------\n")
-    said: dict[str, str] = {}
-    for line in body.splitlines():
-        if line and not line.startswith(" "):
-            name = line
-            said[name] = ""
-        else:
-            said[name] = f"{said[name]} {line.strip()}".strip()
-    return said
-
-
 UNIT = re.compile(r"(?<!shape)(?<!in)\s\[([^\]]+)\]")
 
 
@@ -235,7 +225,6 @@ def row(name: str, field: FieldInfo, text: str, *, tag: bool) -> str:
     unit = UNIT.search(text)
     text = UNIT.sub("", text)
     text = re.sub(r",? ?shape \[\d\]", "", text)
-    text = re.sub(r"\bNone (is|takes) ", "left out: ", text)
     text = text.replace("default of `Contact`", "value in `[contact]`")
     cells = (
         f"`{name}`",
@@ -258,15 +247,14 @@ def table(model: type[Description], *, tagged: bool = False) -> str:
     return "\n".join(lines)
 
 
-def summary(model: type[Description]) -> str:
-    """Return the first paragraph of the docstring of a class, and the class."""
-    first = " ".join(inspect.getdoc(model).partition("\n\n")[0].split())
-    return f"{first} Python: `carom.{model.__name__}`."
+def what(model: type[Description]) -> str:
+    """Return what a class says of itself, and its name."""
+    return f"{summary(model)} Python: `carom.{model.__name__}`."
 
 
 def page() -> str:
     """Return the text of the page."""
-    text = [HEAD, "## Top level\n", summary(Scenario), "", table(Scenario), ""]
+    text = [HEAD, "## Top level\n", what(Scenario), "", table(Scenario), ""]
     for section in sections(Scenario):
         text.append(f"## `{section.header}`\n")
         for model in section.kinds:
@@ -274,20 +262,28 @@ def page() -> str:
             if tagged:
                 kind = model.model_fields["kind"].default
                 text.append(f'### `kind = "{kind}"`\n')
-            text += [summary(model), "", table(model, tagged=tagged), ""]
+            text += [what(model), "", table(model, tagged=tagged), ""]
     return "\n".join([*text, RULES])
 
 
+def schema() -> str:
+    """Return the text of the schema."""
+    return json.dumps(case_file_schema(), indent=2, ensure_ascii=False) + "\n"
+
+
 def main() -> int:
-    """Write the page, or compare it."""
-    text = page()
-    if "--check" not in sys.argv[1:]:
-        PAGE.write_text(text, encoding="utf-8")
-        return 0
-    if PAGE.read_text(encoding="utf-8") == text:
-        return 0
-    print(f"{PAGE} is out of date: run python docs/make_case_file_reference.py", file=sys.stderr)
-    return 1
+    """Write the files, or compare them."""
+    outdated = False
+    for file, text in ((PAGE, page()), (SCHEMA, schema())):
+        if "--check" not in sys.argv[1:]:
+            file.write_text(text, encoding="utf-8")
+        elif not file.exists() or file.read_text(encoding="utf-8") != text:
+            outdated = True
+            print(
+                f"{file} is out of date: run python docs/make_case_file_reference.py",
+                file=sys.stderr,
+            )
+    return int(outdated)
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ from pydantic import (
     ValidationError,
     model_validator,
 )
+from pydantic.fields import FieldInfo
 
 from carom.messages import input_error, known, problem
 
@@ -107,10 +108,9 @@ class Description(BaseModel):
         """Yield what has one entry per space dimension here and below, with its dotted path."""
         for name, field in type(self).model_fields.items():
             key, value = f"{path}{name}", getattr(self, name)
-            asked = [*field.metadata, *_metadata(field.annotation)]
             if isinstance(value, Description):
                 yield from value.vectors(f"{key}.")
-            elif isinstance(value, tuple) and any(isinstance(a, PerDimension) for a in asked):
+            elif isinstance(value, tuple) and PER_DIMENSION in asked_of(field):
                 yield key, value
             elif isinstance(value, tuple):
                 for index, entry in enumerate(value):
@@ -118,7 +118,7 @@ class Description(BaseModel):
                         yield from entry.vectors(f"{key}.{index}.")
 
 
-def _metadata(annotation: object) -> Iterator[object]:
-    """Yield what is asked of a value, or of one member of a union."""
-    for part in get_args(annotation):
-        yield from getattr(part, "__metadata__", ())
+def asked_of(field: FieldInfo) -> list[object]:
+    """Return what is asked of the value of a field, or of one member of its union."""
+    members = get_args(field.annotation)
+    return [*field.metadata, *(a for part in members for a in getattr(part, "__metadata__", ()))]

@@ -1,4 +1,4 @@
-"""The command line: ``carom run``, ``check``, ``audit``, ``plot``, ``view`` and ``friction``."""
+"""The command line ``carom``: one module per command."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from carom.cli.check import check
 from carom.cli.friction import app as friction
 from carom.cli.plot import plot
 from carom.cli.run import run
+from carom.cli.schema import schema
 from carom.cli.view import view
 
 app = typer.Typer(
@@ -25,6 +26,7 @@ app.command()(check)
 app.command()(audit)
 app.command()(plot)
 app.command()(view)
+app.command()(schema)
 app.add_typer(friction, name="friction")
 
 
