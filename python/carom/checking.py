@@ -86,7 +86,7 @@ def _warnings(scenario: Scenario, description: dict[str, Any]) -> list[str]:
     warnings = []
     step, end = scenario.analysis.time_step, scenario.analysis.end_time
     suggested = description["suggested_time_step"]
-    if step > COARSE_STEP * suggested:
+    if scenario.analysis.kind == "dynamic" and step > COARSE_STEP * suggested:
         warnings.append(
             f"analysis.time_step = {step:g} s is {step / suggested:.3g} times the suggested "
             f"{suggested:.3g} s: waves will not be resolved"

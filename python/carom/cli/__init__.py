@@ -10,6 +10,7 @@ from carom import __version__
 from carom.cli.audit import audit
 from carom.cli.check import check
 from carom.cli.friction import app as friction
+from carom.cli.new import new
 from carom.cli.plot import plot
 from carom.cli.run import run
 from carom.cli.schema import schema
@@ -18,9 +19,9 @@ from carom.cli.view import view
 app = typer.Typer(
     help="Frictional impact of deformable bodies, every joule accounted for.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
 )
+app.command()(new)
 app.command()(run)
 app.command()(check)
 app.command()(audit)

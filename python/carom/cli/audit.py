@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -10,6 +9,7 @@ from rich.console import Console
 
 from carom.audit import Audit
 from carom.audit import audit as check_results
+from carom.cli.case import ResultsDirectory
 from carom.cli.failures import failures
 from carom.cli.plain import json_text
 
@@ -19,9 +19,7 @@ REFUTED = 1
 
 def audit(
     *,
-    directory: Annotated[
-        Path, typer.Argument(help="Results directory of `carom run`.", metavar="DIR")
-    ],
+    directory: ResultsDirectory,
     as_json: Annotated[bool, typer.Option("--json", help="Print all figures as JSON.")] = False,
 ) -> None:
     """Check finished results by code that shares nothing with the solver."""

@@ -1,4 +1,4 @@
-"""What the commands that take a case file have in common."""
+"""What commands have in common that take a case file or results."""
 
 from __future__ import annotations
 
@@ -7,10 +7,23 @@ from typing import Annotated
 
 import typer
 
+from carom.cli import complete
 from carom.errors import naming
 from carom.scenario import Scenario
 
-CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML).", metavar="CASE")]
+CaseFile = Annotated[
+    Path,
+    typer.Argument(help="Case file (TOML).", metavar="CASE", autocompletion=complete.case_files),
+]
+
+ResultsDirectory = Annotated[
+    Path,
+    typer.Argument(
+        help="Results directory of `carom run`.",
+        metavar="DIR",
+        autocompletion=complete.results,
+    ),
+]
 
 Overrides = Annotated[
     list[str] | None,

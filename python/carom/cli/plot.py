@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated
-
 import typer
 
+from carom.cli.case import ResultsDirectory
 from carom.cli.failures import failures
 from carom.plot import draw
 from carom.result import Result
 
 
 def plot(
-    directory: Annotated[
-        Path, typer.Argument(help="Results directory of `carom run`.", metavar="DIR")
-    ],
+    directory: ResultsDirectory,
 ) -> None:
     """Draw energies and tracked points of finished results again."""
     with failures(directory):

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from carom.cli.case import ResultsDirectory
 from carom.cli.failures import failures
 from carom.io import layout
 from carom.io.frames import Frames
@@ -15,9 +16,7 @@ from carom.view import View, animate, screenshot, show, shown
 
 
 def view(
-    directory: Annotated[
-        Path, typer.Argument(help="Results directory of `carom run`.", metavar="DIR")
-    ],
+    directory: ResultsDirectory,
     *,
     field: Annotated[
         str | None,

@@ -16,6 +16,21 @@ _FLAT = 1e-9
 """Largest difference of z in a plane mesh, relative to its size."""
 
 
+def body_dimension(file: str | Path, *, key: str) -> int:
+    """Return the dimension of the case that a mesh file is for: that of its cells, 2 or 3.
+
+    Raises
+    ------
+    MeshError
+        The file cannot be read.
+    """
+    try:
+        mesh = read_file(Path(file), 3)
+    except Refused as refused:
+        raise refused.at(key, str(file)) from None
+    return max((dimension(kind) for kind, nodes in mesh.blocks if len(nodes)), default=2)
+
+
 def read_body_mesh(
     file: str | Path, *, body: str | None, scale: float, space: int, key: str
 ) -> MeshArrays:
