@@ -22,6 +22,7 @@ mod books;
 mod build;
 mod condense;
 mod condition;
+mod convergence;
 mod cross_check;
 mod describe;
 mod drive;
