@@ -41,6 +41,18 @@ pub enum StepError {
         /// What would have been small enough [m].
         wanted: f64,
     },
+    /// Iterations went further away than the step could have gone.
+    #[error(
+        "Newton's iterations went astray: correction {iterations} is {correction:.3e} m, where the step set out with {reach:.3e} m"
+    )]
+    Astray {
+        /// Iterations made.
+        iterations: usize,
+        /// Largest displacement in the last correction [m].
+        correction: f64,
+        /// The larger of the first correction and of the motion in the step [m].
+        reach: f64,
+    },
     /// The friction solver did not reach its tolerance.
     #[error("the contact problem of {contacts} contacts ended as {} after {} iterations at a residual of {:.3e}", report.status.name(), report.iterations, report.measure.natural_residual)]
     Friction {

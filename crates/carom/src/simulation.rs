@@ -8,15 +8,16 @@ use crate::build::{Meshes, build};
 use crate::cross_check::CrossCheckSummary;
 use crate::describe::{Description, describe};
 use crate::error::{InputError, RunError};
-use crate::events::{ContactEvent, EventLog};
-use crate::history::{History, Track};
+use crate::events::EventLog;
+use crate::history::History;
 use crate::ledger_table::LedgerTable;
-use crate::model::Group;
-use crate::scenario::{Scenario, TrackEntry};
+use crate::scenario::Scenario;
 use crate::step_control::advance_nominal_step;
 use crate::surface_fields::{SurfaceFields, surface_fields};
+use crate::totals::Totals;
+use crate::tracked::tracks;
 use crate::workspace::{PosedProblem, Workspace};
-use crate::{BodyLedger, Books, Energies, Ledger, Method, Model, PairLedger, State};
+use crate::{Books, Energies, Ledger, Method, Model, State};
 
 /// How [`Simulation::advance`] ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,29 +33,29 @@ const MAX_STEPS: f64 = 1e10;
 
 /// A run: the model, its state, and the books.
 pub struct Simulation<const D: usize> {
-    model: Model<D>,
-    method: Method<D>,
-    state: State<D>,
-    spare: State<D>,
-    work: Workspace<D>,
-    description: Description,
-    time_step: f64,
-    end_time: f64,
-    steps: u64,
-    step: u64,
+    pub(crate) model: Model<D>,
+    pub(crate) method: Method<D>,
+    pub(crate) state: State<D>,
+    pub(crate) spare: State<D>,
+    pub(crate) work: Workspace<D>,
+    pub(crate) description: Description,
+    pub(crate) time_step: f64,
+    pub(crate) end_time: f64,
+    pub(crate) steps: u64,
+    pub(crate) step: u64,
     /// How often the steps of a static analysis are halved at present.
-    halvings: u32,
-    history_every: f64,
-    history_rows: u64,
-    last_recorded: Option<f64>,
-    history: History<D>,
-    events: EventLog,
-    initial_energies: Vec<Energies>,
-    books: Books,
-    ledger_table: LedgerTable,
-    totals: Totals,
-    cross_checks: CrossCheckSummary,
-    last_step: Option<Ledger>,
+    pub(crate) halvings: u32,
+    pub(crate) history_every: f64,
+    pub(crate) history_rows: u64,
+    pub(crate) last_recorded: Option<f64>,
+    pub(crate) history: History<D>,
+    pub(crate) events: EventLog,
+    pub(crate) initial_energies: Vec<Energies>,
+    pub(crate) books: Books,
+    pub(crate) ledger_table: LedgerTable,
+    pub(crate) totals: Totals,
+    pub(crate) cross_checks: CrossCheckSummary,
+    pub(crate) last_step: Option<Ledger>,
 }
 
 /// A step as its two states.
@@ -68,24 +69,6 @@ pub struct StepPair<'a, const D: usize> {
     pub blend: &'a [f64],
     /// What the step says of the energy.
     pub ledger: Ledger,
-}
-
-/// Extremes and counts over the run.
-#[derive(Debug, Clone, Copy)]
-struct Totals {
-    newton_iterations: u64,
-    retried: u64,
-    contacts: usize,
-    max_drift: f64,
-    max_defect: f64,
-    max_step_defect: f64,
-    /// Largest energy that was there or went into friction: what the certificate is measured by.
-    max_energy: f64,
-    max_certificate: f64,
-    max_residual: f64,
-    max_blend: f64,
-    least_friction: f64,
-    min_gap: f64,
 }
 
 /// A quick look at a run.
@@ -105,122 +88,6 @@ pub struct Progress {
     pub friction: f64,
     /// Kinetic plus strain energy [J].
     pub total: f64,
-}
-
-/// Energies of a run [J].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct EnergySummary {
-    /// Total at the start.
-    pub initial: f64,
-    /// Total now.
-    #[serde(rename = "final")]
-    pub last: f64,
-    /// Kinetic energy now.
-    pub kinetic: f64,
-    /// Strain energy now.
-    pub strain: f64,
-    /// Dissipated by friction.
-    pub friction: f64,
-    /// Dissipated by damping and viscosity.
-    pub viscous: f64,
-    /// Plastic work.
-    pub plastic: f64,
-    /// Dissipated by the time scheme.
-    pub scheme: f64,
-    /// Taken by normal reactions.
-    pub normal_contact: f64,
-    /// Work of obstacles that move.
-    pub prescribed: f64,
-    /// Work of gravity and loads.
-    pub external: f64,
-    /// Largest |E(t) − E(0)|.
-    pub max_drift: f64,
-    /// Largest |defect| of the ledger.
-    pub max_defect: f64,
-    /// Largest |defect| of a single step.
-    pub max_step_defect: f64,
-}
-
-/// How far the run was from Coulomb's law.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct CertificateSummary {
-    /// Largest Σ of bi-potential gaps of a step [J].
-    pub max_joule: f64,
-    /// Largest residual of the contact laws.
-    pub max_residual: f64,
-    /// The largest Σ that a completed run may have [J]: the tolerance of the method times the largest energy of the run.
-    pub tolerance_joule: f64,
-}
-
-/// The books of a body at the end.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct BodySummary {
-    /// Name.
-    pub name: String,
-    /// What happened to its energy.
-    #[serde(flatten)]
-    pub ledger: BodyLedger,
-    /// What its terms do not explain [J].
-    pub defect: f64,
-}
-
-impl BodySummary {
-    fn new(name: &str, ledger: &BodyLedger) -> Self {
-        Self { name: name.to_string(), ledger: *ledger, defect: ledger.defect() }
-    }
-}
-
-/// The books of a pair at the end.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PairSummary {
-    /// The two names.
-    pub between: [String; 2],
-    /// What it did to the energy.
-    #[serde(flatten)]
-    pub ledger: PairLedger,
-}
-
-impl PairSummary {
-    fn new(group: &Group, ledger: &PairLedger) -> Self {
-        Self { between: group.between.clone(), ledger: *ledger }
-    }
-}
-
-/// The native part of summary.json.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Summary {
-    /// Nominal steps done.
-    pub steps: u64,
-    /// Unknown displacements.
-    pub dofs: usize,
-    /// Time reached [s].
-    pub end_time: f64,
-    /// Length of a nominal step [s].
-    pub time_step: f64,
-    /// Newton iterations.
-    pub newton_iterations: u64,
-    /// Factorisations of iteration matrices.
-    pub factorisations: u64,
-    /// Steps or substeps that failed and were halved.
-    pub retried_steps: u64,
-    /// Energies.
-    pub energy: EnergySummary,
-    /// Distance from Coulomb's law.
-    pub certificate: CertificateSummary,
-    /// The books of every body.
-    pub bodies: Vec<BodySummary>,
-    /// The books of every pair that may touch.
-    pub pairs: Vec<PairSummary>,
-    /// Largest blend |α| of start and end stresses; 0 unless massless contacts conserve.
-    pub max_blend: f64,
-    /// Smallest dissipation by friction of a contact in a step [J]; never negative by more than round-off.
-    pub least_friction: f64,
-    /// Smallest gap seen [m].
-    pub min_gap: f64,
-    /// What a second solver said of the contact problems, if it was asked.
-    pub cross_check: Option<CrossCheckSummary>,
-    /// Contact events.
-    pub contacts: Vec<ContactEvent>,
 }
 
 /// Fields of a state, node by node and cell by cell.
@@ -251,10 +118,7 @@ impl<const D: usize> Simulation<D> {
     /// If the scenario cannot be run; see [`build`].
     pub fn with_meshes(scenario: &Scenario, meshes: Meshes<D>) -> Result<Self, InputError> {
         let (model, method, state) = build(scenario, meshes)?;
-        let mut tracks = Vec::new();
-        for (i, entry) in scenario.output.track.iter().enumerate() {
-            tracks.push(track(&model, i, entry)?);
-        }
+        let tracks = tracks(&model, &scenario.output.track)?;
         let (dt, end) = (scenario.analysis.time_step, scenario.analysis.end_time);
         for (key, every) in [
             ("output.history_every", scenario.output.history_every),
@@ -288,20 +152,7 @@ impl<const D: usize> Simulation<D> {
             initial_energies: state.body_energies.clone(),
             books: Books::new(model.bodies.len(), model.groups.len()),
             ledger_table: LedgerTable::default(),
-            totals: Totals {
-                newton_iterations: 0,
-                retried: 0,
-                contacts: 0,
-                max_drift: 0.0,
-                max_defect: 0.0,
-                max_step_defect: 0.0,
-                max_energy: state.energies.total(),
-                max_certificate: 0.0,
-                max_residual: 0.0,
-                max_blend: 0.0,
-                least_friction: 0.0,
-                min_gap: f64::INFINITY,
-            },
+            totals: Totals::new(&state.energies),
             cross_checks: CrossCheckSummary::default(),
             last_step: None,
             model,
@@ -311,39 +162,6 @@ impl<const D: usize> Simulation<D> {
         };
         simulation.record();
         Ok(simulation)
-    }
-}
-
-/// The node of a body nearest to a tracked point.
-fn track<const D: usize>(model: &Model<D>, index: usize, entry: &TrackEntry) -> Result<Track, InputError> {
-    let key = format!("output.track.{index}");
-    let body = model.bodies.iter().find(|b| b.name == entry.body).ok_or_else(|| {
-        let known: Vec<&str> = model.bodies.iter().map(|b| b.name.as_str()).collect();
-        InputError::new(
-            format!("{key}.body"),
-            format!("there is no body {:?}; known are {known:?}", entry.body),
-        )
-    })?;
-    if entry.point.len() != D || !entry.point.iter().all(|x| x.is_finite()) {
-        return Err(InputError::new(
-            format!("{key}.point"),
-            format!("{:?} must be {D} finite numbers", entry.point),
-        ));
-    }
-    let point = Vector::from_column_slice(&entry.point);
-    let distance = |n: &usize| (model.reference[*n] - point).norm();
-    let nearest = body.nodes().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    match nearest {
-        Some(node) if distance(&node) <= 0.25 * body.body.mesh().diameter() => {
-            Ok(Track { name: entry.name.clone(), node })
-        }
-        _ => Err(InputError::new(
-            format!("{key}.point"),
-            format!(
-                "{:?} is far from body {:?}; give a point of it in the reference configuration",
-                entry.point, entry.body
-            ),
-        )),
     }
 }
 
@@ -496,17 +314,7 @@ impl<const D: usize> Simulation<D> {
                 history.observe(report, state, state.time - previous_time);
                 report.cross_check.iter().for_each(|check| cross_checks.note(check, state.time));
                 previous_time = state.time;
-                totals.newton_iterations += report.newton_iterations as u64;
-                totals.contacts = report.contacts;
-                totals.max_drift = totals.max_drift.max((state.energies.total() - initial).abs());
-                totals.max_defect = totals.max_defect.max(books.total.defect().abs());
-                totals.max_step_defect = totals.max_step_defect.max(report.ledger.defect().abs());
-                totals.max_energy = totals.max_energy.max(state.energies.total() + books.total.friction);
-                totals.max_certificate = totals.max_certificate.max(report.certificate);
-                totals.max_residual = totals.max_residual.max(report.residual);
-                totals.max_blend = totals.max_blend.max(report.blend);
-                totals.least_friction = totals.least_friction.min(report.least_friction);
-                totals.min_gap = totals.min_gap.min(report.min_gap);
+                totals.note(report, &state.energies, books, initial);
             },
         );
         self.totals.retried += failed;
@@ -588,61 +396,6 @@ impl<const D: usize> Simulation<D> {
                 .zip(&s.history)
                 .flat_map(|(b, history)| b.body.after(history).cell_states(&s.displacement[b.nodes()]))
                 .collect(),
-        }
-    }
-
-    /// The summary so far.
-    #[must_use]
-    pub fn summary(&self) -> Summary {
-        let (e, t, l) = (self.state.energies, &self.totals, &self.books.total);
-        Summary {
-            steps: self.step,
-            dofs: self.model.dofs(),
-            end_time: self.state.time,
-            time_step: self.time_step,
-            newton_iterations: t.newton_iterations,
-            factorisations: self.work.factorisations,
-            retried_steps: t.retried,
-            energy: EnergySummary {
-                initial: self.initial_energies.iter().map(Energies::total).sum(),
-                last: e.total(),
-                kinetic: e.kinetic,
-                strain: e.strain,
-                friction: l.friction,
-                viscous: l.viscous,
-                plastic: l.plastic,
-                scheme: l.scheme,
-                normal_contact: l.normal_contact,
-                prescribed: l.prescribed,
-                external: l.external,
-                max_drift: t.max_drift,
-                max_defect: t.max_defect,
-                max_step_defect: t.max_step_defect,
-            },
-            certificate: CertificateSummary {
-                max_joule: t.max_certificate,
-                max_residual: t.max_residual,
-                tolerance_joule: self.method.certificate_tolerance * t.max_energy,
-            },
-            bodies: self
-                .model
-                .bodies
-                .iter()
-                .zip(&self.books.bodies)
-                .map(|(b, l)| BodySummary::new(&b.name, l))
-                .collect(),
-            pairs: self
-                .model
-                .groups
-                .iter()
-                .zip(&self.books.pairs)
-                .map(|(g, l)| PairSummary::new(g, l))
-                .collect(),
-            max_blend: t.max_blend,
-            least_friction: t.least_friction,
-            min_gap: t.min_gap,
-            cross_check: self.method.cross_check.then(|| self.cross_checks.clone()),
-            contacts: self.events.events(self.state.time),
         }
     }
 }

@@ -6,6 +6,7 @@ use carom_mesh::{Vector, tensor};
 use crate::acceleration::accelerate;
 use crate::body_step::{BodyStep, Pose, predicted_motion};
 use crate::books::commit;
+use crate::convergence::{BodyProgress, Convergence};
 use crate::cross_check::cross_check;
 use crate::drive::{load_body, prescribe};
 use crate::error::StepError;
@@ -13,30 +14,15 @@ use crate::linearise::BodyOperator;
 use crate::react::{evaluate_contacts, measure_rubbing, prepare_contacts, react};
 use crate::search::{missed_a_contact, search, select_active};
 use crate::state::{State, largest};
-use crate::workspace::{BodyProgress, StepReport, Workspace};
+use crate::workspace::{StepReport, Workspace};
 use crate::{Method, Model, StepMap};
 
 /// Margin of the contact search, in largest predicted motions of a node in the step.
 const SEARCH_MARGIN: f64 = 2.0;
 /// How often a step is repeated with a wider search where a node came into contact unforeseen.
 const MAX_SEARCHES: usize = 4;
-/// A factor is renewed within a step when iterations converge slower than this, from iteration `PATIENCE` on. Elastic bodies get over
-/// what makes them slow, and a factor made there would be a worse one afterwards.
-const SLOW_CONTRACTION: f64 = 0.3;
-/// See `SLOW_CONTRACTION`.
-const PATIENCE: usize = 12;
-/// A correction is the last one where this times its contraction would leave less than what is wanted. The contraction is that of
-/// accelerated iterations, and the last correction stands as it is. Measured: with 10 the energy of conserving runs drifts three times as far.
-const SAFETY: f64 = 30.0;
-/// The same in a static analysis, whose errors do not add up: every load step is a solution of its own.
-const STATIC_SAFETY: f64 = 10.0;
-/// As `PATIENCE`, in a static analysis, whose steps are long and few, and where plastic flow makes another body of one.
-const CHANGED_PATIENCE: usize = 3;
 /// The least margin of the contact search in a static analysis, where no velocity foretells the motion, in sizes of the model.
 const STATIC_MARGIN: f64 = 1e-3;
-/// A loose body whose corrections shrink no faster than this is driven away by forces that nothing resists.
-const NO_CONTRACTION: f64 = 0.95;
-
 /// Takes `state` one step of length `dt` [s] further and writes the result to `next`.
 ///
 /// # Errors
@@ -137,8 +123,8 @@ fn iterate<const D: usize>(
     for ((u1, u0), d) in next.displacement.iter_mut().zip(&state.displacement).zip(&work.motion) {
         *u1 = u0 + d;
     }
+    let mut convergence = Convergence::new(model, method, state, map);
     let mut renewed = false;
-    let safety = if map.is_static() { STATIC_SAFETY } else { SAFETY };
     for iteration in 1.. {
         // The bodies in contact settle together; while others still move, these keep their reactions.
         let kept = work.progress.iter().zip(&work.touched).any(|(p, &touched)| touched && p.settled);
@@ -152,26 +138,12 @@ fn iterate<const D: usize>(
         if reacts {
             react(model, method, state, map, work)?;
         }
-        let motion = correct(model, state, next, work)?;
-        if map.is_static() && motion > model.size {
-            return Err(not_held(model, work).unwrap_or(StepError::NotFinite("displacement")));
-        }
-        if settle(work, safety, method.newton.tolerance, model.round_off()) {
+        correct(model, state, next, work)?;
+        if convergence.settle(iteration, model, work)? {
             return Ok(iteration);
         }
         accelerate(model, state, next, iteration == 1, work);
-        let slowest = work.progress.iter().filter(|p| !p.settled);
-        if iteration >= method.newton.max_iterations {
-            if let (true, Some(error)) = (map.is_static(), not_held(model, work)) {
-                return Err(error);
-            }
-            let correction = slowest.map(|p| p.correction).fold(0.0, f64::max);
-            let wanted = (method.newton.tolerance * motion).max(model.round_off());
-            return Err(StepError::Newton { iterations: iteration, correction, wanted });
-        }
-        let changed = map.is_static() || state.history.iter().any(|history| !history.is_empty());
-        let patience = if changed { CHANGED_PATIENCE } else { PATIENCE };
-        if iteration >= patience && slowest.map(|p| p.contraction).fold(0.0, f64::max) > SLOW_CONTRACTION {
+        if convergence.is_slow(iteration, &work.progress) {
             // A fresh factor that is no better may lack digits.
             let precision = if renewed { Precision::Double } else { method.precision() };
             refactorize(model, state, next, map, precision, work)?;
@@ -179,31 +151,6 @@ fn iterate<const D: usize>(
         }
     }
     unreachable!("the loop ends at max_iterations")
-}
-
-/// Says which loose body nothing holds, if its corrections are the largest and do not shrink.
-fn not_held<const D: usize>(model: &Model<D>, work: &Workspace<D>) -> Option<StepError> {
-    let bodies = model.bodies.iter().zip(&work.operators).zip(&work.progress);
-    bodies
-        .filter(|((_, operator), p)| operator.is_loose() && !p.settled && p.contraction > NO_CONTRACTION)
-        .max_by(|(_, a), (_, b)| a.correction.total_cmp(&b.correction))
-        .map(|((b, _), _)| StepError::NotHeld { body: b.name.clone() })
-}
-
-/// Marks the bodies that have converged and says whether all have: relative to their own motion, down to `round_off` [m]. Bodies in
-/// contact depend on one another and settle together.
-fn settle<const D: usize>(work: &mut Workspace<D>, safety: f64, tolerance: f64, round_off: f64) -> bool {
-    // A correction this small, or one after which the next will surely be.
-    let converged = |p: &BodyProgress, motion: f64| {
-        p.correction * (safety * p.contraction).min(1.0) <= (tolerance * motion).max(round_off)
-    };
-    let touched = || work.progress.iter().zip(&work.touched).filter(|&(_, &touched)| touched).map(|(p, _)| p);
-    let motion = touched().map(|p| p.motion).fold(0.0, f64::max);
-    let contact_converged = touched().all(|p| p.settled || converged(p, motion));
-    for (p, &touched) in work.progress.iter_mut().zip(&work.touched) {
-        p.settled |= if touched { contact_converged } else { converged(p, p.motion) };
-    }
-    work.progress.iter().all(|p| p.settled)
 }
 
 /// Residuals without reactions of the bodies that still move.
@@ -271,14 +218,13 @@ fn blend<const D: usize>(
     work.blend.weigh(&work.rubbing, &state.excess, state.energies.total());
 }
 
-/// Ends the solves and applies the corrections; returns the largest motion of a node in the step so far [m].
+/// Ends the solves and applies the corrections.
 fn correct<const D: usize>(
     model: &Model<D>,
     state: &State<D>,
     next: &mut State<D>,
     work: &mut Workspace<D>,
-) -> Result<f64, StepError> {
-    let mut motion: f64 = 0.0;
+) -> Result<(), StepError> {
     for (i, b) in model.bodies.iter().enumerate() {
         if work.progress[i].settled {
             continue;
@@ -298,9 +244,8 @@ fn correct<const D: usize>(
         }
         let moved = largest(&work.motion[b.nodes()]);
         work.progress[i].note(size, moved);
-        motion = motion.max(moved);
     }
-    Ok(motion)
+    Ok(())
 }
 
 /// Renews the factors of the bodies that still move, at the present guess.

@@ -8,6 +8,7 @@ use crate::acceleration::Acceleration;
 use crate::blend::{Blend, Rubbing};
 use crate::body_step::{Pose, ResidualScratch};
 use crate::condense::Compliance;
+use crate::convergence::BodyProgress;
 use crate::cross_check::CrossCheck;
 use crate::drive::BodyDrive;
 use crate::error::StepError;
@@ -22,35 +23,6 @@ pub struct GroupReport {
     pub normal_force: f64,
     /// What happened to the energy.
     pub ledger: PairLedger,
-}
-
-/// How the iterations of one body go within a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct BodyProgress {
-    /// Largest component of the last correction [m].
-    pub correction: f64,
-    /// Its ratio to the one before; 1 while there is none.
-    pub contraction: f64,
-    /// Largest component of the motion that the iterations started with [m].
-    predicted: f64,
-    /// The larger of that and of the motion in the step so far [m].
-    pub motion: f64,
-    /// Whether the body needs no further iterations in this step.
-    pub settled: bool,
-}
-
-impl BodyProgress {
-    /// At the start of the iterations, with the largest component of the `predicted` motion [m].
-    pub fn new(predicted: f64) -> Self {
-        Self { predicted, motion: predicted, correction: f64::INFINITY, contraction: 1.0, settled: false }
-    }
-
-    /// Takes note of a new correction and of the motion that it leads to.
-    pub fn note(&mut self, correction: f64, motion: f64) {
-        self.contraction = if self.correction.is_finite() { correction / self.correction } else { 1.0 };
-        self.correction = correction;
-        self.motion = self.predicted.max(motion);
-    }
 }
 
 /// Scratch of a step: factors, tables and vectors. It holds no result and may be dropped at any moment.
