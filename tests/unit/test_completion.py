@@ -9,32 +9,32 @@ from carom.cli import complete
 @pytest.fixture
 def folder(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
-    for name in ("ball.toml", "bar.toml", "bar.msh", ".hidden.toml"):
+    for name in ("part.toml", "part2.toml", "part.msh", ".hidden.toml"):
         (tmp_path / name).touch()
-    (tmp_path / "basket").mkdir()
-    (tmp_path / "basket" / "case.toml").touch()
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / "case.toml").touch()
     return tmp_path
 
 
 def test_case_files_and_directories(folder):
-    assert list(complete.case_files("./ba")) == ["ball.toml", "bar.toml", "basket/"]
-    assert list(complete.case_files("basket/")) == ["basket/case.toml"]
-    assert list(complete.case_files(f"{folder}/bar")) == [f"{folder}/bar.toml"]
+    assert list(complete.case_files("part")) == ["part.toml", "part2.toml", "parts/"]
+    assert list(complete.case_files("parts/")) == ["parts/case.toml"]
+    assert list(complete.case_files(f"{folder}/part2")) == [f"{folder}/part2.toml"]
     assert list(complete.case_files(".h")) == [".hidden.toml"]
     assert list(complete.case_files("absent/")) == []
 
 
 def test_results_are_directories_with_a_case(folder):
-    (folder / "barn").mkdir()
-    assert list(complete.results("./ba")) == ["barn/", "basket"]
+    (folder / "partial").mkdir()
+    assert list(complete.results("part")) == ["partial/", "parts"]
 
 
 @pytest.mark.parametrize(
     ("words", "offered"),
     [
         ("carom new d", ["drop-test"]),
-        ("carom run ball", ["ball.toml"]),
-        ("carom plot bas", ["basket"]),
+        ("carom run part.", ["part.toml"]),
+        ("carom plot parts", ["parts"]),
         ("carom new mesh-file --unit m", ["m", "mm"]),
     ],
 )
