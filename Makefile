@@ -5,7 +5,7 @@
 # make validate  long validations; rewrites docs/validation.md
 
 PYTHON ?= python3
-PYTHON_SOURCES := python tests examples benchmarks docs
+PYTHON_SOURCES := python tests examples benchmarks docs tools
 VENV := .venv
 BIN := $(VENV)/bin
 SOURCES := $(shell find crates python -name '*.rs' -o -name '*.py' -o -name '*.pyi' -o -name 'Cargo.toml') \
@@ -28,6 +28,7 @@ check: $(VENV)/installed-dev
 	$(BIN)/ruff check $(PYTHON_SOURCES)
 	$(BIN)/mypy
 	$(BIN)/python docs/make_case_file_reference.py --check
+	$(BIN)/python tools/renew_vendored.py --check
 	$(BIN)/typos
 
 bench:
