@@ -1,4 +1,4 @@
-# make demo    build, install, and run the paper's two cylinders
+# make demo    build, install, run the paper's two cylinders, and report on them
 # make test    every test: Rust, Python, examples
 # make check   format, lints, types, spelling
 # make bench   timings (see benchmarks/README.md)
@@ -14,9 +14,10 @@ SOURCES := $(shell find crates python -name '*.rs' -o -name '*.py' -o -name '*.p
 .PHONY: demo test check bench validate clean
 
 demo: $(VENV)/installed
-	$(BIN)/carom run examples/two_cylinders.toml --out results/two_cylinders
+	$(BIN)/carom run examples/two_cylinders.toml --out results/two_cylinders --set output.report=true
 
 test: $(VENV)/installed-dev
+	$(BIN)/python tools/get_browser.py
 	cargo test --release --locked --workspace --exclude carom-python
 	$(BIN)/pytest
 

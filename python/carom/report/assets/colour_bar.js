@@ -2,7 +2,7 @@
 carom.colourBar = (() => {
   const bar = document.getElementById("colour-bar");
   const context = bar.querySelector("canvas").getContext("2d");
-  const TICKS = 5;
+  const TICKS = matchMedia("(max-width: 760px)").matches ? 3 : 5;
 
   function show(field, limits, map) {
     context.putImageData(new ImageData(new Uint8ClampedArray(map.bytes), 256, 1), 0, 0);
