@@ -57,7 +57,7 @@ _PANELS = (
         "Convergence",
         "",
         (
-            ("newton_iterations", "Newton iterations of the step", "purple"),
+            ("newton_iterations", "Newton iterations per step", "purple"),
             ("contacts", "active contacts", "sky"),
         ),
         steps=True,

@@ -39,9 +39,7 @@ def energy_table(summary: Summary) -> Html | None:
         value = energy.get(name)
         if value is None or (value == 0.0 and name not in _ALWAYS):
             continue
-        bar = element(
-            "meter", min="0", max=repr(largest or 1.0), value=repr(abs(value)), aria_hidden="true"
-        )
+        bar = None if name.startswith("max_") else _bar(abs(value), largest)
         rows.append(
             element(
                 "tr",
@@ -51,6 +49,12 @@ def energy_table(summary: Summary) -> Html | None:
             )
         )
     return element("table", element("tbody", *rows)) if rows else None
+
+
+def _bar(value: float, largest: float) -> Html:
+    return element(
+        "meter", min="0", max=repr(largest or 1.0), value=repr(value), aria_hidden="true"
+    )
 
 
 def contact_table(summary: Summary) -> Html | None:

@@ -56,7 +56,10 @@ carom.makeCharts = (clock, gutter) => {
         legend: { show: false },
         padding: [8, 16, 0, 0],
         scales: { x: { time: false }, y: log ? { distr: 3 } : { range: withRoom } },
-        axes: [{ ...axis, size: 28, space: 70 }, { ...axis, size: gutter, space: log ? 24 : 28 }],
+        axes: [
+          { ...axis, size: 28, space: 70 },
+          { ...axis, size: gutter, space: 28, ...(log ? { splits: decades, filter: (_, ticks) => ticks } : {}) },
+        ],
         series: [
           {},
           ...shown.map((curve) => ({
@@ -153,6 +156,15 @@ carom.makeCharts = (clock, gutter) => {
     if (low === null) return [0, 1];
     const room = 0.06 * (high - low || Math.abs(high) || 1);
     return [low >= 0 && low < 0.3 * high ? 0 : low - room, high + room];
+  }
+
+  // At most five powers of ten.
+  function decades(_, axis, low, high) {
+    const [first, last] = [Math.ceil(Math.log10(low)), Math.floor(Math.log10(high))];
+    const stride = Math.max(1, Math.ceil((last - first + 1) / 5));
+    const powers = [];
+    for (let power = first; power <= last; power += stride) powers.push(Number(`1e${power}`));
+    return powers;
   }
 
   clock.onChange(() => { for (const chart of charts) chart.tell(); });

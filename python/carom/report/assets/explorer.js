@@ -43,7 +43,10 @@ carom.makeExplorer = (data, columns, charts) => {
   if (!books.length) return;
 
   function choose() {
-    options(column, books[group.value].choices.map(({ title }, index) => [index, title]));
+    const { choices } = books[group.value];
+    options(column, choices.map(({ title }, index) => [index, title]));
+    // The energies of the whole run have their curves already.
+    column.value = String(Math.max(0, choices.findIndex(({ title }) => title.startsWith("momentum"))));
     show();
   }
   let shown = 0;

@@ -12,7 +12,8 @@ carom.format = (() => {
     }
     const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
     const power = [...String(Number(exponent))].map((c) => SUPERSCRIPT[c]).join("");
-    return `${String(Number(mantissa)).replace("-", "−")}\u202f×\u202f10${power}`;
+    const factor = Number(mantissa);
+    return factor === 1 ? `10${power}` : `${String(factor).replace("-", "−")}\u202f×\u202f10${power}`;
   }
   function quantity(value, unit, digits) {
     return unit ? `${number(value, digits)}\u202f${unit}` : number(value, digits);
