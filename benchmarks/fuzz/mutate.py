@@ -15,16 +15,48 @@ NUMBERS = (
 
 TEXTS = (
     *("", " ", "x", "all", "é", "\u202e", "a.b", "a/b", "../..", "\\", "nul\u0000", "\n", "{}"),
-    *("t", "1/0", "0/0", "sqrt(-t)", "t^t^t^t", "exp(exp(exp(exp(t))))", "((((", "1 +", "sin", "t t"),
+    *(
+        "t",
+        "1/0",
+        "0/0",
+        "sqrt(-t)",
+        "t^t^t^t",
+        "exp(exp(exp(exp(t))))",
+        "((((",
+        "1 +",
+        "sin",
+        "t t",
+    ),
     *("(" * 5000, "-" * 5000 + "t", "x" * 10_000, "where(t, t)", "min()", "1e999", "step(t)*1e308"),
     *("finer", "gap", "massless", "mortar", "smooth", "faceted", "static", "dynamic", "theta"),
-    *("quad9", "tri6", "hex27", "tet10", "axisymmetric", "plane-stress", "mean-dilatation", "lumped"),
+    *(
+        "quad9",
+        "tri6",
+        "hex27",
+        "tet10",
+        "axisymmetric",
+        "plane-stress",
+        "mean-dilatation",
+        "lumped",
+    ),
     *("disc", "ring", "ball", "tube", "box", "plane", "sphere", "file", "surface"),
     *("neo-hookean", "j2-plasticity", "ogden", "blatz-ko", "yeoh", "uzawa", "admm"),
 )
 
 OTHERS = (
-    *(True, False, [], {}, [[]], [{}], [0, 0], [1, 1, 1], [float("nan")] * 2, ["x", 1], {"kind": 1}),
+    *(
+        True,
+        False,
+        [],
+        {},
+        [[]],
+        [{}],
+        [0, 0],
+        [1, 1, 1],
+        [float("nan")] * 2,
+        ["x", 1],
+        {"kind": 1},
+    ),
     *(datetime.date(2026, 1, 1), datetime.time(12), {"a": {"b": {"c": []}}}, [[[[[[1]]]]]]),
     *({"kind": "disc"}, {"time": [0, 1], "value": [0, 1]}, {"time": [], "value": []}),
 )

@@ -9,6 +9,7 @@ from functools import cached_property
 from pathlib import Path
 
 import tomlkit
+
 from fuzz import seeds
 from fuzz.attempt import build_mesh, run_case, solve_problem
 from fuzz.mutate import spoilt_bytes, spoilt_data
@@ -42,7 +43,7 @@ class CaseTables(Subject):
     def _seeds(self) -> list[dict]:
         return seeds.case_data(self.folder)
 
-    def spoilt(self, seed: int) -> Path:
+    def spoilt(self, seed: int) -> Path:  # noqa: D102 (as the base says)
         pick = random.Random(seed)
         data = deepcopy(pick.choice(self._seeds))
         spoilt_data(data, pick)
@@ -50,7 +51,7 @@ class CaseTables(Subject):
         file.write_text(tomlkit.dumps(data), encoding="utf-8")
         return file
 
-    def answer(self, file: Path) -> str:
+    def answer(self, file: Path) -> str:  # noqa: D102 (as the base says)
         return run_case(file)
 
 
@@ -61,13 +62,13 @@ class CaseText(Subject):
     def _seeds(self) -> list[bytes]:
         return seeds.cases(self.folder)
 
-    def spoilt(self, seed: int) -> Path:
+    def spoilt(self, seed: int) -> Path:  # noqa: D102 (as the base says)
         pick = random.Random(seed)
         file = self.folder / "case.toml"
         file.write_bytes(spoilt_bytes(pick.choice(self._seeds), pick))
         return file
 
-    def answer(self, file: Path) -> str:
+    def answer(self, file: Path) -> str:  # noqa: D102 (as the base says)
         return run_case(file)
 
 
@@ -96,7 +97,7 @@ class Meshes(_Files):
     def _written(self, folder: Path) -> list[Path]:
         return seeds.meshes(folder)
 
-    def answer(self, file: Path) -> str:
+    def answer(self, file: Path) -> str:  # noqa: D102 (as the base says)
         return build_mesh(file)
 
 
@@ -106,7 +107,7 @@ class Problems(_Files):
     def _written(self, folder: Path) -> list[Path]:
         return seeds.problems(folder)
 
-    def answer(self, file: Path) -> str:
+    def answer(self, file: Path) -> str:  # noqa: D102 (as the base says)
         return solve_problem(file)
 
 
