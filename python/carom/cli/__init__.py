@@ -9,6 +9,7 @@ import typer
 from carom import __version__
 from carom.cli.audit import audit
 from carom.cli.check import check
+from carom.cli.doctor import doctor
 from carom.cli.friction import app as friction
 from carom.cli.new import new
 from carom.cli.plot import plot
@@ -25,6 +26,7 @@ app = typer.Typer(
 app.command()(new)
 app.command()(run)
 app.command()(check)
+app.command()(doctor)
 app.command()(audit)
 app.command()(plot)
 app.command()(view)

@@ -70,6 +70,8 @@ def _body(mesh: FileMesh, body: str | None, scale: float, space: int) -> MeshArr
             raise Refused(
                 f"has {count(len(cells), f'{kind} cell')}, which carom does not know; use {taken}"
             )
+        if len(cells) and nodes.shape[1] != len(KINDS[kind].mirror):
+            raise Refused(f"its {kind} cells have {nodes.shape[1]} points; repair the file")
         outside = nodes[(nodes < 0) | (nodes >= len(mesh.points))]
         if outside.size:
             raise Refused(f"a {kind} cell refers to point {outside[0]} of {len(mesh.points)}")

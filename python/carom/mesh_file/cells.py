@@ -83,5 +83,6 @@ def smallest_corner(kind: Kind, points: np.ndarray, nodes: Indices) -> np.ndarra
     corners = []
     for corner, neighbours in enumerate(kind.edges):
         edges = [x[:, n] - x[:, corner] for n in neighbours]
-        corners.append(np.linalg.det(np.stack(edges, axis=1)))
+        with np.errstate(all="ignore"):  # flat cells, and lengths whose product is out of range
+            corners.append(np.linalg.det(np.stack(edges, axis=1)))
     return np.asarray(np.min(corners, axis=0))

@@ -50,10 +50,18 @@ pub struct ExpressionError {
 
 impl fmt::Display for ExpressionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{} at column {}", self.reason, self.position + 1)?;
-        writeln!(f, "    {}", self.text)?;
-        write!(f, "    {:>1$}", '^', self.position + 1)
+        // One line, whatever the text holds.
+        let (reason, text) = (shortened(&self.reason, 100), shortened(&self.text, 60));
+        write!(f, "{reason} at column {} of {text:?}", self.position + 1)
     }
+}
+
+/// The beginning of a text that is longer than `most` characters.
+fn shortened(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        return text.to_string();
+    }
+    text.chars().take(most - 1).chain(['…']).collect()
 }
 
 impl std::error::Error for ExpressionError {}
@@ -222,7 +230,9 @@ mod tests {
             assert!(error.reason.contains(reason), "{text}: {error}");
         }
         let shown = Expression::new("sin(3*t").expect_err("open").to_string();
-        assert_eq!(shown, "expected \")\" at column 8\n    sin(3*t\n           ^");
+        assert_eq!(shown, "expected \")\" at column 8 of \"sin(3*t\"");
+        let long = Expression::new(&format!("t\n+ {}", "x".repeat(1000))).expect_err("x").to_string();
+        assert!(long.len() < 250 && !long.contains('\n'), "{long}");
     }
 
     #[test]

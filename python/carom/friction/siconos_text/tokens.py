@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from carom.errors import InputError
 
-_INTEGER = re.compile(r"[+-]?\d+")
+_INTEGER = re.compile(r"[+-]?\d{1,18}")
+"""Integers that the arrays can hold."""
 
 
 class Tokens:

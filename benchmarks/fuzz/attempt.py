@@ -1,0 +1,117 @@
+"""Handing a file to what the commands do, and judging the answer."""
+
+from __future__ import annotations
+
+import io
+import math
+import traceback
+from collections.abc import Callable
+from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from carom.cli.case import load
+from carom.cli.failures import BAD_INPUT, NOT_CONVERGED, failures
+from carom.errors import naming
+from carom.friction import GlobalProblem, read_record, solve
+from carom.scenario import Scenario
+from carom.simulation import build
+
+LARGE = 3_000
+"""Cells above which a case is checked but not built: time goes to many cases, not to large ones."""
+
+STEPS = 3
+"""Steps that a case that can be built is run for, as far as they take `BUDGET`."""
+
+BUDGET = 0.2
+"""Wall time for them [s]."""
+
+
+class Defect(Exception):  # noqa: N818 (what is looked for)
+    """An answer that no user should get."""
+
+
+def attempt(what: Callable[[Path], str], file: Path) -> str:
+    """Return how a file was answered: what it was taken for, or ``"exit 2"`` and so on.
+
+    Raises
+    ------
+    Defect
+        The answer is not one line and a status of bad input, or of no convergence.
+    """
+    out, err = io.StringIO(), io.StringIO()
+    try:
+        with redirect_stdout(out), redirect_stderr(err), failures(file):
+            return what(file)
+    except typer.Exit as end:
+        said, status = err.getvalue(), end.exit_code
+        if status not in (BAD_INPUT, NOT_CONVERGED):
+            raise Defect(f"exit status {status}: {said}") from end
+        if not (said.startswith("error: ") and said.count("\n") == 1 and said.endswith("\n")):
+            raise Defect(f"not one line: {said!r}") from end
+        if out.getvalue():
+            raise Defect(f"printed: {out.getvalue()!r}") from end
+        return f"exit {status}"
+    except BaseException as error:  # a panic is no Exception
+        if isinstance(error, KeyboardInterrupt):
+            raise
+        raise Defect("".join(traceback.format_exception(error))) from error
+
+
+def run_case(file: Path) -> str:
+    """Read a case; if it is one and small, build it and run some steps."""
+    scenario = load(file, None)
+    if _cells(scenario) > LARGE:
+        return "large"
+    with naming(file):
+        simulation = build(scenario)
+    step = scenario.analysis.time_step
+    simulation.advance(min(STEPS * step, scenario.analysis.end_time), BUDGET)
+    simulation.finish()
+    simulation.summary()
+    return "taken"
+
+
+def _cells(scenario: Scenario) -> int:
+    """Return about how many cells the generated meshes have, more rather than less."""
+    total = 0
+    for body in scenario.bodies:
+        divisions = getattr(body.mesh, "divisions", 0)
+        rings = getattr(body.mesh, "rings", None) or 0
+        layers = getattr(body.mesh, "layers", 1)
+        if isinstance(divisions, tuple):
+            total += math.prod(divisions)
+        else:  # an O-grid
+            power = 3 if body.mesh.kind == "ball" else 2
+            core = divisions**power
+            total += (core + 6 * (rings or divisions) * divisions ** (power - 1)) * layers
+    return total
+
+
+def solve_problem(file: Path) -> str:
+    """Read a contact problem and try to solve it, as ``carom friction solve`` does."""
+    problem = read_record(file).problem
+    options = {"max_iterations": 50, "time_limit": 0.5}
+    solve(problem, **options)
+    return "global" if isinstance(problem, GlobalProblem) else "taken"
+
+
+def build_mesh(file: Path) -> str:
+    """Read a mesh as the body or, if it is a surface, as an obstacle of a case, and build that."""
+    case: dict[str, Any] = {
+        "dimension": 3,
+        "analysis": {"kind": "dynamic", "end_time": 1e-6, "time_step": 1e-6},
+        "materials": {
+            "m": {"kind": "linear-elastic", "young": 1.0, "poisson": 0.3, "density": 1.0}
+        },
+        "bodies": [{"name": "part", "material": "m", "mesh": {"file": str(file)}}],
+    }
+    if file.suffix == ".stl":
+        far = {"kind": "box", "corner": [9.0, 9.0, 9.0], "size": [1.0] * 3, "divisions": [1] * 3}
+        case["bodies"][0]["mesh"] = far
+        case["obstacles"] = [{"name": "surface", "kind": "surface", "file": str(file)}]
+    simulation = build(Scenario.from_dict(case))
+    simulation.advance(1e-6, BUDGET)
+    return "taken"

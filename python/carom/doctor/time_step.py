@@ -1,0 +1,74 @@
+"""The time step: whether waves, impacts and their records are resolved."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from carom.checking import COARSE_STEP, SPLIT
+from carom.doctor.finding import Finding
+from carom.doctor.patient import Patient
+
+FINE_STEP = 0.05
+"""Time step, in suggested ones, below which nothing is gained."""
+
+STEPS_PER_IMPACT = 20.0
+"""Steps that the shortest impact should take."""
+
+ROWS_PER_IMPACT = 5.0
+"""Rows of the history that it should have."""
+
+
+def time_step(patient: Patient) -> Iterator[Finding]:
+    """Compare the step with the time of waves and impacts."""
+    analysis = patient.scenario.analysis
+    step, end = analysis.time_step, analysis.end_time
+    if abs(end / step - round(end / step)) > SPLIT:
+        yield Finding(
+            "advice",
+            "analysis.end_time",
+            f"{end:g} s is not a whole number of steps of {step:g} s: the last step is shorter",
+            f"take end_time = {round(end / step) * step:.6g}",
+        )
+    if not patient.is_dynamic:
+        return
+    yield _waves(patient, step)
+    durations = [patient.contact_duration(i) for i in range(len(patient.scenario.bodies))]
+    shortest = min(durations)
+    name = patient.scenario.bodies[durations.index(shortest)].name
+    fact = (
+        f"the impact of {name} takes about {shortest:.3g} s (a wave through it, there and back): "
+        f"{shortest / step:.3g} steps"
+    )
+    if shortest < STEPS_PER_IMPACT * step:
+        yield Finding(
+            "warning",
+            "analysis.time_step",
+            fact,
+            f"take a time_step of {shortest / STEPS_PER_IMPACT:.2g} s or less to see it",
+        )
+    else:
+        yield Finding("ok", "analysis.time_step", fact)
+    every = patient.scenario.output.resolved(analysis).history_every or end
+    if every > shortest / ROWS_PER_IMPACT:
+        yield Finding(
+            "advice",
+            "output.history_every",
+            f"the history has a row every {every:.3g} s, and an impact takes {shortest:.3g} s",
+            f"take history_every = {max(step, shortest / 50):.2g} to see how forces rise and fall",
+        )
+
+
+def _waves(patient: Patient, step: float) -> Finding:
+    suggested = patient.description["suggested_time_step"]
+    ratio = step / suggested
+    fact = (
+        f"a pressure wave needs {suggested:.3g} s through the shortest edge; the step of {step:g} "
+        f"s is {ratio:.3g} times that"
+    )
+    if ratio > COARSE_STEP:
+        remedy = f"take about {suggested:.2g} s, or larger cells, if waves matter"
+        return Finding("warning", "analysis.time_step", f"{fact}: waves are not resolved", remedy)
+    if ratio < FINE_STEP:
+        remedy = f"take up to {suggested:.2g} s; a shorter step only costs time"
+        return Finding("advice", "analysis.time_step", fact, remedy)
+    return Finding("ok", "analysis.time_step", fact)

@@ -1,0 +1,111 @@
+"""Units: whether magnitudes are those of solids in SI units."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from carom.checking import LARGE, WAVE_SPEEDS
+from carom.doctor.finding import Finding
+from carom.doctor.patient import Patient
+from carom.material import BlatzKo, Material, MooneyRivlin, Ogden, Yeoh
+from carom.mesh import MeshFile
+
+DENSITIES = (10.0, 25e3)
+"""Densities of solids, from foam to osmium [kg/m³]."""
+
+SOLID = (100.0, 2e4)
+"""Wave speeds that most solids have [m/s]."""
+
+MIXES = (
+    ("moduli in MPa and densities in tonne/mm³ (mm, N, tonne)", 1e6, 1e12),
+    ("moduli in MPa", 1e6, 1.0),
+    ("moduli in GPa", 1e9, 1.0),
+    ("densities in g/cm³", 1.0, 1e3),
+    ("moduli in GPa and densities in g/cm³", 1e9, 1e3),
+    ("moduli in kPa", 1e3, 1.0),
+)
+"""Units that are put in by mistake, and what turns moduli and densities into Pa and kg/m³."""
+
+FAST = 0.1
+"""Initial velocity over the wave speed, and so about the strain of an impact, that is a lot."""
+
+STRONG_GRAVITY = 100.0
+"""Gravity above which millimetres are likely [m/s²]."""
+
+
+def units(patient: Patient) -> Iterator[Finding]:
+    """Look at wave speeds, velocities, gravity and sizes."""
+    slowest, fastest = WAVE_SPEEDS
+    bodies = patient.description["bodies"]
+    seen: set[str] = set()
+    for index, (body, built) in enumerate(zip(patient.scenario.bodies, bodies, strict=True)):
+        speed = built["wave_speed"]
+        key = f"materials.{body.material}"
+        if body.material not in seen:
+            seen.add(body.material)
+            material = patient.scenario.materials[body.material]
+            shear = math.sqrt(shear_modulus(material) / material.density)
+            fact = (
+                f"pressure waves run at {speed:.4g} m/s and shear waves at {shear:.4g} m/s in "
+                f"{body.material}"
+            )
+            if slowest <= speed <= fastest:
+                yield Finding("ok", key, fact)
+            else:
+                yield Finding(
+                    "warning",
+                    key,
+                    f"{fact}: no solid between foam and diamond has that",
+                    "give moduli in Pa and the density in kg/m³"
+                    + _likely_mix(speed, material.density),
+                )
+        velocity = math.hypot(*(body.velocity or ()))
+        if patient.is_dynamic and velocity > FAST * speed:
+            yield Finding(
+                "warning",
+                f"bodies.{index}.velocity",
+                f"{body.name} moves at {velocity:.4g} m/s, {velocity / speed:.2g} of its wave "
+                "speed: an impact strains it by about as much",
+                "check the velocity's unit (m/s); a law of small strains does not bear this",
+            )
+        if isinstance(body.mesh, MeshFile) and built["diameter"] > LARGE:
+            yield Finding(
+                "warning",
+                f"bodies.{index}.mesh.scale",
+                f"{body.name} is {built['diameter']:.4g} m large",
+                f"if its file is in millimetres, set scale = {body.mesh.scale * 1e-3:g}",
+            )
+    gravity = math.hypot(*(patient.scenario.analysis.gravity or ()))
+    if gravity > STRONG_GRAVITY:
+        yield Finding(
+            "warning",
+            "analysis.gravity",
+            f"gravity is {gravity:.4g} m/s², that of the Earth is 9.81 m/s²",
+            "give it in m/s², not in mm/s²",
+        )
+
+
+def shear_modulus(material: Material) -> float:
+    """Return the shear modulus of small strains [Pa]."""
+    if isinstance(material, MooneyRivlin):
+        return 2.0 * (material.c10 + material.c01)
+    if isinstance(material, Yeoh):
+        return 2.0 * material.c10
+    if isinstance(material, Ogden):
+        return 0.5 * sum(m * a for m, a in zip(material.mu, material.alpha, strict=True))
+    if isinstance(material, BlatzKo):
+        return material.shear
+    return 0.5 * material.young / (1.0 + material.poisson)
+
+
+def _likely_mix(speed: float, density: float) -> str:
+    """Return which units may have been put in, if any explain speed and density."""
+    low, high = DENSITIES
+    likely = [
+        mix
+        for mix, modulus, mass in MIXES
+        if low <= density * mass <= high
+        and SOLID[0] <= speed * math.sqrt(modulus / mass) <= SOLID[1]
+    ]
+    return f"; these look like {', or '.join(likely)}" if likely else ""
