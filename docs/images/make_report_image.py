@@ -27,9 +27,10 @@ TIME = 5.25
 def main() -> None:
     """Run the case, open its report, and write what is seen beside this script."""
     scenario = carom.Scenario.from_toml(CASE)
+    chromium = found()
     with TemporaryDirectory() as scratch, sync_playwright() as playwright:
         result = carom.run(scenario.with_overrides(OVERRIDES), out=scratch)
-        browser = playwright.chromium.launch(executable_path=found(), args=list(WEBGL))
+        browser = playwright.chromium.launch(executable_path=chromium, args=list(WEBGL))
         page = browser.new_page(viewport={"width": 1440, "height": 900})
         page.goto((result.path / "report.html").resolve().as_uri())
         page.wait_for_selector("html[data-ready]")
