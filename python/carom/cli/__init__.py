@@ -15,6 +15,7 @@ from carom.cli.new import new
 from carom.cli.plot import plot
 from carom.cli.run import run
 from carom.cli.schema import schema
+from carom.cli.sweep import sweep
 from carom.cli.view import view
 
 app = typer.Typer(
@@ -26,6 +27,7 @@ app.command()(new)
 app.command()(run)
 app.command()(check)
 app.command()(doctor)
+app.command()(sweep)
 app.command()(audit)
 app.command()(plot)
 app.command()(view)
