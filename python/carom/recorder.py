@@ -15,6 +15,7 @@ from carom.io.ledger import LedgerWriter
 from carom.io.summary import write_summary
 from carom.io.vtkhdf import SURFACE_CELL_FIELDS, SURFACE_POINT_FIELDS, FieldsWriter
 from carom.plot import draw
+from carom.report import write_report
 from carom.result import Result
 from carom.scenario import Scenario
 
@@ -57,6 +58,7 @@ class Recorder:
             cell_fields=SURFACE_CELL_FIELDS,
         )
         self._audit = AuditWriter(directory / layout.AUDIT) if scenario.output.audit else None
+        self._reports = scenario.output.report
         self._start = perf_counter()
         self._last_frame: float | None = None
 
@@ -96,7 +98,7 @@ class Recorder:
 
     @uninterrupted()
     def close(self, *, status: str, reason: str | None = None) -> Result:
-        """Write the last state, the summary and the plots.
+        """Write the last state, the summary, the plots, and the report if the case wants one.
 
         Parameters
         ----------
@@ -123,4 +125,6 @@ class Recorder:
         write_summary(self._directory / layout.SUMMARY, summary)
         result = Result.open(self._directory)
         draw(result)
+        if self._reports:
+            write_report(self._directory)
         return result

@@ -14,9 +14,13 @@ SURFACE = "surface.vtkhdf"
 LEDGER = "ledger.csv"
 AUDIT = "audit.h5"
 ENERGY_PLOT = "energy.png"
+REPORT = "report.html"
 FAILED_PROBLEM = "failed_contact_problem.hdf5"
 
-_NAMES = (SUMMARY, CASE, HISTORY, LEDGER, FIELDS, SURFACE, AUDIT, ENERGY_PLOT, FAILED_PROBLEM)
+_NAMES = (
+    *(SUMMARY, CASE, HISTORY, LEDGER, FIELDS, SURFACE, AUDIT, ENERGY_PLOT, REPORT),
+    FAILED_PROBLEM,
+)
 
 
 def track_plot(name: str) -> str:
