@@ -31,6 +31,11 @@ impl<const D: usize> Compliance<D> {
         }
     }
 
+    /// The nodes whose blocks belong to the present factor, in the order of their first contact.
+    pub fn nodes_of(&self, operator: &BodyOperator<D>) -> &[u32] {
+        if self.generation == operator.generation { &self.nodes } else { &[] }
+    }
+
     /// Makes sure that the blocks between `nodes` are there and belong to the present factor.
     pub fn prepare(&mut self, operator: &mut BodyOperator<D>, nodes: &[u32]) {
         if self.generation != operator.generation {
