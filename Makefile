@@ -14,7 +14,7 @@ SOURCES := $(shell find crates python -name '*.rs' -o -name '*.py' -o -name '*.p
 .PHONY: demo test check bench validate clean
 
 demo: $(VENV)/installed
-	$(BIN)/carom run examples/two_cylinders.toml --out results/two_cylinders
+	$(BIN)/carom run examples/two_cylinders.toml --out results/two_cylinders --force
 
 test: $(VENV)/installed-dev
 	cargo test --release --locked --workspace --exclude carom-python

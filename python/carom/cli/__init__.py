@@ -16,6 +16,7 @@ from carom.cli.plot import plot
 from carom.cli.run import run
 from carom.cli.schema import schema
 from carom.cli.view import view
+from carom.cli.watch import watch
 
 app = typer.Typer(
     help="Frictional impact of deformable bodies, every joule accounted for.",
@@ -29,6 +30,7 @@ app.command()(doctor)
 app.command()(audit)
 app.command()(plot)
 app.command()(view)
+app.command()(watch)
 app.command()(schema)
 app.add_typer(friction, name="friction")
 

@@ -15,13 +15,60 @@ LEDGER = "ledger.csv"
 AUDIT = "audit.h5"
 ENERGY_PLOT = "energy.png"
 FAILED_PROBLEM = "failed_contact_problem.hdf5"
+PROGRESS = "progress.json"
+"""There while the run goes on, and after it was killed."""
 
-_NAMES = (SUMMARY, CASE, HISTORY, LEDGER, FIELDS, SURFACE, AUDIT, ENERGY_PLOT, FAILED_PROBLEM)
+CHECKPOINT = "checkpoint.h5"
+PREVIOUS_CHECKPOINT = "checkpoint-previous.h5"
+FRESH_CHECKPOINT = "checkpoint-fresh.h5"
+"""A whole one that has not taken the place of the last yet."""
+
+UNFINISHED = ".unfinished"
+"""What ends the name of a file that is being written."""
+
+JOURNAL = ".journal"
+"""What ends the name of a file with a change of another, see `carom.io.journal`."""
+
+CHECKPOINTS = (CHECKPOINT, FRESH_CHECKPOINT, PREVIOUS_CHECKPOINT)
+"""The latest first."""
+
+ENDED = ("completed", "uncertified", "failed")
+"""Statuses of runs that came to an end of their own: there is nothing to go on with."""
+
+_NAMES = (
+    SUMMARY,
+    *CHECKPOINTS,
+    CASE,
+    HISTORY,
+    LEDGER,
+    FIELDS,
+    SURFACE,
+    AUDIT,
+    ENERGY_PLOT,
+    FAILED_PROBLEM,
+)
 
 
 def track_plot(name: str) -> str:
     """Return the file name of the plot of a tracked point."""
     return f"track-{name}.png"
+
+
+def has_results(directory: Path) -> bool:
+    """Return whether a run has left anything in a directory.
+
+    Raises
+    ------
+    InputError
+        The directory is not one of results and has files that a run would overwrite.
+    """
+    present = [name for name in _NAMES if (directory / name).exists()]
+    # A run makes its progress file before any other, so one that was killed early has it.
+    if present and not {HISTORY, FIELDS} <= set(present) and not (directory / PROGRESS).exists():
+        raise InputError(
+            f"{directory}: has a {present[0]} that is not of a carom run; choose another --out"
+        )
+    return bool(present)
 
 
 def clear(directory: Path) -> None:
@@ -30,16 +77,20 @@ def clear(directory: Path) -> None:
     Raises
     ------
     InputError
-        The directory is not one of results and has files that a run would overwrite.
+        See `has_results`.
     """
-    present = [name for name in _NAMES if (directory / name).exists()]
-    if not {HISTORY, FIELDS} <= set(present):
-        if present:
-            raise InputError(
-                f"{directory}: has a {present[0]} that is not of a carom run; choose another --out"
-            )
-        return
-    for name in present:
-        (directory / name).unlink()
+    if has_results(directory):
+        for name in _NAMES:
+            (directory / name).unlink(missing_ok=True)
+            (directory / f"{name}{JOURNAL}").unlink(missing_ok=True)
+        forget_outcome(directory)
+
+
+def forget_outcome(directory: Path) -> None:
+    """Remove what is written at the end of a run, and what was being written when it stopped."""
+    for name in (SUMMARY, ENERGY_PLOT, FAILED_PROBLEM):
+        (directory / name).unlink(missing_ok=True)
+    for name in (*_NAMES, PROGRESS):
+        (directory / f"{name}{UNFINISHED}").unlink(missing_ok=True)
     for plot in directory.glob(track_plot("*")):
         plot.unlink()
