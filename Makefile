@@ -35,6 +35,7 @@ bench:
 
 validate: $(VENV)/installed-dev
 	$(BIN)/python benchmarks/validate.py
+	CAROM_KILLS=500 $(BIN)/pytest tests/unit/test_restart.py -k killed
 
 $(BIN)/python:
 	$(PYTHON) -c 'import sys; sys.exit("carom needs Python 3.10 or later") if sys.version_info < (3, 10) else None'

@@ -1,5 +1,6 @@
 """Runs that are stopped in every way and go on: what they leave is that of a run that never was."""
 
+import copy
 import os
 import random
 import resource
@@ -15,7 +16,7 @@ import carom
 from carom import InputError, StorageError
 from carom.io.checkpoint import DamagedError, read_checkpoint
 from carom.io.journal import changed
-from restarting import assert_same_results, scenario, started
+from restarting import CASE, assert_same_results, scenario, started
 
 KILLS = int(os.environ.get("CAROM_KILLS", "50"))
 """How often the run is killed; `make validate` asks for more."""
@@ -200,6 +201,20 @@ def test_how_often_checkpoints_are_made_may_change(tmp_path):
     directory = stopped(tmp_path)
     result = go_on(directory, "output.checkpoint_every=0.05")
     assert result.summary["status"] == "completed"
+
+
+@pytest.mark.parametrize(("interval", "least", "most"), [(0.0, 10, 75), (600.0, 0, 0)])
+def test_where_the_case_does_not_say_checkpoints_go_by_wall_time(
+    tmp_path, monkeypatch, interval, least, most
+):
+    made = []
+    monkeypatch.setattr("carom.simulation.SLICE", 0.0)
+    monkeypatch.setattr("carom.schedule.WALL_INTERVAL", interval)
+    monkeypatch.setattr("carom.recorder.write_checkpoint", lambda *_: made.append(1))
+    case = copy.deepcopy(CASE)
+    del case["output"]["checkpoint_every"]
+    carom.run(carom.Scenario.from_dict(case), out=tmp_path)
+    assert least <= len(made) <= most
 
 
 def damaged(content, how):
