@@ -1,11 +1,11 @@
-# make demo    build, install, and run the paper's two cylinders
+# make demo    build, install, run the paper's two cylinders, and report on them
 # make test    every test: Rust, Python, examples
 # make check   format, lints, types, spelling
 # make bench   timings (see benchmarks/README.md)
 # make validate  long validations; rewrites docs/validation.md
 
 PYTHON ?= python3
-PYTHON_SOURCES := python tests examples benchmarks docs
+PYTHON_SOURCES := python tests examples benchmarks docs tools
 VENV := .venv
 BIN := $(VENV)/bin
 SOURCES := $(shell find crates python -name '*.rs' -o -name '*.py' -o -name '*.pyi' -o -name 'Cargo.toml') \
@@ -14,9 +14,10 @@ SOURCES := $(shell find crates python -name '*.rs' -o -name '*.py' -o -name '*.p
 .PHONY: demo test check bench validate clean
 
 demo: $(VENV)/installed
-	$(BIN)/carom run examples/two_cylinders.toml --out results/two_cylinders --force
+	$(BIN)/carom run examples/two_cylinders.toml --out results/two_cylinders --set output.report=true --force
 
 test: $(VENV)/installed-dev
+	$(BIN)/python tools/get_browser.py
 	cargo test --release --locked --workspace --exclude carom-python
 	$(BIN)/pytest
 
@@ -28,6 +29,7 @@ check: $(VENV)/installed-dev
 	$(BIN)/ruff check $(PYTHON_SOURCES)
 	$(BIN)/mypy
 	$(BIN)/python docs/make_case_file_reference.py --check
+	$(BIN)/python tools/renew_vendored.py --check
 	$(BIN)/typos
 
 bench:

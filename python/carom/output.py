@@ -54,6 +54,9 @@ class Output(Description):
     audit
         Whether the last step before each frame of fields is kept as its two states, so that
         the audit can check every equation of the step and not only its outcome.
+    report
+        Whether the run ends with ``report.html``, a page with the animated bodies, the energies
+        and all numbers, as `carom report` writes it.
     """
 
     fields_every: Positive | None = None
@@ -62,6 +65,7 @@ class Output(Description):
     merge_contacts: NonNegative = 0.03
     track: tuple[Track, ...] = ()
     audit: Annotated[bool, Field(strict=True)] = False
+    report: Annotated[bool, Field(strict=True)] = False
 
     def resolved(self, analysis: Analysis) -> Self:
         """Return the same with both intervals as numbers, never less than a time step."""

@@ -22,6 +22,7 @@ from carom.io.summary import write_summary
 from carom.io.vtkhdf import SURFACE_CELL_FIELDS, SURFACE_POINT_FIELDS, FieldsWriter
 from carom.plot import draw
 from carom.progress import Progress
+from carom.report import write_report
 from carom.result import Result
 from carom.scenario import Scenario
 
@@ -106,6 +107,7 @@ class Recorder:
         self._steps: int = written.get("steps", 0)
         self._last_frame: float | None = written.get("last_frame")
         self._wall_before: float = written.get("wall", 0.0)
+        self._reports = scenario.output.report
         self._start = perf_counter()
 
     @property
@@ -198,7 +200,7 @@ class Recorder:
 
     @uninterrupted()
     def close(self, *, status: str, reason: str | None = None) -> Result:
-        """Write the last state, the summary and the plots.
+        """Write the last state, the summary, the plots, and the report if the case wants one.
 
         Parameters
         ----------
@@ -223,13 +225,15 @@ class Recorder:
             "wall_s_per_step": wall / max(native["steps"], 1),
         }
         write_summary(self._directory / layout.SUMMARY, summary)
-        return conclude(self._directory)
+        return conclude(self._directory, reports=self._reports)
 
 
-def conclude(directory: Path) -> Result:
+def conclude(directory: Path, *, reports: bool) -> Result:
     """Make what is made of a run with a summary, and remove what it needs no more."""
     result = Result.open(directory)
     draw(result)
+    if reports:
+        write_report(directory)
     if result.summary["status"] in layout.ENDED:
         for name in layout.CHECKPOINTS:
             (directory / name).unlink(missing_ok=True)

@@ -28,9 +28,9 @@ def identity(scenario: Scenario, simulation: Simulation) -> dict[str, Any]:
     """Return what two runs must have in common for one to go on where the other stopped.
 
     Meshes and surfaces out of files count by what is in them, not by where they are. How often
-    checkpoints are made changes no number and does not count.
+    checkpoints are made and whether there is a report changes no number and does not count.
     """
-    case = _without_checkpoints(scenario)
+    case = _what_counts(scenario)
     for index, obstacle in enumerate(scenario.obstacles):
         if isinstance(obstacle, RigidSurface):
             content = Path(obstacle.file).read_bytes()
@@ -60,7 +60,7 @@ def ended(directory: Path, scenario: Scenario) -> Result | None:
     refuse_other_results(directory, scenario)
     if (directory / layout.PROGRESS).exists():  # stopped in the middle of its last files
         refuse_running(directory)
-        return conclude(directory)
+        return conclude(directory, reports=scenario.output.report)
     return Result.open(directory)
 
 
@@ -109,14 +109,15 @@ def refuse_other_results(directory: Path, scenario: Scenario) -> None:
     """
     if not layout.has_results(directory) or not (directory / layout.CASE).exists():
         return
-    here, there = (_without_checkpoints(case) for case in (scenario, read_case(directory)))
+    here, there = (_what_counts(case) for case in (scenario, read_case(directory)))
     _refuse_another(directory, here, there)
 
 
-def _without_checkpoints(scenario: Scenario) -> dict[str, Any]:
-    """Return a scenario as plain data, without how often checkpoints are made."""
+def _what_counts(scenario: Scenario) -> dict[str, Any]:
+    """Return a scenario as plain data, without what changes no number of its results."""
     case: dict[str, Any] = json.loads(scenario.to_json())
-    case["output"].pop("checkpoint_every", None)
+    for key in ("checkpoint_every", "report"):
+        case["output"].pop(key, None)
     return case
 
 

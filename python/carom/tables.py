@@ -9,6 +9,8 @@ from typing import Any
 from rich.table import Table
 from rich.text import Text
 
+from carom.io import layout
+
 SHOWN_CONTACTS = 12
 """Contact events that fit a screen; `summary.json` has them all."""
 
@@ -70,6 +72,8 @@ def summary_table(summary: Mapping[str, Any], *, where: Path) -> Table:
         add(table, "…", f"{len(contacts) - SHOWN_CONTACTS} more contacts in summary.json")
     table.add_section()
     add(table, "results", str(where))
+    if (where / layout.REPORT).exists():
+        add(table, "report", str(where / layout.REPORT))
     return table
 
 

@@ -13,6 +13,7 @@ from carom.cli.doctor import doctor
 from carom.cli.friction import app as friction
 from carom.cli.new import new
 from carom.cli.plot import plot
+from carom.cli.report import report
 from carom.cli.run import run
 from carom.cli.schema import schema
 from carom.cli.view import view
@@ -31,6 +32,7 @@ app.command()(audit)
 app.command()(plot)
 app.command()(view)
 app.command()(watch)
+app.command()(report)
 app.command()(schema)
 app.add_typer(friction, name="friction")
 

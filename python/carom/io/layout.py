@@ -14,6 +14,7 @@ SURFACE = "surface.vtkhdf"
 LEDGER = "ledger.csv"
 AUDIT = "audit.h5"
 ENERGY_PLOT = "energy.png"
+REPORT = "report.html"
 FAILED_PROBLEM = "failed_contact_problem.hdf5"
 PROGRESS = "progress.json"
 """There while the run goes on, and after it was killed."""
@@ -45,6 +46,7 @@ _NAMES = (
     SURFACE,
     AUDIT,
     ENERGY_PLOT,
+    REPORT,
     FAILED_PROBLEM,
 )
 
@@ -88,7 +90,7 @@ def clear(directory: Path) -> None:
 
 def forget_outcome(directory: Path) -> None:
     """Remove what is written at the end of a run, and what was being written when it stopped."""
-    for name in (SUMMARY, ENERGY_PLOT, FAILED_PROBLEM):
+    for name in (SUMMARY, ENERGY_PLOT, REPORT, FAILED_PROBLEM):
         (directory / name).unlink(missing_ok=True)
     for name in (*_NAMES, PROGRESS):
         (directory / f"{name}{UNFINISHED}").unlink(missing_ok=True)

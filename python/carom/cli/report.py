@@ -1,0 +1,27 @@
+"""``carom report``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from carom.cli.case import ResultsDirectory
+from carom.cli.failures import failures
+from carom.report import write_report
+
+
+def report(
+    directory: ResultsDirectory,
+    *,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="File to write; default DIR/report.html.")
+    ] = None,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace a file that is there already.")
+    ] = False,
+) -> None:
+    """Write a page with the animated bodies, the energies and all numbers of a run."""
+    with failures(directory):
+        typer.echo(write_report(directory, out=out, force=force))

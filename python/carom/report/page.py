@@ -1,0 +1,202 @@
+"""The page: what the directory holds, the libraries and our scripts in one piece of HTML."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from collections.abc import Sequence
+from importlib import resources
+from string import Template
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+
+from carom import __version__
+from carom.errors import InputError
+from carom.report.case_text import coloured
+from carom.report.curves import curves
+from carom.report.fields import Bodies, bodies
+from carom.report.figures import key_figures
+from carom.report.markup import Html, element, embedded, join
+from carom.report.number_tables import (
+    all_numbers,
+    body_table,
+    contact_table,
+    energy_table,
+    pair_table,
+)
+from carom.report.obstacles import obstacles
+from carom.report.source import UNFINISHED, Source
+
+LIBRARIES = ("three.min.js", "uPlot.iife.min.js")
+
+SCRIPTS = (
+    "codec.js",
+    "theme.js",
+    "clock.js",
+    "format.js",
+    "colours.js",
+    "shapes.js",
+    "scene.js",
+    "colour_bar.js",
+    "charts.js",
+    "timeline.js",
+    "explorer.js",
+    "transport.js",
+    "main.js",
+)
+"""In the order in which they need one another."""
+
+COLOUR_MAPS = {"sequential": "viridis", "diverging": "RdBu_r"}
+"""Of matplotlib: for sizes, and for what has a sign."""
+
+SIGNED = frozenset({"hydrostatic-pressure"})
+
+_STATUS = {
+    "completed": "The run came to its end.",
+    "uncertified": "The run came to its end, but a step was too far from Coulomb’s law.",
+    "failed": "The run failed. What follows is what it has left up to there.",
+    "interrupted": "The run was interrupted. What follows is what it has left up to there.",
+    UNFINISHED: "The run has not ended, or was killed. What follows is what it has left so far.",
+}
+
+
+def page(source: Source) -> str:
+    """Return the whole page."""
+    notes = list(source.notes)
+    shown = _bodies(source, notes)
+    scripts = [_asset("vendor", name) for name in LIBRARIES]
+    scripts.append("\n".join(_asset("assets", name) for name in SCRIPTS))
+    data = _data(source, shown, notes)
+    return Template(_asset("assets", "page.html")).substitute(
+        version=join(__version__),
+        policy=join(_policy(scripts)),
+        title=join(source.title),
+        style=_asset("vendor", "uPlot.min.css") + _asset("assets", "style.css"),
+        status=join(source.status),
+        head=_head(source),
+        figures=key_figures(source.summary) if source.summary else "",
+        energy=_section("Where the energy went", "energy-table", energy_table(source.summary)),
+        contacts=_section("Contact events", "contact-table", contact_table(source.summary)),
+        bodies=_section("Books of the bodies", "body-table", body_table(source.summary)),
+        pairs=_section("Books of the pairs", "pair-table", pair_table(source.summary)),
+        case=_case(source),
+        numbers=_folded("All numbers of summary.json", "numbers", all_numbers(source.summary))
+        if source.summary
+        else "",
+        notes=element("ul", *(element("li", note) for note in notes), id="notes"),
+        data=embedded(data, id="data"),
+        scripts=join(*(Html(f"<script>{script}</script>\n") for script in scripts)),
+    )
+
+
+def _bodies(source: Source, notes: list[str]) -> Bodies | None:
+    if source.frames is None:
+        if source.history:
+            notes.append("There are no fields, so that the bodies are not drawn.")
+        return None
+    try:
+        shown = bodies(source.frames, source.surface)
+    except (InputError, KeyError, IndexError, OSError, ValueError) as error:
+        notes.append(f"The bodies are not drawn: fields.vtkhdf cannot be read: {error}.")
+        return None
+    taken = len(shown.frames)
+    notes.append(
+        f"The scene has {'all' if taken == shown.recorded else f'{taken} of'} "
+        f"{shown.recorded} frames of fields.vtkhdf"
+        + (", evenly spaced, to keep the page small. " if taken < shown.recorded else ". ")
+        + "Values in it are rounded to one part in 65,534 of their range, "
+        f"displacements to within {_rounding(shown):.2g} m."
+    )
+    return shown
+
+
+def _rounding(shown: Bodies) -> float:
+    return float(max(shown.data["arrays"]["displacement"]["step"])) / 2
+
+
+def _data(source: Source, shown: Bodies | None, notes: list[str]) -> dict[str, Any]:
+    drawn = curves(source)
+    if drawn["rows"] < drawn["recorded"]:
+        notes.append(
+            f"Curves have {drawn['rows']} of {drawn['recorded']} rows of history.csv, evenly "
+            "spaced."
+        )
+    data: dict[str, Any] = {
+        "curves": drawn,
+        "contacts": source.summary.get("contacts") or [],
+        "end": source.summary.get("end_time"),
+        "colour_maps": {name: _colours(map_) for name, map_ in COLOUR_MAPS.items()},
+        "scene": None,
+    }
+    if shown is not None and source.frames is not None:
+        times = source.frames.times[shown.frames]
+        case = source.scenario
+        for field in shown.data["fields"]:
+            field["map"] = "diverging" if field["key"] in SIGNED else "sequential"
+        data["scene"] = {
+            **shown.data,
+            "low": shown.low.tolist(),
+            "high": shown.high.tolist(),
+            "bodies": [body.name for body in case.bodies] if case else [],
+            "obstacles": obstacles(case, times, notes) if case else [],
+        }
+    return data
+
+
+def _colours(name: str) -> str:
+    """Return a colour map of matplotlib as 256 RGBA colours in base64."""
+    table = mpl.colormaps[name](np.linspace(0.0, 1.0, 256), bytes=True)
+    return base64.b64encode(np.asarray(table, dtype=np.uint8).tobytes()).decode()
+
+
+def _head(source: Source) -> Html:
+    """Return what is said at the head of a run that did not simply complete."""
+    if source.status == "completed":
+        return join()
+    reason = source.summary.get("reason")
+    return element(
+        "div",
+        element("strong", _STATUS.get(source.status, f"The run ended as {source.status}.")),
+        element("p", str(reason)) if reason else None,
+        class_="alert",
+        role="alert",
+    )
+
+
+def _section(title: str, id: str, table: Html | None) -> Html:
+    if table is None:
+        return join()
+    return element(
+        "section",
+        element("h2", title),
+        element("div", table, class_="scroll", tabindex="0", role="region", aria_label=title),
+        id=id,
+        class_="card",
+    )
+
+
+def _folded(title: str, id: str, content: Html) -> Html:
+    return element("details", element("summary", title), content, id=id, class_="card")
+
+
+def _case(source: Source) -> Html:
+    if source.case_text is None:
+        return join()
+    text = element("pre", element("code", coloured(source.case_text)), tabindex="0")
+    return _folded("The case as it was run: case.toml", "case", text)
+
+
+def _asset(folder: str, name: str) -> str:
+    return (resources.files("carom.report") / folder / name).read_text(encoding="utf-8")
+
+
+def _policy(scripts: Sequence[str]) -> str:
+    """Return a policy under which no other script runs, and nothing is fetched."""
+    digests = (hashlib.sha256(script.encode()).digest() for script in scripts)
+    allowed = " ".join(f"'sha256-{base64.b64encode(digest).decode()}'" for digest in digests)
+    return (
+        f"default-src 'none'; script-src {allowed}; style-src 'unsafe-inline'; "
+        "img-src data: blob:; base-uri 'none'; form-action 'none'"
+    )

@@ -1,0 +1,59 @@
+"""Writing ``report.html``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from carom.errors import InputError
+from carom.io import layout
+from carom.report.page import page
+from carom.report.source import read_source
+
+GENERATOR = '<meta name="generator" content="carom report'
+"""By which a report is recognised."""
+
+
+def write_report(
+    directory: str | Path, *, out: str | Path | None = None, force: bool = False
+) -> Path:
+    """Write the report of a results directory and return its path.
+
+    Parameters
+    ----------
+    directory
+        Results directory, also of a run that failed, was interrupted, or still goes on.
+    out
+        File to write; by default ``report.html`` in the directory.
+    force
+        Whether a file is replaced that is there already and is not the directory's own report.
+
+    Raises
+    ------
+    InputError
+        The directory holds no results, or the file would be overwritten.
+    """
+    directory = Path(directory)
+    source = read_source(directory)
+    own = directory / layout.REPORT
+    file = own if out is None else Path(out)
+    if file.is_dir():
+        raise InputError(f"--out {file}: is a directory; name a file")
+    if file.exists() and not force and not (_is_same(file, own) and _is_report(file)):
+        raise InputError(f"{file}: is there already; give --force to replace it")
+    text = page(source)
+    partial = file.with_name(f".{file.name}.partial")
+    try:
+        partial.write_text(text, encoding="utf-8")
+        partial.replace(file)
+    finally:
+        partial.unlink(missing_ok=True)
+    return file
+
+
+def _is_same(file: Path, own: Path) -> bool:
+    return own.exists() and file.samefile(own)
+
+
+def _is_report(file: Path) -> bool:
+    with file.open(encoding="utf-8", errors="replace") as opened:
+        return GENERATOR in opened.read(2_000)

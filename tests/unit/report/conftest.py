@@ -1,0 +1,83 @@
+"""Small runs with a report, and a browser to open it in."""
+
+import json
+import re
+from types import SimpleNamespace
+
+import pytest
+
+import carom
+from carom.report import write_report
+
+NASTY = '</script><b id="injected">&</b><img src=x onerror="window.injected = 1">'
+"""A title that breaks out of whatever does not escape it."""
+
+DISC = {
+    "title": "disc",
+    "analysis": {"end_time": 0.4, "time_step": 2e-3, "scheme": {"kind": "theta"}},
+    "materials": {
+        "rubber": {
+            "kind": "saint-venant-kirchhoff",
+            "young": 2700.0,
+            "poisson": 0.33,
+            "density": 1.0,
+        }
+    },
+    "bodies": [
+        {
+            "name": "disc",
+            "material": "rubber",
+            "mesh": {"kind": "disc", "centre": [0, 1.2], "radius": 1, "divisions": 4},
+            "velocity": [0.5, -2.0],
+        }
+    ],
+    "obstacles": [
+        {"name": "floor", "kind": "plane", "point": [0, 0], "normal": [0, 1]},
+        {"name": "lift", "kind": "box", "corner": [3, 0], "size": [1, 1], "velocity": [0.5, 0]},
+    ],
+    "contact": {"friction": 0.2},
+    "output": {"fields_every": 0.02, "report": True},
+}
+
+BALL = {
+    "title": NASTY,
+    "dimension": 3,
+    "analysis": {"end_time": 0.05, "time_step": 5e-3, "scheme": {"kind": "theta"}},
+    "materials": {"rubber": {"kind": "neo-hookean", "young": 1e4, "poisson": 0.3, "density": 1.0}},
+    "bodies": [
+        {
+            "name": "ball",
+            "material": "rubber",
+            "mesh": {"kind": "ball", "centre": [0, 0, 1.01], "radius": 1, "divisions": 2},
+            "velocity": [0, 0, -1.0],
+        }
+    ],
+    "obstacles": [{"name": "floor", "kind": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}],
+    "output": {"fields_every": 1e-2},
+}
+
+
+@pytest.fixture(scope="session")
+def disc(tmp_path_factory):
+    """A disc that bounces off the floor; the run wrote its report."""
+    return carom.run(carom.Scenario.from_dict(DISC), out=tmp_path_factory.mktemp("disc") / "run")
+
+
+@pytest.fixture(scope="session")
+def ball(tmp_path_factory):
+    """A ball in space, with a nasty title; the report was asked for afterwards."""
+    result = carom.run(carom.Scenario.from_dict(BALL), out=tmp_path_factory.mktemp("ball") / "run")
+    write_report(result.path)
+    return result
+
+
+@pytest.fixture(scope="session")
+def data_of():
+    """Return what a page holds for its scripts."""
+
+    def read(page):
+        text = page.read_text(encoding="utf-8")
+        (data,) = re.findall(r'<script type="application/json" id="data">(.*?)</script>', text)
+        return SimpleNamespace(**json.loads(data))
+
+    return read

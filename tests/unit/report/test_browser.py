@@ -1,0 +1,303 @@
+"""The page in a real browser: no errors, one time for all views, keys, themes, nothing injected."""
+
+import json
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+from carom.io import layout
+
+sys.path.insert(0, str(Path(__file__).parents[3] / "tools"))
+from get_browser import found
+
+WEBGL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox")
+SIZE = {"width": 1100, "height": 700}
+
+
+@pytest.fixture(scope="module")
+def browser():
+    from playwright.sync_api import Error, sync_playwright
+
+    executable = found()
+    if executable is None:
+        pytest.skip("there is no Chromium: python tools/get_browser.py")
+    with sync_playwright() as playwright:
+        try:
+            browser = playwright.chromium.launch(executable_path=executable, args=list(WEBGL))
+        except Error as error:
+            pytest.skip(f"{executable} does not start: {error.message.splitlines()[0]}")
+        yield browser
+        browser.close()
+
+
+class Pages:
+    """Opens reports without a network, and keeps what went wrong in them."""
+
+    def __init__(self, browser):
+        self._browser = browser
+        self.wrong = []
+
+    def open(self, file, **options):
+        context = self._browser.new_context(**{"viewport": SIZE, **options})
+        context.set_offline(True)
+        page = context.new_page()
+        page.on("console", lambda message: self.wrong.append(f"{message.type}: {message.text}"))
+        page.on("pageerror", lambda error: self.wrong.append(str(error)))
+        page.on("request", self._asked)
+        page.goto(Path(file).resolve().as_uri())
+        page.wait_for_selector("html[data-ready]")
+        return page
+
+    def _asked(self, request):
+        if not request.url.startswith("file:") or request.resource_type != "document":
+            self.wrong.append(f"asked for {request.url[:80]}")
+
+
+@pytest.fixture(scope="module")
+def pages(browser):
+    return Pages(browser)
+
+
+@pytest.fixture(autouse=True)
+def nothing_goes_wrong(pages):
+    yield
+    assert not pages.wrong
+
+
+@pytest.fixture
+def opened(pages):
+    """Return a function that opens a report and closes it after the test."""
+    made = []
+
+    def open_(file, **options):
+        made.append(pages.open(file, **options))
+        return made[-1]
+
+    yield open_
+    for page in made:
+        page.context.close()
+
+
+@pytest.fixture(scope="module")
+def disc_page(disc, pages):
+    return pages.open(disc.path / layout.REPORT)
+
+
+def scrub_to(page, frame):
+    page.locator("#scrub").evaluate(
+        "(s, frame) => { s.value = frame; s.dispatchEvent(new Event('input')); }", frame
+    )
+
+
+def frame(page):
+    return int(page.locator("#stage").get_attribute("data-frame"))
+
+
+def marked(page):
+    """The time at which the markers of all curves and of the timeline stand [s]."""
+    times = page.locator(".now").evaluate_all("all => all.map(m => Number(m.dataset.time))")
+    assert len(times) >= 5
+    assert len(set(times)) == 1
+    return times[0]
+
+
+def drawn(page):
+    """What the scene shows, as a picture."""
+    page.evaluate(
+        "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+    )
+    return page.locator("#stage canvas").screenshot()
+
+
+def test_scrubbing_moves_scene_and_curves(disc_page):
+    scrub_to(disc_page, 2)
+    assert frame(disc_page) == 2
+    assert marked(disc_page) == pytest.approx(0.04)
+    before, place = drawn(disc_page), disc_page.locator("#panel-energy .now").bounding_box()
+    scrub_to(disc_page, 15)
+    assert frame(disc_page) == 15
+    assert marked(disc_page) == pytest.approx(0.3)
+    assert drawn(disc_page) != before
+    assert disc_page.locator("#panel-energy .now").bounding_box()["x"] > place["x"] + 50
+    assert "0.3" in disc_page.locator("#time").inner_text()
+
+
+def test_a_click_on_a_curve_moves_the_scene(disc_page):
+    scrub_to(disc_page, 0)
+    over = disc_page.locator("#panel-energy .u-over")
+    box = over.bounding_box()
+    over.click(position={"x": 0.5 * box["width"], "y": 20})
+    assert frame(disc_page) == 10
+    assert marked(disc_page) == pytest.approx(0.2)
+
+
+def test_a_contact_event_takes_the_scene_there(disc, disc_page):
+    (contact, *_) = disc.summary["contacts"]
+    scrub_to(disc_page, 0)
+    disc_page.locator("#timeline .event").first.click()
+    assert contact["onset"] <= marked(disc_page) <= contact["release"]
+    scrub_to(disc_page, 0)
+    disc_page.locator(".go").first.click()
+    assert marked(disc_page) == pytest.approx(contact["onset"], abs=0.011)
+
+
+def test_play_goes_on_and_stops_at_the_end(disc_page):
+    scrub_to(disc_page, 0)
+    disc_page.select_option("#speed", "0.5")
+    disc_page.click("#play")
+    assert disc_page.locator("#play").get_attribute("aria-label") == "Pause"
+    disc_page.wait_for_selector("#stage:not([data-frame='0']):not([data-frame='20'])")
+    disc_page.select_option("#speed", "4")
+    disc_page.wait_for_selector("#play[aria-pressed='false']")
+    assert frame(disc_page) == 20
+
+
+def test_keys_step_jump_and_play(disc_page):
+    keys = disc_page.keyboard
+    keys.press("Home")
+    assert frame(disc_page) == 0
+    keys.press("ArrowRight")
+    assert frame(disc_page) == 1
+    keys.press("Shift+ArrowRight")
+    assert frame(disc_page) == 11
+    keys.press("ArrowLeft")
+    assert frame(disc_page) == 10
+    keys.press("End")
+    assert frame(disc_page) == 20
+    disc_page.focus("#scrub")
+    keys.press("ArrowLeft")
+    assert frame(disc_page) == 19  # once, not by the slider and the page
+    keys.press("Space")
+    assert disc_page.locator("#play").get_attribute("aria-pressed") == "true"
+    keys.press("Space")
+    assert disc_page.locator("#play").get_attribute("aria-pressed") == "false"
+    disc_page.focus("#field")
+    at = frame(disc_page)
+    keys.press("Home")  # belongs to the list
+    assert frame(disc_page) == at
+
+
+def test_focus_is_seen_and_every_control_has_a_name(disc_page):
+    disc_page.keyboard.press("Tab")
+    for _ in range(6):
+        disc_page.keyboard.press("Tab")
+        style = disc_page.evaluate("getComputedStyle(document.activeElement).outlineStyle")
+        assert style != "none"
+    nameless = disc_page.evaluate(
+        """() => [...document.querySelectorAll("button, select, input")].filter((control) =>
+            !(control.getAttribute("aria-label") || control.textContent.trim() ||
+              [...(control.labels ?? [])].some((label) => label.textContent.trim()))).length"""
+    )
+    assert nameless == 0
+
+
+def test_the_theme_follows_the_system_and_the_switch(disc, opened):
+    background = "getComputedStyle(document.body).backgroundColor"
+    light = opened(disc.path / layout.REPORT, color_scheme="light")
+    dark = opened(disc.path / layout.REPORT, color_scheme="dark")
+    bright, dim = light.evaluate(background), dark.evaluate(background)
+    assert sum(map(int, bright[4:-1].split(","))) > 600
+    assert sum(map(int, dim[4:-1].split(","))) < 150
+    before = drawn(light)
+    light.click("#theme")
+    assert light.evaluate(background) == dim
+    assert drawn(light) != before
+    light.keyboard.press("t")
+    assert light.evaluate(background) == bright
+
+
+def test_numbers_on_the_page_equal_the_summary(disc, disc_page):
+    summary = json.loads((disc.path / layout.SUMMARY).read_text())
+    disc_page.locator("#numbers summary").click()
+    shown = disc_page.locator("#numbers data").evaluate_all(
+        "all => Object.fromEntries(all.map(d => [d.dataset.key, Number(d.innerText)]))"
+    )
+    assert shown["energy.friction"] == summary["energy"]["friction"]
+    assert shown["steps"] == summary["steps"]
+    assert shown["contacts.0.peak_force"] == summary["contacts"][0]["peak_force"]
+    figure = disc_page.locator(".figure data[data-key='energy.final']")
+    assert float(figure.inner_text()) == pytest.approx(summary["energy"]["final"], rel=1e-4)
+
+
+def test_legends_show_the_values_at_the_marked_time(disc, disc_page):
+    scrub_to(disc_page, 20)
+    disc_page.mouse.move(2, 2)
+    shown = disc_page.locator("#panel-energy .legend button").evaluate_all(
+        """all => Object.fromEntries(all.map(
+            b => [b.childNodes[1].textContent, b.lastChild.innerText]))"""
+    )
+    for column in ("total", "kinetic", "strain"):
+        assert float(shown[column].replace("−", "-")) == pytest.approx(
+            disc.history[column][-1], rel=1e-4
+        )
+
+
+def test_fields_can_be_chosen_and_say_their_range(disc_page):
+    scrub_to(disc_page, 10)
+    seen = set()
+    options = disc_page.locator("#field option").all_inner_texts()
+    assert {"von Mises stress", "contact pressure", "speed"} <= set(options)
+    for option in options:
+        disc_page.select_option("#field", label=option)
+        assert disc_page.locator("#colour-title").inner_text().startswith(option)
+        seen.add(drawn(disc_page))
+    assert len(seen) >= len(options) - 1
+
+
+def test_magnification_and_mesh_change_the_picture(disc_page):
+    scrub_to(disc_page, 10)
+    pictures = [drawn(disc_page)]
+    disc_page.fill("#magnification", "0")
+    pictures.append(drawn(disc_page))
+    disc_page.uncheck("#edges")
+    pictures.append(drawn(disc_page))
+    disc_page.fill("#magnification", "1")
+    disc_page.check("#edges")
+    pictures.append(drawn(disc_page))
+    assert pictures.pop() == pictures[0]
+    assert len(set(pictures)) == 3
+
+
+def test_other_columns_and_books_can_be_shown(disc_page):
+    disc_page.select_option("#group", label="disc: energy books")
+    disc_page.wait_for_selector("#panel-explored h2:has-text('disc: energy books')")
+    assert disc_page.locator("#panel-explored .legend li").count() >= 2
+
+
+def test_a_body_in_space_turns_under_the_pointer_and_nothing_is_injected(ball, opened):
+    page = opened(ball.path / layout.REPORT)
+    assert page.evaluate("window.injected") is None
+    assert page.locator("#injected").count() == 0
+    assert page.locator("h1").inner_text() == ball.summary["title"]
+    before = drawn(page)
+    box = page.locator("#stage").bounding_box()
+    page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
+    assert page.locator("#readout").inner_text().startswith("ball: von Mises stress")
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.7 * box["width"], box["y"] + 0.4 * box["height"], steps=3)
+    page.mouse.up()
+    assert drawn(page) != before
+
+
+def test_a_narrow_screen_is_not_overrun(disc, opened):
+    page = opened(disc.path / layout.REPORT, viewport={"width": 360, "height": 740})
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    assert page.locator("#stage canvas").bounding_box()["width"] > 250
+
+
+@pytest.mark.parametrize(
+    "missing", [(layout.FIELDS,), (layout.HISTORY, layout.LEDGER), (layout.SUMMARY, layout.SURFACE)]
+)
+def test_partial_results_open_without_errors(disc, opened, tmp_path, missing):
+    from carom.report import write_report
+
+    copy = shutil.copytree(disc.path, tmp_path / "copy")
+    for name in missing:
+        (copy / name).unlink()
+    page = opened(write_report(copy))
+    assert page.locator("#scene").is_visible() == (layout.FIELDS not in missing)
+    assert page.locator("#curves").is_visible() == (layout.HISTORY not in missing)
+    page.keyboard.press("End")
+    assert page.locator("#time").inner_text().startswith("t = 0.4")
