@@ -120,6 +120,28 @@ fn metal_that_flows() {
     assert!(whole.summary().energy.plastic > 0.0);
 }
 
+/// More nodes of one body in contact than have blocks of compliance with all others.
+#[test]
+fn a_strip_that_lies_on_the_floor_with_many_nodes() {
+    let mesh =
+        json!({"kind": "rectangle", "corner": [0.0, 0.005], "size": [6.0, 0.1], "divisions": [120, 2]});
+    let mut case =
+        scenario(0.08, 2e-3, &[body("strip", mesh, [0.3, -1.0])], &[plane("floor", [0.0, 0.0], [0.0, 1.0])]);
+    case["analysis"]["scheme"] = json!({"kind": "conserving"});
+    case["bodies"][0]["spin"] = json!(0.05);
+    case["contact"]["condition"] = json!("midpoint");
+    case["contact"]["friction"] = json!(0.3);
+    case["contact"]["solver"]["kind"] = json!("auto");
+    let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
+    let mut most = 0;
+    while simulation.step() < simulation.steps() {
+        simulation.advance(f64::INFINITY, || true).expect("runs");
+        most = most.max(simulation.progress().contacts);
+    }
+    assert!(most > 100, "{most} contacts");
+    goes_on_identically::<2>(&case, 8);
+}
+
 /// A block that is pressed on a floor and pulled aside in load steps, some of which must be halved.
 #[test]
 fn load_steps_that_were_halved() {
