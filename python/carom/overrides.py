@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from copy import deepcopy
 from typing import Any
 
@@ -21,7 +21,7 @@ def apply(data: dict[str, Any], assignments: Iterable[str]) -> dict[str, Any]:
 
     Only the way to the key must exist: whether the scenario knows the key is for it to say.
     """
-    data = deepcopy(data)
+    values: dict[str, Any] = {}
     for assignment in assignments:
         key, equals, text = assignment.partition("=")
         key = key.strip()
@@ -29,11 +29,21 @@ def apply(data: dict[str, Any], assignments: Iterable[str]) -> dict[str, Any]:
             raise InputError(
                 f"override {assignment!r}: write KEY=VALUE, such as analysis.end_time=3"
             )
-        _assign(data, key, _value(key, text.strip()))
+        values.pop(key, None)  # the last one counts, in its place
+        values[key] = value_of(key, text.strip())
+    return with_values(data, values)
+
+
+def with_values(data: dict[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a copy of the data with each value put where its dotted key says."""
+    data = deepcopy(data)
+    for key, value in values.items():
+        _assign(data, key, deepcopy(value))
     return data
 
 
-def _value(key: str, text: str) -> Any:  # noqa: ANN401 (any TOML value)
+def value_of(key: str, text: str) -> Any:  # noqa: ANN401 (any TOML value)
+    """Return what a text means as the value of a key: a TOML value, or a bare word."""
     try:
         return tomlkit.value(text).unwrap()
     except TOMLKitError:

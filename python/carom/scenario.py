@@ -111,6 +111,10 @@ class Scenario(Description):
         """
         return self.from_dict(overrides.apply(self.model_dump(mode="json"), assignments))
 
+    def with_values(self, values: Mapping[str, Any]) -> Self:
+        """Return the scenario with some of its values replaced, given by their dotted keys."""
+        return self.from_dict(overrides.with_values(self.model_dump(mode="json"), values))
+
     @model_validator(mode="after")
     def _names_are_unique(self) -> Self:
         first_use: dict[str, str] = {}

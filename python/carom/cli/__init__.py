@@ -16,6 +16,7 @@ from carom.cli.plot import plot
 from carom.cli.report import report
 from carom.cli.run import run
 from carom.cli.schema import schema
+from carom.cli.sweep import sweep
 from carom.cli.view import view
 from carom.cli.watch import watch
 
@@ -28,6 +29,7 @@ app.command()(new)
 app.command()(run)
 app.command()(check)
 app.command()(doctor)
+app.command()(sweep)
 app.command()(audit)
 app.command()(plot)
 app.command()(view)

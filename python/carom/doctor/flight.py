@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from carom.obstacle import Obstacle, Plane, RigidBox, RigidCylinder, RigidSphere
 
@@ -87,4 +86,6 @@ def _round(distance: Array, radius: float, *, cavity: bool) -> float:
 
 def body_gap(one: Array, other: Array) -> float:
     """Return the distance of the nearest points of two bodies [m]."""
+    from scipy.spatial import cKDTree  # noqa: PLC0415 (SciPy, which most runs do without)
+
     return float(np.min(cKDTree(other).query(one)[0]))

@@ -36,7 +36,8 @@ pub(super) fn exchange<const D: usize>(
             history: b.body.virgin(),
         });
         let mut is_double = origin.precision == Precision::Double;
-        let mut nodes = compliance.nodes_of(operator).to_vec();
+        let (nodes, mut near) = compliance.kept(operator);
+        let mut nodes = nodes.to_vec();
         nodes.resize(tape.rows(&name("nodes"), 1, nodes.len())?, 0);
         tape.numbers(&name("dt"), [&mut origin.dt])?;
         tape.flags(&name("is_double"), [&mut is_double])?;
@@ -44,6 +45,7 @@ pub(super) fn exchange<const D: usize>(
         tape.vectors(&name("displacement"), &mut origin.displacement)?;
         tape.plastic(&name("plastic"), &mut origin.history)?;
         tape.integers(&name("nodes"), &mut nodes)?;
+        tape.flags(&name("near"), [&mut near])?;
         if !tape.replays() {
             continue;
         }
@@ -59,7 +61,7 @@ pub(super) fn exchange<const D: usize>(
         operator
             .factorize(&worked, &map, &origin.displacement, &origin.frame, precision)
             .map_err(|e| CheckpointError::new(&name("displacement"), e.to_string()))?;
-        compliance.prepare(operator, &nodes);
+        compliance.restore(&b.body, operator, &nodes, near);
     }
     Ok(())
 }

@@ -1,0 +1,74 @@
+"""``carom sweep``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+
+from carom.cli.case import CaseFile, Overrides, load
+from carom.cli.failures import NOT_CONVERGED, failures
+from carom.errors import naming
+from carom.plot.style import save
+from carom.plot.sweep import sweep_figure
+from carom.sweep import TABLE, axis
+from carom.sweep import sweep as run_all
+from carom.sweep.table import shown_table
+
+PICTURE = "sweep.png"
+"""Name of the picture beside the table."""
+
+
+def sweep(
+    *,
+    case: CaseFile,
+    vary: Annotated[
+        list[str],
+        typer.Option(
+            metavar="KEY=VALUES",
+            help="What to vary: START:STOP:COUNT with both ends, or a comma list; can be repeated.",
+        ),
+    ],
+    overrides: Overrides = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Directory of the study; default results/CASE-sweep."),
+    ] = None,
+    jobs: Annotated[
+        int | None, typer.Option(min=1, help="Processes at a time; default one per processor.")
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Dask scheduler to run on, which sees these files."),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Run finished points again.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Print errors only.")] = False,
+) -> None:
+    """Run a case with many values side by side; one table, one picture, a folder for each run.
+
+    Points that are finished are not run again. A run that fails is a row with its reason, and the
+    exit status is then 3.
+    """
+    console = Console(quiet=quiet)
+    directory = Path("results") / f"{case.stem}-sweep" if out is None else out
+
+    def done(count: int, of: int, row: dict[str, Any]) -> None:
+        where = ", ".join(f"{key} = {row[key]}" for key in keys)
+        console.print(f"{count}/{of}: {where}: {row['status']}", markup=False, highlight=False)
+
+    with failures(case):
+        scenario = load(case, overrides)
+        with naming(case):
+            axes = [axis(text) for text in vary]
+            keys = [one.key for one in axes]
+            rows = run_all(
+                scenario, axes, directory, jobs=jobs, scheduler=scheduler, force=force, done=done
+            )
+        save(sweep_figure(scenario.title, keys, rows), directory / PICTURE)
+    console.print(shown_table(scenario.title, keys, rows))
+    console.print(f"{directory / TABLE}, {directory / PICTURE}", highlight=False, soft_wrap=True)
+    if failed := [row for row in rows if row["status"] != "completed"]:
+        typer.echo(f"{len(failed)} of {len(rows)} runs did not complete", err=True)
+        raise typer.Exit(NOT_CONVERGED)

@@ -1,0 +1,92 @@
+"""The table of a study: a row for every run."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from rich.table import Table
+from rich.text import Text
+
+FIGURES = (
+    "energy_initial",
+    "energy_final",
+    "friction",
+    "plastic",
+    "max_defect",
+    "contacts",
+    "first_touch",
+    "contact_time",
+    "peak_force",
+    "min_gap",
+    "steps",
+    "wall_s",
+)
+"""Columns of figures: energies [J], contact events, times [s], force [N], gap [m]."""
+
+SHOWN = ("energy_final", "friction", "contact_time", "peak_force")
+"""Those that fit a screen."""
+
+
+def row(values: Mapping[str, Any], summary: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the row of a run; figures that it has none of are None."""
+    energy = summary.get("energy", {})
+    events = summary.get("contacts", [])
+    end = summary.get("end_time")
+    figures = {
+        "energy_initial": energy.get("initial"),
+        "energy_final": energy.get("final"),
+        "friction": energy.get("friction"),
+        "plastic": energy.get("plastic"),
+        "max_defect": energy.get("max_defect"),
+        "contacts": len(events) if "contacts" in summary else None,
+        "first_touch": min((e["onset"] for e in events), default=None),
+        "contact_time": sum(
+            (end if e["release"] is None else e["release"]) - e["onset"] for e in events
+        )
+        if "contacts" in summary
+        else None,
+        "peak_force": max((e["peak_force"] for e in events), default=None),
+        "min_gap": summary.get("min_gap"),
+        "steps": summary.get("steps"),
+        "wall_s": summary.get("wall_s"),
+    }
+    status = {"status": summary["status"], "reason": summary.get("reason", "")}
+    return {**values, **status, **figures}
+
+
+def write_table(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
+    """Write the rows as CSV, whole or not at all."""
+    partial = path.with_suffix(".tmp")
+    with partial.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, fieldnames=list(rows[0]))
+        writer.writeheader()
+        for one in rows:
+            writer.writerow({key: _cell(value) for key, value in one.items()})
+    partial.replace(path)
+
+
+def shown_table(title: str, keys: Iterable[str], rows: Sequence[Mapping[str, Any]]) -> Table:
+    """Return the rows for the terminal, with the figures that fit."""
+    table = Table(title=Text(title or "Study"), title_justify="left")
+    keys = list(keys)
+    for name in (*keys, "status", *SHOWN):
+        table.add_column(Text(name.rpartition(".")[2]), overflow="fold")
+    for one in rows:
+        figures = [one[name] for name in SHOWN]
+        status = f"{one['status']}: {one['reason']}" if one["reason"] else one["status"]
+        table.add_row(
+            *(Text(_cell(one[key])) for key in keys),
+            Text(status),
+            *(Text("" if figure is None else f"{figure:.4g}") for figure in figures),
+        )
+    return table
+
+
+def _cell(value: object) -> str:
+    if value is None:
+        return ""
+    return value if isinstance(value, str) else json.dumps(value, default=str)

@@ -1,0 +1,54 @@
+"""One run of a study, in whatever process it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from carom.errors import CaromError, InputError
+from carom.io import layout
+from carom.io.summary import read_summary
+from carom.scenario import Scenario
+from carom.simulation import run
+
+
+@dataclass(frozen=True)
+class Task:
+    """What a process is told: plain data, which goes to other machines too.
+
+    Parameters
+    ----------
+    case
+        The scenario as plain data.
+    directory
+        Where its results go.
+    """
+
+    case: dict[str, Any]
+    directory: str
+
+
+def work(task: Task) -> dict[str, Any]:
+    """Run a point; return its summary, or a status and a reason where there is none."""
+    directory = Path(task.directory)
+    try:
+        return run(Scenario.from_dict(task.case), out=directory).summary
+    except InputError as error:
+        return refused("refused", str(error))
+    except CaromError as error:
+        return _left(directory) or refused("failed", str(error))
+    except OSError as error:
+        return refused("failed", f"{error.filename or directory}: {error.strerror or error}")
+
+
+def refused(status: str, reason: str) -> dict[str, Any]:
+    """Return what stands for the summary of a run that has none."""
+    return {"status": status, "reason": " ".join(reason.split())}
+
+
+def _left(directory: Path) -> dict[str, Any] | None:
+    try:
+        return read_summary(directory / layout.SUMMARY)
+    except (OSError, ValueError):
+        return None
