@@ -37,6 +37,7 @@ bench:
 
 validate: $(VENV)/installed-dev
 	$(BIN)/python benchmarks/validate.py
+	$(BIN)/python benchmarks/fuzz
 
 $(BIN)/python:
 	$(PYTHON) -c 'import sys; sys.exit("carom needs Python 3.10 or later") if sys.version_info < (3, 10) else None'

@@ -13,6 +13,7 @@ from pathlib import Path
 from carom._carom import Simulation
 from carom.contact import FrictionSolver
 from carom.errors import CertificateError, ConvergenceError
+from carom.leaps import refuse_leaps
 from carom.mesh import MeshFile
 from carom.mesh_file import MeshArrays, read_body_mesh, read_surface
 from carom.obstacle import RigidSurface
@@ -65,7 +66,9 @@ def build(scenario: Scenario) -> Simulation:
     InputError
         The scenario cannot be run, such as bodies that overlap at the start.
     """
-    return Simulation(_json(scenario), _meshes(scenario))
+    simulation = Simulation(_json(scenario), _meshes(scenario))
+    refuse_leaps(scenario, simulation.describe())
+    return simulation
 
 
 def _json(scenario: Scenario) -> str:
