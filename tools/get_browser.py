@@ -14,6 +14,9 @@ import sys
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 """Of browsers on the path that will do."""
 
+WEBGL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox")
+"""Arguments with which it draws in 3D where there is no graphics card."""
+
 
 def found() -> str | None:
     """Return the path of a Chromium, that of Playwright before others."""

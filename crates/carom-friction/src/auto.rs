@@ -10,8 +10,8 @@ use crate::{
 /// Starts cheaply and escalates where that does not converge; the default.
 ///
 /// A few accelerated Gauss–Seidel sweeps solve well-conditioned problems and improve the start of others. They go on while they
-/// are a small part of what Newton's method would cost. Contacts that are densely coupled have full factors and make sweeps slow:
-/// there ADMM, which needs one factor, is tried instead. Then comes the proximal point method with Newton's iterations, and
+/// promise to end soon, and then while they are a small part of what Newton's method would cost. Contacts that are densely coupled
+/// have full factors and make sweeps slow: there ADMM, which needs one factor, is tried instead. Then comes the proximal point method with Newton's iterations, and
 /// where that is trapped, sweeps again: in turn, until the problem is solved or the limits are reached. Where the factors would
 /// outgrow the problem, as those of large piles do, Uzawa's iteration takes over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -19,8 +19,12 @@ pub struct Auto;
 
 /// Sweeps before anything else is considered: about the cost of ordering the contacts for Newton's method.
 const FIRST_SWEEPS: usize = 10;
+/// Sweeps that those already made may promise to end within.
+const PROMISED_SWEEPS: f64 = 60.0;
 /// Blocks per contact from which contacts are thought to be redundant: many between few bodies.
 const DENSE: usize = 12;
+/// Coupling of a contact to all others, relative to its own compliance, up to which it is local.
+const LOCAL: f64 = 4.0;
 /// Iterations of ADMM, with one factor or two, that are tried before Newton's method renews its factors again and again.
 const DIRECTIONS: usize = 60;
 /// Cost of the sweeps that are tried before Newton's method, in iterations of it.
@@ -38,6 +42,14 @@ impl<const D: usize> FrictionSolver<D> for Auto {
     }
 }
 
+/// Whether contacts answer mostly to their own reactions, however many others they feel: sweeps then converge fast, and what they
+/// leave in the residual is as small in the reactions.
+fn is_local<const D: usize>(problem: &ContactProblem<D>) -> bool {
+    (0..problem.len()).all(|i| {
+        let sum: f64 = problem.w.row(i).map(|(_, block)| block.norm()).sum();
+        sum <= (1.0 + LOCAL) * problem.w.diagonal(i).norm()
+    })
+}
 fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (SolverKind, SolveStatus) {
     let problem = monitor.problem();
     let sweep = |monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>], sweeps| {
@@ -45,7 +57,7 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
             .map(|status| (SolverKind::GaussSeidelEnumerative, status))
     };
     let blocks = problem.w.block_count();
-    let dense = blocks > DENSE * problem.len();
+    let dense = blocks > DENSE * problem.len() && !is_local(problem);
     let first = if dense {
         monitor.check(r).map(|status| (SolverKind::Admm, status))
     } else {
@@ -53,6 +65,11 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
     };
     if let Some(end) = first {
         return end;
+    }
+    while !dense && monitor.expected_iterations() < PROMISED_SWEEPS {
+        if let Some(end) = sweep(monitor, r, FIRST_SWEEPS) {
+            return end;
+        }
     }
     let Some(mut newton) = Newton::new(problem, FILL * (blocks + problem.len())) else {
         let status = uzawa::run(monitor, r, usize::MAX);

@@ -142,6 +142,16 @@ impl<'a, const D: usize, P: Measured<D>> Monitor<'a, D, P> {
         self.record(residual)
     }
 
+    /// How many more iterations are needed if the residual falls on as between the last two checks; infinite where it does not.
+    pub fn expected_iterations(&self) -> f64 {
+        let Some(last) = self.history.last() else { return f64::INFINITY };
+        let before = self.history.iter().rev().find(|sample| sample.iteration < last.iteration);
+        let rate = before.map_or(0.0, |before| {
+            (last.residual / before.residual).ln() / (last.iteration - before.iteration) as f64
+        });
+        if rate < 0.0 { (self.rule.tolerance / last.residual).ln() / rate } else { f64::INFINITY }
+    }
+
     /// The residual of reactions `r` whose `motions` a solver knows.
     pub fn residual_of(&self, mu: &[f64], r: &[Vector<D>], motions: &[Vector<D>]) -> f64 {
         self.meter.measure(mu, r, |i| motions[i]).decisive(self.rule.criterion)

@@ -6,6 +6,7 @@ mod error;
 mod friction;
 mod friction_global;
 mod mesh;
+mod signal;
 mod simulation;
 
 use pyo3::prelude::*;
@@ -14,6 +15,7 @@ use pyo3::prelude::*;
 fn _carom(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<simulation::Simulation>()?;
+    module.add_function(wrap_pyfunction!(signal::signal_values, module)?)?;
     module.add_function(wrap_pyfunction!(friction::friction_solvers, module)?)?;
     module.add_function(wrap_pyfunction!(friction::solve_friction, module)?)?;
     module.add_function(wrap_pyfunction!(friction::measure_friction, module)?)?;

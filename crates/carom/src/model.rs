@@ -153,6 +153,12 @@ impl<const D: usize> Model<D> {
         v - self.prescribed_part(node, v)
     }
 
+    /// The body that a node belongs to; none if it is the position of an obstacle.
+    #[inline]
+    pub(crate) fn body_of(&self, node: usize) -> Option<usize> {
+        self.body_of_node.get(node).map(|&b| b as usize)
+    }
+
     /// Lengths below this are round-off of the coordinates [m].
     #[must_use]
     pub fn round_off(&self) -> f64 {

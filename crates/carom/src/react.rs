@@ -76,25 +76,24 @@ pub(crate) fn measure_rubbing<const D: usize>(
 }
 
 /// Gets the bodies ready to respond at the nodes of the contacts: their compliance there, and the reach of these nodes.
-pub(crate) fn prepare_contacts<const D: usize>(model: &Model<D>, work: &mut Workspace<D>) {
+pub(crate) fn prepare_contacts<const D: usize>(model: &Model<D>, map: &StepMap, work: &mut Workspace<D>) {
     work.contact_nodes.iter_mut().for_each(Vec::clear);
     for contact in &work.contacts {
         for (node, _) in contact.stencil() {
             // The motion of obstacles is prescribed: they do not respond.
-            let Some(&b) = model.body_of_node.get(node) else { continue };
-            let b = b as usize;
+            let Some(b) = model.body_of(node) else { continue };
             work.contact_nodes[b].push((node - model.bodies[b].first_node) as u32);
         }
     }
-    for ((nodes, operator), compliance) in
-        work.contact_nodes.iter_mut().zip(&mut work.operators).zip(&mut work.compliances)
+    for (((nodes, operator), compliance), b) in
+        work.contact_nodes.iter_mut().zip(&mut work.operators).zip(&mut work.compliances).zip(&model.bodies)
     {
         if nodes.is_empty() {
             continue;
         }
         nodes.sort_unstable();
         nodes.dedup();
-        compliance.prepare(operator, nodes);
+        compliance.prepare(&b.body, operator, nodes, map.is_static());
         operator.set_reach(nodes.iter().map(|&node| node as usize));
     }
 }
@@ -138,6 +137,7 @@ pub(crate) fn react<const D: usize>(
         &work.offsets,
         &work.momentum,
         &work.reactions,
+        &mut work.coupling,
         &mut work.row_blocks,
         &mut work.problem,
     );

@@ -130,7 +130,7 @@ fn iterate<const D: usize>(
         let kept = work.progress.iter().zip(&work.touched).any(|(p, &touched)| touched && p.settled);
         if !kept {
             evaluate_contacts(model, method, state, work);
-            prepare_contacts(model, work);
+            prepare_contacts(model, map, work);
         }
         let reacts = !kept && !work.contacts.is_empty();
         residuals(model, method, state, next, map, work);

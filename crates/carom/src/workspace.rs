@@ -7,8 +7,9 @@ use carom_mesh::{Matrix, Vector};
 use crate::acceleration::Acceleration;
 use crate::blend::{Blend, Rubbing};
 use crate::body_step::{Pose, ResidualScratch};
-use crate::condense::Compliance;
+use crate::compliance::Compliance;
 use crate::convergence::BodyProgress;
+use crate::coupling::Coupling;
 use crate::cross_check::CrossCheck;
 use crate::drive::BodyDrive;
 use crate::error::StepError;
@@ -65,6 +66,7 @@ pub struct Workspace<const D: usize> {
     pub(crate) slid: Vec<[f64; 2]>,
     pub(crate) blend: Blend<D>,
     pub(crate) problem: ContactProblem<D>,
+    pub(crate) coupling: Coupling,
     /// A row of W on its way to the problem.
     pub(crate) row_blocks: Vec<(usize, Matrix<D>)>,
     /// The reactions that the friction solver last started from.
@@ -134,6 +136,7 @@ impl<const D: usize> Workspace<D> {
             rubbing: Vec::new(),
             blend: Blend::new(model),
             problem: ContactProblem::default(),
+            coupling: Coupling::new(model.node_count(), bodies),
             row_blocks: Vec::new(),
             guess: Vec::new(),
             solved_by: SolverKind::default(),

@@ -18,7 +18,7 @@ from carom.view.fields import UNITS, Shown, choices, shown
 BUDGET = 9_000_000
 """Characters that the fields may take in the page."""
 
-READ_BUDGET = 120_000_000
+READ_BUDGET = 20_000_000
 """Values over time that are held in memory at once, at most."""
 
 TITLES = {

@@ -12,7 +12,7 @@ from carom.mesh_file import read_surface
 from carom.obstacle import Obstacle, RigidSurface
 from carom.report.codec import pack
 from carom.scenario import Scenario
-from carom.signal import Signal, Table
+from carom.travel import travel
 
 
 def obstacles(
@@ -33,8 +33,8 @@ def obstacles(
     for index, obstacle in enumerate(scenario.obstacles):
         shape = _shape(obstacle, f"obstacles.{index}", notes)
         if shape is not None:
-            travel = _travel(obstacle, times, scenario.dimension, notes)
-            shown.append({"name": obstacle.name, **shape, "travel": travel.tolist()})
+            moved = travel(obstacle, times, dimension=scenario.dimension)
+            shown.append({"name": obstacle.name, **shape, "travel": moved.tolist()})
     return shown
 
 
@@ -51,29 +51,3 @@ def _shape(obstacle: Obstacle, key: str, notes: list[str]) -> dict[str, Any] | N
         "points": pack(surface.points, "f4"),
         "triangles": pack(surface.triangles, "u4"),
     }
-
-
-def _travel(
-    obstacle: Obstacle, times: NDArray[np.float64], dimension: int, notes: list[str]
-) -> NDArray[np.float64]:
-    """Return how far an obstacle has moved [m], shape [frame_count, D]."""
-    travel = np.zeros((len(times), dimension))
-    if obstacle.velocity is not None:
-        return travel + np.outer(times, obstacle.velocity)
-    if obstacle.motion is not None:
-        for index, name in enumerate("xyz"[:dimension]):
-            signal = getattr(obstacle.motion, name)
-            if signal is not None:
-                travel[:, index] = _values(signal, times, obstacle.name, notes)
-    return travel
-
-
-def _values(
-    signal: Signal, times: NDArray[np.float64], name: str, notes: list[str]
-) -> NDArray[np.float64]:
-    if isinstance(signal, Table):
-        return np.interp(times, signal.time, signal.value)
-    if isinstance(signal, str):
-        notes.append(f"The obstacle {name} moves by a formula and is drawn where it starts.")
-        return np.zeros(len(times))
-    return np.full(len(times), float(signal))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from carom.mesh_file import read_surface
 from carom.obstacle import Obstacle, Plane, RigidBox, RigidCylinder, RigidSphere
 from carom.scenario import Scenario
+from carom.travel import travel
 
 _LOOK = {"color": "lightgrey", "opacity": 0.5}
 _LINE = {"color": "grey", "line_width": 2}
@@ -22,9 +23,7 @@ def draw_obstacles(
     high: NDArray[np.float64],
     time: float,
 ) -> None:
-    """Draw the obstacles where their velocity took them; what has no end, as large as the bodies.
-
-    Those with a ``motion``, which only the native core evaluates, are drawn where they start.
+    """Draw the obstacles where they have moved; what has no end, as large as the bodies.
 
     Parameters
     ----------
@@ -40,13 +39,14 @@ def draw_obstacles(
     size = 1.3 * float(np.linalg.norm(high - low))
     flat = scenario.dimension == 2
     for index, obstacle in enumerate(scenario.obstacles):
-        travel = _spatial(obstacle.velocity or (0.0,)) * time
-        middle = (low + high) / 2 - travel
+        (moved,) = travel(obstacle, np.array([time]), dimension=scenario.dimension)
+        moved = _spatial(tuple(moved))
+        middle = (low + high) / 2 - moved
         if flat:
             shape = _line(obstacle, middle, size)
         else:
             shape = _solid(obstacle, middle, size, key=f"obstacles.{index}")
-        plotter.add_mesh(shape.translate(travel), **(_LINE if flat else _LOOK))
+        plotter.add_mesh(shape.translate(moved), **(_LINE if flat else _LOOK))
 
 
 def _line(obstacle: Obstacle, middle: NDArray[np.float64], size: float) -> Any:  # noqa: ANN401

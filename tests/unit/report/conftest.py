@@ -34,6 +34,13 @@ DISC = {
     "obstacles": [
         {"name": "floor", "kind": "plane", "point": [0, 0], "normal": [0, 1]},
         {"name": "lift", "kind": "box", "corner": [3, 0], "size": [1, 1], "velocity": [0.5, 0]},
+        {
+            "name": "swing",
+            "kind": "sphere",
+            "centre": [-3, 1],
+            "radius": 0.5,
+            "motion": {"x": "0.3*sin(4*t)", "y": {"time": [0, 0.2], "value": [0, 0.1]}},
+        },
     ],
     "contact": {"friction": 0.2},
     "output": {"fields_every": 0.02, "report": True},

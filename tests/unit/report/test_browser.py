@@ -10,9 +10,8 @@ import pytest
 from carom.io import layout
 
 sys.path.insert(0, str(Path(__file__).parents[3] / "tools"))
-from get_browser import found
+from get_browser import WEBGL, found
 
-WEBGL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox")
 SIZE = {"width": 1100, "height": 700}
 
 

@@ -102,11 +102,13 @@ def test_books_of_bodies_and_pairs_are_those_of_the_ledger(disc, data_of):
 
 def test_an_obstacle_that_moves_is_where_it_is(disc, data_of):
     scene = data_of(disc.path / layout.REPORT).scene
-    floor, lift = scene["obstacles"]
+    floor, lift, swing = scene["obstacles"]
     assert (floor["kind"], lift["kind"], lift["corner"]) == ("plane", "box", [3, 0])
     times = unpack(scene["times"])
     np.testing.assert_allclose(np.array(lift["travel"]), np.outer(times, [0.5, 0]))
     np.testing.assert_array_equal(floor["travel"], np.zeros((len(times), 2)))
+    place = np.stack([0.3 * np.sin(4 * times), np.minimum(0.1, 0.5 * times)], axis=1)
+    np.testing.assert_allclose(np.array(swing["travel"]), place, atol=1e-15)
 
 
 def test_text_of_the_case_stays_text(ball):

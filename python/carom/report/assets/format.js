@@ -13,7 +13,8 @@ carom.format = (() => {
     const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
     const power = [...String(Number(exponent))].map((c) => SUPERSCRIPT[c]).join("");
     const factor = Number(mantissa);
-    return factor === 1 ? `10${power}` : `${String(factor).replace("-", "−")}\u202f×\u202f10${power}`;
+    if (Math.abs(factor) === 1) return `${factor < 0 ? "−" : ""}10${power}`;
+    return `${String(factor).replace("-", "−")}\u202f×\u202f10${power}`;
   }
   function quantity(value, unit, digits) {
     return unit ? `${number(value, digits)}\u202f${unit}` : number(value, digits);

@@ -27,7 +27,7 @@
   // The page opens at what is most worth seeing.
   function hardestContact() {
     const hardest = data.contacts.reduce((a, b) => (b.peak_force > (a?.peak_force ?? 0) ? b : a), null);
-    return hardest ? (hardest.onset + (hardest.release ?? hardest.onset)) / 2 : times[0];
+    return hardest ? (hardest.onset + (hardest.release ?? data.end)) / 2 : times[0];
   }
 
   function widestName(contacts) {

@@ -268,7 +268,7 @@ carom.makeScene = (data, arrays, maps) => {
     faces.geometry.boundingSphere = null;
     obstacles.forEach((obstacle) => {
       const [x, y, z = 0] = obstacle.userData.travel[state.frame];
-      obstacle.position.set(x, y, z);
+      obstacle.position.set(x, y, z).multiplyScalar(state.magnification);
     });
     edges.visible = state.edges;
     for (const listener of listeners) listener();

@@ -1,5 +1,6 @@
 // Rigid obstacles as groups for the scene.
 carom.shapes = (() => {
+  const SEGMENTS = 512; // of a circle
   const spatial = (v) => new THREE.Vector3(v[0], v[1], v[2] ?? 0);
 
   function make(obstacle, box, dimension, materials) {
@@ -24,8 +25,8 @@ carom.shapes = (() => {
     return new THREE.LineSegments(geometry, material);
   }
   function circle(centre, radius) {
-    return Array.from({ length: 128 }, (_, i) => {
-      const angle = (2 * Math.PI * i) / 128;
+    return Array.from({ length: SEGMENTS }, (_, i) => {
+      const angle = (2 * Math.PI * i) / SEGMENTS;
       return new THREE.Vector3(centre.x + radius * Math.cos(angle), centre.y + radius * Math.sin(angle), 0);
     });
   }
@@ -51,8 +52,8 @@ carom.shapes = (() => {
       const centre = spatial(obstacle.centre);
       solid = new THREE.Mesh(
         obstacle.cavity
-          ? new THREE.RingGeometry(obstacle.radius, size, 128)
-          : new THREE.CircleGeometry(obstacle.radius, 128),
+          ? new THREE.RingGeometry(obstacle.radius, size, SEGMENTS)
+          : new THREE.CircleGeometry(obstacle.radius, SEGMENTS),
         fill,
       );
       solid.position.copy(centre);
