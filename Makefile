@@ -14,7 +14,7 @@ SOURCES := $(shell find crates python -name '*.rs' -o -name '*.py' -o -name '*.p
 .PHONY: demo test check bench validate clean
 
 demo: $(VENV)/installed
-	$(BIN)/carom run examples/two_cylinders.toml --out results/two_cylinders --set output.report=true
+	$(BIN)/carom run examples/two_cylinders.toml --out results/two_cylinders --set output.report=true --force
 
 test: $(VENV)/installed-dev
 	$(BIN)/python tools/get_browser.py
@@ -38,6 +38,7 @@ bench:
 validate: $(VENV)/installed-dev
 	$(BIN)/python benchmarks/validate.py
 	$(BIN)/python benchmarks/fuzz
+	CAROM_KILLS=500 $(BIN)/pytest tests/unit/test_restart.py -k killed
 
 $(BIN)/python:
 	$(PYTHON) -c 'import sys; sys.exit("carom needs Python 3.10 or later") if sys.version_info < (3, 10) else None'

@@ -116,6 +116,13 @@ class FallingSimulation:
             self._rows.append(self._row(self.time))
         return self.time >= until - 1e-9
 
+    def checkpoint(self):
+        return {"state/time": np.array([self.time]), "run/step": np.array([self.step], dtype="u8")}
+
+    def restore(self, arrays):
+        self.step = int(arrays["run/step"][0])
+        self._rows = []
+
     def finish(self):
         pass
 
@@ -125,6 +132,7 @@ class FallingSimulation:
             "step": self.step,
             "time": self.time,
             "contacts": contacts,
+            "retried": 2,
             "kinetic": kinetic,
             "strain": strain,
             "friction": friction,

@@ -15,6 +15,7 @@ from carom.errors import (
     ConvergenceError,
     InputError,
     MeshError,
+    StorageError,
 )
 from carom.io.history import read_history
 from carom.load import Force, Pressure, Traction
@@ -34,10 +35,11 @@ from carom.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring, Tub
 from carom.motion import Displacement, Fixed, Prescribed
 from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere, RigidSurface
 from carom.output import Output, Track
+from carom.progress import Progress
 from carom.result import Result
 from carom.scenario import Scenario
 from carom.signal import Table
-from carom.simulation import Progress, run
+from carom.simulation import run
 
 __all__ = [
     "Audit",
@@ -85,6 +87,7 @@ __all__ = [
     "Scenario",
     "Simulation",
     "Static",
+    "StorageError",
     "Table",
     "Theta",
     "Track",

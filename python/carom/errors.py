@@ -82,6 +82,16 @@ class CertificateError(CaromError, RuntimeError):
     """
 
 
+class StorageError(CaromError, OSError):
+    """A file of the results could not be written, as on a full disk.
+
+    Parameters
+    ----------
+    message
+        One line: the file, what is wrong, and how to go on.
+    """
+
+
 @contextmanager
 def naming(file: str | PathLike[str]) -> Iterator[None]:
     """Put the name of the file in front of every `InputError` that leaves the block."""

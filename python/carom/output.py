@@ -44,6 +44,9 @@ class Output(Description):
         Time between two frames of fields [s]; None takes a 200th of the run.
     history_every
         Time between two rows of history [s]; None takes a 1000th of the run.
+    checkpoint_every
+        Time between two checkpoints, from which a run that was stopped goes on [s]; None takes ten
+        minutes of wall time.
     merge_contacts
         Contact events of one pair that are closer than this count as one [s].
     track
@@ -58,6 +61,7 @@ class Output(Description):
 
     fields_every: Positive | None = None
     history_every: Positive | None = None
+    checkpoint_every: Positive | None = None
     merge_contacts: NonNegative = 0.03
     track: tuple[Track, ...] = ()
     audit: Annotated[bool, Field(strict=True)] = False

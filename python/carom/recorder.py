@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from typing_extensions import Self
 
 from carom import _carom
 from carom.interrupt import uninterrupted
 from carom.io import layout
+from carom.io.atomic import sync, write_whole
 from carom.io.audit import AuditWriter
+from carom.io.checkpoint import Checkpoint, write_checkpoint
 from carom.io.history import HistoryWriter
 from carom.io.ledger import LedgerWriter
+from carom.io.progress import ProgressFile
 from carom.io.summary import write_summary
 from carom.io.vtkhdf import SURFACE_CELL_FIELDS, SURFACE_POINT_FIELDS, FieldsWriter
 from carom.plot import draw
+from carom.progress import Progress
 from carom.report import write_report
 from carom.result import Result
 from carom.scenario import Scenario
@@ -27,9 +34,10 @@ if TYPE_CHECKING:
 
 
 class Recorder:
-    """Writes the results directory of one run, in place of those of an earlier one.
+    """Writes the results directory of one run, in place of those of an earlier one or after it.
 
-    Ctrl-C waits until what is being written is whole.
+    Ctrl-C waits until what is being written is whole. Whenever a process is killed, the files are
+    those of its last checkpoint with more behind, which a run that goes on cuts off.
 
     Parameters
     ----------
@@ -38,29 +46,121 @@ class Recorder:
     scenario
         What is run.
     simulation
-        The simulation to record, at its start.
+        The simulation to record, at its start or where `checkpoint` was made.
+    case
+        What is run, see `carom.restart.identity`.
+    checkpoint
+        The one that the run goes on from; None if it starts.
+
+    Raises
+    ------
+    InputError
+        Another run is going on in the directory; it has files of others; or not the results that
+        the checkpoint knows of.
     """
 
-    def __init__(self, directory: Path, scenario: Scenario, simulation: _carom.Simulation) -> None:
+    def __init__(
+        self,
+        directory: Path,
+        scenario: Scenario,
+        simulation: _carom.Simulation,
+        *,
+        case: dict[str, Any],
+        checkpoint: Checkpoint | None = None,
+    ) -> None:
+        layout.has_results(directory)
         directory.mkdir(parents=True, exist_ok=True)
-        layout.clear(directory)
-        (directory / layout.CASE).write_text(scenario.to_toml(complete=True), encoding="utf-8")
+        self._progress = ProgressFile(directory)
         self._directory = directory
         self._title = scenario.title
         self._simulation = simulation
-        self._history = HistoryWriter(directory / layout.HISTORY, simulation.history_columns())
-        self._ledger = LedgerWriter(directory / layout.LEDGER, simulation.ledger_entries())
-        self._fields = FieldsWriter(directory / layout.FIELDS, simulation.mesh())
+        self._case = case
+        written: dict[str, Any] = {} if checkpoint is None else checkpoint.record
+        if checkpoint is None:
+            layout.clear(directory)
+            text = scenario.to_toml(complete=True)
+            write_whole(directory / layout.CASE, text.encode())
+        else:
+            layout.forget_outcome(directory)
+        self._history = HistoryWriter(
+            directory / layout.HISTORY, simulation.history_columns(), size=written.get("history")
+        )
+        self._ledger = LedgerWriter(
+            directory / layout.LEDGER, simulation.ledger_entries(), size=written.get("ledger")
+        )
+        self._fields = FieldsWriter(
+            directory / layout.FIELDS, simulation.mesh(), frames=written.get("frames")
+        )
         self._surface = FieldsWriter(
             directory / layout.SURFACE,
             simulation.surface(),
             point_fields=SURFACE_POINT_FIELDS,
             cell_fields=SURFACE_CELL_FIELDS,
+            frames=written.get("frames"),
         )
-        self._audit = AuditWriter(directory / layout.AUDIT) if scenario.output.audit else None
+        self._audit = (
+            AuditWriter(directory / layout.AUDIT, steps=written.get("steps"))
+            if scenario.output.audit
+            else None
+        )
+        self._frames: int = written.get("frames", 0)
+        self._steps: int = written.get("steps", 0)
+        self._last_frame: float | None = written.get("last_frame")
+        self._wall_before: float = written.get("wall", 0.0)
         self._reports = scenario.output.report
         self._start = perf_counter()
-        self._last_frame: float | None = None
+
+    @property
+    def wall(self) -> float:
+        """Wall time of the run so far [s]."""
+        return self._wall_before + perf_counter() - self._start
+
+    @uninterrupted()
+    def progress(self, progress: Progress) -> None:
+        """Let other processes know how far the run is."""
+        self._progress.write(progress)
+
+    @uninterrupted()
+    def checkpoint(self, *, frames_due: int) -> None:
+        """Write all that it takes to go on from here.
+
+        Parameters
+        ----------
+        frames_due
+            Frames that were due so far, see `carom.schedule.Schedule`.
+
+        Raises
+        ------
+        OSError
+            It could not be written; the last one is as it was.
+        """
+        self.history()
+        names = [layout.HISTORY, layout.LEDGER, layout.FIELDS, layout.SURFACE]
+        for name in [*names, layout.AUDIT] if self._audit is not None else names:
+            sync(self._directory / name)
+        record = {
+            "history": (self._directory / layout.HISTORY).stat().st_size,
+            "ledger": (self._directory / layout.LEDGER).stat().st_size,
+            "frames": self._frames,
+            "steps": self._steps,
+            "last_frame": self._last_frame,
+            "frames_due": frames_due,
+            "wall": self.wall,
+        }
+        try:
+            arrays = self._simulation.checkpoint()
+        except ValueError as error:
+            warnings.warn(
+                f"no checkpoint at t = {self._simulation.time:g} s: {error}", stacklevel=2
+            )
+            return
+        write_checkpoint(self._directory, Checkpoint(case=self._case, record=record, arrays=arrays))
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._progress.remove()
 
     @uninterrupted()
     def history(self) -> None:
@@ -80,10 +180,12 @@ class Recorder:
         self._fields.append(time, self._simulation.fields())
         self._surface.append(time, self._simulation.surface_fields())
         self._last_frame = time
+        self._frames += 1
         if self._audit is not None and with_step:
             step = self._simulation.last_step()
             if step is not None:
                 self._audit.append(step)
+                self._steps += 1
 
     @uninterrupted()
     def failed_problem(
@@ -107,7 +209,7 @@ class Recorder:
         reason
             Why the run stopped before its end.
         """
-        wall = perf_counter() - self._start
+        wall = self.wall
         self._simulation.finish()
         self.history()
         # A step that failed has overwritten the start of the last good one.
@@ -123,8 +225,17 @@ class Recorder:
             "wall_s_per_step": wall / max(native["steps"], 1),
         }
         write_summary(self._directory / layout.SUMMARY, summary)
-        result = Result.open(self._directory)
-        draw(result)
-        if self._reports:
-            write_report(self._directory)
-        return result
+        return conclude(self._directory, reports=self._reports)
+
+
+def conclude(directory: Path, *, reports: bool) -> Result:
+    """Make what is made of a run with a summary, and remove what it needs no more."""
+    result = Result.open(directory)
+    draw(result)
+    if reports:
+        write_report(directory)
+    if result.summary["status"] in layout.ENDED:
+        for name in layout.CHECKPOINTS:
+            (directory / name).unlink(missing_ok=True)
+    (directory / layout.PROGRESS).unlink(missing_ok=True)
+    return result

@@ -226,7 +226,7 @@ class Scenario(Description):
     @model_validator(mode="after")
     def _records_no_finer_than_steps(self) -> Self:
         step = self.analysis.time_step
-        for key in ("fields_every", "history_every"):
+        for key in ("fields_every", "history_every", "checkpoint_every"):
             every = getattr(self.output, key)
             if every is not None and every < step:
                 raise problem(

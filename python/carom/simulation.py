@@ -3,59 +3,32 @@
 from __future__ import annotations
 
 import json
-import math
 import re
 import shlex
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from carom._carom import Simulation
 from carom.contact import FrictionSolver
-from carom.errors import CertificateError, ConvergenceError
+from carom.errors import CertificateError, ConvergenceError, InputError, StorageError
+from carom.interrupt import Terminated
+from carom.io import layout
+from carom.io.progress import refuse_running
 from carom.leaps import refuse_leaps
 from carom.mesh import MeshFile
 from carom.mesh_file import MeshArrays, read_body_mesh, read_surface
 from carom.obstacle import RigidSurface
+from carom.progress import Observer, Pace, Progress
 from carom.recorder import Recorder
+from carom.restart import Notify, ended, identity, latest, refuse_other_results
 from carom.result import Result
 from carom.scenario import Scenario
+from carom.schedule import Schedule
 
 SLICE = 0.1
 """Wall time after which native stepping returns to show its progress [s]."""
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How far a run has come.
-
-    Parameters
-    ----------
-    step, steps
-        Steps done and to do.
-    time, end_time
-        Time reached and to reach [s].
-    contacts
-        Active contacts.
-    kinetic, strain, total
-        Energies [J].
-    friction
-        Energy dissipated by friction so far [J].
-    """
-
-    step: int
-    steps: int
-    time: float
-    end_time: float
-    contacts: int
-    kinetic: float
-    strain: float
-    total: float
-    friction: float
-
-
-Observer = Callable[[Progress], None]
-"""What is called with the progress of a run, every tenth of a second or so."""
 
 
 def build(scenario: Scenario) -> Simulation:
@@ -99,7 +72,12 @@ def _meshes(scenario: Scenario) -> dict[str, MeshArrays]:
 
 
 def run(
-    scenario: Scenario, *, out: str | Path | None = None, observer: Observer | None = None
+    scenario: Scenario,
+    *,
+    out: str | Path | None = None,
+    observer: Observer | None = None,
+    resume: bool = False,
+    force: bool = True,
 ) -> Result:
     """Run a scenario and write its results.
 
@@ -108,15 +86,20 @@ def run(
     scenario
         What to run.
     out
-        Results directory; by default one in ``results/`` that is named after the title. Results
-        of an earlier run in it are replaced.
+        Results directory; by default one in ``results/`` that is named after the title.
     observer
         Called with the `Progress` of the run.
+    resume
+        Whether to go on from the last checkpoint in the directory; every number is then that of a
+        run that never stopped. Without one the run starts from the beginning, and where it has
+        ended already its results are returned.
+    force
+        Whether results of an earlier run in the directory are replaced, or refused.
 
     Raises
     ------
     InputError
-        The scenario cannot be run; nothing is written.
+        The scenario cannot be run, or not there; nothing is written.
     ConvergenceError
         A step failed; the results up to it are written, with the status ``"failed"``. If it was
         the contact problem, that is written too, and the message names the command that solves it
@@ -124,52 +107,130 @@ def run(
     CertificateError
         A step was further from Coulomb's law than `Contact.certificate_tolerance` allows; the
         results are written, with the status ``"uncertified"``.
+    StorageError
+        The results cannot be written, as on a full disk; the last checkpoint stays.
     KeyboardInterrupt
-        Ctrl-C; the results up to it are written, with the status ``"interrupted"``.
+        Ctrl-C; the results up to it are written, with the status ``"interrupted"``, and a
+        checkpoint.
     """
     simulation = build(scenario)
     directory = Path("results") / _slug(scenario.title) if out is None else Path(out)
-    return drive(simulation, scenario, directory, observer)
+    return drive(simulation, scenario, directory, observer, resume=resume, force=force)
+
+
+def _warn(line: str) -> None:
+    warnings.warn(line, stacklevel=4)
 
 
 def drive(
-    simulation: Simulation, scenario: Scenario, directory: Path, observer: Observer | None
+    simulation: Simulation,
+    scenario: Scenario,
+    directory: Path,
+    observer: Observer | None,
+    *,
+    resume: bool = False,
+    force: bool = True,
+    notify: Notify = _warn,
 ) -> Result:
-    """Take a simulation to its end, recording as it goes."""
-    recorder = Recorder(directory, scenario, simulation)
+    """Take a simulation to its end, recording as it goes; see `run`.
+
+    Parameters
+    ----------
+    simulation
+        What `build` made of the scenario.
+    notify
+        Told what the user should know of a resumed run.
+    """
+    refuse_running(directory)
+    case = identity(scenario, simulation)
+    checkpoint = None
+    if resume:
+        if (result := ended(directory, scenario)) is not None:
+            return result
+        checkpoint = latest(directory, case, simulation, notify)
+        if checkpoint is None:
+            refuse_other_results(directory, scenario)
+    elif not force and layout.has_results(directory):
+        raise InputError(
+            f"{directory}: has results of a run; --force replaces them, --resume goes on with a "
+            "run that was stopped, or choose another --out"
+        )
+    frames = 0 if checkpoint is None else checkpoint.record["frames_due"]
+    schedule = Schedule(scenario, time=simulation.time, frames=frames)
+    with (
+        _storing(directory),
+        Recorder(directory, scenario, simulation, case=case, checkpoint=checkpoint) as recorder,
+    ):
+        _take(simulation, scenario, recorder, schedule, observer)
+        if (reason := _violation(simulation)) is not None:
+            recorder.close(status="uncertified", reason=reason)
+            raise CertificateError(reason)
+        return recorder.close(status="completed")
+
+
+def _take(
+    simulation: Simulation,
+    scenario: Scenario,
+    recorder: Recorder,
+    schedule: Schedule,
+    observer: Observer | None,
+) -> None:
+    """Go from frame to frame and from checkpoint to checkpoint to the end."""
+    pace = Pace(simulation.step, simulation.steps)
 
     def report() -> None:
         recorder.history()
+        progress = Progress(
+            steps=simulation.steps,
+            end_time=scenario.analysis.end_time,
+            wall=recorder.wall,
+            eta=pace.eta(simulation.step),
+            **simulation.progress(),
+        )
+        recorder.progress(progress)
         if observer is not None:
-            observer(
-                Progress(
-                    steps=simulation.steps,
-                    end_time=scenario.analysis.end_time,
-                    **simulation.progress(),
-                )
-            )
+            observer(progress)
 
     try:
-        recorder.frame()
-        report()
-        for time in _frame_times(scenario):
-            while not simulation.advance(time, SLICE):
-                report()
+        if simulation.step == 0:
             recorder.frame()
+        report()
+        while not schedule.has_ended:
+            while not simulation.advance(schedule.next, SLICE):
+                report()
+                if schedule.wall_checkpoint_is_due():
+                    recorder.checkpoint(frames_due=schedule.frames)
+            if schedule.frame_is_due(simulation.time):
+                recorder.frame()
             report()
+            if schedule.checkpoint_is_due(simulation.time):
+                recorder.checkpoint(frames_due=schedule.frames)
     except ConvergenceError as error:
         if error.problem is not None:
             file = recorder.failed_problem(error.problem, guess=error.guess, reason=str(error))
             error.args = (f"{error}; {_replay(file, scenario.contact.solver)}",)
         recorder.close(status="failed", reason=str(error))
         raise
-    except KeyboardInterrupt:
-        recorder.close(status="interrupted", reason=f"Ctrl-C at t = {simulation.time:g} s")
+    except KeyboardInterrupt as interrupt:
+        if schedule.frame_is_due(simulation.time):
+            recorder.frame()
+        recorder.checkpoint(frames_due=schedule.frames)
+        what = "SIGTERM" if isinstance(interrupt, Terminated) else "Ctrl-C"
+        recorder.close(status="interrupted", reason=f"{what} at t = {simulation.time:g} s")
         raise
-    if (reason := _violation(simulation)) is not None:
-        recorder.close(status="uncertified", reason=reason)
-        raise CertificateError(reason)
-    return recorder.close(status="completed")
+
+
+@contextmanager
+def _storing(directory: Path) -> Iterator[None]:
+    """Say of a file that could not be written how to go on."""
+    try:
+        yield
+    except OSError as error:
+        what = f"{error.filename or directory}: {error.strerror or error}"
+        remedy = "make room and start again"
+        if (directory / layout.CHECKPOINT).exists():
+            remedy = "the last checkpoint is whole: make room and go on with --resume"
+        raise StorageError(f"{what}; {remedy}") from error
 
 
 def _replay(file: Path, solver: FrictionSolver) -> str:
@@ -192,16 +253,6 @@ def _violation(simulation: Simulation) -> str | None:
         "contact.certificate_tolerance; take a smaller contact.solver.tolerance or "
         "analysis.newton.tolerance, or a shorter step"
     )
-
-
-def _frame_times(scenario: Scenario) -> Iterator[float]:
-    """Yield the times of the frames after the first; the last is the end of the run [s]."""
-    end = scenario.analysis.end_time
-    every = scenario.output.resolved(scenario.analysis).fields_every or end
-    frames = math.ceil(end / every * (1 - 1e-9))  # no frame for a rest that is only round-off
-    for frame in range(1, frames):
-        yield frame * every
-    yield end
 
 
 def _slug(title: str) -> str:

@@ -40,6 +40,23 @@ impl<const D: usize> Contact<D> {
         Self { gap: 0.0, frame, area, stencil, sources: source_count }.moved(position)
     }
 
+    /// A contact as it was: with what [`Self::stencil`] gave, of which the first `sources` entries are source nodes.
+    ///
+    /// # Panics
+    /// If there are fewer entries.
+    #[must_use]
+    pub fn of_stencil(
+        gap: f64,
+        frame: Matrix<D>,
+        area: f64,
+        stencil: impl Iterator<Item = (u32, f64)>,
+        sources: usize,
+    ) -> Self {
+        let stencil: SmallVec<_> = stencil.collect();
+        assert!(sources <= stencil.len(), "source nodes are part of the stencil");
+        Self { gap, frame, area, stencil, sources }
+    }
+
     /// The same contact of a multiplier with its gap where nodes are at `position`.
     pub(crate) fn moved(&self, position: &impl Fn(u32) -> Vector<D>) -> Self {
         Self { gap: self.relative(|n| position(n as u32))[0], ..self.clone() }

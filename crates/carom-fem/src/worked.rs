@@ -21,6 +21,12 @@ impl<'a, const D: usize> Worked<'a, D> {
         Self { body, history }
     }
 
+    /// What the material remembers, quadrature point by quadrature point.
+    #[must_use]
+    pub fn history(&self) -> &'a [PlasticState] {
+        self.history
+    }
+
     /// The blocks of elements, each with its part of the history.
     fn blocks(&self) -> impl Iterator<Item = (&'a dyn crate::elements::Elements<D>, &'a [PlasticState])> {
         let mut rest = self.history;

@@ -2,6 +2,7 @@
 //! problems on their own.
 
 mod arrays;
+mod checkpoint;
 mod error;
 mod friction;
 mod friction_global;
@@ -14,6 +15,7 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _carom(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("CHECKPOINT_SCHEMA", carom::Checkpoint::SCHEMA)?;
     module.add_class::<simulation::Simulation>()?;
     module.add_function(wrap_pyfunction!(signal::signal_values, module)?)?;
     module.add_function(wrap_pyfunction!(friction::friction_solvers, module)?)?;

@@ -8,7 +8,7 @@ use pyo3::types::PyDict;
 use serde::Serialize;
 
 use crate::error::{input_error, run_error};
-use crate::{arrays, mesh};
+use crate::{arrays, checkpoint, mesh};
 
 /// Wall time between two looks for Ctrl-C [s]; a step that takes longer is followed by one.
 const SIGNAL_INTERVAL: f64 = 0.02;
@@ -171,6 +171,19 @@ impl Simulation {
     /// Runs to `until` [s] or for `budget` seconds of wall time, one step at least; whether `until` is reached.
     fn advance(&mut self, py: Python<'_>, until: f64, budget: f64) -> PyResult<bool> {
         with!(&mut self.inner, run => advance(py, run, until, budget))
+    }
+
+    /// All that it takes to go on from here, as arrays by name.
+    fn checkpoint<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let made = with!(&mut self.inner, run => run.checkpoint());
+        checkpoint::to_python(py, &made.map_err(|e| PyValueError::new_err(e.to_string()))?)
+    }
+
+    /// Goes on from such arrays; ValueError if they are not of this scenario.
+    fn restore(&mut self, py: Python<'_>, arrays: &Bound<'_, PyDict>) -> PyResult<()> {
+        let checkpoint = checkpoint::from_python(arrays)?;
+        let done = with!(&mut self.inner, run => py.detach(|| run.restore(&checkpoint)));
+        done.map_err(|e| PyValueError::new_err(e.to_string()))
     }
 
     fn finish(&mut self) {

@@ -113,6 +113,28 @@ impl<const D: usize> Compliance<D> {
             self.clear();
             self.table = Table::Near(Near::new(body));
         }
+        self.extend(body, operator, nodes);
+    }
+
+    /// The nodes whose blocks belong to the present factor, in the order of their first contact, and whether they have these only
+    /// with the nodes near them.
+    pub fn kept(&self, operator: &BodyOperator<D>) -> (&[u32], bool) {
+        let nodes: &[u32] = if self.generation == operator.generation { &self.nodes } else { &[] };
+        (nodes, !nodes.is_empty() && matches!(self.table, Table::Near(_)))
+    }
+
+    /// Makes the blocks that there were when [`Self::kept`] gave this answer.
+    pub fn restore(&mut self, body: &Body<D>, operator: &mut BodyOperator<D>, nodes: &[u32], near: bool) {
+        self.clear();
+        self.generation = operator.generation;
+        if near {
+            self.table = Table::Near(Near::new(body));
+        }
+        self.extend(body, operator, nodes);
+    }
+
+    /// Adds the blocks of those of `nodes` that have none.
+    fn extend(&mut self, body: &Body<D>, operator: &mut BodyOperator<D>, nodes: &[u32]) {
         let known = self.nodes.len();
         for &node in nodes {
             let place = &mut self.places[node as usize];

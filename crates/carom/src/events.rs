@@ -22,9 +22,9 @@ pub struct ContactEvent {
 #[derive(Debug)]
 pub(crate) struct EventLog {
     merge: f64,
-    events: Vec<ContactEvent>,
+    pub events: Vec<ContactEvent>,
     /// For each group: its last event and the end of the last step with a reaction.
-    last: Vec<Option<(usize, f64)>>,
+    pub last: Vec<Option<(usize, f64)>>,
 }
 
 impl EventLog {

@@ -14,31 +14,34 @@ pub(crate) struct Track {
 
 /// Where a tracked node was and how fast it moved on average in the last step.
 #[derive(Debug, Clone, Copy)]
-struct Trail<const D: usize> {
-    displacement: Vector<D>,
-    mean_velocity: Vector<D>,
+pub(crate) struct Trail<const D: usize> {
+    pub displacement: Vector<D>,
+    pub mean_velocity: Vector<D>,
 }
 
 /// Rows of numbers over time, recorded natively.
 #[derive(Debug)]
 pub(crate) struct History<const D: usize> {
     tracks: Vec<Track>,
-    trails: Vec<Trail<D>>,
+    pub trails: Vec<Trail<D>>,
     columns: Vec<String>,
-    rows: Vec<f64>,
-    since: Since,
+    pub rows: Vec<f64>,
+    pub since: Since,
 }
 
 /// What is gathered between two rows.
 #[derive(Debug, Default)]
-struct Since {
-    steps: usize,
-    iterations: usize,
-    certificate: f64,
-    residual: f64,
-    blend: f64,
-    step_defect: f64,
-    last: StepReport,
+pub(crate) struct Since {
+    pub steps: usize,
+    pub iterations: usize,
+    pub certificate: f64,
+    pub residual: f64,
+    pub blend: f64,
+    pub step_defect: f64,
+    /// Of the last step alone, like the next two.
+    pub contacts: usize,
+    pub min_gap: f64,
+    pub normal_force: f64,
 }
 
 impl<const D: usize> History<D> {
@@ -135,7 +138,9 @@ impl<const D: usize> History<D> {
         since.residual = since.residual.max(report.residual);
         since.blend = since.blend.max(report.blend);
         since.step_defect = since.step_defect.max(report.ledger.defect().abs());
-        since.last = *report;
+        since.contacts = report.contacts;
+        since.min_gap = report.min_gap;
+        since.normal_force = report.normal_force;
         for (trail, t) in self.trails.iter_mut().zip(&self.tracks) {
             let u = state.displacement[t.node];
             *trail = Trail { displacement: u, mean_velocity: (u - trail.displacement) / dt };
@@ -186,11 +191,11 @@ impl<const D: usize> History<D> {
             .filter_map(|p| model.contact.proximity(p, &at))
             .map(|p| p.gap)
             // Nodes deep between others are closest to a side; the contacts know what they face.
-            .fold(if since.steps > 0 { since.last.min_gap } else { f64::INFINITY }, f64::min);
+            .fold(if since.steps > 0 { since.min_gap } else { f64::INFINITY }, f64::min);
         self.rows.extend([
-            since.last.contacts as f64,
+            since.contacts as f64,
             min_gap,
-            since.last.normal_force,
+            since.normal_force,
             if since.steps > 0 { since.iterations as f64 / since.steps as f64 } else { 0.0 },
             since.certificate,
             since.residual,

@@ -20,6 +20,12 @@ impl Energies {
     }
 }
 
+impl Energies {
+    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 2] {
+        [&mut self.kinetic, &mut self.strain]
+    }
+}
+
 impl Sum for Energies {
     fn sum<I: Iterator<Item = Self>>(energies: I) -> Self {
         energies.fold(Self::default(), |a, b| Self {
@@ -60,6 +66,13 @@ impl BodyLedger {
             + self.viscous
             + self.plastic
             + self.scheme
+    }
+}
+
+impl BodyLedger {
+    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 8] {
+        let Self { kinetic, strain, external, prescribed, viscous, plastic, scheme, contact } = self;
+        [kinetic, strain, external, prescribed, viscous, plastic, scheme, contact]
     }
 }
 
@@ -114,6 +127,23 @@ impl Ledger {
     }
 }
 
+impl Ledger {
+    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 9] {
+        let Self {
+            kinetic,
+            strain,
+            external,
+            prescribed,
+            friction,
+            viscous,
+            plastic,
+            scheme,
+            normal_contact,
+        } = self;
+        [kinetic, strain, external, prescribed, friction, viscous, plastic, scheme, normal_contact]
+    }
+}
+
 impl AddAssign for Ledger {
     fn add_assign(&mut self, step: Self) {
         self.kinetic += step.kinetic;
@@ -139,6 +169,12 @@ pub struct PairLedger {
     pub prescribed: f64,
     /// Whether there was a reaction.
     pub has_touched: bool,
+}
+
+impl PairLedger {
+    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 3] {
+        [&mut self.friction, &mut self.normal_contact, &mut self.prescribed]
+    }
 }
 
 impl AddAssign for PairLedger {

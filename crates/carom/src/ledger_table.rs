@@ -6,7 +6,7 @@ use crate::Books;
 /// kinetic, strain, external, viscous, plastic, scheme, contact, friction, normal_contact, prescribed, defect. What does not belong to an entry is NaN.
 #[derive(Debug, Default)]
 pub struct LedgerTable {
-    rows: Vec<f64>,
+    pub(crate) rows: Vec<f64>,
 }
 
 impl LedgerTable {

@@ -20,6 +20,7 @@ mod blend;
 mod body_step;
 mod books;
 mod build;
+mod checkpoint;
 mod compliance;
 mod condense;
 mod condition;
@@ -54,6 +55,7 @@ mod tracked;
 mod workspace;
 
 pub use build::{Meshes, build};
+pub use checkpoint::{Checkpoint, CheckpointError};
 pub use condition::ContactCondition;
 pub use cross_check::{CrossCheck, CrossCheckSummary};
 pub use describe::{BodyDescription, Description, PairDescription};

@@ -1,5 +1,6 @@
 //! The iteration matrix K̄ of each body.
 
+use carom_fem::material::PlasticState;
 use carom_fem::sparse::{Factor, NodalMatrix, Precision};
 use carom_fem::{Body, Held, Worked};
 use carom_mesh::{Matrix, Vector};
@@ -42,6 +43,21 @@ pub(crate) struct BodyOperator<const D: usize> {
     held: Held,
     translation: Option<Translation<D>>,
     scratch: Vec<Vector<D>>,
+    origin: Origin<D>,
+}
+
+/// Where and for what steps a factor was made: all that it takes to make it again.
+#[derive(Debug, Clone)]
+pub(crate) struct Origin<const D: usize> {
+    /// Length of the steps [s].
+    pub dt: f64,
+    pub precision: Precision,
+    /// Frame of the body.
+    pub frame: Matrix<D>,
+    /// u [m].
+    pub displacement: Vec<Vector<D>>,
+    /// What the material remembered.
+    pub history: Vec<PlasticState>,
 }
 
 /// The uniform part of a solution, which mass alone resists: Σ m x = Σ b over the coefficient of M, whatever the stiffness. A factor in
@@ -93,6 +109,13 @@ impl<const D: usize> BodyOperator<D> {
             held: body.held().clone(),
             translation: Translation::of(body),
             scratch: vec![Vector::zeros(); body.node_count()],
+            origin: Origin {
+                dt: 0.0,
+                precision: Precision::Double,
+                frame: Matrix::identity(),
+                displacement: vec![Vector::zeros(); body.node_count()],
+                history: body.virgin(),
+            },
         })
     }
 
@@ -110,6 +133,11 @@ impl<const D: usize> BodyOperator<D> {
     /// Whether only contact, or nothing, keeps the body from moving rigidly.
     pub fn is_loose(&self) -> bool {
         self.proximal > 0.0
+    }
+
+    /// Where the present factor was made; none where no step may rely on it.
+    pub fn origin(&self) -> Option<&Origin<D>> {
+        self.coefficients.is_some().then_some(&self.origin)
     }
 
     /// Lets no step rely on the factor.
@@ -140,8 +168,13 @@ impl<const D: usize> BodyOperator<D> {
                 precision,
             )?;
             self.turn_to(frame);
-            Ok(())
-        })
+            Ok::<(), StepError>(())
+        })?;
+        let Origin { displacement, history, .. } = &mut self.origin;
+        displacement.copy_from_slice(u);
+        history.copy_from_slice(worked.history());
+        (self.origin.dt, self.origin.precision, self.origin.frame) = (map.dt, precision, *frame);
+        Ok(())
     }
 
     fn factorize_at(

@@ -80,6 +80,8 @@ pub struct Progress {
     pub time: f64,
     /// Contacts with a reaction in the last step.
     pub contacts: usize,
+    /// Steps or substeps that failed and were halved.
+    pub retried: u64,
     /// Kinetic energy [J].
     pub kinetic: f64,
     /// Strain energy [J].
@@ -374,6 +376,7 @@ impl<const D: usize> Simulation<D> {
             step: self.step,
             time: self.state.time,
             contacts: self.totals.contacts,
+            retried: self.totals.retried,
             kinetic: e.kinetic,
             strain: e.strain,
             friction: self.books.total.friction,

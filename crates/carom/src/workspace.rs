@@ -26,7 +26,8 @@ pub struct GroupReport {
     pub ledger: PairLedger,
 }
 
-/// Scratch of a step: factors, tables and vectors. It holds no result and may be dropped at any moment.
+/// Scratch of a step: factors, tables and vectors. It holds no result and may be dropped at any moment; a run that is to go on to the last bit
+/// keeps what its [`crate::Checkpoint`] has of it.
 pub struct Workspace<const D: usize> {
     pub(crate) operators: Vec<BodyOperator<D>>,
     pub(crate) compliances: Vec<Compliance<D>>,

@@ -18,6 +18,7 @@ from carom.cli.run import run
 from carom.cli.schema import schema
 from carom.cli.sweep import sweep
 from carom.cli.view import view
+from carom.cli.watch import watch
 
 app = typer.Typer(
     help="Frictional impact of deformable bodies, every joule accounted for.",
@@ -32,6 +33,7 @@ app.command()(sweep)
 app.command()(audit)
 app.command()(plot)
 app.command()(view)
+app.command()(watch)
 app.command()(report)
 app.command()(schema)
 app.add_typer(friction, name="friction")

@@ -8,12 +8,14 @@ from pathlib import Path
 
 import typer
 
-from carom.errors import CertificateError, ConvergenceError, InputError
+from carom.errors import CertificateError, ConvergenceError, InputError, StorageError
+from carom.interrupt import Terminated
 
 SYSTEM_FAILURE = 1
 BAD_INPUT = 2
 NOT_CONVERGED = 3
 INTERRUPTED = 130
+TERMINATED = 143
 
 
 @contextmanager
@@ -31,8 +33,12 @@ def failures(file: Path) -> Iterator[None]:
         raise _ended(BAD_INPUT, f"error: {error}") from error
     except (CertificateError, ConvergenceError) as error:
         raise _ended(NOT_CONVERGED, f"error: {file}: {error}") from error
+    except Terminated as error:
+        raise _ended(TERMINATED, f"{file}: stopped by SIGTERM") from error
     except KeyboardInterrupt as error:
         raise _ended(INTERRUPTED, f"{file}: interrupted") from error
+    except StorageError as error:
+        raise _ended(SYSTEM_FAILURE, f"error: {error}") from error
     except OSError as error:
         where = error.filename or file
         raise _ended(SYSTEM_FAILURE, f"error: {where}: {error.strerror or error}") from error

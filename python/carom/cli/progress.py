@@ -6,11 +6,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from time import monotonic
 
-from rich.console import Console
-from rich.progress import BarColumn, TextColumn, TimeRemainingColumn
+from rich.console import Console, Group
+from rich.live import Live
+from rich.progress import BarColumn, TextColumn
 from rich.progress import Progress as Bar
+from rich.text import Text
 
-from carom.simulation import Observer, Progress
+from carom.progress import Observer, Progress
 
 LINE_EVERY = 5.0
 """Wall time between two lines where no bar can be drawn [s]."""
@@ -25,33 +27,36 @@ def shown_progress(console: Console) -> Iterator[Observer]:
     if not console.is_terminal:
         yield _lines(console)
         return
-    columns = (
+    bar = Bar(
         TextColumn("step {task.completed}/{task.total}"),
         BarColumn(bar_width=BAR_WIDTH),
         TextColumn("{task.fields[state]}"),
-        TextColumn("ETA"),
-        TimeRemainingColumn(),
     )
-    with Bar(*columns, console=console) as bar:
-        task = bar.add_task("run", total=None, state="")
+    task = bar.add_task("run", total=None, state="")
+    energies = Text()
+    with Live(Group(bar, energies), console=console, refresh_per_second=4):
 
         def draw(progress: Progress) -> None:
-            bar.update(task, total=progress.steps, completed=progress.step, state=_state(progress))
+            state = f"{_state(progress)}, ETA {_clock(progress.eta)}"
+            bar.update(task, total=progress.steps, completed=progress.step, state=state)
+            energies.plain = _energies(progress)
 
         yield draw
 
 
 def _lines(console: Console) -> Observer:
-    start = last = monotonic()
+    last = monotonic()
+    ended = False
 
     def line(progress: Progress) -> None:
-        nonlocal last
+        nonlocal last, ended
         now = monotonic()
-        if progress.step == progress.steps or now - last >= LINE_EVERY:
-            last = now
-            left = (now - start) * (progress.steps / max(progress.step, 1) - 1)
+        ends = progress.step == progress.steps and not ended
+        if ends or now - last >= LINE_EVERY:
+            last, ended = now, ended or ends
             console.print(
-                f"step {progress.step}/{progress.steps}, {_state(progress)}, ETA {left:.0f} s",
+                f"step {progress.step}/{progress.steps}, {_state(progress)}, "
+                f"{_energies(progress)}, ETA {_clock(progress.eta)}",
                 highlight=False,
                 soft_wrap=True,
             )
@@ -60,4 +65,19 @@ def _lines(console: Console) -> Observer:
 
 
 def _state(progress: Progress) -> str:
-    return f"t = {progress.time:.4g} s, {progress.contacts} contacts, E = {progress.total:.4g} J"
+    return f"t = {progress.time:.4g} s, {progress.contacts} contacts"
+
+
+def _energies(progress: Progress) -> str:
+    return (
+        f"kinetic {progress.kinetic:.4g} J, strain {progress.strain:.4g} J, "
+        f"friction took {progress.friction:.4g} J, {progress.retried} steps rejected"
+    )
+
+
+def _clock(seconds: float | None) -> str:
+    """Return a wall time as hours, minutes and seconds."""
+    if seconds is None:
+        return "-:--:--"
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes // 60}:{minutes % 60:02}:{rest:02}"

@@ -13,7 +13,9 @@ from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import failures
 from carom.cli.progress import shown_progress
 from carom.errors import CertificateError, ConvergenceError, InputError, naming
+from carom.interrupt import terminable
 from carom.io import layout
+from carom.restart import ended
 from carom.result import Result
 from carom.simulation import build, drive
 
@@ -26,21 +28,46 @@ def run(
         Path | None,
         typer.Option(metavar="DIR", help="Results directory; default results/CASE."),
     ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on from the last checkpoint in DIR.")
+    ] = False,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace the results that are in DIR.")
+    ] = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Print errors only.")] = False,
 ) -> None:
     """Run a case and write its results."""
     console = Console(quiet=quiet)
+
+    def tell(line: str) -> None:
+        console.print(line, markup=False, highlight=False, soft_wrap=True)
+
     directory = Path("results") / case.stem if out is None else out
-    with failures(case):
+    with failures(case), terminable():
+        if resume and force:
+            raise InputError("--resume goes on with a run, --force replaces it; give one of them")
         scenario = load(case, overrides)
         _spare_the_case(case, directory)
+        if resume and (there := ended(directory, scenario)) is not None:
+            tell(
+                f"{directory}: the run has ended ({there.summary['status']}); nothing to go on with"
+            )
+            return
         with naming(case):
             simulation = build(scenario)
         for warning in unit_warnings(scenario, simulation.describe()):
-            console.print(f"warning: {warning}", markup=False, highlight=False, soft_wrap=True)
+            tell(f"warning: {warning}")
         try:
             with shown_progress(console) as observer:
-                result = drive(simulation, scenario, directory, observer)
+                result = drive(
+                    simulation,
+                    scenario,
+                    directory,
+                    observer,
+                    resume=resume,
+                    force=force,
+                    notify=tell,
+                )
         except (CertificateError, ConvergenceError, KeyboardInterrupt):
             if (directory / layout.SUMMARY).exists():
                 console.print(Result.open(directory))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.errors import InputError
+from carom.io.atomic import write_whole
+from carom.io.journal import changed, going_on, shorter
 
 SCHEMA = 2
 """Version of the layout; a reader refuses others."""
@@ -27,13 +30,29 @@ class AuditWriter:
     ----------
     path
         File to write.
+    steps
+        Steps of a file that is there and goes on; what it has beyond these is dropped. None starts
+        a new one.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, steps: int | None = None) -> None:
         self._path = path
-        with h5py.File(path, "w") as file:
+        if steps is not None:
+            self._cut(steps)
+            return
+        content = io.BytesIO()
+        with h5py.File(content, "w") as file:
             file.attrs["schema"] = SCHEMA
             file.create_group("steps")
+        write_whole(path, content.getvalue())
+
+    def _cut(self, steps: int) -> None:
+        with going_on(self._path) as file:
+            names = sorted(file["steps"])
+            if len(names) < steps:
+                raise shorter(self._path, len(names), steps)
+            for name in names[steps:]:
+                del file[f"steps/{name}"]
 
     def append(self, step: Mapping[str, Any]) -> None:
         """Add a step.
@@ -44,10 +63,9 @@ class AuditWriter:
             What `carom.Simulation.last_step` gives: ``start`` and ``end``, mappings of the time
             [s] and arrays; ``blend``, shape [body_count]; ``ledger``, energies by name [J].
         """
-        with h5py.File(self._path, "r+") as file:
+        with changed(self._path) as file:
             steps = file["steps"]
-            # Under another name until it is whole.
-            group = steps.create_group("unfinished")
+            group = steps.create_group(f"{len(steps):06d}")
             for end in _ENDS:
                 state = group.create_group(end)
                 for name, value in step[end].items():
@@ -57,7 +75,6 @@ class AuditWriter:
                         state[name] = value
             group["blend"] = step["blend"]
             group.create_group("ledger").attrs.update(step["ledger"])
-            steps.move("unfinished", f"{len(steps) - 1:06d}")
 
 
 def read_steps(path: Path) -> Iterator[dict[str, Any]]:
@@ -75,8 +92,7 @@ def read_steps(path: Path) -> Iterator[dict[str, Any]]:
                     f"{path}: has schema {file.attrs.get('schema')}, this version reads {SCHEMA}"
                 )
             for name in sorted(file["steps"]):
-                if name != "unfinished":
-                    yield _step(file["steps"][name])
+                yield _step(file["steps"][name])
     except (OSError, KeyError) as error:
         raise InputError(f"{path}: not steps of carom: {error}") from error
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -24,11 +25,17 @@ class HistoryWriter:
         File to write.
     columns
         Titles of the columns.
+    size
+        Size of a file that is there and goes on [bytes]: what it has beyond that is cut off.
+        None starts a new one.
     """
 
-    def __init__(self, path: Path, columns: Sequence[str]) -> None:
+    def __init__(self, path: Path, columns: Sequence[str], *, size: int | None = None) -> None:
         self._path = path
-        self._write([list(columns)], mode="w")
+        if size is None:
+            self._write([list(columns)], mode="w")
+        else:
+            cut(path, size)
 
     def append(self, rows: NDArray[np.float64]) -> None:
         """Add rows, shape [row_count, column_count]."""
@@ -38,6 +45,23 @@ class HistoryWriter:
     def _write(self, rows: Sequence[Sequence[object]], *, mode: str) -> None:
         with self._path.open(mode, encoding="utf-8", newline="") as file:
             csv.writer(file, lineterminator="\n").writerows(rows)
+
+
+def cut(path: Path, size: int) -> None:
+    """Shorten a file to a size that it had before [bytes].
+
+    Raises
+    ------
+    InputError
+        It is shorter already.
+    """
+    there = path.stat().st_size if path.exists() else 0
+    if there < size:
+        raise InputError(
+            f"{path}: has {there} bytes, its checkpoint knows of {size}: results were changed; "
+            "start again with --force"
+        )
+    os.truncate(path, size)
 
 
 def read_history(path: str | Path) -> dict[str, NDArray[np.float64]]:

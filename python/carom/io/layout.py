@@ -16,9 +16,37 @@ AUDIT = "audit.h5"
 ENERGY_PLOT = "energy.png"
 REPORT = "report.html"
 FAILED_PROBLEM = "failed_contact_problem.hdf5"
+PROGRESS = "progress.json"
+"""There while the run goes on, and after it was killed."""
+
+CHECKPOINT = "checkpoint.h5"
+PREVIOUS_CHECKPOINT = "checkpoint-previous.h5"
+FRESH_CHECKPOINT = "checkpoint-fresh.h5"
+"""A whole one that has not taken the place of the last yet."""
+
+UNFINISHED = ".unfinished"
+"""What ends the name of a file that is being written."""
+
+JOURNAL = ".journal"
+"""What ends the name of a file with a change of another, see `carom.io.journal`."""
+
+CHECKPOINTS = (CHECKPOINT, FRESH_CHECKPOINT, PREVIOUS_CHECKPOINT)
+"""The latest first."""
+
+ENDED = ("completed", "uncertified", "failed")
+"""Statuses of runs that came to an end of their own: there is nothing to go on with."""
 
 _NAMES = (
-    *(SUMMARY, CASE, HISTORY, LEDGER, FIELDS, SURFACE, AUDIT, ENERGY_PLOT, REPORT),
+    SUMMARY,
+    *CHECKPOINTS,
+    CASE,
+    HISTORY,
+    LEDGER,
+    FIELDS,
+    SURFACE,
+    AUDIT,
+    ENERGY_PLOT,
+    REPORT,
     FAILED_PROBLEM,
 )
 
@@ -28,8 +56,8 @@ def track_plot(name: str) -> str:
     return f"track-{name}.png"
 
 
-def clear(directory: Path) -> None:
-    """Remove what an earlier run left, the summary first: without it, no results are claimed.
+def has_results(directory: Path) -> bool:
+    """Return whether a run has left anything in a directory.
 
     Raises
     ------
@@ -37,13 +65,34 @@ def clear(directory: Path) -> None:
         The directory is not one of results and has files that a run would overwrite.
     """
     present = [name for name in _NAMES if (directory / name).exists()]
-    if not {HISTORY, FIELDS} <= set(present):
-        if present:
-            raise InputError(
-                f"{directory}: has a {present[0]} that is not of a carom run; choose another --out"
-            )
-        return
-    for name in present:
-        (directory / name).unlink()
+    # A run makes its progress file before any other, so one that was killed early has it.
+    if present and not {HISTORY, FIELDS} <= set(present) and not (directory / PROGRESS).exists():
+        raise InputError(
+            f"{directory}: has a {present[0]} that is not of a carom run; choose another --out"
+        )
+    return bool(present)
+
+
+def clear(directory: Path) -> None:
+    """Remove what an earlier run left, the summary first: without it, no results are claimed.
+
+    Raises
+    ------
+    InputError
+        See `has_results`.
+    """
+    if has_results(directory):
+        for name in _NAMES:
+            (directory / name).unlink(missing_ok=True)
+            (directory / f"{name}{JOURNAL}").unlink(missing_ok=True)
+        forget_outcome(directory)
+
+
+def forget_outcome(directory: Path) -> None:
+    """Remove what is written at the end of a run, and what was being written when it stopped."""
+    for name in (SUMMARY, ENERGY_PLOT, REPORT, FAILED_PROBLEM):
+        (directory / name).unlink(missing_ok=True)
+    for name in (*_NAMES, PROGRESS):
+        (directory / f"{name}{UNFINISHED}").unlink(missing_ok=True)
     for plot in directory.glob(track_plot("*")):
         plot.unlink()

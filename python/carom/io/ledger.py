@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.io.history import cut
+
 COLUMNS = (
     "time",
     "entry",
@@ -43,12 +45,17 @@ class LedgerWriter:
         File to write.
     entries
         Names of the bodies, then of the pairs.
+    size
+        As of `HistoryWriter`.
     """
 
-    def __init__(self, path: Path, entries: Sequence[str]) -> None:
+    def __init__(self, path: Path, entries: Sequence[str], *, size: int | None = None) -> None:
         self._path = path
         self._entries = entries
-        self._write([COLUMNS], mode="w")
+        if size is None:
+            self._write([COLUMNS], mode="w")
+        else:
+            cut(path, size)
 
     def append(self, rows: NDArray[np.float64]) -> None:
         """Add rows, shape [row_count, column_count]; the entry is an index, NaN is left empty."""

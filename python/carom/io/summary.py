@@ -8,13 +8,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from carom.io.atomic import write_whole
+
 
 def write_summary(path: Path, summary: Mapping[str, Any]) -> None:
     """Write the summary whole or not at all; what is not a finite number is written as null."""
     text = json.dumps(_json(summary), indent=2, ensure_ascii=False, allow_nan=False)
-    partial = path.with_suffix(".tmp")
-    partial.write_text(text + "\n", encoding="utf-8")
-    partial.replace(path)
+    write_whole(path, f"{text}\n".encode())
 
 
 def read_summary(path: Path) -> dict[str, Any]:

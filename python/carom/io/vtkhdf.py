@@ -10,12 +10,16 @@ References
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import h5py
 import numpy as np
 from numpy.typing import NDArray
+
+from carom.io.atomic import write_whole
+from carom.io.journal import changed, going_on, shorter
 
 POINT_FIELDS = ("displacement", "velocity", "reaction")
 """Vectors at the points [m], [m/s], [N]; stored with 3 components."""
@@ -49,6 +53,9 @@ class FieldsWriter:
         [cell_count + 1]; ``types``, VTK cell types; ``body``, index of each cell's body.
     point_fields, cell_fields
         Names of the vectors at points, and of the fields on cells with their components.
+    frames
+        Frames of a file that is there and goes on; what it has beyond these is dropped. None starts
+        a new one.
     """
 
     def __init__(
@@ -58,12 +65,17 @@ class FieldsWriter:
         *,
         point_fields: Sequence[str] = POINT_FIELDS,
         cell_fields: Mapping[str, int] = CELL_FIELDS,
+        frames: int | None = None,
     ) -> None:
         self._path = path
         self._point_fields = point_fields
         self._cell_fields = cell_fields
         points, cells = len(mesh["points"]), len(mesh["types"])
-        with h5py.File(path, "w") as file:
+        if frames is not None:
+            self._cut(frames, points, cells)
+            return
+        content = io.BytesIO()
+        with h5py.File(content, "w") as file:
             root = file.create_group("VTKHDF")
             root.attrs["Version"] = np.array([2, 0], dtype=np.int64)
             root.attrs["Type"] = np.bytes_("UnstructuredGrid")
@@ -93,6 +105,7 @@ class FieldsWriter:
                 _growing(steps, f"CellDataOffsets/{name}", dtype=np.int64)
             root["CellData/body"] = mesh["body"].astype(np.int32)
             _growing(steps, "CellDataOffsets/body", dtype=np.int64)
+        write_whole(path, content.getvalue())
 
     def append(self, time: float, fields: Mapping[str, NDArray[np.float64]]) -> None:
         """Add a frame.
@@ -105,7 +118,7 @@ class FieldsWriter:
             Arrays by name: vectors at points, shape [point_count, D], and fields on cells, shape
             [cell_count, components].
         """
-        with h5py.File(self._path, "r+") as file:
+        with changed(self._path) as file:
             root = file["VTKHDF"]
             steps = root["Steps"]
             entries: dict[str, float] = {
@@ -124,7 +137,26 @@ class FieldsWriter:
                 entries[f"CellDataOffsets/{name}"] = _extend(root[f"CellData/{name}"], fields[name])
             for name, entry in entries.items():
                 _extend(steps[name], entry)
-            steps.attrs["NSteps"] += 1  # last: a frame counts once it is whole
+            steps.attrs["NSteps"] += 1
+
+    def _cut(self, frames: int, points: int, cells: int) -> None:
+        """Drop the frames after the first so many."""
+        with going_on(self._path) as file:
+            root = file["VTKHDF"]
+            steps = root["Steps"]
+            there = int(steps.attrs["NSteps"])
+            if there < frames:
+                raise shorter(self._path, there, frames)
+            for name in self._point_fields:
+                root[f"PointData/{name}"].resize(frames * points, axis=0)
+            for name in self._cell_fields:
+                root[f"CellData/{name}"].resize(frames * cells, axis=0)
+            steps.visititems(
+                lambda _, entry: (
+                    entry.resize(frames, axis=0) if isinstance(entry, h5py.Dataset) else None
+                )
+            )
+            steps.attrs["NSteps"] = np.int64(frames)
 
 
 def _growing(

@@ -1,0 +1,134 @@
+//! The state.
+
+use carom_contact::Contact;
+use carom_mesh::{Matrix, Vector};
+
+use super::CheckpointError;
+use super::tape::Tape;
+use crate::{Model, Reaction, State};
+
+/// Records or replays the state.
+pub(super) fn exchange<const D: usize>(
+    tape: &mut Tape<'_>,
+    model: &Model<D>,
+    state: &mut State<D>,
+) -> Result<(), CheckpointError> {
+    tape.numbers("state/time", [&mut state.time])?;
+    tape.vectors("state/displacement", &mut state.displacement)?;
+    tape.vectors("state/velocity", &mut state.velocity)?;
+    tape.vectors("state/contact_force", &mut state.contact_force)?;
+    tape.numbers("state/friction_energy", &mut state.friction_energy)?;
+    tape.vectors("state/support", &mut state.support)?;
+    tape.numbers("state/slip", &mut state.slip)?;
+    tape.vectors("state/internal_force", &mut state.internal_force)?;
+    tape.numbers("state/energies", state.energies.terms_mut())?;
+    tape.numbers("state/body_energies", state.body_energies.iter_mut().flat_map(|e| e.terms_mut()))?;
+    tape.numbers("state/excess", &mut state.excess)?;
+    tape.plastic("state/plastic", state.history.iter_mut().flatten())?;
+    let mut reactions = Reactions::of(&state.reactions);
+    reactions.exchange(tape)?;
+    if tape.replays() {
+        state.reactions = reactions.into_reactions(model)?;
+    }
+    Ok(())
+}
+
+/// Reactions as arrays: one entry or vector per reaction, and stencils one after the other.
+#[derive(Default)]
+struct Reactions<const D: usize> {
+    pair: Vec<u32>,
+    node: Vec<u32>,
+    force: Vec<Vector<D>>,
+    gap: Vec<f64>,
+    area: Vec<f64>,
+    frame: Vec<Matrix<D>>,
+    source_count: Vec<usize>,
+    stencil_length: Vec<usize>,
+    stencil_node: Vec<u32>,
+    stencil_weight: Vec<f64>,
+}
+
+const PREFIX: &str = "state/reactions";
+
+impl<const D: usize> Reactions<D> {
+    fn of(reactions: &[Reaction<D>]) -> Self {
+        let contacts = || reactions.iter().map(|r| &r.contact);
+        let stencils = || contacts().flat_map(Contact::stencil);
+        Self {
+            pair: reactions.iter().map(|r| r.pair).collect(),
+            node: reactions.iter().map(|r| r.node).collect(),
+            force: reactions.iter().map(|r| r.force).collect(),
+            gap: contacts().map(|c| c.gap).collect(),
+            area: contacts().map(|c| c.area).collect(),
+            frame: contacts().map(|c| c.frame).collect(),
+            source_count: contacts().map(|c| c.sources().len()).collect(),
+            stencil_length: contacts().map(|c| c.stencil().len()).collect(),
+            stencil_node: stencils().map(|(node, _)| node as u32).collect(),
+            stencil_weight: stencils().map(|(_, weight)| weight).collect(),
+        }
+    }
+
+    fn exchange(&mut self, tape: &mut Tape<'_>) -> Result<(), CheckpointError> {
+        let name = |of: &str| format!("{PREFIX}/{of}");
+        let count = tape.rows(&name("pair"), 1, self.pair.len())?;
+        let entries = tape.rows(&name("stencil_node"), 1, self.stencil_node.len())?;
+        self.pair.resize(count, 0);
+        self.node.resize(count, 0);
+        self.force.resize(count, Vector::zeros());
+        self.gap.resize(count, 0.0);
+        self.area.resize(count, 0.0);
+        self.frame.resize(count, Matrix::zeros());
+        self.source_count.resize(count, 0);
+        self.stencil_length.resize(count, 0);
+        self.stencil_node.resize(entries, 0);
+        self.stencil_weight.resize(entries, 0.0);
+        tape.integers(&name("pair"), &mut self.pair)?;
+        tape.integers(&name("node"), &mut self.node)?;
+        tape.vectors(&name("force"), &mut self.force)?;
+        tape.numbers(&name("gap"), &mut self.gap)?;
+        tape.numbers(&name("area"), &mut self.area)?;
+        tape.numbers(&name("frame"), self.frame.iter_mut().flat_map(|f| f.iter_mut()))?;
+        tape.integers(&name("source_count"), &mut self.source_count)?;
+        tape.integers(&name("stencil_length"), &mut self.stencil_length)?;
+        tape.integers(&name("stencil_node"), &mut self.stencil_node)?;
+        tape.numbers(&name("stencil_weight"), &mut self.stencil_weight)
+    }
+
+    fn into_reactions(self, model: &Model<D>) -> Result<Vec<Reaction<D>>, CheckpointError> {
+        let wrong = |of: &str, what: &str| CheckpointError::new(&format!("{PREFIX}/{of}"), what);
+        let all = |indices: &[u32], count: usize| indices.iter().all(|&i| (i as usize) < count);
+        if !all(&self.pair, model.contact.pairs.len()) {
+            return Err(wrong("pair", "names a pair that is not there"));
+        }
+        if !all(&self.node, model.node_count()) {
+            return Err(wrong("node", "names a node that is not there"));
+        }
+        if !all(&self.stencil_node, model.reference.len()) {
+            return Err(wrong("stencil_node", "names a node that is not there"));
+        }
+        let entries = self.stencil_length.iter().try_fold(0_usize, |sum, &n| sum.checked_add(n));
+        let is_split =
+            self.source_count.iter().zip(&self.stencil_length).all(|(sources, all)| sources <= all);
+        if entries != Some(self.stencil_node.len()) || !is_split {
+            return Err(wrong("stencil_length", "does not fit the stencils"));
+        }
+        let mut stencils = self.stencil_node.into_iter().zip(self.stencil_weight);
+        let mut reactions = Vec::with_capacity(self.pair.len());
+        for k in 0..self.pair.len() {
+            let stencil = stencils.by_ref().take(self.stencil_length[k]);
+            let contact =
+                Contact::of_stencil(self.gap[k], self.frame[k], self.area[k], stencil, self.source_count[k]);
+            reactions.push(Reaction {
+                pair: self.pair[k],
+                node: self.node[k],
+                contact,
+                force: self.force[k],
+            });
+        }
+        if reactions.is_sorted_by_key(Reaction::key) {
+            Ok(reactions)
+        } else {
+            Err(wrong("node", "is not ascending"))
+        }
+    }
+}
