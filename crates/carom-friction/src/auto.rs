@@ -57,7 +57,8 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
             .map(|status| (SolverKind::GaussSeidelEnumerative, status))
     };
     let blocks = problem.w.block_count();
-    let dense = blocks > DENSE * problem.len() && !is_local(problem);
+    let local = is_local(problem);
+    let dense = blocks > DENSE * problem.len() && !local;
     let first = if dense {
         monitor.check(r).map(|status| (SolverKind::Admm, status))
     } else {
@@ -66,7 +67,7 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
     if let Some(end) = first {
         return end;
     }
-    while !dense && monitor.expected_iterations() < PROMISED_SWEEPS {
+    while local && monitor.expected_iterations() < PROMISED_SWEEPS {
         if let Some(end) = sweep(monitor, r, FIRST_SWEEPS) {
             return end;
         }

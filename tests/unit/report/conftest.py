@@ -79,6 +79,34 @@ def ball(tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
+def museum(tmp_path_factory):
+    """A ball among obstacles of every kind there is in space."""
+    import meshio
+
+    directory = tmp_path_factory.mktemp("museum")
+    corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+    meshio.Mesh(corners, [("triangle", faces)]).write(directory / "wedge.stl")
+    obstacles = [
+        *BALL["obstacles"],
+        {"name": "globe", "kind": "sphere", "centre": [3, 0, 1], "radius": 1},
+        {"name": "bore", "kind": "cylinder", "point": [0, 0, 0], "axis": [0, 1, 1], "radius": 9}
+        | {"cavity": True},
+        {"name": "crate", "kind": "box", "corner": [-4, 0, 0], "size": [1, 2, 1]},
+        {"name": "wedge", "kind": "surface", "file": str(directory / "wedge.stl"), "scale": 0.5}
+        | {"velocity": [0, 0, -1]},
+    ]
+    case = carom.Scenario.from_dict({**BALL, "title": "museum", "obstacles": obstacles})
+    away = {"mesh": {**BALL["bodies"][0]["mesh"], "centre": [0, 0, 1.8]}}
+    case = carom.Scenario.from_dict(
+        {**case.model_dump(mode="json"), "bodies": [{**BALL["bodies"][0], **away}]}
+    )
+    result = carom.run(case, out=directory / "run")
+    write_report(result.path)
+    return result
+
+
+@pytest.fixture(scope="session")
 def data_of():
     """Return what a page holds for its scripts."""
 

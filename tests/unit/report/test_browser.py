@@ -280,6 +280,16 @@ def test_a_body_in_space_turns_under_the_pointer_and_nothing_is_injected(ball, o
     assert drawn(page) != before
 
 
+def test_obstacles_of_every_kind_are_drawn(museum, opened):
+    page = opened(museum.path / layout.REPORT)
+    kinds = [obstacle.kind for obstacle in museum.scenario.obstacles]
+    assert kinds == ["plane", "sphere", "cylinder", "box", "surface"]
+    page.wait_for_selector("#stage canvas")
+    before = drawn(page)
+    page.keyboard.press("End")
+    assert drawn(page) != before
+
+
 def test_a_narrow_screen_is_not_overrun(disc, opened):
     page = opened(disc.path / layout.REPORT, viewport={"width": 360, "height": 740})
     assert page.evaluate("document.documentElement.scrollWidth") <= 360

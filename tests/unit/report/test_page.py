@@ -111,6 +111,23 @@ def test_an_obstacle_that_moves_is_where_it_is(disc, data_of):
     np.testing.assert_allclose(np.array(swing["travel"]), place, atol=1e-15)
 
 
+def test_the_triangles_of_an_obstacle_are_in_the_page(museum, data_of):
+    *_, wedge = data_of(museum.path / layout.REPORT).scene["obstacles"]
+    points, triangles = unpack(wedge["points"]), unpack(wedge["triangles"])
+    a, b, c = np.moveaxis(points[triangles], 1, 0).astype(float)
+    volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+    assert volume == pytest.approx(0.5**3 / 6)
+
+
+def test_an_obstacle_whose_file_is_gone_is_named(museum, tmp_path, data_of):
+    copy = shutil.copytree(museum.path, tmp_path / "copy")
+    case = (copy / layout.CASE).read_text()
+    (copy / layout.CASE).write_text(case.replace("wedge.stl", "gone.stl"))
+    page = write_report(copy)
+    assert len(data_of(page).scene["obstacles"]) == 4
+    assert "The obstacle wedge is not drawn" in page.read_text()
+
+
 def test_text_of_the_case_stays_text(ball):
     page = Page(ball.path / layout.REPORT)
     title = ball.summary["title"]

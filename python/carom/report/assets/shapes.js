@@ -97,9 +97,11 @@ carom.shapes = (() => {
       shape = new THREE.Mesh(new THREE.BoxGeometry(x, y, z), material);
       shape.position.copy(spatial(obstacle.corner)).add(new THREE.Vector3(x / 2, y / 2, z / 2));
     } else {
-      const geometry = new THREE.BufferGeometry();
-      geometry.setAttribute("position", new THREE.BufferAttribute(obstacle.points.array, 3));
-      geometry.setIndex(new THREE.BufferAttribute(obstacle.triangles.array, 1));
+      const shared = new THREE.BufferGeometry();
+      shared.setAttribute("position", new THREE.BufferAttribute(obstacle.points.array, 3));
+      shared.setIndex(new THREE.BufferAttribute(obstacle.triangles.array, 1));
+      const geometry = shared.toNonIndexed(); // so that every triangle has its own normal
+      geometry.computeVertexNormals();
       shape = new THREE.Mesh(geometry, material);
     }
     group.add(shape);
