@@ -37,6 +37,7 @@ bench:
 
 validate: $(VENV)/installed-dev
 	$(BIN)/python benchmarks/validate.py
+	$(BIN)/python benchmarks/fuzz
 	CAROM_KILLS=500 $(BIN)/pytest tests/unit/test_restart.py -k killed
 
 $(BIN)/python:

@@ -45,7 +45,7 @@ FORMATS = {
     "part.vtk": {},
     "part.inp": {},
     "part.med": {},
-    "part.xdmf": {},
+    "part.xdmf": {"data_format": "XML"},
     "part.mesh": {},
     "part.bdf": {},
     "part.unv.vtk": {"binary": False, "file_format": "vtk42"},

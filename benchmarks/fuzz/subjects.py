@@ -7,11 +7,10 @@ from abc import ABC, abstractmethod
 from copy import deepcopy
 from functools import cached_property
 from pathlib import Path
-
-import tomlkit
+from typing import Any
 
 from fuzz import seeds
-from fuzz.attempt import build_mesh, run_case, solve_problem
+from fuzz.attempt import build_mesh, run_case, run_tables, solve_problem
 from fuzz.mutate import spoilt_bytes, spoilt_data
 
 
@@ -28,12 +27,12 @@ class Subject(ABC):
         self.folder = folder
 
     @abstractmethod
-    def spoilt(self, seed: int) -> Path:
-        """Write the spoilt file of a seed."""
+    def spoilt(self, seed: int) -> Any:
+        """Return the spoilt input of a seed: tables, or a file that is written."""
 
     @abstractmethod
-    def answer(self, file: Path) -> str:
-        """Do with a file what the commands do; return what it was taken for."""
+    def answer(self, given: Any) -> str:
+        """Do with it what the commands do; return what it was taken for."""
 
 
 class CaseTables(Subject):
@@ -43,16 +42,14 @@ class CaseTables(Subject):
     def _seeds(self) -> list[dict]:
         return seeds.case_data(self.folder)
 
-    def spoilt(self, seed: int) -> Path:  # noqa: D102 (as the base says)
+    def spoilt(self, seed: int) -> dict[str, Any]:  # noqa: D102 (as the base says)
         pick = random.Random(seed)
         data = deepcopy(pick.choice(self._seeds))
         spoilt_data(data, pick)
-        file = self.folder / "case.toml"
-        file.write_text(tomlkit.dumps(data), encoding="utf-8")
-        return file
+        return data
 
-    def answer(self, file: Path) -> str:  # noqa: D102 (as the base says)
-        return run_case(file)
+    def answer(self, given: dict[str, Any]) -> str:  # noqa: D102 (as the base says)
+        return run_tables(given)
 
 
 class CaseText(Subject):
@@ -68,8 +65,8 @@ class CaseText(Subject):
         file.write_bytes(spoilt_bytes(pick.choice(self._seeds), pick))
         return file
 
-    def answer(self, file: Path) -> str:  # noqa: D102 (as the base says)
-        return run_case(file)
+    def answer(self, given: Path) -> str:  # noqa: D102 (as the base says)
+        return run_case(given)
 
 
 class _Files(Subject):
@@ -97,8 +94,8 @@ class Meshes(_Files):
     def _written(self, folder: Path) -> list[Path]:
         return seeds.meshes(folder)
 
-    def answer(self, file: Path) -> str:  # noqa: D102 (as the base says)
-        return build_mesh(file)
+    def answer(self, given: Path) -> str:  # noqa: D102 (as the base says)
+        return build_mesh(given)
 
 
 class Problems(_Files):
@@ -107,8 +104,8 @@ class Problems(_Files):
     def _written(self, folder: Path) -> list[Path]:
         return seeds.problems(folder)
 
-    def answer(self, file: Path) -> str:  # noqa: D102 (as the base says)
-        return solve_problem(file)
+    def answer(self, given: Path) -> str:  # noqa: D102 (as the base says)
+        return solve_problem(given)
 
 
 SUBJECTS: dict[str, type[Subject]] = {

@@ -26,6 +26,10 @@ CHUNK = 1000
 """Attempts of one process."""
 
 
+REPORT = 50
+"""Answers after which a process tells them: those since are lost if it dies."""
+
+
 @dataclass
 class Tally:
     """What came out.
@@ -76,11 +80,13 @@ def _watched(subject: str, seeds: range, tally: Tally) -> int:
             worker.join()
             tally.defects[current.value] = reason
             return current.value + 1
+        if kind == "defect":
+            tally.defects[seed] = text
+            continue
+        tally.outcomes.update(text)
         if kind == "end":
-            tally.outcomes.update(text)
             worker.join()
             return seeds.stop
-        tally.defects[seed] = text
 
 
 def _attempts(subject: str, seeds: range, current: Synchronized[int], said: Any) -> None:
@@ -95,6 +101,9 @@ def _attempts(subject: str, seeds: range, current: Synchronized[int], said: Any)
                 outcomes[attempt(tried.answer, tried.spoilt(seed))] += 1
             except Defect as defect:
                 said.put(("defect", seed, str(defect)))
+            if len(outcomes) and sum(outcomes.values()) % REPORT == 0:
+                said.put(("answers", seed, outcomes))
+                outcomes = Counter()
         said.put(("end", 0, outcomes))
 
 

@@ -16,6 +16,7 @@ from carom.errors import CertificateError, ConvergenceError, InputError, Storage
 from carom.interrupt import Terminated
 from carom.io import layout
 from carom.io.progress import refuse_running
+from carom.leaps import refuse_leaps
 from carom.mesh import MeshFile
 from carom.mesh_file import MeshArrays, read_body_mesh, read_surface
 from carom.obstacle import RigidSurface
@@ -38,7 +39,9 @@ def build(scenario: Scenario) -> Simulation:
     InputError
         The scenario cannot be run, such as bodies that overlap at the start.
     """
-    return Simulation(_json(scenario), _meshes(scenario))
+    simulation = Simulation(_json(scenario), _meshes(scenario))
+    refuse_leaps(scenario, simulation.describe())
+    return simulation
 
 
 def _json(scenario: Scenario) -> str:

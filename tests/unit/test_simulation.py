@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import carom
+from carom.simulation import build
 
 
 @pytest.fixture
@@ -85,3 +86,14 @@ def test_check_warns_of_coarse_steps(bars):
     warnings = carom.check(coarse).warnings
     assert any("suggested" in warning for warning in warnings)
     assert any("whole number" in warning for warning in warnings)
+
+
+@pytest.mark.parametrize(("key", "value"), [("velocity", [0.0, -1e7]), ("spin", 1e8)])
+def test_a_body_that_would_leap_is_refused(box, key, value):
+    box["bodies"][0][key] = value
+    with pytest.raises(carom.InputError) as caught:
+        build(carom.Scenario.from_dict(box))
+    assert caught.value.key == f"bodies.0.{key}"
+    assert str(caught.value).startswith(f"bodies.0.{key}: left would move by ")
+    box["analysis"] = {"kind": "dynamic", "end_time": 1e-6, "time_step": 1e-9}
+    build(carom.Scenario.from_dict(box))

@@ -165,12 +165,21 @@ def test_finished_runs_of_the_same_case_are_not_made_again(here, scenario, tmp_p
     assert [path.rpartition("/")[2] for path in here] == ["friction=0.4"]
     assert wider[:2] == first
     here.clear()
-    other = scenario.with_overrides(["bodies.0.spin=1.0"])
-    sweep(other, axes, tmp_path)
+    sweep(scenario, axes, tmp_path, force=True)
     assert len(here) == 2
+
+
+def test_results_of_another_case_are_replaced_by_force_only(here, scenario, tmp_path):
+    axes = [axis("contact.friction=0.2")]
+    (first,) = sweep(scenario, axes, tmp_path)
     here.clear()
-    sweep(other, axes, tmp_path, force=True)
-    assert len(here) == 2
+    other = scenario.with_overrides(["bodies.0.spin=1.0"])
+    with pytest.raises(InputError, match=r"friction=0\.2: has results of another case; .*--force"):
+        sweep(other, axes, tmp_path)
+    assert here == []
+    assert sweep(scenario, axes, tmp_path) == [first]
+    (replaced,) = sweep(other, axes, tmp_path, force=True)
+    assert replaced["energy_initial"] > first["energy_initial"]
 
 
 def test_an_interrupted_run_is_made_again(here, scenario, tmp_path):

@@ -27,7 +27,11 @@ def read_file(path: Path, space: int) -> FileMesh:
     Refused
         The file is not there, of no known format, or not as its format asks.
     """
-    if not path.is_file():
+    try:
+        is_there = path.is_file()
+    except OSError as error:  # such as a name that is too long
+        raise Refused(f"cannot be read: {error.strerror}") from None
+    if not is_there:
         raise Refused("no such file; paths in a case file are relative to it")
     if path.suffix.lower() == ".inp":
         return read_abaqus(path)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from carom.errors import InputError
 from carom.io import layout
+from carom.io.atomic import write_whole
 from carom.report.page import page
 from carom.report.source import read_source
 
@@ -40,13 +41,7 @@ def write_report(
         raise InputError(f"--out {file}: is a directory; name a file")
     if file.exists() and not force and not (_is_same(file, own) and _is_report(file)):
         raise InputError(f"{file}: is there already; give --force to replace it")
-    text = page(source)
-    partial = file.with_name(f".{file.name}.partial")
-    try:
-        partial.write_text(text, encoding="utf-8")
-        partial.replace(file)
-    finally:
-        partial.unlink(missing_ok=True)
+    write_whole(file, page(source).encode())
     return file
 
 

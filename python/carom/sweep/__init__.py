@@ -51,7 +51,7 @@ def sweep(
     scheduler
         Address of a Dask scheduler, in place of processes here.
     force
-        Whether finished runs are made again.
+        Whether finished runs are made again, and those of another case replaced.
     done
         Called after each run.
 
@@ -63,7 +63,8 @@ def sweep(
     Raises
     ------
     InputError
-        A key is not known or a value not allowed; nothing is run.
+        A key is not known, a value not allowed, or there are results of another case; nothing is
+        run.
     """
     study = points(scenario, axes, out)
     rows: list[dict[str, Any] | None] = [None] * len(study)
@@ -77,8 +78,8 @@ def sweep(
             done(count, len(study), made)
 
     left: list[int] = []
-    for index, point in enumerate(study):
-        summary = None if force else point.finished()
+    there = [None if force else point.finished() for point in study]
+    for index, summary in enumerate(there):
         if summary is None:
             left.append(index)
         else:

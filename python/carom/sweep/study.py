@@ -41,17 +41,27 @@ class Point:
     directory: Path
 
     def finished(self) -> dict[str, Any] | None:
-        """Return the summary of this very case, if it has been run to an end that will not change.
+        """Return the summary, if this has been run to an end that will not change.
 
-        That is not so if the case was another one, or if the run was interrupted.
+        Raises
+        ------
+        InputError
+            The directory has the results of another case.
         """
         try:
             case = (self.directory / layout.CASE).read_text(encoding="utf-8")
+        except OSError:
+            return None
+        if case != self.scenario.to_toml(complete=True):
+            raise InputError(
+                f"{self.directory}: has results of another case; choose another --out, or replace "
+                "them by --force"
+            )
+        try:
             summary = read_summary(self.directory / layout.SUMMARY)
         except (OSError, ValueError):
             return None
-        same = case == self.scenario.to_toml(complete=True)
-        return summary if same and summary.get("status") != "interrupted" else None
+        return summary if summary.get("status") != "interrupted" else None
 
 
 def points(scenario: Scenario, axes: Sequence[Axis], out: Path) -> list[Point]:

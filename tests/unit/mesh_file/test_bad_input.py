@@ -31,6 +31,10 @@ def test_a_missing_file_is_named(tmp_path):
     assert message.startswith(f'bodies.1.mesh.file = "{tmp_path / "part.vtu"}": no such file')
 
 
+def test_a_name_that_no_file_can_have_is_refused(tmp_path):
+    assert ": cannot be read: File name too long" in refusal(None, tmp_path, name="x" * 3000)
+
+
 @pytest.mark.parametrize("name", ["part.msh", "part.vtk", "part.vtu", "part.inp", "part.med"])
 def test_what_is_no_mesh_is_refused_and_nothing_is_printed(tmp_path, capfd, name):
     (tmp_path / name).write_text("*ELEMENT, TYPE=C3D8\n1, 2, 3\n" if name.endswith("inp") else "?")
