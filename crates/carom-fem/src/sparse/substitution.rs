@@ -14,8 +14,8 @@ const COLUMNS: usize = 4;
 /// Columns from which a panel is inverted in blocks, by faer: the large ones of bodies in space.
 const BLOCKED: usize = 96;
 
-/// Values of a panel from which threads share its products: some ten times what it takes to wake them.
-const LARGE_PANEL: usize = 1 << 18;
+/// Values of a panel from which threads share its products: it takes several times as long as waking them.
+const LARGE_PANEL: usize = 1 << 16;
 
 /// Forward and backward substitution with some of the supernodes of a Cholesky factor, for one right-hand side.
 ///
