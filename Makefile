@@ -8,7 +8,8 @@ PYTHON ?= python3
 PYTHON_SOURCES := python tests examples benchmarks docs tools
 VENV := .venv
 BIN := $(VENV)/bin
-SOURCES := $(shell find crates python -name '*.rs' -o -name '*.py' -o -name '*.pyi' -o -name 'Cargo.toml') \
+# All that a wheel is made of: templates and the assets of the report too.
+SOURCES := $(shell find crates python -type f ! -name '*.pyc') \
 	Cargo.toml Cargo.lock pyproject.toml README.md
 
 .PHONY: demo test check bench validate clean

@@ -121,7 +121,7 @@ def test_a_brick_falls_on_a_surface_out_of_a_file(case):
     energies = []
     for floor in (plane, 'kind = "surface"\nfile = "floor.stl"\nscale = 1e-3\n'):
         case.write_text(CASE.replace(plane, floor).replace("end_time = 2e-3", "end_time = 5e-3"))
-        answer = command("run", case, "--out", case.parent / "out")
+        answer = command("run", case, "--force", "--out", case.parent / "out")
         assert answer.exit_code == 0, answer.output
         energies.append(carom.Result.open(case.parent / "out").history["kinetic"])
     np.testing.assert_allclose(energies[0], energies[1], rtol=1e-9)
