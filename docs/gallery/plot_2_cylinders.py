@@ -26,9 +26,9 @@ for friction in (0.0, 0.2):
     print(f"μ = {friction}: the cylinders meet at {two_cylinders.meeting(results[friction]):.3f} s")
 
 # %%
-# With friction, before and during the impact; colours are von Mises' stress.
+# With friction, on the floor and when the two meet; colours are von Mises' stress.
 
-draw(results[0.2], [1.2, 2.9], field="von-mises")
+draw(results[0.2], [1.55, 2.9], field="von-mises")
 plt.show()
 
 # %%

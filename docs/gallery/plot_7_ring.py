@@ -19,7 +19,7 @@ ring = carom.Body(
     self_contact=True,
     mesh=carom.Ring(centre=[0.0, 0.0], inner_radius=0.8, outer_radius=1.0, divisions=[64, 3]),
 )
-stamp = carom.Displacement(y="-1.75*min(t, 1)")
+stamp = carom.Displacement(y="-1.65*min(t, 1)")
 scenario = carom.Scenario(
     title="A ring is crushed",
     analysis=carom.Dynamic(end_time=1.0, time_step=4e-3),
