@@ -11,9 +11,10 @@ use crate::{
 ///
 /// A few accelerated Gauss–Seidel sweeps solve well-conditioned problems and improve the start of others. They go on while they
 /// promise to end soon, and then while they are a small part of what Newton's method would cost. Contacts that are densely coupled
-/// have full factors and make sweeps slow: there ADMM, which needs one factor, is tried instead. Then comes the proximal point method with Newton's iterations, and
-/// where that is trapped, sweeps again: in turn, until the problem is solved or the limits are reached. Where the factors would
-/// outgrow the problem, as those of large piles do, Uzawa's iteration takes over.
+/// have full factors and make sweeps slow: there ADMM, which needs one factor, is tried instead, unless the contacts answer mostly to
+/// their own reactions. Then comes the proximal point method with Newton's iterations, and where that is trapped, sweeps again: in
+/// turn, until the problem is solved or the limits are reached. Where the factors would outgrow the problem, as those of large piles do,
+/// Uzawa's iteration takes over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Auto;
 
@@ -50,6 +51,7 @@ fn is_local<const D: usize>(problem: &ContactProblem<D>) -> bool {
         sum <= (1.0 + LOCAL) * problem.w.diagonal(i).norm()
     })
 }
+
 fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (SolverKind, SolveStatus) {
     let problem = monitor.problem();
     let sweep = |monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>], sweeps| {

@@ -82,7 +82,7 @@ def read_abaqus(path: Path) -> FileMesh:
         for keyword, options, rows in _sections(path):
             reader.take(keyword, options, rows)
         return reader.mesh()
-    except (OSError, UnicodeDecodeError, ValueError, IndexError) as error:
+    except (OSError, UnicodeDecodeError, ValueError, IndexError, OverflowError) as error:
         raise Refused(f"cannot be read: {error}") from None
 
 

@@ -15,6 +15,9 @@ from carom.mesh_file.cells import dimension
 from carom.mesh_file.geometry import GEOMETRY, meshed
 from carom.mesh_file.gmsh41 import any_number_of_groups
 
+NASTRAN = (".bdf", ".fem", ".nas")
+"""Endings of Nastran's files."""
+
 _MANY = 1000
 """Distinct values above which integer data of cells are no sets."""
 
@@ -38,6 +41,8 @@ def read_file(path: Path, space: int) -> FileMesh:
     if path.suffix.lower() in GEOMETRY:
         with meshed(path, space) as mesh:
             return _by_meshio(mesh)
+    if path.suffix.lower() in NASTRAN:
+        _refuse_endless(path)
     return _by_meshio(path)
 
 
@@ -56,19 +61,26 @@ def _by_meshio(path: Path) -> FileMesh:
             " ".join(said) if isinstance(error, SystemExit) else f"{error or type(error).__name__}"
         )
         raise Refused(f"cannot be read: {' '.join(reason.split())}") from None
-    blocks = [
-        (str(block.type), np.asarray(block.data, dtype=np.int64))
-        for block in mesh.cells
-        if not block.type.startswith("polyhedron")
-    ]
-    if len(blocks) < len(mesh.cells):
+    if any(block.type.startswith("polyhedron") for block in mesh.cells):
         raise Refused("has polyhedra, which carom does not know; mesh with tetrahedra or hexahedra")
-    return FileMesh(
-        points=np.asarray(mesh.points, dtype=np.float64),
-        blocks=blocks,
-        point_sets=_point_sets(mesh),
-        cell_sets=_cell_sets(mesh),
-    )
+    try:
+        blocks = [(str(block.type), np.asarray(block.data, dtype=np.int64)) for block in mesh.cells]
+        points = np.asarray(mesh.points, dtype=np.float64)
+        point_sets, cell_sets = _point_sets(mesh), _cell_sets(mesh)
+    except (ValueError, TypeError, IndexError, OverflowError) as error:
+        raise Refused(f"cannot be read: {' '.join(str(error).split())}") from None
+    for name, cells in cell_sets.items():
+        if len(cells) != len(blocks):
+            raise Refused(f"its set {name!r} does not fit its cells; repair the file")
+    return FileMesh(points=points, blocks=blocks, point_sets=point_sets, cell_sets=cell_sets)
+
+
+def _refuse_endless(path: Path) -> None:
+    """Refuse a Nastran file without its last line, for which meshio would wait for ever."""
+    lines = path.read_bytes().splitlines()
+    bulk = next((n for n, line in enumerate(lines) if line.strip().startswith(b"BEGIN BULK")), 0)
+    if not any(line.startswith(b"ENDDATA") for line in lines[bulk:]):
+        raise Refused("has no ENDDATA; is the file cut short?")
 
 
 def _cell_sets(mesh: Any) -> dict[str, list[Indices]]:  # noqa: ANN401 (meshio has no types)

@@ -42,6 +42,28 @@ def test_what_is_no_mesh_is_refused_and_nothing_is_printed(tmp_path, capfd, name
     assert capfd.readouterr() == ("", "")
 
 
+def test_a_nastran_file_without_its_end_is_refused(tmp_path):
+    meshio.write(tmp_path / "part.bdf", meshio.Mesh(POINTS, [("tetra", TETS)]))
+    text = (tmp_path / "part.bdf").read_text()
+    (tmp_path / "part.bdf").write_text(text.replace("ENDDATA", "$"))
+    assert "has no ENDDATA; is the file cut short?" in refusal(None, tmp_path, name="part.bdf")
+
+
+def test_node_numbers_that_no_array_holds_are_refused(tmp_path):
+    text = f"*NODE\n1,0,0,0\n*ELEMENT, TYPE=C3D4\n1,1,1,1,{10**30}\n"
+    (tmp_path / "part.inp").write_text(text)
+    assert "cannot be read: " in refusal(None, tmp_path, name="part.inp")
+
+
+def test_sets_that_do_not_fit_the_cells_are_refused(tmp_path, monkeypatch):
+    mesh = meshio.Mesh(POINTS, [("tetra", TETS), ("triangle", TETS[:, :3])])
+    mesh.cell_sets = {"part": [np.array([0])]}
+    (tmp_path / "part.vtu").touch()
+    monkeypatch.setattr(meshio, "read", lambda path: mesh)
+    message = refusal(None, tmp_path)
+    assert "its set 'part' does not fit its cells; repair the file" in message
+
+
 def test_an_unknown_format_is_refused(tmp_path):
     (tmp_path / "part.xyz").write_text("?")
     assert "Could not deduce file format" in refusal(None, tmp_path, name="part.xyz")

@@ -34,13 +34,11 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
     }
 
     fn add_internal_force(&self, u: &[Vector<D>], history: &[PlasticState], force: &mut [Vector<D>]) {
-        let (mut f, mut stresses) = (Batch::zeros(), Batch::zeros());
-        for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u, &mut f);
-            let history = self.grid.part(pack, history);
-            self.law.stresses(self.grid.batch(), &f, history, &mut stresses);
-            self.grid.add_forces(pack, &stresses, force);
-        }
+        self.grid.assemble(force, Batch::zeros, |pack, f, stresses| {
+            self.grid.deform(pack, u, f);
+            self.law.stresses(self.grid.batch(), f, self.grid.part(pack, history), stresses);
+            0.0
+        });
     }
 
     fn add_internal_force_of_energy(
@@ -49,18 +47,15 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         history: &[PlasticState],
         force: &mut [Vector<D>],
     ) -> f64 {
-        let (mut f, mut stresses, mut densities) = (Batch::zeros(), Batch::zeros(), [0.0; BATCH]);
-        let mut energy = 0.0;
-        for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u, &mut f);
+        let scratch = || (Batch::zeros(), [0.0; BATCH]);
+        self.grid.assemble(force, scratch, |pack, (f, densities), stresses| {
+            self.grid.deform(pack, u, f);
             let history = self.grid.part(pack, history);
-            self.law.stresses(self.grid.batch(), &f, history, &mut stresses);
-            self.law.energies(self.grid.batch(), &f, history, &mut densities);
-            self.grid.add_forces(pack, &stresses, force);
+            self.law.stresses(self.grid.batch(), f, history, stresses);
+            self.law.energies(self.grid.batch(), f, history, densities);
             let weights = self.grid.weights(pack);
-            energy += self.grid.sum(pack, |q| weights[q] * densities[q]);
-        }
-        energy
+            self.grid.sum(pack, |q| weights[q] * densities[q])
+        })
     }
 
     fn add_conserving_force(
@@ -70,14 +65,22 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         history: &[PlasticState],
         force: &mut [Vector<D>],
     ) {
-        let (mut f0, mut f1, mut stresses) = (Batch::zeros(), Batch::zeros(), Batch::zeros());
-        for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u0, &mut f0);
-            self.grid.deform(pack, u1, &mut f1);
-            let history = self.grid.part(pack, history);
-            self.law.discrete_stresses(self.grid.batch(), &f0, &f1, history, &mut stresses);
-            self.grid.add_forces(pack, &stresses, force);
-        }
+        self.grid.assemble(
+            force,
+            || (Batch::zeros(), Batch::zeros()),
+            |pack, (f0, f1), stresses| {
+                self.grid.deform(pack, u0, f0);
+                self.grid.deform(pack, u1, f1);
+                self.law.discrete_stresses(
+                    self.grid.batch(),
+                    f0,
+                    f1,
+                    self.grid.part(pack, history),
+                    stresses,
+                );
+                0.0
+            },
+        );
     }
 
     fn add_step_forces(

@@ -4,8 +4,10 @@ use carom_mesh::{Matrix, Vector};
 use pulp::{Arch, Simd, WithSimd};
 
 use super::kinematics::Kinematics;
+use super::staging::Staging;
 use crate::FemError;
 use crate::material::{Batch, LANES, MAX_POINTS, PlasticState, Tangent};
+use crate::parallel::has_threads;
 use crate::quadrature::Integrand;
 use crate::shape_table::{Cells, ShapeTable};
 use crate::sparse::{NodalMatrix, NodeGraph};
@@ -26,6 +28,8 @@ pub(crate) struct Grid<const D: usize, const S: usize, const N: usize, K> {
     weights: Vec<[f64; LANES]>,
     /// Where the N × N node pairs of each cell stand in a matrix over the graph of the body.
     entries: Vec<[[u32; N]; N]>,
+    /// None for few cells.
+    staging: Option<Staging<D, N>>,
     arch: Arch,
     kinematics: PhantomData<K>,
 }
@@ -64,12 +68,14 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
                 weights.push(at.map(|q| table.weights[q]));
             }
         }
+        let nodes: Vec<[[u32; LANES]; N]> = (0..packs)
+            .map(|pack| std::array::from_fn(|a| std::array::from_fn(|lane| cells[cell(pack, lane)][a])))
+            .collect();
         Ok(Self {
             cells: count,
             points_per_cell,
-            nodes: (0..packs)
-                .map(|pack| std::array::from_fn(|a| std::array::from_fn(|lane| cells[cell(pack, lane)][a])))
-                .collect(),
+            staging: Staging::new(graph.node_count(), count, &nodes),
+            nodes,
             gradients,
             weights,
             entries,
@@ -159,6 +165,34 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
                 (0..D).for_each(|i| f[i] += force[i][lane]);
             }
         }
+    }
+
+    /// Adds the nodal forces of the stresses that `stress` writes, pack by pack, to `force`; returns the sum of what it returns.
+    /// Every thread that takes part has a `scratch` of its own.
+    #[inline]
+    pub fn assemble<W>(
+        &self,
+        force: &mut [Vector<D>],
+        scratch: impl Fn() -> W + Sync,
+        stress: impl Fn(usize, &mut W, &mut Batch<S>) -> f64 + Sync,
+    ) -> f64 {
+        if let Some(staging) = self.staging.as_ref().filter(|_| has_threads()) {
+            return staging.assemble(
+                force,
+                || (scratch(), Batch::zeros()),
+                |pack, (work, stresses)| {
+                    let sum = stress(pack, work, stresses);
+                    (self.local_forces(pack, stresses), sum)
+                },
+            );
+        }
+        let (mut work, mut stresses) = (scratch(), Batch::zeros());
+        let mut sum = 0.0;
+        for pack in 0..self.packs() {
+            sum += stress(pack, &mut work, &mut stresses);
+            self.add_forces(pack, &stresses, force);
+        }
+        sum
     }
 
     /// The nodal forces of the `stresses` at the points of a pack.

@@ -7,6 +7,7 @@ mod grid;
 mod kinematics;
 mod mass;
 mod mean_dilatation;
+mod staging;
 
 use std::fmt::Debug;
 

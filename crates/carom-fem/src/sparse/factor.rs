@@ -99,7 +99,7 @@ impl<const D: usize> Factor<D> {
         let mut places = vec![0; n];
         ordering.iter().enumerate().for_each(|(k, &unknown)| places[unknown] = k as u32);
         Ok(Self {
-            triangular: Precision::default().triangular(n),
+            triangular: Precision::default().triangular(),
             precision: Precision::default(),
             ordering,
             places,
@@ -123,7 +123,7 @@ impl<const D: usize> Factor<D> {
     ) -> Result<(), FemError> {
         self.factorized = false;
         self.precision = precision;
-        self.triangular = precision.triangular(0);
+        self.triangular = precision.triangular();
         let lower_values = match &self.folding {
             None => lower_triangle(&self.sources, block),
             Some(folding) => {
@@ -146,8 +146,7 @@ impl<const D: usize> Factor<D> {
             )
             .map_err(|LltError::NonPositivePivot { index }| FemError::NotPositiveDefinite { pivot: index })?;
         if let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() {
-            self.triangular = precision.triangular(self.ordering.len());
-            self.triangular.load(&SupernodalLltRef::new(symbolic, &values));
+            self.triangular.load(&SupernodalLltRef::new(symbolic, &values), &self.ordering);
             self.factorized = true;
         }
         Ok(())
@@ -185,12 +184,12 @@ impl<const D: usize> Factor<D> {
         if let Some(folding) = &self.folding {
             folding.fold(x);
         }
-        self.triangular.begin(bytemuck::cast_slice(x), &self.ordering);
+        self.triangular.begin(bytemuck::cast_slice(x));
     }
 
     /// The backward substitution: writes the solution to `x`.
     pub fn end(&mut self, x: &mut [Vector<D>]) {
-        self.triangular.end(bytemuck::cast_slice_mut(x), &self.ordering);
+        self.triangular.end(bytemuck::cast_slice_mut(x));
         if let Some(folding) = &self.folding {
             folding.unfold(x);
         }
@@ -350,7 +349,9 @@ mod tests {
     #[test]
     fn a_look_at_some_nodes_and_forces_added_there_are_those_of_whole_solves() {
         let mesh = generate::grid([0.0; 2], [1.0, 1.0], [12, 9]).expect("valid");
-        for mesh in [mesh.clone(), generate::tie_sides(mesh, 0).expect("alike")] {
+        // Large enough to be taken apart.
+        let large = generate::grid([0.0; 2], [1.0, 1.0], [180, 150]).expect("valid");
+        for mesh in [mesh.clone(), generate::tie_sides(mesh, 0).expect("alike"), large] {
             let graph = Arc::new(NodeGraph::of(&mesh));
             let n = graph.node_count();
             let mut a = NodalMatrix::filled(&graph, Matrix::<2>::new(-0.3, 0.1, 0.1, -0.2));
@@ -382,5 +383,36 @@ mod tests {
             factor.respond(12, 1);
             nodes.iter().for_each(|&k| assert!((factor.seen(k) - unit[k]).norm() < 1e-14));
         }
+    }
+
+    /// Every number is computed by one thread, by the same operations in the same order, however many there are.
+    #[test]
+    fn solutions_do_not_depend_on_the_number_of_threads() {
+        let flat = generate::grid([0.0; 2], [1.0, 1.0], [180, 150]).expect("valid");
+        assert_independent_of_threads(&NodeGraph::of(&flat), Matrix::<2>::new(-0.3, 0.1, 0.1, -0.2));
+        let solid = generate::grid([0.0; 3], [1.0; 3], [16, 16, 15]).expect("valid");
+        assert_independent_of_threads(&NodeGraph::of(&solid), Matrix::<3>::identity() * -0.15);
+    }
+
+    fn assert_independent_of_threads<const D: usize>(graph: &NodeGraph, coupling: Matrix<D>) {
+        let mut factor = Factor::<D>::new(graph, &[]).expect("symbolic");
+        let diagonal: Vec<usize> =
+            (0..graph.node_count()).map(|node| graph.entry(node as u32, node as u32)).collect();
+        let mut is_diagonal = vec![false; graph.entry_count()];
+        diagonal.into_iter().for_each(|entry| is_diagonal[entry] = true);
+        let block = |entry: usize| if is_diagonal[entry] { Matrix::identity() * 6.0 } else { coupling };
+        factor.factorize(Precision::Single, block).expect("positive definite");
+        assert!(factor.triangular.is_apart());
+        let b: Vec<Vector<D>> =
+            (0..graph.node_count()).map(|n| Vector::from_fn(|i, _| ((3 * n + i) as f64).cos())).collect();
+        let mut solve = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            let mut x = b.clone();
+            pool.install(|| factor.solve(&mut x));
+            x
+        };
+        let one = solve(1);
+        assert_eq!(solve(2), one);
+        assert_eq!(solve(3), one);
     }
 }

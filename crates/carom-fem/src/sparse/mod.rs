@@ -5,6 +5,7 @@ mod folding;
 mod graph;
 mod nodal_matrix;
 mod ordering;
+mod pieces;
 mod real;
 mod substitution;
 mod triangular;

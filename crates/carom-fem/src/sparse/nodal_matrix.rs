@@ -4,6 +4,7 @@ use std::sync::Arc;
 use carom_mesh::Vector;
 
 use super::NodeGraph;
+use crate::parallel;
 
 /// A matrix with one value per pair of neighbouring nodes: `f64` for mass, a D × D block for stiffness.
 #[derive(Debug, Clone)]
@@ -13,7 +14,7 @@ pub struct NodalMatrix<T> {
     pub values: Vec<T>,
 }
 
-impl<T: Copy> NodalMatrix<T> {
+impl<T: Copy + Sync> NodalMatrix<T> {
     /// The matrix with every entry equal to `value`.
     #[must_use]
     pub fn filled(graph: &Arc<NodeGraph>, value: T) -> Self {
@@ -37,20 +38,30 @@ impl<T: Copy> NodalMatrix<T> {
     where
         T: Mul<Vector<D>, Output = Vector<D>>,
     {
-        for (node, y) in y.iter_mut().enumerate() {
-            let (range, neighbours) = self.graph.neighbours(node);
-            // Two sums, so that one addition need not wait for the other.
-            let (mut even, mut odd) = (Vector::zeros(), Vector::zeros());
-            let (values, neighbours) = (self.values[range].chunks_exact(2), neighbours.chunks_exact(2));
-            if let ([value], [neighbour]) = (values.remainder(), neighbours.remainder()) {
-                even += *value * x[*neighbour as usize];
+        parallel::each_chunk(y, |first, y| {
+            for (node, y) in (first..).zip(y) {
+                *y = self.row_times(node, x);
             }
-            for (values, neighbours) in values.zip(neighbours) {
-                even += values[0] * x[neighbours[0] as usize];
-                odd += values[1] * x[neighbours[1] as usize];
-            }
-            *y = even + odd;
+        });
+    }
+
+    #[inline]
+    fn row_times<const D: usize>(&self, node: usize, x: &[Vector<D>]) -> Vector<D>
+    where
+        T: Mul<Vector<D>, Output = Vector<D>>,
+    {
+        let (range, neighbours) = self.graph.neighbours(node);
+        // Two sums, so that one addition need not wait for the other.
+        let (mut even, mut odd) = (Vector::zeros(), Vector::zeros());
+        let (values, neighbours) = (self.values[range].chunks_exact(2), neighbours.chunks_exact(2));
+        if let ([value], [neighbour]) = (values.remainder(), neighbours.remainder()) {
+            even += *value * x[*neighbour as usize];
         }
+        for (values, neighbours) in values.zip(neighbours) {
+            even += values[0] * x[neighbours[0] as usize];
+            odd += values[1] * x[neighbours[1] as usize];
+        }
+        even + odd
     }
 }
 

@@ -4,15 +4,24 @@ use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::{MatMut, MatRef, Par};
 use pulp::{Arch, Simd, WithSimd};
+use rayon::prelude::*;
 
 use super::real::Real;
+use crate::parallel::has_threads;
 
 /// Columns taken together, so that what is loaded once serves them all.
 const COLUMNS: usize = 4;
 /// Columns from which a panel is inverted in blocks, by faer: the large ones of bodies in space.
 const BLOCKED: usize = 96;
 
-/// Forward and backward substitution with a supernodal Cholesky factor, for one right-hand side.
+/// Values of a panel from which threads share its products: it takes several times as long as waking them.
+const LARGE_PANEL: usize = 1 << 16;
+
+/// Forward and backward substitution with some of the supernodes of a Cholesky factor, for one right-hand side.
+///
+/// Its vectors hold a value for each of its own columns, in the order of elimination, and behind them one for every row below these that
+/// belongs to columns of others: forward substitution adds to them what these must take over, and backward substitution expects
+/// their solution there.
 ///
 /// For every supernode with diagonal block L₁₁ and rows L₂₁ below, the panel Z = [L₁₁⁻¹; L₂₁L₁₁⁻¹] is kept. The forward step is
 /// then [y₁; t] = Z x₁, x₂ ← x₂ − t, and the backward step x₁ = Zᵀ[y₁; −x₂]: one product each way, without divisions or
@@ -21,7 +30,9 @@ const BLOCKED: usize = 96;
 #[derive(Debug, Default)]
 pub(super) struct Substitution<T> {
     panels: Vec<Panel>,
-    /// The panel of every column.
+    /// The large ones among them.
+    large: Vec<u32>,
+    /// The panel of every column of its own.
     panel_of: Vec<u32>,
     rows: Vec<u32>,
     values: Vec<T>,
@@ -42,39 +53,44 @@ struct Panel {
 }
 
 impl<T: Real> Substitution<T> {
-    /// Takes over the values of a factor.
-    pub fn load(&mut self, factor: &SupernodalLltRef<'_, usize, f64>) {
-        self.panels.clear();
-        self.panel_of.clear();
-        self.rows.clear();
-        self.values.clear();
+    /// Takes over the values of some supernodes of a factor; `place_of` says where the value of a column of the factor stands in the vectors.
+    pub fn load(
+        &mut self,
+        factor: &SupernodalLltRef<'_, usize, f64>,
+        supernodes: impl Iterator<Item = usize> + Clone,
+        mut place_of: impl FnMut(usize) -> u32,
+    ) {
+        *self = Self::default();
         let mut largest = 0;
         let size = |s: usize| {
             let supernode = factor.supernode(s);
             let (columns, below) = (supernode.val().ncols(), supernode.pattern().len());
             (columns + below).next_multiple_of(T::PADDING) * columns
         };
-        self.values.reserve_exact((0..factor.symbolic().n_supernodes()).map(size).sum());
-        for s in 0..factor.symbolic().n_supernodes() {
+        self.values.reserve_exact(supernodes.clone().map(size).sum());
+        for s in supernodes {
             let supernode = factor.supernode(s);
             let (l, pattern) = (supernode.val(), supernode.pattern());
             let (columns, below) = (l.ncols(), pattern.len());
             let padded = (columns + below).next_multiple_of(T::PADDING);
             let panel = Panel {
-                start: supernode.start(),
+                start: place_of(supernode.start()) as usize,
                 columns,
                 below,
                 first_row: self.rows.len(),
                 first_value: self.values.len(),
                 padded,
             };
-            self.rows.extend(pattern.iter().map(|&r| r as u32));
+            self.rows.extend(pattern.iter().map(|&row| place_of(row)));
             self.inverted.clear();
             self.inverted.resize(padded * columns, 0.0);
             invert(l, &mut self.inverted, padded, columns + below);
             self.values.extend(self.inverted.iter().map(|&z| T::of(z)));
             largest = largest.max(padded);
             self.panel_of.resize(panel.start + columns, self.panels.len() as u32);
+            if padded * columns >= LARGE_PANEL {
+                self.large.push(self.panels.len() as u32);
+            }
             self.panels.push(panel);
         }
         self.gathered.resize(largest, T::default());
@@ -89,16 +105,61 @@ impl<T: Real> Substitution<T> {
             + size_of_val(&self.panel_of[..])
     }
 
-    /// Overwrites `x`, in the order of elimination, with L⁻¹ x.
+    /// Overwrites `x` with L⁻¹ x.
     pub fn forward(&mut self, x: &mut [T]) {
-        let panels = 0..self.panels.len();
+        let mut next = 0;
+        if has_threads() {
+            for large in 0..self.large.len() {
+                let p = self.large[large] as usize;
+                Arch::new().dispatch(Forward { substitution: self, panels: next..p, x });
+                self.forward_large(p, x);
+                next = p + 1;
+            }
+        }
+        let panels = next..self.panels.len();
         Arch::new().dispatch(Forward { substitution: self, panels, x });
     }
 
-    /// Overwrites `x`, in the order of elimination, with L⁻ᵀ x.
+    /// Overwrites `x` with L⁻ᵀ x.
     pub fn backward(&mut self, x: &mut [T]) {
-        let panels = (0..self.panels.len()).rev();
-        Arch::new().dispatch(Backward { substitution: self, panels, x });
+        let mut end = self.panels.len();
+        if has_threads() {
+            for large in (0..self.large.len()).rev() {
+                let p = self.large[large] as usize;
+                Arch::new().dispatch(Backward { substitution: self, panels: (p + 1..end).rev(), x });
+                self.backward_large(p, x);
+                end = p;
+            }
+        }
+        Arch::new().dispatch(Backward { substitution: self, panels: (0..end).rev(), x });
+    }
+
+    /// The forward step of one panel, its rows shared by threads.
+    fn forward_large(&mut self, p: usize, x: &mut [T]) {
+        let Self { panels, rows, values, gathered, .. } = self;
+        let p = &panels[p];
+        let z = &values[p.first_value..p.first_value + p.padded * p.columns];
+        let t = &mut gathered[..p.padded];
+        let own = &x[p.start..p.start + p.columns];
+        let part = p.padded.div_ceil(rayon::current_num_threads()).next_multiple_of(T::PADDING);
+        t.par_chunks_mut(part).enumerate().for_each(|(k, t)| {
+            Arch::new().dispatch(Product { z, rows: p.padded, first: k * part, x: own, t });
+        });
+        subtract(p, rows, t, x);
+    }
+
+    /// The backward step of one panel, its columns shared by threads.
+    fn backward_large(&mut self, p: usize, x: &mut [T]) {
+        let Self { panels, rows, values, gathered, .. } = self;
+        let p = &panels[p];
+        let z = &values[p.first_value..p.first_value + p.padded * p.columns];
+        let t = &mut gathered[..p.padded];
+        gather(p, rows, x, t);
+        let part = p.columns.div_ceil(rayon::current_num_threads()).next_multiple_of(COLUMNS);
+        x[p.start..p.start + p.columns].par_chunks_mut(part).enumerate().for_each(|(k, x)| {
+            let z = &z[k * part * p.padded..];
+            Arch::new().dispatch(TransposedProduct { z: &z[..x.len() * p.padded], t, x });
+        });
     }
 
     /// [`Self::forward`] where `x` is zero outside of a [`Self::reach`], and stays so.
@@ -114,8 +175,14 @@ impl<T: Real> Substitution<T> {
     }
 
     /// Writes the panels of `columns` and of all that are eliminated after them and depend on them to `reach`, ascending: what a
-    /// right-hand side in these columns touches, and what the solution there depends on (Gilbert 1994).
-    pub fn reach(&self, columns: impl Iterator<Item = usize>, reach: &mut Vec<u32>) {
+    /// right-hand side in these columns touches, and what the solution there depends on (Gilbert 1994). Calls `leave` with the rows
+    /// of others by which the ways go on there.
+    pub fn reach(
+        &self,
+        columns: impl Iterator<Item = usize>,
+        reach: &mut Vec<u32>,
+        mut leave: impl FnMut(usize),
+    ) {
         reach.clear();
         reach.extend(columns.map(|column| self.panel_of[column]));
         reach.sort_unstable();
@@ -126,7 +193,11 @@ impl<T: Real> Substitution<T> {
             let panel = &self.panels[reach[next] as usize];
             next += 1;
             if panel.below > 0 {
-                let parent = self.panel_of[self.rows[panel.first_row] as usize];
+                let row = self.rows[panel.first_row] as usize;
+                let Some(&parent) = self.panel_of.get(row) else {
+                    leave(row);
+                    continue;
+                };
                 if let Err(place) = reach[next..].binary_search(&parent) {
                     reach.insert(next + place, parent);
                 }
@@ -194,14 +265,8 @@ impl<T: Real, I: Iterator<Item = usize>> WithSimd for Forward<'_, T, I> {
             let p = &panels[p];
             let z = &values[p.first_value..p.first_value + p.padded * p.columns];
             let t = &mut gathered[..p.padded];
-            product(simd, z, &x[p.start..p.start + p.columns], t);
-            // Panels are small: a call to copy or fill would cost more than it does.
-            for (x, t) in x[p.start..p.start + p.columns].iter_mut().zip(&*t) {
-                *x = *t;
-            }
-            for (&row, t) in rows[p.first_row..p.first_row + p.below].iter().zip(&t[p.columns..]) {
-                x[row as usize] -= *t;
-            }
+            product(simd, z, p.padded, 0, &x[p.start..p.start + p.columns], t);
+            subtract(p, rows, t, x);
         }
     }
 }
@@ -223,24 +288,77 @@ impl<T: Real, I: Iterator<Item = usize>> WithSimd for Backward<'_, T, I> {
             let p = &panels[p];
             let z = &values[p.first_value..p.first_value + p.padded * p.columns];
             let t = &mut gathered[..p.padded];
-            for (t, x) in t.iter_mut().zip(&x[p.start..p.start + p.columns]) {
-                *t = *x;
-            }
-            for (&row, t) in rows[p.first_row..p.first_row + p.below].iter().zip(&mut t[p.columns..]) {
-                *t = -x[row as usize];
-            }
-            for t in &mut t[p.columns + p.below..] {
-                *t = T::default();
-            }
+            gather(p, rows, x, t);
             transposed_product(simd, z, t, &mut x[p.start..p.start + p.columns]);
         }
     }
 }
 
-/// `t` = Z `x`, with Z stored column by column.
+/// Takes the product `t` of a panel over into `x`. Panels are small: a call to copy or fill would cost more than it does.
 #[inline(always)]
-fn product<T: Real, S: Simd>(simd: S, z: &[T], x: &[T], t: &mut [T]) {
-    let rows = t.len();
+fn subtract<T: Real>(p: &Panel, rows: &[u32], t: &[T], x: &mut [T]) {
+    for (x, t) in x[p.start..p.start + p.columns].iter_mut().zip(t) {
+        *x = *t;
+    }
+    for (&row, t) in rows[p.first_row..p.first_row + p.below].iter().zip(&t[p.columns..]) {
+        x[row as usize] -= *t;
+    }
+}
+
+/// Writes [x₁; −x₂] of a panel to `t`.
+#[inline(always)]
+fn gather<T: Real>(p: &Panel, rows: &[u32], x: &[T], t: &mut [T]) {
+    for (t, x) in t.iter_mut().zip(&x[p.start..p.start + p.columns]) {
+        *t = *x;
+    }
+    for (&row, t) in rows[p.first_row..p.first_row + p.below].iter().zip(&mut t[p.columns..]) {
+        *t = -x[row as usize];
+    }
+    for t in &mut t[p.columns + p.below..] {
+        *t = T::default();
+    }
+}
+
+/// A part of the rows of a forward step: see [`product`].
+struct Product<'a, T> {
+    z: &'a [T],
+    rows: usize,
+    first: usize,
+    x: &'a [T],
+    t: &'a mut [T],
+}
+
+impl<T: Real> WithSimd for Product<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        product(simd, self.z, self.rows, self.first, self.x, self.t);
+    }
+}
+
+/// A part of the columns of a backward step: see [`transposed_product`].
+struct TransposedProduct<'a, T> {
+    z: &'a [T],
+    t: &'a [T],
+    x: &'a mut [T],
+}
+
+impl<T: Real> WithSimd for TransposedProduct<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        transposed_product(simd, self.z, self.t, self.x);
+    }
+}
+
+/// `t` = Z `x` in the rows from `first` on, with Z stored column by column of so many `rows`.
+#[inline(always)]
+fn product<T: Real, S: Simd>(simd: S, z: &[T], rows: usize, first: usize, x: &[T], t: &mut [T]) {
+    let part = |column: usize| first + column * rows..first + column * rows + t.len();
+    let parts = [0, 1, 2, 3].map(part);
+    let own = part(0);
     let mut columns = z.chunks_exact(COLUMNS * rows);
     let mut factors = x.chunks_exact(COLUMNS);
     let (t_simd, t_tail) = T::lanes_mut::<S>(t);
@@ -251,7 +369,7 @@ fn product<T: Real, S: Simd>(simd: S, z: &[T], x: &[T], t: &mut [T]) {
         *t = T::default();
     }
     for (z, x) in columns.by_ref().zip(factors.by_ref()) {
-        let [a, b, c, d] = [0, 1, 2, 3].map(|k| T::lanes::<S>(&z[k * rows..(k + 1) * rows]));
+        let [a, b, c, d] = parts.clone().map(|part| T::lanes::<S>(&z[part]));
         let [xa, xb, xc, xd] = [x[0], x[1], x[2], x[3]].map(|x| T::splat(simd, x));
         for ((((t, a), b), c), d) in t_simd.iter_mut().zip(a.0).zip(b.0).zip(c.0).zip(d.0) {
             let ab = T::mul_add(simd, *a, xa, T::mul_add(simd, *b, xb, *t));
@@ -265,7 +383,7 @@ fn product<T: Real, S: Simd>(simd: S, z: &[T], x: &[T], t: &mut [T]) {
         }
     }
     for (z, &x) in columns.remainder().chunks_exact(rows).zip(factors.remainder()) {
-        let (z_simd, z_tail) = T::lanes::<S>(z);
+        let (z_simd, z_tail) = T::lanes::<S>(&z[own.clone()]);
         let x_simd = T::splat(simd, x);
         for (t, z) in t_simd.iter_mut().zip(z_simd) {
             *t = T::mul_add(simd, *z, x_simd, *t);

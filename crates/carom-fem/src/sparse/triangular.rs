@@ -1,9 +1,12 @@
 use std::fmt::Debug;
+use std::ops::Range;
 
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 
+use super::pieces::pieces;
 use super::real::Real;
 use super::substitution::Substitution;
+use crate::parallel::{each_chunk, has_threads};
 
 /// Numbers that a factor is kept in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -17,25 +20,28 @@ pub enum Precision {
 }
 
 impl Precision {
-    /// An empty factor in this precision for `unknowns`.
-    pub(super) fn triangular(self, unknowns: usize) -> Box<dyn Triangular> {
+    /// An empty factor in this precision.
+    pub(super) fn triangular(self) -> Box<dyn Triangular> {
         match self {
-            Self::Single => Box::new(Halves::<f32>::new(unknowns)),
-            Self::Double => Box::new(Halves::<f64>::new(unknowns)),
+            Self::Single => Box::new(Halves::<f32>::new()),
+            Self::Double => Box::new(Halves::<f64>::new()),
         }
     }
 }
 
-/// A triangular factor and a right-hand side on its way through both substitutions; all places are in the order of elimination.
+/// A triangular factor and a right-hand side on its way through both substitutions. A place is a position in the order of elimination.
 pub(super) trait Triangular: Debug + Send + Sync {
     /// Memory [bytes].
     fn bytes(&self) -> usize;
-    /// Takes over the values of a factor.
-    fn load(&mut self, factor: &SupernodalLltRef<'_, usize, f64>);
-    /// Takes the right-hand side whose k-th value is `x[ordering[k]]` through the forward substitution.
-    fn begin(&mut self, x: &[f64], ordering: &[usize]);
-    /// The backward substitution: the solution goes where the right-hand side came from.
-    fn end(&mut self, x: &mut [f64], ordering: &[usize]);
+    /// Whether threads can share the factor's work.
+    #[cfg(test)]
+    fn is_apart(&self) -> bool;
+    /// Takes over the values of a factor whose k-th column is that of the unknown `ordering[k]`.
+    fn load(&mut self, factor: &SupernodalLltRef<'_, usize, f64>, ordering: &[usize]);
+    /// Takes the right-hand side `x` through the forward substitution.
+    fn begin(&mut self, x: &[f64]);
+    /// The backward substitution: writes the solution to `x`.
+    fn end(&mut self, x: &mut [f64]);
     /// Names the places at which the solution is wanted before the end, and the right-hand side is added to.
     fn set_reach(&mut self, places: &mut dyn Iterator<Item = usize>);
     /// Solves for the right-hand side as it is, within the reach.
@@ -48,88 +54,325 @@ pub(super) trait Triangular: Debug + Send + Sync {
     fn add(&mut self, values: &mut dyn Iterator<Item = (usize, f64)>);
 }
 
+/// A factor in pieces that do not depend on one another, and what depends on them, the top. A small one is all top.
+///
+/// Sums are taken piece by piece, with one thread as with many.
 #[derive(Debug)]
 struct Halves<T> {
-    substitution: Substitution<T>,
-    /// The right-hand side and what becomes of it.
+    pieces: Vec<Piece<T>>,
+    top: Piece<T>,
+    /// The right-hand side and what becomes of it: the vectors of the pieces one after the other, then that of the top.
     ordered: Vec<T>,
     /// The same within the reach.
     partial: Vec<T>,
+    /// Where in these the value of every column is.
+    position: Vec<u32>,
+    /// Where the value of every unknown is.
+    position_of_unknown: Vec<u32>,
+    /// Columns of the top within a reach, in the making.
+    columns: Vec<u32>,
+}
+
+/// Some of the columns of a factor.
+#[derive(Debug, Default)]
+struct Piece<T> {
+    substitution: Substitution<T>,
+    /// Its part of the vectors.
+    range: Range<usize>,
+    /// The unknowns of its own columns.
+    unknowns: Vec<u32>,
+    /// For every row of the top that its columns have: the column of the top.
+    outside: Vec<u32>,
     reach: Vec<u32>,
     /// The reach of one place.
     path: Vec<u32>,
 }
 
-impl<T: Real> Halves<T> {
-    fn new(unknowns: usize) -> Self {
-        let zeros = vec![T::default(); unknowns];
-        Self {
-            substitution: Substitution::default(),
-            ordered: zeros.clone(),
-            partial: zeros,
-            reach: Vec::new(),
-            path: Vec::new(),
+impl<T: Real> Piece<T> {
+    /// Copies the part of its own columns from `x`, and clears the rest.
+    fn collect(&self, x: &[f64], values: &mut [T]) {
+        let (own, outside) = values.split_at_mut(self.unknowns.len());
+        for (value, &unknown) in own.iter_mut().zip(&self.unknowns) {
+            *value = T::of(x[unknown as usize]);
         }
+        outside.fill(T::default());
+    }
+
+    /// Gives what its columns leave to the top.
+    fn hand_up(&self, values: &[T], top: &mut [T]) {
+        for (value, &column) in values[self.unknowns.len()..].iter().zip(&self.outside) {
+            top[column as usize] += *value;
+        }
+    }
+
+    /// Takes the solution of the top.
+    fn take_down(&self, values: &mut [T], top: &[T]) {
+        for (value, &column) in values[self.unknowns.len()..].iter_mut().zip(&self.outside) {
+            *value = top[column as usize];
+        }
+    }
+
+    /// Clears what is within the reach.
+    fn clear(&self, values: &mut [T]) {
+        self.substitution.columns_within(&self.reach).for_each(|columns| values[columns].fill(T::default()));
+        values[self.unknowns.len()..].fill(T::default());
+    }
+}
+
+/// Calls `work` with every piece and its part of `values`, which starts with that of the first.
+fn each_piece<T: Real>(
+    pieces: &mut [Piece<T>],
+    values: &mut [T],
+    work: &(impl Fn(&mut Piece<T>, &mut [T]) + Sync),
+) {
+    match pieces {
+        [] => {}
+        [piece] => work(piece, values),
+        _ => {
+            let (left, right) = pieces.split_at_mut(pieces.len() / 2);
+            let (of_left, of_right) = values.split_at_mut(right[0].range.start - left[0].range.start);
+            if has_threads() {
+                rayon::join(|| each_piece(left, of_left, work), || each_piece(right, of_right, work));
+            } else {
+                each_piece(left, of_left, work);
+                each_piece(right, of_right, work);
+            }
+        }
+    }
+}
+
+impl<T: Real> Halves<T> {
+    fn new() -> Self {
+        Self {
+            pieces: Vec::new(),
+            top: Piece::default(),
+            ordered: Vec::new(),
+            partial: Vec::new(),
+            position: Vec::new(),
+            position_of_unknown: Vec::new(),
+            columns: Vec::new(),
+        }
+    }
+
+    /// The piece that a position belongs to, as an index; that behind the last is the top.
+    fn piece_at(&self, position: usize) -> usize {
+        self.pieces.partition_point(|piece| piece.range.end <= position)
     }
 }
 
 impl<T: Real> Triangular for Halves<T> {
     fn bytes(&self) -> usize {
-        self.substitution.bytes() + 2 * size_of_val(&self.ordered[..])
+        let pieces = self.pieces.iter().chain([&self.top]);
+        let own: usize = pieces.map(|p| p.substitution.bytes() + size_of_val(&p.unknowns[..])).sum();
+        own + 2 * size_of_val(&self.ordered[..]) + 2 * size_of_val(&self.position[..])
     }
 
-    fn load(&mut self, factor: &SupernodalLltRef<'_, usize, f64>) {
-        self.substitution.load(factor);
+    #[cfg(test)]
+    fn is_apart(&self) -> bool {
+        self.pieces.len() > 1
     }
 
-    fn begin(&mut self, x: &[f64], ordering: &[usize]) {
-        for (ordered, &k) in self.ordered.iter_mut().zip(ordering) {
-            *ordered = T::of(x[k]);
+    fn load(&mut self, factor: &SupernodalLltRef<'_, usize, f64>, ordering: &[usize]) {
+        let count = factor.symbolic().n_supernodes();
+        let mut supernode_of = vec![0_u32; ordering.len()];
+        let columns = |s: usize| {
+            let supernode = factor.supernode(s);
+            supernode.start()..supernode.start() + supernode.val().ncols()
+        };
+        (0..count).for_each(|s| supernode_of[columns(s)].fill(s as u32));
+        let above = |s: usize| {
+            factor.supernode(s).pattern().first().map_or(usize::MAX, |&row| supernode_of[row] as usize)
+        };
+        let parent: Vec<usize> = (0..count).map(above).collect();
+        let size = |s: usize| {
+            let supernode = factor.supernode(s);
+            supernode.val().ncols() * (supernode.val().ncols() + supernode.pattern().len())
+        };
+        let ranges = pieces(&parent, &(0..count).map(size).collect::<Vec<usize>>());
+
+        // The columns of the top, by those of the factor.
+        const NONE: u32 = u32::MAX;
+        let mut in_piece = vec![false; count];
+        ranges.iter().for_each(|range| in_piece[range.clone()].fill(true));
+        let of_top = || (0..count).filter(|&s| !in_piece[s]);
+        let mut place_in_top = vec![NONE; ordering.len()];
+        let mut unknowns = Vec::new();
+        for column in of_top().flat_map(columns) {
+            place_in_top[column] = unknowns.len() as u32;
+            unknowns.push(ordering[column] as u32);
         }
-        self.substitution.forward(&mut self.ordered);
+
+        self.pieces.clear();
+        self.position = vec![0; ordering.len()];
+        let mut start = 0;
+        let mut place_outside = vec![NONE; ordering.len()];
+        for range in ranges {
+            let own = columns(range.start).start..columns(range.end - 1).end;
+            let mut piece = Piece::<T> {
+                unknowns: ordering[own.clone()].iter().map(|&unknown| unknown as u32).collect(),
+                ..Piece::default()
+            };
+            let outside = &mut piece.outside;
+            piece.substitution.load(factor, range, |column| {
+                if own.contains(&column) {
+                    return (column - own.start) as u32;
+                }
+                if place_outside[column] == NONE {
+                    place_outside[column] = (own.len() + outside.len()) as u32;
+                    outside.push(column as u32);
+                }
+                place_outside[column]
+            });
+            for column in outside {
+                place_outside[*column as usize] = NONE;
+                *column = place_in_top[*column as usize];
+            }
+            piece.range = start..start + own.len() + piece.outside.len();
+            own.enumerate().for_each(|(k, column)| self.position[column] = (start + k) as u32);
+            start = piece.range.end;
+            self.pieces.push(piece);
+        }
+        self.top = Piece { range: start..start + unknowns.len(), unknowns, ..Piece::default() };
+        self.top.substitution.load(factor, of_top(), |column| place_in_top[column]);
+        for (position, place) in
+            self.position.iter_mut().zip(&place_in_top).filter(|(_, place)| **place != NONE)
+        {
+            *position = start as u32 + place;
+        }
+        self.position_of_unknown = vec![0; ordering.len()];
+        for (&unknown, &position) in ordering.iter().zip(&self.position) {
+            self.position_of_unknown[unknown] = position;
+        }
+        self.ordered = vec![T::default(); self.top.range.end];
+        self.partial = self.ordered.clone();
     }
 
-    fn end(&mut self, x: &mut [f64], ordering: &[usize]) {
-        self.substitution.backward(&mut self.ordered);
-        for (ordered, &k) in self.ordered.iter().zip(ordering) {
-            x[k] = ordered.to_f64();
-        }
+    fn begin(&mut self, x: &[f64]) {
+        let Self { pieces, top, ordered, .. } = self;
+        let (of_pieces, of_top) = ordered.split_at_mut(top.range.start);
+        each_piece(pieces, of_pieces, &|piece, values| {
+            piece.collect(x, values);
+            piece.substitution.forward(values);
+        });
+        top.collect(x, of_top);
+        pieces.iter().for_each(|piece| piece.hand_up(&of_pieces[piece.range.clone()], of_top));
+        top.substitution.forward(of_top);
+    }
+
+    fn end(&mut self, x: &mut [f64]) {
+        let Self { pieces, top, ordered, position_of_unknown, .. } = self;
+        let (of_pieces, of_top) = ordered.split_at_mut(top.range.start);
+        top.substitution.backward(of_top);
+        let of_top = &*of_top;
+        each_piece(pieces, of_pieces, &|piece, values| {
+            piece.take_down(values, of_top);
+            piece.substitution.backward(values);
+        });
+        each_chunk(x, |first, x| {
+            for (x, &position) in x.iter_mut().zip(&position_of_unknown[first..]) {
+                *x = ordered[position as usize].to_f64();
+            }
+        });
     }
 
     fn set_reach(&mut self, places: &mut dyn Iterator<Item = usize>) {
-        self.substitution.reach(places, &mut self.reach);
+        self.pieces.iter_mut().for_each(|piece| piece.path.clear());
+        self.columns.clear();
+        for place in places {
+            let position = self.position[place] as usize;
+            let k = self.piece_at(position);
+            match self.pieces.get_mut(k) {
+                Some(piece) => piece.path.push((position - piece.range.start) as u32),
+                None => self.columns.push((position - self.top.range.start) as u32),
+            }
+        }
+        let Self { pieces, top, columns, .. } = self;
+        for Piece { substitution, unknowns, outside, reach, path, .. } in pieces {
+            substitution.reach(path.iter().map(|&column| column as usize), reach, |row| {
+                columns.push(outside[row - unknowns.len()]);
+            });
+        }
+        let wanted = columns.iter().map(|&column| column as usize);
+        top.substitution.reach(wanted, &mut top.reach, |_| {});
     }
 
     fn look(&mut self) {
-        for columns in self.substitution.columns_within(&self.reach) {
-            self.partial[columns.clone()].copy_from_slice(&self.ordered[columns]);
+        let Self { pieces, top, ordered, partial, .. } = self;
+        for piece in pieces.iter().chain([&*top]) {
+            for columns in piece.substitution.columns_within(&piece.reach) {
+                let columns = piece.range.start + columns.start..piece.range.start + columns.end;
+                partial[columns.clone()].copy_from_slice(&ordered[columns]);
+            }
         }
-        self.substitution.backward_within(&self.reach, &mut self.partial);
+        self.backward_within_reach();
     }
 
     fn respond(&mut self, place: usize) {
-        for columns in self.substitution.columns_within(&self.reach) {
-            self.partial[columns].fill(T::default());
+        let position = self.position[place] as usize;
+        let k = self.piece_at(position);
+        let Self { pieces, top, partial, columns, .. } = self;
+        for piece in pieces.iter().filter(|piece| !piece.reach.is_empty()).chain([&*top]) {
+            piece.clear(&mut partial[piece.range.clone()]);
         }
-        self.partial[place] = T::of(1.0);
-        self.substitution.reach(std::iter::once(place), &mut self.path);
-        self.substitution.forward_within(&self.path, &mut self.partial);
-        self.substitution.backward_within(&self.reach, &mut self.partial);
+        partial[position] = T::of(1.0);
+        let (of_pieces, of_top) = partial.split_at_mut(top.range.start);
+        columns.clear();
+        if let Some(piece) = pieces.get_mut(k) {
+            let Piece { substitution, range, unknowns, outside, path, .. } = piece;
+            substitution.reach(std::iter::once(position - range.start), path, |row| {
+                columns.push(outside[row - unknowns.len()]);
+            });
+            substitution.forward_within(path, &mut of_pieces[range.clone()]);
+            piece.hand_up(&of_pieces[piece.range.clone()], of_top);
+        } else {
+            columns.push((position - top.range.start) as u32);
+        }
+        let Piece { substitution, path, .. } = top;
+        substitution.reach(columns.iter().map(|&column| column as usize), path, |_| {});
+        substitution.forward_within(path, of_top);
+        self.backward_within_reach();
     }
 
     fn seen(&self, place: usize) -> f64 {
-        self.partial[place].to_f64()
+        self.partial[self.position[place] as usize].to_f64()
     }
 
     fn add(&mut self, values: &mut dyn Iterator<Item = (usize, f64)>) {
-        for columns in self.substitution.columns_within(&self.reach) {
-            self.partial[columns].fill(T::default());
+        let Self { pieces, top, ordered, partial, position, .. } = self;
+        for piece in pieces.iter().filter(|piece| !piece.reach.is_empty()).chain([&*top]) {
+            piece.clear(&mut partial[piece.range.clone()]);
         }
-        values.for_each(|(place, value)| self.partial[place] += T::of(value));
-        self.substitution.forward_within(&self.reach, &mut self.partial);
-        for columns in self.substitution.columns_within(&self.reach) {
-            let (ordered, partial) = (&mut self.ordered[columns.clone()], &self.partial[columns]);
-            ordered.iter_mut().zip(partial).for_each(|(ordered, partial)| *ordered += *partial);
+        values.for_each(|(place, value)| partial[position[place] as usize] += T::of(value));
+        let (of_pieces, of_top) = partial.split_at_mut(top.range.start);
+        each_piece(pieces, of_pieces, &|piece, values| {
+            piece.substitution.forward_within(&piece.reach, values);
+        });
+        for piece in pieces.iter().filter(|piece| !piece.reach.is_empty()) {
+            piece.hand_up(&of_pieces[piece.range.clone()], of_top);
         }
+        top.substitution.forward_within(&top.reach, of_top);
+        for piece in pieces.iter().chain([&*top]) {
+            for columns in piece.substitution.columns_within(&piece.reach) {
+                let columns = piece.range.start + columns.start..piece.range.start + columns.end;
+                let (ordered, partial) = (&mut ordered[columns.clone()], &partial[columns]);
+                ordered.iter_mut().zip(partial).for_each(|(ordered, partial)| *ordered += *partial);
+            }
+        }
+    }
+}
+
+impl<T: Real> Halves<T> {
+    /// The backward substitution of `partial` within the reach.
+    fn backward_within_reach(&mut self) {
+        let Self { pieces, top, partial, .. } = self;
+        let (of_pieces, of_top) = partial.split_at_mut(top.range.start);
+        top.substitution.backward_within(&top.reach, of_top);
+        let of_top = &*of_top;
+        each_piece(pieces, of_pieces, &|piece, values| {
+            if !piece.reach.is_empty() {
+                piece.take_down(values, of_top);
+                piece.substitution.backward_within(&piece.reach, values);
+            }
+        });
     }
 }

@@ -24,3 +24,4 @@ mod self_contact;
 mod space;
 mod sphere_impact;
 mod step_control;
+mod threads;

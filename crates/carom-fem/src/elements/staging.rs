@@ -1,0 +1,79 @@
+use std::sync::Mutex;
+
+use carom_mesh::Vector;
+use rayon::prelude::*;
+
+use super::grid::Local;
+use crate::material::LANES;
+use crate::parallel::each_chunk;
+
+/// Packs of cells from which threads share them.
+const MANY: usize = 1024;
+/// Packs that a thread takes at a time.
+const CHUNK: usize = 64;
+
+/// Where threads lay down the nodal forces of their cells before these are added up, node by node: what one thread adds in the order of
+/// the cells, many add in the same order.
+#[derive(Debug)]
+pub(super) struct Staging<const D: usize, const N: usize> {
+    /// The cells at node n are `cells[starts[n]..starts[n + 1]]`, in their order.
+    starts: Vec<u32>,
+    /// Each as a pack, the node's number within the cell and the lane, in one number.
+    cells: Vec<u32>,
+    /// Of every pack the nodal forces, and a number. Taken once for all packs, never within them.
+    packs: Mutex<Vec<(Local<D, N>, f64)>>,
+}
+
+impl<const D: usize, const N: usize> Staging<D, N> {
+    /// For a body with so many nodes; `packs` has those of the cells, the first `cells` of which count. None for few packs.
+    pub fn new(nodes: usize, cells: usize, packs: &[[[u32; LANES]; N]]) -> Option<Self> {
+        if packs.len() < MANY || packs.len() * N * LANES > u32::MAX as usize {
+            return None;
+        }
+        let places = || {
+            packs.iter().enumerate().flat_map(move |(pack, of_pack)| {
+                let lanes = (cells - pack * LANES).min(LANES);
+                (0..N * LANES).filter(move |place| place % LANES < lanes).map(move |place| {
+                    (of_pack[place / LANES][place % LANES] as usize, pack * N * LANES + place)
+                })
+            })
+        };
+        let mut starts = vec![0_u32; nodes + 1];
+        places().for_each(|(node, _)| starts[node + 1] += 1);
+        (0..nodes).for_each(|n| starts[n + 1] += starts[n]);
+        let (mut next, mut at_nodes) = (starts.clone(), vec![0; starts[nodes] as usize]);
+        for (node, place) in places() {
+            at_nodes[next[node] as usize] = place as u32;
+            next[node] += 1;
+        }
+        let empty = ([[[0.0; LANES]; D]; N], 0.0);
+        Some(Self { starts, cells: at_nodes, packs: Mutex::new(vec![empty; packs.len()]) })
+    }
+
+    /// Adds the nodal forces that `of_pack` makes to `force`; returns the sum of the numbers that come with them.
+    pub fn assemble<W>(
+        &self,
+        force: &mut [Vector<D>],
+        scratch: impl Fn() -> W + Sync,
+        of_pack: impl Fn(usize, &mut W) -> (Local<D, N>, f64) + Sync,
+    ) -> f64 {
+        // A thread that panicked has left nothing behind that the next evaluation does not overwrite.
+        let mut packs = self.packs.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        packs.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, packs)| {
+            let mut work = scratch();
+            for (pack, slot) in (chunk * CHUNK..).zip(packs) {
+                *slot = of_pack(pack, &mut work);
+            }
+        });
+        each_chunk(force, |first, force| {
+            for (node, force) in (first..).zip(force) {
+                let cells = self.starts[node] as usize..self.starts[node + 1] as usize;
+                for place in self.cells[cells].iter().map(|&place| place as usize) {
+                    let local = &packs[place / (N * LANES)].0[place / LANES % N];
+                    (0..D).for_each(|i| force[i] += local[i][place % LANES]);
+                }
+            }
+        });
+        packs.iter().map(|(_, sum)| sum).sum()
+    }
+}

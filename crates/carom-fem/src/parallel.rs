@@ -1,0 +1,24 @@
+//! Work shared by threads: only where there is much of it, and so that the results are those of one thread to the last bit.
+//!
+//! The threads are those of the rayon pool that a step is made in. Every number is computed by one thread, by the same operations in
+//! the same order whatever their count.
+
+use rayon::prelude::*;
+
+/// Nodes, or packs of cells, that a thread takes at a time.
+const CHUNK: usize = 1024;
+/// Items from which waking another thread is worth its time.
+const MANY: usize = 16 * CHUNK;
+
+/// Whether more than one thread may work.
+pub(crate) fn has_threads() -> bool {
+    rayon::current_num_threads() > 1
+}
+
+/// Calls `work` with consecutive parts of `items` that together are all of them, and the index where each begins.
+pub(crate) fn each_chunk<T: Send>(items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
+    if items.len() < MANY || !has_threads() {
+        return work(0, items);
+    }
+    items.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, items)| work(chunk * CHUNK, items));
+}
