@@ -2,6 +2,7 @@
 # make test    every test: Rust, Python, examples
 # make check   format, lints, types, spelling
 # make bench   timings (see benchmarks/README.md)
+# make docs    the documentation site, site/index.html
 # make validate  long validations; rewrites docs/validation.md
 
 PYTHON ?= python3
@@ -12,7 +13,7 @@ BIN := $(VENV)/bin
 SOURCES := $(shell find crates python -type f ! -name '*.pyc') \
 	Cargo.toml Cargo.lock pyproject.toml README.md
 
-.PHONY: demo test check bench validate clean
+.PHONY: demo test check bench docs validate clean
 
 demo: $(VENV)/installed
 	$(BIN)/carom run examples/two_cylinders.toml --out results/two_cylinders --set output.report=true --force
@@ -30,8 +31,14 @@ check: $(VENV)/installed-dev
 	$(BIN)/ruff check $(PYTHON_SOURCES)
 	$(BIN)/mypy
 	$(BIN)/python docs/make_case_file_reference.py --check
+	$(BIN)/python docs/make_command_reference.py --check
+	$(BIN)/python docs/make_messages.py --check
 	$(BIN)/python tools/renew_vendored.py --check
 	$(BIN)/typos
+
+# Warnings are errors. Runs the cases of the gallery, those again that have changed.
+docs: $(VENV)/installed-docs
+	$(BIN)/sphinx-build -W --keep-going -q -b html docs site
 
 bench:
 	cargo bench --locked --package carom
@@ -54,5 +61,9 @@ $(VENV)/installed-dev: $(BIN)/python $(SOURCES)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[dev]'
 	touch $@ $(VENV)/installed
 
+$(VENV)/installed-docs: $(BIN)/python $(SOURCES)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[docs]'
+	touch $@ $(VENV)/installed
+
 clean:
-	rm -rf $(VENV) target results
+	rm -rf $(VENV) target results site docs/api-pages docs/gallery-pages

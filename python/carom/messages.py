@@ -18,8 +18,7 @@ if TYPE_CHECKING:
 _PROBLEM = "carom_problem"
 _ABSENT = object()
 
-# pydantic's error type → what carom says, formatted with the numbers pydantic gives.
-_WHAT = {
+DATA_MESSAGES = {
     "missing": "required key is missing",
     "float_type": "must be a number",
     "finite_number": "must be a finite number",
@@ -40,6 +39,7 @@ _WHAT = {
     "union_tag_not_found": "required key is missing",
     "value_error": "{error}",
 }
+"""What carom says by pydantic's error type, formatted with the numbers pydantic gives."""
 
 
 def problem(what: str, *, key: str | None = None, value: object = _ABSENT) -> PydanticCustomError:
@@ -108,7 +108,7 @@ def _read(details: ErrorDetails, data: Mapping[str, Any]) -> tuple[str, object, 
     kind, context = details["type"], details.get("ctx", {})
     path = _without_tags(details["loc"], data)
     value: object = details["input"]
-    what = _WHAT.get(kind, details["msg"]).format_map(context) if kind != _PROBLEM else ""
+    what = DATA_MESSAGES.get(kind, details["msg"]).format_map(context) if kind != _PROBLEM else ""
     if kind == _PROBLEM:
         path += [context["key"]] if context["key"] else []
         value, what = context.get("value", _ABSENT), context["what"]

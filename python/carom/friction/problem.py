@@ -50,7 +50,7 @@ class Problem:
     mu
         Shape [n].
     asymmetry
-        max |W − Wᵀ| / max |W| of the W given.
+        ``max |W − Wᵀ| / max |W|`` of the W given.
     """
 
     def __init__(self, W: Any, q: ArrayLike, mu: ArrayLike) -> None:  # noqa: ANN401

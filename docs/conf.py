@@ -1,0 +1,50 @@
+"""Sphinx builds the site of these pages: ``make docs``."""
+
+import sys
+from pathlib import Path
+
+import carom
+
+HERE = Path(__file__).parent
+# Gallery scripts describe the cases of examples/, and draw them with gallery/pictures.py.
+sys.path[:0] = [str(HERE.parent / "examples"), str(HERE / "gallery")]
+
+project = "carom"
+author = "the authors of carom"
+version = release = carom.__version__
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.napoleon",
+    "sphinx_gallery.gen_gallery",
+    "sphinxcontrib.bibtex",
+]
+html_theme = "furo"
+html_title = f"carom {release}"
+exclude_patterns = ["gallery", "gallery-pages/**/*.ipynb", "images"]
+
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 4
+bibtex_bibfiles = ["references.bib"]
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"  # the sections of the docstrings say units and shapes
+autodoc_class_signature = "mixed"
+napoleon_google_docstring = False
+autosummary_generate = True
+autosummary_ignore_module_all = False
+
+sphinx_gallery_conf = {
+    "examples_dirs": "gallery",
+    "gallery_dirs": "gallery-pages",
+    "filename_pattern": r"/plot_",
+    "ignore_pattern": r"pictures\.py",
+    "within_subsection_order": "FileNameSortKey",
+    "abort_on_example_error": True,
+    "remove_config_comments": True,
+    "download_all_examples": False,
+    "show_memory": False,
+    "min_reported_time": 1,
+}

@@ -1,0 +1,77 @@
+"""Pictures of bodies for the gallery: in the plane by Matplotlib, in space by ``carom view``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+
+import carom
+from carom.io.frames import Frames
+from carom.view import View, screenshot, shown
+
+
+def draw(
+    result: carom.Result,
+    times: Sequence[float],
+    *,
+    field: str,
+    magnification: float = 1.0,
+) -> None:
+    """Draw the bodies of a run at some times [s], side by side, in the colours of a field."""
+    frames = Frames(result.fields_path)
+    view = View(frames, shown(frames, field), result.scenario, magnification=magnification)
+    figure, places = plt.subplots(
+        1, len(times), squeeze=False, figsize=(4.0 * len(times), 4.0), layout="constrained"
+    )
+    for axes, time in zip(places[0], times, strict=True):
+        frame = frames.nearest(time)
+        axes.set_title(f"t = {frames.times[frame]:.4g} s")
+        if result.scenario.dimension == 2:
+            cells = _draw_plane(axes, view, frame)
+            figure.colorbar(cells, ax=axes, label=view.shown.title, location="bottom", shrink=0.8)
+        else:
+            axes.imshow(_picture(view, frame))
+            axes.set_axis_off()
+
+
+def _draw_plane(axes: Axes, view: View, frame: int) -> PolyCollection:
+    """Draw the cells, and the plane obstacles that stay where they are."""
+    frames = view.frames
+    cells = np.split(frames.connectivity, frames.offsets[1:-1])
+    values = view.shown.values(frames, frame)
+    if view.shown.on_points:
+        values = np.array([values[cell].mean() for cell in cells])
+    where = view.positions(frame)[:, :2]
+    drawn = PolyCollection(
+        [where[cell] for cell in cells], array=values, edgecolors="#00000040", linewidths=0.2
+    )
+    axes.add_collection(drawn)
+    axes.set_aspect("equal")
+    axes.autoscale_view()
+    for plane in view.scenario.obstacles:
+        if isinstance(plane, carom.Plane) and plane.motion is None:
+            along = (plane.point[0] - plane.normal[1], plane.point[1] + plane.normal[0])
+            axes.axline(plane.point, along, color="0.6", linewidth=1.0)
+    axes.set_xlabel("x [m]")
+    axes.set_ylabel("y [m]")
+    return drawn
+
+
+def _picture(view: View, frame: int) -> np.ndarray:
+    """Return what ``carom view`` draws, without its time and axes, and cut to what is drawn."""
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "frame.png"
+        screenshot(view, frame, file)
+        picture = plt.imread(file)[..., :3].copy()
+    height, width = picture.shape[:2]
+    picture[: height // 12, : width // 3] = picture[0, -1]
+    picture[-height // 5 :, : width // 6] = picture[0, -1]
+    drawn = (picture != picture[0, -1]).any(axis=-1)
+    rows, columns = np.flatnonzero(drawn.any(axis=1)), np.flatnonzero(drawn.any(axis=0))
+    return picture[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]

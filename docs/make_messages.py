@@ -1,0 +1,90 @@
+"""Write docs/messages.md from the sources and docs/message-areas.toml.
+
+``python docs/make_messages.py`` writes it, ``… --check`` says whether it is up to date (exit status
+1 if not).
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import tomlkit
+from message_texts import texts
+
+from carom.messages import DATA_MESSAGES
+
+PAGE = Path(__file__).with_name("messages.md")
+AREAS = Path(__file__).with_name("message-areas.toml")
+
+HEAD = """\
+# Messages
+
+<!-- Written by docs/make_messages.py; edit that script, message-areas.toml or the messages. -->
+
+Every error, warning and finding that a user can meet, with cause and cure. `{…}` stands for a name
+or a number. An error is one line: the file, the key of the case as a dotted path, its value, what
+is wrong, and, after a semicolon or in the second half, what to do. Nothing is written before the
+case has been checked. Where a message says what to do, that is the cure; what each section says
+besides is true of all its messages.
+
+| exit status | meaning |
+|---|---|
+| 0 | success |
+| 1 | a file could not be read or written, as on a full disk; an audit refutes the results |
+| 2 | bad input: an `InputError` in Python |
+| 3 | a step did not converge (`ConvergenceError`), or a run is `uncertified` (`CertificateError`) |
+| 130, 143 | Ctrl-C, SIGTERM; `--resume` goes on |
+"""
+
+
+def areas() -> list[dict[str, Any]]:
+    """Return the sections of the page: title, sources, cause and cure."""
+    listed: list[dict[str, Any]] = tomlkit.parse(AREAS.read_text(encoding="utf-8")).unwrap()["area"]
+    return listed
+
+
+def area_of(path: str, listed: list[dict[str, Any]]) -> dict[str, Any] | None:
+    """Return the section of a source: that with the longest beginning of its path."""
+    fits = [
+        (len(b), n) for n, area in enumerate(listed) for b in area["sources"] if path.startswith(b)
+    ]
+    return listed[max(fits)[1]] if fits else None
+
+
+def page() -> str:
+    """Return the text of the page."""
+    listed, lines = areas(), [HEAD]
+    found: list[list[str]] = [[] for _ in listed]
+    for path, said in texts().items():
+        area = area_of(path, listed)
+        if area is None:
+            raise SystemExit(f"{path} has messages; add it to an area of {AREAS}")
+        found[listed.index(area)] += said
+    for area, said in zip(listed, found, strict=True):
+        lines += [f"\n## {area['title']}\n", f"**Cause.** {area['cause']}\n"]
+        lines += [f"**Cure.** {area['cure']}\n"]
+        more = DATA_MESSAGES.values() if area.get("data") else []
+        lines += [f"- `{_code(text)}`" for text in dict.fromkeys([*more, *said])]
+    return "\n".join(lines) + "\n"
+
+
+def _code(text: str) -> str:
+    return " ".join(text.split()).replace("`", "'")
+
+
+def main() -> int:
+    """Write the page, or compare it with what it should be."""
+    text = page()
+    if "--check" in sys.argv[1:]:
+        if PAGE.exists() and PAGE.read_text(encoding="utf-8") == text:
+            return 0
+        print(f"{PAGE} is out of date; run python docs/make_messages.py")
+        return 1
+    PAGE.write_text(text, encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

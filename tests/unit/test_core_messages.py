@@ -1,0 +1,130 @@
+"""What the core alone can see, because it needs meshes and loads: key, place and remedy."""
+
+import pytest
+
+import carom
+from carom import InputError
+from carom.simulation import build
+
+MATERIAL = {"kind": "saint-venant-kirchhoff", "young": 1e5, "poisson": 0.3, "density": 1e3}
+BLOCK = {"kind": "rectangle", "corner": [0.0, 0.0], "size": [1.0, 1.0], "divisions": [2, 2]}
+FLOOR = {"name": "floor", "kind": "plane", "point": [0.0, -1.0], "normal": [0.0, 1.0]}
+PUSH = {"kind": "prescribed", "body": "block", "on": "top"}
+
+BAD = [
+    # what of the case is replaced, the beginning of the message, a part of it
+    (
+        {"motions": [{**PUSH, "on": "tpo", "y": "0*t"}]},
+        "motions.0.on: ",
+        "has no such set; known are ",
+    ),
+    ({"motions": [{**PUSH, "y": 0.1}]}, "motions.0.y: ", "let it grow from 0, as t*"),
+    (
+        {
+            "motions": [
+                {**PUSH, "y": "-t"},
+                {"kind": "fixed", "body": "block", "on": "left"},
+            ]
+        },
+        "motions.1",
+        "moves it along y differently; leave that component out of one of them",
+    ),
+    ({"motions": [{**PUSH, "y": "sqrt(t)"}]}, "motions.0.y: ", "m/s: it must be finite"),
+    (
+        {"loads": [{"kind": "pressure", "body": "block", "on": "all", "pressure": "1/(t-t)"}]},
+        "loads.0.pressure: ",
+        "it must be finite",
+    ),
+    (
+        {"obstacles": [{**FLOOR, "point": [0.0, 0.5]}]},
+        "bodies.0.mesh: ",
+        "move the body or turn the normal of obstacles.0",
+    ),
+    (
+        {"bodies.1": {"name": "other", "material": "elastic", "mesh": BLOCK}},
+        "bodies.0.mesh: ",
+        "overlap at the start: ",
+    ),
+    (
+        {"bodies.0.mesh": {**BLOCK, "corner": [-0.5, 0.0]}, "bodies.0.hypothesis": "axisymmetric"},
+        "bodies.0.mesh: ",
+        "has a negative radius; the axis of an axisymmetric body is x = 0, with the body at x ≥ 0",
+    ),
+    (
+        {"bodies.0.mesh": {**BLOCK, "cell": "quad8"}, "bodies.0.formulation": "mean-dilatation"},
+        "bodies.0.formulation: ",
+        "quadratic cells hardly lock; leave the formulation out",
+    ),
+    (
+        {"bodies.0.mesh": {**BLOCK, "cell": "tri3"}, "bodies.0.formulation": "mean-dilatation"},
+        "bodies.0.formulation: ",
+        "mesh the body with quad4, hex8 or quadratic cells",
+    ),
+    (
+        {
+            "materials.elastic": {**MATERIAL, "kind": "j2-plasticity", "yield_stress": 1e3},
+            "bodies.0.hypothesis": "plane-stress",
+        },
+        "bodies.0.hypothesis: ",
+        "has no plane-stress hypothesis; choose another hypothesis or leave it out",
+    ),
+    (
+        {"bodies.0.mesh": {**BLOCK, "divisions": [1, 1]}, "contact.condition": "massless"},
+        "bodies.0.mesh: ",
+        "finds no nodes inside to move to; refine the mesh, name fewer contact_sets",
+    ),
+    (
+        {"output.track": [{"name": "far", "body": "block", "point": [5.0, 5.0]}]},
+        "output.track.0.point: ",
+        "give a point of it in the reference configuration",
+    ),
+    ({"analysis.time_step": 1e-15}, "analysis.time_step: ", "the run would have "),
+    (
+        {"bodies.0.mesh": {**BLOCK, "divisions": [4000, 4000]}},
+        "bodies.0.mesh",
+        "it would have more than 5 million cells; take fewer divisions",
+    ),
+]
+
+
+def case(changes):
+    data = {
+        "analysis": {"kind": "dynamic", "end_time": 1.0, "time_step": 0.01},
+        "materials": {"elastic": dict(MATERIAL)},
+        "bodies": [{"name": "block", "material": "elastic", "mesh": dict(BLOCK)}],
+        "obstacles": [dict(FLOOR)],
+        "contact": {},
+        "output": {},
+    }
+    for path, value in changes.items():
+        *way, last = [int(part) if part.isdecimal() else part for part in path.split(".")]
+        place = data
+        for part in way:
+            place = place[part]
+        if isinstance(place, list) and last == len(place):
+            place.append(value)
+        else:
+            place[last] = value
+    return carom.Scenario.from_dict(data)
+
+
+@pytest.mark.parametrize(("changes", "key", "part"), BAD)
+def test_bad_input_that_needs_meshes_is_named_in_one_line(changes, key, part):
+    with pytest.raises(InputError) as caught:
+        build(case(changes))
+    said = str(caught.value)
+    assert said.startswith(key)
+    assert part in said
+    assert "\n" not in said
+
+
+def test_a_static_body_that_nothing_holds_is_named():
+    scenario = case(
+        {
+            "analysis": {"kind": "static", "end_time": 1.0, "time_step": 0.5, "gravity": [0, -1]},
+            "obstacles": [],
+            "contact.condition": "gap",
+        }
+    )
+    with pytest.raises(carom.ConvergenceError, match=r"block.* is not held: .*fix what would move"):
+        build(scenario).advance(1.0, 1.0)
