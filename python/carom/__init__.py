@@ -1,45 +1,46 @@
 """Frictional impact of deformable bodies, every joule accounted for."""
 
 from importlib import import_module
-from types import ModuleType
+from typing import TYPE_CHECKING
 
-from carom._carom import Simulation, __version__
-from carom.analysis import Conserving, Dynamic, Newton, Static, Theta
-from carom.audit import Audit, audit
-from carom.body import Body
-from carom.checking import Check, check
-from carom.contact import Contact, FrictionSolver, Pair
-from carom.errors import (
-    CaromError,
-    CertificateError,
-    ConvergenceError,
-    InputError,
-    MeshError,
-    StorageError,
-)
-from carom.io.history import read_history
-from carom.load import Force, Pressure, Traction
-from carom.material import (
-    BlatzKo,
-    Damping,
-    J2Plasticity,
-    LinearElastic,
-    MooneyRivlin,
-    NeoHookean,
-    Ogden,
-    SaintVenantKirchhoff,
-    Viscosity,
-    Yeoh,
-)
-from carom.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring, Tube
-from carom.motion import Displacement, Fixed, Prescribed
-from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere, RigidSurface
-from carom.output import Output, Track
-from carom.progress import Progress
-from carom.result import Result
-from carom.scenario import Scenario
-from carom.signal import Table
-from carom.simulation import run
+if TYPE_CHECKING:
+    from carom._carom import Simulation, __version__
+    from carom.analysis import Conserving, Dynamic, Newton, Static, Theta
+    from carom.auditing import Audit, audit
+    from carom.body import Body
+    from carom.checking import Check, check
+    from carom.contact import Contact, FrictionSolver, Pair
+    from carom.errors import (
+        CaromError,
+        CertificateError,
+        ConvergenceError,
+        InputError,
+        MeshError,
+        StorageError,
+    )
+    from carom.io.history import read_history
+    from carom.load import Force, Pressure, Traction
+    from carom.material import (
+        BlatzKo,
+        Damping,
+        J2Plasticity,
+        LinearElastic,
+        MooneyRivlin,
+        NeoHookean,
+        Ogden,
+        SaintVenantKirchhoff,
+        Viscosity,
+        Yeoh,
+    )
+    from carom.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring, Tube
+    from carom.motion import Displacement, Fixed, Prescribed
+    from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere, RigidSurface
+    from carom.output import Output, Track
+    from carom.progress import Progress
+    from carom.result import Result
+    from carom.scenario import Scenario
+    from carom.signal import Table
+    from carom.simulation import run
 
 __all__ = [
     "Audit",
@@ -102,9 +103,61 @@ __all__ = [
     "run",
 ]
 
+_HOMES = {
+    "_carom": ("Simulation", "__version__"),
+    "analysis": ("Conserving", "Dynamic", "Newton", "Static", "Theta"),
+    "auditing": ("Audit", "audit"),
+    "body": ("Body",),
+    "checking": ("Check", "check"),
+    "contact": ("Contact", "FrictionSolver", "Pair"),
+    "errors": (
+        "CaromError",
+        "CertificateError",
+        "ConvergenceError",
+        "InputError",
+        "MeshError",
+        "StorageError",
+    ),
+    "io.history": ("read_history",),
+    "load": ("Force", "Pressure", "Traction"),
+    "material": (
+        "BlatzKo",
+        "Damping",
+        "J2Plasticity",
+        "LinearElastic",
+        "MooneyRivlin",
+        "NeoHookean",
+        "Ogden",
+        "SaintVenantKirchhoff",
+        "Viscosity",
+        "Yeoh",
+    ),
+    "mesh": ("Ball", "Box", "Cylinder", "Disc", "MeshFile", "Rectangle", "Ring", "Tube"),
+    "motion": ("Displacement", "Fixed", "Prescribed"),
+    "obstacle": ("Plane", "RigidBox", "RigidCylinder", "RigidSphere", "RigidSurface"),
+    "output": ("Output", "Track"),
+    "progress": ("Progress",),
+    "result": ("Result",),
+    "scenario": ("Scenario",),
+    "signal": ("Table",),
+    "simulation": ("run",),
+}
+"""The module of each name, imported when the name is first used: the command line starts sooner."""
 
-def __getattr__(name: str) -> ModuleType:
-    """Import `carom.friction`, and scipy with it, where it is first used."""
-    if name == "friction":
-        return import_module("carom.friction")
-    raise AttributeError(f"module 'carom' has no attribute {name!r}")
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+
+if not TYPE_CHECKING:  # type checkers know the names, and that there are no others
+
+    def __getattr__(name: str) -> object:
+        if name == "friction":
+            return import_module("carom.friction")
+        if name not in _HOME_OF:
+            raise AttributeError(f"module 'carom' has no attribute {name!r}")
+        value: object = getattr(import_module(f"carom.{_HOME_OF[name]}"), name)
+        globals()[name] = value
+        return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__, "friction"})

@@ -21,9 +21,7 @@ from carom.io.ledger import LedgerWriter
 from carom.io.progress import ProgressFile
 from carom.io.summary import write_summary
 from carom.io.vtkhdf import SURFACE_CELL_FIELDS, SURFACE_POINT_FIELDS, FieldsWriter
-from carom.plot import draw
 from carom.progress import Progress
-from carom.report import write_report
 from carom.result import Result
 from carom.scenario import Scenario
 
@@ -242,9 +240,13 @@ class Recorder:
 
 def conclude(directory: Path, *, reports: bool) -> Result:
     """Make what is made of a run with a summary, and remove what it needs no more."""
+    from carom.plot import draw  # noqa: PLC0415 (Matplotlib takes longer to import than the rest)
+
     result = Result.open(directory)
     draw(result)
     if reports:
+        from carom.report import write_report  # noqa: PLC0415 (as above)
+
         write_report(directory)
     if result.summary["status"] in layout.ENDED:
         for name in layout.CHECKPOINTS:
