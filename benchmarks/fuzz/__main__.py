@@ -12,7 +12,14 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from fuzz.subjects import SUBJECTS
 from fuzz.watch import search
 
-SHARES = {"tables of cases": 0.7, "text of cases": 0.3, "meshes": 0.2, "contact problems": 0.1}
+SHARES = {
+    "tables of cases": 0.7,
+    "text of cases": 0.3,
+    "meshes": 0.2,
+    "contact problems": 0.1,
+    "checkpoints": 0.05,
+    "results": 0.05,
+}
 """Attempts of each subject over `COUNT`, which counts case files."""
 
 

@@ -5,20 +5,31 @@ from __future__ import annotations
 import io
 import math
 import traceback
+import warnings
 from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any, TypeVar
+from unittest import mock
 
 import typer
+from rich.console import Console
 
+import carom
 from carom import case_file
 from carom.cli.case import load
 from carom.cli.failures import BAD_INPUT, NOT_CONVERGED, failures
 from carom.cli.friction.problem_file import warnings_named
+from carom.cli.watch import watch
 from carom.friction import GlobalProblem, read_record, solve
+from carom.io import layout
+from carom.io.frames import Frames
+from carom.plot import draw
+from carom.report import write_report
+from carom.result import Result, read_case
 from carom.scenario import Scenario
 from carom.simulation import build
+from carom.view import View, shown
 
 LARGE = 3_000
 """Cells above which a case is checked but not built: time goes to many cases, not to large ones."""
@@ -126,4 +137,50 @@ def build_mesh(file: Path) -> str:
         case["obstacles"] = [{"name": "surface", "kind": "surface", "file": str(file)}]
     simulation = build(Scenario.from_dict(case))
     simulation.advance(1e-6, BUDGET)
+    return "taken"
+
+
+def resume(directory: Path) -> str:
+    """Go on from the checkpoint of a run that was stopped, with its own case."""
+    with warnings.catch_warnings(), mock.patch("carom.plot.draw"):  # pictures take long
+        warnings.simplefilter("ignore")
+        carom.run(read_case(directory.parent / "stopped"), out=directory, resume=True)
+    return "taken"
+
+
+def _watch(directory: Path) -> None:
+    try:
+        watch(directory, every=0.05)
+    except typer.Exit as end:
+        if end.exit_code not in (0, 3, 130):  # those of how the run ended
+            raise
+
+
+def _view(directory: Path) -> None:
+    for name in (layout.FIELDS, layout.SURFACE):
+        frames = Frames(directory / name)
+        View(frames, shown(frames, None), read_case(directory))
+
+
+def _print(directory: Path) -> None:
+    result = Result.open(directory)
+    Console(file=io.StringIO()).print(result)
+    repr(result)
+
+
+READERS: dict[str, Callable[[Path], object]] = {
+    "audit": carom.audit,
+    "plot": lambda directory: draw(Result.open(directory)),
+    "report": write_report,
+    "result": _print,
+    "view": _view,
+    "watch": _watch,
+}
+"""What reads results, by the name of the command."""
+
+
+def read_results(given: tuple[str, Path]) -> str:
+    """Read results as a command does."""
+    reader, directory = given
+    READERS[reader](directory)
     return "taken"

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
 import meshio
 import numpy as np
 
+import carom
 from carom import case_file
 from carom.friction import Problem, write
 from carom.template import MESH_FILE, TEMPLATES, template
@@ -93,3 +95,42 @@ def problems(folder: Path) -> list[Path]:
     for file in files:
         write(problem, file, title="Three contacts")
     return files
+
+
+SOME_STEPS = ("analysis.end_time=12e-4", "output.fields_every=2e-4", "output.history_every=1e-4")
+"""What makes a short run of everything.toml."""
+
+
+def stopped(folder: Path) -> Path:
+    """Run some of everything, stop it in the middle and return its results."""
+
+    def stop(progress: carom.Progress) -> None:
+        if progress.step >= 6:
+            raise KeyboardInterrupt
+
+    with suppress(KeyboardInterrupt):
+        carom.run(_everything("output.audit=true"), out=folder / "stopped", observer=stop)
+    return folder / "stopped"
+
+
+def finished(folder: Path) -> Path:
+    """Run two discs that meet and return the results, which can be audited."""
+    scenario = carom.Scenario.from_toml(EXAMPLES / "two_cylinders.toml").with_overrides(
+        [
+            "analysis.end_time=0.04",
+            "bodies.0.mesh.divisions=2",
+            "bodies.1.mesh.divisions=2",
+            "bodies.1.mesh.centre=[4.01, 4.0]",
+            "output.fields_every=1e-2",
+            "output.history_every=1e-3",
+            "output.audit=true",
+            'output.track=[{name = "tip", body = "left", point = [3.0, 4.0]}]',
+        ]
+    )
+    carom.run(scenario, out=folder / "finished")
+    return folder / "finished"
+
+
+def _everything(*overrides: str) -> carom.Scenario:
+    scenario = carom.Scenario.from_toml(HERE / "everything.toml")
+    return scenario.with_overrides([*SOME_STEPS, *overrides])

@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import io
 import json
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -96,7 +97,12 @@ def _packed(checkpoint: Checkpoint) -> bytes:
             file[name] = np.frombuffer(value, dtype=np.uint8)
         for name, values in checkpoint.arrays.items():
             file[f"simulation/{name}"] = values
-    data: bytes = buffer.getvalue()[_BLOCK:]
+    return signed(buffer.getvalue())
+
+
+def signed(content: bytes) -> bytes:
+    """Return an HDF5 file with the text in front of it that fits what is behind."""
+    data = content[_BLOCK:]
     digest = hashlib.sha256(data).hexdigest()
     text = f"{_MAGIC} {CHECKPOINT_SCHEMA} {len(data)} {digest}\n"
     return text.encode().ljust(_BLOCK, b"\0") + data
@@ -117,18 +123,42 @@ def _unpacked(content: bytes, path: Path) -> Checkpoint:
             f"{path}: has schema {schema}, this version reads {CHECKPOINT_SCHEMA}; go on with the "
             "version that wrote it, or start again with --force"
         )
-    with h5py.File(io.BytesIO(content), "r") as file:
-        if (version := file.attrs["version"]) != __version__:
-            raise InputError(
-                f"{path}: was written by carom {version}, this is {__version__}, whose numbers may "
-                "differ; go on with that version, or start again with --force"
-            )
-        arrays: dict[str, NDArray[Any]] = {}
-
-        def collect(name: str, entry: object) -> None:
-            if isinstance(entry, h5py.Dataset):
-                arrays[name] = entry[()]
-
-        file["simulation"].visititems(collect)
-        case, record = (json.loads(file[name][()].tobytes()) for name in ("case", "record"))
+    try:
+        with h5py.File(io.BytesIO(content), "r") as file:
+            version = str(file.attrs["version"])
+            case, record = (json.loads(file[name][()].tobytes()) for name in ("case", "record"))
+            arrays = _arrays(file["simulation"])
+    except (AttributeError, KeyError, OSError, TypeError, ValueError) as error:
+        raise DamagedError(f"{path} does not hold what a checkpoint has: {error}") from error
+    if version != __version__:
+        raise InputError(
+            f"{path}: was written by carom {version}, this is {__version__}, whose numbers may "
+            "differ; go on with that version, or start again with --force"
+        )
+    if not (isinstance(case, dict) and _is_record(record)):
+        raise DamagedError(f"{path} does not hold what a checkpoint has: case and record of a run")
     return Checkpoint(case=case, record=record, arrays=arrays)
+
+
+def _arrays(group: h5py.Group) -> dict[str, NDArray[Any]]:
+    """Read all that is in a group, by names with slashes."""
+    arrays: dict[str, NDArray[Any]] = {}
+
+    def collect(name: str, entry: object) -> None:
+        if isinstance(entry, h5py.Dataset):
+            arrays[name] = entry[()]
+
+    group.visititems(collect)
+    return arrays
+
+
+def _is_record(record: object) -> bool:
+    """Whether it says how far the files had come, as `carom.recorder.Recorder` wants to know."""
+    if not isinstance(record, dict):
+        return False
+    counts = [record.get(name) for name in ("history", "ledger", "frames", "steps", "frames_due")]
+    times = [record.get("wall"), record.get("last_frame", math.nan)]
+    return all(type(count) is int and count >= 0 for count in counts) and all(
+        isinstance(time, int | float) or (time is None and index == 1)
+        for index, time in enumerate(times)
+    )

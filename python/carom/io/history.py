@@ -74,9 +74,9 @@ def read_history(path: str | Path) -> dict[str, NDArray[np.float64]]:
     InputError
         The file is not a history.
     """
-    with Path(path).open(encoding="utf-8", newline="") as file:
-        lines = [line for line in file if line.endswith("\n")]
     try:
+        with Path(path).open(encoding="utf-8", newline="") as file:
+            lines = [line for line in file if line.endswith("\n")]
         columns, *rows = csv.reader(lines)
         if columns[:1] != ["time"]:
             raise ValueError('its first column is not "time"')

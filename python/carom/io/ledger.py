@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.errors import InputError
 from carom.io.history import cut
 
 COLUMNS = (
@@ -73,14 +74,28 @@ class LedgerWriter:
 
 
 def read_ledger(path: str | Path) -> dict[str, dict[str, NDArray[np.float64]]]:
-    """Read a ledger: the columns of every body and pair by title, NaN where it has none."""
-    with Path(path).open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(line for line in file if line.endswith("\n")))
+    """Read a ledger: the columns of every body and pair by title, NaN where it has none.
+
+    Raises
+    ------
+    InputError
+        The file is not a ledger.
+    """
     columns = [column for column in COLUMNS if column != "entry"]
-    return {
-        entry: {
-            column: np.array([float(row[column] or "nan") for row in rows if row["entry"] == entry])
-            for column in columns
+    try:
+        with Path(path).open(encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(line for line in file if line.endswith("\n")))
+        entries = {
+            entry: [row for row in rows if row["entry"] == entry]
+            for entry in dict.fromkeys(row["entry"] for row in rows)
         }
-        for entry in dict.fromkeys(row["entry"] for row in rows)
-    }
+        return {
+            entry: {
+                column: np.array([float(row[column] or "nan") for row in own]) for column in columns
+            }
+            for entry, own in entries.items()
+        }
+    except KeyError as error:
+        raise InputError(f"{path}: not a ledger of carom: it has no column {error}") from error
+    except (ValueError, csv.Error) as error:
+        raise InputError(f"{path}: not a ledger of carom: {error}") from error
