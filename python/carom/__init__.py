@@ -3,10 +3,11 @@
 from importlib import import_module
 from types import ModuleType
 
-from carom._carom import Simulation, __version__
+from carom._carom import __version__
 from carom.analysis import Conserving, Dynamic, Newton, Static, Theta
 from carom.audit import Audit, audit
 from carom.body import Body
+from carom.books import Energy, Ledger
 from carom.checking import Check, check
 from carom.contact import Contact, FrictionSolver, Pair
 from carom.errors import (
@@ -33,42 +34,50 @@ from carom.material import (
 )
 from carom.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring, Tube
 from carom.motion import Displacement, Fixed, Prescribed
+from carom.observer import Observer, Stop
 from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere, RigidSurface
 from carom.output import Output, Track
 from carom.progress import Progress
 from carom.result import Result
+from carom.running import run
 from carom.scenario import Scenario
 from carom.signal import Table
-from carom.simulation import run
+from carom.simulation import Simulation, Step
+from carom.state import BodyState, Contacts, State
 
 __all__ = [
     "Audit",
     "Ball",
     "BlatzKo",
     "Body",
+    "BodyState",
     "Box",
     "CaromError",
     "CertificateError",
     "Check",
     "Conserving",
     "Contact",
+    "Contacts",
     "ConvergenceError",
     "Cylinder",
     "Damping",
     "Disc",
     "Displacement",
     "Dynamic",
+    "Energy",
     "Fixed",
     "Force",
     "FrictionSolver",
     "InputError",
     "J2Plasticity",
+    "Ledger",
     "LinearElastic",
     "MeshError",
     "MeshFile",
     "MooneyRivlin",
     "NeoHookean",
     "Newton",
+    "Observer",
     "Ogden",
     "Output",
     "Pair",
@@ -86,7 +95,10 @@ __all__ = [
     "SaintVenantKirchhoff",
     "Scenario",
     "Simulation",
+    "State",
     "Static",
+    "Step",
+    "Stop",
     "StorageError",
     "Table",
     "Theta",
