@@ -8,13 +8,11 @@ from __future__ import annotations
 
 import inspect
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-import typer
-
-from carom.cli import app
+from carom.cli import COMMANDS, command
 
 PAGE = Path(__file__).with_name("commands.md")
 
@@ -29,13 +27,13 @@ Coulomb's law; 130 Ctrl-C; 143 SIGTERM. [What commands say when they fail](messa
 """
 
 
-def commands(group: Any, path: str) -> Iterator[tuple[str, Any]]:  # noqa: ANN401 (Click's)
-    """Yield every command below a group with its full name, in the order of the help."""
-    for name, command in group.commands.items():
-        if hasattr(command, "commands"):
-            yield from commands(command, f"{path} {name}")
+def commands(group: Mapping[str, Any], path: str) -> Iterator[tuple[str, Any]]:
+    """Yield every command of a group with its full name, in the order of the help."""
+    for name, member in group.items():
+        if hasattr(member, "commands"):
+            yield from commands(member.commands, f"{path} {name}")
         else:
-            yield f"{path} {name}", command
+            yield f"{path} {name}", member
 
 
 def cell(text: str) -> str:
@@ -43,9 +41,9 @@ def cell(text: str) -> str:
     return " ".join(text.split()).replace("|", "\\|")
 
 
-def section(name: str, command: Any) -> Iterator[str]:  # noqa: ANN401 (Click's)
+def section(name: str, member: Any) -> Iterator[str]:  # noqa: ANN401 (Click's)
     """Yield the lines that describe a command."""
-    arguments = [p for p in command.params if p.param_type_name == "argument"]
+    arguments = [p for p in member.params if p.param_type_name == "argument"]
     shown = [p.metavar or p.name.upper() for p in arguments]
     shown = [word.strip("[]") for word in shown]
     words = [
@@ -53,9 +51,9 @@ def section(name: str, command: Any) -> Iterator[str]:  # noqa: ANN401 (Click's)
         for word, p in zip(shown, arguments, strict=True)
     ]
     yield f"\n## `{' '.join([name, *words])}`\n"
-    yield inspect.cleandoc(command.help or "")
+    yield inspect.cleandoc(member.help or "")
     rows = [(f"`{w}`", p, "") for w, p in zip(shown, arguments, strict=True)]
-    for p in command.params:
+    for p in member.params:
         if p.param_type_name == "option" and p.name != "help":
             value = "" if p.is_flag else f" {p.metavar or p.name.upper()}"
             plain = p.default is None or p.is_flag or callable(p.default) or p.required
@@ -69,8 +67,8 @@ def section(name: str, command: Any) -> Iterator[str]:  # noqa: ANN401 (Click's)
 def page() -> str:
     """Return the text of the page."""
     lines = [HEAD]
-    for name, command in commands(typer.main.get_command(app), "carom"):
-        lines += section(name, command)
+    for name, member in commands({name: command(name) for name in COMMANDS}, "carom"):
+        lines += section(name, member)
     return "\n".join(lines) + "\n"
 
 

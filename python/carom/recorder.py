@@ -15,14 +15,13 @@ from carom.io import layout
 from carom.io.atomic import sync, write_whole
 from carom.io.audit import AuditWriter
 from carom.io.checkpoint import Checkpoint, write_checkpoint
+from carom.io.frame_queue import Frame, FrameQueue
 from carom.io.history import HistoryWriter
 from carom.io.ledger import LedgerWriter
 from carom.io.progress import ProgressFile
 from carom.io.summary import write_summary
 from carom.io.vtkhdf import SURFACE_CELL_FIELDS, SURFACE_POINT_FIELDS, FieldsWriter
-from carom.plot import draw
 from carom.progress import Progress
-from carom.report import write_report
 from carom.result import Result
 from carom.scenario import Scenario
 
@@ -88,20 +87,20 @@ class Recorder:
         self._ledger = LedgerWriter(
             directory / layout.LEDGER, simulation.ledger_entries(), size=written.get("ledger")
         )
-        self._fields = FieldsWriter(
-            directory / layout.FIELDS, simulation.mesh(), frames=written.get("frames")
-        )
-        self._surface = FieldsWriter(
-            directory / layout.SURFACE,
-            simulation.surface(),
-            point_fields=SURFACE_POINT_FIELDS,
-            cell_fields=SURFACE_CELL_FIELDS,
-            frames=written.get("frames"),
-        )
-        self._audit = (
+        self._queue = FrameQueue(
+            FieldsWriter(
+                directory / layout.FIELDS, simulation.mesh(), frames=written.get("frames")
+            ),
+            FieldsWriter(
+                directory / layout.SURFACE,
+                simulation.surface(),
+                point_fields=SURFACE_POINT_FIELDS,
+                cell_fields=SURFACE_CELL_FIELDS,
+                frames=written.get("frames"),
+            ),
             AuditWriter(directory / layout.AUDIT, steps=written.get("steps"))
             if scenario.output.audit
-            else None
+            else None,
         )
         self._frames: int = written.get("frames", 0)
         self._steps: int = written.get("steps", 0)
@@ -118,6 +117,7 @@ class Recorder:
     @uninterrupted()
     def progress(self, progress: Progress) -> None:
         """Let other processes know how far the run is."""
+        self._queue.write_due()
         self._progress.write(progress)
 
     @uninterrupted()
@@ -135,8 +135,9 @@ class Recorder:
             It could not be written; the last one is as it was.
         """
         self.history()
+        self._queue.flush()
         names = [layout.HISTORY, layout.LEDGER, layout.FIELDS, layout.SURFACE]
-        for name in [*names, layout.AUDIT] if self._audit is not None else names:
+        for name in [*names, layout.AUDIT] if self._queue.keeps_steps else names:
             sync(self._directory / name)
         record = {
             "history": (self._directory / layout.HISTORY).stat().st_size,
@@ -160,7 +161,10 @@ class Recorder:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._progress.remove()
+        try:
+            self._queue.close()
+        finally:
+            self._progress.remove()
 
     @uninterrupted()
     def history(self) -> None:
@@ -170,22 +174,27 @@ class Recorder:
 
     @uninterrupted()
     def frame(self) -> None:
-        """Write the fields of the current state, once, and the step that led to it."""
+        """Take the fields of the current state, once, and the step that led to it, to be written.
+
+        Raises
+        ------
+        OSError
+            Frames could not be written, these or some before.
+        """
         self._frame(with_step=True)
 
     def _frame(self, *, with_step: bool) -> None:
         time = self._simulation.time
         if time == self._last_frame:
             return
-        self._fields.append(time, self._simulation.fields())
-        self._surface.append(time, self._simulation.surface_fields())
+        wanted = with_step and self._queue.keeps_steps
+        step = self._simulation.last_step() if wanted else None
+        self._queue.put(
+            Frame(time, self._simulation.fields(), self._simulation.surface_fields(), step)
+        )
         self._last_frame = time
         self._frames += 1
-        if self._audit is not None and with_step:
-            step = self._simulation.last_step()
-            if step is not None:
-                self._audit.append(step)
-                self._steps += 1
+        self._steps += step is not None
 
     @uninterrupted()
     def failed_problem(
@@ -214,6 +223,7 @@ class Recorder:
         self.history()
         # A step that failed has overwritten the start of the last good one.
         self._frame(with_step=status != "failed")
+        self._queue.flush()
         native = self._simulation.summary()
         summary = {
             "status": status,
@@ -230,9 +240,13 @@ class Recorder:
 
 def conclude(directory: Path, *, reports: bool) -> Result:
     """Make what is made of a run with a summary, and remove what it needs no more."""
+    from carom.plot import draw  # noqa: PLC0415 (Matplotlib takes longer to import than the rest)
+
     result = Result.open(directory)
     draw(result)
     if reports:
+        from carom.report import write_report  # noqa: PLC0415 (as above)
+
         write_report(directory)
     if result.summary["status"] in layout.ENDED:
         for name in layout.CHECKPOINTS:

@@ -26,7 +26,7 @@ KILLS = int(os.environ.get("CAROM_KILLS", "50"))
 def quick():
     """They take longer than the run, as does waiting for the disk."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("carom.recorder.draw", lambda _: None)
+        patch.setattr("carom.plot.draw", lambda _: None)
         patch.setattr("os.fsync", lambda _: None)
         yield
 

@@ -21,7 +21,7 @@ COMMAND = [sys.executable, "-c", "from carom.cli import main; main()"]
 
 @pytest.fixture
 def quick(monkeypatch):
-    monkeypatch.setattr("carom.recorder.draw", lambda _: None)
+    monkeypatch.setattr("carom.plot.draw", lambda _: None)
 
 
 @pytest.fixture

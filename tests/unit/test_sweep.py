@@ -57,7 +57,7 @@ def here(monkeypatch):
             yield index, work(task)
 
     monkeypatch.setattr("carom.sweep.here", one_by_one)
-    monkeypatch.setattr("carom.recorder.draw", lambda result: [])
+    monkeypatch.setattr("carom.plot.draw", lambda result: [])
     return worked
 
 

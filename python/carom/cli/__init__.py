@@ -1,42 +1,69 @@
-"""The command line ``carom``: one module per command."""
+"""The command line ``carom``: one module per command, imported when the command is used."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from importlib import import_module
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from carom import __version__
-from carom.cli.audit import audit
-from carom.cli.check import check
-from carom.cli.doctor import doctor
-from carom.cli.friction import app as friction
-from carom.cli.new import new
-from carom.cli.plot import plot
-from carom.cli.report import report
-from carom.cli.run import run
-from carom.cli.schema import schema
-from carom.cli.sweep import sweep
-from carom.cli.view import view
-from carom.cli.watch import watch
+
+COMMANDS = {
+    "new": "Write a commented case file that runs as it is.",
+    "run": "Run a case and write its results.",
+    "check": "Validate a case and print what would run.",
+    "doctor": "Examine a case: units, meshes, meetings, contact, time step and cost, with "
+    "remedies.",
+    "sweep": "Run a case with many values side by side; one table, one picture, a folder for each "
+    "run.",
+    "audit": "Check finished results by code that shares nothing with the solver.",
+    "plot": "Draw energies and tracked points of finished results again.",
+    "view": "Show results in space: bodies as they deform, coloured by a field.",
+    "watch": "Follow a run from another terminal, until it ends.",
+    "report": "Write a page with the animated bodies, the energies and all numbers of a run.",
+    "schema": "Print the JSON Schema of the case file, by which editors complete and check it.",
+    "friction": "Contact problems with friction on their own.",
+}
+"""What the list of commands says of each: the first line of its help."""
+
+
+def command(name: str) -> Any:  # noqa: ANN401 (Click's, which Typer has as its own or not)
+    """Import a command or group of commands, from the module of its name."""
+    module = import_module(f"carom.cli.{name}")
+    group = getattr(module, "app", None)
+    if group is None:
+        group = typer.Typer(add_completion=False)
+        group.command(name)(getattr(module, name))
+    made = typer.main.get_command(group)
+    made.name = name
+    return made
+
+
+class Commands(TyperGroup):
+    """Commands of which those that are not used are no more than a line of help."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:  # noqa: ANN401, D102 (as above)
+        if args and args[0] in COMMANDS:
+            self.commands[args[0]] = command(args[0])
+        return super().resolve_command(ctx, args)
+
 
 app = typer.Typer(
+    cls=Commands,
     help="Frictional impact of deformable bodies, every joule accounted for.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
-app.command()(new)
-app.command()(run)
-app.command()(check)
-app.command()(doctor)
-app.command()(sweep)
-app.command()(audit)
-app.command()(plot)
-app.command()(view)
-app.command()(watch)
-app.command()(report)
-app.command()(schema)
-app.add_typer(friction, name="friction")
+
+
+def _listed() -> None:
+    """Stand in the list for a command that is not imported."""
+
+
+for _name, _line in COMMANDS.items():
+    app.command(_name, help=_line)(_listed)
 
 
 def _print_version(wanted: bool) -> None:

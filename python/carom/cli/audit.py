@@ -7,8 +7,8 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from carom.audit import Audit
-from carom.audit import audit as check_results
+from carom.auditing import Audit
+from carom.auditing import audit as check_results
 from carom.cli.case import ResultsDirectory
 from carom.cli.failures import failures
 from carom.cli.plain import json_text

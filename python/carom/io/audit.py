@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,7 @@ _ENDS = ("start", "end")
 class AuditWriter:
     """Writes pairs of consecutive states.
 
-    The file is closed between steps, so it can be opened during the run and after a crash.
+    The file is closed in between, so it can be opened during the run and after a crash.
 
     Parameters
     ----------
@@ -54,27 +54,31 @@ class AuditWriter:
             for name in names[steps:]:
                 del file[f"steps/{name}"]
 
-    def append(self, step: Mapping[str, Any]) -> None:
-        """Add a step.
+    def append(self, steps: Sequence[Mapping[str, Any]]) -> None:
+        """Add steps.
 
         Parameters
         ----------
-        step
+        steps
             What `carom.Simulation.last_step` gives: ``start`` and ``end``, mappings of the time
             [s] and arrays; ``blend``, shape [body_count]; ``ledger``, energies by name [J].
         """
         with changed(self._path) as file:
-            steps = file["steps"]
-            group = steps.create_group(f"{len(steps):06d}")
-            for end in _ENDS:
-                state = group.create_group(end)
-                for name, value in step[end].items():
-                    if name == "time":
-                        state.attrs["time"] = value
-                    else:
-                        state[name] = value
-            group["blend"] = step["blend"]
-            group.create_group("ledger").attrs.update(step["ledger"])
+            there = file["steps"]
+            for number, step in enumerate(steps, start=len(there)):
+                _write(there.create_group(f"{number:06d}"), step)
+
+
+def _write(group: h5py.Group, step: Mapping[str, Any]) -> None:
+    for end in _ENDS:
+        state = group.create_group(end)
+        for name, value in step[end].items():
+            if name == "time":
+                state.attrs["time"] = value
+            else:
+                state[name] = value
+    group["blend"] = step["blend"]
+    group.create_group("ledger").attrs.update(step["ledger"])
 
 
 def read_steps(path: Path) -> Iterator[dict[str, Any]]:

@@ -42,7 +42,7 @@ _CHUNK_ROWS = 16_384
 class FieldsWriter:
     """Writes frames of fields on a mesh that keeps its cells.
 
-    The file is closed between frames, so it can be opened during the run and after a crash.
+    The file is closed in between, so it can be opened during the run and after a crash.
 
     Parameters
     ----------
@@ -107,37 +107,42 @@ class FieldsWriter:
             _growing(steps, "CellDataOffsets/body", dtype=np.int64)
         write_whole(path, content.getvalue())
 
-    def append(self, time: float, fields: Mapping[str, NDArray[np.float64]]) -> None:
-        """Add a frame.
+    def append(
+        self, times: Sequence[float], frames: Sequence[Mapping[str, NDArray[np.float64]]]
+    ) -> None:
+        """Add frames, all of them or, if there is no room, none.
 
         Parameters
         ----------
-        time
-            Time of the frame [s].
-        fields
-            Arrays by name: vectors at points, shape [point_count, D], and fields on cells, shape
-            [cell_count, components].
+        times
+            Times of the frames [s].
+        frames
+            Of each frame arrays by name: vectors at points, shape [point_count, D], and fields on
+            cells, shape [cell_count, components].
         """
+        count = len(frames)
+        zero = np.zeros(count, dtype=np.int64)
         with changed(self._path) as file:
             root = file["VTKHDF"]
             steps = root["Steps"]
-            entries: dict[str, float] = {
-                "Values": time,
-                "NumberOfParts": 1,
-                "PartOffsets": 0,
-                "PointOffsets": 0,
-                "CellOffsets": 0,
-                "ConnectivityIdOffsets": 0,
-                "CellDataOffsets/body": 0,
+            entries: dict[str, NDArray[np.generic]] = {
+                "Values": np.asarray(times),
+                "NumberOfParts": np.ones(count, dtype=np.int64),
+                "PartOffsets": zero,
+                "PointOffsets": zero,
+                "CellOffsets": zero,
+                "ConnectivityIdOffsets": zero,
+                "CellDataOffsets/body": zero,
             }
             for name in self._point_fields:
-                rows = _spatial(fields[name])
+                rows = [_spatial(fields[name]) for fields in frames]
                 entries[f"PointDataOffsets/{name}"] = _extend(root[f"PointData/{name}"], rows)
             for name in self._cell_fields:
-                entries[f"CellDataOffsets/{name}"] = _extend(root[f"CellData/{name}"], fields[name])
+                rows = [fields[name] for fields in frames]
+                entries[f"CellDataOffsets/{name}"] = _extend(root[f"CellData/{name}"], rows)
             for name, entry in entries.items():
                 _extend(steps[name], entry)
-            steps.attrs["NSteps"] += 1
+            steps.attrs["NSteps"] += count
 
     def _cut(self, frames: int, points: int, cells: int) -> None:
         """Drop the frames after the first so many."""
@@ -181,13 +186,15 @@ def _growing(
     )
 
 
-def _extend(dataset: h5py.Dataset, values: NDArray[np.float64] | float) -> int:
-    """Append one value or rows of values; return the row at which they begin."""
-    start = len(dataset)
-    rows = np.reshape(values, (-1, *dataset.shape[1:]))
+def _extend(
+    dataset: h5py.Dataset, blocks: Sequence[NDArray[np.float64]] | NDArray[np.generic]
+) -> NDArray[np.int64]:
+    """Append blocks of rows, or single values; return the rows at which they begin."""
+    rows = np.reshape(blocks, (-1, *dataset.shape[1:]))
+    start, each = len(dataset), len(rows) // max(len(blocks), 1)
     dataset.resize(start + len(rows), axis=0)
     dataset[start:] = rows
-    return start
+    return start + each * np.arange(len(blocks))
 
 
 def _spatial(vectors: NDArray[np.generic]) -> NDArray[np.float64]:

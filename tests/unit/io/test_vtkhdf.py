@@ -14,8 +14,8 @@ TIMES = [0.0, 0.1, 0.25, 0.1 + 0.2]
 def path(tmp_path):
     path = tmp_path / "fields.vtkhdf"
     writer = FieldsWriter(path, MESH)
-    for time in TIMES:
-        writer.append(time, made_up_fields(time))
+    for times in (TIMES[:1], TIMES[1:]):
+        writer.append(times, [made_up_fields(time) for time in times])
     return path
 
 
@@ -70,7 +70,7 @@ def test_frames_are_on_disk_at_once_and_the_file_is_closed(tmp_path):
     path = tmp_path / "fields.vtkhdf"
     writer = FieldsWriter(path, MESH)
     for frame, time in enumerate(TIMES, start=1):
-        writer.append(time, made_up_fields(time))
+        writer.append([time], [made_up_fields(time)])
         with h5py.File(path, "r") as file:
             assert file["VTKHDF/Steps"].attrs["NSteps"] == frame
             assert file["VTKHDF/Steps/Values"][:].tolist() == TIMES[:frame]
@@ -79,6 +79,6 @@ def test_frames_are_on_disk_at_once_and_the_file_is_closed(tmp_path):
 def test_three_components_are_kept(tmp_path):
     path = tmp_path / "fields.vtkhdf"
     fields = made_up_fields(0.0) | {"velocity": np.arange(15.0).reshape(5, 3)}
-    FieldsWriter(path, MESH).append(0.0, fields)
+    FieldsWriter(path, MESH).append([0.0], [fields])
     with h5py.File(path, "r") as file:
         np.testing.assert_array_equal(file["VTKHDF/PointData/velocity"][:], fields["velocity"])

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.audit.arrays import Array
-from carom.audit.body import AuditBody
-from carom.audit.model import AuditModel
-from carom.audit.step import Step
+from carom.auditing.arrays import Array
+from carom.auditing.body import AuditBody
+from carom.auditing.model import AuditModel
+from carom.auditing.step import Step
 
 EPS = float(np.finfo(np.float64).eps)
 

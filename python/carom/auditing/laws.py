@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.audit.arrays import Array, einsum
+from carom.auditing.arrays import Array, einsum
 from carom.errors import InputError
 from carom.material import (
     LinearElastic,

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from carom.audit.arrays import Array, Indices, cross, einsum
-from carom.audit.model import AuditModel, Side
+from carom.auditing.arrays import Array, Indices, cross, einsum
+from carom.auditing.model import AuditModel, Side
 
 SAME = 1e-7
 """Feet whose gap [model size] and normal differ by no more are equally good: at edges of facets."""

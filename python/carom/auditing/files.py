@@ -11,8 +11,8 @@ from typing import Any
 import h5py
 import numpy as np
 
-from carom.audit.arrays import Array, Indices
-from carom.audit.model import AuditModel
+from carom.auditing.arrays import Array, Indices
+from carom.auditing.model import AuditModel
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.audit import read_steps

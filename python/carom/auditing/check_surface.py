@@ -6,11 +6,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from carom.audit.arrays import Array
-from carom.audit.files import Facets, Frame, SurfaceFrame
-from carom.audit.model import AuditModel
-from carom.audit.report import Findings
-from carom.audit.scales import EPS, ROUND_OFF, SAFETY, Scales
+from carom.auditing.arrays import Array
+from carom.auditing.files import Facets, Frame, SurfaceFrame
+from carom.auditing.model import AuditModel
+from carom.auditing.report import Findings
+from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
 
 
 class SurfaceChecks:

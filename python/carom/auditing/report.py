@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rich.table import Table
 from rich.text import Text
 
-from carom.audit.catalogue import CHECKS
+from carom.auditing.catalogue import CHECKS
 from carom.tables import two_columns
 
 Values = float | NDArray[np.float64] | Iterable[float]

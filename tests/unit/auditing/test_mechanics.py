@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import carom
-from carom.audit.body import AuditBody
-from carom.audit.cells import VTK_QUAD, VTK_TRIANGLE, boundary
-from carom.audit.mass import affine_weights
+from carom.auditing.body import AuditBody
+from carom.auditing.cells import VTK_QUAD, VTK_TRIANGLE, boundary
+from carom.auditing.mass import affine_weights
 
 LAWS = ("saint-venant-kirchhoff", "linear-elastic", "neo-hookean")
 

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from carom.audit.arrays import turned
-from carom.audit.body import AuditBody
-from carom.audit.files import Frame
-from carom.audit.model import AuditModel
-from carom.audit.report import Findings
-from carom.audit.scales import ROUND_OFF, Scales
+from carom.auditing.arrays import turned
+from carom.auditing.body import AuditBody
+from carom.auditing.files import Frame
+from carom.auditing.model import AuditModel
+from carom.auditing.report import Findings
+from carom.auditing.scales import ROUND_OFF, Scales
 from carom.body import Body
 from carom.mesh import Disc, Rectangle
 

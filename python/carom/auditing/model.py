@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.analysis import Conserving, Static, Theta
-from carom.audit.arrays import Array, Indices
-from carom.audit.body import AuditBody
-from carom.audit.target import Target
+from carom.auditing.arrays import Array, Indices
+from carom.auditing.body import AuditBody
+from carom.auditing.target import Target
 from carom.contact import Pair
 from carom.errors import InputError
 from carom.mesh import Disc, Rectangle

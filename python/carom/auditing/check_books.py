@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from carom.audit.arrays import Array
-from carom.audit.check_steps import LARGEST_BLEND
-from carom.audit.model import AuditModel
-from carom.audit.report import Findings
-from carom.audit.scales import EPS, ROUND_OFF, SAFETY, Scales
+from carom.auditing.arrays import Array
+from carom.auditing.check_steps import LARGEST_BLEND
+from carom.auditing.model import AuditModel
+from carom.auditing.report import Findings
+from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
 
 Books = Mapping[str, Array]
 

@@ -6,13 +6,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from carom.audit.arrays import Array, cross
-from carom.audit.body import AuditBody
-from carom.audit.contacts import smallest_gaps
-from carom.audit.files import Frame
-from carom.audit.model import AuditModel
-from carom.audit.report import Findings
-from carom.audit.scales import EPS, ROUND_OFF, SAFETY, Scales
+from carom.auditing.arrays import Array, cross
+from carom.auditing.body import AuditBody
+from carom.auditing.contacts import smallest_gaps
+from carom.auditing.files import Frame
+from carom.auditing.model import AuditModel
+from carom.auditing.report import Findings
+from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
 
 Row = Mapping[str, float]
 

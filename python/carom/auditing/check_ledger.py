@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from carom.audit.arrays import Array
-from carom.audit.files import Frame
-from carom.audit.model import AuditModel
-from carom.audit.report import Findings
-from carom.audit.scales import ROUND_OFF, Scales
-from carom.audit.step import BODY_ENERGIES, Step
+from carom.auditing.arrays import Array
+from carom.auditing.files import Frame
+from carom.auditing.model import AuditModel
+from carom.auditing.report import Findings
+from carom.auditing.scales import ROUND_OFF, Scales
+from carom.auditing.step import BODY_ENERGIES, Step
 
 BODY_COLUMNS = (*BODY_ENERGIES, "plastic", "contact", "defect")
 PAIR_COLUMNS = ("friction", "normal_contact", "prescribed")

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.audit.arrays import Array, Indices, einsum
+from carom.auditing.arrays import Array, Indices, einsum
 
 CORNER = np.cos(np.radians(40)) - 1e-9
 """Cosine of the angle from which on a smooth target keeps its corner; the slack is for polygons

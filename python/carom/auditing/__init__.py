@@ -10,17 +10,17 @@ from pathlib import Path
 
 import numpy as np
 
-from carom.audit.check_books import BookChecks
-from carom.audit.check_case import check_links, check_mesh, check_start
-from carom.audit.check_frames import FrameChecks
-from carom.audit.check_ledger import LedgerChecks
-from carom.audit.check_steps import StepChecks
-from carom.audit.check_surface import SurfaceChecks
-from carom.audit.files import Files, Frame
-from carom.audit.model import AuditModel
-from carom.audit.report import Audit, Check, Findings
-from carom.audit.scales import Scales
-from carom.audit.step import Step
+from carom.auditing.check_books import BookChecks
+from carom.auditing.check_case import check_links, check_mesh, check_start
+from carom.auditing.check_frames import FrameChecks
+from carom.auditing.check_ledger import LedgerChecks
+from carom.auditing.check_steps import StepChecks
+from carom.auditing.check_surface import SurfaceChecks
+from carom.auditing.files import Files, Frame
+from carom.auditing.model import AuditModel
+from carom.auditing.report import Audit, Check, Findings
+from carom.auditing.scales import Scales
+from carom.auditing.step import Step
 from carom.errors import InputError
 
 __all__ = ["Audit", "Check", "audit"]

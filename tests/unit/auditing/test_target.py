@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from carom.audit.target import Target
+from carom.auditing.target import Target
 
 COUNT = 24
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.audit.arrays import Array, Indices, einsum
-from carom.audit.cells import Cells
+from carom.auditing.arrays import Array, Indices, einsum
+from carom.auditing.cells import Cells
 from carom.errors import InputError
 
 LAYERS = 5

@@ -10,8 +10,8 @@ import pytest
 
 import carom
 from carom import cli
-from carom.audit.catalogue import CHECKS
-from carom.audit.check_ledger import BODY_COLUMNS, PAIR_COLUMNS
+from carom.auditing.catalogue import CHECKS
+from carom.auditing.check_ledger import BODY_COLUMNS, PAIR_COLUMNS
 from carom.errors import InputError
 
 METHODS = [
@@ -85,7 +85,7 @@ def scenario(condition="gap", scheme="theta", **changes):
 def without_pictures():
     """Drawing takes longer than these runs."""
     patch = pytest.MonkeyPatch()
-    patch.setattr("carom.recorder.draw", lambda _: [])
+    patch.setattr("carom.plot.draw", lambda _: [])
     yield
     patch.undo()
 

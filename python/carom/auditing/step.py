@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from carom.audit import contacts
-from carom.audit.arrays import Array, Indices, cross, rotation, turned
-from carom.audit.body import STEADYING, AuditBody
-from carom.audit.contacts import Contacts
-from carom.audit.model import AuditModel
+from carom.auditing import contacts
+from carom.auditing.arrays import Array, Indices, cross, rotation, turned
+from carom.auditing.body import STEADYING, AuditBody
+from carom.auditing.contacts import Contacts
+from carom.auditing.model import AuditModel
 
 BODY_ENERGIES = ("kinetic", "strain", "external", "viscous", "scheme")
 """Terms of the ledger that are sums over the bodies."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from carom.audit.arrays import Array, Indices, einsum
+from carom.auditing.arrays import Array, Indices, einsum
 from carom.errors import InputError
 
 VTK_TRIANGLE, VTK_QUAD = 5, 9

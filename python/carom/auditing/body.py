@@ -7,10 +7,10 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.audit.arrays import Array, Indices, cross, einsum
-from carom.audit.cells import Cells, boundary
-from carom.audit.laws import Law
-from carom.audit.mass import Mass
+from carom.auditing.arrays import Array, Indices, cross, einsum
+from carom.auditing.cells import Cells, boundary
+from carom.auditing.laws import Law
+from carom.auditing.mass import Mass
 from carom.body import Body
 from carom.errors import InputError
 from carom.material import Material

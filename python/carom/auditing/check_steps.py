@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from carom.audit.arrays import Array, cross
-from carom.audit.body import AuditBody
-from carom.audit.contacts import Contacts
-from carom.audit.model import AuditModel
-from carom.audit.report import Findings
-from carom.audit.scales import EPS, ROUND_OFF, SAFETY, Scales
-from carom.audit.step import BODY_ENERGIES, BodyForces, Step
+from carom.auditing.arrays import Array, cross
+from carom.auditing.body import AuditBody
+from carom.auditing.contacts import Contacts
+from carom.auditing.model import AuditModel
+from carom.auditing.report import Findings
+from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
+from carom.auditing.step import BODY_ENERGIES, BodyForces, Step
 
 Row = Mapping[str, float]
 
