@@ -272,9 +272,9 @@ class Fields(Mapping[str, Field]):
         return len(self._frames.names)
 
     def __repr__(self) -> str:
-        where = "" if self._body is None else f" of {self._body}"
+        whose = "" if self._body is None else f"{self._body!r}, "
         count = f"{len(self.times)} frames, {len(self.points)} nodes, {len(self.cell_types)}"
-        return f"Fields({', '.join(self)}{where}: {count} {self.cell}s)"
+        return f"Fields({whose}{count} {self.cell}s: {', '.join(self)})"
 
 
 def parts(

@@ -14,7 +14,7 @@ from stand_in import FallingSimulation
 def quick():
     """Pictures take longer than the run."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("carom.recorder.draw", lambda _: None)
+        patch.setattr("carom.plot.draw", lambda _: None)
         yield
 
 
