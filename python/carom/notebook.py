@@ -13,7 +13,7 @@ from carom.plot.style import BLUE, GREEN, ORANGE
 from carom.report.markup import Html, element, format_number, join
 from carom.result import Result
 from carom.scenario import Scenario
-from carom.tables import Rows, contact_events, outcome, summary_title
+from carom.tables import contact_events, outcome, summary_title
 
 CURVES = (
     ("kinetic", BLUE),
@@ -68,13 +68,13 @@ def _address(path: Path) -> str:
     return path.as_uri() if path.is_absolute() else path.as_posix()
 
 
-def _table(rows: Rows) -> Html | None:
+def _table(rows: Iterable[tuple[str, str]]) -> Html | None:
     left = "text-align: left"
     lines = [
         element("tr", element("th", quantity, style=left), element("td", value, style=left))
         for quantity, value in rows
     ]
-    return element("table", lines) if rows else None
+    return element("table", lines) if lines else None
 
 
 def _energies(history: dict[str, NDArray[np.float64]]) -> Html | None:

@@ -31,7 +31,7 @@ def add(table: Table, quantity: str, value: str) -> None:
     table.add_row(Text(quantity), Text(value))
 
 
-Rows = list[tuple[str, str]]
+Rows = Iterator[tuple[str, str]]
 """Quantities and their values."""
 
 
@@ -51,58 +51,52 @@ def summary_title(summary: Mapping[str, Any]) -> str:
 
 
 def outcome(summary: Mapping[str, Any]) -> Rows:
-    """Return what came out of a run, with warnings where it is not to be trusted."""
+    """Yield what came out of a run, with warnings where it is not to be trusted."""
     energy, certificate = summary["energy"], summary["certificate"]
     reason = summary.get("reason")
-    rows = [
-        ("status", f"{summary['status']}: {reason}" if reason else summary["status"]),
-        ("reached", f"{summary['end_time']:g} s in {summary['steps']} steps"),
-        (
-            "wall time",
-            f"{summary['wall_s']:.2f} s, {1e3 * summary['wall_s_per_step']:.3g} ms per step "
-            f"({summary['dofs']} dofs)",
-        ),
-        ("energy", f"{energy['initial']:.6g} J → {energy['final']:.6g} J"),
-        ("friction", f"{energy['friction']:.6g} J dissipated"),
-        ("largest drift", f"{energy['max_drift']:.3g} J"),
-        ("largest defect", f"{energy['max_defect']:.3g} J, of the energy ledger"),
-    ]
-    if (share := _defect_share(energy)) > LARGE_DEFECT:
-        warning = (
-            f"the ledger misses {share:.2g} of the energy: the time step is too long for this "
-            "deformation; take a smaller analysis.time_step"
-        )
-        rows.append(("warning", warning))
-    distance = (
-        f"{certificate['max_joule']:.3g} J from Coulomb's law in any step "
-        f"({certificate['tolerance_joule']:.3g} J allowed)"
+    yield "status", f"{summary['status']}: {reason}" if reason else summary["status"]
+    yield "reached", f"{summary['end_time']:g} s in {summary['steps']} steps"
+    yield (
+        "wall time",
+        f"{summary['wall_s']:.2f} s, {1e3 * summary['wall_s_per_step']:.3g} ms per step "
+        f"({summary['dofs']} dofs)",
     )
-    rows.append(("certificate", distance))
+    yield "energy", f"{energy['initial']:.6g} J → {energy['final']:.6g} J"
+    yield "friction", f"{energy['friction']:.6g} J dissipated"
+    yield "largest drift", f"{energy['max_drift']:.3g} J"
+    yield "largest defect", f"{energy['max_defect']:.3g} J, of the energy ledger"
+    if (share := _defect_share(energy)) > LARGE_DEFECT:
+        yield (
+            "warning",
+            f"the ledger misses {share:.2g} of the energy: the time step is too long for this "
+            "deformation; take a smaller analysis.time_step",
+        )
+    yield (
+        "certificate",
+        f"{certificate['max_joule']:.3g} J from Coulomb's law in any step "
+        f"({certificate['tolerance_joule']:.3g} J allowed)",
+    )
     if (check := summary.get("cross_check")) is not None:
-        rows += _cross_check(check)
-    return rows
+        yield from _cross_check(check)
 
 
 def contact_events(summary: Mapping[str, Any]) -> Rows:
-    """Return the first contact events of a run, as many as fit a screen."""
+    """Yield the first contact events of a run, as many as fit a screen."""
     contacts = summary["contacts"]
-    rows = [
-        (" – ".join(contact["pair"]), _contact(contact)) for contact in contacts[:SHOWN_CONTACTS]
-    ]
+    for contact in contacts[:SHOWN_CONTACTS]:
+        yield " – ".join(contact["pair"]), _contact(contact)
     if len(contacts) > SHOWN_CONTACTS:
-        rows.append(("…", f"{len(contacts) - SHOWN_CONTACTS} more contacts in summary.json"))
-    return rows
+        yield "…", f"{len(contacts) - SHOWN_CONTACTS} more contacts in summary.json"
 
 
 def places(where: Path) -> Rows:
-    """Return where the results are."""
-    rows = [("results", str(where))]
+    """Yield where the results are."""
+    yield "results", str(where)
     if (where / layout.REPORT).exists():
-        rows.append(("report", str(where / layout.REPORT)))
-    return rows
+        yield "report", str(where / layout.REPORT)
 
 
-def _cross_check(check: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+def _cross_check(check: Mapping[str, Any]) -> Rows:
     """Yield what a second solver said, and a warning for what it said otherwise."""
     problems, differing = check["problems"], check["disagreements"]
     solvers = " and ".join(check["solvers"])

@@ -81,8 +81,8 @@ def test_a_body_is_a_part_that_counts_from_0(impact):
         np.testing.assert_array_equal(parts, fields[name][-1])
     assert np.linalg.norm(right.points - [2.05, 1.4], axis=1).max() == pytest.approx(1.0)
     assert set(right.connectivity.ravel()) == set(range(len(right.points)))
-    with pytest.raises(InputError, match=r"rigth: no such body.*right"):
-        fields.body("rigth")
+    with pytest.raises(InputError, match=r"rihgt: no such body.*right"):
+        fields.body("rihgt")
 
 
 def test_boundaries_have_facets_on_the_same_nodes(impact):
