@@ -17,6 +17,7 @@ from rich.console import Console
 
 import carom
 from carom import case_file
+from carom.building import build
 from carom.cli.case import load
 from carom.cli.failures import BAD_INPUT, NOT_CONVERGED, failures
 from carom.cli.friction.problem_file import warnings_named
@@ -28,7 +29,6 @@ from carom.plot import draw
 from carom.report import write_report
 from carom.result import Result, read_case
 from carom.scenario import Scenario
-from carom.simulation import build
 from carom.view import View, shown
 
 LARGE = 3_000

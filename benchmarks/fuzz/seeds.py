@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from pathlib import Path
 
 import meshio
@@ -97,19 +96,22 @@ def problems(folder: Path) -> list[Path]:
     return files
 
 
-SOME_STEPS = ("analysis.end_time=12e-4", "output.fields_every=2e-4", "output.history_every=1e-4")
+SOME_STEPS = (
+    *("analysis.end_time=12e-4", "output.fields_every=2e-4", "output.history_every=1e-4"),
+    "output.audit=true",
+)
 """What makes a short run of everything.toml."""
 
 
 def stopped(folder: Path) -> Path:
     """Run some of everything, stop it in the middle and return its results."""
 
-    def stop(progress: carom.Progress) -> None:
-        if progress.step >= 6:
-            raise KeyboardInterrupt
+    def stop(state: carom.State) -> None:
+        if state.step == 6:
+            raise carom.Stop
 
-    with suppress(KeyboardInterrupt):
-        carom.run(_everything("output.audit=true"), out=folder / "stopped", observer=stop)
+    scenario = carom.Scenario.from_toml(HERE / "everything.toml").with_overrides(SOME_STEPS)
+    carom.run(scenario, out=folder / "stopped", observers=[carom.Observer(stop)])
     return folder / "stopped"
 
 
@@ -129,8 +131,3 @@ def finished(folder: Path) -> Path:
     )
     carom.run(scenario, out=folder / "finished")
     return folder / "finished"
-
-
-def _everything(*overrides: str) -> carom.Scenario:
-    scenario = carom.Scenario.from_toml(HERE / "everything.toml")
-    return scenario.with_overrides([*SOME_STEPS, *overrides])

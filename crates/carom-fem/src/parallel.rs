@@ -20,5 +20,12 @@ pub(crate) fn each_chunk<T: Send>(items: &mut [T], work: impl Fn(usize, &mut [T]
     if items.len() < MANY || !has_threads() {
         return work(0, items);
     }
-    items.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, items)| work(chunk * CHUNK, items));
+    share(items, CHUNK, &work);
+}
+
+/// Calls `work` with consecutive `chunk`s of `items`, which the threads share, and the index where each begins.
+///
+/// What rayon makes of it is a thousand lines of code for every closure: through `dyn` they are compiled once for every `T`.
+pub(crate) fn share<T: Send>(items: &mut [T], chunk: usize, work: &(dyn Fn(usize, &mut [T]) + Sync)) {
+    items.par_chunks_mut(chunk).enumerate().for_each(|(number, items)| work(number * chunk, items));
 }

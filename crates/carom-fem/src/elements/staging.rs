@@ -1,11 +1,10 @@
 use std::sync::Mutex;
 
 use carom_mesh::Vector;
-use rayon::prelude::*;
 
 use super::grid::Local;
 use crate::material::LANES;
-use crate::parallel::each_chunk;
+use crate::parallel::{each_chunk, share};
 
 /// Packs of cells from which threads share them.
 const MANY: usize = 1024;
@@ -59,9 +58,9 @@ impl<const D: usize, const N: usize> Staging<D, N> {
     ) -> f64 {
         // A thread that panicked has left nothing behind that the next evaluation does not overwrite.
         let mut packs = self.packs.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        packs.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, packs)| {
+        share(&mut packs, CHUNK, &|first, packs| {
             let mut work = scratch();
-            for (pack, slot) in (chunk * CHUNK..).zip(packs) {
+            for (pack, slot) in (first..).zip(packs) {
                 *slot = of_pack(pack, &mut work);
             }
         });

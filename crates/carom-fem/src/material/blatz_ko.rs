@@ -40,13 +40,14 @@ impl BlatzKo {
 
 impl InvariantEnergy for BlatzKo {
     #[inline]
-    fn jet(&self, i1: f64, i2: f64, j: f64) -> Jet {
+    fn jet(&self, [x1, x2, x3]: [f64; 3]) -> Jet {
         let beta = self.poisson / (1.0 - 2.0 * self.poisson);
         let (solid, foam) = (0.5 * self.fraction * self.shear, 0.5 * (1.0 - self.fraction) * self.shear);
-        let growth = 2.0 * beta * j.ln();
-        let (squares, power) = (j * j, growth.exp());
-        let value = solid * (i1 - 3.0 + (-growth).exp_m1() / beta)
-            + foam * (i2 / squares - 3.0 + growth.exp_m1() / beta);
+        let growth = beta * x3.ln_1p();
+        let (squares, power, i2) = (1.0 + x3, growth.exp(), 3.0 + x2);
+        let j = squares.sqrt();
+        let value = solid * (x1 + (-growth).exp_m1() / beta)
+            + foam * ((x2 - 3.0 * x3) / squares + growth.exp_m1() / beta);
         let by_volume = 2.0 * (foam * (power - i2 / squares) - solid / power) / j;
         let mut second = [[0.0; 3]; 3];
         second[1][2] = -2.0 * foam / (squares * j);

@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use super::strain_law::StrainLaw;
+use super::strain_law::{StrainLaw, growths};
 use super::volumetric::Volumetric;
 use super::{Mat3, Tangent};
 
@@ -19,58 +19,43 @@ pub struct Jet {
 
 /// ψ(I₁, I₂, J).
 pub trait InvariantEnergy: Send + Sync + Debug {
-    /// ψ [J/m³] and its derivatives.
-    fn jet(&self, i1: f64, i2: f64, j: f64) -> Jet;
+    /// ψ [J/m³] and its derivatives by I₁, I₂ and J, where these have the `growths` I₁ − 3, I₂ − 3 and J² − 1: in them, as in E, a small
+    /// strain keeps its digits.
+    fn jet(&self, growths: [f64; 3]) -> Jet;
 }
 
-/// A law of the invariants as a law of C.
+/// A law of the invariants as a law of E.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ByInvariants<L>(pub L);
 
-struct Invariants {
-    i1: f64,
-    i2: f64,
-    j: f64,
-    inverse: Mat3,
-}
-
-impl Invariants {
-    #[inline]
-    fn of(c: &Mat3) -> Self {
-        let (inverse, det) = carom_mesh::tensor::inverse(c);
-        let i1 = c.trace();
-        Self { i1, i2: 0.5 * (i1 * i1 - c.norm_squared()), j: det.sqrt(), inverse }
-    }
-
-    /// ∂I₁/∂C, ∂I₂/∂C and ∂J/∂C.
-    #[inline]
-    fn gradients(&self, c: &Mat3) -> [Mat3; 3] {
-        [Mat3::identity(), Mat3::from_diagonal_element(self.i1) - c, self.inverse * (0.5 * self.j)]
-    }
+/// J, C⁻¹ and (∂I₁/∂C, ∂I₂/∂C, ∂J/∂C).
+#[inline]
+fn gradients(e: &Mat3) -> (f64, Mat3, [Mat3; 3]) {
+    let c = Mat3::identity() + e * 2.0;
+    let (inverse, det) = carom_mesh::tensor::inverse(&c);
+    let j = det.sqrt();
+    (j, inverse, [Mat3::identity(), Mat3::from_diagonal_element(c.trace()) - c, inverse * (0.5 * j)])
 }
 
 impl<L: InvariantEnergy> StrainLaw for ByInvariants<L> {
     #[inline]
-    fn energy(&self, c: &Mat3) -> f64 {
-        let Invariants { i1, i2, j, .. } = Invariants::of(c);
-        self.0.jet(i1, i2, j).value
+    fn energy(&self, e: &Mat3) -> f64 {
+        self.0.jet(growths(e)).value
     }
 
     #[inline]
-    fn second_piola(&self, c: &Mat3) -> Mat3 {
-        let invariants = Invariants::of(c);
-        let first = self.0.jet(invariants.i1, invariants.i2, invariants.j).first;
-        let [g1, g2, g3] = invariants.gradients(c);
+    fn second_piola(&self, e: &Mat3) -> Mat3 {
+        let first = self.0.jet(growths(e)).first;
+        let (_, _, [g1, g2, g3]) = gradients(e);
         (g1 * first[0] + g2 * first[1] + g3 * first[2]) * 2.0
     }
 
     /// S = 2 Σ ψ_a ∂I_a, and ∂S/∂E = 4 Σ ψ_ab ∂I_a ⊗ ∂I_b + 4 Σ ψ_a ∂²I_a with ∂²I₂ = I ⊗ I − 𝕀 and
     /// ∂²J = ¼ J C⁻¹ ⊗ C⁻¹ − ½ J 𝕀(C⁻¹), 𝕀(X)_IJKL = ½(X_IK X_JL + X_IL X_JK).
-    fn elasticity(&self, c: &Mat3) -> (Mat3, Tangent<3>) {
-        let invariants = Invariants::of(c);
-        let Jet { first, second, .. } = self.0.jet(invariants.i1, invariants.i2, invariants.j);
-        let gradients = invariants.gradients(c);
-        let (unit, inverse) = (Mat3::identity(), invariants.inverse);
+    fn elasticity(&self, e: &Mat3) -> (Mat3, Tangent<3>) {
+        let Jet { first, second, .. } = self.0.jet(growths(e));
+        let (volume, inverse, gradients) = gradients(e);
+        let unit = Mat3::identity();
         let twin = |x: &Mat3, [i, j, k, l]: [usize; 4]| 0.5 * (x[(i, k)] * x[(j, l)] + x[(i, l)] * x[(j, k)]);
         let mut modulus: Tangent<3> = [[[[0.0; 3]; 3]; 3]; 3];
         for i in 0..3 {
@@ -79,7 +64,7 @@ impl<L: InvariantEnergy> StrainLaw for ByInvariants<L> {
                     for l in 0..3 {
                         let mut sum = first[1] * (unit[(i, j)] * unit[(k, l)] - twin(&unit, [i, j, k, l]))
                             + first[2]
-                                * invariants.j
+                                * volume
                                 * (0.25 * inverse[(i, j)] * inverse[(k, l)]
                                     - 0.5 * twin(&inverse, [i, j, k, l]));
                         for a in 0..3 {
@@ -102,14 +87,18 @@ impl<L: InvariantEnergy> StrainLaw for ByInvariants<L> {
 /// `isochoric` gives ψ_iso, its first derivatives and (∂²/∂Ī₁², ∂²/∂Ī₁∂Ī₂, ∂²/∂Ī₂²) for Ī₁ − 3 and Ī₂ − 3.
 #[inline]
 pub(super) fn split(
-    [i1, i2, j]: [f64; 3],
+    [x1, x2, x3]: [f64; 3],
     isochoric: impl Fn(f64, f64) -> (f64, [f64; 2], [f64; 3]),
     volumetric: &Volumetric,
 ) -> Jet {
-    let scale = j.powf(-2.0 / 3.0);
-    let (b1, b2) = (scale * i1, scale * scale * i2);
-    let (w, [w1, w2], [w11, w12, w22]) = isochoric(b1 - 3.0, b2 - 3.0);
-    let [u, u1, u2] = volumetric.by_logarithm(j.ln());
+    let log_j = 0.5 * x3.ln_1p();
+    // J^(−2/3) − 1 and J^(−4/3) − 1.
+    let (change1, change2) = ((-2.0 / 3.0 * log_j).exp_m1(), (-4.0 / 3.0 * log_j).exp_m1());
+    let (scale, j) = (1.0 + change1, (1.0 + x3).sqrt());
+    let (y1, y2) = (scale * x1 + 3.0 * change1, scale * scale * x2 + 3.0 * change2);
+    let (b1, b2) = (y1 + 3.0, y2 + 3.0);
+    let (w, [w1, w2], [w11, w12, w22]) = isochoric(y1, y2);
+    let [u, u1, u2] = volumetric.by_logarithm(log_j);
     // ∂Ī/∂(I₁, I₂, J).
     let g1 = [scale, 0.0, -2.0 / 3.0 * b1 / j];
     let g2 = [0.0, scale * scale, -4.0 / 3.0 * b2 / j];

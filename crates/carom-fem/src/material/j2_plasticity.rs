@@ -2,7 +2,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ranges::{not_negative, positive};
 use super::spectrum::{ByStretches, Spectrum, StretchEnergy};
-use super::strain_law::{Hyperelastic, StrainLaw};
+use super::strain_law::{Hyperelastic, StrainLaw, green_lagrange};
 use super::{ElasticConstants, Mat3, Tangent};
 use crate::FemError;
 
@@ -130,16 +130,15 @@ impl Flow {
     pub fn after(&self, state: &PlasticState) -> Hyperelastic<Relative> {
         Hyperelastic(Relative {
             principal: ByStretches(Principal { flow: *self, strain: state.equivalent_strain }),
-            map: root(&state.inverse_strain),
+            mapping: Mapping::since(state),
         })
     }
 
     /// The state at the end of a step from `state` to the deformation gradient `f`, and the plastic work of the step [J/m³].
     #[must_use]
     pub fn update(&self, state: &PlasticState, f: &Mat3) -> (PlasticState, f64) {
-        let map = root(&state.inverse_strain);
-        let mapped = f * map;
-        let spectrum = Spectrum::of(&(mapped.transpose() * mapped));
+        let mapping = Mapping::since(state);
+        let spectrum = Spectrum::of(&mapping.strain(&green_lagrange(f)));
         let trial = spectrum.logarithms();
         let strain = state.equivalent_strain;
         let Return { increment, trial: stress } = self.flow(strain, &trial);
@@ -149,7 +148,7 @@ impl Flow {
         // Δεᵖ = Δα (3/2) dev τ/(√(3/2)|dev τ|), along the trial stress.
         let mean = trial.iter().sum::<f64>() / 3.0;
         let shrunk = trial.map(|e| (-6.0 * self.shear * increment / stress * (e - mean)).exp());
-        let inverse = map * spectrum.compose(&shrunk) * map.transpose();
+        let inverse = mapping.map * spectrum.compose(&shrunk) * mapping.map.transpose();
         let next = PlasticState {
             inverse_strain: (inverse + inverse.transpose()) * 0.5,
             equivalent_strain: strain + increment,
@@ -180,9 +179,27 @@ impl Flow {
     }
 }
 
-/// Q with Q Qᵀ = C_p⁻¹ (Cholesky), so that Fᵉ = F Q up to a rotation; not a number where there is none.
-fn root(inverse_strain: &Mat3) -> Mat3 {
-    inverse_strain.cholesky().map_or(Mat3::from_element(f64::NAN), |c| c.l())
+/// From strains to those since a plastic deformation.
+#[derive(Debug, Clone, PartialEq)]
+struct Mapping {
+    /// Q with Q Qᵀ = C_p⁻¹ (Cholesky), so that Fᵉ = F Q up to a rotation.
+    map: Mat3,
+    /// ½(QᵀQ − I), the strain since then of a body that is not deformed.
+    own: Mat3,
+}
+
+impl Mapping {
+    /// Not a number where the state is none.
+    fn since(state: &PlasticState) -> Self {
+        let map = state.inverse_strain.cholesky().map_or(Mat3::from_element(f64::NAN), |c| c.l());
+        Self { map, own: green_lagrange(&map) }
+    }
+
+    /// ½(QᵀCQ − I).
+    #[inline]
+    fn strain(&self, e: &Mat3) -> Mat3 {
+        self.map.transpose() * e * self.map + self.own
+    }
 }
 
 /// w as a function of the logarithmic trial strains.
@@ -240,29 +257,30 @@ impl StretchEnergy for Principal {
     }
 }
 
-/// An isotropic law of the deformation since a plastic one: w(Qᵀ C Q).
+/// An isotropic law of the strain since a plastic deformation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Relative {
     principal: ByStretches<Principal>,
-    /// Q.
-    map: Mat3,
+    mapping: Mapping,
 }
 
 impl StrainLaw for Relative {
-    fn energy(&self, c: &Mat3) -> f64 {
-        self.principal.energy(&(self.map.transpose() * c * self.map))
+    fn energy(&self, e: &Mat3) -> f64 {
+        self.principal.energy(&self.mapping.strain(e))
     }
 
-    fn second_piola(&self, c: &Mat3) -> Mat3 {
-        self.map * self.principal.second_piola(&(self.map.transpose() * c * self.map)) * self.map.transpose()
+    fn second_piola(&self, e: &Mat3) -> Mat3 {
+        let map = &self.mapping.map;
+        map * self.principal.second_piola(&self.mapping.strain(e)) * map.transpose()
     }
 
-    fn elasticity(&self, c: &Mat3) -> (Mat3, Tangent<3>) {
-        let (stress, mut modulus) = self.principal.elasticity(&(self.map.transpose() * c * self.map));
+    fn elasticity(&self, e: &Mat3) -> (Mat3, Tangent<3>) {
+        let (stress, mut modulus) = self.principal.elasticity(&self.mapping.strain(e));
+        let map = &self.mapping.map;
         for _ in 0..4 {
-            modulus = turned(&self.map, &modulus);
+            modulus = turned(map, &modulus);
         }
-        (self.map * stress * self.map.transpose(), modulus)
+        (map * stress * map.transpose(), modulus)
     }
 }
 

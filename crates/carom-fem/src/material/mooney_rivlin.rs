@@ -33,8 +33,8 @@ impl MooneyRivlin {
 
 impl InvariantEnergy for MooneyRivlin {
     #[inline]
-    fn jet(&self, i1: f64, i2: f64, j: f64) -> Jet {
+    fn jet(&self, growths: [f64; 3]) -> Jet {
         let isochoric = |x1: f64, x2: f64| (self.c10 * x1 + self.c01 * x2, [self.c10, self.c01], [0.0; 3]);
-        split([i1, i2, j], isochoric, &Volumetric { bulk: self.bulk })
+        split(growths, isochoric, &Volumetric { bulk: self.bulk })
     }
 }

@@ -22,44 +22,45 @@ pub trait StretchEnergy: Send + Sync + Debug {
     fn modulus(&self, e: &[f64; 3]) -> [[f64; 3]; 3];
 }
 
-/// Eigenvalues λ_A² of C and its eigenvectors, column by column; not numbers where C is not.
+/// Eigenvalues of E = ½(C − I) and its eigenvectors, column by column; not numbers where E is not.
 #[derive(Debug, Clone, Copy)]
 pub struct Spectrum {
-    /// λ_A².
-    pub values: [f64; 3],
+    /// E_A = ½(λ_A² − 1).
+    pub strains: [f64; 3],
     /// N_A.
     pub vectors: Mat3,
 }
 
 impl Spectrum {
-    /// The spectrum of a symmetric tensor, by Jacobi's rotations: in 3 × 3 they take few sweeps and leave no more error than
+    /// The spectrum of a strain, by Jacobi's rotations: in 3 × 3 they take few sweeps and leave no more error than
     /// round-off in eigenvalues and vectors, however close the eigenvalues are.
     #[must_use]
-    pub fn of(c: &Mat3) -> Self {
-        let (mut c, mut vectors) = (*c, Mat3::identity());
+    pub fn of(e: &Mat3) -> Self {
+        let (mut e, mut vectors) = (*e, Mat3::identity());
         for _ in 0..SWEEPS {
             let mut rotated = false;
             for (p, q) in [(0, 1), (0, 2), (1, 2)] {
-                let coupling = c[(p, q)];
-                if coupling.abs() <= 0.25 * f64::EPSILON * (c[(p, p)] * c[(q, q)]).abs().sqrt() {
+                let coupling = e[(p, q)];
+                // What this leaves out changes the eigenvalues by its square.
+                if coupling.abs() <= 0.125 * f64::EPSILON * (1.0 + 2.0 * e[(p, p)].min(e[(q, q)])) {
                     continue;
                 }
                 rotated = true;
                 // The smaller root t = tan φ of t² + 2 t cot 2φ − 1 = 0.
-                let cot = (c[(q, q)] - c[(p, p)]) / (2.0 * coupling);
+                let cot = (e[(q, q)] - e[(p, p)]) / (2.0 * coupling);
                 // No `hypot`, which takes several times as long: |tan| ≤ 1, and where cot² overflows tan vanishes as it should.
                 let tan = cot.signum() / (cot.abs() + (1.0 + cot * cot).sqrt());
                 let cos = 1.0 / (1.0 + tan * tan).sqrt();
                 let sin = tan * cos;
                 let other = 3 - p - q;
-                let (to_p, to_q) = (c[(p, other)], c[(q, other)]);
-                c[(p, p)] -= tan * coupling;
-                c[(q, q)] += tan * coupling;
+                let (to_p, to_q) = (e[(p, other)], e[(q, other)]);
+                e[(p, p)] -= tan * coupling;
+                e[(q, q)] += tan * coupling;
                 for (i, j, value) in
                     [(p, q, 0.0), (p, other, cos * to_p - sin * to_q), (q, other, sin * to_p + cos * to_q)]
                 {
-                    c[(i, j)] = value;
-                    c[(j, i)] = value;
+                    e[(i, j)] = value;
+                    e[(j, i)] = value;
                 }
                 for i in 0..3 {
                     let (v, w) = (vectors[(i, p)], vectors[(i, q)]);
@@ -71,13 +72,19 @@ impl Spectrum {
                 break;
             }
         }
-        Self { values: [c[(0, 0)], c[(1, 1)], c[(2, 2)]], vectors }
+        Self { strains: [e[(0, 0)], e[(1, 1)], e[(2, 2)]], vectors }
+    }
+
+    /// λ_A².
+    #[must_use]
+    pub fn squares(&self) -> [f64; 3] {
+        self.strains.map(|e| 1.0 + 2.0 * e)
     }
 
     /// ε_A = ½ ln λ_A².
     #[must_use]
     pub fn logarithms(&self) -> [f64; 3] {
-        self.values.map(|c| 0.5 * c.ln())
+        self.strains.map(|e| 0.5 * (2.0 * e).ln_1p())
     }
 
     /// Σ x_A N_A ⊗ N_A.
@@ -93,8 +100,8 @@ impl Spectrum {
         let mut shear = [[0.0; 3]; 3];
         for a in 0..3 {
             for b in 0..3 {
-                let difference = self.values[a] - self.values[b];
-                shear[a][b] = if difference.abs() > COINCIDENT * self.values[a] {
+                let difference = 2.0 * (self.strains[a] - self.strains[b]);
+                shear[a][b] = if difference.abs() > COINCIDENT * (1.0 + 2.0 * self.strains[a]) {
                     2.0 * (s[a] - s[b]) / difference
                 } else {
                     0.5 * (slope[a][a] - slope[a][b] + slope[b][b] - slope[b][a])
@@ -126,27 +133,27 @@ impl Spectrum {
     }
 }
 
-/// A law of the principal stretches as a law of C.
+/// A law of the principal stretches as a law of E.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ByStretches<L>(pub L);
 
 impl<L: StretchEnergy> StrainLaw for ByStretches<L> {
-    fn energy(&self, c: &Mat3) -> f64 {
-        self.0.energy(&Spectrum::of(c).logarithms())
+    fn energy(&self, e: &Mat3) -> f64 {
+        self.0.energy(&Spectrum::of(e).logarithms())
     }
 
-    fn second_piola(&self, c: &Mat3) -> Mat3 {
-        let spectrum = Spectrum::of(c);
-        let stress = self.0.stress(&spectrum.logarithms());
-        spectrum.compose(&std::array::from_fn(|a| stress[a] / spectrum.values[a]))
+    fn second_piola(&self, e: &Mat3) -> Mat3 {
+        let spectrum = Spectrum::of(e);
+        let (stress, squares) = (self.0.stress(&spectrum.logarithms()), spectrum.squares());
+        spectrum.compose(&std::array::from_fn(|a| stress[a] / squares[a]))
     }
 
     /// S_A = τ_A/λ_A², 2 ∂S_A/∂λ_B² = (∂τ_A/∂ε_B)/(λ_A² λ_B²) − 2 δ_AB τ_A/λ_A⁴.
-    fn elasticity(&self, c: &Mat3) -> (Mat3, Tangent<3>) {
-        let spectrum = Spectrum::of(c);
-        let e = spectrum.logarithms();
-        let (stress, modulus) = (self.0.stress(&e), self.0.modulus(&e));
-        let squares = &spectrum.values;
+    fn elasticity(&self, e: &Mat3) -> (Mat3, Tangent<3>) {
+        let spectrum = Spectrum::of(e);
+        let logarithms = spectrum.logarithms();
+        let (stress, modulus) = (self.0.stress(&logarithms), self.0.modulus(&logarithms));
+        let squares = spectrum.squares();
         let s: [f64; 3] = std::array::from_fn(|a| stress[a] / squares[a]);
         let slope = std::array::from_fn(|a| {
             std::array::from_fn(|b| {

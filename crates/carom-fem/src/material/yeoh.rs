@@ -34,12 +34,12 @@ impl Yeoh {
 
 impl InvariantEnergy for Yeoh {
     #[inline]
-    fn jet(&self, i1: f64, i2: f64, j: f64) -> Jet {
+    fn jet(&self, growths: [f64; 3]) -> Jet {
         let Self { c10, c20, c30, bulk } = *self;
         let isochoric = |x: f64, _| {
             let value = x * (c10 + x * (c20 + x * c30));
             (value, [c10 + x * (2.0 * c20 + x * 3.0 * c30), 0.0], [2.0 * c20 + 6.0 * c30 * x, 0.0, 0.0])
         };
-        split([i1, i2, j], isochoric, &Volumetric { bulk })
+        split(growths, isochoric, &Volumetric { bulk })
     }
 }

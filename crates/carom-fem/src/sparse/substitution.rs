@@ -4,10 +4,9 @@ use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::{MatMut, MatRef, Par};
 use pulp::{Arch, Simd, WithSimd};
-use rayon::prelude::*;
 
 use super::real::Real;
-use crate::parallel::has_threads;
+use crate::parallel::{has_threads, share};
 
 /// Columns taken together, so that what is loaded once serves them all.
 const COLUMNS: usize = 4;
@@ -142,8 +141,8 @@ impl<T: Real> Substitution<T> {
         let t = &mut gathered[..p.padded];
         let own = &x[p.start..p.start + p.columns];
         let part = p.padded.div_ceil(rayon::current_num_threads()).next_multiple_of(T::PADDING);
-        t.par_chunks_mut(part).enumerate().for_each(|(k, t)| {
-            Arch::new().dispatch(Product { z, rows: p.padded, first: k * part, x: own, t });
+        share(t, part, &|first, t| {
+            Arch::new().dispatch(Product { z, rows: p.padded, first, x: own, t });
         });
         subtract(p, rows, t, x);
     }
@@ -156,8 +155,8 @@ impl<T: Real> Substitution<T> {
         let t = &mut gathered[..p.padded];
         gather(p, rows, x, t);
         let part = p.columns.div_ceil(rayon::current_num_threads()).next_multiple_of(COLUMNS);
-        x[p.start..p.start + p.columns].par_chunks_mut(part).enumerate().for_each(|(k, x)| {
-            let z = &z[k * part * p.padded..];
+        share(&mut x[p.start..p.start + p.columns], part, &|first, x| {
+            let z = &z[first * p.padded..];
             Arch::new().dispatch(TransposedProduct { z: &z[..x.len() * p.padded], t, x });
         });
     }
