@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -68,8 +67,6 @@ class Result:
             raise InputError(
                 f"{path}: has no {missing}; name a directory that `carom run` has finished"
             ) from error
-        except json.JSONDecodeError as error:
-            raise InputError(f"{path / layout.SUMMARY}: not JSON: {error}") from error
 
     @property
     def fields_path(self) -> Path:

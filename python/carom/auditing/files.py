@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -134,10 +133,7 @@ class Files:
                     f"{path}: has no {name}; name a directory that `carom run` has finished"
                 )
         self.scenario = Scenario.from_toml(path / layout.CASE)
-        try:
-            self.summary: dict[str, Any] = read_summary(path / layout.SUMMARY)
-        except json.JSONDecodeError as error:
-            raise InputError(f"{path / layout.SUMMARY}: not JSON: {error}") from error
+        self.summary: dict[str, Any] = read_summary(path / layout.SUMMARY)
         self.history = read_history(path / layout.HISTORY)
         self.ledger = read_ledger(path / layout.LEDGER)
         self.has_steps = (path / layout.AUDIT).exists()

@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import io
 import json
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -22,11 +21,22 @@ from carom._carom import CHECKPOINT_SCHEMA, __version__
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.atomic import write_whole
+from carom.io.form import MAYBE_NUMBER, NUMBER, Form, misfit
 
 _BLOCK = 512
 """Size of the text in front of the HDF5 file: the smallest that HDF5 allows [bytes]."""
 
 _MAGIC = "carom checkpoint"
+
+_FORM: Form = {
+    "case": dict,
+    "record": {
+        **dict.fromkeys(("history", "ledger", "frames", "steps", "frames_due"), int),
+        "last_frame": MAYBE_NUMBER,
+        "wall": NUMBER,
+    },
+}
+"""What is in it as text; the rest are arrays."""
 
 
 class DamagedError(Exception):
@@ -135,8 +145,8 @@ def _unpacked(content: bytes, path: Path) -> Checkpoint:
             f"{path}: was written by carom {version}, this is {__version__}, whose numbers may "
             "differ; go on with that version, or start again with --force"
         )
-    if not (isinstance(case, dict) and _is_record(record)):
-        raise DamagedError(f"{path} does not hold what a checkpoint has: case and record of a run")
+    if wrong := misfit({"case": case, "record": record}, _FORM):
+        raise DamagedError(f"{path} does not hold what a checkpoint has: {wrong}")
     return Checkpoint(case=case, record=record, arrays=arrays)
 
 
@@ -150,15 +160,3 @@ def _arrays(group: h5py.Group) -> dict[str, NDArray[Any]]:
 
     group.visititems(collect)
     return arrays
-
-
-def _is_record(record: object) -> bool:
-    """Whether it says how far the files had come, as `carom.recorder.Recorder` wants to know."""
-    if not isinstance(record, dict):
-        return False
-    counts = [record.get(name) for name in ("history", "ledger", "frames", "steps", "frames_due")]
-    times = [record.get("wall"), record.get("last_frame", math.nan)]
-    return all(type(count) is int and count >= 0 for count in counts) and all(
-        isinstance(time, int | float) or (time is None and index == 1)
-        for index, time in enumerate(times)
-    )
