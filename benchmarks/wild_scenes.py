@@ -16,7 +16,7 @@ import tempfile
 import traceback
 from collections import defaultdict
 from dataclasses import dataclass
-from time import perf_counter
+from time import process_time
 from typing import Any
 from unittest import mock
 
@@ -30,7 +30,7 @@ SPACING = 2.5
 STEPS = 80
 
 PATIENCE = 60.0
-"""Wall time of a scene, on a machine that has other work too [s]."""
+"""Processor time of a scene [s]."""
 
 CLOSED = {"conserving": 1e-6, "theta": 0.02}
 """Largest defect of the ledger, of the energy that there was. That of `theta` is the error of its
@@ -174,9 +174,9 @@ class Ending:
     reason
         What it says.
     seconds
-        Wall time of the run [s].
+        Processor time of the run [s].
     silence
-        Wall time from the last word of progress to the end [s].
+        Processor time from the last word of progress to the end [s].
     defect
         Largest defect of its ledger, of the energy that there was.
     """
@@ -190,11 +190,11 @@ class Ending:
 
 def ending(scenario: carom.Scenario) -> Ending:
     """Run a scene and say how it ended."""
-    start = last = perf_counter()
+    start = last = process_time()
 
     def note(_: carom.Progress) -> None:
         nonlocal last
-        last = perf_counter()
+        last = process_time()
 
     reason = ""
     with tempfile.TemporaryDirectory() as directory, mock.patch("carom.plot.draw"):
@@ -206,7 +206,7 @@ def ending(scenario: carom.Scenario) -> Ending:
             if isinstance(error, KeyboardInterrupt):
                 raise
             return Ending("broken", "".join(traceback.format_exception(error)), 0.0, 0.0, np.nan)
-        end = perf_counter()
+        end = process_time()
         summary = carom.Result.open(directory).summary
     energy = summary["energy"]
     supplied = energy["initial"] + abs(energy["external"])

@@ -37,11 +37,8 @@ pub(crate) fn surface_fields<const D: usize>(model: &Model<D>, state: &State<D>)
             let (mut energy, mut slip, mut pressure) = (0.0, 0.0, 0.0);
             for node in facet.nodes.iter().map(|&n| b.first_node + n as usize) {
                 slip += state.slip[node] / facet.nodes.len() as f64;
-                // Nothing is around a node on the axis of a body of revolution.
-                if around[node] > 0.0 {
-                    energy += state.friction_energy[node] / around[node];
-                    pressure -= state.contact_force[node].dot(&normal) / around[node];
-                }
+                energy += state.friction_energy[node] / around[node];
+                pressure -= state.contact_force[node].dot(&normal) / around[node];
             }
             fields.friction_energy.push(energy);
             fields.slip.push(slip);
