@@ -16,27 +16,37 @@ from typing import Any
 import h5py
 import numpy as np
 from numpy.typing import NDArray
+from typing_extensions import TypedDict
 
 from carom._carom import CHECKPOINT_SCHEMA, __version__
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.atomic import write_whole
-from carom.io.form import MAYBE_NUMBER, NUMBER, Form, misfit
+from carom.io.form import misfit
 
 _BLOCK = 512
 """Size of the text in front of the HDF5 file: the smallest that HDF5 allows [bytes]."""
 
 _MAGIC = "carom checkpoint"
 
-_FORM: Form = {
-    "case": dict,
-    "record": {
-        **dict.fromkeys(("history", "ledger", "frames", "steps", "frames_due"), int),
-        "last_frame": MAYBE_NUMBER,
-        "wall": NUMBER,
-    },
-}
-"""What is in it as text; the rest are arrays."""
+
+class _Record(TypedDict):
+    """How far the files of a run had come."""
+
+    history: int
+    ledger: int
+    frames: int
+    steps: int
+    last_frame: float | None
+    frames_due: int
+    wall: float
+
+
+class _Texts(TypedDict):
+    """What is in a checkpoint beside arrays."""
+
+    case: dict[str, object]
+    record: _Record
 
 
 class DamagedError(Exception):
@@ -145,7 +155,7 @@ def _unpacked(content: bytes, path: Path) -> Checkpoint:
             f"{path}: was written by carom {version}, this is {__version__}, whose numbers may "
             "differ; go on with that version, or start again with --force"
         )
-    if wrong := misfit({"case": case, "record": record}, _FORM):
+    if wrong := misfit({"case": case, "record": record}, _Texts):
         raise DamagedError(f"{path} does not hold what a checkpoint has: {wrong}")
     return Checkpoint(case=case, record=record, arrays=arrays)
 
