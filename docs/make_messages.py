@@ -65,7 +65,9 @@ def page() -> str:
     for area, said in zip(listed, found, strict=True):
         lines += [f"\n## {area['title']}\n", f"**Cause.** {area['cause']}\n"]
         lines += [f"**Cure.** {area['cure']}\n"]
-        more = DATA_MESSAGES.values() if area.get("data") else []
+        # What has no words of its own passes a message of another source on.
+        more = [text for text in DATA_MESSAGES.values() if text != "{error}"]
+        more = more if area.get("data") else []
         lines += [f"- `{_code(text)}`" for text in dict.fromkeys([*more, *said])]
     return "\n".join(lines) + "\n"
 

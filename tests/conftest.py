@@ -1,11 +1,21 @@
 import signal
 from pathlib import Path
 
+import heard
 import pytest
 
 import carom
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
+
+
+def pytest_configure():
+    heard.listen()
+
+
+def pytest_collection_modifyitems(items):
+    """Let tests that look back on all others come last."""
+    items.sort(key=lambda item: item.get_closest_marker("last") is not None)
 
 
 @pytest.fixture(autouse=True, scope="session")
