@@ -1,10 +1,10 @@
 import signal
 from pathlib import Path
 
-import heard
 import pytest
 
 import carom
+import heard
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 

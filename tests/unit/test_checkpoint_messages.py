@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from restarting import scenario
 
 from carom.simulation import build
+from restarting import scenario
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +57,7 @@ BAD = [
 def test_an_array_that_fits_nothing_is_named(arrays, name, change, message):
     spoilt = {key: array.copy() for key, array in arrays.items()}
     spoilt[name] = change(spoilt[name])
-    with pytest.raises(ValueError) as caught:  # noqa: PT011 (the message is what is tested)
+    with pytest.raises(ValueError) as caught:
         build(scenario()).restore(spoilt)
     assert str(caught.value).startswith(message)
 

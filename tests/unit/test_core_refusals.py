@@ -1,4 +1,4 @@
-"""What the core refuses by itself, whoever describes the case: one that Python would not let through.
+"""What the core refuses by itself: cases that Python would not let through.
 
 Cases are JSON here, as the core reads them, so that no check of the package stands in front.
 """
@@ -180,7 +180,7 @@ BAD = [
     (
         obstacle(kind="cylinder", point=[0, 0, 0], axis=[0, 0, 1], radius=1.0, cavity=False),
         "obstacles.0.kind",
-        "a cylinder is an obstacle in 3D; in the plane take a sphere, which is a circle there, or a",
+        "a cylinder is an obstacle in 3D; in the plane take a sphere, which is a circle there",
     ),
     # functions of time
     (
@@ -333,7 +333,7 @@ BAD = [
     (
         mesh(**{**RING, "inner_radius": 0}),
         "bodies.0.mesh.inner_radius",
-        "inner_radius = 0.0 makes no mesh: the inner radius must be greater than 0 m; a body without",
+        "inner_radius = 0.0 makes no mesh: the inner radius must be greater than 0 m; a body with",
     ),
     (
         mesh(**{**RING, "outer_radius": 0.5}),
@@ -482,7 +482,7 @@ def test_a_mesh_that_makes_no_body_is_named_with_the_place(changes, given, messa
 
 def test_cubes_that_share_an_edge_alone_have_no_contact_surface():
     cube = np.array([[x, y, z] for z in (0, 1) for x, y in SQUARE])
-    second = cube + [1, 1, 0]
+    second = cube + np.array([1, 1, 0])
     points = np.vstack([cube, second[[1, 2, 3, 5, 6, 7]]])
     cells = [range(8), [2, 8, 9, 10, 6, 11, 12, 13]]
     given = part(points, cells, "hex8")

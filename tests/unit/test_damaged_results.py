@@ -6,7 +6,6 @@ import shutil
 import h5py
 import numpy as np
 import pytest
-from restarting import scenario
 
 import carom
 from carom import InputError
@@ -14,6 +13,7 @@ from carom.io.audit import read_steps
 from carom.io.frames import Frames
 from carom.io.history import read_history
 from carom.report import write_report
+from restarting import scenario
 
 
 @pytest.fixture(scope="module")
@@ -183,7 +183,7 @@ def test_a_case_in_space_cannot_be_audited(results):
     }
     text = carom.Scenario.from_dict(json.loads(json.dumps(case))).to_toml()
     (results / "case.toml").write_text(text)
-    with pytest.raises(InputError, match="^cannot audit a case in 3D yet$"):
+    with pytest.raises(InputError, match=r"^cannot audit a case in 3D yet$"):
         carom.audit(results)
 
 

@@ -5,12 +5,12 @@ import re
 import sys
 from pathlib import Path
 
-import heard
 import pytest
 import tomlkit
 from test_messages import BAD, spoil
 
 import carom
+import heard
 from carom.messages import DATA_MESSAGES
 
 DOCS = Path(__file__).parents[2] / "docs"
