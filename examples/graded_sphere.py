@@ -101,7 +101,7 @@ class GradedSphere:
     @property
     def dimension(self) -> int:
         """Dimension of space."""
-        return self.points.shape[1]
+        return int(self.points.shape[1])
 
     def sets(self) -> dict[str, Indices]:
         """Return nodes on the planes of symmetry ``x`` and ``y``, and ``equator``."""
@@ -175,7 +175,7 @@ def _outside_out(points: Array, cells: Indices) -> Indices:
     plane = points.shape[1] == 2
     edges = points[cells[:, [1, 3] if plane else [1, 3, 4]]] - points[cells[:, [0]]]
     wrong = np.linalg.det(edges) < 0
-    out = cells.copy()
+    out: Indices = cells.copy()
     out[wrong] = cells[wrong][:, [0, 3, 2, 1] if plane else [0, 3, 2, 1, 4, 7, 6, 5]]
     return out
 
@@ -235,7 +235,8 @@ class Lattice:
             inner = []
             for corner in facet:
                 node = [a + b for a, b in zip(low, corner, strict=True)]
-                inner.append(index[(*node[:axis], self.n, *node[axis:])])
+                outward = (*node[:axis], self.n, *node[axis:])
+                inner.append(index[outward])
             places = [place[i] for i in inner]
             for k in range(shells):
                 outer = [len(self.nodes) + k * self.rim + p for p in places]

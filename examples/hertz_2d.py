@@ -28,7 +28,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import carom
-from carom.simulation import build
 
 RADIUS, YOUNG, POISSON = 8.0, 200.0, 0.3
 FORCE, TANGENTIAL, FRICTION = 10.0, 0.93616, 0.2
@@ -205,11 +204,9 @@ class Press:
                 approach=approach,
                 shift=shift or 0.0,
             )
-            simulation = build(case)
-            while not simulation.advance(1.0 if shift is None else 2.0, 1.0):
-                pass
-            forces = simulation.fields()["reaction"][len(self._lower.points) :, :2]
-            return _profile(self._upper, forces)
+            simulation = carom.Simulation(case)
+            simulation.advance(1.0 if shift is None else 2.0)
+            return _profile(self._upper, simulation.bodies["upper"].reaction)
 
     def solve(self) -> tuple[Profile, Profile]:
         """Tractions under the normal force, and under the tangential one too."""

@@ -19,7 +19,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import carom
-from carom.simulation import build
 
 sys.path.insert(0, str(Path(__file__).parent))
 from graded_sphere import GradedSphere, ellipsoid
@@ -82,10 +81,9 @@ def press(dimension: int, divisions: int) -> Pressed:
     )
     with tempfile.TemporaryDirectory() as folder:
         case = scenario(sphere.write(Path(folder) / "sphere.inp"), dimension)
-        simulation = build(case)
-        while not simulation.advance(1.0, 1.0):
-            pass
-    forces = simulation.fields()["reaction"][:, :dimension]
+        simulation = carom.Simulation(case)
+        simulation.advance(1.0)
+    forces = simulation.bodies["sphere"].reaction
     # A quarter of the sphere carries a quarter of the force.
     force = float(forces[:, -1].sum()) * (1 if dimension == 2 else 4)
     return Pressed(force, *ellipsoid(*sphere.pressures(forces)))

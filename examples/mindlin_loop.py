@@ -38,7 +38,7 @@ AMPLITUDES = (0.76, 0.85, 0.97)
 def shift(amplitude: float) -> float:
     """How far the equator is moved to and fro [m]."""
     whole = 3 * FRICTION * FORCE / (16 * CONTACT) * (2 - POISSON) / SHEAR
-    return whole * (1 - (1 - amplitude) ** (2 / 3))
+    return float(whole * (1 - (1 - amplitude) ** (2 / 3)))
 
 
 @dataclass(frozen=True)
@@ -51,10 +51,10 @@ class Loop:
 
     def theory(self) -> float:
         """Return Mindlin and Deresiewicz's dissipation under the same forces [J]."""
-        radius = (0.75 * self.normal * RADIUS / COMPOSITE) ** (1 / 3)
+        radius = float((0.75 * self.normal * RADIUS / COMPOSITE) ** (1 / 3))
         limit = FRICTION * self.normal
         q = self.tangential / limit
-        shape = 1 - (1 - q) ** (5 / 3) - 5 * q / 6 * (1 + (1 - q) ** (2 / 3))
+        shape = float(1 - (1 - q) ** (5 / 3) - 5 * q / 6 * (1 + (1 - q) ** (2 / 3)))
         return 0.9 * limit**2 / radius * (2 - POISSON) / SHEAR * shape
 
 

@@ -63,7 +63,7 @@ def quasi_static(speed: float = 1.0, stiffening: float = 0.0) -> Impact:
     energy = 0.5 * MASS * speed**2
 
     def work(force: float) -> float:
-        return 0.4 * softness * force ** (5 / 3) - 0.5 * relief * force**2
+        return float(0.4 * softness * force ** (5 / 3) - 0.5 * relief * force**2)
 
     hertz = STIFFNESS**0.4 * (2.5 * energy) ** 0.6
     peak = float(brentq(lambda force: work(force) - energy, 0.5 * hertz, 2.0 * hertz))
@@ -71,7 +71,7 @@ def quasi_static(speed: float = 1.0, stiffening: float = 0.0) -> Impact:
     # dt = dδ/v with P = (1 − x²) peak, so that nothing is infinite where the sphere turns back.
     def slowness(x: float) -> float:
         force = (1.0 - x * x) * peak
-        slope = 2 / 3 * softness * force ** (-1 / 3) - relief
+        slope = float(2 / 3 * softness * force ** (-1 / 3) - relief)
         return slope * 2.0 * x * peak / math.sqrt(2.0 * (energy - work(force)) / MASS)
 
     return Impact(
@@ -150,7 +150,7 @@ def stiffening(divisions: int) -> float:
         history = carom.run(case, out=Path(folder) / "results").history
     force = float(history["normal_force"][-1])
     sunk = float(history["sphere.y"][0] - history["sphere.y"][-1])
-    return ((force / STIFFNESS) ** (2 / 3) - sunk) * YOUNG * RADIUS / force
+    return float(((force / STIFFNESS) ** (2 / 3) - sunk) * YOUNG * RADIUS / force)
 
 
 def main(

@@ -5,6 +5,7 @@ import pytest
 
 import carom
 import heard
+import restarting
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -60,3 +61,9 @@ def box():
 @pytest.fixture
 def scenario(box):
     return carom.Scenario.from_dict(box)
+
+
+@pytest.fixture(scope="session")
+def impact(tmp_path_factory):
+    """The results of two discs that meet above a floor and hit it; not to be changed."""
+    return carom.run(restarting.scenario(), out=tmp_path_factory.mktemp("impact"))

@@ -152,6 +152,7 @@ class FallingSimulation:
                 "initial": 8.0,
                 "final": 8.0,
                 "friction": 0.0,
+                "external": 0.0,
                 "max_drift": 0.0,
                 "max_defect": 0.0,
             },

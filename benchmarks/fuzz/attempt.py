@@ -13,12 +13,12 @@ from typing import Any, TypeVar
 import typer
 
 from carom import case_file
+from carom.building import build
 from carom.cli.case import load
 from carom.cli.failures import BAD_INPUT, NOT_CONVERGED, failures
 from carom.cli.friction.problem_file import warnings_named
 from carom.friction import GlobalProblem, read_record, solve
 from carom.scenario import Scenario
-from carom.simulation import build
 
 LARGE = 3_000
 """Cells above which a case is checked but not built: time goes to many cases, not to large ones."""

@@ -10,6 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
+from numpy.typing import NDArray
 
 import carom
 from carom.io.frames import Frames
@@ -56,19 +57,20 @@ def _draw_plane(axes: Axes, view: View, frame: int) -> PolyCollection:
     axes.autoscale_view()
     for plane in view.scenario.obstacles:
         if isinstance(plane, carom.Plane) and plane.motion is None:
-            along = (plane.point[0] - plane.normal[1], plane.point[1] + plane.normal[0])
-            axes.axline(plane.point, along, color="0.6", linewidth=1.0)
+            x, y = plane.point
+            along = (x - plane.normal[1], y + plane.normal[0])
+            axes.axline((x, y), along, color="0.6", linewidth=1.0)
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
     return drawn
 
 
-def _picture(view: View, frame: int) -> np.ndarray:
+def _picture(view: View, frame: int) -> NDArray[np.float32]:
     """Return what ``carom view`` draws, without its time and axes, and cut to what is drawn."""
     with TemporaryDirectory() as folder:
         file = Path(folder) / "frame.png"
         screenshot(view, frame, file)
-        picture = plt.imread(file)[..., :3].copy()
+        picture: NDArray[np.float32] = plt.imread(file)[..., :3].copy()
     height, width = picture.shape[:2]
     picture[: height // 12, : width // 3] = picture[0, -1]
     picture[-height // 5 :, : width // 6] = picture[0, -1]

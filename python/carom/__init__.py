@@ -4,10 +4,11 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from carom._carom import Simulation, __version__
+    from carom._carom import __version__
     from carom.analysis import Conserving, Dynamic, Newton, Static, Theta
     from carom.auditing import Audit, audit
     from carom.body import Body
+    from carom.books import Energy, Ledger
     from carom.checking import Check, check
     from carom.contact import Contact, FrictionSolver, Pair
     from carom.errors import (
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
         MeshError,
         StorageError,
     )
+    from carom.fields import Field, Fields
     from carom.io.history import read_history
     from carom.load import Force, Pressure, Traction
     from carom.material import (
@@ -34,42 +36,52 @@ if TYPE_CHECKING:
     )
     from carom.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring, Tube
     from carom.motion import Displacement, Fixed, Prescribed
+    from carom.observer import Observer, Stop
     from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere, RigidSurface
     from carom.output import Output, Track
     from carom.progress import Progress
     from carom.result import Result
+    from carom.running import run
     from carom.scenario import Scenario
     from carom.signal import Table
-    from carom.simulation import run
+    from carom.simulation import Simulation, Step
+    from carom.state import BodyState, Contacts, State
 
 __all__ = [
     "Audit",
     "Ball",
     "BlatzKo",
     "Body",
+    "BodyState",
     "Box",
     "CaromError",
     "CertificateError",
     "Check",
     "Conserving",
     "Contact",
+    "Contacts",
     "ConvergenceError",
     "Cylinder",
     "Damping",
     "Disc",
     "Displacement",
     "Dynamic",
+    "Energy",
+    "Field",
+    "Fields",
     "Fixed",
     "Force",
     "FrictionSolver",
     "InputError",
     "J2Plasticity",
+    "Ledger",
     "LinearElastic",
     "MeshError",
     "MeshFile",
     "MooneyRivlin",
     "NeoHookean",
     "Newton",
+    "Observer",
     "Ogden",
     "Output",
     "Pair",
@@ -87,7 +99,10 @@ __all__ = [
     "SaintVenantKirchhoff",
     "Scenario",
     "Simulation",
+    "State",
     "Static",
+    "Step",
+    "Stop",
     "StorageError",
     "Table",
     "Theta",
@@ -104,10 +119,11 @@ __all__ = [
 ]
 
 _HOMES = {
-    "_carom": ("Simulation", "__version__"),
+    "_carom": ("__version__",),
     "analysis": ("Conserving", "Dynamic", "Newton", "Static", "Theta"),
     "auditing": ("Audit", "audit"),
     "body": ("Body",),
+    "books": ("Energy", "Ledger"),
     "checking": ("Check", "check"),
     "contact": ("Contact", "FrictionSolver", "Pair"),
     "errors": (
@@ -118,6 +134,7 @@ _HOMES = {
         "MeshError",
         "StorageError",
     ),
+    "fields": ("Field", "Fields"),
     "io.history": ("read_history",),
     "load": ("Force", "Pressure", "Traction"),
     "material": (
@@ -134,13 +151,16 @@ _HOMES = {
     ),
     "mesh": ("Ball", "Box", "Cylinder", "Disc", "MeshFile", "Rectangle", "Ring", "Tube"),
     "motion": ("Displacement", "Fixed", "Prescribed"),
+    "observer": ("Observer", "Stop"),
     "obstacle": ("Plane", "RigidBox", "RigidCylinder", "RigidSphere", "RigidSurface"),
     "output": ("Output", "Track"),
     "progress": ("Progress",),
     "result": ("Result",),
+    "running": ("run",),
     "scenario": ("Scenario",),
     "signal": ("Table",),
-    "simulation": ("run",),
+    "simulation": ("Simulation", "Step"),
+    "state": ("BodyState", "Contacts", "State"),
 }
 """The module of each name, imported when the name is first used: the command line starts sooner."""
 

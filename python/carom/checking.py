@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from carom.building import build
 from carom.mesh import MeshFile
 from carom.scenario import Scenario
-from carom.simulation import build
 
 COARSE_STEP = 5.0
 """Time step, in suggested ones, above which waves are no longer resolved."""

@@ -15,13 +15,13 @@ import numpy as np
 
 from carom.analysis import Dynamic
 from carom.body import Body
+from carom.building import build
 from carom.errors import InputError
 from carom.material import SaintVenantKirchhoff
 from carom.mesh import MeshFile
 from carom.mesh_file import body_dimension, read_body_mesh
 from carom.messages import known
 from carom.scenario import Scenario
-from carom.simulation import build
 from carom.template import MESH_FILE, template
 
 

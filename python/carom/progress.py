@@ -45,7 +45,7 @@ class Progress:
     eta: float | None = None
 
 
-Observer = Callable[[Progress], None]
+ShowProgress = Callable[[Progress], None]
 """What is called with the progress of a run, every tenth of a second or so."""
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,12 +14,19 @@ from rich.table import Table
 from typing_extensions import Self
 
 from carom.errors import InputError
+from carom.fields import Fields, parts
 from carom.io import layout
+from carom.io.frames import Frames
 from carom.io.history import read_history
 from carom.io.ledger import read_ledger
 from carom.io.summary import read_summary
 from carom.scenario import Scenario
 from carom.tables import summary_table
+
+if TYPE_CHECKING:
+    import pandas
+
+    from carom.dataframe import Table as DataTable
 
 
 @dataclass(frozen=True)
@@ -73,6 +81,38 @@ class Result:
         """The fields on the boundaries over time, a VTKHDF file."""
         return self.path / layout.SURFACE
 
+    @cached_property
+    def fields(self) -> Fields:
+        """The fields in the bodies over time, read when they are indexed.
+
+        Raises
+        ------
+        InputError
+            The file is not there.
+        """
+        frames, scenario = Frames(self.fields_path), self.scenario
+        names = [body.name for body in scenario.bodies]
+        return Fields(frames, parts(frames, names), dimension=scenario.dimension)
+
+    @cached_property
+    def surface(self) -> Fields:
+        """The fields on the boundaries over time, read when they are indexed.
+
+        Raises
+        ------
+        InputError
+            The file is not there.
+        """
+        bodies, surface = Frames(self.fields_path), Frames(self.surface_path)
+        scenario = self.scenario
+        names = [body.name for body in scenario.bodies]
+        return Fields(
+            surface,
+            parts(bodies, names, surface=surface),
+            dimension=scenario.dimension,
+            cell="facet",
+        )
+
     @property
     def ledger(self) -> dict[str, dict[str, NDArray[np.float64]]]:
         """For every body and pair that touched, its energy terms over time [J]."""
@@ -83,6 +123,26 @@ class Result:
         """The scenario as it was run, overrides included."""
         return read_case(self.path)
 
+    def to_pandas(self, table: DataTable = "history") -> pandas.DataFrame:
+        """Return a table of the run as a data frame.
+
+        Parameters
+        ----------
+        table
+            ``"history"``: the columns of ``history.csv`` by time. ``"ledger"``: the energy terms of
+            bodies and pairs [J] by entry and time. ``"contacts"``: the contact events with onset
+            and release [s], peak force [N] and friction work [J]. ``"bodies"`` and ``"pairs"``:
+            their energy terms at the end [J].
+
+        Raises
+        ------
+        InputError
+            There is no such table, or pandas is not installed.
+        """
+        from carom.dataframe import data_frame  # noqa: PLC0415 (imports this file)
+
+        return data_frame(self, table)
+
     def __repr__(self) -> str:
         summary = self.summary
         return (
@@ -92,6 +152,11 @@ class Result:
 
     def __rich__(self) -> Table:
         return summary_table(self.summary, where=self.path)
+
+    def _repr_html_(self) -> str:
+        from carom.notebook import result_html  # noqa: PLC0415 (imports this file)
+
+        return result_html(self)
 
 
 def read_case(directory: Path) -> Scenario:

@@ -115,6 +115,11 @@ class Scenario(Description):
         """Return the scenario with some of its values replaced, given by their dotted keys."""
         return self.from_dict(overrides.with_values(self.model_dump(mode="json"), values))
 
+    def _repr_html_(self) -> str:
+        from carom.notebook import scenario_html  # noqa: PLC0415 (imports this file)
+
+        return scenario_html(self)
+
     @model_validator(mode="after")
     def _names_are_unique(self) -> Self:
         first_use: dict[str, str] = {}

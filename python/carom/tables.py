@@ -31,53 +31,72 @@ def add(table: Table, quantity: str, value: str) -> None:
     table.add_row(Text(quantity), Text(value))
 
 
+Rows = Iterator[tuple[str, str]]
+"""Quantities and their values."""
+
+
 def summary_table(summary: Mapping[str, Any], *, where: Path) -> Table:
     """Return what came out of a run, its contact events, and where the results are."""
+    table = two_columns(summary_title(summary))
+    for rows in (outcome(summary), contact_events(summary), places(where)):
+        for quantity, value in rows:
+            add(table, quantity, value)
+        table.add_section()
+    return table
+
+
+def summary_title(summary: Mapping[str, Any]) -> str:
+    """Return what the results of a run are headed with."""
+    return summary["title"] or "Run"
+
+
+def outcome(summary: Mapping[str, Any]) -> Rows:
+    """Yield what came out of a run, with warnings where it is not to be trusted."""
     energy, certificate = summary["energy"], summary["certificate"]
-    table = two_columns(summary["title"] or "Run")
     reason = summary.get("reason")
-    add(table, "status", f"{summary['status']}: {reason}" if reason else summary["status"])
-    add(table, "reached", f"{summary['end_time']:g} s in {summary['steps']} steps")
-    add(
-        table,
+    yield "status", f"{summary['status']}: {reason}" if reason else summary["status"]
+    yield "reached", f"{summary['end_time']:g} s in {summary['steps']} steps"
+    yield (
         "wall time",
         f"{summary['wall_s']:.2f} s, {1e3 * summary['wall_s_per_step']:.3g} ms per step "
         f"({summary['dofs']} dofs)",
     )
-    add(table, "energy", f"{energy['initial']:.6g} J → {energy['final']:.6g} J")
-    add(table, "friction", f"{energy['friction']:.6g} J dissipated")
-    add(table, "largest drift", f"{energy['max_drift']:.3g} J")
-    add(table, "largest defect", f"{energy['max_defect']:.3g} J, of the energy ledger")
+    yield "energy", f"{energy['initial']:.6g} J → {energy['final']:.6g} J"
+    yield "friction", f"{energy['friction']:.6g} J dissipated"
+    yield "largest drift", f"{energy['max_drift']:.3g} J"
+    yield "largest defect", f"{energy['max_defect']:.3g} J, of the energy ledger"
     if (share := _defect_share(energy)) > LARGE_DEFECT:
-        add(
-            table,
+        yield (
             "warning",
             f"the ledger misses {share:.2g} of the energy: the time step is too long for this "
             "deformation; take a smaller analysis.time_step",
         )
-    add(
-        table,
+    yield (
         "certificate",
         f"{certificate['max_joule']:.3g} J from Coulomb's law in any step "
         f"({certificate['tolerance_joule']:.3g} J allowed)",
     )
     if (check := summary.get("cross_check")) is not None:
-        for quantity, value in _cross_check(check):
-            add(table, quantity, value)
-    table.add_section()
+        yield from _cross_check(check)
+
+
+def contact_events(summary: Mapping[str, Any]) -> Rows:
+    """Yield the first contact events of a run, as many as fit a screen."""
     contacts = summary["contacts"]
     for contact in contacts[:SHOWN_CONTACTS]:
-        add(table, " – ".join(contact["pair"]), _contact(contact))
+        yield " – ".join(contact["pair"]), _contact(contact)
     if len(contacts) > SHOWN_CONTACTS:
-        add(table, "…", f"{len(contacts) - SHOWN_CONTACTS} more contacts in summary.json")
-    table.add_section()
-    add(table, "results", str(where))
+        yield "…", f"{len(contacts) - SHOWN_CONTACTS} more contacts in summary.json"
+
+
+def places(where: Path) -> Rows:
+    """Yield where the results are."""
+    yield "results", str(where)
     if (where / layout.REPORT).exists():
-        add(table, "report", str(where / layout.REPORT))
-    return table
+        yield "report", str(where / layout.REPORT)
 
 
-def _cross_check(check: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+def _cross_check(check: Mapping[str, Any]) -> Rows:
     """Yield what a second solver said, and a warning for what it said otherwise."""
     problems, differing = check["problems"], check["disagreements"]
     solvers = " and ".join(check["solvers"])

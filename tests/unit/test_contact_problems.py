@@ -8,6 +8,7 @@ import pytest
 
 import carom
 from carom import cli
+from carom.building import build
 from carom.contact import SolverName
 
 
@@ -36,9 +37,7 @@ def test_case_files_know_every_solver():
 def test_every_solver_takes_the_drop_to_the_same_energy(drop, solver):
     energies = []
     for kind in ("gauss-seidel", solver):
-        simulation = carom.Simulation(
-            drop.with_overrides([f"contact.solver.kind={kind}"]).to_json()
-        )
+        simulation = build(drop.with_overrides([f"contact.solver.kind={kind}"]))
         while not simulation.advance(1.0, 60.0):
             pass
         energies.append(simulation.summary()["energy"])
@@ -48,7 +47,7 @@ def test_every_solver_takes_the_drop_to_the_same_energy(drop, solver):
 
 
 def test_a_failed_contact_problem_travels_with_the_error(stopped):
-    simulation = carom.Simulation(stopped.to_json())
+    simulation = build(stopped)
     with pytest.raises(carom.ConvergenceError) as caught:
         simulation.advance(1.0, 60.0)
     error = caught.value
@@ -68,7 +67,7 @@ def test_a_failed_contact_problem_travels_with_the_error(stopped):
 def test_what_else_fails_has_no_contact_problem(drop):
     hopeless = drop.with_overrides(["analysis.newton.max_iterations=1", "bodies.0.spin=30"])
     with pytest.raises(carom.ConvergenceError, match="Newton") as caught:
-        carom.Simulation(hopeless.to_json()).advance(1.0, 60.0)
+        build(hopeless).advance(1.0, 60.0)
     assert caught.value.problem is None
     assert caught.value.guess is None
     assert "friction" not in caught.value.report

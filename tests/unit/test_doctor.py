@@ -10,11 +10,11 @@ import pytest
 
 import carom
 from carom import cli
+from carom.building import build
 from carom.doctor import contact_setup, cost, examine, meeting, mesh_quality, time_step, units
 from carom.doctor.flight import Flight, body_gap, obstacle_gap
 from carom.doctor.mesh_quality import quality
 from carom.doctor.patient import Grid, Patient
-from carom.simulation import build
 
 STEEL = {"kind": "linear-elastic", "young": 210e9, "poisson": 0.3, "density": 7850.0}
 CASE = {

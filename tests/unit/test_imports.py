@@ -35,7 +35,7 @@ def test_neither_carom_nor_its_help_imports_what_takes_long(code):
 
 
 def test_a_run_imports_no_more_than_it_needs(examples):
-    assert imported(command("check", examples / "two_cylinders.toml")) == {"h5py", "pydantic"}
+    assert imported(command("check", examples / "two_cylinders.toml")) == {"pydantic"}
     assert imported("from carom import Scenario, run") == {"h5py", "pydantic"}
 
 

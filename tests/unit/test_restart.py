@@ -161,12 +161,12 @@ def interrupt_at(when):
 def stopped(directory, when=0.05):
     """Run until Ctrl-C."""
     with pytest.raises(KeyboardInterrupt):
-        carom.run(scenario(), out=directory, observer=interrupt_at(when))
+        carom.run(scenario(), out=directory, progress=interrupt_at(when))
     return directory
 
 
 def test_ctrl_c_makes_a_checkpoint_of_its_own(reference, tmp_path, monkeypatch):
-    monkeypatch.setattr("carom.simulation.SLICE", 0.0)  # back after every step
+    monkeypatch.setattr("carom.running.SLICE", 0.0)  # back after every step
     directory = stopped(tmp_path / "out", when=0.057)
     assert carom.Result.open(directory).summary["status"] == "interrupted"
     assert read_checkpoint(directory / "checkpoint.h5").time == pytest.approx(0.058)
@@ -208,7 +208,7 @@ def test_where_the_case_does_not_say_checkpoints_go_by_wall_time(
     tmp_path, monkeypatch, interval, least, most
 ):
     made = []
-    monkeypatch.setattr("carom.simulation.SLICE", 0.0)
+    monkeypatch.setattr("carom.running.SLICE", 0.0)
     monkeypatch.setattr("carom.schedule.WALL_INTERVAL", interval)
     monkeypatch.setattr("carom.recorder.write_checkpoint", lambda *_: made.append(1))
     case = copy.deepcopy(CASE)

@@ -6,7 +6,7 @@ import pytest
 
 import carom
 from carom import CertificateError, ConvergenceError, InputError, Result
-from carom.simulation import drive
+from carom.running import drive
 from stand_in import FallingSimulation
 
 
@@ -23,7 +23,7 @@ def frames(directory):
 def test_completed_run_writes_everything(scenario, tmp_path):
     out = tmp_path / "new" / "results"
     seen = []
-    result = drive(FallingSimulation(scenario), scenario, out, seen.append)
+    result = drive(FallingSimulation(scenario), scenario, out, progress=seen.append)
 
     assert sorted(file.name for file in out.iterdir()) == [
         "case.toml",
@@ -52,7 +52,7 @@ def test_completed_run_writes_everything(scenario, tmp_path):
 
 def test_the_last_frame_is_the_end_even_off_the_beat(scenario, tmp_path):
     scenario = scenario.with_overrides(["output.fields_every=0.3"])
-    drive(FallingSimulation(scenario), scenario, tmp_path, None)
+    drive(FallingSimulation(scenario), scenario, tmp_path)
     np.testing.assert_allclose(frames(tmp_path), [0.0, 0.3, 0.6, 0.9, 1.0])
 
 
@@ -66,7 +66,7 @@ def test_the_last_frame_is_the_end_even_off_the_beat(scenario, tmp_path):
 def test_a_run_that_stops_keeps_what_it_has(scenario, tmp_path, stop, status, reason):
     simulation = FallingSimulation(scenario, stop_at=0.6, stop=stop)
     with pytest.raises(type(stop)):
-        drive(simulation, scenario, tmp_path, None)
+        drive(simulation, scenario, tmp_path)
     result = Result.open(tmp_path)
     assert result.summary["status"] == status
     assert result.summary["reason"].startswith(reason)
@@ -81,7 +81,7 @@ def test_a_contact_problem_that_failed_is_kept_until_the_next_run(scenario, tmp_
     error = ConvergenceError("step 60 failed", {}, problem=problem, guess=np.array([[0.5, 0.1]]))
     out = tmp_path / "my results"
     with pytest.raises(ConvergenceError) as caught:
-        drive(FallingSimulation(scenario, stop_at=0.6, stop=error), scenario, out, None)
+        drive(FallingSimulation(scenario, stop_at=0.6, stop=error), scenario, out)
     assert caught.value is error
     file = out / "failed_contact_problem.hdf5"
     reason = Result.open(out).summary["reason"]
@@ -95,25 +95,25 @@ def test_a_contact_problem_that_failed_is_kept_until_the_next_run(scenario, tmp_
     np.testing.assert_array_equal(record.problem.matrix().toarray(), 2.0 * np.eye(2))
     np.testing.assert_array_equal(record.guesses[0].reactions, [[0.5, 0.1]])
     assert (record.title, record.description) == ("Box", "step 60 failed")
-    drive(FallingSimulation(scenario), scenario, out, None)
+    drive(FallingSimulation(scenario), scenario, out)
     assert not file.exists()
 
 
 def test_nothing_of_an_earlier_run_survives(scenario, tmp_path):
-    drive(FallingSimulation(scenario), scenario, tmp_path, None)
+    drive(FallingSimulation(scenario), scenario, tmp_path)
     (tmp_path / "notes.txt").write_text("mine")
     untracked = scenario.with_overrides(["output.track=[]", "analysis.end_time=0.5"])
-    result = drive(FallingSimulation(untracked), untracked, tmp_path, None)
+    result = drive(FallingSimulation(untracked), untracked, tmp_path)
     assert result.summary["end_time"] == 0.5
     assert not (tmp_path / "track-tip.png").exists()
     assert (tmp_path / "notes.txt").read_text() == "mine"
 
 
 def test_a_run_that_cannot_go_on_claims_no_results(scenario, tmp_path):
-    drive(FallingSimulation(scenario), scenario, tmp_path, None)
+    drive(FallingSimulation(scenario), scenario, tmp_path)
     simulation = FallingSimulation(scenario, stop_at=0.6, stop=OSError("disk full"))
     with pytest.raises(OSError, match="disk full"):
-        drive(simulation, scenario, tmp_path, None)
+        drive(simulation, scenario, tmp_path)
     with pytest.raises(InputError, match=r"has no summary\.json"):
         Result.open(tmp_path)
     assert carom.read_history(tmp_path / "history.csv")["time"][-1] > 0.4
@@ -123,16 +123,16 @@ def test_a_run_that_leaves_coulombs_law_is_not_completed(scenario, tmp_path):
     with pytest.raises(
         CertificateError, match=r"2e-09 J from Coulomb's law, more than the 1e-09 J"
     ):
-        drive(FallingSimulation(scenario, certificate=2e-9), scenario, tmp_path, None)
+        drive(FallingSimulation(scenario, certificate=2e-9), scenario, tmp_path)
     result = Result.open(tmp_path)
     assert result.summary["status"] == "uncertified"
     assert "contact.solver.tolerance" in result.summary["reason"]
-    drive(FallingSimulation(scenario, certificate=1e-9), scenario, tmp_path, None)
+    drive(FallingSimulation(scenario, certificate=1e-9), scenario, tmp_path)
     assert Result.open(tmp_path).summary["status"] == "completed"
 
 
 def test_the_ledger_of_bodies_and_pairs_reads_back(scenario, tmp_path):
-    ledger = drive(FallingSimulation(scenario), scenario, tmp_path, None).ledger
+    ledger = drive(FallingSimulation(scenario), scenario, tmp_path).ledger
     assert list(ledger) == ["left", "left|floor"]
     assert ledger["left"]["contact"][-1] == 6.0
     assert np.isnan(ledger["left"]["friction"]).all()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.simulation import build
+from carom.building import build
 
 
 @pytest.fixture
@@ -20,7 +20,7 @@ def bars(examples):
 
 
 def test_description_matches_what_was_described(bars):
-    simulation = carom.Simulation(bars.to_json())
+    simulation = build(bars)
     description = simulation.describe()
     assert description["dofs"] == 2 * 2 * 21 * 2
     assert description["steps"] == simulation.steps == 400
@@ -30,7 +30,7 @@ def test_description_matches_what_was_described(bars):
 
 
 def test_mesh_and_fields_have_the_shapes_of_the_contract(bars):
-    simulation = carom.Simulation(bars.to_json())
+    simulation = build(bars)
     mesh, fields = simulation.mesh(), simulation.fields()
     points, cells = 2 * 21 * 2, 2 * 20
     assert mesh["points"].shape == (points, 2)
@@ -46,7 +46,7 @@ def test_mesh_and_fields_have_the_shapes_of_the_contract(bars):
 
 
 def test_slices_do_not_change_the_motion(bars):
-    whole, sliced = (carom.Simulation(bars.to_json()) for _ in range(2))
+    whole, sliced = (build(bars) for _ in range(2))
     while not whole.advance(0.02, 60.0):
         pass
     while not sliced.advance(0.02, 0.0):
@@ -58,7 +58,7 @@ def test_slices_do_not_change_the_motion(bars):
 
 def test_run_records_the_whole_time(bars, tmp_path):
     steps = []
-    result = carom.run(bars, out=tmp_path, observer=lambda progress: steps.append(progress.step))
+    result = carom.run(bars, out=tmp_path, progress=lambda progress: steps.append(progress.step))
     assert result.summary["status"] == "completed"
     assert result.summary["steps"] == steps[-1] == 400
     time = result.history["time"]

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom import Scenario, Simulation
+from carom import Scenario
+from carom.building import build
 
 Array = NDArray[np.float64]
 
@@ -66,7 +67,7 @@ class Run:
 def simulate(scenario: Scenario) -> Run:
     """Run a scenario to its end without writing files."""
     start = time.perf_counter()
-    simulation = Simulation(scenario.to_json())
+    simulation = build(scenario)
     while not simulation.advance(scenario.analysis.end_time, 1.0):
         pass
     simulation.finish()

@@ -3,7 +3,8 @@
 use carom::{Model, State};
 use carom_contact::Target;
 use carom_mesh::{CellKind, Mesh, Surface, Vector};
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -11,6 +12,18 @@ use pyo3::types::PyDict;
 pub fn vectors<'py, const D: usize>(py: Python<'py>, v: &[Vector<D>]) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let flat: &[f64] = bytemuck::cast_slice(v);
     PyArray1::from_slice(py, flat).reshape([v.len(), D])
+}
+
+/// One vector per row of an array of shape [count, D]; ValueError if it has another.
+pub fn from_rows<const D: usize>(
+    array: &PyReadonlyArray2<'_, f64>,
+    count: usize,
+) -> PyResult<Vec<Vector<D>>> {
+    let rows = array.as_array();
+    if rows.dim() != (count, D) {
+        return Err(PyValueError::new_err(format!("shape {:?} instead of {:?}", rows.dim(), (count, D))));
+    }
+    Ok(rows.rows().into_iter().map(|row| Vector::from_fn(|i, _| row[i])).collect())
 }
 
 /// One row of `width` numbers after the other.

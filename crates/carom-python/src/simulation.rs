@@ -1,7 +1,7 @@
 use std::time::Instant;
 
 use carom::{Outcome, Scenario};
-use numpy::{PyArray1, PyArray2};
+use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -155,6 +155,33 @@ impl Simulation {
         out.set_item("ledger", to_python(py, &step.ledger)?)?;
         Ok(Some(out))
         })
+    }
+
+    /// The present state, see `arrays::state`.
+    fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        with!(&self.inner, run => arrays::state(py, run.model(), run.state()))
+    }
+
+    /// The energy terms since the start [J].
+    fn ledger<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        with!(&self.inner, run => to_python(py, &run.books().total))
+    }
+
+    /// What the last nominal step says about itself.
+    fn nominal_step<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        with!(&self.inner, run => to_python(py, run.nominal_step()))
+    }
+
+    /// Overwrites the velocities [m/s] of all nodes; ValueError once a step was made, or if they do not fit.
+    fn set_initial_velocity(&mut self, velocity: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
+        with!(&mut self.inner, run => {
+            if run.step() > 0 {
+                return Err(PyValueError::new_err("steps were made already"));
+            }
+            let velocity = arrays::from_rows(&velocity, run.model().node_count())?;
+            run.set_initial_velocity(velocity);
+        });
+        Ok(())
     }
 
     fn history_columns(&self) -> Vec<String> {

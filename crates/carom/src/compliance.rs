@@ -49,12 +49,34 @@ impl<const D: usize> Near<D> {
         Self { surface, starts: vec![0], others: Vec::new(), blocks: Vec::new() }
     }
 
-    /// Appends the column of `node`.
-    fn push(&mut self, body: &Body<D>, operator: &mut BodyOperator<D>, node: u32) {
-        let Self { surface, starts, others, blocks } = self;
+    /// Appends the columns of `nodes`.
+    fn extend(&mut self, body: &Body<D>, operator: &mut BodyOperator<D>, nodes: &[u32]) {
+        let known = self.starts.len() - 1;
+        for &node in nodes {
+            self.find_others(body, node);
+        }
+        self.blocks.resize(self.others.len(), Matrix::zeros());
+        let mut order: Vec<usize> = (0..nodes.len()).collect();
+        order.sort_by_key(|&k| operator.order(nodes[k] as usize));
+        for group in order.chunks(BodyOperator::<D>::AT_ONCE) {
+            let others = group.iter().flat_map(|&k| &self.others[self.column(known + k)]);
+            operator.set_reach(others.map(|&a| a as usize));
+            operator.respond(group.iter().map(|&k| nodes[k] as usize));
+            for (number, &k) in group.iter().enumerate() {
+                for entry in self.column(known + k) {
+                    self.blocks[entry] =
+                        operator.response(self.others[entry] as usize, (number, nodes[k] as usize));
+                }
+            }
+        }
+    }
+
+    /// Appends the nodes of the column of `node`: ring by ring those that share a cell with others found so far, also by ways that lead
+    /// through the inside.
+    fn find_others(&mut self, body: &Body<D>, node: u32) {
+        let Self { surface, starts, others, .. } = self;
         let first = others.len();
         others.push(node);
-        // Ring by ring: the nodes that share a cell with those found so far. Ways may lead through the inside.
         let mut found = vec![node];
         for _ in 0..RINGS {
             found = found.iter().flat_map(|&n| body.graph().row(n as usize).map(|(_, m)| m as u32)).collect();
@@ -63,16 +85,6 @@ impl<const D: usize> Near<D> {
         }
         others.extend(found.into_iter().filter(|&n| n != node && surface[n as usize]));
         others[first..].sort_unstable();
-        let near = &others[first..];
-        blocks.resize(others.len(), Matrix::zeros());
-        operator.set_reach(near.iter().map(|&n| n as usize));
-        for component in 0..D {
-            if operator.respond(node as usize, component) {
-                for (block, &n) in blocks[first..].iter_mut().zip(near) {
-                    block.set_column(component, &operator.response(n as usize));
-                }
-            }
-        }
         starts.push(others.len());
     }
 
@@ -146,21 +158,17 @@ impl<const D: usize> Compliance<D> {
         match &mut self.table {
             Table::All(blocks) => {
                 operator.set_reach(self.nodes.iter().map(|&node| node as usize));
-                for b in known..self.nodes.len() {
-                    let first = blocks.len();
-                    blocks.resize(first + b + 1, Matrix::zeros());
-                    for component in 0..D {
-                        if operator.respond(self.nodes[b] as usize, component) {
-                            for (block, &a) in blocks[first..].iter_mut().zip(&self.nodes) {
-                                block.set_column(component, &operator.response(a as usize));
-                            }
-                        }
+                let mut place = known;
+                for group in self.nodes[known..].chunks(BodyOperator::<D>::AT_ONCE) {
+                    operator.respond(group.iter().map(|&b| b as usize));
+                    for (number, &b) in group.iter().enumerate() {
+                        let others = self.nodes[..=place].iter();
+                        blocks.extend(others.map(|&a| operator.response(a as usize, (number, b as usize))));
+                        place += 1;
                     }
                 }
             }
-            Table::Near(near) => {
-                self.nodes[known..].iter().for_each(|&node| near.push(body, operator, node));
-            }
+            Table::Near(near) => near.extend(body, operator, &self.nodes[known..]),
         }
     }
 

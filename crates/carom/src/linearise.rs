@@ -279,19 +279,28 @@ impl<const D: usize> BodyOperator<D> {
         }));
     }
 
-    /// Solves for a unit force along a component at a node of the reach, in the frame of the factor: see [`Self::response`].
-    /// Where displacements are held a force moves nothing; says whether it moves anything.
-    pub fn respond(&mut self, node: usize, component: usize) -> bool {
-        let moves = !self.held.holds(node, component);
-        if moves {
-            self.factor.respond(node, component);
-        }
-        moves
+    /// Nodes that [`Self::respond`] takes at once.
+    pub const AT_ONCE: usize = Factor::<D>::AT_ONCE;
+
+    /// Solves for unit forces at so many nodes of the reach at most: see [`Self::response`]. Nodes near each other in the [`Self::order`]
+    /// cost least.
+    pub fn respond(&mut self, nodes: impl Iterator<Item = usize>) {
+        self.factor.respond(nodes);
     }
 
-    /// What a node of the reach does under that force, in the frame of the factor.
-    pub fn response(&self, node: usize) -> Vector<D> {
-        self.factor.seen(node)
+    /// The block (K̄⁻¹)_ab in the frame of the factor for any node a of the reach and one of these nodes b, named by its number among them, too.
+    /// Where displacements are held a force moves nothing.
+    pub fn response(&self, a: usize, (number, b): (usize, usize)) -> Matrix<D> {
+        let mut block = self.factor.response(number, a);
+        for component in (0..D).filter(|&component| self.held.holds(b, component)) {
+            block.set_column(component, &Vector::zeros());
+        }
+        block
+    }
+
+    /// When a node is eliminated.
+    pub fn order(&self, node: usize) -> usize {
+        self.factor.order(node)
     }
 
     /// Memory of the factor [bytes].

@@ -11,6 +11,7 @@ use crate::error::{InputError, RunError};
 use crate::events::EventLog;
 use crate::history::History;
 use crate::ledger_table::LedgerTable;
+use crate::nominal_step::NominalStep;
 use crate::scenario::Scenario;
 use crate::step_control::advance_nominal_step;
 use crate::surface_fields::{SurfaceFields, surface_fields};
@@ -56,6 +57,7 @@ pub struct Simulation<const D: usize> {
     pub(crate) totals: Totals,
     pub(crate) cross_checks: CrossCheckSummary,
     pub(crate) last_step: Option<Ledger>,
+    pub(crate) nominal_step: NominalStep,
 }
 
 /// A step as its two states.
@@ -157,6 +159,7 @@ impl<const D: usize> Simulation<D> {
             totals: Totals::new(&state.energies),
             cross_checks: CrossCheckSummary::default(),
             last_step: None,
+            nominal_step: NominalStep::default(),
             model,
             method,
             state,
@@ -193,6 +196,12 @@ impl<const D: usize> Simulation<D> {
         Some(StepPair { start: &self.spare, end: &self.state, blend: self.work.blend_weights(), ledger })
     }
 
+    /// What the last nominal step says about itself; nothing before the first, or after a restart.
+    #[must_use]
+    pub fn nominal_step(&self) -> &NominalStep {
+        &self.nominal_step
+    }
+
     /// Overwrites the velocities [m/s], one per node: initial conditions that no scenario describes. Only before the first step.
     ///
     /// # Panics
@@ -201,6 +210,8 @@ impl<const D: usize> Simulation<D> {
         assert_eq!(self.step, 0, "initial velocities belong before the first step");
         self.state = State::initial(&self.model, velocity);
         self.initial_energies.clone_from(&self.state.body_energies);
+        self.description.energy = self.state.energies.total();
+        self.totals = Totals::new(&self.state.energies);
         self.ledger_table = LedgerTable::default();
         self.history.restart(&self.state);
         self.last_recorded = None;
@@ -292,12 +303,14 @@ impl<const D: usize> Simulation<D> {
             cross_checks,
             initial_energies,
             last_step,
+            nominal_step,
             halvings,
             ..
         } = self;
         let mut previous_time = state.time;
         let initial = initial_energies.iter().map(Energies::total).sum::<f64>();
         let mut failed = 0;
+        *nominal_step = NominalStep::default();
         let outcome = advance_nominal_step(
             model,
             method,
@@ -312,6 +325,7 @@ impl<const D: usize> Simulation<D> {
                 books.add(report.ledger, &work.bodies, work.groups.iter().map(|g| g.ledger));
                 books.set_changes(initial_energies, &state.body_energies);
                 *last_step = Some(report.ledger);
+                nominal_step.note(report);
                 events.record(&model.groups, &work.groups, previous_time, state.time);
                 history.observe(report, state, state.time - previous_time);
                 report.cross_check.iter().for_each(|check| cross_checks.note(check, state.time));

@@ -208,14 +208,15 @@ class BookChecks:
         summary, certificate = self._summary, self._summary["certificate"]
         status = summary["status"]
         kept = _number(certificate["max_joule"]) <= _number(certificate["tolerance_joule"])
-        known = ("completed", "uncertified", "failed", "interrupted")
+        known = ("completed", "uncertified", "stopped", "failed", "interrupted")
         check = self._findings.check
         check("summary: status", float(status not in known), 0.0, f"{status!r}")
         if status == "failed":
             check("summary: status", float(self._times[-1] >= self._end), 0.0, "failed at the end")
-        if status in ("completed", "uncertified"):
+        if status == "completed":
             check("summary: status", float(self._times[-1]) - self._end, 0.0, "end of the run")
-            check("summary: status", float(kept != (status == "completed")), 0.0, "certificate")
+        if status in ("completed", "uncertified", "stopped"):
+            check("summary: status", float(kept == (status == "uncertified")), 0.0, "certificate")
 
     def _extreme(self, name: str, excess: float, off: float, *, exact: bool) -> None:
         """Check that an extreme is that of the rows, or at least not less."""

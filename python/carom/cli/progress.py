@@ -12,7 +12,7 @@ from rich.progress import BarColumn, TextColumn
 from rich.progress import Progress as Bar
 from rich.text import Text
 
-from carom.progress import Observer, Progress
+from carom.progress import Progress, ShowProgress
 
 LINE_EVERY = 5.0
 """Wall time between two lines where no bar can be drawn [s]."""
@@ -22,8 +22,8 @@ BAR_WIDTH = 12
 
 
 @contextmanager
-def shown_progress(console: Console) -> Iterator[Observer]:
-    """Give an observer that shows a bar on a terminal, and now and then a line elsewhere."""
+def shown_progress(console: Console) -> Iterator[ShowProgress]:
+    """Give a function that shows a bar on a terminal, and now and then a line elsewhere."""
     if not console.is_terminal:
         yield _lines(console)
         return
@@ -44,7 +44,7 @@ def shown_progress(console: Console) -> Iterator[Observer]:
         yield draw
 
 
-def _lines(console: Console) -> Observer:
+def _lines(console: Console) -> ShowProgress:
     last = monotonic()
     ended = False
 

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from carom.building import build
 from carom.checking import unit_warnings
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import failures
@@ -17,7 +18,7 @@ from carom.interrupt import terminable
 from carom.io import layout
 from carom.restart import ended
 from carom.result import Result
-from carom.simulation import build, drive
+from carom.running import drive
 
 
 def run(
@@ -58,12 +59,12 @@ def run(
         for warning in unit_warnings(scenario, simulation.describe()):
             tell(f"warning: {warning}")
         try:
-            with shown_progress(console) as observer:
+            with shown_progress(console) as progress:
                 result = drive(
                     simulation,
                     scenario,
                     directory,
-                    observer,
+                    progress=progress,
                     resume=resume,
                     force=force,
                     notify=tell,

@@ -19,6 +19,7 @@ from carom.result import Result
 
 STATUSES = {
     "completed": 0,
+    "stopped": 0,
     "interrupted": status.INTERRUPTED,
     "failed": status.NOT_CONVERGED,
     "uncertified": status.NOT_CONVERGED,
@@ -55,10 +56,10 @@ def watch(
 def _follow(directory: Path, console: Console, every: float) -> Running | None:
     """Show the progress until the run has ended or died; return what was last heard of it."""
     last: Running | None = None
-    with shown_progress(console) as observer:
+    with shown_progress(console) as show:
         while (running := read_progress(directory)) is not None:
             if running.progress is not None and (last is None or running.updated > last.updated):
-                observer(running.progress)
+                show(running.progress)
             last = running
             if not running.is_alive:
                 break

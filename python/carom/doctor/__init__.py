@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+from carom.building import build
 from carom.doctor.contact_setup import contact_setup
 from carom.doctor.cost import cost
 from carom.doctor.finding import LEVELS, Diagnosis, Finding, Level
@@ -14,7 +15,6 @@ from carom.doctor.time_step import time_step
 from carom.doctor.units import units
 from carom.errors import InputError
 from carom.scenario import Scenario
-from carom.simulation import build
 
 __all__ = ["LEVELS", "Diagnosis", "Finding", "Level", "examine"]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import h5py
@@ -40,14 +41,19 @@ class Frames:
             with h5py.File(path, "r") as file:
                 root = file["VTKHDF"]
                 count = int(root["Steps"].attrs["NSteps"])
-                self.times = root["Steps/Values"][:count]
-                self.points = root["Points"][:]
-                self.connectivity = root["Connectivity"][:]
-                self.offsets = root["Offsets"][:]
-                self.types = root["Types"][:]
-                self.body = root["CellData/body"][:]
+                self.times: NDArray[np.float64] = root["Steps/Values"][:count]
+                self.points: NDArray[np.float64] = root["Points"][:]
+                self.connectivity: NDArray[np.int64] = root["Connectivity"][:]
+                self.offsets: NDArray[np.int64] = root["Offsets"][:]
+                self.types: NDArray[np.uint8] = root["Types"][:]
+                self.body: NDArray[np.int32] = root["CellData/body"][:]
                 self._point_fields = list(root["PointData"])
                 self._cell_fields = [name for name in root["CellData"] if name != "body"]
+                self._widths = {
+                    name: int(np.prod(entry.shape[1:]))
+                    for group in ("PointData", "CellData")
+                    for name, entry in root[group].items()
+                }
         except FileNotFoundError:
             raise InputError(
                 f"{path}: no such file; name a results directory of `carom run`"
@@ -72,12 +78,25 @@ class Frames:
             return len(self.times) - 1
         return int(np.abs(self.times - time).argmin())
 
+    def width(self, name: str) -> int:
+        """Return how many components a field has."""
+        return self._widths[name]
+
     def field(self, name: str, frame: int) -> NDArray[np.float64]:
         """Return the values of a field, shape [point_count or cell_count, components]."""
-        group, rows = ("PointData", len(self.points))
-        if not self.is_on_points(name):
-            group, rows = ("CellData", len(self.types))
+        everything = slice(0, len(self.points if self.is_on_points(name) else self.types))
+        values: NDArray[np.float64] = self.read(name, [frame], everything)[0]
+        return values
+
+    def read(self, name: str, frames: Sequence[int], rows: slice) -> NDArray[np.float64]:
+        """Return some rows of a field in some frames, shape [frames, rows, components]."""
+        group = "PointData" if self.is_on_points(name) else "CellData"
+        width = self.width(name)
+        values = np.empty((len(frames), rows.stop - rows.start, width))
         with h5py.File(self._path, "r") as file:
-            start = int(file[f"VTKHDF/Steps/{group}Offsets/{name}"][frame])
-            values: NDArray[np.float64] = file[f"VTKHDF/{group}/{name}"][start : start + rows]
+            stored = file[f"VTKHDF/{group}/{name}"]
+            starts = file[f"VTKHDF/Steps/{group}Offsets/{name}"]
+            for into, frame in zip(values, frames, strict=True):
+                start = int(starts[frame])
+                into[:] = stored[start + rows.start : start + rows.stop].reshape(-1, width)
         return values

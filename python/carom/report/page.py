@@ -57,6 +57,7 @@ _STATUS = {
     "completed": "The run came to its end.",
     "uncertified": "The run came to its end, but a step was too far from Coulomb’s law.",
     "failed": "The run failed. What follows is what it has left up to there.",
+    "stopped": "An observer stopped the run. What follows is what it has left up to there.",
     "interrupted": "The run was interrupted. What follows is what it has left up to there.",
     UNFINISHED: "The run has not ended, or was killed. What follows is what it has left so far.",
 }

@@ -61,7 +61,7 @@ class Point:
             summary = read_summary(self.directory / layout.SUMMARY)
         except (OSError, ValueError):
             return None
-        return summary if summary.get("status") != "interrupted" else None
+        return summary if summary.get("status") in layout.ENDED else None
 
 
 def points(scenario: Scenario, axes: Sequence[Axis], out: Path) -> list[Point]:

@@ -9,8 +9,8 @@ from typing import Any
 from carom.errors import CaromError, InputError
 from carom.io import layout
 from carom.io.summary import read_summary
+from carom.running import run
 from carom.scenario import Scenario
-from carom.simulation import run
 
 
 @dataclass(frozen=True)

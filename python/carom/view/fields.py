@@ -8,22 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.errors import InputError
+from carom.fields import ABOUT
 from carom.io.frames import Frames
 from carom.messages import known
 
 UNITS = {
-    "displacement": "m",
-    "velocity": "m/s",
-    "reaction": "N",
+    **{name: unit for name, (_, unit) in ABOUT.items() if name != "stress"},
     "von-mises": "Pa",
     "hydrostatic-pressure": "Pa",
-    "strain": "",
-    "plastic_strain": "",
-    "energy_density": "J/m³",
-    "friction_energy": "J/m²",
-    "pressure": "Pa",
-    "slip": "m",
-    "area": "m²",
 }
 """By the name of what is shown."""
 

@@ -5,13 +5,13 @@ import pytest
 from carom.plot import draw
 from carom.plot.energy import energy_figure
 from carom.plot.track import track_figure
-from carom.simulation import drive
+from carom.running import drive
 from stand_in import FallingSimulation
 
 
 @pytest.fixture
 def result(scenario, tmp_path):
-    return drive(FallingSimulation(scenario), scenario, tmp_path, None)
+    return drive(FallingSimulation(scenario), scenario, tmp_path)
 
 
 def test_pictures_are_files_with_something_on_them(result):
@@ -54,4 +54,4 @@ def test_track_figure_makes_the_mean_velocity_the_one_to_read(result):
 
 def test_a_title_is_text_and_no_mathematics(scenario, tmp_path):
     titled = scenario.with_overrides(['title="costs $\\\\foo$"'])
-    assert len(draw(drive(FallingSimulation(titled), titled, tmp_path, None))) == 2
+    assert len(draw(drive(FallingSimulation(titled), titled, tmp_path))) == 2

@@ -18,7 +18,7 @@ from carom.io import layout
 from carom.report import write_report
 from carom.report.codec import unpack
 from carom.report.markup import element, format_number
-from carom.simulation import drive
+from carom.running import drive
 from stand_in import FallingSimulation
 
 
@@ -259,7 +259,7 @@ def test_a_run_that_stops_leaves_a_page_that_says_so(scenario, tmp_path, stop, s
     scenario = scenario.with_overrides(["output.report=true", "output.fields_every=0.25"])
     simulation = FallingSimulation(scenario, stop_at=0.6, stop=stop)
     with pytest.raises(type(stop)):
-        drive(simulation, scenario, tmp_path, None)
+        drive(simulation, scenario, tmp_path)
     page = Page(tmp_path / layout.REPORT)
     assert [a["class"] for _, a in page.elements if a.get("role") == "alert"] == ["alert"]
     summary = carom.Result.open(tmp_path).summary

@@ -271,7 +271,8 @@ mod tests {
 
     #[test]
     fn triangles_enclose_nothing_in_the_plane() {
-        let refused = ClosedSurface::<2>::new(vec![Vector::zeros(); 3], &[[0, 1, 2]]).expect_err("is refused");
+        let refused =
+            ClosedSurface::<2>::new(vec![Vector::zeros(); 3], &[[0, 1, 2]]).expect_err("is refused");
         assert_eq!(refused.to_string(), "a surface of triangles encloses something in 3D only");
     }
 

@@ -12,6 +12,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Par, Side, Spec};
 
 use super::NodeGraph;
+use super::abreast::ABREAST;
 use super::folding::Folding;
 use super::ordering::nested_dissection;
 use super::triangular::{Precision, Triangular};
@@ -210,23 +211,45 @@ impl<const D: usize> Factor<D> {
         self.triangular.look();
     }
 
-    /// Solves for a unit force along a component at a node of the reach, for [`Self::seen`]: only within the reach.
-    pub fn respond(&mut self, node: usize, component: usize) {
-        let first = master(self.folding.as_ref(), node) * D;
-        self.triangular.respond(self.places[first + component] as usize);
-    }
-
     /// Memory of the factor [bytes].
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.triangular.bytes()
     }
 
-    /// What [`Self::look`] or [`Self::respond`] saw at a node of the reach.
+    /// What [`Self::look`] saw at a node of the reach.
     #[must_use]
     pub fn seen(&self, node: usize) -> Vector<D> {
-        let first = master(self.folding.as_ref(), node) * D;
-        Vector::from_fn(|i, _| self.triangular.seen(self.places[first + i] as usize))
+        Vector::from_fn(|i, _| self.triangular.seen(self.place(node, i)))
+    }
+
+    /// Nodes that [`Self::respond`] takes at once.
+    pub const AT_ONCE: usize = ABREAST / D;
+
+    /// Solves for unit forces along every component at [`Self::AT_ONCE`] nodes of the reach at most, within the reach. Nodes that are near each
+    /// other in the [`Self::order`] cost least.
+    pub fn respond(&mut self, nodes: impl Iterator<Item = usize>) {
+        let places: Vec<usize> = nodes
+            .flat_map(|node| (0..D).map(move |i| (node, i)))
+            .map(|(node, i)| self.place(node, i))
+            .collect();
+        self.triangular.respond(&places);
+    }
+
+    /// What a node of the reach does under unit forces at such a node, named by its number among them: a column for every component.
+    #[must_use]
+    pub fn response(&self, number: usize, node: usize) -> Matrix<D> {
+        Matrix::from_fn(|i, j| self.triangular.response(number * D + j, self.place(node, i)))
+    }
+
+    /// When a node is eliminated.
+    #[must_use]
+    pub fn order(&self, node: usize) -> usize {
+        self.place(node, 0)
+    }
+
+    fn place(&self, node: usize, component: usize) -> usize {
+        self.places[master(self.folding.as_ref(), node) * D + component] as usize
     }
 
     /// Adds `forces`, each at a node of the reach, to the right-hand side.
@@ -377,11 +400,16 @@ mod tests {
             factor.end(&mut x);
             x.iter().zip(&more).for_each(|(x, more)| assert!((x - more).norm() < 1e-14));
 
-            let mut unit = vec![Vector::<2>::zeros(); n];
-            unit[12][1] = 1.0;
-            factor.solve(&mut unit);
-            factor.respond(12, 1);
-            nodes.iter().for_each(|&k| assert!((factor.seen(k) - unit[k]).norm() < 1e-14));
+            factor.respond(nodes.into_iter());
+            let responses: Vec<Matrix<2>> = nodes.iter().map(|&k| factor.response(1, k)).collect();
+            for j in 0..2 {
+                let mut unit = vec![Vector::<2>::zeros(); n];
+                unit[12][j] = 1.0;
+                factor.solve(&mut unit);
+                for (&k, response) in nodes.iter().zip(&responses) {
+                    assert!((response.column(j) - unit[k]).norm() < 1e-14);
+                }
+            }
         }
     }
 

@@ -1,5 +1,6 @@
 //! Sparse matrices over the graph of the nodes, and their Cholesky factors.
 
+mod abreast;
 mod factor;
 mod folding;
 mod graph;

@@ -5,6 +5,7 @@ use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::{MatMut, MatRef, Par};
 use pulp::{Arch, Simd, WithSimd};
 
+use super::abreast::Row;
 use super::real::Real;
 use crate::parallel::{has_threads, share};
 
@@ -28,27 +29,31 @@ const LARGE_PANEL: usize = 1 << 16;
 /// panels, where a general library spends most of its time on dispatch, are what 2D bodies consist of.
 #[derive(Debug, Default)]
 pub(super) struct Substitution<T> {
-    panels: Vec<Panel>,
+    pub(super) panels: Vec<Panel>,
     /// The large ones among them.
     large: Vec<u32>,
     /// The panel of every column of its own.
     panel_of: Vec<u32>,
-    rows: Vec<u32>,
-    values: Vec<T>,
-    gathered: Vec<T>,
+    pub(super) rows: Vec<u32>,
+    pub(super) values: Vec<T>,
+    /// Of a panel what is added up, or taken apart.
+    pub(super) gathered: Vec<T>,
+    /// The same for right-hand sides side by side; empty until there are any.
+    pub(super) gathered_abreast: Vec<Row<T>>,
     /// A panel on its way to `values`.
     inverted: Vec<f64>,
 }
 
 /// The supernode of columns `start..start + columns`; its rows below are `rows[first_row..first_row + below]`.
 #[derive(Debug, Clone, Copy)]
-struct Panel {
-    start: usize,
-    columns: usize,
-    below: usize,
-    first_row: usize,
-    first_value: usize,
-    padded: usize,
+pub(super) struct Panel {
+    pub start: usize,
+    pub columns: usize,
+    pub below: usize,
+    pub first_row: usize,
+    pub first_value: usize,
+    /// Numbers from column to column.
+    pub padded: usize,
 }
 
 impl<T: Real> Substitution<T> {

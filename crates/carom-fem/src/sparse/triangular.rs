@@ -3,6 +3,7 @@ use std::ops::Range;
 
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 
+use super::abreast::{self, ABREAST, Row};
 use super::pieces::pieces;
 use super::real::Real;
 use super::substitution::Substitution;
@@ -46,10 +47,12 @@ pub(super) trait Triangular: Debug + Send + Sync {
     fn set_reach(&mut self, places: &mut dyn Iterator<Item = usize>);
     /// Solves for the right-hand side as it is, within the reach.
     fn look(&mut self);
-    /// Solves for the unit vector of a place of the reach, within the reach.
-    fn respond(&mut self, place: usize);
     /// What was seen at a place of the reach.
     fn seen(&self, place: usize) -> f64;
+    /// Solves for the unit vectors of [`ABREAST`] places of the reach at most, within the reach.
+    fn respond(&mut self, places: &[usize]);
+    /// The solution for the unit vector of such a place, named by its number among them, at a place of the reach.
+    fn response(&self, number: usize, place: usize) -> f64;
     /// Adds values at places of the reach to the right-hand side.
     fn add(&mut self, values: &mut dyn Iterator<Item = (usize, f64)>);
 }
@@ -65,12 +68,12 @@ struct Halves<T> {
     ordered: Vec<T>,
     /// The same within the reach.
     partial: Vec<T>,
+    /// Solutions for unit vectors within the reach, alike; empty until there are any.
+    abreast: Vec<Row<T>>,
     /// Where in these the value of every column is.
     position: Vec<u32>,
     /// Where the value of every unknown is.
     position_of_unknown: Vec<u32>,
-    /// Columns of the top within a reach, in the making.
-    columns: Vec<u32>,
 }
 
 /// Some of the columns of a factor.
@@ -84,8 +87,10 @@ struct Piece<T> {
     /// For every row of the top that its columns have: the column of the top.
     outside: Vec<u32>,
     reach: Vec<u32>,
-    /// The reach of one place.
+    /// The reach of the unit vectors alone.
     path: Vec<u32>,
+    /// Columns that a reach is wanted of.
+    wanted: Vec<u32>,
 }
 
 impl<T: Real> Piece<T> {
@@ -98,32 +103,32 @@ impl<T: Real> Piece<T> {
         outside.fill(T::default());
     }
 
-    /// Gives what its columns leave to the top.
-    fn hand_up(&self, values: &[T], top: &mut [T]) {
+    /// Gives what its columns leave to the top, to be added there.
+    fn hand_up<V>(&self, values: &[V], top: &mut [V], add: impl Fn(&mut V, &V)) {
         for (value, &column) in values[self.unknowns.len()..].iter().zip(&self.outside) {
-            top[column as usize] += *value;
+            add(&mut top[column as usize], value);
         }
     }
 
     /// Takes the solution of the top.
-    fn take_down(&self, values: &mut [T], top: &[T]) {
+    fn take_down<V: Copy>(&self, values: &mut [V], top: &[V]) {
         for (value, &column) in values[self.unknowns.len()..].iter_mut().zip(&self.outside) {
             *value = top[column as usize];
         }
     }
 
     /// Clears what is within the reach.
-    fn clear(&self, values: &mut [T]) {
-        self.substitution.columns_within(&self.reach).for_each(|columns| values[columns].fill(T::default()));
-        values[self.unknowns.len()..].fill(T::default());
+    fn clear<V: Copy>(&self, values: &mut [V], zero: V) {
+        self.substitution.columns_within(&self.reach).for_each(|columns| values[columns].fill(zero));
+        values[self.unknowns.len()..].fill(zero);
     }
 }
 
 /// Calls `work` with every piece and its part of `values`, which starts with that of the first.
-fn each_piece<T: Real>(
+fn each_piece<T: Real, V: Send>(
     pieces: &mut [Piece<T>],
-    values: &mut [T],
-    work: &(impl Fn(&mut Piece<T>, &mut [T]) + Sync),
+    values: &mut [V],
+    work: &(dyn Fn(&mut Piece<T>, &mut [V]) + Sync),
 ) {
     match pieces {
         [] => {}
@@ -148,9 +153,9 @@ impl<T: Real> Halves<T> {
             top: Piece::default(),
             ordered: Vec::new(),
             partial: Vec::new(),
+            abreast: Vec::new(),
             position: Vec::new(),
             position_of_unknown: Vec::new(),
-            columns: Vec::new(),
         }
     }
 
@@ -164,7 +169,8 @@ impl<T: Real> Triangular for Halves<T> {
     fn bytes(&self) -> usize {
         let pieces = self.pieces.iter().chain([&self.top]);
         let own: usize = pieces.map(|p| p.substitution.bytes() + size_of_val(&p.unknowns[..])).sum();
-        own + 2 * size_of_val(&self.ordered[..]) + 2 * size_of_val(&self.position[..])
+        let vectors = 2 * size_of_val(&self.ordered[..]) + size_of_val(&self.abreast[..]);
+        own + vectors + 2 * size_of_val(&self.position[..])
     }
 
     #[cfg(test)]
@@ -255,7 +261,9 @@ impl<T: Real> Triangular for Halves<T> {
             piece.substitution.forward(values);
         });
         top.collect(x, of_top);
-        pieces.iter().for_each(|piece| piece.hand_up(&of_pieces[piece.range.clone()], of_top));
+        pieces
+            .iter()
+            .for_each(|piece| piece.hand_up(&of_pieces[piece.range.clone()], of_top, |t, v| *t += *v));
         top.substitution.forward(of_top);
     }
 
@@ -276,24 +284,7 @@ impl<T: Real> Triangular for Halves<T> {
     }
 
     fn set_reach(&mut self, places: &mut dyn Iterator<Item = usize>) {
-        self.pieces.iter_mut().for_each(|piece| piece.path.clear());
-        self.columns.clear();
-        for place in places {
-            let position = self.position[place] as usize;
-            let k = self.piece_at(position);
-            match self.pieces.get_mut(k) {
-                Some(piece) => piece.path.push((position - piece.range.start) as u32),
-                None => self.columns.push((position - self.top.range.start) as u32),
-            }
-        }
-        let Self { pieces, top, columns, .. } = self;
-        for Piece { substitution, unknowns, outside, reach, path, .. } in pieces {
-            substitution.reach(path.iter().map(|&column| column as usize), reach, |row| {
-                columns.push(outside[row - unknowns.len()]);
-            });
-        }
-        let wanted = columns.iter().map(|&column| column as usize);
-        top.substitution.reach(wanted, &mut top.reach, |_| {});
+        self.find(places, |piece| &mut piece.reach);
     }
 
     fn look(&mut self) {
@@ -307,40 +298,45 @@ impl<T: Real> Triangular for Halves<T> {
         self.backward_within_reach();
     }
 
-    fn respond(&mut self, place: usize) {
-        let position = self.position[place] as usize;
-        let k = self.piece_at(position);
-        let Self { pieces, top, partial, columns, .. } = self;
-        for piece in pieces.iter().filter(|piece| !piece.reach.is_empty()).chain([&*top]) {
-            piece.clear(&mut partial[piece.range.clone()]);
-        }
-        partial[position] = T::of(1.0);
-        let (of_pieces, of_top) = partial.split_at_mut(top.range.start);
-        columns.clear();
-        if let Some(piece) = pieces.get_mut(k) {
-            let Piece { substitution, range, unknowns, outside, path, .. } = piece;
-            substitution.reach(std::iter::once(position - range.start), path, |row| {
-                columns.push(outside[row - unknowns.len()]);
-            });
-            substitution.forward_within(path, &mut of_pieces[range.clone()]);
-            piece.hand_up(&of_pieces[piece.range.clone()], of_top);
-        } else {
-            columns.push((position - top.range.start) as u32);
-        }
-        let Piece { substitution, path, .. } = top;
-        substitution.reach(columns.iter().map(|&column| column as usize), path, |_| {});
-        substitution.forward_within(path, of_top);
-        self.backward_within_reach();
-    }
-
     fn seen(&self, place: usize) -> f64 {
         self.partial[self.position[place] as usize].to_f64()
+    }
+
+    fn respond(&mut self, places: &[usize]) {
+        self.find(&mut places.iter().copied(), |piece| &mut piece.path);
+        self.abreast.resize(self.ordered.len(), [T::default(); ABREAST]);
+        let Self { pieces, top, abreast, position, .. } = self;
+        for piece in pieces.iter().filter(|piece| !piece.reach.is_empty()).chain([&*top]) {
+            piece.clear(&mut abreast[piece.range.clone()], [T::default(); ABREAST]);
+        }
+        for (number, &place) in places.iter().enumerate() {
+            abreast[position[place] as usize][number] = T::of(1.0);
+        }
+        let (of_pieces, of_top) = abreast.split_at_mut(top.range.start);
+        for piece in pieces.iter_mut().filter(|piece| !piece.path.is_empty()) {
+            let values = &mut of_pieces[piece.range.clone()];
+            piece.substitution.forward_abreast(&piece.path, values);
+            piece.hand_up(values, of_top, abreast::add);
+        }
+        top.substitution.forward_abreast(&top.path, of_top);
+        top.substitution.backward_abreast(&top.reach, of_top);
+        let of_top = &*of_top;
+        each_piece(pieces, of_pieces, &|piece, values| {
+            if !piece.reach.is_empty() {
+                piece.take_down(values, of_top);
+                piece.substitution.backward_abreast(&piece.reach, values);
+            }
+        });
+    }
+
+    fn response(&self, number: usize, place: usize) -> f64 {
+        self.abreast[self.position[place] as usize][number].to_f64()
     }
 
     fn add(&mut self, values: &mut dyn Iterator<Item = (usize, f64)>) {
         let Self { pieces, top, ordered, partial, position, .. } = self;
         for piece in pieces.iter().filter(|piece| !piece.reach.is_empty()).chain([&*top]) {
-            piece.clear(&mut partial[piece.range.clone()]);
+            piece.clear(&mut partial[piece.range.clone()], T::default());
         }
         values.for_each(|(place, value)| partial[position[place] as usize] += T::of(value));
         let (of_pieces, of_top) = partial.split_at_mut(top.range.start);
@@ -348,7 +344,7 @@ impl<T: Real> Triangular for Halves<T> {
             piece.substitution.forward_within(&piece.reach, values);
         });
         for piece in pieces.iter().filter(|piece| !piece.reach.is_empty()) {
-            piece.hand_up(&of_pieces[piece.range.clone()], of_top);
+            piece.hand_up(&of_pieces[piece.range.clone()], of_top, |t, v| *t += *v);
         }
         top.substitution.forward_within(&top.reach, of_top);
         for piece in pieces.iter().chain([&*top]) {
@@ -362,6 +358,29 @@ impl<T: Real> Triangular for Halves<T> {
 }
 
 impl<T: Real> Halves<T> {
+    /// Writes what the right-hand sides in `places` touch to a list of every piece.
+    fn find(&mut self, places: &mut dyn Iterator<Item = usize>, list: fn(&mut Piece<T>) -> &mut Vec<u32>) {
+        self.pieces.iter_mut().chain([&mut self.top]).for_each(|piece| piece.wanted.clear());
+        for place in places {
+            let position = self.position[place] as usize;
+            let k = self.piece_at(position);
+            let piece = self.pieces.get_mut(k).unwrap_or(&mut self.top);
+            piece.wanted.push((position - piece.range.start) as u32);
+        }
+        let Self { pieces, top, .. } = self;
+        for piece in pieces {
+            let mut found = std::mem::take(list(piece));
+            let wanted = piece.wanted.iter().map(|&column| column as usize);
+            piece.substitution.reach(wanted, &mut found, |row| {
+                top.wanted.push(piece.outside[row - piece.unknowns.len()]);
+            });
+            *list(piece) = found;
+        }
+        let mut found = std::mem::take(list(top));
+        top.substitution.reach(top.wanted.iter().map(|&column| column as usize), &mut found, |_| {});
+        *list(top) = found;
+    }
+
     /// The backward substitution of `partial` within the reach.
     fn backward_within_reach(&mut self) {
         let Self { pieces, top, partial, .. } = self;

@@ -1,0 +1,139 @@
+"""What notebooks show of a result and of a scenario, as HTML."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.io import layout
+from carom.plot.style import BLUE, GREEN, ORANGE
+from carom.report.markup import Html, element, format_number, join
+from carom.result import Result
+from carom.scenario import Scenario
+from carom.tables import contact_events, outcome, summary_title
+
+CURVES = (
+    ("kinetic", BLUE),
+    ("strain", ORANGE),
+    ("total", "currentColor"),
+    ("friction", GREEN),
+)
+"""Columns of the history and their colours; black is that of the notebook's text."""
+
+WIDTH, HEIGHT = 480, 160
+"""Size of the picture without its labels [px]."""
+
+BUCKETS = 240
+"""Parts of the time of which the least and the largest value are drawn."""
+
+
+def result_html(result: Result) -> Html:
+    """Return what came out of a run, its energies over time, and links to its files."""
+    files = [name for name in (layout.REPORT, layout.FIELDS) if (result.path / name).exists()]
+    links = [element("a", name, href=_address(result.path / name)) for name in files]
+    separated = [part for link in links for part in (" · ", link)][1:]
+    return element(
+        "div",
+        element("strong", summary_title(result.summary)),
+        _table(outcome(result.summary)),
+        _energies(result.history),
+        _table(contact_events(result.summary)),
+        element("div", str(result.path), ": " if links else None, separated),
+    )
+
+
+def scenario_html(scenario: Scenario) -> Html:
+    """Return what a scenario consists of, and its case file to unfold."""
+    analysis, contact = scenario.analysis, scenario.contact
+    rows = [
+        (
+            "analysis",
+            f"{analysis.kind}, {analysis.end_time:g} s in steps of {analysis.time_step:g} s",
+        ),
+        *(("body", f"{b.name}: {b.mesh.kind}, {b.material}") for b in scenario.bodies),
+        *(("obstacle", f"{obstacle.name}: {obstacle.kind}") for obstacle in scenario.obstacles),
+        *(("load", f"{load.kind} on {load.body}") for load in scenario.loads),
+        *(("motion", f"{motion.kind}: {motion.body}") for motion in scenario.motions),
+        ("contact", f"{contact.condition}, friction {contact.friction:g}"),
+    ]
+    case = element("details", element("summary", "case file"), element("pre", scenario.to_toml()))
+    return element("div", element("strong", scenario.title or "Scenario"), _table(rows), case)
+
+
+def _address(path: Path) -> str:
+    """Return a link to a file: relative to the notebook where the path is."""
+    return path.as_uri() if path.is_absolute() else path.as_posix()
+
+
+def _table(rows: Iterable[tuple[str, str]]) -> Html | None:
+    left = "text-align: left"
+    lines = [
+        element("tr", element("th", quantity, style=left), element("td", value, style=left))
+        for quantity, value in rows
+    ]
+    return element("table", lines) if lines else None
+
+
+def _energies(history: dict[str, NDArray[np.float64]]) -> Html | None:
+    """Return a picture of the energies over time, in SVG; None of a run without time."""
+    time = history["time"]
+    shown = [(name, colour) for name, colour in CURVES if history[name].any()]
+    top = max((np.nanmax(history[name]) for name, _ in shown), default=0.0)
+    if len(time) < 2 or not top > 0.0:
+        return None
+    bottom = min(0.0, *(np.nanmin(history[name]) for name, _ in shown))
+    across = (time - time[0]) / (time[-1] - time[0])
+    curves = [
+        element(
+            "polyline",
+            points=_points(across, (history[name] - bottom) / (top - bottom)),
+            fill="none",
+            stroke=colour,
+            stroke_width="1.5",
+        )
+        for name, colour in shown
+    ]
+    names = [
+        element("tspan", f"{name} ", fill=colour, dx="8" if index else None)
+        for index, (name, colour) in enumerate(shown)
+    ]
+    return element(
+        "svg",
+        element("rect", width=str(WIDTH), height=str(HEIGHT), fill="none", stroke="currentColor"),
+        curves,
+        _label(0, -6, [*names, element("tspan", f"up to {format_number(top, 4)} J", dx="8")]),
+        _label(0, HEIGHT + 16, f"t = {format_number(time[0], 4)} s"),
+        _label(WIDTH, HEIGHT + 16, f"{format_number(time[-1], 4)} s", anchor="end"),
+        viewBox=f"-2 -22 {WIDTH + 4} {HEIGHT + 44}",
+        width=str(WIDTH + 4),
+        role="img",
+        aria_label="energies over time",
+        style="max-width: 100%; display: block",
+    )
+
+
+def _label(x: int, y: int, text: str | Iterable[str], *, anchor: str = "start") -> Html:
+    return element(
+        "text",
+        join(text),
+        x=str(x),
+        y=str(y),
+        text_anchor=anchor,
+        fill="currentColor",
+        font_size="12",
+    )
+
+
+def _points(across: NDArray[np.float64], up: NDArray[np.float64]) -> str:
+    """Return a curve as corners of a polyline, thinned so that no peak is lost."""
+    parts = np.array_split(np.flatnonzero(np.isfinite(up)), min(BUCKETS, len(up)))
+    kept = [
+        number
+        for part in parts
+        if len(part)
+        for number in sorted({part[up[part].argmin()], part[up[part].argmax()]})
+    ]
+    return " ".join(f"{WIDTH * across[n]:.1f},{HEIGHT * (1.0 - up[n]):.1f}" for n in kept)

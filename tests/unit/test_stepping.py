@@ -1,0 +1,193 @@
+"""Going through time by hand."""
+
+import math
+
+import numpy as np
+import pytest
+
+import carom
+import restarting
+from carom.building import build
+
+
+@pytest.fixture
+def simulation():
+    return carom.Simulation(restarting.scenario())
+
+
+def test_steps_are_those_of_a_run(simulation, impact):
+    steps = []
+    while not simulation.has_ended:
+        steps.append(simulation.step())
+    assert [step.index for step in steps] == list(range(1, 76))
+    assert simulation.steps == 75
+    assert simulation.time == steps[-1].time == 0.15
+    assert simulation.history.keys() == impact.history.keys()
+    for name, column in simulation.history.items():
+        np.testing.assert_array_equal(column, impact.history[name][: len(column)], err_msg=name)
+    # The history is recorded every second step.
+    assert [step.contacts for step in steps[1::2]] == impact.history["contacts"][1:-1].tolist()
+    assert sum(step.iterations for step in steps) == impact.summary["newton_iterations"]
+    assert max(step.certificate for step in steps) == impact.summary["certificate"]["max_joule"]
+    with pytest.raises(carom.InputError, match=r"ended at t = 0\.15 s; give a later"):
+        simulation.step()
+
+
+def test_every_step_says_what_became_of_the_energy(simulation):
+    before = simulation.energy.total
+    first, dissipated = before, 0.0
+    while simulation.time < 0.1:
+        step = simulation.step()
+        change = step.ledger.kinetic + step.ledger.strain
+        assert step.energy.total - before == pytest.approx(change, abs=1e-12)
+        assert abs(step.ledger.defect) < 1e-9
+        before, dissipated = step.energy.total, dissipated + step.ledger.friction
+    assert dissipated > 0.1
+    ledger = simulation.ledger
+    assert ledger.friction == pytest.approx(dissipated)
+    assert ledger.kinetic + ledger.strain == pytest.approx(before - first)
+    assert abs(ledger.defect) < 1e-8
+
+
+def test_advance_goes_to_a_time(simulation):
+    simulation.advance(0.0301)
+    assert simulation.time == pytest.approx(0.032)
+    simulation.advance(0.01)
+    assert simulation.steps == 16
+    simulation.advance(math.inf)
+    assert simulation.has_ended
+    with pytest.raises(carom.InputError, match="not nan"):
+        simulation.advance(math.nan)
+
+
+def test_bodies_are_where_the_fields_say(simulation, impact):
+    simulation.advance(0.1)
+    for name, body in simulation.bodies.items():
+        stored = impact.fields.body(name)
+        np.testing.assert_array_equal(body.points, stored.points)
+        np.testing.assert_array_equal(body.positions, body.points + body.displacement)
+        for field in stored:
+            np.testing.assert_array_equal(
+                getattr(body, field), stored[field].at(0.1), err_msg=field
+            )
+
+
+def test_arrays_are_of_their_moment(simulation):
+    body = simulation.bodies["left"]
+    before, stress = body.velocity, body.stress
+    copy = before.copy()
+    simulation.step()
+    np.testing.assert_array_equal(before, copy)
+    assert not np.array_equal(body.velocity, before)
+    assert body.stress.any()
+    assert not stress.any()
+    with pytest.raises(ValueError, match="read-only"):
+        body.velocity[0] = 0.0
+
+
+def test_contacts_press_on_both_sides(simulation):
+    assert len(simulation.contacts) == 0
+    np.testing.assert_array_equal(simulation.contacts.force("left"), [0.0, 0.0])
+    seen = set()
+    while not simulation.has_ended:
+        step = simulation.step()
+        contacts = simulation.contacts
+        assert len(contacts) == step.contacts
+        normal = (contacts.reaction * contacts.normal).sum()
+        assert normal == pytest.approx(step.normal_force)
+        seen |= set(zip(contacts.source, contacts.target, strict=True))
+        for name, body in simulation.bodies.items():
+            np.testing.assert_allclose(
+                contacts.force(name), body.reaction.sum(axis=0), atol=1e-9 + 1e-12 * normal
+            )
+        np.testing.assert_array_equal(
+            contacts.force("left", by="right"), -contacts.force("right", by="left")
+        )
+        np.testing.assert_array_equal(contacts.force("floor"), -contacts.force("left", by="floor"))
+        for source, node, force in zip(
+            contacts.source, contacts.node, contacts.reaction, strict=True
+        ):
+            # Only sources that are no targets have their own reaction alone.
+            if contacts.target.count(source) == 0:
+                np.testing.assert_allclose(simulation.bodies[source].reaction[node], force)
+    assert ("left", "floor") in seen
+    assert {"left", "right"} in [set(pair) for pair in seen]
+
+
+def test_a_step_that_is_halved_counts_its_parts():
+    fast = restarting.scenario("analysis.newton.max_iterations=5")
+    simulation = carom.Simulation(fast)
+    steps = []
+    while not simulation.has_ended:
+        steps.append(simulation.step())
+    assert max(step.substeps for step in steps) > 1
+    assert steps[-1].time == pytest.approx(0.15)
+    friction = sum(step.ledger.friction for step in steps)
+    assert simulation.ledger.friction == pytest.approx(friction)
+
+
+def test_a_simulation_ends_where_a_step_fails():
+    hopeless = restarting.scenario("analysis.newton.max_iterations=1", "bodies.0.spin=30")
+    simulation = carom.Simulation(hopeless)
+    with pytest.raises(carom.ConvergenceError, match="Newton") as first:
+        simulation.advance(1.0)
+    with pytest.raises(carom.ConvergenceError) as second:
+        simulation.step()
+    assert second.value is first.value
+
+
+def test_initial_velocities_are_those_of_a_spin():
+    still = carom.Simulation(restarting.scenario("bodies.0.velocity=[0, 0]", "bodies.0.spin=0"))
+    arm = still.bodies["left"].points - [0.0, 1.06]
+    still.set_velocity("left", [1.5, -1.0] + 4.0 * np.column_stack([-arm[:, 1], arm[:, 0]]))
+    described = carom.Simulation(restarting.scenario())
+    assert still.energy.total == pytest.approx(described.energy.total, rel=1e-12)
+    for simulation in (still, described):
+        simulation.advance(0.1)
+    np.testing.assert_allclose(
+        still.bodies["left"].positions, described.bodies["left"].positions, rtol=1e-9
+    )
+    assert still.history["kinetic"][0] == pytest.approx(described.history["kinetic"][0])
+    assert abs(still.ledger.defect) < 1e-8
+
+
+def test_one_velocity_is_for_all_nodes(simulation):
+    simulation.set_velocity("right", [3.0, 0.0])
+    np.testing.assert_array_equal(simulation.bodies["right"].velocity[:, 0], 3.0)
+    left = simulation.bodies["left"].velocity
+    assert left.mean(axis=0) == pytest.approx([1.5, -1.0])
+
+
+@pytest.mark.parametrize(
+    ("body", "velocity", "message"),
+    [
+        ("lift", [0.0, 0.0], "lift: no such body.*left"),
+        ("left", [0.0, 0.0, 0.0], r"shape \(57, 2\) or \(2,\), not \(3,\)"),
+        ("left", [math.nan, 0.0], "must be finite"),
+    ],
+)
+def test_velocities_that_do_not_fit_are_refused(simulation, body, velocity, message):
+    with pytest.raises(carom.InputError, match=message):
+        simulation.set_velocity(body, velocity)
+
+
+def test_no_velocity_comes_out_of_nowhere(simulation):
+    simulation.step()
+    with pytest.raises(carom.InputError, match=r"before the first step.*load"):
+        simulation.set_velocity("left", [0.0, 0.0])
+
+
+def test_the_native_module_refuses_what_does_not_fit():
+    native = build(restarting.scenario())
+    for shape in ((114, 3), (113, 2), (0, 2)):
+        with pytest.raises(ValueError, match="shape"):
+            native.set_initial_velocity(np.zeros(shape))
+    native.advance(1.0, 0.0)
+    with pytest.raises(ValueError, match="steps were made"):
+        native.set_initial_velocity(np.zeros((114, 2)))
+
+
+def test_a_simulation_says_where_it_is(simulation):
+    simulation.advance(0.02)
+    assert repr(simulation) == "Simulation('Restart': 10 of 75 steps, t = 0.02 s)"
+    assert repr(simulation.bodies["left"]) == "BodyState('left': 57 nodes, 48 cells)"
