@@ -68,8 +68,8 @@ def met(listed, texts):
     texts
         What was said. Words of it count for one message only, the longest that fits.
     """
-    messages = sorted(listed, key=lambda message: -len(_HOLE.sub("", message)))
-    pieces = {message: [piece for piece in _HOLE.split(message) if piece] for message in messages}
+    messages = sorted(listed, key=lambda message: -len(_HOLE.sub("", _own(message))))
+    pieces = {message: list(filter(None, _HOLE.split(_own(message)))) for message in messages}
     patterns = {
         message: re.compile(".*?".join(f"({re.escape(piece)})" for piece in pieces[message]))
         for message in messages
@@ -83,7 +83,7 @@ def met(listed, texts):
             if not all(piece in free for piece in pieces[message]):
                 continue
             if match := patterns[message].search(free):
-                found.add(message)
+                found.update(m for m in messages if _own(m) == _own(message))
                 for group in range(1, len(pieces[message]) + 1):
                     start, end = match.span(group)
                     free = f"{free[:start]}{chr(0) * (end - start)}{free[end:]}"
@@ -98,6 +98,11 @@ def met_in_rust(listed):
         for message in listed
         if any(text in piece for piece in _HOLE.split(message) for text in texts)
     }
+
+
+def _own(message):
+    """Return a message without the names that begin and end it: some sources put them there."""
+    return re.sub(r"^(\{[^{}]*\}(: )?)+|(\{[^{}]*\})+$", "", message)
 
 
 def _plain(text):

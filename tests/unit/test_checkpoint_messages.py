@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from carom.simulation import build
+from carom.building import build
 from restarting import scenario
 
 

@@ -86,6 +86,19 @@ BAD = [
         "output.track.0.point: ",
         "give a point of it in the reference configuration",
     ),
+    (
+        {"bodies.0.hypothesis": "plane-stress", "bodies.0.formulation": "mean-dilatation"},
+        "bodies.0.formulation: ",
+        "a sheet in plane stress does not lock; leave the formulation out",
+    ),
+    (
+        {
+            "materials.elastic": {**MATERIAL, "kind": "linear-elastic"},
+            "bodies.0.formulation": "mean-dilatation",
+        },
+        "bodies.0.formulation: ",
+        "it needs a law of large displacements, such as saint-venant-kirchhoff",
+    ),
     ({"analysis.time_step": 1e-15}, "analysis.time_step: ", "the run would have "),
     (
         {"obstacles": [{**FLOOR, "point": [0.0, 2.0]}]},
@@ -232,3 +245,31 @@ def test_a_static_body_that_nothing_holds_is_named():
     )
     with pytest.raises(carom.ConvergenceError, match=r"block.* is not held: .*fix what would move"):
         build(scenario).advance(1.0, 1.0)
+
+
+PULL = {"kind": "pressure", "body": "block", "on": "top", "pressure": "-1e7*t", "follower": True}
+RUBBER = {**MATERIAL, "kind": "neo-hookean"}
+HELD = {"kind": "fixed", "body": "block", "on": "bottom"}
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [
+        (
+            {"loads": [{"kind": "force", "body": "block", "on": "top", "force": [0.0, 1e200]}]},
+            r"the displacement is not finite$",
+        ),
+        (
+            {"analysis": STATIC, "motions": [HELD], "loads": [PULL], "contact": {}},
+            r"a body moves by \S+ m, and the largest is 1\.414e0 m large: the loads outgrow what b",
+        ),
+        (
+            {"analysis.newton": {"max_iterations": 1}, "bodies.0.spin": 10.0},
+            r"Newton's iterations stopped after 1 with a last correction of \S+ m \(wanted \S+ m\)",
+        ),
+    ],
+)
+def test_a_step_that_fails_says_why(changes, reason):
+    said = r"^step at t = \S+ s failed with a length of \S+ s, after 0 halvings: "
+    with pytest.raises(carom.ConvergenceError, match=said + reason):
+        build(case({**changes, "analysis.max_halvings": 0})).advance(1.0, 10.0)

@@ -129,6 +129,11 @@ BAD = [
     ({"bodies.0.velocity": [1e200, 0]}, "bodies", "the initial energy is not finite; check veloc"),
     ({"bodies.0.spin": [0, 0, 1]}, "bodies.0.spin", "a spin in 2D is a number"),
     (
+        {**SPACE, **mesh(**BALL), "bodies.0.spin": 1.0},
+        "bodies.0.spin",
+        "a spin in 3D is a list of 3 numbers",
+    ),
+    (
         {"bodies.0.spin": 1.0, "bodies.0.mesh.periodic": True},
         "bodies.0.spin",
         "1: a periodic body cannot spin; give 0",
@@ -478,6 +483,46 @@ def test_a_mesh_that_makes_no_body_is_named_with_the_place(changes, given, messa
     with pytest.raises(InputError) as caught:
         Simulation(spoiled({**FILE, **changes}), {"block": given})
     assert message in str(caught.value)
+
+
+TETRAHEDRON = {
+    "kind": "surface",
+    "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    "triangles": [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
+}
+TWICE = [*TETRAHEDRON["triangles"], [0, 1, 2]]
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"triangles": []}, "the surface has no triangles$"),
+        ({"triangles": [[0, 1, 9]]}, "triangle 0 refers to a vertex beyond the 4 there are$"),
+        (
+            {"triangles": [[0, 1, 1]]},
+            r"1 triangles have no area, the first is number 0 at \(0\.0.*\); remove them$",
+        ),
+        (
+            {"triangles": TETRAHEDRON["triangles"][1:]},
+            "the surface is not closed: only one triangle is at 3 edges, the first from .*; close",
+        ),
+        (
+            {"triangles": TWICE},
+            "more than two triangles meet at 3 edges, the first from .*; the su",
+        ),
+        (
+            {"triangles": [[0, 1, 2], *TETRAHEDRON["triangles"][1:]]},
+            "neighbouring triangles turn in different senses at 3 edges, the first .*; orient all",
+        ),
+        (
+            {"triangles": [t[::-1] for t in TETRAHEDRON["triangles"]]},
+            "the triangles turn the wrong way: their normals point inwards; reverse them$",
+        ),
+    ],
+)
+def test_triangles_that_enclose_nothing_are_no_obstacle(change, message):
+    with pytest.raises(MeshError, match=f"^obstacles\\.0: {message}"):
+        Simulation(spoiled({**SPACE, **mesh(**BALL), **obstacle(**{**TETRAHEDRON, **change})}))
 
 
 def test_cubes_that_share_an_edge_alone_have_no_contact_surface():

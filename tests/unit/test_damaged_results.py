@@ -2,13 +2,15 @@
 
 import json
 import shutil
+import socket
 
 import h5py
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import carom
-from carom import InputError
+from carom import InputError, cli
 from carom.io.audit import read_steps
 from carom.io.frames import Frames
 from carom.io.history import read_history
@@ -190,3 +192,32 @@ def test_a_case_in_space_cannot_be_audited(results):
 def test_a_report_is_a_file(results):
     with pytest.raises(InputError, match=r"^--out .*: is a directory; name a file$"):
         write_report(results, out=results)
+
+
+def test_an_auditor_that_stumbles_says_over_what(results):
+    erased(results, "audit.h5", "steps")
+    with h5py.File(results / "audit.h5", "r+") as file:
+        file.create_group("steps/000000/start")
+    with pytest.raises(InputError, match=r"audit\.h5: not steps of carom: "):
+        carom.audit(results)
+    (results / "summary.json").write_text('{"status": "completed"}')
+    with pytest.raises(InputError, match=r"run: cannot be audited: KeyError: "):
+        carom.audit(results)
+
+
+def test_cells_and_nodes_that_are_not_of_the_case_cannot_be_audited(results):
+    with h5py.File(results / "fields.vtkhdf", "r+") as file:
+        file["VTKHDF/Types"][:] = 23
+    with pytest.raises(InputError, match=r"cannot audit cells of VTK type 23$"):
+        carom.audit(results)
+
+
+def test_a_run_that_left_nothing_is_told_of_by_watch(tmp_path):
+    heard_of = {"pid": 2**22 + 1, "host": socket.gethostname(), "birth": "1", "updated": 0.0}
+    (tmp_path / "progress.json").write_text(json.dumps({**heard_of, "progress": None}))
+    done = CliRunner().invoke(cli.app, ["watch", str(tmp_path)])
+    assert done.exit_code == 1
+    assert done.output == (
+        f"error: {tmp_path}: the run has died: process {2**22 + 1} on {socket.gethostname()} is "
+        "gone; it left no checkpoint\n"
+    )

@@ -131,6 +131,7 @@ BAD = [
     ("contact.solver", {"kind": "nlgs"}, 'contact.solver.kind = "nlgs": must be \''),
     ("contact.pairs.0.between", ["left", "flor"], 'no such body or obstacle; did you mean "floor"'),
     ("contact.pairs.0.between", ["left", "left"], "must be two different names"),
+    ("title", 5, "title = 5: must be a string"),
     (
         "dimension",
         3,
@@ -304,6 +305,14 @@ def test_a_pair_is_given_once_whatever_its_order(box):
     box["contact"]["pairs"].append({"between": ["right", "left"]})
     with pytest.raises(InputError, match=r"contact\.pairs\.1\.between = .*already given by"):
         Scenario.from_dict(box)
+
+
+def test_a_hypothesis_of_the_plane_is_none_in_space(box):
+    ball = {"kind": "ball", "centre": [0, 0, 0], "radius": 1.0, "divisions": 2}
+    body = {"name": "ball", "material": "elastic", "mesh": ball, "hypothesis": "plane-stress"}
+    space = {key: box[key] for key in ("analysis", "materials")}
+    with pytest.raises(InputError, match=r"\.hypothesis = .*: is of 2D bodies; leave it out in 3D"):
+        Scenario.from_dict({**space, "dimension": 3, "bodies": [body]})
 
 
 def test_further_problems_are_counted(box):
