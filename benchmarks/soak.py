@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import carom
-from carom.simulation import build
+from carom.building import build
 
 STEP = 1e-3  # s
 HISTORY = 100
@@ -96,7 +96,7 @@ def resident() -> int:
 def recorded(steps: int, note: Callable[[int], None]) -> carom.Result:
     """Run with everything that a run writes."""
     with tempfile.TemporaryDirectory() as directory:
-        return carom.run(scenario(steps), out=directory, observer=lambda p: note(p.step))
+        return carom.run(scenario(steps), out=directory, progress=lambda p: note(p.step))
 
 
 def native(steps: int, note: Callable[[int], None]) -> carom.Simulation:

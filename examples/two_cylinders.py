@@ -36,7 +36,7 @@ def scenario(*, friction: float) -> carom.Scenario:
 def meeting(result: carom.Result) -> float:
     """Return when the cylinders first touch each other [s]."""
     contacts = result.summary["contacts"]
-    return min(float(c["onset"]) for c in contacts if set(c["pair"]) == {"left", "right"})
+    return min(c["onset"] for c in contacts if set(c["pair"]) == {"left", "right"})
 
 
 def main(out: str | Path | None = None) -> None:

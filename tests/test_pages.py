@@ -5,6 +5,9 @@ from pathlib import Path
 
 import pytest
 
+import carom
+from carom import cli
+
 ROOT = Path(__file__).parents[1]
 
 BLOCK = re.compile(r"^```(python|text)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
@@ -18,14 +21,33 @@ def pieces(page):
             yield code, after[1] if after[0] == "text" else None
 
 
+@pytest.fixture(scope="module")
+def desk(tmp_path_factory):
+    """A directory with what the reader of the tutorial has in front of them."""
+    here = tmp_path_factory.mktemp("desk")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(here)
+        cli.app(["new", "two-bodies"], standalone_mode=False)
+        carom.run(carom.Scenario.from_toml("two-bodies.toml"), out="results/two-bodies")
+    return here
+
+
 @pytest.mark.parametrize(
-    "page", ["README.md", "docs/how-to/results-in-python.md", "docs/how-to/own-steps.md"]
+    "page",
+    [
+        "README.md",
+        "docs/tutorial.md",
+        "docs/how-to/own-steps.md",
+        "docs/how-to/read-the-ledger.md",
+        "docs/how-to/results-in-python.md",
+    ],
 )
-def test_a_page_prints_what_it_says(page, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
+def test_a_page_prints_what_it_says(page, desk, monkeypatch, capsys):
+    monkeypatch.chdir(desk)
     names = {}
     found = list(pieces((ROOT / page).read_text(encoding="utf-8")))
     assert found
+    capsys.readouterr()
     for code, expected in found:
         exec(compile(code, page, "exec"), names)
         printed = capsys.readouterr().out

@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from carom.signal import Table
     from carom.simulation import Simulation, Step
     from carom.state import BodyState, Contacts, State
+    from carom.summary import Summary
 
 __all__ = [
     "Audit",
@@ -104,6 +105,7 @@ __all__ = [
     "Step",
     "Stop",
     "StorageError",
+    "Summary",
     "Table",
     "Theta",
     "Track",
@@ -161,6 +163,7 @@ _HOMES = {
     "signal": ("Table",),
     "simulation": ("Simulation", "Step"),
     "state": ("BodyState", "Contacts", "State"),
+    "summary": ("Summary",),
 }
 """The module of each name, imported when the name is first used: the command line starts sooner."""
 

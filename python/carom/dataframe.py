@@ -29,13 +29,12 @@ def data_frame(result: Result, table: Table) -> pandas.DataFrame:
         frame = pd.concat(entries, names=["entry", None]).reset_index(level=1, drop=True)
         frame = frame.set_index("time", append=True)
     elif table == "contacts":
-        columns = ["onset", "release", "peak_force", "friction_work"]
+        numbers = dict.fromkeys(("onset", "release", "peak_force", "friction_work"), float)
         rows = [
-            [*contact["pair"], *(contact[column] for column in columns)]
-            for contact in summary["contacts"]
+            {**event, "first": event["pair"][0], "second": event["pair"][1]}
+            for event in summary["contacts"]
         ]
-        frame = pd.DataFrame(rows, columns=["first", "second", *columns])
-        frame = frame.astype(dict.fromkeys(columns, float))
+        frame = pd.DataFrame(rows, columns=["first", "second", *numbers]).astype(numbers)
     elif table == "bodies":
         frame = pd.DataFrame(summary["bodies"]).set_index("name")
     elif table == "pairs":

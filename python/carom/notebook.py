@@ -102,7 +102,14 @@ def _energies(history: dict[str, NDArray[np.float64]]) -> Html | None:
     ]
     return element(
         "svg",
-        element("rect", width=str(WIDTH), height=str(HEIGHT), fill="none", stroke="currentColor"),
+        element(
+            "rect",
+            width=str(WIDTH),
+            height=str(HEIGHT),
+            fill="none",
+            stroke="currentColor",
+            stroke_opacity="0.3",
+        ),
         curves,
         _label(0, -6, [*names, element("tspan", f"up to {format_number(top, 4)} J", dx="8")]),
         _label(0, HEIGHT + 16, f"t = {format_number(time[0], 4)} s"),

@@ -76,9 +76,20 @@ class Observing:
         Who looks.
     state
         What they are called with.
+
+    Raises
+    ------
+    InputError
+        One of them is no `Observer`.
     """
 
     def __init__(self, observers: Sequence[Observer], state: State) -> None:
+        for observer in observers:
+            if not isinstance(observer, Observer):
+                raise InputError(
+                    f"observers: {observer!r} says not when it is called; "
+                    "give carom.Observer(look, every=…)"
+                )
         analysis = state.scenario.analysis
         slack = SLACK * analysis.time_step
         self._state = state

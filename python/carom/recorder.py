@@ -214,7 +214,7 @@ class Recorder:
         Parameters
         ----------
         status
-            ``"completed"``, ``"uncertified"``, ``"failed"`` or ``"interrupted"``.
+            ``"completed"``, ``"uncertified"``, ``"stopped"``, ``"failed"`` or ``"interrupted"``.
         reason
             Why the run stopped before its end.
         """

@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,7 @@ from carom.io.history import read_history
 from carom.io.ledger import read_ledger
 from carom.io.summary import read_summary
 from carom.scenario import Scenario
+from carom.summary import Summary
 from carom.tables import summary_table
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ class Result:
     """
 
     path: Path
-    summary: dict[str, Any]
+    summary: Summary
     history: dict[str, NDArray[np.float64]] = field(repr=False)
 
     @classmethod
@@ -60,7 +61,7 @@ class Result:
         try:
             return cls(
                 path=path,
-                summary=read_summary(path / layout.SUMMARY),
+                summary=cast(Summary, read_summary(path / layout.SUMMARY)),
                 history=read_history(path / layout.HISTORY),
             )
         except FileNotFoundError as error:

@@ -130,11 +130,11 @@ def drive(
         )
     frames = 0 if checkpoint is None else checkpoint.record["frames_due"]
     schedule = Schedule(scenario, time=simulation.time, frames=frames)
+    observing = Observing(observers, State(scenario, simulation)) if observers else None
     with (
         _storing(directory),
         Recorder(directory, scenario, simulation, case=case, checkpoint=checkpoint) as recorder,
     ):
-        observing = Observing(observers, State(scenario, simulation)) if observers else None
         wish = _take(
             simulation, scenario, recorder, schedule, observing=observing, progress=progress
         )

@@ -184,8 +184,10 @@ class Simulation(State):
     def history(self) -> dict[str, NDArray[np.float64]]:
         """What ``history.csv`` of a run would have so far: columns by title, shape [row_count].
 
-        A row every ``output.history_every``.
+        A row every ``output.history_every``, and one at the end.
         """
+        if self.has_ended:
+            self._native.finish()
         self._rows.append(self._native.take_history())
         rows = np.concatenate(self._rows)
         self._rows = [rows]

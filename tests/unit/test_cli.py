@@ -1,3 +1,4 @@
+import os
 import signal
 import subprocess
 import sys
@@ -164,3 +165,14 @@ def test_ctrl_c_is_status_130_and_keeps_the_results(tmp_path, examples):
     result = carom.Result.open(tmp_path)
     assert result.summary["status"] == "interrupted"
     assert result.history["time"][-1] == pytest.approx(result.summary["end_time"])
+
+
+def test_threads_are_passed_on_to_the_native_core(capsys, monkeypatch, tmp_path, examples):
+    monkeypatch.setenv("RAYON_NUM_THREADS", "7")  # so that it is put back
+    case = examples / "two_cylinders.toml"
+    arguments = ("--set", "analysis.end_time=0.002", "--out", tmp_path / "out", "--threads", 3)
+    assert in_process(capsys, "run", case, *arguments)[0] == 0
+    assert os.environ["RAYON_NUM_THREADS"] == "3"
+    status, _, error = in_process(capsys, "run", case, "--threads", 0)
+    assert status == 2
+    assert "--threads" in error

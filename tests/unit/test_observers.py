@@ -156,6 +156,12 @@ def test_the_command_line_takes_a_stopped_run_for_what_it_is(tmp_path, capsys):
     assert "An observer stopped the run." in (out / "report.html").read_text(encoding="utf-8")
 
 
+def test_a_bare_function_is_refused_before_anything_is_replaced(whole):
+    with pytest.raises(carom.InputError, match=r"function stop.*give carom\.Observer"):
+        carom.run(restarting.scenario(), out=whole.path, observers=[stop])
+    assert carom.Result.open(whole.path).summary == whole.summary
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [

@@ -319,3 +319,12 @@ def test_a_study_on_a_dask_cluster(scenario, tmp_path):
         )
     assert [one["status"] for one in rows] == ["completed"] * 2
     assert (tmp_path / "friction=0.2" / "summary.json").exists()
+
+
+def test_runs_side_by_side_take_one_thread_each(monkeypatch):
+    monkeypatch.setenv("OMP_NUM_THREADS", "4")
+    monkeypatch.delenv("RAYON_NUM_THREADS", raising=False)
+    with processes._one_thread_each():
+        assert {os.environ[name] for name in processes.ONE_EACH} == {"1"}
+    assert os.environ["OMP_NUM_THREADS"] == "4"
+    assert "RAYON_NUM_THREADS" not in os.environ

@@ -19,6 +19,7 @@ from carom.io import layout
 from carom.restart import ended
 from carom.result import Result
 from carom.running import drive
+from carom.threads import take_threads
 
 
 def run(
@@ -35,10 +36,17 @@ def run(
     force: Annotated[
         bool, typer.Option("--force", help="Replace the results that are in DIR.")
     ] = False,
+    threads: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N", min=1, help="Threads that share large bodies; default all cores."
+        ),
+    ] = None,
     quiet: Annotated[bool, typer.Option("--quiet", help="Print errors only.")] = False,
 ) -> None:
     """Run a case and write its results."""
     console = Console(quiet=quiet)
+    take_threads(threads)
 
     def tell(line: str) -> None:
         console.print(line, markup=False, highlight=False, soft_wrap=True)

@@ -13,6 +13,7 @@ from typing import Any
 
 from carom.errors import InputError
 from carom.sweep.worker import Task, refused, work
+from carom.threads import THREADS
 
 Outcome = tuple[int, dict[str, Any]]
 """The index of a task, and its summary."""
@@ -20,8 +21,8 @@ Outcome = tuple[int, dict[str, Any]]
 START = "spawn"
 """How processes are started: the same on every system, and without what this process holds."""
 
-THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-"""Variables by which libraries are told to take one thread each."""
+ONE_EACH = (THREADS, "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+"""Variables by which carom and the libraries are told to take one thread each."""
 
 
 def here(tasks: Sequence[Task], *, jobs: int) -> Iterator[Outcome]:
@@ -61,8 +62,8 @@ def _pooled(
 @contextmanager
 def _one_thread_each() -> Iterator[None]:
     """Tell the processes that are started in the block to take one thread each."""
-    before = {name: os.environ.get(name) for name in THREADS}
-    os.environ.update(dict.fromkeys(THREADS, "1"))
+    before = {name: os.environ.get(name) for name in ONE_EACH}
+    os.environ.update(dict.fromkeys(ONE_EACH, "1"))
     try:
         yield
     finally:

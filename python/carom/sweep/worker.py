@@ -33,7 +33,7 @@ def work(task: Task) -> dict[str, Any]:
     """Run a point; return its summary, or a status and a reason where there is none."""
     directory = Path(task.directory)
     try:
-        return run(Scenario.from_dict(task.case), out=directory).summary
+        return dict(run(Scenario.from_dict(task.case), out=directory).summary)
     except InputError as error:
         return refused("refused", str(error))
     except CaromError as error:

@@ -1,0 +1,113 @@
+"""What ``summary.json`` says of a run, by key; energies in J, forces in N, times in s.
+
+What is not a finite number is null in the file, and None here.
+"""
+
+from typing import Literal
+
+from typing_extensions import NotRequired, TypedDict
+
+Status = Literal["completed", "uncertified", "stopped", "failed", "interrupted"]
+"""How a run ended."""
+
+
+class EnergySummary(TypedDict):
+    """The energy at the start and the end, and what became of it."""
+
+    initial: float
+    final: float
+    kinetic: float
+    strain: float
+    friction: float
+    viscous: float
+    plastic: float
+    scheme: float
+    normal_contact: float
+    prescribed: float
+    external: float
+    max_drift: float
+    max_defect: float
+    max_step_defect: float
+
+
+class CertificateSummary(TypedDict):
+    """How far the worst step was from Coulomb's law, and what a completed run may have."""
+
+    max_joule: float
+    max_residual: float
+    tolerance_joule: float
+
+
+class BodySummary(TypedDict):
+    """The books of a body."""
+
+    name: str
+    kinetic: float
+    strain: float
+    external: float
+    prescribed: float
+    viscous: float
+    plastic: float
+    scheme: float
+    contact: float
+    defect: float
+
+
+class PairSummary(TypedDict):
+    """The books of a pair that may touch."""
+
+    between: list[str]
+    friction: float
+    normal_contact: float
+    prescribed: float
+    has_touched: bool
+
+
+class ContactEvent(TypedDict):
+    """A contact of a pair; it has no release while the pair may still be touching."""
+
+    pair: list[str]
+    onset: float
+    release: float | None
+    peak_force: float
+    friction_work: float
+
+
+class CrossCheckSummary(TypedDict):
+    """What a second solver said of the contact problems."""
+
+    problems: int
+    solvers: dict[str, int]
+    unsolved: int
+    disagreements: int
+    max_difference: float
+    explained_difference: float
+    time_of_max: float | None
+    max_certificate_joule: float
+
+
+class Summary(TypedDict):
+    """What came out of a run, in a page."""
+
+    status: Status
+    reason: NotRequired[str]
+    title: str
+    version: str
+    steps: int
+    dofs: int
+    end_time: float
+    time_step: float
+    newton_iterations: int
+    factorisations: int
+    retried_steps: int
+    energy: EnergySummary
+    certificate: CertificateSummary
+    bodies: list[BodySummary]
+    pairs: list[PairSummary]
+    max_blend: float
+    least_friction: float
+    min_gap: float | None
+    cross_check: CrossCheckSummary | None
+    contacts: list[ContactEvent]
+    wall_s: float
+    wall_s_per_step: float
