@@ -22,6 +22,7 @@ extensions = [
     "sphinxcontrib.bibtex",
 ]
 html_theme = "furo"
+html_show_copyright = False
 html_title = f"carom {release}"
 exclude_patterns = ["gallery", "gallery-pages/**/*.ipynb", "images"]
 
