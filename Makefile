@@ -23,7 +23,8 @@ test: $(VENV)/installed-dev
 	cargo test --release --locked --workspace --exclude carom-python
 	$(BIN)/pytest
 
-check: $(VENV)/installed-dev
+# With Python 3.11 or later, which Sphinx wants, the site too: its pages and links, not its gallery.
+check: $(VENV)/installed-docs
 	cargo fmt --all --check
 	cargo clippy --release --locked --workspace --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --workspace --no-deps --quiet
@@ -35,6 +36,7 @@ check: $(VENV)/installed-dev
 	$(BIN)/python docs/make_messages.py --check
 	$(BIN)/python tools/renew_vendored.py --check
 	$(BIN)/typos
+	if [ -x $(BIN)/sphinx-build ]; then $(BIN)/sphinx-build -W --keep-going -q -t unexecuted -b html docs target/site; fi
 
 # Warnings are errors. Runs the cases of the gallery, those again that have changed.
 docs: $(VENV)/installed-docs
@@ -62,8 +64,8 @@ $(VENV)/installed-dev: $(BIN)/python $(SOURCES)
 	touch $@ $(VENV)/installed
 
 $(VENV)/installed-docs: $(BIN)/python $(SOURCES)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[docs]'
-	touch $@ $(VENV)/installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[dev,docs]'
+	touch $@ $(VENV)/installed-dev $(VENV)/installed
 
 clean:
 	rm -rf $(VENV) target results site docs/api-pages docs/gallery-pages

@@ -27,7 +27,7 @@ Every error, warning and finding that a user can meet, with cause and cure. `{â€
 or a number. An error is one line: the file, the key of the case as a dotted path, its value, what
 is wrong, and, after a semicolon or in the second half, what to do. Nothing is written before the
 case has been checked. Where a message says what to do, that is the cure; what each section says
-besides is true of all its messages.
+besides is true of all its messages. Messages that say too little by themselves have a line below.
 
 | exit status | meaning |
 |---|---|
@@ -65,8 +65,14 @@ def page() -> str:
     for area, said in zip(listed, found, strict=True):
         lines += [f"\n## {area['title']}\n", f"**Cause.** {area['cause']}\n"]
         lines += [f"**Cure.** {area['cure']}\n"]
-        more = DATA_MESSAGES.values() if area.get("data") else []
-        lines += [f"- `{_code(text)}`" for text in dict.fromkeys([*more, *said])]
+        # What has no words of its own passes a message of another source on.
+        more = [text for text in DATA_MESSAGES.values() if text != "{error}"]
+        more = more if area.get("data") else []
+        notes = dict(area.get("notes", {}))
+        for text in dict.fromkeys(_code(text) for text in [*more, *said]):
+            lines += [f"- `{text}`", *([f"  <br>{notes.pop(text)}"] if text in notes else [])]
+        if notes:
+            raise SystemExit(f"notes on what nobody says in {AREAS}: {', '.join(notes)}")
     return "\n".join(lines) + "\n"
 
 

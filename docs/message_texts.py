@@ -12,6 +12,7 @@ ROOT = Path(__file__).parents[1]
 RAISED = {
     "CertificateError",
     "ConvergenceError",
+    "DamagedError",
     "Finding",
     "InputError",
     "MeshError",

@@ -4,9 +4,19 @@ from pathlib import Path
 import pytest
 
 import carom
+import heard
 import restarting
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
+
+
+def pytest_configure():
+    heard.listen()
+
+
+def pytest_collection_modifyitems(items):
+    """Let tests that look back on all others come last."""
+    items.sort(key=lambda item: item.get_closest_marker("last") is not None)
 
 
 @pytest.fixture(autouse=True, scope="session")

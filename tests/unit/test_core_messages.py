@@ -10,6 +10,14 @@ MATERIAL = {"kind": "saint-venant-kirchhoff", "young": 1e5, "poisson": 0.3, "den
 BLOCK = {"kind": "rectangle", "corner": [0.0, 0.0], "size": [1.0, 1.0], "divisions": [2, 2]}
 FLOOR = {"name": "floor", "kind": "plane", "point": [0.0, -1.0], "normal": [0.0, 1.0]}
 PUSH = {"kind": "prescribed", "body": "block", "on": "top"}
+STATIC = {"kind": "static", "end_time": 1.0, "time_step": 0.5}
+ABOVE = {**BLOCK, "corner": [0.0, 2.0]}
+
+
+def formula(text):
+    """A pressure over time."""
+    return {"loads": [{"kind": "pressure", "body": "block", "on": "all", "pressure": text}]}
+
 
 BAD = [
     # what of the case is replaced, the beginning of the message, a part of it
@@ -78,7 +86,116 @@ BAD = [
         "output.track.0.point: ",
         "give a point of it in the reference configuration",
     ),
+    (
+        {"bodies.0.hypothesis": "plane-stress", "bodies.0.formulation": "mean-dilatation"},
+        "bodies.0.formulation: ",
+        "a sheet in plane stress does not lock; leave the formulation out",
+    ),
+    (
+        {
+            "materials.elastic": {**MATERIAL, "kind": "linear-elastic"},
+            "bodies.0.formulation": "mean-dilatation",
+        },
+        "bodies.0.formulation: ",
+        "it needs a law of large displacements, such as saint-venant-kirchhoff",
+    ),
     ({"analysis.time_step": 1e-15}, "analysis.time_step: ", "the run would have "),
+    (
+        {"obstacles": [{**FLOOR, "point": [0.0, 2.0]}]},
+        "bodies.0.mesh: ",
+        'lies outside, behind obstacle "floor" at the start: its node at (0.000000, 0.000000) is 2',
+    ),
+    (
+        {"obstacles": [{"name": "hole", "kind": "sphere", "centre": [0.5, 0.5], "radius": 2.0}]},
+        "bodies.0.mesh: ",
+        "move the body or set or leave out `cavity` of obstacles.0",
+    ),
+    (
+        {"obstacles": [{"name": "step", "kind": "box", "corner": [0, 0.5], "size": [1, 1]}]},
+        "bodies.0.mesh: ",
+        'body "block" overlaps obstacle "step" at the start: its node at ',
+    ),
+    (
+        {"bodies.0.hypothesis": "axisymmetric", "analysis.gravity": [1.0, 0.0]},
+        "analysis.gravity: ",
+        'has a part across the axis of body "block"; let it point along y',
+    ),
+    (
+        {"bodies.0.hypothesis": "axisymmetric", "bodies.0.velocity": [1.0, 0.0]},
+        "bodies.0.velocity: ",
+        "a body of revolution moves along its axis; give [0, v]",
+    ),
+    (
+        {"bodies.0.hypothesis": "axisymmetric", "bodies.0.spin": 1.0},
+        "bodies.0.spin: ",
+        "1: an axisymmetric body cannot spin; give 0",
+    ),
+    ({"motions": [{**PUSH, "z": 0.0}]}, "motions.0.z: ", "there are 2 dimensions; leave it out"),
+    (
+        {"motions": [{"kind": "fixed", "body": "block", "on": "left", "components": ["z"]}]},
+        "motions.0.components: ",
+        '"z": there are 2 dimensions',
+    ),
+    (
+        {
+            "materials.elastic": {**MATERIAL, "kind": "j2-plasticity", "yield_stress": 1e3},
+            "contact.condition": "massless",
+        },
+        "contact.condition: ",
+        '"massless" contact of body "block", whose material flows; choose "gap"',
+    ),
+    (
+        {"analysis": STATIC, "contact.condition": "midpoint"},
+        "contact.condition: ",
+        'a static analysis rules the gap at the end of the step; write condition = "gap"',
+    ),
+    (
+        {"analysis": STATIC, "bodies.0.velocity": [1.0, 0.0]},
+        "bodies.0.velocity: ",
+        "a static analysis knows no velocities; leave it out",
+    ),
+    (
+        {
+            "bodies.0.mesh": {**BLOCK, "periodic": True},
+            "bodies.1": {"name": "other", "material": "elastic", "mesh": ABOVE},
+            "contact.discretisation": "mortar",
+        },
+        "contact.discretisation: mortar: ",
+        'body "block" is periodic; choose "node-to-segment"',
+    ),
+    (
+        {
+            "bodies.1": {"name": "other", "material": "elastic", "mesh": ABOVE},
+            "contact.discretisation": "mortar",
+            "contact.sources": "both",
+        },
+        "contact.discretisation: mortar: ",
+        'one side has the multipliers; choose "finer", "first" or "second" for sources',
+    ),
+    (
+        {
+            "bodies.0.mesh": {**BLOCK, "divisions": [8, 8]},
+            "bodies.1": {
+                "name": "other",
+                "material": "elastic",
+                "mesh": {**ABOVE, "divisions": [8, 8]},
+            },
+            "contact.discretisation": "mortar",
+            "contact.condition": "massless",
+        },
+        "contact.discretisation: mortar: ",
+        'the condition "massless" is written for nodes; choose "node-to-segment" or another',
+    ),
+    (formula("2 t"), "loads.0.pressure: ", 'expected an operator at column 3 of "2 t"'),
+    (formula("(" * 70), "loads.0.pressure: ", "nested deeper than 64 levels at column 65 of"),
+    (formula("1e999"), "loads.0.pressure: ", '"1e999" is not a finite number at column 1 of'),
+    (formula("1.2.3"), "loads.0.pressure: ", '"1.2.3" is not a number at column 1 of'),
+    (
+        formula("2*sin"),
+        "loads.0.pressure: ",
+        '"sin" is a function; give it an argument as in sin(t) at column 3 of',
+    ),
+    (formula("x"), "loads.0.pressure: ", 'unknown name "x"; known are t, pi, e at column 1 of'),
     (
         {"bodies.0.mesh": {**BLOCK, "divisions": [4000, 4000]}},
         "bodies.0.mesh",
@@ -128,3 +245,31 @@ def test_a_static_body_that_nothing_holds_is_named():
     )
     with pytest.raises(carom.ConvergenceError, match=r"block.* is not held: .*fix what would move"):
         build(scenario).advance(1.0, 1.0)
+
+
+PULL = {"kind": "pressure", "body": "block", "on": "top", "pressure": "-1e7*t", "follower": True}
+RUBBER = {**MATERIAL, "kind": "neo-hookean"}
+HELD = {"kind": "fixed", "body": "block", "on": "bottom"}
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [
+        (
+            {"loads": [{"kind": "force", "body": "block", "on": "top", "force": [0.0, 1e200]}]},
+            r"the displacement is not finite$",
+        ),
+        (
+            {"analysis": STATIC, "motions": [HELD], "loads": [PULL], "contact": {}},
+            r"a body moves by \S+ m, and the largest is 1\.414e0 m large: the loads outgrow what b",
+        ),
+        (
+            {"analysis.newton": {"max_iterations": 1}, "bodies.0.spin": 10.0},
+            r"Newton's iterations stopped after 1 with a last correction of \S+ m \(wanted \S+ m\)",
+        ),
+    ],
+)
+def test_a_step_that_fails_says_why(changes, reason):
+    said = r"^step at t = \S+ s failed with a length of \S+ s, after 0 halvings: "
+    with pytest.raises(carom.ConvergenceError, match=said + reason):
+        build(case({**changes, "analysis.max_halvings": 0})).advance(1.0, 10.0)

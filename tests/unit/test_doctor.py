@@ -190,6 +190,12 @@ def test_what_is_driven_is_not_foreseen(case):
     case["bodies"][0]["velocity"] = [0.0, 1.0]
     case["obstacles"][0]["velocity"] = [0.0, 2.0]
     assert grave(meeting, case) == {}
+    still = {"name": "wall", "kind": "plane", "point": [9.0, 0.0], "normal": [-1.0, 0.0]}
+    case["obstacles"].append(still)
+    assert fact(meeting, case, "analysis.end_time") == (
+        "nothing that flies freely meets; what is driven by loads, motions or moving obstacles is "
+        "not foreseen"
+    )
 
 
 def test_two_discs_meet_when_their_boundaries_do(case):

@@ -131,6 +131,99 @@ BAD = [
     ("contact.solver", {"kind": "nlgs"}, 'contact.solver.kind = "nlgs": must be \''),
     ("contact.pairs.0.between", ["left", "flor"], 'no such body or obstacle; did you mean "floor"'),
     ("contact.pairs.0.between", ["left", "left"], "must be two different names"),
+    ("title", 5, "title = 5: must be a string"),
+    (
+        "dimension",
+        3,
+        'bodies.0.mesh.kind = "disc": a disc is a body in 2D; set dimension = 2 at the',
+    ),
+    ("bodies.0.spin", [0, 0, 1], "bodies.0.spin = [0.0, 0.0, 1.0]: a spin in 2D is a number"),
+    (
+        "bodies.0.mesh",
+        {
+            "kind": "ring",
+            "centre": [0, 4],
+            "inner_radius": 1,
+            "outer_radius": 1,
+            "divisions": [8, 1],
+        },
+        "bodies.0.mesh.outer_radius = 1.0: must be greater than inner_radius (1 m)",
+    ),
+    (
+        "bodies.0.mesh",
+        {
+            "kind": "ring",
+            "centre": [0, 4],
+            "inner_radius": 1,
+            "outer_radius": 2,
+            "divisions": [2, 1],
+        },
+        "bodies.0.mesh.divisions = [2, 1]: must begin with 3 cells around or more",
+    ),
+    (
+        "bodies.0",
+        {
+            "name": "left",
+            "material": "elastic",
+            "mesh": {
+                "kind": "rectangle",
+                "corner": [0, 3],
+                "size": [1, 1],
+                "divisions": [2, 2],
+                "periodic": True,
+            },
+            "spin": 1.0,
+        },
+        "bodies.0.spin = 1.0: a periodic body cannot spin; give 0",
+    ),
+    (
+        "bodies.0.contact_sets",
+        ["topp"],
+        'bodies.0.contact_sets = "topp": no such set of facets; ',
+    ),
+    (
+        "motions",
+        [{"kind": "prescribed", "body": "left", "on": "all"}],
+        "motions.0: give one of x, y, z at least; those left out are free",
+    ),
+    ("obstacles.0.motion", {}, "obstacles.0.motion: give one of x, y, z at least"),
+    (
+        "obstacles.0",
+        {
+            "name": "floor",
+            "kind": "plane",
+            "point": [0, 0],
+            "normal": [0, 1],
+            "velocity": [0, 1],
+            "motion": {"y": "t"},
+        },
+        "obstacles.0.motion: give velocity or motion, not both",
+    ),
+    (
+        "loads",
+        [
+            {
+                "kind": "pressure",
+                "body": "left",
+                "on": "all",
+                "pressure": {"time": [0, 1], "value": [0]},
+            }
+        ],
+        "must have as many entries as time, 2",
+    ),
+    (
+        "loads",
+        [
+            {
+                "kind": "pressure",
+                "body": "left",
+                "on": "all",
+                "pressure": {"time": [1, 0], "value": [0, 1]},
+            }
+        ],
+        "loads.0.pressure.time = [1.0, 0.0]: must ascend",
+    ),
+    ("contact.pairs.0.between", ["left"], "must be two names"),
     ("contact.pairs.0.enabled", "yes", 'contact.pairs.0.enabled = "yes": must be true or false'),
 ]
 
@@ -212,6 +305,14 @@ def test_a_pair_is_given_once_whatever_its_order(box):
     box["contact"]["pairs"].append({"between": ["right", "left"]})
     with pytest.raises(InputError, match=r"contact\.pairs\.1\.between = .*already given by"):
         Scenario.from_dict(box)
+
+
+def test_a_hypothesis_of_the_plane_is_none_in_space(box):
+    ball = {"kind": "ball", "centre": [0, 0, 0], "radius": 1.0, "divisions": 2}
+    body = {"name": "ball", "material": "elastic", "mesh": ball, "hypothesis": "plane-stress"}
+    space = {key: box[key] for key in ("analysis", "materials")}
+    with pytest.raises(InputError, match=r"\.hypothesis = .*: is of 2D bodies; leave it out in 3D"):
+        Scenario.from_dict({**space, "dimension": 3, "bodies": [body]})
 
 
 def test_further_problems_are_counted(box):

@@ -10,6 +10,7 @@ import sys
 import time
 import warnings
 
+import h5py
 import pytest
 
 import carom
@@ -267,6 +268,26 @@ def test_results_that_lack_what_the_checkpoint_knows_of_are_refused(tmp_path, na
     file = directory / name
     os.truncate(file, file.stat().st_size // 3)
     with pytest.raises(InputError, match=rf"{name}: .*start again with --force"):
+        go_on(directory)
+
+
+def test_steps_that_the_checkpoint_knows_of_must_be_there(tmp_path):
+    directory = stopped(tmp_path)
+    with h5py.File(directory / "audit.h5", "r+") as file:
+        there = len(file["steps"])
+        del file["steps"][max(file["steps"])]
+    message = rf"audit\.h5: has {there - 1} frames, its checkpoint knows of {there}: results were"
+    with pytest.raises(InputError, match=message):
+        go_on(directory)
+
+
+def test_a_checkpoint_of_another_version_is_refused(tmp_path, monkeypatch):
+    directory = stopped(tmp_path)
+    monkeypatch.setattr("carom.io.checkpoint.__version__", "99.0")
+    message = (
+        rf"was written by carom {carom.__version__}, this is 99\.0, whose numbers may differ; go"
+    )
+    with pytest.raises(InputError, match=message):
         go_on(directory)
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import carom
+from carom import cli
 from carom.building import build
 
 
@@ -86,6 +87,18 @@ def test_check_warns_of_coarse_steps(bars):
     warnings = carom.check(coarse).warnings
     assert any("suggested" in warning for warning in warnings)
     assert any("whole number" in warning for warning in warnings)
+
+
+def test_check_says_on_one_line_each_what_is_probably_not_meant(bars, tmp_path, capsys):
+    case = tmp_path / "bars.toml"
+    case.write_text(bars.to_toml())
+    pair = "[{between=['left','right'],enabled=false}]"
+    changes = ("analysis.time_step=0.015", "output.history_every=0.02", f"contact.pairs={pair}")
+    with pytest.raises(SystemExit):
+        cli.app(["check", str(case), *(f"--set={change}" for change in changes)])
+    assert "warning: analysis.end_time = " in (said := capsys.readouterr().out)
+    assert " s is not a whole number of time steps of 0.015 s\n" in said
+    assert "nothing can touch: there is one body and no obstacle, or no pair enabled\n" in said
 
 
 @pytest.mark.parametrize(("key", "value"), [("velocity", [0.0, -1e7]), ("spin", 1e8)])

@@ -238,3 +238,18 @@ def test_a_simulation_says_where_it_is(simulation):
     simulation.advance(0.02)
     assert repr(simulation) == "Simulation('Restart': 10 of 75 steps, t = 0.02 s)"
     assert repr(simulation.bodies["left"]) == "BodyState('left': 57 nodes, 48 cells)"
+
+
+def test_a_static_analysis_has_no_velocities():
+    case = {
+        **restarting.CASE,
+        "analysis": {"kind": "static", "end_time": 1.0, "time_step": 0.1},
+        "bodies": [
+            {key: body[key] for key in ("name", "material", "mesh")}
+            for body in restarting.CASE["bodies"]
+        ],
+    }
+    case["output"] = {}
+    simulation = carom.Simulation(carom.Scenario.from_dict(case))
+    with pytest.raises(carom.InputError, match=r"^a static analysis has no velocities$"):
+        simulation.set_velocity("left", [0.0, 0.0])

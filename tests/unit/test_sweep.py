@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import sys
+from types import SimpleNamespace
 
 import pytest
 
@@ -291,6 +292,16 @@ def test_a_process_that_dies_is_a_row_and_the_others_go_on(monkeypatch, scenario
 def test_without_dask_a_scheduler_is_refused_with_the_remedy(monkeypatch, scenario, tmp_path):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match=r"pip install 'carom\[dask\]'"):
+        sweep(scenario, [axis("contact.friction=0")], tmp_path, scheduler="tcp://nowhere:1")
+
+
+def test_a_scheduler_that_does_not_answer_is_named(monkeypatch, scenario, tmp_path):
+    def client(address, timeout):
+        raise OSError("Timed out trying to connect to tcp://nowhere:1 after 10 s")
+
+    monkeypatch.setitem(sys.modules, "distributed", SimpleNamespace(Client=client))
+    message = r"^--scheduler tcp://nowhere:1: no scheduler answers: Timed out trying to connect"
+    with pytest.raises(InputError, match=message):
         sweep(scenario, [axis("contact.friction=0")], tmp_path, scheduler="tcp://nowhere:1")
 
 

@@ -64,6 +64,20 @@ def test_a_picture_shows_the_body(results, tmp_path, options):
     assert coloured.sum() > 5000, "more than the axes"
 
 
+def test_a_film_without_what_writes_it_says_what_to_install(results, tmp_path, monkeypatch):
+    import pyvista
+
+    def missing(*_, **__):
+        raise ImportError("Install imageio to use this")
+
+    monkeypatch.setattr(pyvista.Plotter, "open_gif", missing)
+    answer = view(results, "--animation", tmp_path / "ball.gif")
+    assert answer.exit_code == 2
+    assert answer.output.endswith(
+        'ball.gif: Install imageio to use this; pip install "imageio[ffmpeg]"\n'
+    )
+
+
 def test_a_film_has_a_picture_of_every_frame(results, tmp_path):
     pytest.importorskip("imageio")
     from PIL import Image, ImageSequence

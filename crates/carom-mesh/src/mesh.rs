@@ -210,7 +210,12 @@ mod tests {
             mesh.clone().with_ties(ties).map(|m| m.masters())
         };
         assert_eq!(tied(&[(2, 0), (5, 3)]), Ok(vec![0, 1, 0, 3, 4, 3]));
-        assert_eq!(tied(&[(2, 6)]), Err(MeshError::TieOfUnknownNode { node: 6, nodes: 6 }));
+        let refused = |ties| tied(ties).expect_err("is refused").to_string();
+        assert_eq!(refused(&[(2, 6)]), "a tie refers to node 6, but the mesh has 6 nodes (numbered from 0)");
+        assert_eq!(
+            refused(&[(2, 0), (2, 1)]),
+            "node 2 is tied twice; a node can follow one other, which follows none"
+        );
         for ties in [&[(2, 0), (2, 1)][..], &[(2, 1), (1, 0)], &[(1, 0), (2, 1)], &[(2, 2)]] {
             assert!(matches!(tied(ties), Err(MeshError::TiedTwice { .. })), "{ties:?}");
         }

@@ -140,7 +140,7 @@ impl Convergence {
             let motion = work.progress.iter().map(|p| p.motion).fold(0.0, f64::max);
             let lost = motion > model.size;
             return if lost {
-                Err(not_held(model, work).unwrap_or(StepError::NotFinite("displacement")))
+                Err(not_held(model, work).unwrap_or(StepError::Runaway { motion, size: model.size }))
             } else {
                 Ok(())
             };

@@ -53,6 +53,17 @@ pub enum StepError {
         /// The larger of the first correction and of the motion in the step [m].
         reach: f64,
     },
+    /// Load steps led further away than there is anything to hold on to.
+    #[error(
+        "a body moves by {motion:.3e} m, and the largest is {size:.3e} m large: the loads outgrow what bears them, or the \
+         step is too long for them"
+    )]
+    Runaway {
+        /// Largest motion of a node in the step [m].
+        motion: f64,
+        /// Diameter of the largest body [m].
+        size: f64,
+    },
     /// The friction solver did not reach its tolerance.
     #[error("the contact problem of {contacts} contacts ended as {} after {} iterations at a residual of {:.3e}", report.status.name(), report.iterations, report.measure.natural_residual)]
     Friction {

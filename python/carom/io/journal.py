@@ -93,12 +93,8 @@ def recover(path: Path) -> None:
     journal = _journal(path)
     if not journal.exists():
         return
-    try:
-        size, pages = _unpacked(journal.read_bytes())
-    except ValueError:
-        pass
-    else:
-        _apply(path, size, pages)
+    if (unpacked := _unpacked(journal.read_bytes())) is not None:
+        _apply(path, *unpacked)
     journal.unlink()
 
 
@@ -126,15 +122,16 @@ def _packed(size: int, pages: dict[int, bytes]) -> bytes:
     return _MAGIC + _HEADER.pack(size, len(pages), hashlib.sha256(body).digest()) + body
 
 
-def _unpacked(data: bytes) -> tuple[int, dict[int, bytes]]:
+def _unpacked(data: bytes) -> tuple[int, dict[int, bytes]] | None:
+    """Return size and pages of a journal; None of what is not a whole one."""
     start = len(_MAGIC) + _HEADER.size
     if not data.startswith(_MAGIC) or len(data) < start:
-        raise ValueError("not a journal")
+        return None
     size, count, digest = _HEADER.unpack_from(data, len(_MAGIC))
     body = data[start:]
     entry = _NUMBER.size + PAGE
     if len(body) != count * entry or hashlib.sha256(body).digest() != digest:
-        raise ValueError("not a whole journal")
+        return None
     entries = (body[k : k + entry] for k in range(0, len(body), entry))
     return size, {_NUMBER.unpack_from(e)[0]: e[_NUMBER.size :] for e in entries}
 

@@ -194,3 +194,11 @@ def test_problems_of_one_dimension_come_back(tmp_path):
 def test_no_contacts_come_back(tmp_path):
     write(Problem(sp.csr_array((0, 0)), np.zeros((0, 2)), []), tmp_path / "none.h5")
     assert read(tmp_path / "none.h5").contacts == 0
+
+
+def test_velocities_of_a_guess_must_be_those_of_the_problem(global_file, global_problem):
+    spoil(global_file, "guesses/1/v", [1.0])
+    with pytest.raises(
+        InputError, match=rf"guesses/1/v has 1 entries: must be {global_problem.dofs}"
+    ):
+        read_record(global_file)

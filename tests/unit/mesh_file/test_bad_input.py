@@ -1,6 +1,7 @@
 """Files that make no body: one message with the place, the value, the fact and the remedy."""
 
 import sys
+from unittest.mock import MagicMock
 
 import meshio
 import numpy as np
@@ -181,3 +182,84 @@ def test_a_surface_that_does_not_close_is_refused(tmp_path, triangles, message):
         read_surface(stl(tmp_path, triangles), scale=1.0, key="obstacles.0")
     assert str(caught.value).startswith('obstacles.0.file = "')
     assert message in str(caught.value)
+
+
+INP = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT, TYPE=C3D4, ELSET=part\n1,1,2,3,4\n"
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        ("*ELEMENT, TYPE=C3D4\n2,1,2,3,9\n", "cannot be read: node 9 is not there"),
+        ("*ELEMENT, TYPE=C3D4\n2,1,2,3\n", "elements of type C3D4 need 4 nodes each"),
+        ("*ELEMENT, TYPE=CAX9\n2,1,2,3\n", "elements of type CAX9 are not known"),
+        ("*ELSET, ELSET=tip\n7\n", "element set TIP has element 7, which is not there"),
+        ("*ELSET, ELSET=tip\nnose\n", "there is no set nose"),
+        ("*SURFACE, NAME=top\n7, S1\n", "surface TOP has element 7, which is not there"),
+        ("*SURFACE, NAME=top\n1, S5\n", 'surface TOP has a face "S5", which a tetra does not have'),
+        ("*PART\n*END PART\n*PART\n", "it has several parts or moved instances; write one part to"),
+    ],
+)
+def test_a_deck_that_contradicts_itself_is_refused_with_what_is_missing(tmp_path, more, message):
+    (tmp_path / "part.inp").write_text(INP + more)
+    assert message.lower() in refusal(None, tmp_path, name="part.inp").lower()
+
+
+def held(points=POINTS, **blocks):
+    """A mesh as meshio would hold it, which writers refuse and readers have been seen to return."""
+    cells = [meshio.CellBlock(kind, np.array(nodes)) for kind, nodes in blocks.items()]
+    mesh = meshio.Mesh(np.asarray(points), [])
+    mesh.cells = cells
+    return mesh
+
+
+@pytest.mark.parametrize(
+    ("mesh", "space", "message"),
+    [
+        (held(), 3, "holds no cells"),
+        (held(tetra=[[0, 1, 2]]), 3, "its tetra cells have 3 points; repair the file"),
+        (held(tetra=[[0, 1, 2, 9]]), 3, "a tetra cell refers to point 9 of 5"),
+        (held(POINTS[:, :2], tetra=TETS), 3, "its points have 2 coordinates, not 3"),
+        (
+            held(polyhedron4=[[0, 1, 2, 3]]),
+            3,
+            "has polyhedra, which carom does not know; mesh with tetrahedra or hexahedra",
+        ),
+        (
+            held(pyramid14=[[0, 1, 2, 3]]),
+            3,
+            "which carom does not know; use ",
+        ),
+    ],
+)
+def test_what_a_reader_returns_is_looked_at(tmp_path, monkeypatch, mesh, space, message):
+    (tmp_path / "part.vtu").touch()
+    monkeypatch.setattr(meshio, "read", lambda path: mesh)
+    assert message in refusal(None, tmp_path, space=space)
+
+
+def test_a_format_whose_package_is_missing_says_which(tmp_path, monkeypatch):
+    def read(path):
+        raise ModuleNotFoundError("No module named 'netCDF4'", name="netCDF4")
+
+    (tmp_path / "part.e").touch()
+    monkeypatch.setattr(meshio, "read", read)
+    message = refusal(None, tmp_path, name="part.e")
+    assert "reading this format needs the package netCDF4; install it" in message
+
+
+def test_a_geometry_that_gmsh_cannot_mesh_says_what_gmsh_said(tmp_path, monkeypatch):
+    gmsh = MagicMock()
+    gmsh.open.side_effect = Exception("Wrong file")
+    gmsh.logger.get.return_value = ["Info: Reading", "Error: 'part.geo', line 1: syntax error"]
+    monkeypatch.setitem(sys.modules, "gmsh", gmsh)
+    (tmp_path / "part.geo").write_text("?")
+    message = refusal(None, tmp_path, name="part.geo")
+    assert "Gmsh cannot mesh it: Error: 'part.geo', line 1: syntax error" in message
+
+
+def test_a_surface_out_of_a_file_without_triangles_is_refused(tmp_path):
+    file = tmp_path / "surface.vtu"
+    meshio.write(file, meshio.Mesh(POINTS, [("tetra", TETS)]))
+    with pytest.raises(MeshError, match="has no triangles, but tetra; save the surface as triangl"):
+        read_surface(file, scale=1.0, key="obstacles.0")

@@ -270,6 +270,13 @@ mod tests {
     }
 
     #[test]
+    fn triangles_enclose_nothing_in_the_plane() {
+        let refused =
+            ClosedSurface::<2>::new(vec![Vector::zeros(); 3], &[[0, 1, 2]]).expect_err("is refused");
+        assert_eq!(refused.to_string(), "a surface of triangles encloses something in 3D only");
+    }
+
+    #[test]
     fn a_cube_of_triangles_is_as_far_away_as_the_box() {
         let (vertices, triangles) = cube();
         let surface = ClosedSurface::new(vertices, &triangles).expect("closed");

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::ranges::{not_negative, positive};
+use super::ranges::{check, not_negative, positive};
 use super::spectrum::{ByStretches, Spectrum, StretchEnergy};
 use super::strain_law::{Hyperelastic, StrainLaw, green_lagrange};
 use super::{ElasticConstants, Mat3, Tangent};
@@ -73,12 +73,10 @@ impl J2Plasticity {
         positive("yield_stress", self.yield_stress, "the yield stress must be greater than 0 Pa")?;
         not_negative("hardening", self.hardening, "the hardening cannot be negative")?;
         not_negative("saturation_rate", self.saturation_rate, "the rate of saturation cannot be negative")?;
-        let saturation = self.saturation_stress.unwrap_or(self.yield_stress) - self.yield_stress;
-        not_negative(
-            "saturation_stress",
-            saturation,
-            "the saturation stress cannot be below the yield stress",
-        )?;
+        let saturation_stress = self.saturation_stress.unwrap_or(self.yield_stress);
+        let saturation = saturation_stress - self.yield_stress;
+        let remedy = "the saturation stress cannot be below the yield stress";
+        check("saturation_stress", saturation_stress, saturation.is_finite() && saturation >= 0.0, remedy)?;
         Ok(Flow {
             bulk: lambda + 2.0 / 3.0 * shear,
             shear,

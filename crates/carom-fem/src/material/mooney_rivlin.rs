@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::invariants::{InvariantEnergy, Jet, split};
-use super::ranges::{finite, positive};
+use super::ranges::{check, finite, positive};
 use super::volumetric::Volumetric;
 use crate::FemError;
 
@@ -26,7 +26,7 @@ impl MooneyRivlin {
         finite("c01", self.c01)?;
         positive("bulk", self.bulk, "the bulk modulus must be greater than 0 Pa")?;
         let remedy = "c10 + c01, half the shear modulus, must be greater than 0 Pa";
-        positive("c10 + c01", self.c10 + self.c01, remedy)?;
+        check("c01", self.c01, self.c10 + self.c01 > 0.0, remedy)?;
         Ok(self)
     }
 }

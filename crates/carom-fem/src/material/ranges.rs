@@ -17,6 +17,12 @@ pub(crate) fn not_negative(name: &'static str, value: f64, remedy: &'static str)
     check(name, value, value.is_finite() && value >= 0.0, remedy)
 }
 
-fn check(name: &'static str, value: f64, valid: bool, remedy: &'static str) -> Result<(), FemError> {
+/// Refuses a value that is not `valid`.
+pub(crate) fn check(
+    name: &'static str,
+    value: f64,
+    valid: bool,
+    remedy: &'static str,
+) -> Result<(), FemError> {
     if valid { Ok(()) } else { Err(FemError::MaterialConstant { name, value, remedy }) }
 }

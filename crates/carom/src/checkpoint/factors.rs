@@ -38,7 +38,7 @@ pub(super) fn exchange<const D: usize>(
         let mut is_double = origin.precision == Precision::Double;
         let (nodes, mut near) = compliance.kept(operator);
         let mut nodes = nodes.to_vec();
-        nodes.resize(tape.rows(&name("nodes"), 1, nodes.len())?, 0);
+        nodes.resize(tape.rows(&name("nodes"), nodes.len())?, 0);
         tape.numbers(&name("dt"), [&mut origin.dt])?;
         tape.flags(&name("is_double"), [&mut is_double])?;
         tape.numbers(&name("frame"), origin.frame.iter_mut())?;

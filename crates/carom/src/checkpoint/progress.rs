@@ -68,7 +68,7 @@ fn cross_checks(tape: &mut Tape<'_>, checks: &mut CrossCheckSummary) -> Done {
 }
 
 fn events(tape: &mut Tape<'_>, groups: &[Group], log: &mut EventLog) -> Done {
-    let count = tape.rows("events/group", 1, log.events.len())?;
+    let count = tape.rows("events/group", log.events.len())?;
     let group_of = |event: &ContactEvent| groups.iter().position(|g| g.between == event.pair).unwrap_or(0);
     let mut group: Vec<usize> = log.events.iter().map(group_of).collect();
     group.resize(count, 0);

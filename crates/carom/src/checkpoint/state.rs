@@ -70,8 +70,8 @@ impl<const D: usize> Reactions<D> {
 
     fn exchange(&mut self, tape: &mut Tape<'_>) -> Result<(), CheckpointError> {
         let name = |of: &str| format!("{PREFIX}/{of}");
-        let count = tape.rows(&name("pair"), 1, self.pair.len())?;
-        let entries = tape.rows(&name("stencil_node"), 1, self.stencil_node.len())?;
+        let count = tape.rows(&name("pair"), self.pair.len())?;
+        let entries = tape.rows(&name("stencil_node"), self.stencil_node.len())?;
         self.pair.resize(count, 0);
         self.node.resize(count, 0);
         self.force.resize(count, Vector::zeros());

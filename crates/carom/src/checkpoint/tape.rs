@@ -59,7 +59,7 @@ impl Tape<'_> {
 
     /// Rows of numbers that wait to be written elsewhere; NaN where there is nothing to write.
     pub fn pending(&mut self, name: &str, values: &mut Vec<f64>) -> Done {
-        values.resize(self.rows(name, 1, values.len())?, 0.0);
+        values.resize(self.rows(name, values.len())?, 0.0);
         self.transfer(name, values, |x| !x.is_infinite())
     }
 
@@ -94,17 +94,12 @@ impl Tape<'_> {
         Ok(())
     }
 
-    /// How many rows of `width` entries there will be of what grows with time: as many as are `present`, or as the checkpoint has.
-    pub fn rows(&self, name: &str, width: usize, present: usize) -> Result<usize, CheckpointError> {
+    /// How many entries there will be of what grows with time: as many as are `present`, or as the checkpoint has.
+    pub fn rows(&self, name: &str, present: usize) -> Result<usize, CheckpointError> {
         let Self::Replay(checkpoint) = self else { return Ok(present) };
         let numbers = checkpoint.numbers.get(name).map(Vec::len);
         let length = numbers.or_else(|| checkpoint.integers.get(name).map(Vec::len));
-        let length = length.ok_or_else(|| missing(name))?;
-        if length % width == 0 {
-            Ok(length / width)
-        } else {
-            Err(CheckpointError::new(name, format!("has {length} entries, no multiple of {width}")))
-        }
+        length.ok_or_else(|| missing(name))
     }
 
     fn transfer<'n>(

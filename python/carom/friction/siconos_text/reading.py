@@ -58,11 +58,6 @@ def _problem(tokens: Tokens) -> AnyProblem:
 def _global(tokens: Tokens, m: sp.sparray, *, contacts: int, dimension: int) -> GlobalProblem:
     size = contacts * dimension
     h = read_matrix(tokens, "H")
-    if h.shape != (m.shape[0], size):
-        raise InputError(
-            f"H is {h.shape[0]} × {h.shape[1]}: must be {m.shape[0]} × {size}, as M has rows and "
-            "the contacts components"
-        )
     f, b = tokens.numbers(m.shape[0], "f"), tokens.numbers(size, "b")
     mu = tokens.numbers(contacts, "mu")
     _refuse_more(tokens)
