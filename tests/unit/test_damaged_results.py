@@ -115,7 +115,7 @@ def test_steps_of_another_version_or_of_nothing_are_named(results):
 def test_a_summary_that_is_no_table_is_told_of_in_the_report(results):
     (results / "summary.json").write_text("[]")
     page = write_report(results).read_text(encoding="utf-8")
-    assert "summary.json: is not a table" in page
+    assert "summary.json: not a summary of carom: it is no table" in page
 
 
 def test_a_mesh_that_is_not_that_of_the_case_cannot_be_audited(results):
@@ -201,7 +201,7 @@ def test_an_auditor_that_stumbles_says_over_what(results):
     with pytest.raises(InputError, match=r"audit\.h5: not steps of carom: "):
         carom.audit(results)
     (results / "summary.json").write_text('{"status": "completed"}')
-    with pytest.raises(InputError, match=r"run: cannot be audited: KeyError: "):
+    with pytest.raises(InputError, match=r"not a summary of carom: title is missing"):
         carom.audit(results)
 
 

@@ -99,7 +99,7 @@ def read_source(directory: Path) -> Source:
 
     return Source(
         directory=directory,
-        summary=read(layout.SUMMARY, _summary) or {},
+        summary=read(layout.SUMMARY, read_summary) or {},
         history=read(layout.HISTORY, read_history) or {},
         ledger=read(layout.LEDGER, read_ledger) or {},
         frames=read(layout.FIELDS, Frames),
@@ -108,13 +108,6 @@ def read_source(directory: Path) -> Source:
         scenario=read(layout.CASE, lambda path: read_case(path.parent)),
         notes=tuple(dict.fromkeys(notes)),
     )
-
-
-def _summary(path: Path) -> dict[str, Any]:
-    summary = read_summary(path)
-    if not isinstance(summary, dict):
-        raise InputError(f"{path}: is not a table")
-    return summary
 
 
 def _read(path: Path, reader: Callable[[Path], Read], notes: list[str]) -> Read | None:
