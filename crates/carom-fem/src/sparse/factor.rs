@@ -402,6 +402,9 @@ mod tests {
 
             factor.respond(nodes.into_iter());
             let responses: Vec<Matrix<2>> = nodes.iter().map(|&k| factor.response(1, k)).collect();
+            // Whoever asks again, after a restart, gets the same to the last bit, whatever else it asks for.
+            factor.respond(std::iter::once(12));
+            nodes.iter().zip(&responses).for_each(|(&k, before)| assert_eq!(factor.response(0, k), *before));
             for j in 0..2 {
                 let mut unit = vec![Vector::<2>::zeros(); n];
                 unit[12][j] = 1.0;

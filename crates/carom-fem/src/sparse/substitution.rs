@@ -89,7 +89,10 @@ impl<T: Real> Substitution<T> {
             self.inverted.clear();
             self.inverted.resize(padded * columns, 0.0);
             invert(l, &mut self.inverted, padded, columns + below);
-            self.values.extend(self.inverted.iter().map(|&z| T::of(z)));
+            for (column, z) in self.inverted.chunks_exact(padded).enumerate() {
+                let least = T::NEGLIGIBLE * z[column].abs();
+                self.values.extend(z.iter().map(|&z| T::of(if z.abs() < least { 0.0 } else { z })));
+            }
             largest = largest.max(padded);
             self.panel_of.resize(panel.start + columns, self.panels.len() as u32);
             if padded * columns >= LARGE_PANEL {
