@@ -54,7 +54,11 @@ pub(crate) fn commit<const D: usize>(
         report.ledger.prescribed += group.ledger.prescribed;
         report.normal_force += group.normal_force;
     }
-    if next.is_finite() { Ok(report) } else { Err(StepError::NotFinite("state")) }
+    if !next.is_finite() {
+        return Err(StepError::NotFinite("state"));
+    }
+    // What is largest or smallest of a run does not see what is not a number.
+    if report.is_finite() { Ok(report) } else { Err(StepError::NotFinite("account of the step")) }
 }
 
 /// Measures the contact law at the final motion and keeps the reactions in the state.

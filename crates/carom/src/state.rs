@@ -121,9 +121,11 @@ impl<const D: usize> State<D> {
     /// Whether every number is finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        let finite = |v: &[Vector<D>]| v.iter().all(|v| v.iter().all(|x| x.is_finite()));
-        finite(&self.displacement)
-            && finite(&self.velocity)
+        let vectors =
+            [&self.displacement, &self.velocity, &self.internal_force, &self.contact_force, &self.support];
+        let numbers = [&self.friction_energy, &self.slip, &self.excess];
+        vectors.into_iter().flatten().all(|v| v.iter().all(|x| x.is_finite()))
+            && numbers.into_iter().flatten().all(|x| x.is_finite())
             && self.energies.kinetic.is_finite()
             && self.energies.strain.is_finite()
     }

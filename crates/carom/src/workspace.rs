@@ -197,3 +197,13 @@ pub struct StepReport {
     /// What happened to the energy.
     pub ledger: Ledger,
 }
+
+impl StepReport {
+    /// Whether every number is finite, but for the smallest gap where there is none.
+    pub(crate) fn is_finite(&self) -> bool {
+        let Self { normal_force, blend, least_friction, residual, certificate, mut ledger, .. } = *self;
+        let numbers = [normal_force, blend, least_friction, residual, certificate];
+        let terms = ledger.terms_mut().map(|term| *term);
+        numbers.iter().chain(&terms).all(|x| x.is_finite()) && !self.min_gap.is_nan()
+    }
+}

@@ -23,7 +23,7 @@ impl NeoHookean {
 }
 
 impl Material for NeoHookean {
-    /// By the Green–Lagrange strain, for the reason given in [`super::strain_law`].
+    /// By the Green–Lagrange strain, so that the energy of a small strain keeps its digits.
     #[inline]
     fn energy(&self, f: &Mat3) -> f64 {
         if f.determinant() <= 0.0 {
