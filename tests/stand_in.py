@@ -5,6 +5,8 @@ import json
 
 import numpy as np
 
+from carom.summary import EnergySummary
+
 MESH = {
     "points": np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.0]]),
     "connectivity": np.array([0, 1, 2, 3, 1, 4, 2], dtype=np.int64),
@@ -149,19 +151,21 @@ class FallingSimulation:
             "factorisations": 0,
             "retried_steps": 0,
             "energy": {
+                **dict.fromkeys(EnergySummary.__annotations__, 0.0),
                 "initial": 8.0,
                 "final": 8.0,
-                "friction": 0.0,
-                "external": 0.0,
-                "max_drift": 0.0,
-                "max_defect": 0.0,
             },
             "certificate": {
                 "max_joule": self._certificate,
                 "max_residual": 0.0,
                 "tolerance_joule": 1e-9,
             },
+            "bodies": [],
+            "pairs": [],
+            "max_blend": 0.0,
+            "least_friction": 0.0,
             "min_gap": float("inf"),
+            "cross_check": None,
             "contacts": [
                 {
                     "pair": ["left", "right"],
