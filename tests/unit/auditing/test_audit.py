@@ -437,6 +437,15 @@ def test_what_cannot_be_audited_is_said(results, tmp_path):
         carom.audit(directory)
 
 
+def test_a_history_without_a_column_cannot_be_audited(results, tmp_path):
+    directory = tmp_path / "spoilt"
+    shutil.copytree(results("gap", "theta"), directory)
+    history = directory / "history.csv"
+    history.write_text(history.read_text().replace("kinetic", "kinetik", 1))
+    with pytest.raises(carom.InputError, match="cannot be audited: KeyError: 'kinetic'"):
+        carom.audit(directory)
+
+
 def test_mortar_contact_is_not_audited(results, tmp_path):
     directory = tmp_path / "results"
     shutil.copytree(results("gap", "theta"), directory)
