@@ -23,6 +23,7 @@ from unittest import mock
 import numpy as np
 
 import carom
+from carom.tables import defect_share
 
 SPACING = 2.5
 """Distance of the places where bodies start [m]."""
@@ -208,9 +209,7 @@ def ending(scenario: carom.Scenario) -> Ending:
             return Ending("broken", "".join(traceback.format_exception(error)), 0.0, 0.0, np.nan)
         end = process_time()
         summary = carom.Result.open(directory).summary
-    energy = summary["energy"]
-    supplied = energy["initial"] + abs(energy["external"])
-    defect = energy["max_defect"] / supplied
+    defect = defect_share(summary["energy"])
     return Ending(summary["status"], reason, end - start, end - last, defect)
 
 

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 import annotated_types
+from generated import write_or_check
 from pydantic.fields import FieldInfo
 
 from carom import Scenario, Table
@@ -271,20 +272,5 @@ def schema() -> str:
     return json.dumps(case_file_schema(), indent=2, ensure_ascii=False) + "\n"
 
 
-def main() -> int:
-    """Write the files, or compare them."""
-    outdated = False
-    for file, text in ((PAGE, page()), (SCHEMA, schema())):
-        if "--check" not in sys.argv[1:]:
-            file.write_text(text, encoding="utf-8")
-        elif not file.exists() or file.read_text(encoding="utf-8") != text:
-            outdated = True
-            print(
-                f"{file} is out of date: run python docs/make_case_file_reference.py",
-                file=sys.stderr,
-            )
-    return int(outdated)
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(write_or_check({PAGE: page(), SCHEMA: schema()}))

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import tomlkit
+from generated import write_or_check
 from message_texts import texts
 
 from carom.messages import DATA_MESSAGES
@@ -80,17 +81,5 @@ def _code(text: str) -> str:
     return " ".join(text.split()).replace("`", "'")
 
 
-def main() -> int:
-    """Write the page, or compare it with what it should be."""
-    text = page()
-    if "--check" in sys.argv[1:]:
-        if PAGE.exists() and PAGE.read_text(encoding="utf-8") == text:
-            return 0
-        print(f"{PAGE} is out of date; run python docs/make_messages.py")
-        return 1
-    PAGE.write_text(text, encoding="utf-8")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(write_or_check({PAGE: page()}))

@@ -65,7 +65,7 @@ def outcome(summary: Mapping[str, Any]) -> Rows:
     yield "friction", f"{energy['friction']:.6g} J dissipated"
     yield "largest drift", f"{energy['max_drift']:.3g} J"
     yield "largest defect", f"{energy['max_defect']:.3g} J, of the energy ledger"
-    if (share := _defect_share(energy)) > LARGE_DEFECT:
+    if (share := defect_share(energy)) > LARGE_DEFECT:
         yield (
             "warning",
             f"the ledger misses {share:.2g} of the energy: the time step is too long for this "
@@ -124,7 +124,7 @@ def _cross_check(check: Mapping[str, Any]) -> Rows:
         )
 
 
-def _defect_share(energy: Mapping[str, float]) -> float:
+def defect_share(energy: Mapping[str, float]) -> float:
     """Return the largest defect of the ledger relative to the energy that came in."""
     supplied = energy["initial"] + abs(energy["external"])
     return energy["max_defect"] / supplied if supplied > 0.0 else 0.0

@@ -128,7 +128,7 @@ class FrameQueue:
             return
         try:
             writing.result()
-        except OSError:
+        except Exception:
             self._waiting.clear()  # behind a gap nobody wants them
             raise
 

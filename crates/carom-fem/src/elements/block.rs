@@ -4,8 +4,8 @@ use carom_mesh::{Matrix, Vector};
 
 use super::grid::Grid;
 use super::kinematics::Kinematics;
-use super::{CellState, Elements, StepForces, green_lagrange};
-use crate::material::{BATCH, Batch, Mat3, PlasticState, PointLaw, Tangent};
+use super::{CellState, Elements, StepForces};
+use crate::material::{BATCH, Batch, Mat3, PlasticState, PointLaw, Tangent, embed, green_lagrange};
 use crate::sparse::NodalMatrix;
 
 /// Elements whose points follow their law one by one.
@@ -129,7 +129,7 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
                 let mut volume = 0.0;
                 for q in self.grid.points(lane) {
                     mean.stress += stresses[q] * weights[q];
-                    mean.strain += green_lagrange(&f.get(q)) * weights[q];
+                    mean.strain += green_lagrange(&embed(&f.get(q))) * weights[q];
                     mean.energy_density += densities[q] * weights[q];
                     volume += weights[q];
                 }

@@ -5,9 +5,11 @@ use carom_mesh::{Matrix, Vector};
 use super::dilatation::Cell;
 use super::grid::Grid;
 use super::kinematics::Kinematics;
-use super::{CellState, Elements, StepForces, green_lagrange};
+use super::{CellState, Elements, StepForces};
 use crate::material::discrete_gradient::{SMALL_STRAIN, deformation, second_piola, stress_difference};
-use crate::material::{BATCH, Batch, LANES, MAX_POINTS, Mat3, PlasticState, PointLaw, Tangent};
+use crate::material::{
+    BATCH, Batch, LANES, MAX_POINTS, Mat3, PlasticState, PointLaw, Tangent, embed, green_lagrange,
+};
 use crate::sparse::NodalMatrix;
 
 /// Elements whose points share one change of volume per cell: see [`super::dilatation`].
@@ -263,7 +265,7 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
                     let f = f.get(q);
                     mean.stress +=
                         stresses.get(q) * f.transpose() * (weights[q] / (volume * f.determinant()));
-                    mean.strain += green_lagrange(&f) * (weights[q] / volume);
+                    mean.strain += green_lagrange(&embed(&f)) * (weights[q] / volume);
                     mean.energy_density += energies[q] / volume;
                 }
                 out.push(mean);

@@ -13,7 +13,7 @@ use std::fmt::Debug;
 
 use carom_mesh::{CellKind, Matrix, Vector};
 
-use crate::material::{Mat3, PlasticState, embed};
+use crate::material::{Mat3, PlasticState};
 use crate::shape_table::Cells;
 use crate::sparse::{NodalMatrix, NodeGraph};
 use crate::{BodySpec, FemError, Formulation, Hypothesis};
@@ -43,12 +43,6 @@ impl CellState {
     fn empty(plastic_strain: f64) -> Self {
         Self { stress: Mat3::zeros(), strain: Mat3::zeros(), energy_density: 0.0, plastic_strain }
     }
-}
-
-/// Green–Lagrange strain of a deformation gradient.
-fn green_lagrange<const S: usize>(f: &Matrix<S>) -> Mat3 {
-    let f = embed(f);
-    (f.tr_mul(&f) - Mat3::identity()) * 0.5
 }
 
 /// The forces of a step from u₀ to u₁ that a blend of its start and end stresses is made of [N], one vector per node; F̄ = ½(F₀ + F₁).

@@ -50,6 +50,7 @@ pub use point_law::{Confined, PointLaw};
 pub(crate) use point_law::{embed, restrict};
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 pub use spectrum::{ByStretches, Spectrum, StretchEnergy};
+pub(crate) use strain_law::green_lagrange;
 pub use strain_law::{Hyperelastic, StrainLaw};
 pub use viscosity::Viscosity;
 pub use yeoh::Yeoh;

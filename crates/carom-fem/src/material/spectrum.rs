@@ -97,11 +97,11 @@ impl Spectrum {
     /// diagonal and 2 (s_A − s_B)/(λ_A² − λ_B²) dE_AB beside it, in the axes N.
     #[must_use]
     pub fn derivative(&self, s: &[f64; 3], slope: &[[f64; 3]; 3]) -> Tangent<3> {
-        let mut shear = [[0.0; 3]; 3];
+        let (squares, mut shear) = (self.squares(), [[0.0; 3]; 3]);
         for a in 0..3 {
             for b in 0..3 {
                 let difference = 2.0 * (self.strains[a] - self.strains[b]);
-                shear[a][b] = if difference.abs() > COINCIDENT * (1.0 + 2.0 * self.strains[a]) {
+                shear[a][b] = if difference.abs() > COINCIDENT * squares[a] {
                     2.0 * (s[a] - s[b]) / difference
                 } else {
                     0.5 * (slope[a][a] - slope[a][b] + slope[b][b] - slope[b][a])

@@ -62,7 +62,7 @@ impl<L: StrainLaw> Material for Hyperelastic<L> {
 
 /// E = ½(H + Hᵀ + HᵀH) with H = F − I.
 #[inline]
-pub(super) fn green_lagrange(f: &Mat3) -> Mat3 {
+pub(crate) fn green_lagrange(f: &Mat3) -> Mat3 {
     let h = f - Mat3::identity();
     (h + h.transpose() + h.tr_mul(&h)) * 0.5
 }
