@@ -78,6 +78,17 @@ pub enum StepError {
         /// The widest margin tried [m].
         margin: f64,
     },
+    /// What the massless nodes took from the balance of energy could not be given back.
+    #[error(
+        "contact of massless nodes leaves {missing:.3e} J of {energy:.3e} J unaccounted for: shorten the time step, or choose \
+         the contact condition gap or midpoint"
+    )]
+    Unbalanced {
+        /// What the step and those before left over [J].
+        missing: f64,
+        /// Energy of the model [J].
+        energy: f64,
+    },
     /// In a static analysis nothing keeps a body where it is.
     #[error(
         "body {body:?} is not held: neither supports nor contact resist the forces on it; fix what would move, start it in \

@@ -47,3 +47,25 @@ fn a_run_that_cannot_go_on_says_why_and_keeps_the_last_good_state() {
     let energy = simulation.summary().energy;
     assert!(energy.max_drift < 1e-13 * energy.initial, "free flight up to the impact changes no energy");
 }
+
+/// Symptom guarded against: runs with massless nodes that completed without a fifth of their energy.
+#[test]
+fn impacts_too_violent_for_massless_nodes_are_refused_instead_of_losing_energy() {
+    let ball = body("ball", disc([1.25, 1.25], 0.8009, 4), [0.076, 2.312]);
+    let walls = [plane("floor", [0.0, 0.0], [0.0, 1.0]), plane("west", [0.0, 0.0], [1.0, 0.0])];
+    let mut case = scenario(0.649, 8.11e-3, &[ball], &walls);
+    case["bodies"][0]["spin"] = json!(20.07);
+    case["materials"]["elastic"] =
+        json!({"kind": "linear-elastic", "young": 10360.0, "poisson": 0.3, "density": 1.0});
+    case["analysis"]["scheme"] = json!({"kind": "conserving"});
+    case["analysis"]["gravity"] = json!([0.0, -9.81]);
+    case["contact"]["condition"] = json!("massless");
+    case["contact"]["targets"] = json!("smooth");
+    case["contact"]["friction"] = json!(0.2765);
+    let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
+    let error = simulation.advance(f64::INFINITY, || false).expect_err("turns too fast for small strains");
+    let StepError::Unbalanced { missing, energy } = error.reason else { panic!("{error}") };
+    assert!(missing > 1e-3 * energy);
+    let books = simulation.summary().energy;
+    assert!(books.max_defect < 1e-3 * books.initial, "the steps before close: {:e} J", books.max_defect);
+}
