@@ -92,14 +92,15 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
     ) {
         let (mut f0, mut f1) = (Batch::zeros(), Batch::zeros());
         let mut stresses = [Batch::zeros(), Batch::zeros(), Batch::zeros()];
+        let mut local = Grid::<D, S, N, K>::NOWHERE;
         for pack in 0..self.grid.packs() {
             self.grid.deform(pack, u0, &mut f0);
             self.grid.deform(pack, u1, &mut f1);
             let history = self.grid.part(pack, history);
             self.law.all_step_stresses(self.grid.batch(), &f0, &f1, history, &mut stresses);
-            self.grid.add_forces(pack, &stresses[0], force.conserving);
-            self.grid.add_forces(pack, &stresses[1], force.difference);
-            self.grid.add_forces(pack, &stresses[2], force.end);
+            self.grid.add_forces(pack, &stresses[0], &mut local, force.conserving);
+            self.grid.add_forces(pack, &stresses[1], &mut local, force.difference);
+            self.grid.add_forces(pack, &stresses[2], &mut local, force.end);
         }
     }
 

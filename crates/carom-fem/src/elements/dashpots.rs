@@ -30,21 +30,24 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Dashpo
     for ViscousBlock<D, S, N, K>
 {
     fn add_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], dt: f64, force: &mut [Vector<D>]) {
-        let (mut f0, mut f1, mut stresses) = (Batch::zeros(), Batch::zeros(), Batch::zeros());
-        for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u0, &mut f0);
-            self.grid.deform(pack, u1, &mut f1);
-            for q in 0..self.grid.batch() {
-                let (f0, f1) = (embed(&f0.get(q)), embed(&f1.get(q)));
-                let stress = if self.objective {
-                    self.viscosity.stress(&f0, &f1, dt)
-                } else {
-                    self.viscosity.small_stress(&f0, &f1, dt)
-                };
-                stresses.set(q, &restrict(&stress));
-            }
-            self.grid.add_forces(pack, &stresses, force);
-        }
+        self.grid.assemble(
+            force,
+            || (Batch::zeros(), Batch::zeros()),
+            |pack, (f0, f1), stresses| {
+                self.grid.deform(pack, u0, f0);
+                self.grid.deform(pack, u1, f1);
+                for q in 0..self.grid.batch() {
+                    let (f0, f1) = (embed(&f0.get(q)), embed(&f1.get(q)));
+                    let stress = if self.objective {
+                        self.viscosity.stress(&f0, &f1, dt)
+                    } else {
+                        self.viscosity.small_stress(&f0, &f1, dt)
+                    };
+                    stresses.set(q, &restrict(&stress));
+                }
+                0.0
+            },
+        );
     }
 
     fn add_damping(&self, u: &[Vector<D>], c: &mut NodalMatrix<Matrix<D>>) {

@@ -38,6 +38,9 @@ pub(crate) struct Grid<const D: usize, const S: usize, const N: usize, K> {
 pub(crate) type Local<const D: usize, const N: usize> = [[[f64; LANES]; D]; N];
 
 impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D, S, N, K> {
+    /// Zero forces at the nodes of a pack.
+    pub const NOWHERE: Local<D, N> = [[[0.0; LANES]; D]; N];
+
     /// # Errors
     /// If a cell is inverted or degenerate.
     pub fn new(cells: &Cells<'_, D>, graph: &NodeGraph) -> Result<Self, FemError> {
@@ -154,12 +157,12 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
         self.arch.dispatch(Deform { grid: self, pack, u, f });
     }
 
-    /// Adds the nodal forces of the `stresses` at the points of a pack to `f`.
+    /// Adds the nodal forces of the `stresses` at the points of a pack to `f`; those of its cells go to `local`.
     #[inline]
-    pub fn add_forces(&self, pack: usize, stresses: &Batch<S>, f: &mut [Vector<D>]) {
-        let local = self.local_forces(pack, stresses);
+    pub fn add_forces(&self, pack: usize, stresses: &Batch<S>, local: &mut Local<D, N>, f: &mut [Vector<D>]) {
+        self.local_forces(pack, stresses, local);
         let lanes = self.cells(pack).len();
-        for (nodes, force) in self.nodes[pack].iter().zip(&local) {
+        for (nodes, force) in self.nodes[pack].iter().zip(&*local) {
             for (lane, &node) in nodes.iter().enumerate().take(lanes) {
                 let f = &mut f[node as usize];
                 (0..D).for_each(|i| f[i] += force[i][lane]);
@@ -180,27 +183,26 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
             return staging.assemble(
                 force,
                 || (scratch(), Batch::zeros()),
-                |pack, (work, stresses)| {
+                |pack, (work, stresses), local| {
                     let sum = stress(pack, work, stresses);
-                    (self.local_forces(pack, stresses), sum)
+                    self.local_forces(pack, stresses, local);
+                    sum
                 },
             );
         }
-        let (mut work, mut stresses) = (scratch(), Batch::zeros());
+        let (mut work, mut stresses, mut local) = (scratch(), Batch::zeros(), Self::NOWHERE);
         let mut sum = 0.0;
         for pack in 0..self.packs() {
             sum += stress(pack, &mut work, &mut stresses);
-            self.add_forces(pack, &stresses, force);
+            self.add_forces(pack, &stresses, &mut local, force);
         }
         sum
     }
 
-    /// The nodal forces of the `stresses` at the points of a pack.
+    /// Writes the nodal forces of the `stresses` at the points of a pack to `local`.
     #[inline]
-    pub fn local_forces(&self, pack: usize, stresses: &Batch<S>) -> Local<D, N> {
-        let mut local = [[[0.0; LANES]; D]; N];
-        self.arch.dispatch(Forces { grid: self, pack, stresses, local: &mut local });
-        local
+    pub fn local_forces(&self, pack: usize, stresses: &Batch<S>, local: &mut Local<D, N>) {
+        self.arch.dispatch(Forces { grid: self, pack, stresses, local });
     }
 
     /// The stiffness of `tangents`, one per point of the cell in a lane.
@@ -258,32 +260,34 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> WithSi
     #[inline(always)]
     fn with_simd<V: Simd>(self, simd: V) {
         let Self { grid, pack, u, f } = self;
-        let mut local: Local<D, N> = [[[0.0; LANES]; D]; N];
-        for (nodes, local) in grid.nodes[pack].iter().zip(&mut local) {
-            for (lane, &node) in nodes.iter().enumerate() {
-                let u = &u[node as usize];
-                for i in 0..D {
-                    local[i][lane] = u[i];
-                }
-            }
-        }
         let (zero, one) = (simd.splat_f64s(0.0), simd.splat_f64s(1.0));
         let first = pack * grid.points_per_cell;
-        for (q, gradients) in grid.gradients[first..first + grid.points_per_cell].iter().enumerate() {
-            for chunk in 0..LANES / V::F64_LANES {
+        let gradients = &grid.gradients[first..first + grid.points_per_cell];
+        for chunk in 0..LANES / V::F64_LANES {
+            let mut local = [[zero; D]; N];
+            for (nodes, local) in grid.nodes[pack].iter().zip(&mut local) {
+                let mut lanes = [[0.0; LANES]; D];
+                for (lane, &node) in nodes[chunk * V::F64_LANES..].iter().enumerate().take(V::F64_LANES) {
+                    let u = &u[node as usize];
+                    for i in 0..D {
+                        lanes[i][lane] = u[i];
+                    }
+                }
+                for i in 0..D {
+                    local[i] = load::<V>(&lanes[i], 0);
+                }
+            }
+            for (q, gradients) in gradients.iter().enumerate() {
                 let mut sum = [[zero; S]; S];
                 for (i, row) in sum.iter_mut().enumerate() {
                     row[i] = one;
                 }
-                for (local, gradient) in local.iter().zip(gradients) {
-                    let (mut u, mut g) = ([zero; D], [zero; S]);
-                    for i in 0..D {
-                        u[i] = load::<V>(&local[i], chunk);
-                    }
+                for (u, gradient) in local.iter().zip(gradients) {
+                    let mut g = [zero; S];
                     for j in 0..S {
                         g[j] = load::<V>(&gradient[j], chunk);
                     }
-                    K::add_displacement(simd, &mut sum, &u, &g);
+                    K::add_displacement(simd, &mut sum, u, &g);
                 }
                 for i in 0..S {
                     for j in 0..S {

@@ -153,12 +153,11 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
     }
 
     fn add_internal_force(&self, u: &[Vector<D>], history: &[PlasticState], force: &mut [Vector<D>]) {
-        let (mut f, mut stresses) = (Batch::zeros(), Batch::zeros());
-        for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u, &mut f);
-            self.stresses(pack, &f, history, &mut stresses);
-            self.grid.add_forces(pack, &stresses, force);
-        }
+        self.grid.assemble(force, Batch::zeros, |pack, f, stresses| {
+            self.grid.deform(pack, u, f);
+            self.stresses(pack, f, history, stresses);
+            0.0
+        });
     }
 
     fn add_conserving_force(
@@ -168,13 +167,16 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
         history: &[PlasticState],
         force: &mut [Vector<D>],
     ) {
-        let (mut f0, mut f1, mut stresses) = (Batch::zeros(), Batch::zeros(), Batch::zeros());
-        for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u0, &mut f0);
-            self.grid.deform(pack, u1, &mut f1);
-            self.discrete_stresses(pack, &f0, &f1, history, &mut stresses);
-            self.grid.add_forces(pack, &stresses, force);
-        }
+        self.grid.assemble(
+            force,
+            || (Batch::zeros(), Batch::zeros()),
+            |pack, (f0, f1), stresses| {
+                self.grid.deform(pack, u0, f0);
+                self.grid.deform(pack, u1, f1);
+                self.discrete_stresses(pack, f0, f1, history, stresses);
+                0.0
+            },
+        );
     }
 
     fn add_step_forces(
@@ -186,25 +188,27 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
     ) {
         let (mut f0, mut f1) = (Batch::zeros(), Batch::zeros());
         let (mut start, mut end, mut other) = (Batch::zeros(), Batch::zeros(), Batch::zeros());
+        let mut local = Grid::<D, 3, N, K>::NOWHERE;
         for pack in 0..self.grid.packs() {
             self.grid.deform(pack, u0, &mut f0);
             self.grid.deform(pack, u1, &mut f1);
             self.stresses(pack, &f0, history, &mut start);
             self.stresses(pack, &f1, history, &mut end);
-            self.grid.add_forces(pack, &end, force.end);
+            self.grid.add_forces(pack, &end, &mut local, force.end);
             self.discrete_stresses(pack, &f0, &f1, history, &mut other);
-            self.grid.add_forces(pack, &other, force.conserving);
+            self.grid.add_forces(pack, &other, &mut local, force.conserving);
             for q in 0..self.grid.batch() {
                 let (f0, f1) = (f0.get(q), f1.get(q));
                 other.set(q, &stress_difference(&f0, &start.get(q), &f1, &end.get(q)));
             }
-            self.grid.add_forces(pack, &other, force.difference);
+            self.grid.add_forces(pack, &other, &mut local, force.difference);
         }
     }
 
     fn add_stiffness(&self, u: &[Vector<D>], history: &[PlasticState], k: &mut NodalMatrix<Matrix<D>>) {
         let (mut f, mut modified, mut stresses) = (Batch::zeros(), Batch::zeros(), Batch::zeros());
         let (mut swelling, mut pressing) = (Batch::zeros(), Batch::zeros());
+        let (mut n, mut g) = (Grid::<D, 3, N, K>::NOWHERE, Grid::<D, 3, N, K>::NOWHERE);
         let mut tangents: Vec<Tangent<3>> = vec![[[[[0.0; 3]; 3]; 3]; 3]; self.grid.batch()];
         for pack in 0..self.grid.packs() {
             self.grid.deform(pack, u, &mut f);
@@ -231,8 +235,8 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
                     coupling
                 })
                 .collect();
-            let n = self.grid.local_forces(pack, &swelling);
-            let g = self.grid.local_forces(pack, &pressing);
+            self.grid.local_forces(pack, &swelling, &mut n);
+            self.grid.local_forces(pack, &pressing, &mut g);
             for (lane, cell) in self.grid.cells(pack).enumerate() {
                 let of_cell = self.grid.points(lane).map(|q| &tangents[q]);
                 let mut local = self.grid.local_stiffness(pack, lane, of_cell);

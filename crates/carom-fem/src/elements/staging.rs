@@ -49,19 +49,19 @@ impl<const D: usize, const N: usize> Staging<D, N> {
         Some(Self { starts, cells: at_nodes, packs: Mutex::new(vec![empty; packs.len()]) })
     }
 
-    /// Adds the nodal forces that `of_pack` makes to `force`; returns the sum of the numbers that come with them.
+    /// Adds the nodal forces that `of_pack` writes to `force`; returns the sum of the numbers that come with them.
     pub fn assemble<W>(
         &self,
         force: &mut [Vector<D>],
         scratch: impl Fn() -> W + Sync,
-        of_pack: impl Fn(usize, &mut W) -> (Local<D, N>, f64) + Sync,
+        of_pack: impl Fn(usize, &mut W, &mut Local<D, N>) -> f64 + Sync,
     ) -> f64 {
         // A thread that panicked has left nothing behind that the next evaluation does not overwrite.
         let mut packs = self.packs.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         share(&mut packs, CHUNK, &|first, packs| {
             let mut work = scratch();
-            for (pack, slot) in (first..).zip(packs) {
-                *slot = of_pack(pack, &mut work);
+            for (pack, (local, sum)) in (first..).zip(packs) {
+                *sum = of_pack(pack, &mut work, local);
             }
         });
         each_chunk(force, |first, force| {

@@ -87,7 +87,7 @@ impl Material for SaintVenantKirchhoff {
     }
 
     fn stresses<const D: usize>(&self, count: usize, f: &Batch<D>, out: &mut Batch<D>) {
-        Arch::new().dispatch(Stresses { law: self, count, f0: f, f1: f, out });
+        Arch::new().dispatch(Stresses { law: self, count, f0: None, f1: f, out });
     }
 
     fn discrete_stresses<const D: usize>(
@@ -97,7 +97,7 @@ impl Material for SaintVenantKirchhoff {
         f1: &Batch<D>,
         out: &mut Batch<D>,
     ) {
-        Arch::new().dispatch(Stresses { law: self, count, f0, f1, out });
+        Arch::new().dispatch(Stresses { law: self, count, f0: Some(f0), f1, out });
     }
 }
 
@@ -116,11 +116,11 @@ fn twice_strain<V: Simd, const D: usize>(simd: V, f: &[[V::f64s; D]; D]) -> [[V:
     c
 }
 
-/// The stresses of a step, many points at once. Where F₀ is F₁ they are P.
+/// The stresses of a step from F₀ to F₁, many points at once; P of F₁ where there is no step.
 struct Stresses<'a, const D: usize> {
     law: &'a SaintVenantKirchhoff,
     count: usize,
-    f0: &'a Batch<D>,
+    f0: Option<&'a Batch<D>>,
     f1: &'a Batch<D>,
     out: &'a mut Batch<D>,
 }
@@ -131,27 +131,30 @@ impl<const D: usize> WithSimd for Stresses<'_, D> {
     #[inline(always)]
     fn with_simd<V: Simd>(self, simd: V) {
         let Self { law, count, f0, f1, out } = self;
-        let quarter_lambda = simd.splat_f64s(0.25 * law.lambda);
-        let (half_mu, half) = (simd.splat_f64s(0.5 * law.mu), simd.splat_f64s(0.5));
+        let (half_lambda, mu) = (simd.splat_f64s(0.5 * law.lambda), simd.splat_f64s(law.mu));
+        let half = simd.splat_f64s(0.5);
         for point in (0..count).step_by(V::F64_LANES) {
-            let (f0, f1) = (f0.load::<V>(point), f1.load::<V>(point));
-            let (c0, c1) = (twice_strain(simd, &f0), twice_strain(simd, &f1));
-            // Four times the mean strain, and its stress; half of F₀ + F₁.
-            let (mut s, mut f) = ([[simd.splat_f64s(0.0); D]; D], f0);
-            let mut trace = simd.splat_f64s(0.0);
-            for i in 0..D {
-                for j in 0..=i {
-                    s[i][j] = simd.add_f64s(c0[i][j], c1[i][j]);
-                }
-                trace = simd.add_f64s(trace, s[i][i]);
-                for j in 0..D {
-                    f[i][j] = simd.mul_f64s(simd.add_f64s(f0[i][j], f1[i][j]), half);
+            // F and twice the strain, at the end or in the mean.
+            let mut f = f1.load::<V>(point);
+            let mut s = twice_strain(simd, &f);
+            if let Some(f0) = f0 {
+                let f0 = f0.load::<V>(point);
+                let c0 = twice_strain(simd, &f0);
+                for i in 0..D {
+                    for j in 0..D {
+                        f[i][j] = simd.mul_f64s(simd.add_f64s(f0[i][j], f[i][j]), half);
+                        s[i][j] = simd.mul_f64s(simd.add_f64s(c0[i][j], s[i][j]), half);
+                    }
                 }
             }
-            let pressure = simd.mul_f64s(trace, quarter_lambda);
+            let mut trace = simd.splat_f64s(0.0);
+            for i in 0..D {
+                trace = simd.add_f64s(trace, s[i][i]);
+            }
+            let pressure = simd.mul_f64s(trace, half_lambda);
             for i in 0..D {
                 for j in 0..=i {
-                    s[i][j] = simd.mul_f64s(s[i][j], half_mu);
+                    s[i][j] = simd.mul_f64s(s[i][j], mu);
                     s[j][i] = s[i][j];
                 }
                 s[i][i] = simd.add_f64s(s[i][i], pressure);

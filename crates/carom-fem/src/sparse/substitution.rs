@@ -360,12 +360,16 @@ impl<T: Real> WithSimd for TransposedProduct<'_, T> {
     }
 }
 
+/// Some of the `rows` of a column of Z. No array of closures makes these: it is not always inlined, and then nothing is in registers.
+#[inline(always)]
+fn part<T: Real, S: Simd>(z: &[T], rows: usize, column: usize, own: Range<usize>) -> (&[T::Lanes<S>], &[T]) {
+    T::lanes::<S>(&z[column * rows + own.start..column * rows + own.end])
+}
+
 /// `t` = Z `x` in the rows from `first` on, with Z stored column by column of so many `rows`.
 #[inline(always)]
 fn product<T: Real, S: Simd>(simd: S, z: &[T], rows: usize, first: usize, x: &[T], t: &mut [T]) {
-    let part = |column: usize| first + column * rows..first + column * rows + t.len();
-    let parts = [0, 1, 2, 3].map(part);
-    let own = part(0);
+    let own = first..first + t.len();
     let mut columns = z.chunks_exact(COLUMNS * rows);
     let mut factors = x.chunks_exact(COLUMNS);
     let (t_simd, t_tail) = T::lanes_mut::<S>(t);
@@ -376,8 +380,10 @@ fn product<T: Real, S: Simd>(simd: S, z: &[T], rows: usize, first: usize, x: &[T
         *t = T::default();
     }
     for (z, x) in columns.by_ref().zip(factors.by_ref()) {
-        let [a, b, c, d] = parts.clone().map(|part| T::lanes::<S>(&z[part]));
-        let [xa, xb, xc, xd] = [x[0], x[1], x[2], x[3]].map(|x| T::splat(simd, x));
+        let (a, b) = (part::<T, S>(z, rows, 0, own.clone()), part::<T, S>(z, rows, 1, own.clone()));
+        let (c, d) = (part::<T, S>(z, rows, 2, own.clone()), part::<T, S>(z, rows, 3, own.clone()));
+        let (xa, xb) = (T::splat(simd, x[0]), T::splat(simd, x[1]));
+        let (xc, xd) = (T::splat(simd, x[2]), T::splat(simd, x[3]));
         for ((((t, a), b), c), d) in t_simd.iter_mut().zip(a.0).zip(b.0).zip(c.0).zip(d.0) {
             let ab = T::mul_add(simd, *a, xa, T::mul_add(simd, *b, xb, *t));
             *t = T::mul_add(simd, *c, xc, T::mul_add(simd, *d, xd, ab));
@@ -409,7 +415,8 @@ fn transposed_product<T: Real, S: Simd>(simd: S, z: &[T], t: &[T], x: &mut [T]) 
     let mut columns = z.chunks_exact(COLUMNS * rows);
     let mut results = x.chunks_exact_mut(COLUMNS);
     for (z, x) in columns.by_ref().zip(results.by_ref()) {
-        let [a, b, c, d] = [0, 1, 2, 3].map(|k| T::lanes::<S>(&z[k * rows..(k + 1) * rows]));
+        let (a, b) = (part::<T, S>(z, rows, 0, 0..rows), part::<T, S>(z, rows, 1, 0..rows));
+        let (c, d) = (part::<T, S>(z, rows, 2, 0..rows), part::<T, S>(z, rows, 3, 0..rows));
         let zero = T::splat(simd, T::default());
         let (mut sa, mut sb, mut sc, mut sd) = (zero, zero, zero, zero);
         for ((((t, a), b), c), d) in t_simd.iter().zip(a.0).zip(b.0).zip(c.0).zip(d.0) {
@@ -420,7 +427,9 @@ fn transposed_product<T: Real, S: Simd>(simd: S, z: &[T], t: &[T], x: &mut [T]) 
         }
         for (x, (sum, tail)) in x.iter_mut().zip([(sa, a.1), (sb, b.1), (sc, c.1), (sd, d.1)]) {
             *x = T::sum(simd, sum);
-            tail.iter().zip(t_tail).for_each(|(z, t)| *x += *z * *t);
+            for (z, t) in tail.iter().zip(t_tail) {
+                *x += *z * *t;
+            }
         }
     }
     for (z, x) in columns.remainder().chunks_exact(rows).zip(results.into_remainder()) {
