@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use carom_mesh::{Facet, Matrix, Mesh, Surface, Vector, tensor};
+use carom_mesh::{Facet, Matrix, Mesh, Surface, Vector};
 use serde::{Deserialize, Serialize};
 
 use crate::elements::{
@@ -10,7 +10,6 @@ use crate::held::{Held, HeldDof};
 use crate::loose::is_loose;
 use crate::massless::{followers, redistributed};
 use crate::material::{LawSpec, PlasticState, Viscosity};
-use crate::rigid::RigidMass;
 use crate::shape_table::{Cells, Depth, facet_area};
 use crate::sparse::{NodalMatrix, NodeGraph};
 use crate::worked::Worked;
@@ -93,6 +92,8 @@ pub struct Body<const D: usize> {
     damping: RayleighDamping,
     damping_stiffness: Option<NodalMatrix<Matrix<D>>>,
     turns: bool,
+    /// See [`Self::reference_arms`].
+    pub(crate) frame_arms: Vec<Vector<D>>,
     wave_speed: f64,
     held: Held,
 }
@@ -170,8 +171,10 @@ impl<const D: usize> Body<D> {
             massless_contact: spec.massless_contact,
             nodal_mass,
             turns,
+            frame_arms: Vec::new(),
             held: Held::default(),
         };
+        body.frame_arms = body.reference_arms();
         body.hold(body.axis_nodes().into_iter().map(|node| HeldDof { node, component: 0 }));
         if spec.massless_contact {
             let stiffness = body.stiffness(&vec![Vector::zeros(); body.node_count()]);
@@ -413,98 +416,10 @@ impl<const D: usize> Body<D> {
         Some(c)
     }
 
-    /// Centre of mass of the deformed body [m].
-    #[must_use]
-    pub fn centre(&self, u: &[Vector<D>]) -> Vector<D> {
-        self.mean(u) + self.mean(self.mesh.nodes())
-    }
-
     /// Whether the body can turn without storing energy, so that angular momentum can be conserved.
     #[must_use]
     pub fn turns(&self) -> bool {
         self.turns
-    }
-
-    /// Mean of a nodal vector, weighted by mass: the velocity of the centre of mass for `v`. In a body of revolution what is
-    /// radial cancels around the axis.
-    #[must_use]
-    pub fn mean(&self, v: &[Vector<D>]) -> Vector<D> {
-        let sum = self.nodal_mass.iter().zip(v).fold(Vector::zeros(), |s, (&m, v)| s + v * m);
-        self.resultant(sum) / self.total_mass
-    }
-
-    /// The resultant of a `sum` over the nodes: without its radial component in a body of revolution, where that cancels.
-    #[must_use]
-    pub fn resultant(&self, mut sum: Vector<D>) -> Vector<D> {
-        if self.is_axisymmetric() {
-            sum[0] = 0.0;
-        }
-        sum
-    }
-
-    /// The mean rotation R of the body: the polar factor of Σ m (x − c) ⊗ (X − C).
-    ///
-    /// It is the identity for a law of small displacements, whose forces do not turn with the body, for a body that repeats
-    /// itself, and where the body is so deformed that there is no rotation to find.
-    #[must_use]
-    pub fn frame(&self, u: &[Vector<D>]) -> Matrix<D> {
-        if !self.turns {
-            return Matrix::identity();
-        }
-        let (centre, reference_centre) = (self.centre(u), self.mean(self.mesh.nodes()));
-        let mut moment = Matrix::zeros();
-        let mut inertia = Matrix::zeros();
-        for ((u, x), &m) in u.iter().zip(self.mesh.nodes()).zip(&self.nodal_mass) {
-            let arm = x - reference_centre;
-            moment += (x + u - centre) * arm.transpose() * m;
-            inertia += arm * arm.transpose() * m;
-        }
-        tensor::closest_rotation(&(moment * tensor::inverse(&inertia).0)).unwrap_or_else(Matrix::identity)
-    }
-
-    /// The moments of the mass at the positions X + `u`, from which forces are made that move the body rigidly.
-    #[must_use]
-    pub fn rigid_mass(&self, u: &[Vector<D>], arms: &mut [Vector<D>]) -> RigidMass<D> {
-        RigidMass::new(self, u, arms)
-    }
-
-    /// Mean spin [rad/s] about the centre of mass, as (z) in 2D and (x, y, z) in 3D: the inertia tensor's inverse times the
-    /// angular momentum about the centre. A body of revolution has none.
-    #[must_use]
-    pub fn spin(&self, u: &[Vector<D>], v: &[Vector<D>]) -> [f64; 3] {
-        if self.is_axisymmetric() {
-            return [0.0; 3];
-        }
-        let (centre, drift) = (self.centre(u), self.mean(v));
-        let mut momentum = [0.0; 3];
-        let mut inertia = Matrix::<3>::zeros();
-        let mut polar = 0.0;
-        for (((u, v), x), &m) in u.iter().zip(v).zip(self.mesh.nodes()).zip(&self.nodal_mass) {
-            let arm = x + u - centre;
-            let moment = tensor::cross(&arm, &(v - drift));
-            let arm3 = Vector::<3>::from_fn(|i, _| if i < D { arm[i] } else { 0.0 });
-            (0..3).for_each(|i| momentum[i] += m * moment[i]);
-            polar += m * arm3.norm_squared();
-            inertia -= arm3 * arm3.transpose() * m;
-        }
-        inertia += Matrix::<3>::identity() * polar;
-        let spin = tensor::inverse(&inertia).0 * Vector::<3>::from(momentum);
-        [spin[0], spin[1], spin[2]]
-    }
-
-    /// Angular momentum [kg m²/s] about the origin of a body with momentum density `mv` = M v [kg m/s] per node; none of a body
-    /// of revolution, in which it cancels.
-    #[must_use]
-    pub fn angular_momentum(&self, u: &[Vector<D>], mv: &[Vector<D>]) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        if self.is_axisymmetric() {
-            return sum;
-        }
-        for ((u, mv), x) in u.iter().zip(mv).zip(self.mesh.nodes()) {
-            let moment = tensor::cross(&(x + u), mv);
-            (0..3).for_each(|i| sum[i] += moment[i]);
-        }
-        sum
     }
 }
 

@@ -1,6 +1,106 @@
-use carom_mesh::{Matrix, Vector, tensor};
+//! How a body moves as a whole.
+
+use carom_mesh::{Matrix, Vector, nodal, tensor};
 
 use crate::Body;
+
+impl<const D: usize> Body<D> {
+    /// Centre of mass of the deformed body [m].
+    #[must_use]
+    pub fn centre(&self, u: &[Vector<D>]) -> Vector<D> {
+        self.mean(u) + self.mean(self.mesh().nodes())
+    }
+
+    /// Mean of a nodal vector, weighted by mass: the velocity of the centre of mass for `v`. In a body of revolution what is
+    /// radial cancels around the axis.
+    #[must_use]
+    pub fn mean(&self, v: &[Vector<D>]) -> Vector<D> {
+        self.resultant(nodal::weighted_total(self.nodal_mass(), v)) / self.total_mass()
+    }
+
+    /// The resultant of a `sum` over the nodes: without its radial component in a body of revolution, where that cancels.
+    #[must_use]
+    pub fn resultant(&self, mut sum: Vector<D>) -> Vector<D> {
+        if self.is_axisymmetric() {
+            sum[0] = 0.0;
+        }
+        sum
+    }
+
+    /// The mean rotation R of the body: the polar factor of Σ m (x − c) ⊗ (X − C).
+    ///
+    /// It is the identity for a law of small displacements, whose forces do not turn with the body, for a body that repeats
+    /// itself, and where the body is so deformed that there is no rotation to find.
+    #[must_use]
+    pub fn frame(&self, u: &[Vector<D>]) -> Matrix<D> {
+        if !self.turns() {
+            return Matrix::identity();
+        }
+        let mut turned = Matrix::identity();
+        for (u, arm) in u.iter().zip(&self.frame_arms) {
+            turned += u * arm.transpose();
+        }
+        tensor::closest_rotation(&turned).unwrap_or_else(Matrix::identity)
+    }
+
+    /// m (X − C)ᵀ [Σ m (X − C) ⊗ (X − C)]⁻¹ [1/m] of every node: what [`Self::frame`] weighs displacements with; C is left out of
+    /// those, as what all nodes share cancels.
+    pub(crate) fn reference_arms(&self) -> Vec<Vector<D>> {
+        let nodes = self.mesh().nodes();
+        let centre = self.mean(nodes);
+        let mut inertia = Matrix::zeros();
+        for (x, &m) in nodes.iter().zip(self.nodal_mass()) {
+            inertia += (x - centre) * (x - centre).transpose() * m;
+        }
+        let inverse = tensor::inverse(&inertia).0;
+        nodes.iter().zip(self.nodal_mass()).map(|(x, &m)| inverse * (x - centre) * m).collect()
+    }
+
+    /// The moments of the mass at the positions X + `u`, from which forces are made that move the body rigidly.
+    #[must_use]
+    pub fn rigid_mass(&self, u: &[Vector<D>], arms: &mut [Vector<D>]) -> RigidMass<D> {
+        RigidMass::new(self, u, arms)
+    }
+
+    /// Mean spin [rad/s] about the centre of mass, as (z) in 2D and (x, y, z) in 3D: the inertia tensor's inverse times the
+    /// angular momentum about the centre. A body of revolution has none.
+    #[must_use]
+    pub fn spin(&self, u: &[Vector<D>], v: &[Vector<D>]) -> [f64; 3] {
+        if self.is_axisymmetric() {
+            return [0.0; 3];
+        }
+        let (centre, drift) = (self.centre(u), self.mean(v));
+        let mut momentum = [0.0; 3];
+        let mut inertia = Matrix::<3>::zeros();
+        let mut polar = 0.0;
+        for (((u, v), x), &m) in u.iter().zip(v).zip(self.mesh().nodes()).zip(self.nodal_mass()) {
+            let arm = x + u - centre;
+            let moment = tensor::cross(&arm, &(v - drift));
+            let arm3 = Vector::<3>::from_fn(|i, _| if i < D { arm[i] } else { 0.0 });
+            (0..3).for_each(|i| momentum[i] += m * moment[i]);
+            polar += m * arm3.norm_squared();
+            inertia -= arm3 * arm3.transpose() * m;
+        }
+        inertia += Matrix::<3>::identity() * polar;
+        let spin = tensor::inverse(&inertia).0 * Vector::<3>::from(momentum);
+        [spin[0], spin[1], spin[2]]
+    }
+
+    /// Angular momentum [kg m²/s] about the origin of a body with momentum density `mv` = M v [kg m/s] per node; none of a body
+    /// of revolution, in which it cancels.
+    #[must_use]
+    pub fn angular_momentum(&self, u: &[Vector<D>], mv: &[Vector<D>]) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        if self.is_axisymmetric() {
+            return sum;
+        }
+        for ((u, mv), x) in u.iter().zip(mv).zip(self.mesh().nodes()) {
+            let moment = tensor::cross(&(x + u), mv);
+            (0..3).for_each(|i| sum[i] += moment[i]);
+        }
+        sum
+    }
+}
 
 /// Mass, centre and inertia of a body in some configuration.
 ///

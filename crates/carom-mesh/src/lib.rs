@@ -6,6 +6,7 @@ pub mod cell;
 mod error;
 pub mod generate;
 mod mesh;
+pub mod nodal;
 pub mod sets;
 mod surface;
 pub mod tensor;

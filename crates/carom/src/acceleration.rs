@@ -6,10 +6,10 @@
 
 use std::ops::Range;
 
-use carom_mesh::Vector;
+use carom_mesh::{Vector, nodal};
 
 use crate::Model;
-use crate::state::{State, dot};
+use crate::state::State;
 use crate::workspace::Workspace;
 
 /// Differences combined.
@@ -136,9 +136,9 @@ impl<const D: usize> Acceleration<D> {
         let Products { matrix, right } = &mut record.products;
         for j in (0..differences).map(|j| (slot + DEPTH - j) % DEPTH) {
             let other = &self.corrections[j][nodes.clone()];
-            matrix[slot][j] = dot(&self.corrections[slot][nodes.clone()], other);
+            matrix[slot][j] = nodal::dot(&self.corrections[slot][nodes.clone()], other);
             matrix[j][slot] = matrix[slot][j];
-            right[j] = dot(other, f);
+            right[j] = nodal::dot(other, f);
         }
     }
 }

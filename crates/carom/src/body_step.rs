@@ -1,11 +1,11 @@
 //! The equation of motion of one body over a step.
 
 use carom_fem::{Body, Worked};
-use carom_mesh::{Matrix, Vector};
+use carom_mesh::{Matrix, Vector, nodal};
 
 use crate::drive::BodyDrive;
 use crate::model::Model;
-use crate::state::{State, dot};
+use crate::state::State;
 use crate::{StepMap, StressRule};
 
 /// Resistance of massless nodes to a change of motion, in terms of the stiffness that holds them.
@@ -205,7 +205,8 @@ impl<'a, const D: usize> BodyStep<'a, D> {
     pub fn external_and_viscous_work(&self, scratch: &mut ResidualScratch<D>) -> (f64, f64) {
         let mut external = self.gravity.dot(&self.body.mean(self.motion)) * self.body.total_mass();
         external += self.drive.mean.iter().zip(self.motion).map(|(f, d)| f.dot(d)).sum::<f64>();
-        let viscous = if self.body.is_damped() { dot(self.motion, self.viscous_force(scratch)) } else { 0.0 };
+        let viscous =
+            if self.body.is_damped() { nodal::dot(self.motion, self.viscous_force(scratch)) } else { 0.0 };
         (external, viscous)
     }
 

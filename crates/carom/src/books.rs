@@ -2,14 +2,14 @@
 
 use carom_contact::{Candidate, Contact};
 use carom_friction::cone;
-use carom_mesh::Vector;
+use carom_mesh::{Vector, nodal};
 
 use crate::body_step::BodyStep;
 use crate::drive::{load_body, support_work};
 use crate::error::StepError;
 use crate::ledger::BodyLedger;
 use crate::react::{driven, measure_rubbing};
-use crate::state::{Reaction, State, dot};
+use crate::state::{Reaction, State};
 use crate::workspace::{GroupReport, StepReport, Workspace};
 use crate::{Energies, Method, Model, StepMap};
 
@@ -163,7 +163,7 @@ fn close_body<const D: usize>(
     let history = &mut next.history[index];
     let plastic = step.worked.update(step.displacement, history);
     let strain = elastic.unwrap_or_else(|| b.body.after(history).strain_energy(step.displacement));
-    let energies = Energies { kinetic: 0.5 * dot(v1, momentum), strain };
+    let energies = Energies { kinetic: 0.5 * nodal::dot(v1, momentum), strain };
     let (external, viscous) = step.external_and_viscous_work(scratch);
     let mut scheme = 0.0;
     if map.kinetic_dissipation != 0.0 {
@@ -172,14 +172,15 @@ fn close_body<const D: usize>(
         b.body.mass().multiply(jump, momentum);
         // What is held moves as prescribed, not as the scheme would have it.
         held.clear(jump);
-        scheme += map.kinetic_dissipation * dot(jump, momentum);
+        scheme += map.kinetic_dissipation * nodal::dot(jump, momentum);
     }
     if map.strain_dissipation != 0.0 {
         let start = &state.internal_force[nodes.clone()];
-        scheme += map.strain_dissipation * (dot(step.motion, internal_force) - dot(step.motion, start));
+        scheme += map.strain_dissipation
+            * (nodal::dot(step.motion, internal_force) - nodal::dot(step.motion, start));
     }
     let contact = exchanged.unwrap_or_else(|| {
-        let work_of = |force: &[Vector<D>]| dot(step.motion, force) - held.dot(step.motion, force);
+        let work_of = |force: &[Vector<D>]| nodal::dot(step.motion, force) - held.dot(step.motion, force);
         weights[0] * work_of(step.contact_force) + weights[1] * work_of(&next.contact_force[nodes])
     });
     let before = state.body_energies[index];

@@ -3,7 +3,7 @@
 use carom_fem::material::PlasticState;
 use carom_fem::sparse::{Factor, NodalMatrix, Precision};
 use carom_fem::{Body, Held, Worked};
-use carom_mesh::{Matrix, Vector};
+use carom_mesh::{Matrix, Vector, nodal};
 
 use crate::StepMap;
 use crate::body_step::STEADYING;
@@ -87,13 +87,11 @@ impl<const D: usize> Translation<D> {
         })
     }
 
-    /// Makes the uniform part of `x` exact.
-    fn correct(&self, x: &mut [Vector<D>]) {
-        let sum =
-            self.nodal_mass.iter().zip(&*x).fold(Vector::zeros(), |sum: Vector<D>, (&m, x)| sum + x * m);
+    /// What the uniform part of the solution `x` is too small by.
+    fn missing(&self, x: &[Vector<D>]) -> Vector<D> {
+        let sum = nodal::weighted_total(&self.nodal_mass, x);
         let missing = (self.resultant / self.coefficient - sum) / self.total_mass;
-        let missing = missing.component_mul(&self.free);
-        x.iter_mut().for_each(|x| *x += missing);
+        missing.component_mul(&self.free)
     }
 }
 
@@ -238,7 +236,7 @@ impl<const D: usize> BodyOperator<D> {
         }
         self.held.clear(&mut self.scratch);
         if let Some(translation) = &mut self.translation {
-            translation.resultant = self.scratch.iter().sum();
+            translation.resultant = nodal::total(&self.scratch);
         }
         self.factor.begin(&mut self.scratch);
     }
@@ -246,11 +244,12 @@ impl<const D: usize> BodyOperator<D> {
     /// Writes K̄⁻¹ x for the `x` that was begun with, and what was added to it, to `out`; zero where displacements are held.
     pub fn end(&mut self, out: &mut [Vector<D>]) {
         self.factor.end(&mut self.scratch);
-        if let (Some(translation), Precision::Single) = (&self.translation, self.factor.precision()) {
-            translation.correct(&mut self.scratch);
-        }
+        let missing = match (&self.translation, self.factor.precision()) {
+            (Some(translation), Precision::Single) => translation.missing(&self.scratch),
+            _ => Vector::zeros(),
+        };
         for (s, out) in self.scratch.iter().zip(out) {
-            *out = self.turn * s;
+            *out = self.turn * (s + missing);
         }
     }
 

@@ -1,6 +1,6 @@
 use carom_contact::Contact;
 use carom_fem::material::PlasticState;
-use carom_mesh::Vector;
+use carom_mesh::{Vector, nodal};
 
 use crate::{Energies, Model};
 
@@ -113,7 +113,7 @@ impl<const D: usize> State<D> {
             worked.internal_force(&self.displacement[nodes.clone()], &mut self.internal_force[nodes.clone()]);
             b.body.mass().multiply(&self.velocity[nodes.clone()], &mut momentum[nodes.clone()]);
             energies.strain = worked.strain_energy(&self.displacement[nodes.clone()]);
-            energies.kinetic = 0.5 * dot(&self.velocity[nodes.clone()], &momentum[nodes]);
+            energies.kinetic = 0.5 * nodal::dot(&self.velocity[nodes.clone()], &momentum[nodes]);
         }
         self.energies = self.body_energies.iter().copied().sum();
     }
@@ -129,21 +129,4 @@ impl<const D: usize> State<D> {
             && self.energies.kinetic.is_finite()
             && self.energies.strain.is_finite()
     }
-}
-
-/// The largest size of a component; what is not a number does not count.
-pub(crate) fn largest<const D: usize>(a: &[Vector<D>]) -> f64 {
-    let mut largest = Vector::<D>::zeros();
-    for a in a {
-        for i in 0..D {
-            let size = a[i].abs();
-            largest[i] = if size > largest[i] { size } else { largest[i] };
-        }
-    }
-    largest.max()
-}
-
-/// Σ a·b over the nodes.
-pub(crate) fn dot<const D: usize>(a: &[Vector<D>], b: &[Vector<D>]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
 }

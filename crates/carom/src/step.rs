@@ -1,7 +1,7 @@
 //! One step: predict, detect, then linearise, condense, solve and correct until converged, and commit.
 
 use carom_fem::sparse::Precision;
-use carom_mesh::{Vector, tensor};
+use carom_mesh::{nodal, tensor};
 
 use crate::acceleration::accelerate;
 use crate::body_step::{BodyStep, Pose, predicted_motion};
@@ -13,7 +13,7 @@ use crate::error::StepError;
 use crate::linearise::BodyOperator;
 use crate::react::{evaluate_contacts, measure_rubbing, prepare_contacts, react};
 use crate::search::{missed_a_contact, search, select_active};
-use crate::state::{State, largest};
+use crate::state::State;
 use crate::workspace::{StepReport, Workspace};
 use crate::{Method, Model, StepMap};
 
@@ -117,7 +117,7 @@ fn iterate<const D: usize>(
 ) -> Result<usize, StepError> {
     select_active(model, method, state, map, work);
     for (progress, b) in work.progress.iter_mut().zip(&model.bodies) {
-        *progress = BodyProgress::new(largest(&work.motion[b.nodes()]));
+        *progress = BodyProgress::new(nodal::largest(&work.motion[b.nodes()]));
     }
     work.acceleration.restart();
     for ((u1, u0), d) in next.displacement.iter_mut().zip(&state.displacement).zip(&work.motion) {
@@ -232,17 +232,17 @@ fn correct<const D: usize>(
         let correction = &mut work.correction[b.nodes()];
         work.operators[i].end(correction);
         // The largest size does not see what is not a number, a sum does.
-        if !correction.iter().sum::<Vector<D>>().sum().is_finite() {
+        if !nodal::total(correction).sum().is_finite() {
             return Err(StepError::NotFinite("displacement"));
         }
-        let size = largest(correction);
+        let size = nodal::largest(correction);
         let (moved, start) = (&mut next.displacement[b.nodes()], &state.displacement[b.nodes()]);
         let corrections = &work.correction[b.nodes()];
         for (((d, c), u1), u0) in work.motion[b.nodes()].iter_mut().zip(corrections).zip(moved).zip(start) {
             *d += c;
             *u1 = u0 + *d;
         }
-        let moved = largest(&work.motion[b.nodes()]);
+        let moved = nodal::largest(&work.motion[b.nodes()]);
         work.progress[i].note(size, moved);
     }
     Ok(())
