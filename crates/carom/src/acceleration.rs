@@ -143,10 +143,11 @@ impl<const D: usize> Acceleration<D> {
     }
 }
 
-/// Moves the bodies that are not settled on to better guesses.
+/// Moves the `bodies` on to better guesses.
 ///
 /// Where a step ends its last correction stands as it is: the momentum of the bodies is then balanced by the reactions to round-off.
 pub(crate) fn accelerate<const D: usize>(
+    bodies: &[usize],
     model: &Model<D>,
     state: &State<D>,
     next: &mut State<D>,
@@ -155,7 +156,8 @@ pub(crate) fn accelerate<const D: usize>(
 ) {
     let Workspace { acceleration, motion, correction, progress, touched, .. } = work;
     let mut together = Products::default();
-    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !progress[i].settled) {
+    for &i in bodies {
+        let b = &model.bodies[i];
         let slow = !first && progress[i].contraction > FAST;
         if touched[i] || slow || acceleration.bodies[i].count > 0 {
             acceleration.record(i, b.nodes(), motion, correction);
@@ -164,7 +166,8 @@ pub(crate) fn accelerate<const D: usize>(
             together.add(&acceleration.bodies[i].products);
         }
     }
-    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !progress[i].settled) {
+    for &i in bodies {
+        let b = &model.bodies[i];
         let record = &acceleration.bodies[i];
         let products = if touched[i] { &together } else { &record.products };
         let weights = products.weights(record.differences(), record.slot());

@@ -3,7 +3,7 @@
 use crate::error::StepError;
 use crate::state::State;
 use crate::workspace::Workspace;
-use crate::{Method, Model, StepMap};
+use crate::{Method, Model, StepMap, StressRule};
 
 /// A factor is renewed within a step when iterations converge slower than this, from iteration `PATIENCE` on. Elastic bodies get over
 /// what makes them slow, and a factor made there would be a worse one afterwards.
@@ -15,8 +15,9 @@ const CHANGED_PATIENCE: usize = 3;
 /// A correction is the last one where this times its contraction would leave less than what is wanted. The contraction is that of
 /// accelerated iterations, and the last correction stands as it is. Measured: with 10 the energy of conserving runs drifts three times as far.
 const SAFETY: f64 = 30.0;
-/// The same in a static analysis, whose errors do not add up: every load step is a solution of its own.
-const STATIC_SAFETY: f64 = 10.0;
+/// The same where errors do not count so much: every load step of a static analysis is a solution of its own, and beside the error of the
+/// weighted stresses of a long step that of its iterations is nothing.
+const LESS_SAFETY: f64 = 10.0;
 /// No contraction is trusted to be better than this: after a wild guess a correction may look small that is not.
 const LEAST_CONTRACTION: f64 = 1e-3;
 /// A loose body whose corrections shrink no faster than this is driven away by forces that nothing resists.
@@ -40,14 +41,12 @@ pub(crate) struct BodyProgress {
     predicted: f64,
     /// The larger of that and of the motion in the step so far [m].
     pub motion: f64,
-    /// Whether the body needs no further iterations in this step.
-    pub settled: bool,
 }
 
 impl BodyProgress {
     /// At the start of the iterations, with the largest component of the `predicted` motion [m].
     pub fn new(predicted: f64) -> Self {
-        Self { predicted, motion: predicted, correction: f64::INFINITY, contraction: 1.0, settled: false }
+        Self { predicted, motion: predicted, correction: f64::INFINITY, contraction: 1.0 }
     }
 
     /// Takes note of a new correction and of the motion that it leads to.
@@ -58,7 +57,7 @@ impl BodyProgress {
     }
 }
 
-/// The rules by which the iterations of one step are judged.
+/// The rules by which the iterations of some bodies in a step are judged.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Convergence {
     safety: f64,
@@ -86,7 +85,7 @@ impl Convergence {
         let is_static = map.is_static();
         let changed = is_static || state.history.iter().any(|history| !history.is_empty());
         Self {
-            safety: if is_static { STATIC_SAFETY } else { SAFETY },
+            safety: if is_static || map.stress == StressRule::Weighted { LESS_SAFETY } else { SAFETY },
             patience: if changed { CHANGED_PATIENCE } else { PATIENCE },
             max_iterations: method.newton.max_iterations,
             tolerance: method.newton.tolerance,
@@ -98,37 +97,31 @@ impl Convergence {
         }
     }
 
-    /// Marks the bodies that have converged and says whether all have: relative to their own motion, down to round-off. Bodies in
-    /// contact depend on one another and settle together.
+    /// Whether the `bodies` have converged: relative to the largest motion among them, down to round-off.
     ///
     /// # Errors
     /// If the iterations lead astray or must not go on.
     pub fn settle<const D: usize>(
         &mut self,
         iteration: usize,
+        bodies: &[usize],
         model: &Model<D>,
-        work: &mut Workspace<D>,
+        work: &Workspace<D>,
     ) -> Result<bool, StepError> {
-        self.check_reach(iteration, model, work)?;
-        let touched =
-            || work.progress.iter().zip(&work.touched).filter(|&(_, &touched)| touched).map(|(p, _)| p);
-        let motion = touched().map(|p| p.motion).fold(0.0, f64::max);
-        let contact_converged = touched().all(|p| p.settled || self.has_converged(p, motion));
-        for (p, &touched) in work.progress.iter_mut().zip(&work.touched) {
-            p.settled |= if touched { contact_converged } else { self.has_converged(p, p.motion) };
-        }
-        if work.progress.iter().all(|p| p.settled) {
+        let progress = || bodies.iter().map(|&i| &work.progress[i]);
+        let motion = progress().map(|p| p.motion).fold(0.0, f64::max);
+        let correction = progress().map(|p| p.correction).fold(0.0, f64::max);
+        self.check_reach(iteration, bodies, motion, correction, model, work)?;
+        if progress().all(|p| self.has_converged(p, motion)) {
             return Ok(true);
         }
-        let correction = unsettled(&work.progress).map(|p| p.correction).fold(0.0, f64::max);
         let hopeless = self.stalls(correction) && !self.is_static;
         if iteration < self.max_iterations && !hopeless {
             return Ok(false);
         }
-        if let (true, Some(error)) = (self.is_static, not_held(model, work)) {
+        if let (true, Some(error)) = (self.is_static, not_held(bodies, model, work)) {
             return Err(error);
         }
-        let motion = unsettled(&work.progress).map(|p| p.motion).fold(0.0, f64::max);
         let wanted = (self.tolerance * motion).max(self.round_off);
         Err(StepError::Newton { iterations: iteration, correction, wanted })
     }
@@ -153,22 +146,22 @@ impl Convergence {
     fn check_reach<const D: usize>(
         &mut self,
         iteration: usize,
+        bodies: &[usize],
+        motion: f64,
+        correction: f64,
         model: &Model<D>,
         work: &Workspace<D>,
     ) -> Result<(), StepError> {
         if self.is_static {
-            let motion = work.progress.iter().map(|p| p.motion).fold(0.0, f64::max);
             let lost = motion > model.size;
             return if lost {
-                Err(not_held(model, work).unwrap_or(StepError::Runaway { motion, size: model.size }))
+                Err(not_held(bodies, model, work).unwrap_or(StepError::Runaway { motion, size: model.size }))
             } else {
                 Ok(())
             };
         }
-        let correction = unsettled(&work.progress).map(|p| p.correction).fold(0.0, f64::max);
         if iteration == 1 {
-            self.reach =
-                work.progress.iter().map(|p| p.motion.max(p.correction)).fold(self.round_off, f64::max);
+            self.reach = motion.max(correction).max(self.round_off);
         }
         if correction > ASTRAY * self.reach {
             return Err(StepError::Astray { iterations: iteration, correction, reach: self.reach });
@@ -176,24 +169,20 @@ impl Convergence {
         Ok(())
     }
 
-    /// Whether a body converges so slowly that it needs a new factor.
-    pub fn is_slow(&self, iteration: usize, progress: &[BodyProgress]) -> bool {
+    /// Whether one of the `bodies` converges so slowly that they need new factors.
+    pub fn is_slow(&self, iteration: usize, bodies: &[usize], progress: &[BodyProgress]) -> bool {
         iteration >= self.patience
-            && unsettled(progress).map(|p| p.contraction).fold(0.0, f64::max) > SLOW_CONTRACTION
+            && bodies.iter().map(|&i| progress[i].contraction).fold(0.0, f64::max) > SLOW_CONTRACTION
     }
 }
 
-fn unsettled(progress: &[BodyProgress]) -> impl Iterator<Item = &BodyProgress> {
-    progress.iter().filter(|p| !p.settled)
-}
-
-/// Says which loose body nothing holds, if its corrections are the largest and do not shrink.
-fn not_held<const D: usize>(model: &Model<D>, work: &Workspace<D>) -> Option<StepError> {
-    let bodies = model.bodies.iter().zip(&work.operators).zip(&work.progress);
-    bodies
-        .filter(|((_, operator), p)| operator.is_loose() && !p.settled && p.contraction > NO_CONTRACTION)
-        .max_by(|(_, a), (_, b)| a.correction.total_cmp(&b.correction))
-        .map(|((b, _), _)| StepError::NotHeld { body: b.name.clone() })
+/// Says which of the `bodies` is loose and nothing holds it, if its corrections are the largest and do not shrink.
+fn not_held<const D: usize>(bodies: &[usize], model: &Model<D>, work: &Workspace<D>) -> Option<StepError> {
+    let loose = bodies.iter().filter(|&&i| work.operators[i].is_loose());
+    loose
+        .filter(|&&i| work.progress[i].contraction > NO_CONTRACTION)
+        .max_by(|&&i, &&j| work.progress[i].correction.total_cmp(&work.progress[j].correction))
+        .map(|&i| StepError::NotHeld { body: model.bodies[i].name.clone() })
 }
 
 #[cfg(test)]

@@ -48,6 +48,7 @@ pub(crate) fn select_active<const D: usize>(
         }
         active
     });
+    work.contacts.clear();
     work.reactions.clear();
     work.friction.clear();
     work.start_forces.clear();

@@ -106,7 +106,10 @@ fn predict<const D: usize>(
     Ok(driven)
 }
 
-/// Newton's iterations with a kept factor; returns how many were made. Writes u₊ to `next` and d to `work`.
+/// Newton's iterations with a kept factor; returns how many the slowest body took. Writes u₊ to `next` and d to `work`.
+///
+/// Bodies in contact depend on one another and iterate together, every other one alone to its end: what is needed of it then stays
+/// in the cache.
 fn iterate<const D: usize>(
     model: &Model<D>,
     method: &Method<D>,
@@ -123,38 +126,67 @@ fn iterate<const D: usize>(
     for ((u1, u0), d) in next.displacement.iter_mut().zip(&state.displacement).zip(&work.motion) {
         *u1 = u0 + d;
     }
-    let mut convergence = Convergence::new(model, method, state, map);
+    let convergence = Convergence::new(model, method, state, map);
+    let mut iterations = 0;
+    let mut in_contact = std::mem::take(&mut work.in_contact);
+    in_contact.clear();
+    in_contact.extend((0..model.bodies.len()).filter(|&i| work.touched[i]));
+    if !in_contact.is_empty() {
+        let made = iterate_bodies(&in_contact, convergence, model, method, state, next, map, work);
+        iterations = made?;
+    }
+    work.in_contact = in_contact;
+    for i in 0..model.bodies.len() {
+        if !work.touched[i] {
+            let made = iterate_bodies(&[i], convergence, model, method, state, next, map, work)?;
+            iterations = iterations.max(made);
+        }
+    }
+    Ok(iterations)
+}
+
+/// [`iterate`] for some `bodies`: all that are in contact, or one that is not.
+fn iterate_bodies<const D: usize>(
+    bodies: &[usize],
+    mut convergence: Convergence,
+    model: &Model<D>,
+    method: &Method<D>,
+    state: &State<D>,
+    next: &mut State<D>,
+    map: &StepMap,
+    work: &mut Workspace<D>,
+) -> Result<usize, StepError> {
+    let touched = bodies.iter().any(|&i| work.touched[i]);
     let mut renewed = false;
     for iteration in 1.. {
-        // The bodies in contact settle together; while others still move, these keep their reactions.
-        let kept = work.progress.iter().zip(&work.touched).any(|(p, &touched)| touched && p.settled);
-        if !kept {
+        if touched {
             evaluate_contacts(model, method, state, work);
             prepare_contacts(model, map, work);
         }
-        let reacts = !kept && !work.contacts.is_empty();
-        residuals(model, method, state, next, map, work);
-        begin_solves(model, reacts, work);
+        residuals(bodies, model, method, state, next, map, work);
+        let reacts = touched && !work.contacts.is_empty();
+        begin_solves(bodies, model, reacts, work);
         if reacts {
             react(model, method, state, map, work)?;
         }
-        correct(model, state, next, work)?;
-        if convergence.settle(iteration, model, work)? {
+        correct(bodies, model, state, next, work)?;
+        if convergence.settle(iteration, bodies, model, work)? {
             return Ok(iteration);
         }
-        accelerate(model, state, next, iteration == 1, work);
-        if convergence.is_slow(iteration, &work.progress) {
+        accelerate(bodies, model, state, next, iteration == 1, work);
+        if convergence.is_slow(iteration, bodies, &work.progress) {
             // A fresh factor that is no better may lack digits.
             let precision = if renewed { Precision::Double } else { method.precision() };
-            refactorize(model, state, next, map, precision, work)?;
+            refactorize(bodies, model, state, next, map, precision, work)?;
             renewed = true;
         }
     }
     unreachable!("the loop ends at max_iterations")
 }
 
-/// Residuals without reactions of the bodies that still move.
+/// Residuals of the `bodies` without reactions.
 fn residuals<const D: usize>(
+    bodies: &[usize],
     model: &Model<D>,
     method: &Method<D>,
     state: &State<D>,
@@ -163,13 +195,10 @@ fn residuals<const D: usize>(
     work: &mut Workspace<D>,
 ) {
     if method.is_blended() {
-        blend(model, method, state, next, map, work);
+        blend(bodies, model, method, state, next, map, work);
     }
-    for (i, b) in model.bodies.iter().enumerate() {
-        if work.progress[i].settled {
-            continue;
-        }
-        let nodes = b.nodes();
+    for &i in bodies {
+        let nodes = model.bodies[i].nodes();
         if !method.is_blended() {
             load_body(model, state, next, map, work, i);
         }
@@ -184,20 +213,21 @@ fn residuals<const D: usize>(
     }
 }
 
-/// Adds the reactions known so far to the residuals of the bodies that still move, and starts to solve for their corrections.
-fn begin_solves<const D: usize>(model: &Model<D>, reacts: bool, work: &mut Workspace<D>) {
+/// Adds the reactions known so far to the residuals of the `bodies`, and starts to solve for their corrections.
+fn begin_solves<const D: usize>(bodies: &[usize], model: &Model<D>, reacts: bool, work: &mut Workspace<D>) {
     if reacts {
         for (contact, r) in work.contacts.iter().zip(&work.reactions) {
             contact.add_force(r, &mut work.residual);
         }
     }
-    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !work.progress[i].settled) {
-        work.operators[i].begin(&work.residual[b.nodes()]);
+    for &i in bodies {
+        work.operators[i].begin(&work.residual[model.bodies[i].nodes()]);
     }
 }
 
 /// The blend of start and end stresses at the present guess.
 fn blend<const D: usize>(
+    bodies: &[usize],
     model: &Model<D>,
     method: &Method<D>,
     state: &State<D>,
@@ -205,10 +235,7 @@ fn blend<const D: usize>(
     map: &StepMap,
     work: &mut Workspace<D>,
 ) {
-    for i in 0..model.bodies.len() {
-        if work.progress[i].settled {
-            continue;
-        }
+    for &i in bodies {
         load_body(model, state, next, map, work, i);
         let (pose, drive) = (&work.poses[i], &work.drives[i]);
         let body_step = BodyStep::new(model, i, map, pose, drive, state, &work.motion, &next.displacement);
@@ -220,15 +247,14 @@ fn blend<const D: usize>(
 
 /// Ends the solves and applies the corrections.
 fn correct<const D: usize>(
+    bodies: &[usize],
     model: &Model<D>,
     state: &State<D>,
     next: &mut State<D>,
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
-    for (i, b) in model.bodies.iter().enumerate() {
-        if work.progress[i].settled {
-            continue;
-        }
+    for &i in bodies {
+        let b = &model.bodies[i];
         let correction = &mut work.correction[b.nodes()];
         work.operators[i].end(correction);
         // The largest size does not see what is not a number, a sum does.
@@ -248,8 +274,9 @@ fn correct<const D: usize>(
     Ok(())
 }
 
-/// Renews the factors of the bodies that still move, at the present guess.
+/// Renews the factors of the `bodies`, at the present guess.
 fn refactorize<const D: usize>(
+    bodies: &[usize],
     model: &Model<D>,
     state: &State<D>,
     next: &State<D>,
@@ -258,7 +285,8 @@ fn refactorize<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
     work.acceleration.restart();
-    for (i, b) in model.bodies.iter().enumerate().filter(|&(i, _)| !work.progress[i].settled) {
+    for &i in bodies {
+        let b = &model.bodies[i];
         let nodes = b.nodes();
         let middle = &mut work.correction[nodes.clone()];
         for ((m, u0), u1) in

@@ -74,7 +74,10 @@ pub struct Workspace<const D: usize> {
     pub(crate) guess: Vec<Vector<D>>,
     /// The solver that gave the last reactions.
     pub(crate) solved_by: SolverKind,
+    /// Whether contacts act on a body.
     pub(crate) touched: Vec<bool>,
+    /// The bodies that contacts act on.
+    pub(crate) in_contact: Vec<usize>,
     pub(crate) progress: Vec<BodyProgress>,
     pub(crate) acceleration: Acceleration<D>,
     /// What the groups did in the last step, in the order of the model.
@@ -142,6 +145,7 @@ impl<const D: usize> Workspace<D> {
             guess: Vec::new(),
             solved_by: SolverKind::default(),
             touched: vec![false; bodies],
+            in_contact: Vec::with_capacity(bodies),
             progress: vec![BodyProgress::new(0.0); bodies],
             acceleration: Acceleration::new(positions, bodies),
             groups: vec![GroupReport::default(); model.groups.len()],
