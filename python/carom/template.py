@@ -7,6 +7,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from carom.errors import InputError
+from carom.existing import spare_existing
 from carom.messages import known
 
 TEMPLATES = MappingProxyType(
@@ -45,10 +46,5 @@ def place(text: str, file: Path, *, force: bool = False) -> None:
     InputError
         There is such a file already, and `force` does not say to replace it; or it cannot be there.
     """
-    if file.is_dir():
-        raise InputError(f"{file}: is a directory; name a file in it")
-    if file.exists() and not force:
-        raise InputError(f"{file}: exists already; choose another name, or replace it by --force")
-    if not file.parent.is_dir():
-        raise InputError(f"{file}: there is no directory {file.parent}; make it first")
+    spare_existing(file, force=force)
     file.write_text(text, encoding="utf-8")

@@ -190,7 +190,7 @@ def test_a_case_in_space_cannot_be_audited(results):
 
 
 def test_a_report_is_a_file(results):
-    with pytest.raises(InputError, match=r"^--out .*: is a directory; name a file$"):
+    with pytest.raises(InputError, match=r"^.*: is a directory; name a file in it$"):
         write_report(results, out=results)
 
 

@@ -163,7 +163,7 @@ def test_a_file_is_replaced_by_force_only(command, tmp_path):
     file.write_text("mine")
     status, _, err = command("wall-bounce", file)
     assert (status, err.count("\n")) == (2, 1)
-    assert "exists already" in err
+    assert "is there already; give --force" in err
     assert file.read_text() == "mine"
     assert command("wall-bounce", file, "--force")[0] == 0
     assert file.read_text(encoding="utf-8") == template("wall-bounce")

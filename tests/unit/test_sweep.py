@@ -183,6 +183,19 @@ def test_results_of_another_case_are_replaced_by_force_only(here, scenario, tmp_
     assert replaced["energy_initial"] > first["energy_initial"]
 
 
+def test_the_table_of_another_study_is_replaced_by_force_only(here, scenario, tmp_path):
+    sweep(scenario, [axis("contact.friction=0,0.3")], tmp_path)
+    before = (tmp_path / "sweep.csv").read_bytes()
+    finer = [axis("bodies.0.mesh.divisions=2,4")]
+    with pytest.raises(InputError, match=r"sweep\.csv: is of another study; .* by --force$"):
+        sweep(scenario, finer, tmp_path)
+    assert (tmp_path / "sweep.csv").read_bytes() == before
+    assert len(here) == 2, "nothing is run"
+    more = sweep(scenario, [axis("contact.friction=0,0.1,0.3")], tmp_path)
+    assert (len(more), len(here)) == (3, 3)
+    assert len(sweep(scenario, finer, tmp_path, force=True)) == 2
+
+
 def test_an_interrupted_run_is_made_again(here, scenario, tmp_path):
     axes = [axis("contact.friction=0.2")]
     sweep(scenario, axes, tmp_path)
@@ -202,7 +215,7 @@ def test_failures_are_rows_with_their_reason(here, scenario, tmp_path):
     rows = sweep(
         scenario.with_overrides(["analysis.max_halvings=0", "bodies.0.spin=30"]),
         [axis("analysis.newton.max_iterations=1,50")],
-        tmp_path,
+        tmp_path / "iterations",
     )
     assert [one["status"] for one in rows] == ["failed", "completed"]
     assert rows[0]["reason"]

@@ -92,6 +92,19 @@ def test_a_film_has_a_picture_of_every_frame(results, tmp_path):
     assert all(np.abs(a - b).max() > 20 for a, b in itertools.pairwise(pictures)), "it moves"
 
 
+@pytest.mark.parametrize("option", ["--screenshot", "--animation"])
+def test_a_picture_that_is_there_is_replaced_with_force_only(results, tmp_path, option):
+    file = tmp_path / ("ball.gif" if option == "--animation" else "ball.png")
+    file.write_text("mine")
+    answer = view(results, option, file, "--time", "0")
+    assert answer.exit_code == 2
+    assert answer.output == f"error: {file}: is there already; give --force to replace it\n"
+    assert file.read_text() == "mine"
+    if option == "--screenshot":
+        assert view(results, option, file, "--force").exit_code == 0
+        assert file.read_bytes().startswith(b"\x89PNG")
+
+
 def test_frames_are_read_back(results):
     frames = Frames(results / "fields.vtkhdf")
     np.testing.assert_allclose(frames.times, [0, 2e-3, 4e-3])

@@ -34,6 +34,8 @@ Overrides = Annotated[
     ),
 ]
 
+Force = Annotated[bool, typer.Option("--force", help="Replace a file that is there already.")]
+
 
 def load(case: Path, overrides: list[str] | None) -> Scenario:
     """Read a case file and put the overrides in place."""

@@ -9,6 +9,7 @@ import typer
 from rich.console import Console
 
 from carom.cli import complete
+from carom.cli.case import Force
 from carom.cli.failures import failures
 from carom.errors import InputError
 from carom.mesh_case import MATERIALS, UNITS, mesh_case
@@ -30,7 +31,7 @@ def new(
         Path | None,
         typer.Argument(metavar="[FILE]", help="Case file to write; default TEMPLATE.toml."),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace a file that exists.")] = False,
+    force: Force = False,
     mesh: Annotated[
         Path | None,
         typer.Option(metavar="MESH", help="Mesh of the part, for the template mesh-file."),

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from carom.cli.case import ResultsDirectory
+from carom.cli.case import Force, ResultsDirectory
 from carom.cli.failures import failures
 from carom.report import write_report
 
@@ -18,9 +18,7 @@ def report(
     out: Annotated[
         Path | None, typer.Option(metavar="FILE", help="File to write; default DIR/report.html.")
     ] = None,
-    force: Annotated[
-        bool, typer.Option("--force", help="Replace a file that is there already.")
-    ] = False,
+    force: Force = False,
 ) -> None:
     """Write a page with the animated bodies, the energies and all numbers of a run."""
     with failures(directory):

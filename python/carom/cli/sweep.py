@@ -43,7 +43,9 @@ def sweep(
         str | None,
         typer.Option(metavar="ADDRESS", help="Dask scheduler to run on, which sees these files."),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Run finished points again.")] = False,
+    force: Annotated[
+        bool, typer.Option("--force", help="Run finished points again; replace another study.")
+    ] = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Print errors only.")] = False,
 ) -> None:
     """Run a case with many values side by side; one table, one picture, a folder for each run.

@@ -7,8 +7,9 @@ from typing import Annotated
 
 import typer
 
-from carom.cli.case import ResultsDirectory
+from carom.cli.case import Force, ResultsDirectory
 from carom.cli.failures import failures
+from carom.existing import spare_existing
 from carom.io import layout
 from carom.io.frames import Frames
 from carom.result import read_case
@@ -45,9 +46,13 @@ def view(
     animation: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Draw all frames into a .gif or .mp4.")
     ] = None,
+    force: Force = False,
 ) -> None:
     """Show results in space: bodies as they deform, coloured by a field."""
+    files = [file for file in (screenshot_file, animation) if file is not None]
     with failures(directory):
+        for file in files:
+            spare_existing(file, force=force)
         frames = Frames(directory / (layout.SURFACE if surface else layout.FIELDS))
         scene = View(
             frames,
@@ -60,7 +65,7 @@ def view(
             screenshot(scene, frames.nearest(time), screenshot_file)
         if animation is not None:
             animate(scene, animation)
-        if screenshot_file is None and animation is None:
+        if not files:
             show(scene, frames.nearest(time))
-        for file in filter(None, (screenshot_file, animation)):
+        for file in files:
             typer.echo(file)

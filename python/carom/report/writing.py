@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from carom.errors import InputError
+from carom.existing import spare_existing
 from carom.io import layout
 from carom.io.atomic import write_whole
 from carom.report.page import page
@@ -37,16 +37,13 @@ def write_report(
     source = read_source(directory)
     own = directory / layout.REPORT
     file = own if out is None else Path(out)
-    if file.is_dir():
-        raise InputError(f"--out {file}: is a directory; name a file")
-    if file.exists() and not force and not (_is_same(file, own) and _is_report(file)):
-        raise InputError(f"{file}: is there already; give --force to replace it")
+    spare_existing(file, force=force or (_is_same(file, own) and _is_report(file)))
     write_whole(file, page(source).encode())
     return file
 
 
 def _is_same(file: Path, own: Path) -> bool:
-    return own.exists() and file.samefile(own)
+    return file.is_file() and own.is_file() and file.samefile(own)
 
 
 def _is_report(file: Path) -> bool:

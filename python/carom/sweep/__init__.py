@@ -11,7 +11,7 @@ from carom.scenario import Scenario
 from carom.sweep.axis import Axis, axis
 from carom.sweep.processes import here, on_cluster
 from carom.sweep.study import Point, points
-from carom.sweep.table import row, write_table
+from carom.sweep.table import row, spare_other_study, write_table
 from carom.sweep.worker import Task
 
 __all__ = ["TABLE", "Axis", "Done", "axis", "points", "sweep"]
@@ -51,7 +51,7 @@ def sweep(
     scheduler
         Address of a Dask scheduler, in place of processes here.
     force
-        Whether finished runs are made again, and those of another case replaced.
+        Whether finished runs are made again, and the results of other cases and studies replaced.
     done
         Called after each run.
 
@@ -63,10 +63,12 @@ def sweep(
     Raises
     ------
     InputError
-        A key is not known, a value not allowed, or there are results of another case; nothing is
-        run.
+        A key is not known, a value not allowed, or there are results of another case or study;
+        nothing is run.
     """
     study = points(scenario, axes, out)
+    if not force:
+        spare_other_study(out / TABLE, [one.key for one in axes])
     rows: list[dict[str, Any] | None] = [None] * len(study)
     count = 0
 

@@ -11,6 +11,8 @@ from typing import Any
 from rich.table import Table
 from rich.text import Text
 
+from carom.errors import InputError
+
 FIGURES = (
     "energy_initial",
     "energy_final",
@@ -56,6 +58,24 @@ def row(values: Mapping[str, Any], summary: Mapping[str, Any]) -> dict[str, Any]
     }
     status = {"status": summary["status"], "reason": summary.get("reason", "")}
     return {**values, **status, **figures}
+
+
+def spare_other_study(path: Path, keys: Sequence[str]) -> None:
+    """Refuse to replace a table that varies something else.
+
+    Raises
+    ------
+    InputError
+        There is such a table.
+    """
+    if not path.is_file():
+        return
+    with path.open(encoding="utf-8", errors="replace", newline="") as file:
+        columns = next(csv.reader(file), [])
+    if columns[: len(keys) + 1] != [*keys, "status"]:
+        raise InputError(
+            f"{path}: is of another study; choose another --out, or replace it by --force"
+        )
 
 
 def write_table(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:

@@ -123,6 +123,38 @@ def test_bad_input_is_one_line_and_status_2(command, file, monkeypatch, argument
     assert list(file.parent.iterdir()) == [file]
 
 
+@pytest.mark.parametrize(
+    ("words", "there"),
+    [
+        (("solve", "grains.hdf5", "--out", "answer.h5"), "answer.h5"),
+        (("convert", "grains.hdf5", "copy.dat"), "copy.dat"),
+        (("convert", "grains.hdf5", "grains.hdf5"), "grains.hdf5"),
+        (("bench", ".", "--solvers", "auto", "--out", "tables"), "tables/table.csv"),
+    ],
+)
+def test_a_file_that_is_there_is_replaced_with_force_only(command, file, monkeypatch, words, there):
+    monkeypatch.chdir(file.parent)
+    place = file.parent / there
+    place.parent.mkdir(exist_ok=True)
+    if place != file:
+        place.write_text("mine")
+    before = place.read_bytes()
+    with monkeypatch.context() as patch:
+        patch.setattr(_carom, "solve_friction", None)  # nothing is computed
+        said = command(*words)
+    assert said == (2, "", f"error: {there}: is there already; give --force to replace it\n")
+    assert place.read_bytes() == before
+    assert {path.name for path in place.parent.iterdir()} <= {place.name, file.name}
+    assert command(*words, "--force")[0] == 0
+    assert place.read_bytes() != b"mine"
+
+
+def test_an_answer_needs_a_folder_to_be_in(command, file, tmp_path):
+    status, _, err = command("solve", file, "--out", tmp_path / "absent" / "answer.h5")
+    assert (status, err.count("\n")) == (2, 1)
+    assert f"there is no directory {tmp_path / 'absent'}; make it first" in err
+
+
 def test_a_file_that_is_no_problem_is_status_2(command, tmp_path):
     (tmp_path / "notes.txt").write_text("Some notes.\n")
     for name in ("notes.txt", "absent.hdf5"):

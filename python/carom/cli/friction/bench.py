@@ -10,8 +10,10 @@ from rich.console import Console
 from rich.markdown import Markdown
 
 import carom
+from carom.cli.case import Force
 from carom.cli.failures import failures
 from carom.errors import InputError
+from carom.existing import spare_existing
 from carom.messages import known
 
 if TYPE_CHECKING:
@@ -41,6 +43,7 @@ def bench(
         Path | None,
         typer.Option(metavar="FOLDER", help="Write the tables and the performance profile."),
     ] = None,
+    force: Force = False,
 ) -> None:
     """Compare solvers on all contact problems of a folder."""
     screen, progress = Console(), Console(stderr=True)
@@ -56,6 +59,9 @@ def bench(
     with failures(folder):
         from carom.friction import bench as friction_bench  # noqa: PLC0415 (imports scipy)
 
+        if out is not None and out.is_dir():
+            for name in friction_bench.FILES:
+                spare_existing(out / name, force=force)
         names = _solvers(solvers)
         if against is not None and against not in PEERS:
             raise InputError(f"--against {against}: {known(against, PEERS)}")

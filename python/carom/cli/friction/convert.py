@@ -8,8 +8,10 @@ from typing import Annotated
 import typer
 
 import carom
+from carom.cli.case import Force
 from carom.cli.failures import failures
 from carom.cli.friction.problem_file import ProblemFile, warnings_named
+from carom.existing import spare_existing
 
 
 def convert(
@@ -24,10 +26,12 @@ def convert(
     condense: Annotated[
         bool, typer.Option("--condense", help="Write a global problem in local form: W, q, μ.")
     ] = False,
+    force: Force = False,
 ) -> None:
     """Write a contact problem in another format."""
     with failures(file):
         carom.friction.check_suffix(out)
+        spare_existing(out, force=force)
         with warnings_named(file):
             record = carom.friction.read_record(file)
         if condense:

@@ -10,10 +10,12 @@ from rich.console import Console
 from rich.table import Table
 
 import carom
+from carom.cli.case import Force
 from carom.cli.failures import NOT_CONVERGED, failures
 from carom.cli.friction.problem_file import ProblemFile, warnings_named
 from carom.cli.plain import json_text
 from carom.errors import InputError
+from carom.existing import spare_existing
 from carom.tables import add, two_columns
 
 if TYPE_CHECKING:
@@ -45,6 +47,7 @@ def solve(
     out: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Write problem and answer as FCLIB (HDF5).")
     ] = None,
+    force: Force = False,
 ) -> None:
     """Solve a contact problem; exit status 0 only where the answer obeys the law."""
     asked = carom.friction.SOLVERS[0] if solver is None else solver
@@ -53,6 +56,7 @@ def solve(
     with failures(file):
         if out is not None:
             carom.friction.check_suffix(out, carom.friction.FCLIB_SUFFIXES)
+            spare_existing(out, force=force)
         with warnings_named(file):
             record = carom.friction.read_record(file)
         guess = _guess(record, file) if warm else None

@@ -2,12 +2,13 @@
 
 from carom.friction.bench.case import Case, read_cases
 from carom.friction.bench.comparison import Comparison, compare, geometric_mean
-from carom.friction.bench.picture import draw_profile
-from carom.friction.bench.report import markdown, write_report
+from carom.friction.bench.picture import PICTURE, draw_profile
+from carom.friction.bench.report import CSV, JSON, MARKDOWN, markdown, write_report
 from carom.friction.bench.run import Run, run_solver
 from carom.friction.bench.siconos import Siconos
 
 __all__ = [
+    "FILES",
     "Case",
     "Comparison",
     "Run",
@@ -20,3 +21,6 @@ __all__ = [
     "run_solver",
     "write_report",
 ]
+
+FILES = (MARKDOWN, CSV, JSON, PICTURE)
+"""Names of what a comparison is written to."""
