@@ -9,7 +9,9 @@ from tempfile import TemporaryDirectory
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
+from matplotlib.colors import Normalize
 from numpy.typing import NDArray
 
 import carom
@@ -27,18 +29,19 @@ def draw(
     """Draw the bodies of a run at some times [s], side by side, in the colours of a field."""
     frames = Frames(result.fields_path)
     view = View(frames, shown(frames, field), result.scenario, magnification=magnification)
-    figure, places = plt.subplots(
-        1, len(times), squeeze=False, figsize=(4.0 * len(times), 4.0), layout="constrained"
-    )
+    size = (4.0 * len(times), 4.0 if result.scenario.dimension == 2 else 3.4)
+    figure, places = plt.subplots(1, len(times), squeeze=False, figsize=size, layout="constrained")
     for axes, time in zip(places[0], times, strict=True):
         frame = frames.nearest(time)
         axes.set_title(f"t = {frames.times[frame]:.4g} s")
         if result.scenario.dimension == 2:
-            cells = _draw_plane(axes, view, frame)
-            figure.colorbar(cells, ax=axes, label=view.shown.title, location="bottom", shrink=0.8)
+            cells: ScalarMappable = _draw_plane(axes, view, frame)
         else:
             axes.imshow(_picture(view, frame))
             axes.set_axis_off()
+            values = view.shown.values(frames, frame)
+            cells = ScalarMappable(Normalize(values.min(), values.max()), "viridis")
+        figure.colorbar(cells, ax=axes, label=view.shown.title, location="bottom", shrink=0.8)
 
 
 def _draw_plane(axes: Axes, view: View, frame: int) -> PolyCollection:
@@ -66,7 +69,7 @@ def _draw_plane(axes: Axes, view: View, frame: int) -> PolyCollection:
 
 
 def _picture(view: View, frame: int) -> NDArray[np.float32]:
-    """Return what ``carom view`` draws, without its time and axes, and cut to what is drawn."""
+    """Return what ``carom view`` draws, without its texts and axes, and cut to what is drawn."""
     with TemporaryDirectory() as folder:
         file = Path(folder) / "frame.png"
         screenshot(view, frame, file)
@@ -74,6 +77,7 @@ def _picture(view: View, frame: int) -> NDArray[np.float32]:
     height, width = picture.shape[:2]
     picture[: height // 12, : width // 3] = picture[0, -1]
     picture[-height // 5 :, : width // 6] = picture[0, -1]
+    picture[-height // 7 :] = picture[0, -1]  # its colour bar
     drawn = (picture != picture[0, -1]).any(axis=-1)
     rows, columns = np.flatnonzero(drawn.any(axis=1)), np.flatnonzero(drawn.any(axis=0))
     return picture[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]

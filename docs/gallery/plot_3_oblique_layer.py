@@ -28,6 +28,6 @@ for ratio, exact in ((0.2, 0.0), (1.0, 0.24), (2.0, 0.64)):
     (line,) = axes.plot(result.history["time"], lost, label=f"$v_t/v_n$ = {ratio}")
     axes.axhline(exact, color=line.get_color(), linestyle=":")
 axes.set_xlabel("time [s]")
-axes.set_ylabel("dissipated by friction [ρ H v_n²]; dotted: exact")
+axes.set_ylabel(r"dissipated by friction [$\rho H v_n^2$]; dotted: exact")
 axes.legend()
 plt.show()

@@ -53,8 +53,8 @@ for degrees in (10.0, 16.0, 20.0, 25.0):
     time, velocity = result.history["time"], result.history["block.v_x"]
     exact = max(0.0, GRAVITY * (np.sin(slope) - FRICTION * np.cos(slope)))
     late = time >= 0.3
-    found = np.polyfit(time[late], velocity[late], 1)[0]
-    print(f"{degrees:.0f}°: {found:8.5f} m/s², exact {exact:.5f} m/s²")
+    found = round(np.polyfit(time[late], velocity[late], 1)[0], 5) + 0.0  # never -0
+    print(f"{degrees:.0f}°: {found:.5f} m/s², exact {exact:.5f} m/s²")
     (line,) = axes.plot(time, velocity, label=f"{degrees:.0f}°")
     axes.plot(time, exact * time, ":", color=line.get_color())
 axes.set_xlabel("time [s]")

@@ -125,6 +125,13 @@ def test_equivalent_stress_of_pure_tension_is_the_tension(results, monkeypatch):
     np.testing.assert_allclose(shown(frames, "hydrostatic-pressure").values(frames, 0), [-7 / 3, 0])
 
 
+def test_pictures_and_pages_have_one_word_for_a_field(results):
+    frames = Frames(results / "fields.vtkhdf")
+    assert shown(frames, None).title == "von Mises stress [Pa]"
+    assert shown(frames, "velocity").title == "speed [m/s]"
+    assert shown(frames, "strain").title == "equivalent strain"
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

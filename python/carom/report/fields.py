@@ -13,27 +13,13 @@ from numpy.typing import NDArray
 from carom.io.frames import Frames
 from carom.report.codec import Packed, pack, pack_quantised, size, unpack
 from carom.report.outline import Outline, outline
-from carom.view.fields import UNITS, Shown, choices, shown
+from carom.view.fields import TITLES, UNITS, Shown, choices, shown
 
 BUDGET = 9_000_000
 """Characters that the fields may take in the page."""
 
 READ_BUDGET = 20_000_000
 """Values over time that are held in memory at once, at most."""
-
-TITLES = {
-    "von-mises": "von Mises stress",
-    "hydrostatic-pressure": "hydrostatic pressure",
-    "velocity": "speed",
-    "reaction": "contact reaction",
-    "strain": "equivalent strain",
-    "plastic_strain": "plastic strain",
-    "energy_density": "strain energy density",
-    "pressure": "contact pressure",
-    "friction_energy": "friction energy",
-    "slip": "distance slid",
-}
-"""What the page calls a field, where that is not its name."""
 
 ORDER = ("von-mises", "displacement", "velocity", "energy_density", "strain", "plastic_strain")
 """What comes first in the list."""
@@ -143,7 +129,7 @@ def _described(name: str, place: str) -> dict[str, Any]:
     return {
         "key": name,
         "place": place,
-        "title": TITLES.get(name, name.replace("_", " ").replace("-", " ")),
+        "title": TITLES.get(name, name),
         "unit": UNITS.get(name, ""),
     }
 

@@ -19,6 +19,20 @@ UNITS = {
 }
 """By the name of what is shown."""
 
+TITLES = {
+    "von-mises": "von Mises stress",
+    "hydrostatic-pressure": "hydrostatic pressure",
+    "velocity": "speed",
+    "reaction": "contact reaction",
+    "strain": "equivalent strain",
+    "plastic_strain": "plastic strain",
+    "energy_density": "strain energy density",
+    "pressure": "contact pressure",
+    "friction_energy": "friction energy",
+    "slip": "distance slid",
+}
+"""What pictures and pages call it, where that is not its name."""
+
 _OF_STRESS = ("von-mises", "hydrostatic-pressure")
 
 
@@ -42,9 +56,8 @@ class Shown:
 
     @property
     def title(self) -> str:
-        """The name and the unit."""
-        unit = UNITS.get(self.name, "")
-        what = self.name.replace("_", " ").replace("-", " ")
+        """What it is called in a picture, and its unit."""
+        unit, what = UNITS.get(self.name, ""), TITLES.get(self.name, self.name)
         return f"{what} [{unit}]" if unit else what
 
     def values(self, frames: Frames, frame: int) -> NDArray[np.float64]:

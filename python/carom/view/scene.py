@@ -173,7 +173,15 @@ def _draw(
         show_edges=view.edges,
         edge_opacity=0.3,
         line_width=3 if _is_line(frames) else 1,
-        scalar_bar_args={"color": "black", "n_labels": 4, "fmt": "%.3g"},
+        scalar_bar_args={
+            "title": f"{view.shown.title}\n",  # without the empty line it runs into the labels
+            "color": "black",
+            "n_labels": 4,
+            "fmt": "%.3g",
+            "position_x": 0.2,  # the last label begins where the bar ends
+            "position_y": 0.04,
+            "width": 0.6,
+        },
     )
     low, high = np.reshape(grid.bounds, (3, 2)).T
     draw_obstacles(plotter, view.scenario, low, high, float(frames.times[frame]))
