@@ -43,6 +43,12 @@ print(f"friction took {energy['friction'] / energy['initial']:.2%} of the energy
 print(f"not explained: {energy['max_defect'] / energy['initial']:.1e} of it")
 
 # %%
+# Who met whom, when and how hard, as a table of pandas:
+
+meetings = result.to_pandas("contacts")
+print(meetings[meetings["second"] != "table"].round(5).to_string(index=False))
+
+# %%
 # Before, during and after; colours are the speed.
 
 draw(result, [0.0, 0.012, 0.03], field="velocity")

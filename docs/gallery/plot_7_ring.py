@@ -36,7 +36,23 @@ scenario = carom.Scenario(
     ],
     contact=carom.Contact(friction=0.3),
 )
-result = carom.run(scenario, out=mkdtemp())
+
+# %%
+# An observer looks at the run as it goes. This one notes the way of the stamp, and the force with
+# which it presses, which the history, having all contacts in one, does not tell.
+
+ways: list[float] = []
+forces: list[float] = []
+
+
+def note_force(state: carom.State) -> None:
+    """Note how far down the stamp is [m] and with what force it presses [N]."""
+    ways.append(1.65 * state.time)
+    forces.append(-state.contacts.force("ring", by="stamp")[1])
+
+
+observer = carom.Observer(note_force, every=5e-3)
+result = carom.run(scenario, out=mkdtemp(), observers=[observer])
 own = [c for c in result.summary["contacts"] if c["pair"] == ["ring", "ring"]]
 print(f"the ring touches itself first at {own[0]['onset']:.3f} s")
 
@@ -44,4 +60,14 @@ print(f"the ring touches itself first at {own[0]['onset']:.3f} s")
 # Colours are von Mises' stress.
 
 draw(result, [0.3, 0.7, 1.0], field="von-mises")
+plt.show()
+
+# %%
+# The ring buckles softly, until its halves meet.
+
+figure, axes = plt.subplots(layout="constrained")
+axes.plot(ways, forces)
+axes.axvline(1.65 * own[0]["onset"], color="0.6", linestyle=":")
+axes.set_xlabel("way of the stamp [m]; dotted: the ring touches itself")
+axes.set_ylabel("force of the stamp, on 1 m of depth [N]")
 plt.show()
