@@ -29,8 +29,8 @@ FIGURES = (
 )
 """Columns of figures: energies [J], contact events, times [s], force [N], gap [m]."""
 
-SHOWN = ("energy_final", "friction", "contact_time", "peak_force")
-"""Those that fit a screen."""
+SHOWN = {"energy_final": "J", "friction": "J", "contact_time": "s", "peak_force": "N"}
+"""Those that fit a screen, and their units."""
 
 
 def row(values: Mapping[str, Any], summary: Mapping[str, Any]) -> dict[str, Any]:
@@ -93,15 +93,16 @@ def shown_table(title: str, keys: Iterable[str], rows: Sequence[Mapping[str, Any
     """Return the rows for the terminal, with the figures that fit."""
     table = Table(title=Text(title or "Study"), title_justify="left")
     keys = list(keys)
-    for name in (*keys, "status", *SHOWN):
-        table.add_column(Text(name.rpartition(".")[2]), overflow="fold")
+    figures = [f"{name.replace('_', ' ')} [{unit}]" for name, unit in SHOWN.items()]
+    for column in (*(key.rpartition(".")[2] for key in keys), "status", *figures):
+        table.add_column(Text(column), overflow="fold")
     for one in rows:
-        figures = [one[name] for name in SHOWN]
+        values = [one[name] for name in SHOWN]
         status = f"{one['status']}: {one['reason']}" if one["reason"] else one["status"]
         table.add_row(
             *(Text(_cell(one[key])) for key in keys),
             Text(status),
-            *(Text("" if figure is None else f"{figure:.4g}") for figure in figures),
+            *(Text("" if value is None else f"{value:.4g}") for value in values),
         )
     return table
 
