@@ -1,16 +1,25 @@
 """What pages of the documentation show in Python runs, and prints what they say."""
 
+import io
 import re
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 
 import carom
 from carom import cli
+from carom.sweep import axis, sweep
 
 ROOT = Path(__file__).parents[1]
 
 BLOCK = re.compile(r"^```(python|text)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+
+
+def blocks(page, kind):
+    """Return the blocks of a kind on a page."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    return re.findall(rf"^```{kind}\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
 
 
 def pieces(page):
@@ -28,8 +37,25 @@ def desk(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(here)
         cli.app(["new", "two-bodies"], standalone_mode=False)
-        carom.run(carom.Scenario.from_toml("two-bodies.toml"), out="results/two-bodies")
+        scenario = carom.Scenario.from_toml("two-bodies.toml")
+        carom.run(scenario, out="results/two-bodies")
+        brief = scenario.with_overrides(["analysis.end_time=1e-3"])
+        sweep(brief, [axis("contact.friction=0,0.3")], Path("results/two-bodies-sweep"), jobs=1)
     return here
+
+
+def test_the_tutorial_shows_the_case_and_the_table_of_its_run(desk, monkeypatch):
+    monkeypatch.chdir(desk)
+    (case,) = blocks("docs/tutorial.md", "toml")
+    written = (desk / "two-bodies.toml").read_text(encoding="utf-8").splitlines()
+    assert [line for line in case.splitlines() if line not in written] == []
+    screen = io.StringIO()
+    Console(file=screen, width=80).print(carom.Result.open("results/two-bodies"))
+    (table,) = blocks("docs/tutorial.md", "text")
+    # The largest defect and the certificate are round-off, which differs between processors.
+    firm = [line for line in table.splitlines() if "e-12" not in line]
+    assert len(firm) > 6
+    assert [line for line in firm if line not in screen.getvalue()] == []
 
 
 @pytest.mark.parametrize(
@@ -40,6 +66,7 @@ def desk(tmp_path_factory):
         "docs/how-to/own-steps.md",
         "docs/how-to/read-the-ledger.md",
         "docs/how-to/results-in-python.md",
+        "docs/how-to/sweep.md",
     ],
 )
 def test_a_page_prints_what_it_says(page, desk, monkeypatch, capsys):

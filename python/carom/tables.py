@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -90,10 +91,11 @@ def contact_events(summary: Mapping[str, Any]) -> Rows:
 
 
 def places(where: Path) -> Rows:
-    """Yield where the results are."""
+    """Yield where the results are, and how to look at them."""
     yield "results", str(where)
-    if (where / layout.REPORT).exists():
-        yield "report", str(where / layout.REPORT)
+    report = where / layout.REPORT
+    made = f"none yet: carom report {shlex.quote(str(where))}"
+    yield "report", str(report) if report.exists() else made
 
 
 def _cross_check(check: Mapping[str, Any]) -> Rows:

@@ -65,7 +65,8 @@ def _lines(console: Console) -> ShowProgress:
 
 
 def _state(progress: Progress) -> str:
-    return f"t = {progress.time:.4g} s, {progress.contacts} contacts"
+    many = "" if progress.contacts == 1 else "s"
+    return f"t = {progress.time:.4g} s, {progress.contacts} contact{many}"
 
 
 def _energies(progress: Progress) -> str:
