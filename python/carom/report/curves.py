@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -28,6 +29,18 @@ _TERMS = (
     ("prescribed", "work of supports", "brown"),
 )
 """Terms of the ledger: column, label and colour."""
+
+_UNITS = {
+    **dict.fromkeys((*(column for column, _, _ in _TERMS), "defect", "step_defect"), "J"),
+    "certificate": "J",
+    "momentum": "kg m/s",
+    "angular_momentum": "kg m²/s",
+    **dict.fromkeys(("x", "y", "z", "u", "min_gap"), "m"),
+    **dict.fromkeys(("v", "vmid"), "m/s"),
+    "spin": "rad/s",
+    **dict.fromkeys(("force", "normal_force"), "N"),
+}
+"""Units of columns, whatever their owner and axis; what has none is a number."""
 
 _ALWAYS = frozenset({"total", "kinetic", "strain"})
 
@@ -76,13 +89,15 @@ def curves(source: Source) -> dict[str, Any]:
     """Return columns, panels and what else can be shown, as plain data for JSON."""
     history = {name: values for name, values in source.history.items() if len(values)}
     if not history:
-        return {"rows": 0, "recorded": 0, "columns": {}, "panels": [], "groups": [], "ledgers": []}
+        nothing: dict[str, Any] = {"columns": {}, "panels": [], "groups": [], "ledgers": []}
+        return {"rows": 0, "recorded": 0, "units": {}, **nothing}
     recorded = len(history["time"])
     taken = _evenly(recorded, ROWS)
     return {
         "rows": len(taken),
         "recorded": recorded,
         "columns": {name: pack(values[taken], "f8") for name, values in history.items()},
+        "units": {name: _unit(name) for name in history},
         "panels": [_panel(panel, history, source) for panel in _PANELS if _has(panel, history)],
         "groups": _groups(history),
         "ledgers": [
@@ -134,6 +149,12 @@ def _groups(history: Columns) -> list[dict[str, Any]]:
             owner, _, quantity = column.rpartition(".")
             groups.setdefault(owner if quantity else "", []).append(column)
     return [{"title": owner or "whole run", "columns": names} for owner, names in groups.items()]
+
+
+def _unit(column: str) -> str:
+    """Return the unit of a column, such as m/s of ``left.v_x``."""
+    quantity = column.rpartition(".")[2]
+    return _UNITS.get(re.sub("_[xyz]$", "", quantity), "")
 
 
 def _ledger(columns: Columns) -> dict[str, Any]:

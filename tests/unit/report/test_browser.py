@@ -15,20 +15,34 @@ from get_browser import WEBGL, found
 SIZE = {"width": 1100, "height": 700}
 
 
+BLIND = ("--disable-gpu", "--disable-3d-apis", "--no-sandbox")
+"""Arguments with which it does not draw in 3D, as some remote desktops and old machines."""
+
+
 @pytest.fixture(scope="module")
-def browser():
+def launched():
+    """Return a function that starts a browser with some arguments."""
     from playwright.sync_api import Error, sync_playwright
 
     executable = found()
     if executable is None:
         pytest.skip("there is no Chromium: python tools/get_browser.py")
     with sync_playwright() as playwright:
-        try:
-            browser = playwright.chromium.launch(executable_path=executable, args=list(WEBGL))
-        except Error as error:
-            pytest.skip(f"{executable} does not start: {error.message.splitlines()[0]}")
-        yield browser
-        browser.close()
+
+        def launch(arguments):
+            try:
+                return playwright.chromium.launch(executable_path=executable, args=list(arguments))
+            except Error as error:
+                pytest.skip(f"{executable} does not start: {error.message.splitlines()[0]}")
+
+        yield launch
+
+
+@pytest.fixture(scope="module")
+def browser(launched):
+    browser = launched(WEBGL)
+    yield browser
+    browser.close()
 
 
 class Pages:
@@ -263,6 +277,12 @@ def test_other_columns_and_books_can_be_shown(disc_page):
     disc_page.select_option("#group", label="disc: energy books")
     disc_page.wait_for_selector("#panel-explored h2:has-text('disc: energy books')")
     assert disc_page.locator("#panel-explored .legend li").count() >= 2
+    for column, unit in (("v x", "m/s"), ("spin", "rad/s"), ("y", "m")):
+        disc_page.select_option("#group", label="disc: motion")
+        disc_page.select_option("#column", label=column)
+        disc_page.wait_for_selector(
+            f"#panel-explored h2:text-is('disc: motion, {column} [{unit}]')"
+        )
 
 
 def test_a_body_in_space_turns_under_the_pointer_and_nothing_is_injected(ball, opened):
@@ -288,6 +308,29 @@ def test_obstacles_of_every_kind_are_drawn(museum, opened):
     before = drawn(page)
     page.keyboard.press("End")
     assert drawn(page) != before
+
+
+def test_without_webgl_the_page_says_so_and_the_rest_of_it_works(disc, launched):
+    browser = launched(BLIND)
+    pages = Pages(browser)
+    page = pages.open(disc.path / layout.REPORT)
+    assert page.evaluate("document.createElement('canvas').getContext('webgl2')") is None
+    said = page.locator("#stage").inner_text()
+    assert said.startswith("The scene needs WebGL 2, which this browser does not offer: turn on")
+    assert not page.locator("#scene").locator("select, input, button, canvas").first.is_visible()
+    (contact, *_) = disc.summary["contacts"]
+    assert contact["onset"] <= marked(page) <= contact["release"]
+    scrub_to(page, 2)
+    assert marked(page) == pytest.approx(0.04)
+    page.keyboard.press("End")
+    assert page.locator("#time").inner_text().startswith("t = 0.4")
+    over = page.locator("#panel-energy .u-over")
+    over.click(position={"x": 0.5 * over.bounding_box()["width"], "y": 20})
+    assert marked(page) == pytest.approx(0.2)
+    page.locator("#numbers summary").click()
+    assert page.locator("#numbers data[data-key='steps']").inner_text() == "200"
+    assert not pages.wrong
+    browser.close()
 
 
 def test_a_narrow_screen_is_not_overrun(disc, opened):

@@ -84,6 +84,15 @@ def test_every_number_is_that_of_the_summary(disc):
         assert float(plain) == pytest.approx(value, rel=5e-3), key
 
 
+@pytest.mark.parametrize("run", ["disc", "ball"])
+def test_every_column_that_is_no_number_has_a_unit(request, data_of, run):
+    units = data_of(request.getfixturevalue(run).path / layout.REPORT).curves["units"]
+    plain = {column for column, unit in units.items() if not unit}
+    assert plain == {"time", "contacts", "newton_iterations", "residual", "blend"}
+    assert units[f"{run}.v_x"] == "m/s"
+    assert units["total"] == "J"
+
+
 def test_curves_are_the_columns_of_the_history(disc, data_of):
     columns = data_of(disc.path / layout.REPORT).curves["columns"]
     assert columns.keys() == disc.history.keys()

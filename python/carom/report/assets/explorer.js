@@ -14,6 +14,7 @@ carom.makeExplorer = (data, columns, charts) => {
       title: words(name.slice(name.lastIndexOf(".") + 1)),
       load: async () => ({
         times: Array.from(columns.time),
+        unit: data.units[name],
         curves: [{ label: name, colour: "blue", values: columns[name] }],
       }),
     })),
@@ -57,7 +58,7 @@ carom.makeExplorer = (data, columns, charts) => {
     const content = await choice.load();
     if (mine !== shown) return; // another was chosen meanwhile
     chart?.remove();
-    chart = charts.add(holder, { id: "explored", title: `${book.title}, ${choice.title}`, unit: "", ...content });
+    chart = charts.add(holder, { id: "explored", title: `${book.title}, ${choice.title}`, ...content });
   }
   options(group, books.map(({ title }, index) => [index, title]));
   group.addEventListener("change", choose);

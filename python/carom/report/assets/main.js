@@ -76,13 +76,19 @@
     carom.makeExplorer(data.curves, columns, charts);
   }
 
+  function sayWhyNoScene() {
+    const text = "The scene needs WebGL 2, which this browser does not offer: turn on its graphics acceleration, or take another. "
+      + "Curves and numbers work without; carom view draws pictures.";
+    const stage = at("stage");
+    stage.append(carom.format.create("p", { className: "nothing", textContent: text }));
+    for (const name of ["role", "aria-label", "tabindex"]) stage.removeAttribute(name); // it is text, and no picture
+    for (const part of at("scene").children) part.hidden = part !== stage;
+  }
+
   function showScene() {
     at("scene").hidden = false;
     if (!document.createElement("canvas").getContext("webgl2")) {
-      const text = "The scene needs WebGL 2, which this browser does not offer. Curves and numbers work without.";
-      at("stage").append(carom.format.create("p", { className: "nothing", textContent: text }));
-      at("colour-bar").hidden = true;
-      for (const control of at("scene").querySelectorAll("select, input, button")) control.disabled = true;
+      sayWhyNoScene();
       return null;
     }
     const maps = carom.colours.textures(data.colour_maps);
