@@ -54,7 +54,16 @@ axes.legend()
 plt.show()
 
 # %%
-# Stress at the end. The largest is below the surface.
+# Stress at the end. The largest is below the surface, where metals begin to yield: about half the
+# radius of contact √(R δ) deep. Fields are read where they are indexed, here one frame.
+
+fields = result.fields
+normal, shear = np.split(fields["stress"][-1], 2, axis=1)  # xx yy zz and xy yz xz of every cell
+deviator = normal - normal.mean(axis=1, keepdims=True)
+mises = np.sqrt(1.5 * (deviator**2 + 2.0 * shear**2).sum(axis=1))
+middles = fields.points[fields.connectivity].mean(axis=1)
+radius = np.sqrt(ball.radius * depth[-1])
+print(f"largest at {-middles[mises.argmax(), 1] / radius:.2f} times the radius of contact deep")
 
 draw(result, [1.0], field="von-mises", magnification=50.0)
 plt.show()

@@ -63,7 +63,7 @@ draw(result, [0.3, 0.7, 1.0], field="von-mises")
 plt.show()
 
 # %%
-# The ring buckles softly, until its halves meet.
+# The ring gives way softly, until its halves meet.
 
 figure, axes = plt.subplots(layout="constrained")
 axes.plot(ways, forces)
