@@ -113,9 +113,9 @@ def _allowed(certificate: Summary) -> Html | None:
 
 def _retried(summary: Summary) -> Html | None:
     parts = []
-    for name, what in (("retried_steps", "retried steps"), ("factorisations", "factorisations")):
-        if summary.get(name) is not None:
-            parts.append(join(number(summary[name], name), f" {what}"))
+    for name, what in (("retried_steps", "retried step"), ("factorisations", "factorisation")):
+        if (count := summary.get(name)) is not None:
+            parts.append(join(number(count, name), f" {what}{'' if count == 1 else 's'}"))
     return join(*(join(", " if index else "", part) for index, part in enumerate(parts))) or None
 
 
