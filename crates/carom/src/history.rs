@@ -34,6 +34,10 @@ pub(crate) struct History<const D: usize> {
 pub(crate) struct Since {
     pub steps: usize,
     pub iterations: usize,
+    /// Steps that failed and were taken again in halves.
+    pub retried: u64,
+    /// Length of the shortest step [s]; zero without steps.
+    pub shortest_step: f64,
     pub certificate: f64,
     pub residual: f64,
     pub blend: f64,
@@ -85,6 +89,8 @@ impl<const D: usize> History<D> {
                 "min_gap",
                 "normal_force",
                 "newton_iterations",
+                "retried_steps",
+                "shortest_step",
                 "certificate",
                 "residual",
                 "blend",
@@ -132,6 +138,7 @@ impl<const D: usize> History<D> {
     /// Notes a step of length `dt` [s] that ended in `state` for the next row.
     pub fn observe(&mut self, report: &StepReport, state: &State<D>, dt: f64) {
         let since = &mut self.since;
+        since.shortest_step = if since.steps == 0 { dt } else { since.shortest_step.min(dt) };
         since.steps += 1;
         since.iterations += report.newton_iterations;
         since.certificate = since.certificate.max(report.certificate);
@@ -197,6 +204,8 @@ impl<const D: usize> History<D> {
             min_gap,
             since.normal_force,
             if since.steps > 0 { since.iterations as f64 / since.steps as f64 } else { 0.0 },
+            since.retried as f64,
+            since.shortest_step,
             since.certificate,
             since.residual,
             since.blend,

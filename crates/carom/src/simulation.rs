@@ -334,6 +334,7 @@ impl<const D: usize> Simulation<D> {
             },
         );
         self.totals.retried += failed;
+        self.history.since.retried += failed;
         outcome?;
         self.step += 1;
         let due = (self.history_rows as f64) * self.history_every;

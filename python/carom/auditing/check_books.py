@@ -153,10 +153,17 @@ class BookChecks:
         h = self._history
         for name in (
             *("contacts", "normal_force", "certificate", "residual", "newton_iterations"),
-            *("blend", "step_defect"),
+            *("blend", "step_defect", "retried_steps", "shortest_step"),
         ):
             self._rows("row: signs", np.maximum(-h[name], 0.0), 0.0)
-        self._rows("row: signs", h["contacts"] % 1.0, 0.0)
+        for name in ("contacts", "retried_steps"):
+            self._rows("row: signs", h[name] % 1.0, 0.0)
+        # A step that fails is halved, but for the one that a run fails with.
+        longest = np.where(h["retried_steps"] > 0, 0.5, 1.0) * self._dt
+        if self._summary["status"] == "failed":
+            longest[-1] = self._dt
+        off = SAFETY * EPS * self._end
+        self._rows("row: signs", np.maximum(h["shortest_step"] - longest, 0.0), off)
         self._rows(
             "row: signs", ((h["contacts"] > 0) != (h["normal_force"] > 0)).astype(float), 0.0
         )
@@ -237,6 +244,10 @@ class BookChecks:
             ("dofs", summary["dofs"] - dofs),
         ):
             check("summary: counts", float(figure), 0.0, name)
+        retried = float(self._history["retried_steps"].sum() - summary["retried_steps"])
+        if summary["status"] == "failed":
+            retried = max(retried, 0.0)  # the last ones may come after the last row
+        check("summary: counts", retried, 0.0, "retried_steps")
         if not self._halved and len(self._steps):
             mean = self._history["newton_iterations"][1:]
             # The last step of a run may be a short one.

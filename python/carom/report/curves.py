@@ -39,6 +39,7 @@ _UNITS = {
     **dict.fromkeys(("v", "vmid"), "m/s"),
     "spin": "rad/s",
     **dict.fromkeys(("force", "normal_force"), "N"),
+    "shortest_step": "s",
 }
 """Units of columns, whatever their owner and axis; what has none is a number."""
 
@@ -54,6 +55,8 @@ class _Panel:
     log: bool = False
     tall: bool = False
     steps: bool = False
+    when: str = ""
+    """Column without which there is nothing to show."""
 
 
 _PANELS = (
@@ -72,8 +75,18 @@ _PANELS = (
         (
             ("newton_iterations", "Newton iterations per step", "purple"),
             ("contacts", "active contacts", "sky"),
+            ("retried_steps", "steps retried in halves", "red"),
         ),
         steps=True,
+    ),
+    _Panel(
+        "step",
+        "Length of the steps: halved where they fail, and grown again",
+        "s",
+        (("shortest_step", "shortest step", "orange"),),
+        log=True,
+        steps=True,
+        when="retried_steps",
     ),
     _Panel(
         "certificate",
@@ -113,6 +126,8 @@ def _evenly(count: int, most: int) -> np.ndarray[Any, np.dtype[np.int64]]:
 
 
 def _has(panel: _Panel, history: Columns) -> bool:
+    if panel.when and not np.any(history.get(panel.when, 0.0)):
+        return False
     return bool(_stated(panel.curves, history))
 
 

@@ -251,7 +251,7 @@ COLUMNS = [
     *("normal_contact", "external", "defect", "momentum_x", "angular_momentum"),
     *("a.x", "b.v_y", "a.spin"),
     *("contacts", "min_gap", "normal_force", "certificate", "residual", "newton_iterations"),
-    *("prescribed", "blend", "step_defect"),
+    *("prescribed", "blend", "step_defect", "retried_steps", "shortest_step"),
     *("tip.u_x", "tip.v_y", "tip.vmid_x"),
 ]
 EVERY_ROW = [

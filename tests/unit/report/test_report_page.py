@@ -88,7 +88,8 @@ def test_every_number_is_that_of_the_summary(disc):
 def test_every_column_that_is_no_number_has_a_unit(request, data_of, run):
     units = data_of(request.getfixturevalue(run).path / layout.REPORT).curves["units"]
     plain = {column for column, unit in units.items() if not unit}
-    assert plain == {"time", "contacts", "newton_iterations", "residual", "blend"}
+    counts = {"contacts", "newton_iterations", "retried_steps"}
+    assert plain == {"time", "residual", "blend"} | counts
     assert units[f"{run}.v_x"] == "m/s"
     assert units["total"] == "J"
 
@@ -98,6 +99,20 @@ def test_curves_are_the_columns_of_the_history(disc, data_of):
     assert columns.keys() == disc.history.keys()
     for name, packed in columns.items():
         np.testing.assert_array_equal(unpack(packed), disc.history[name])
+
+
+def test_retries_and_shorter_steps_are_drawn_where_there_were_any(disc, data_of, tmp_path):
+    case = disc.scenario.model_dump(mode="json") | {"title": "hard"}
+    case["analysis"] = {**case["analysis"], "newton": {"tolerance": 1e-9, "max_iterations": 4}}
+    hard = carom.run(carom.Scenario.from_dict(case), out=tmp_path)
+    history, nominal = hard.history, hard.summary["time_step"]
+    assert history["retried_steps"].sum() == hard.summary["retried_steps"] > 0
+    assert history["shortest_step"][1:].min() == pytest.approx(0.5 * nominal)
+    panels = {p["id"]: p for p in data_of(tmp_path / layout.REPORT).curves["panels"]}
+    assert [curve["column"] for curve in panels["step"]["curves"]] == ["shortest_step"]
+    assert "retried_steps" in [curve["column"] for curve in panels["convergence"]["curves"]]
+    easy = data_of(disc.path / layout.REPORT).curves["panels"]
+    assert "step" not in [panel["id"] for panel in easy]
 
 
 def test_books_of_bodies_and_pairs_are_those_of_the_ledger(disc, data_of):

@@ -104,7 +104,9 @@ fn events(tape: &mut Tape<'_>, groups: &[Group], log: &mut EventLog) -> Done {
 fn history<const D: usize>(tape: &mut Tape<'_>, history: &mut History<D>) -> Done {
     let since = &mut history.since;
     tape.integers("history/counts", [&mut since.steps, &mut since.iterations, &mut since.contacts])?;
+    tape.integers("history/retried", [&mut since.retried])?;
     let sizes = [
+        &mut since.shortest_step,
         &mut since.certificate,
         &mut since.residual,
         &mut since.blend,

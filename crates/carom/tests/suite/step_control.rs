@@ -24,9 +24,17 @@ fn failed_steps_are_halved_and_the_time_grid_stays() {
     assert!(summary.min_gap > -1e-12);
     let rows = simulation.take_history();
     let width = simulation.history_columns().len();
-    for (k, row) in rows.chunks_exact(width).enumerate() {
+    let column = |name: &str| simulation.history_columns().iter().position(|c| c == name).expect("there");
+    let (retried, shortest) = (column("retried_steps"), column("shortest_step"));
+    let mut sum = 0.0;
+    for (k, row) in rows.chunks_exact(width).enumerate().skip(1) {
         assert!((row[0] - k as f64 * 1e-2).abs() < 1e-15, "row {k} at t = {}", row[0]);
+        let halvings = (1e-2 / row[shortest]).log2();
+        assert!((halvings - halvings.round()).abs() < 1e-9, "row {k}: {} s", row[shortest]);
+        assert_eq!(row[retried] > 0.0, halvings > 0.5, "row {k}");
+        sum += row[retried];
     }
+    assert_eq!(sum, summary.retried_steps as f64);
 }
 
 #[test]
