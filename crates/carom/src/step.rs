@@ -108,8 +108,7 @@ fn predict<const D: usize>(
 
 /// Newton's iterations with a kept factor; returns how many the slowest body took. Writes u₊ to `next` and d to `work`.
 ///
-/// Bodies in contact depend on one another and iterate together, every other one alone to its end: what is needed of it then stays
-/// in the cache.
+/// Bodies in contact depend on one another and iterate together, every other one alone to its end.
 fn iterate<const D: usize>(
     model: &Model<D>,
     method: &Method<D>,
