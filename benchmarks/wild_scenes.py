@@ -37,8 +37,8 @@ CLOSED = 1e-6
 """Largest defect of the ledger, of the energy that there was, with the scheme `conserving`. That of
 `theta` is the error of its stresses, of which a run warns where it is large."""
 
-OWED = 2e-3
-"""The same with the condition `massless`, which may owe a thousandth of what there is at a time."""
+OWED = 0.01
+"""The same with the condition `massless`, which may owe a thousandth of what there is in a step."""
 
 CONDITIONS = {
     "theta": ("gap", "midpoint", "endpoint"),

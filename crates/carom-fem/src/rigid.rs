@@ -43,9 +43,12 @@ impl<const D: usize> Body<D> {
         tensor::closest_rotation(&turned).unwrap_or_else(Matrix::identity)
     }
 
-    /// m (X − C)ᵀ [Σ m (X − C) ⊗ (X − C)]⁻¹ [1/m] of every node: what [`Self::frame`] weighs displacements with; C is left out of
-    /// those, as what all nodes share cancels.
+    /// [Σ m (X − C) ⊗ (X − C)]⁻¹ m (X − C) [1/m] of every node, what [`Self::frame`] weighs displacements with; nothing of a body that
+    /// does not turn. The mean of the displacements need not be taken off, as these arms sum to zero.
     pub(crate) fn reference_arms(&self) -> Vec<Vector<D>> {
+        if !self.turns() {
+            return Vec::new();
+        }
         let nodes = self.mesh().nodes();
         let centre = self.mean(nodes);
         let mut inertia = Matrix::zeros();

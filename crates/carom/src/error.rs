@@ -80,14 +80,14 @@ pub enum StepError {
     },
     /// What the massless nodes took from the balance of energy could not be given back.
     #[error(
-        "contact of massless nodes leaves {missing:.3e} J of {energy:.3e} J unaccounted for: shorten the time step, or choose \
-         the contact condition gap or midpoint"
+        "contact of massless nodes leaves {missing:.3e} J unaccounted for, where {allowed:.3e} J are allowed: shorten the time \
+         step, or choose the contact condition gap or midpoint"
     )]
     Unbalanced {
-        /// What the step and those before left over [J].
+        /// What the step left over [J].
         missing: f64,
-        /// Energy of the model [J].
-        energy: f64,
+        /// What a step may [J].
+        allowed: f64,
     },
     /// In a static analysis nothing keeps a body where it is.
     #[error(

@@ -318,6 +318,7 @@ impl<const D: usize> Simulation<D> {
             spare,
             end,
             length,
+            totals.max_energy,
             work,
             &mut failed,
             halvings,

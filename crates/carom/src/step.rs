@@ -126,15 +126,16 @@ fn iterate<const D: usize>(
         *u1 = u0 + d;
     }
     let convergence = Convergence::new(model, method, state, map);
-    let mut iterations = 0;
     let mut in_contact = std::mem::take(&mut work.in_contact);
     in_contact.clear();
     in_contact.extend((0..model.bodies.len()).filter(|&i| work.touched[i]));
-    if !in_contact.is_empty() {
-        let made = iterate_bodies(&in_contact, convergence, model, method, state, next, map, work);
-        iterations = made?;
-    }
+    let made = if in_contact.is_empty() {
+        Ok(0)
+    } else {
+        iterate_bodies(&in_contact, convergence, model, method, state, next, map, work)
+    };
     work.in_contact = in_contact;
+    let mut iterations = made?;
     for i in 0..model.bodies.len() {
         if !work.touched[i] {
             let made = iterate_bodies(&[i], convergence, model, method, state, next, map, work)?;

@@ -65,22 +65,10 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         history: &[PlasticState],
         force: &mut [Vector<D>],
     ) {
-        self.grid.assemble(
-            force,
-            || (Batch::zeros(), Batch::zeros()),
-            |pack, (f0, f1), stresses| {
-                self.grid.deform(pack, u0, f0);
-                self.grid.deform(pack, u1, f1);
-                self.law.discrete_stresses(
-                    self.grid.batch(),
-                    f0,
-                    f1,
-                    self.grid.part(pack, history),
-                    stresses,
-                );
-                0.0
-            },
-        );
+        self.grid.assemble_step(u0, u1, force, |pack, f0, f1, stresses| {
+            let history = self.grid.part(pack, history);
+            self.law.discrete_stresses(self.grid.batch(), f0, f1, history, stresses);
+        });
     }
 
     fn add_step_forces(

@@ -30,24 +30,17 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Dashpo
     for ViscousBlock<D, S, N, K>
 {
     fn add_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], dt: f64, force: &mut [Vector<D>]) {
-        self.grid.assemble(
-            force,
-            || (Batch::zeros(), Batch::zeros()),
-            |pack, (f0, f1), stresses| {
-                self.grid.deform(pack, u0, f0);
-                self.grid.deform(pack, u1, f1);
-                for q in 0..self.grid.batch() {
-                    let (f0, f1) = (embed(&f0.get(q)), embed(&f1.get(q)));
-                    let stress = if self.objective {
-                        self.viscosity.stress(&f0, &f1, dt)
-                    } else {
-                        self.viscosity.small_stress(&f0, &f1, dt)
-                    };
-                    stresses.set(q, &restrict(&stress));
-                }
-                0.0
-            },
-        );
+        self.grid.assemble_step(u0, u1, force, |_, f0, f1, stresses| {
+            for q in 0..self.grid.batch() {
+                let (f0, f1) = (embed(&f0.get(q)), embed(&f1.get(q)));
+                let stress = if self.objective {
+                    self.viscosity.stress(&f0, &f1, dt)
+                } else {
+                    self.viscosity.small_stress(&f0, &f1, dt)
+                };
+                stresses.set(q, &restrict(&stress));
+            }
+        });
     }
 
     fn add_damping(&self, u: &[Vector<D>], c: &mut NodalMatrix<Matrix<D>>) {

@@ -199,6 +199,24 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
         sum
     }
 
+    /// As [`Self::assemble`], for the stresses of a step from `u0` to `u1`, of which `stress` gets F at both ends.
+    #[inline]
+    pub fn assemble_step(
+        &self,
+        u0: &[Vector<D>],
+        u1: &[Vector<D>],
+        force: &mut [Vector<D>],
+        stress: impl Fn(usize, &Batch<S>, &Batch<S>, &mut Batch<S>) + Sync,
+    ) {
+        let scratch = || (Batch::zeros(), Batch::zeros());
+        self.assemble(force, scratch, |pack, (f0, f1), stresses| {
+            self.deform(pack, u0, f0);
+            self.deform(pack, u1, f1);
+            stress(pack, f0, f1, stresses);
+            0.0
+        });
+    }
+
     /// Writes the nodal forces of the `stresses` at the points of a pack to `local`.
     #[inline]
     pub fn local_forces(&self, pack: usize, stresses: &Batch<S>, local: &mut Local<D, N>) {

@@ -167,16 +167,9 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
         history: &[PlasticState],
         force: &mut [Vector<D>],
     ) {
-        self.grid.assemble(
-            force,
-            || (Batch::zeros(), Batch::zeros()),
-            |pack, (f0, f1), stresses| {
-                self.grid.deform(pack, u0, f0);
-                self.grid.deform(pack, u1, f1);
-                self.discrete_stresses(pack, f0, f1, history, stresses);
-                0.0
-            },
-        );
+        self.grid.assemble_step(u0, u1, force, |pack, f0, f1, stresses| {
+            self.discrete_stresses(pack, f0, f1, history, stresses);
+        });
     }
 
     fn add_step_forces(

@@ -73,8 +73,25 @@ fn impacts_too_violent_for_massless_nodes_are_refused_instead_of_losing_energy()
     let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
     let error = simulation.advance(f64::INFINITY, || false).expect_err("turns too fast for small strains");
     assert!(error.to_string().contains("contact of massless nodes leaves"));
-    let StepError::Unbalanced { missing, energy } = error.reason else { panic!("{error}") };
-    assert!(missing > 1e-3 * energy);
+    let StepError::Unbalanced { missing, allowed } = error.reason else { panic!("{error}") };
+    assert!(missing > allowed);
     let books = simulation.summary().energy;
-    assert!(books.max_defect < 1e-3 * books.initial, "the steps before close: {:e} J", books.max_defect);
+    assert!(books.max_defect < 0.01 * books.initial, "the steps before close: {:e} J", books.max_defect);
+}
+
+/// Symptom guarded against: what damping leaves over at the onset of each contact ended runs whose bodies had lost most of their energy.
+#[test]
+fn damped_bodies_may_come_to_rest_on_massless_nodes() {
+    let ball = body("ball", disc([0.0, 0.51], 0.5, 4), [0.0, -1.0]);
+    let mut case = scenario(1.0, 2e-3, &[ball], &[plane("floor", [0.0, 0.0], [0.0, 1.0])]);
+    case["materials"]["elastic"]["young"] = json!(1e4);
+    case["materials"]["elastic"]["damping"] = json!({"mass": 0.0, "stiffness": 2e-3});
+    case["analysis"]["scheme"] = json!({"kind": "conserving"});
+    case["analysis"]["gravity"] = json!([0.0, -9.81]);
+    case["contact"]["condition"] = json!("massless");
+    let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
+    assert_eq!(simulation.advance(f64::INFINITY, || false), Ok(Outcome::Reached));
+    let energy = simulation.summary().energy;
+    assert!(energy.viscous > 0.5 * energy.initial, "{energy:?}");
+    assert!(energy.max_defect < 5e-3 * energy.initial, "{energy:?}");
 }
