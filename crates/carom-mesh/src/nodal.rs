@@ -16,7 +16,7 @@ pub fn total<const D: usize>(a: &[Vector<D>]) -> Vector<D> {
     for chunk in chunks {
         parts.iter_mut().zip(chunk).for_each(|(part, a)| *part += a);
     }
-    parts[0] + parts[1] + (parts[2] + parts[3])
+    gathered(parts)
 }
 
 /// Σ w a, for as many weights.
@@ -28,7 +28,7 @@ pub fn weighted_total<const D: usize>(weights: &[f64], a: &[Vector<D>]) -> Vecto
     for (weights, a) in weights.zip(a) {
         parts.iter_mut().zip(weights.iter().zip(a)).for_each(|(part, (w, a))| *part += a * *w);
     }
-    parts[0] + parts[1] + (parts[2] + parts[3])
+    gathered(parts)
 }
 
 /// Σ a·b, for as many b.
@@ -41,7 +41,7 @@ pub fn dot<const D: usize>(a: &[Vector<D>], b: &[Vector<D>]) -> f64 {
     for (a, b) in a.zip(b) {
         parts.iter_mut().zip(a.iter().zip(b)).for_each(|(part, (a, b))| *part += a.component_mul(b));
     }
-    (parts[0] + parts[1] + (parts[2] + parts[3])).sum()
+    gathered(parts).sum()
 }
 
 /// The largest size of a component; what is not a number does not count.
@@ -54,6 +54,11 @@ pub fn largest<const D: usize>(a: &[Vector<D>]) -> f64 {
         parts.iter_mut().zip(chunk).for_each(|(part, a)| enlarge(part, a));
     }
     parts.iter().map(Vector::max).fold(0.0, f64::max)
+}
+
+#[inline(always)]
+fn gathered<const D: usize>(parts: [Vector<D>; PARTS]) -> Vector<D> {
+    parts[0] + parts[1] + (parts[2] + parts[3])
 }
 
 #[inline(always)]

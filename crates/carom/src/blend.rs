@@ -161,10 +161,12 @@ impl<const D: usize> Blend<D> {
         self.balances[index] = balance;
     }
 
-    /// α of every group of bodies in contact. `excess` is the energy of every body [J] that steps before left over and
+    /// α of every group of bodies in contact among `bodies`, which `rubbing` is all of. `excess` is the energy of every body [J] that steps before left over and
     /// `energy` that of the model: where little can be moved, as in nearly rigid flight, it waits for a step where there is more.
-    pub fn weigh(&mut self, rubbing: &[Rubbing], excess: &[f64], energy: f64) {
-        self.leader.iter_mut().enumerate().for_each(|(i, l)| *l = i);
+    pub fn weigh(&mut self, bodies: &[usize], rubbing: &[Rubbing], excess: &[f64], energy: f64) {
+        for &i in bodies {
+            (self.leader[i], self.groups[i]) = (i, Balance::default());
+        }
         for c in rubbing {
             match c.target {
                 Target::Surface(target) if c.start > 0.0 || c.end > 0.0 => {
@@ -174,11 +176,10 @@ impl<const D: usize> Blend<D> {
                 _ => {}
             }
         }
-        self.groups.fill(Balance::default());
-        for (i, (balance, excess)) in self.balances.iter().zip(excess).enumerate() {
+        for &i in bodies {
             let group = &mut self.groups[leader_of(&self.leader, i)];
-            group.missing += balance.missing + excess;
-            group.available += balance.available;
+            group.missing += self.balances[i].missing + excess[i];
+            group.available += self.balances[i].available;
         }
         for c in rubbing {
             let group = &mut self.groups[leader_of(&self.leader, c.source)];
@@ -186,10 +187,10 @@ impl<const D: usize> Blend<D> {
             group.missing += c.friction * 0.5 * (c.start + c.end) * c.slip - 0.5 * (start + end);
             group.available += end - start - c.friction * (c.end - c.start) * c.slip;
         }
-        for (i, weight) in self.weight.iter_mut().enumerate() {
+        for &i in bodies {
             let Balance { missing, available } = self.groups[leader_of(&self.leader, i)];
             let matters = missing.abs() > NEGLIGIBLE * energy && available > 0.0;
-            *weight = if matters { (missing / available).clamp(-LARGEST, LARGEST) } else { 0.0 };
+            self.weight[i] = if matters { (missing / available).clamp(-LARGEST, LARGEST) } else { 0.0 };
         }
     }
 

@@ -1,4 +1,4 @@
-use carom_mesh::Vector;
+use carom_mesh::{Vector, nodal};
 
 use crate::workspace::StepReport;
 use crate::{Ledger, Model, State};
@@ -177,7 +177,7 @@ impl<const D: usize> History<D> {
             let (u, v) = (&state.displacement[b.nodes()], &state.velocity[b.nodes()]);
             let mut mv = vec![Vector::zeros(); v.len()];
             b.body.mass().multiply(v, &mut mv);
-            momentum += b.body.resultant(mv.iter().sum());
+            momentum += b.body.resultant(nodal::total(&mv));
             let l = b.body.angular_momentum(u, &mv);
             (0..3).for_each(|i| moment[i] += l[i]);
         }

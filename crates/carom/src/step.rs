@@ -241,8 +241,12 @@ fn blend<const D: usize>(
         let body_step = BodyStep::new(model, i, map, pose, drive, state, &work.motion, &next.displacement);
         work.blend.measure(model, i, &body_step, &mut work.residual_scratch[i]);
     }
-    measure_rubbing(model, method, state, map, work);
-    work.blend.weigh(&work.rubbing, &state.excess, state.energies.total());
+    let touched = bodies.iter().any(|&i| work.touched[i]);
+    if touched {
+        measure_rubbing(model, method, state, map, work);
+    }
+    let rubbing = if touched { &work.rubbing[..] } else { &[] };
+    work.blend.weigh(bodies, rubbing, &state.excess, state.energies.total());
 }
 
 /// Ends the solves and applies the corrections.
