@@ -75,11 +75,8 @@ pub enum FemError {
         at: Vec<f64>,
     },
     /// A matrix that should be positive definite is not.
-    #[error("the iteration matrix is not positive definite (pivot {pivot}); a smaller time step makes it so")]
-    NotPositiveDefinite {
-        /// Position of the first pivot that is not positive, in elimination order.
-        pivot: usize,
-    },
+    #[error("the iteration matrix is not positive definite; a smaller time step makes it so")]
+    NotPositiveDefinite,
     /// The ordering of a sparse matrix failed.
     #[error("the symbolic factorisation failed: {0}")]
     Symbolic(String),

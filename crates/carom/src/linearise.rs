@@ -1,7 +1,7 @@
 //! The iteration matrix K̄ of each body.
 
 use carom_fem::material::PlasticState;
-use carom_fem::sparse::{Factor, NodalMatrix, Precision};
+use carom_fem::sparse::{Inverse, NodalMatrix, Precision};
 use carom_fem::{Body, Held, Worked};
 use carom_mesh::{Matrix, Vector, nodal};
 
@@ -20,16 +20,17 @@ fn proximal_coefficient<const D: usize>(body: &Body<D>) -> f64 {
     if body.is_loose() { PROXIMAL * (body.wave_speed() / body.mesh().diameter()).powi(2) } else { 0.0 }
 }
 
-/// The factor of K̄ = ξ K + ξ/(θΔt) C + M/(θΔt²) (3) of one body.
+/// The inverse of K̄ = ξ K + ξ/(θΔt) C + M/(θΔt²) (3) of one body: a factor, or for large bodies in short steps a polynomial that
+/// does what a factor would ([`Inverse`]). "Factor" stands for both here.
 ///
 /// Reactions never enter K̄, so bodies are uncoupled in it and one factor serves for many steps: it is made in one
 /// configuration and applied in the frame that turns with the body since (M is isotropic and an objective law turns its
 /// stiffness along). Newton's iterations then converge linearly but fast, and the factor is renewed where they do not. Tied nodes are its affair
-/// alone: it takes and gives vectors of all nodes (see [`Factor`]), and what starts equal at two of them stays so. Held displacements
+/// alone: it takes and gives vectors of all nodes (see [`carom_fem::sparse::Factor`]), and what starts equal at two of them stays so. Held displacements
 /// have rows of their own in K̄: forces on them move nothing. As they are held in the axes of space, such a body's factor does not turn.
 #[derive(Debug)]
 pub(crate) struct BodyOperator<const D: usize> {
-    factor: Factor<D>,
+    inverse: Inverse<D>,
     /// The factors of K, C and M that K̄ was made with.
     coefficients: Option<[f64; 3]>,
     /// What a body that its supports leave loose has in place of inertia in a static analysis [1/s²].
@@ -96,9 +97,9 @@ impl<const D: usize> Translation<D> {
 }
 
 impl<const D: usize> BodyOperator<D> {
-    pub fn new(body: &Body<D>) -> Result<Self, StepError> {
-        Ok(Self {
-            factor: Factor::new(body.graph(), body.mesh().ties())?,
+    pub fn new(body: &Body<D>) -> Self {
+        Self {
+            inverse: Inverse::new(body.mesh().ties()),
             coefficients: None,
             proximal: proximal_coefficient(body),
             factor_frame: Matrix::identity(),
@@ -114,12 +115,12 @@ impl<const D: usize> BodyOperator<D> {
                 displacement: vec![Vector::zeros(); body.node_count()],
                 history: body.virgin(),
             },
-        })
+        }
     }
 
     /// Whether the factor belongs to steps like `map`.
     pub fn fits(&self, map: &StepMap) -> bool {
-        self.factor.is_factorized() && self.coefficients == Some(self.coefficients(map))
+        self.inverse.is_made() && self.coefficients == Some(self.coefficients(map))
     }
 
     /// The factors of K, C and M in K̄.
@@ -131,6 +132,11 @@ impl<const D: usize> BodyOperator<D> {
     /// Whether only contact, or nothing, keeps the body from moving rigidly.
     pub fn is_loose(&self) -> bool {
         self.proximal > 0.0
+    }
+
+    /// Whether the factor is exact but for round-off.
+    pub fn is_exact(&self) -> bool {
+        self.inverse.is_exact()
     }
 
     /// Where the present factor was made; none where no step may rely on it.
@@ -145,7 +151,7 @@ impl<const D: usize> BodyOperator<D> {
 
     /// Makes the factor with the stiffness at `u`, where the frame of the body is `frame`.
     ///
-    /// The factor is kept in `precision`: see [`crate::Method::precision`].
+    /// The factor is kept in `precision` (see [`crate::Method::precision`]), and is exact where that is double.
     ///
     /// A configuration under strong compression, or a guess on the way to one, may be where K̄ is indefinite. The stiffness of the
     /// reference configuration, turned, serves there: slower, but it never is.
@@ -208,7 +214,7 @@ impl<const D: usize> BodyOperator<D> {
             }
         }
         self.held.uncouple(&mut stiffness);
-        self.factor.factorize(precision, |entry| stiffness.values[entry])?;
+        self.inverse.make(precision, &stiffness)?;
         self.coefficients = Some(coefficients);
         self.translation.iter_mut().for_each(|t| t.coefficient = mass_coefficient);
         self.factor_frame = *frame;
@@ -238,13 +244,13 @@ impl<const D: usize> BodyOperator<D> {
         if let Some(translation) = &mut self.translation {
             translation.resultant = nodal::total(&self.scratch);
         }
-        self.factor.begin(&mut self.scratch);
+        self.inverse.begin(&mut self.scratch);
     }
 
     /// Writes K̄⁻¹ x for the `x` that was begun with, and what was added to it, to `out`; zero where displacements are held.
     pub fn end(&mut self, out: &mut [Vector<D>]) {
-        self.factor.end(&mut self.scratch);
-        let missing = match (&self.translation, self.factor.precision()) {
+        self.inverse.end(&mut self.scratch);
+        let missing = match (&self.translation, self.inverse.precision()) {
             (Some(translation), Precision::Single) => translation.missing(&self.scratch),
             _ => Vector::zeros(),
         };
@@ -255,23 +261,23 @@ impl<const D: usize> BodyOperator<D> {
 
     /// Names the nodes of [`Self::seen`] and [`Self::add`].
     pub fn set_reach(&mut self, nodes: impl Iterator<Item = usize>) {
-        self.factor.set_reach(nodes);
+        self.inverse.set_reach(nodes);
     }
 
     /// Solves at the nodes of the reach, for [`Self::seen`].
     pub fn look(&mut self) {
-        self.factor.look();
+        self.inverse.look();
     }
 
     /// K̄⁻¹ x at a node of the reach, as it was at the last look.
     pub fn seen(&self, node: usize) -> Vector<D> {
-        self.turn * self.factor.seen(node)
+        self.turn * self.inverse.seen(node)
     }
 
     /// Adds `forces`, each at a node of the reach, to `x`.
     pub fn add(&mut self, forces: impl Iterator<Item = (usize, Vector<D>)>) {
-        let Self { factor, turn, held, translation, .. } = self;
-        factor.add(forces.map(|(node, force)| {
+        let Self { inverse, turn, held, translation, .. } = self;
+        inverse.add(forces.map(|(node, force)| {
             let force = held.free_part(node, &turn.tr_mul(&force));
             translation.iter_mut().for_each(|t| t.resultant += force);
             (node, force)
@@ -279,18 +285,18 @@ impl<const D: usize> BodyOperator<D> {
     }
 
     /// Nodes that [`Self::respond`] takes at once.
-    pub const AT_ONCE: usize = Factor::<D>::AT_ONCE;
+    pub const AT_ONCE: usize = Inverse::<D>::AT_ONCE;
 
     /// Solves for unit forces at so many nodes of the reach at most: see [`Self::response`]. Nodes near each other in the [`Self::order`]
     /// cost least.
     pub fn respond(&mut self, nodes: impl Iterator<Item = usize>) {
-        self.factor.respond(nodes);
+        self.inverse.respond(nodes);
     }
 
     /// The block (K̄⁻¹)_ab in the frame of the factor for any node a of the reach and one of these nodes b, named by its number among them, too.
     /// Where displacements are held a force moves nothing.
     pub fn response(&self, a: usize, (number, b): (usize, usize)) -> Matrix<D> {
-        let mut block = self.factor.response(number, a);
+        let mut block = self.inverse.response(number, a);
         for component in (0..D).filter(|&component| self.held.holds(b, component)) {
             block.set_column(component, &Vector::zeros());
         }
@@ -299,11 +305,11 @@ impl<const D: usize> BodyOperator<D> {
 
     /// When a node is eliminated.
     pub fn order(&self, node: usize) -> usize {
-        self.factor.order(node)
+        self.inverse.order(node)
     }
 
     /// Memory of the factor [bytes].
     pub fn bytes(&self) -> usize {
-        self.factor.bytes()
+        self.inverse.bytes()
     }
 }

@@ -139,7 +139,7 @@ impl<const D: usize> Simulation<D> {
         }
         // A last step shorter than this fraction of the others would only be round-off of end_time/time_step.
         let steps = (end / dt - 1e-6).ceil().max(1.0) as u64;
-        let work = Workspace::new(&model).map_err(|e| InputError::new("bodies", e.to_string()))?;
+        let work = Workspace::new(&model);
         let mut simulation = Self {
             description: describe(&scenario.title, &model, &state, steps),
             events: EventLog::new(&model, scenario.output.merge_contacts),

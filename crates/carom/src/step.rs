@@ -175,9 +175,7 @@ fn iterate_bodies<const D: usize>(
         }
         accelerate(bodies, model, state, next, iteration == 1, work);
         if convergence.is_slow(iteration, bodies, &work.progress) {
-            // A fresh factor that is no better may lack digits.
-            let precision = if renewed { Precision::Double } else { method.precision() };
-            refactorize(bodies, model, state, next, map, precision, work)?;
+            refactorize(bodies, model, method, state, next, map, renewed, work)?;
             renewed = true;
         }
     }
@@ -278,14 +276,15 @@ fn correct<const D: usize>(
     Ok(())
 }
 
-/// Renews the factors of the `bodies`, at the present guess.
+/// Renews the factors of the `bodies`, at the present guess; once more if they have been `renewed` before.
 fn refactorize<const D: usize>(
     bodies: &[usize],
     model: &Model<D>,
+    method: &Method<D>,
     state: &State<D>,
     next: &State<D>,
     map: &StepMap,
-    precision: Precision,
+    renewed: bool,
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
     work.acceleration.restart();
@@ -298,6 +297,9 @@ fn refactorize<const D: usize>(
         {
             *m = (u0 + u1) * 0.5;
         }
+        // A fresh factor that is no better may lack digits. A polynomial has replaced one only where these do not matter.
+        let lacks_digits = renewed && work.operators[i].is_exact();
+        let precision = if lacks_digits { Precision::Double } else { method.precision() };
         work.operators[i].factorize(
             &b.body.after(&state.history[i]),
             map,

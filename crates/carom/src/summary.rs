@@ -99,7 +99,7 @@ pub struct Summary {
     pub time_step: f64,
     /// Newton iterations.
     pub newton_iterations: u64,
-    /// Factorisations of iteration matrices.
+    /// Factorisations of iteration matrices, and polynomials made in their place.
     pub factorisations: u64,
     /// Steps or substeps that failed and were halved.
     pub retried_steps: u64,

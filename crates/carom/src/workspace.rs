@@ -12,7 +12,6 @@ use crate::convergence::BodyProgress;
 use crate::coupling::Coupling;
 use crate::cross_check::CrossCheck;
 use crate::drive::BodyDrive;
-use crate::error::StepError;
 use crate::ledger::{BodyLedger, PairLedger};
 use crate::linearise::BodyOperator;
 use crate::{Ledger, Model};
@@ -101,14 +100,12 @@ pub struct PosedProblem<'a, const D: usize> {
 
 impl<const D: usize> Workspace<D> {
     /// Scratch for steps of `model`.
-    ///
-    /// # Errors
-    /// If the structure of a factor cannot be found.
-    pub fn new(model: &Model<D>) -> Result<Self, StepError> {
+    #[must_use]
+    pub fn new(model: &Model<D>) -> Self {
         let zeros = vec![Vector::zeros(); model.reference.len()];
         let (bodies, positions) = (model.bodies.len(), zeros.len());
-        Ok(Self {
-            operators: model.bodies.iter().map(|b| BodyOperator::new(&b.body)).collect::<Result<_, _>>()?,
+        Self {
+            operators: model.bodies.iter().map(|b| BodyOperator::new(&b.body)).collect(),
             compliances: model.bodies.iter().map(|b| Compliance::new(&b.body)).collect(),
             residual_scratch: model
                 .bodies
@@ -152,7 +149,7 @@ impl<const D: usize> Workspace<D> {
             bodies: vec![BodyLedger::default(); bodies],
             factorisations: 0,
             friction_time: Duration::ZERO,
-        })
+        }
     }
 }
 
@@ -169,7 +166,7 @@ impl<const D: usize> Workspace<D> {
         self.operators.iter().map(BodyOperator::bytes).sum()
     }
 
-    /// The last contact problem that a step posed, solved or not; after [`StepError::Friction`] the one that failed.
+    /// The last contact problem that a step posed, solved or not; after [`crate::StepError::Friction`] the one that failed.
     #[must_use]
     pub fn posed_problem(&self) -> Option<PosedProblem<'_, D>> {
         let (problem, guess) = (&self.problem, &self.guess[..]);

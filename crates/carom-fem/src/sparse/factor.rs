@@ -145,7 +145,7 @@ impl<const D: usize> Factor<D> {
                 MemStack::new(&mut MemBuffer::new(request)),
                 Spec::default(),
             )
-            .map_err(|LltError::NonPositivePivot { index }| FemError::NotPositiveDefinite { pivot: index })?;
+            .map_err(|LltError::NonPositivePivot { .. }| FemError::NotPositiveDefinite)?;
         if let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() {
             self.triangular.load(&SupernodalLltRef::new(symbolic, &values), &self.ordering);
             self.factorized = true;

@@ -1,17 +1,23 @@
-//! Sparse matrices over the graph of the nodes, and their Cholesky factors.
+//! Sparse matrices over the graph of the nodes, and their inverses: Cholesky factors and polynomials.
 
 mod abreast;
+mod chebyshev;
 mod factor;
 mod folding;
 mod graph;
+mod inverse;
 mod nodal_matrix;
 mod ordering;
 mod pieces;
 mod real;
+mod region;
+mod scaled;
+mod spectrum;
 mod substitution;
 mod triangular;
 
 pub use factor::Factor;
 pub use graph::NodeGraph;
+pub use inverse::Inverse;
 pub use nodal_matrix::NodalMatrix;
 pub use triangular::Precision;

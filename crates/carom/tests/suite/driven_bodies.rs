@@ -86,7 +86,7 @@ fn run<const D: usize>(
 ) -> (State<D>, f64, [f64; 2]) {
     let mut state = State::initial(model, vec![Vector::zeros(); model.node_count()]);
     let mut next = state.clone();
-    let mut work = Workspace::new(model).expect("structure");
+    let mut work = Workspace::new(model);
     let (mut defect, mut sums) = (0.0_f64, [0.0; 2]);
     for k in 1..=steps {
         let report = step(model, method, &state, &mut next, dt, &mut work).expect("converges");

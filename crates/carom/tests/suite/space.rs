@@ -64,7 +64,7 @@ fn run(
 ) -> (State<3>, f64, f64, f64, bool) {
     let mut state = State::initial(model, velocity);
     let mut next = state.clone();
-    let mut work = Workspace::new(model).expect("structure");
+    let mut work = Workspace::new(model);
     let (mut friction, mut defect, mut min_gap, mut touched) = (0.0, 0.0_f64, f64::INFINITY, false);
     let mut sum = 0.0;
     while state.time < end {

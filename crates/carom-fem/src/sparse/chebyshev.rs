@@ -1,0 +1,508 @@
+use carom_mesh::{Matrix, Vector};
+use pulp::{Arch, Simd, WithSimd};
+
+use super::NodalMatrix;
+use super::region::Region;
+use super::scaled::{Columns, Scaled};
+use super::spectrum::spectrum;
+use crate::FemError;
+use crate::parallel::each_chunk;
+
+/// Part of a right-hand side that the approximate solution may leave over: what an iteration with a kept factor leaves, too.
+const LEFT: f64 = 0.03;
+/// How far the ends of the spectrum are taken beyond what was measured of it. Beyond the upper end a polynomial explodes, and
+/// below the lower one it is merely less exact.
+const MARGINS: [f64; 2] = [0.9, 1.1];
+/// Eigenvalues below this share of the largest may be round-off of the [`Scaled`] matrix.
+const ROUND_OFF: f64 = 1e-3;
+
+/// An approximate inverse of a symmetric matrix A of D × D blocks over a node graph, without a factor: a polynomial of A.
+///
+/// With A = L (I + E) Lᵀ, where the lower triangles L of the blocks of the diagonal make theirs unity, the inverse L⁻ᵀ p(I + E) L⁻¹ has for p the
+/// polynomial of the Chebyshev semi-iteration (Golub & Varga 1961, *Numerische Mathematik* 3, 147), which leaves least over for
+/// all spectra between two bounds. It is linear, symmetric and positive definite like that of a factor, and a force at a node is felt as many
+/// rings of nodes away as it has terms, less one: responses to forces at some nodes cost little where bodies are large.
+///
+/// Single precision, as its error is larger anyway.
+#[derive(Debug)]
+pub(super) struct Chebyshev<const D: usize> {
+    matrix: Scaled<D>,
+    /// ω of every term.
+    weights: Vec<f32>,
+    /// 1/α is the middle of the spectrum.
+    alpha: f32,
+    whole: Vectors<D, 1>,
+    /// The effect of the forces that were added, zero outside of `region`.
+    added: Vectors<D, 1>,
+    has_added: bool,
+    /// Whether `whole` has been solved for its right-hand side.
+    solved: bool,
+    reach: Vec<u32>,
+    /// A reach that is asked for.
+    wanted: Vec<u32>,
+    /// Place of every node in the reach, or `u32::MAX`.
+    places: Vec<u32>,
+    /// What forces at the reach move, once it `is_grown`.
+    region: Region,
+    is_grown: bool,
+    unit: Unit<D>,
+}
+
+/// The vectors of the semi-iteration: the right-hand side, the solution, and the one before it.
+#[derive(Debug)]
+struct Vectors<const D: usize, const C: usize> {
+    b: Vec<Columns<D, C>>,
+    x: Vec<Columns<D, C>>,
+    before: Vec<Columns<D, C>>,
+}
+
+/// Responses to unit forces.
+#[derive(Debug)]
+struct Unit<const D: usize> {
+    /// Empty until there are any; zero between two calls.
+    vectors: Vectors<D, D>,
+    region: Region,
+    /// By node that was asked for, and place of the other in the reach.
+    responses: Vec<Matrix<D>>,
+}
+
+impl<const D: usize, const C: usize> Vectors<D, C> {
+    fn zeros(nodes: usize) -> Self {
+        let zeros = || vec![[[0.0; C]; D]; nodes];
+        Self { b: zeros(), x: zeros(), before: zeros() }
+    }
+
+    fn clear(&mut self, nodes: &[u32]) {
+        for &node in nodes {
+            for values in [&mut self.b, &mut self.x, &mut self.before] {
+                values[node as usize] = [[0.0; C]; D];
+            }
+        }
+    }
+}
+
+/// A term of the semi-iteration: what it makes of `x` and the vector before that.
+#[derive(Debug)]
+struct Term<'a, const D: usize, const C: usize> {
+    matrix: &'a Scaled<D>,
+    /// ω and α.
+    factors: [f32; 2],
+    b: &'a [Columns<D, C>],
+    x: &'a [Columns<D, C>],
+}
+
+impl<const D: usize, const C: usize> Clone for Term<'_, D, C> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<const D: usize, const C: usize> Copy for Term<'_, D, C> {}
+
+impl<const D: usize, const C: usize> Term<'_, D, C> {
+    #[inline(always)]
+    fn apply(&self, node: usize, before: &mut Columns<D, C>) {
+        let [omega, alpha] = self.factors;
+        let product = self.matrix.row_times(node, self.x);
+        let (b, x) = (&self.b[node], &self.x[node]);
+        for i in 0..D {
+            for c in 0..C {
+                let change = x[i][c] - before[i][c] + alpha * (b[i][c] - product[i][c]);
+                before[i][c] += omega * change;
+            }
+        }
+    }
+}
+
+/// A term for consecutive nodes.
+struct Chunk<'a, const D: usize, const C: usize> {
+    term: Term<'a, D, C>,
+    first: usize,
+    before: &'a mut [Columns<D, C>],
+}
+
+/// A term for some nodes.
+struct Scattered<'a, const D: usize, const C: usize> {
+    term: Term<'a, D, C>,
+    nodes: &'a [u32],
+    before: &'a mut [Columns<D, C>],
+}
+
+impl<const D: usize, const C: usize> WithSimd for Chunk<'_, D, C> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) {
+        for (node, before) in (self.first..).zip(self.before) {
+            self.term.apply(node, before);
+        }
+    }
+}
+
+impl<const D: usize, const C: usize> WithSimd for Scattered<'_, D, C> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) {
+        for &node in self.nodes {
+            self.term.apply(node as usize, &mut self.before[node as usize]);
+        }
+    }
+}
+
+/// Terms beyond which a factor costs less time: by nested dissection it has n log n values in the plane and n^(4/3) in space. Measured where
+/// both take about as long.
+fn most_terms<const D: usize>(nodes: usize) -> usize {
+    let nodes = nodes as f64;
+    (if D == 2 { nodes.ln() } else { nodes.cbrt() }) as usize
+}
+
+/// 1/α and ω of as many terms as it takes for spectra between these positive bounds; None if they are more than `most`.
+fn terms([least, largest]: [f64; 2], most: usize) -> Option<(f64, Vec<f32>)> {
+    let (middle, radius) = (0.5 * (largest + least), 0.5 * (largest - least));
+    let mu = radius / middle;
+    // What n terms leave is 1/Tₙ(1/μ) at most.
+    let (mut omega, mut weights) = (1.0, Vec::new());
+    let (mut before, mut chebyshev) = (1.0, 1.0 / mu);
+    while weights.len() < most {
+        weights.push(omega as f32);
+        if 1.0 / chebyshev <= LEFT {
+            return Some((middle, weights));
+        }
+        (before, chebyshev) = (chebyshev, 2.0 / mu * chebyshev - before);
+        let share = if weights.len() == 1 { 0.5 } else { 0.25 * omega };
+        omega = 1.0 / (1.0 - share * mu * mu);
+    }
+    None
+}
+
+impl<const D: usize> Chebyshev<D> {
+    /// None where a factor costs less, as the polynomial would have too many terms.
+    ///
+    /// # Errors
+    /// If the matrix is seen not to be positive definite.
+    pub fn of(matrix: &NodalMatrix<Matrix<D>>) -> Result<Option<Self>, FemError> {
+        let matrix = Scaled::of(matrix).ok_or(FemError::NotPositiveDefinite)?;
+        let nodes = matrix.node_count();
+        let [least, largest] = spectrum(&matrix);
+        if least.is_nan() || least < -ROUND_OFF * largest {
+            return Err(FemError::NotPositiveDefinite);
+        }
+        let bounds = [(least * MARGINS[0]).max(ROUND_OFF * largest), largest * MARGINS[1]];
+        Ok(terms(bounds, most_terms::<D>(nodes)).map(|(middle, weights)| Self {
+            matrix,
+            weights,
+            alpha: (1.0 / middle) as f32,
+            whole: Vectors::zeros(nodes),
+            added: Vectors::zeros(nodes),
+            has_added: false,
+            solved: false,
+            reach: Vec::new(),
+            wanted: Vec::new(),
+            places: vec![u32::MAX; nodes],
+            region: Region::default(),
+            is_grown: false,
+            unit: Unit { vectors: Vectors::zeros(0), region: Region::default(), responses: Vec::new() },
+        }))
+    }
+
+    /// Memory [bytes].
+    pub fn bytes(&self) -> usize {
+        let Self { matrix, whole, added, unit, .. } = self;
+        matrix.bytes()
+            + 3 * (size_of_val(&whole.b[..]) + size_of_val(&added.b[..]) + size_of_val(&unit.vectors.b[..]))
+    }
+
+    /// See [`super::Factor::begin`].
+    pub fn begin(&mut self, b: &[Vector<D>]) {
+        for (node, (scaled, b)) in self.whole.b.iter_mut().zip(b).enumerate() {
+            *scaled = self.matrix.scale(node, b);
+        }
+        (self.solved, self.has_added) = (false, false);
+    }
+
+    /// See [`super::Factor::end`].
+    pub fn end(&mut self, out: &mut [Vector<D>]) {
+        self.look();
+        if self.has_added {
+            self.solve_added();
+        }
+        for (node, (out, x)) in out.iter_mut().zip(&self.whole.x).enumerate() {
+            *out = self.matrix.unscale(node, x);
+        }
+    }
+
+    /// See [`super::Factor::set_reach`].
+    pub fn set_reach(&mut self, nodes: impl Iterator<Item = usize>) {
+        let Self { reach, places, wanted, .. } = self;
+        wanted.clear();
+        wanted.extend(nodes.map(|node| node as u32));
+        if wanted == reach {
+            return;
+        }
+        reach.drain(..).for_each(|node| places[node as usize] = u32::MAX);
+        for &node in &*wanted {
+            if places[node as usize] == u32::MAX {
+                places[node as usize] = reach.len() as u32;
+                reach.push(node);
+            }
+        }
+        self.is_grown = false;
+    }
+
+    /// See [`super::Factor::look`].
+    pub fn look(&mut self) {
+        if !self.solved {
+            self.solve_whole();
+            self.solved = true;
+        }
+    }
+
+    /// See [`super::Factor::seen`].
+    pub fn seen(&self, node: usize) -> Vector<D> {
+        self.matrix.unscale(node, &self.whole.x[node])
+    }
+
+    /// See [`super::Factor::add`].
+    pub fn add(&mut self, forces: impl Iterator<Item = (usize, Vector<D>)>) {
+        for (node, force) in forces {
+            let scaled = self.matrix.scale(node, &force);
+            for (b, f) in self.added.b[node].iter_mut().zip(scaled) {
+                b[0] += f[0];
+            }
+            self.has_added = true;
+        }
+    }
+
+    /// See [`super::Factor::respond`].
+    pub fn respond(&mut self, nodes: impl Iterator<Item = usize>) {
+        let Self { matrix, weights, alpha, unit, reach, .. } = self;
+        if unit.vectors.b.is_empty() {
+            unit.vectors = Vectors::zeros(matrix.node_count());
+        }
+        unit.responses.clear();
+        for node in nodes {
+            unit.region.grow(matrix.graph(), std::iter::once(node as u32), weights.len() - 1);
+            unit.vectors.b[node] = matrix.scale(node, &Matrix::identity());
+            solve_within(matrix, weights, *alpha, &mut unit.vectors, &unit.region);
+            let x = &unit.vectors.x;
+            unit.responses.extend(reach.iter().map(|&a| matrix.unscale(a as usize, &x[a as usize])));
+            unit.vectors.clear(unit.region.nodes());
+        }
+    }
+
+    /// See [`super::Factor::response`].
+    pub fn response(&self, number: usize, node: usize) -> Matrix<D> {
+        self.unit.responses[number * self.reach.len() + self.places[node] as usize]
+    }
+
+    fn solve_whole(&mut self) {
+        let Self { matrix, weights, alpha, whole, .. } = self;
+        let alpha = *alpha;
+        for ((x, before), b) in whole.x.iter_mut().zip(&mut whole.before).zip(&whole.b) {
+            *before = [[0.0; 1]; D];
+            *x = std::array::from_fn(|i| [alpha * b[i][0]]);
+        }
+        for &omega in &weights[1..] {
+            let Vectors { b, x, before } = &mut *whole;
+            let term = Term { matrix, factors: [omega, alpha], b, x };
+            each_chunk(before, |first, before| Arch::new().dispatch(Chunk { term, first, before }));
+            std::mem::swap(x, before);
+        }
+    }
+
+    /// Adds the effect of the forces that were added to the solution.
+    fn solve_added(&mut self) {
+        let Self { matrix, weights, alpha, whole, added, reach, region, is_grown, .. } = self;
+        if !*is_grown {
+            region.grow(matrix.graph(), reach.iter().copied(), weights.len() - 1);
+            *is_grown = true;
+        }
+        solve_within(matrix, weights, *alpha, added, region);
+        for &node in region.nodes() {
+            for (x, added) in whole.x[node as usize].iter_mut().zip(&added.x[node as usize]) {
+                x[0] += added[0];
+            }
+        }
+        added.clear(region.nodes());
+        self.has_added = false;
+    }
+}
+
+/// The semi-iteration for a right-hand side that is zero outside the middle of the `region`, with vectors that are zero outside
+/// of it: each term takes in one more ring.
+fn solve_within<const D: usize, const C: usize>(
+    matrix: &Scaled<D>,
+    weights: &[f32],
+    alpha: f32,
+    vectors: &mut Vectors<D, C>,
+    region: &Region,
+) {
+    let Vectors { b, x, before } = vectors;
+    for &node in region.up_to(0) {
+        x[node as usize] = b[node as usize].map(|row| row.map(|b| alpha * b));
+    }
+    for (ring, &omega) in weights.iter().enumerate().skip(1) {
+        let term = Term { matrix, factors: [omega, alpha], b, x };
+        Arch::new().dispatch(Scattered { term, nodes: region.up_to(ring), before });
+        std::mem::swap(x, before);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::sparse::NodeGraph;
+    use carom_mesh::generate;
+
+    /// A mass and a stiffness: springs along all pairs of neighbours, as stiff across them as `ratio` times the mass.
+    fn matrix(divisions: usize, ratio: f64) -> NodalMatrix<Matrix<3>> {
+        let mesh = generate::grid([0.0; 3], [1.0; 3], [divisions; 3]).expect("valid");
+        let graph = Arc::new(NodeGraph::of(&mesh));
+        let mut a = NodalMatrix::filled(&graph, Matrix::<3>::zeros());
+        for node in 0..graph.node_count() {
+            let own = graph.entry(node as u32, node as u32);
+            a.values[own] += Matrix::from_diagonal_element(1.0 + 0.5 * (node as f64).sin());
+            for (entry, neighbour) in graph.row(node).filter(|&(_, m)| m != node) {
+                let along = (mesh.nodes()[neighbour] - mesh.nodes()[node]).normalize();
+                let spring = (along * along.transpose() + Matrix::from_diagonal_element(0.1)) * ratio;
+                a.values[entry] -= spring;
+                a.values[own] += spring;
+            }
+        }
+        a
+    }
+
+    fn made(a: &NodalMatrix<Matrix<3>>) -> Chebyshev<3> {
+        Chebyshev::of(a).expect("positive definite").expect("few terms")
+    }
+
+    fn rough(nodes: usize) -> Vec<Vector<3>> {
+        (0..nodes).map(|n| Vector::from_fn(|i, _| ((3 * n + i) as f64 * 1.7).cos())).collect()
+    }
+
+    fn energy(a: &NodalMatrix<Matrix<3>>, x: &[Vector<3>]) -> f64 {
+        let mut ax = x.to_vec();
+        a.multiply(x, &mut ax);
+        x.iter().zip(&ax).map(|(x, ax)| x.dot(ax)).sum()
+    }
+
+    /// In the norm of the matrix no polynomial is further from the solution than the bound for its spectrum; repeated on the
+    /// residual, as an iteration does, it converges.
+    #[test]
+    fn what_is_left_of_a_right_hand_side_is_bounded() {
+        for ratio in [0.01, 0.1, 0.5] {
+            let a = matrix(7, ratio);
+            let exact = rough(512);
+            let mut inverse = made(&a);
+            let (mut x, mut residual) = (vec![Vector::zeros(); 512], vec![Vector::zeros(); 512]);
+            for round in 1..=3 {
+                a.multiply(&x, &mut residual);
+                let mut b = residual.clone();
+                a.multiply(&exact, &mut b);
+                residual.iter_mut().zip(&b).for_each(|(r, b)| *r = b - *r);
+                inverse.begin(&residual);
+                let mut correction = residual.clone();
+                inverse.end(&mut correction);
+                x.iter_mut().zip(&correction).for_each(|(x, c)| *x += c);
+                let error: Vec<Vector<3>> = x.iter().zip(&exact).map(|(x, e)| x - e).collect();
+                let left = (energy(&a, &error) / energy(&a, &exact)).sqrt();
+                assert!(left <= LEFT.powi(round), "{ratio}: {left} after {round}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_inverse_is_symmetric() {
+        let a = matrix(7, 0.3);
+        let mut inverse = made(&a);
+        let (b, c) = (rough(512), rough(600).split_off(88));
+        let mut solve = |b: &[Vector<3>]| {
+            let mut x = b.to_vec();
+            inverse.begin(b);
+            inverse.end(&mut x);
+            x
+        };
+        let dot = |a: &[Vector<3>], b: &[Vector<3>]| a.iter().zip(b).map(|(a, b)| a.dot(b)).sum::<f64>();
+        let (x, y) = (solve(&b), solve(&c));
+        let size = dot(&x, &b).abs().max(dot(&y, &c).abs());
+        assert!((dot(&x, &c) - dot(&y, &b)).abs() < 1e-6 * size);
+        assert!(dot(&x, &b) > 0.0 && dot(&y, &c) > 0.0);
+    }
+
+    /// What is added at some nodes, and the responses there to unit forces, are those of the whole inverse.
+    #[test]
+    fn what_happens_at_some_nodes_is_part_of_the_whole() {
+        let a = matrix(9, 0.3);
+        let n = a.graph().node_count();
+        let mut inverse = made(&a);
+        let b = rough(n);
+        let (nodes, force) = ([3, 500, 501, 999], Vector::<3>::new(3.0, -40.0, 7.0));
+        let mut sum = b.clone();
+        nodes.iter().for_each(|&node| sum[node] += force * node as f64);
+        let (mut whole, mut parts) = (b.clone(), b.clone());
+        inverse.begin(&sum);
+        inverse.end(&mut whole);
+        for _ in 0..2 {
+            inverse.set_reach(nodes.iter().copied());
+            inverse.begin(&b);
+            inverse.look();
+            inverse.add(nodes.iter().map(|&node| (node, force * node as f64)));
+            inverse.end(&mut parts);
+            let scale = whole.iter().map(|x| x.amax()).fold(0.0, f64::max);
+            whole.iter().zip(&parts).for_each(|(x, y)| assert!((x - y).norm() < 1e-5 * scale));
+        }
+        inverse.set_reach(nodes.iter().copied());
+        inverse.respond(nodes[2..].iter().copied());
+        let responses: Vec<Matrix<3>> = nodes.iter().map(|&a| inverse.response(0, a)).collect();
+        for j in 0..3 {
+            let mut unit = vec![Vector::<3>::zeros(); n];
+            unit[nodes[2]][j] = 1.0;
+            let mut x = unit.clone();
+            inverse.begin(&unit);
+            inverse.end(&mut x);
+            for (&node, response) in nodes.iter().zip(&responses) {
+                assert!((response.column(j) - x[node]).norm() < 1e-6 * responses[2].norm());
+            }
+        }
+    }
+
+    #[test]
+    fn stiff_and_indefinite_matrices_are_left_to_others() {
+        assert!(Chebyshev::of(&matrix(7, 100.0)).expect("positive definite").is_none());
+        let mut indefinite = matrix(7, 0.3);
+        indefinite.values.iter_mut().for_each(|block| *block = -*block);
+        assert!(Chebyshev::of(&indefinite).is_err());
+        // Positive on the diagonal only.
+        let mut indefinite = matrix(7, 0.3);
+        for node in 0..512 {
+            let own = indefinite.graph().entry(node, node);
+            indefinite.values[own] *= 0.3;
+        }
+        assert!(Chebyshev::of(&indefinite).is_err());
+        let mut none = matrix(7, 0.3);
+        none.values[5][(0, 0)] = f64::NAN;
+        assert!(Chebyshev::of(&none).is_err());
+    }
+
+    #[test]
+    fn solutions_do_not_depend_on_the_number_of_threads() {
+        let a = matrix(25, 0.3);
+        let mut inverse = made(&a);
+        let b = rough(a.graph().node_count());
+        let mut solve = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            let mut x = b.clone();
+            pool.install(|| {
+                inverse.begin(&b);
+                inverse.end(&mut x);
+            });
+            x
+        };
+        let one = solve(1);
+        assert_eq!(solve(2), one);
+        assert_eq!(solve(3), one);
+    }
+}

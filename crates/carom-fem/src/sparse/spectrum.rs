@@ -1,0 +1,82 @@
+//! The ends of the spectrum of a scaled matrix.
+
+use nalgebra::DMatrix;
+
+use super::scaled::{Columns, Scaled};
+
+/// Steps of Lanczos's iteration: both ends are then known to some per cent.
+const STEPS: usize = 16;
+/// Below this share of the one before, a vector is round-off: the iteration has found all there is.
+const NOTHING: f64 = 1e-6;
+
+/// Estimates of the least and the largest eigenvalue, by Lanczos's iteration: the true ones are a little beyond. Not numbers if the matrix
+/// has none.
+///
+/// It starts from a uniform motion, near the softest modes of a body, and a rough one, which reaches the stiffest.
+pub(super) fn spectrum<const D: usize>(matrix: &Scaled<D>) -> [f64; 2] {
+    let n = matrix.node_count();
+    let mut v: Vec<Columns<D, 1>> = (0..n).map(|node| start(matrix, node)).collect();
+    let mut before = vec![[[0.0_f32; 1]; D]; n];
+    let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
+    let mut norm = dot(&v, &v).sqrt();
+    scale(&mut v, 1.0 / norm);
+    for step in 0..STEPS.min(n * D) {
+        // before ← (A v − before·β), then without its part along v.
+        let beta = beside.last().copied().unwrap_or(0.0) as f32;
+        for (node, before) in before.iter_mut().enumerate() {
+            let product = matrix.row_times(node, &v);
+            for (before, product) in before.iter_mut().zip(product) {
+                before[0] = product[0] - beta * before[0];
+            }
+        }
+        let along = dot(&before, &v);
+        diagonal.push(along);
+        for (before, v) in before.iter_mut().zip(&v) {
+            for (before, v) in before.iter_mut().zip(v) {
+                before[0] -= along as f32 * v[0];
+            }
+        }
+        norm = dot(&before, &before).sqrt();
+        if !norm.is_finite() {
+            return [f64::NAN; 2];
+        }
+        if norm < NOTHING * along.abs() || step + 1 == STEPS.min(n * D) {
+            break;
+        }
+        scale(&mut before, 1.0 / norm);
+        std::mem::swap(&mut v, &mut before);
+        beside.push(norm);
+    }
+    let tridiagonal = DMatrix::from_fn(diagonal.len(), diagonal.len(), |i, j| match i.abs_diff(j) {
+        0 => diagonal[i],
+        1 => beside[i.min(j)],
+        _ => 0.0,
+    });
+    let eigenvalues = tridiagonal.symmetric_eigenvalues();
+    [eigenvalues.min(), eigenvalues.max()]
+}
+
+/// The scaled uniform motion, and as much of one whose signs change in no order.
+fn start<const D: usize>(matrix: &Scaled<D>, node: usize) -> Columns<D, 1> {
+    let uniform = matrix.uniform(node);
+    std::array::from_fn(|i| {
+        // The top bit of a product with 2⁶⁴ over the golden ratio.
+        let bit = ((node * D + i + 1) as u64)
+            .wrapping_mul(0x9E37_79B9_7F4A_7C15)
+            .wrapping_mul(0xD134_2543_DE82_EF95)
+            >> 63;
+        let rough = if bit == 0 { 1.0 } else { -1.0 };
+        [uniform[i][0] * (1.0 + rough)]
+    })
+}
+
+fn dot<const D: usize>(a: &[Columns<D, 1>], b: &[Columns<D, 1>]) -> f64 {
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| a.iter().zip(b).map(|(a, b)| f64::from(a[0]) * f64::from(b[0])).sum::<f64>())
+        .sum()
+}
+
+fn scale<const D: usize>(v: &mut [Columns<D, 1>], by: f64) {
+    v.iter_mut().flatten().for_each(|v| v[0] *= by as f32);
+}
