@@ -186,6 +186,16 @@ def test_what_was_written_replaces_the_file_whole(tmp_path, problem):
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_what_cannot_be_written_leaves_nothing_behind(tmp_path, problem):
+    """Symptom guarded against: part of the new file stayed beside the old one."""
+    path = tmp_path / "one.hdf5"
+    path.write_text("old")
+    with pytest.raises(ValueError, match="surrogates"):
+        write(problem, path, title="\ud800")
+    assert [file.name for file in tmp_path.iterdir()] == ["one.hdf5"]
+    assert path.read_text() == "old"
+
+
 def test_problems_of_one_dimension_come_back(tmp_path):
     write(Problem(np.eye(2), np.zeros((2, 1)), [0.0, 0.0]), tmp_path / "flat.h5")
     assert read(tmp_path / "flat.h5").dimension == 1

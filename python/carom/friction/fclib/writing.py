@@ -16,16 +16,24 @@ from carom.friction.record import Iterate, Record
 def write(record: Record, path: Path) -> None:
     """Write an FCLIB file, whole or not at all."""
     partial = path.with_name(f"{path.name}.tmp")
-    with h5py.File(partial, "w") as file:
-        _write_problem(file, record)
-        if record.guesses:
-            guesses = file.create_group("guesses")
-            _put_integer(guesses, "number_of_guesses", len(record.guesses))
-            for number, guess in enumerate(record.guesses, start=1):
-                _put_iterate(guesses.create_group(str(number)), guess)
-        if record.solution is not None:
-            _put_iterate(file.create_group("solution"), record.solution)
-    partial.replace(path)
+    try:
+        with h5py.File(partial, "w") as file:
+            _write_record(file, record)
+        partial.replace(path)
+    except BaseException:  # Ctrl-C leaves no half a file either
+        partial.unlink(missing_ok=True)
+        raise
+
+
+def _write_record(file: h5py.File, record: Record) -> None:
+    _write_problem(file, record)
+    if record.guesses:
+        guesses = file.create_group("guesses")
+        _put_integer(guesses, "number_of_guesses", len(record.guesses))
+        for number, guess in enumerate(record.guesses, start=1):
+            _put_iterate(guesses.create_group(str(number)), guess)
+    if record.solution is not None:
+        _put_iterate(file.create_group("solution"), record.solution)
 
 
 def _write_problem(file: h5py.File, record: Record) -> None:
