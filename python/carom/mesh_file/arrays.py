@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+import tomlkit
 from numpy.typing import NDArray
 
 from carom.errors import MeshError
@@ -77,7 +78,8 @@ class Refused(Exception):  # noqa: N818 (an answer, which becomes an error with 
     def at(self, key: str, value: str) -> MeshError:
         """Return the error that the user sees: its place, the value there, and what is wrong."""
         place = f"{key}.{self.entry}"
-        return MeshError(f'{place} = "{value}": {self.what}', place)
+        # As the case file would write it: a name may have line breaks, a message may not.
+        return MeshError(f"{place} = {tomlkit.item(value).as_string()}: {self.what}", place)
 
 
 def first_few(indices: NDArray[np.integer]) -> str:

@@ -69,6 +69,8 @@ def _by_meshio(path: Path) -> FileMesh:
         point_sets, cell_sets = _point_sets(mesh), _cell_sets(mesh)
     except (ValueError, TypeError, IndexError, OverflowError) as error:
         raise Refused(f"cannot be read: {' '.join(str(error).split())}") from None
+    if points.ndim != 2:  # meshio has None where a VTK file has lost its points
+        raise Refused("has no points; repair the file")
     for name, cells in cell_sets.items():
         if len(cells) != len(blocks):
             raise Refused(f"its set {name!r} does not fit its cells; repair the file")

@@ -36,6 +36,11 @@ def test_a_name_that_no_file_can_have_is_refused(tmp_path):
     assert ": cannot be read: File name too long" in refusal(None, tmp_path, name="x" * 3000)
 
 
+def test_a_name_with_a_line_break_is_told_in_one_line(tmp_path):
+    message = refusal(None, tmp_path, name="part\n.vtu")
+    assert message.startswith(f'bodies.1.mesh.file = "{tmp_path}/part\\n.vtu": no such file')
+
+
 @pytest.mark.parametrize("name", ["part.msh", "part.vtk", "part.vtu", "part.inp", "part.med"])
 def test_what_is_no_mesh_is_refused_and_nothing_is_printed(tmp_path, capfd, name):
     (tmp_path / name).write_text("*ELEMENT, TYPE=C3D8\n1, 2, 3\n" if name.endswith("inp") else "?")
@@ -208,8 +213,8 @@ def test_a_deck_that_contradicts_itself_is_refused_with_what_is_missing(tmp_path
 def held(points=POINTS, **blocks):
     """A mesh as meshio would hold it, which writers refuse and readers have been seen to return."""
     cells = [meshio.CellBlock(kind, np.array(nodes)) for kind, nodes in blocks.items()]
-    mesh = meshio.Mesh(np.asarray(points), [])
-    mesh.cells = cells
+    mesh = meshio.Mesh(POINTS, [])
+    mesh.points, mesh.cells = points, cells
     return mesh
 
 
@@ -232,6 +237,7 @@ def held(points=POINTS, **blocks):
         ),
     ],
 )
+        (held(None, tetra=TETS), 3, "has no points; repair the file"),
 def test_what_a_reader_returns_is_looked_at(tmp_path, monkeypatch, mesh, space, message):
     (tmp_path / "part.vtu").touch()
     monkeypatch.setattr(meshio, "read", lambda path: mesh)
