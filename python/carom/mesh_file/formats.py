@@ -50,8 +50,11 @@ def _by_meshio(path: Path) -> FileMesh:
     import meshio  # noqa: PLC0415 (only cases with mesh files need it)
 
     printed = io.StringIO()
+    # Whether an STL file is binary meshio sees by its size, from a count that in text is any four
+    # letters: times the 50 bytes of a triangle they do not fit into 32 bits.
+    overflow = np.errstate(over="ignore")
     try:
-        with redirect_stdout(printed), redirect_stderr(printed), any_number_of_groups():
+        with redirect_stdout(printed), redirect_stderr(printed), overflow, any_number_of_groups():
             mesh = meshio.read(path)
     except ModuleNotFoundError as error:
         raise Refused(f"reading this format needs the package {error.name}; install it") from None

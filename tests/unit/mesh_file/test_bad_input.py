@@ -174,6 +174,21 @@ def test_a_closed_surface_is_read_and_points_outward(tmp_path):
         assert np.einsum("ij,ij", a, np.cross(b, c)) / 6 == pytest.approx(8 / 6)
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_small_text_file_of_triangles_is_read_without_a_warning(tmp_path):
+    """Symptom guarded against: an overflow, where letters were taken for a count of triangles."""
+    file = tmp_path / "surface.stl"
+    meshio.write(file, meshio.Mesh(POINTS[:4], [("triangle", SIDES)]), binary=False)
+    assert len(read_surface(file, scale=1.0, key="obstacles.0").points) == 4
+
+
+def test_vertices_that_are_no_numbers_are_counted(tmp_path):
+    points = POINTS[:4].copy()
+    points[3, 0] = np.nan
+    with pytest.raises(MeshError, match="has 1 vertex with a coordinate that is not a finite"):
+        read_surface(stl(tmp_path, SIDES[:2], points=points), scale=1.0, key="obstacles.0")
+
+
 @pytest.mark.parametrize(
     ("triangles", "message"),
     [
