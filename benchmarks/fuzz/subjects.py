@@ -157,8 +157,9 @@ class Results(Subject):
         pick = random.Random(seed)
         directory = _copied(self._seed, self.folder / "read")
         names = sorted(file.name for file in directory.iterdir() if file.suffix != ".png")
-        for _ in range(pick.choice((1, 1, 2))):
-            _spoil_file(directory / pick.choice(names), pick)
+        # Each once: what has been spoilt can no longer be spoilt by its meaning.
+        for name in pick.sample(names, pick.choice((1, 1, 2))):
+            _spoil_file(directory / name, pick)
         return pick.choice(sorted(READERS)), directory
 
     def answer(self, given: tuple[str, Path]) -> str:  # noqa: D102 (as the base says)
