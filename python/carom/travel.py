@@ -1,4 +1,4 @@
-"""Where rigid obstacles are over time."""
+"""Where rigid obstacles are over time, and what drives them."""
 
 from __future__ import annotations
 
@@ -38,11 +38,11 @@ def travel(
         for index, name in enumerate("xyz"[:dimension]):
             signal = getattr(obstacle.motion, name)
             if signal is not None:
-                moved[:, index] = _values(signal, times)
+                moved[:, index] = values(signal, times)
     return moved
 
 
-def _values(signal: Signal, times: NDArray[np.float64]) -> NDArray[np.float64]:
+def values(signal: Signal, times: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the values of a function of time, which the native core alone evaluates."""
     spec = signal.model_dump(mode="json") if isinstance(signal, Table) else signal
     return _carom.signal_values(json.dumps(spec), np.asarray(times, dtype=np.float64))

@@ -1,8 +1,9 @@
-"""Bodies in free flight, rigid, until something touches."""
+"""Bodies in flight, rigid, until something touches."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Flight:
-    """A rigid body thrown: its centre falls, and it turns.
+    """A rigid body thrown: its centre falls, and it turns; or one that supports lead.
 
     Parameters
     ----------
@@ -32,6 +33,9 @@ class Flight:
         Velocity of the centre [m/s] and its acceleration [m/s²], shape [D].
     spin
         Angular velocity [rad/s]: a number in 2D, shape [3] in 3D.
+    led
+        By axis, the displacement that supports prescribe [m] over time [s]. A body that is held
+        anywhere does not turn.
     """
 
     points: Array
@@ -39,12 +43,16 @@ class Flight:
     velocity: Array
     gravity: Array
     spin: Array
+    led: Mapping[int, Callable[[float], float]] = field(default_factory=dict)
 
     def at(self, time: float) -> Array:
         """Return where the points are [m]."""
         arms = self.points - self.centre
         centre = self.centre + time * self.velocity + 0.5 * time**2 * self.gravity
-        return np.asarray(centre + arms @ _rotation(self.spin * time).T)
+        for axis, displacement in self.led.items():
+            centre[axis] = self.centre[axis] + displacement(time)
+        turned = arms if self.led else arms @ _rotation(self.spin * time).T
+        return np.asarray(centre + turned)
 
 
 def _rotation(angle: Array) -> Array:

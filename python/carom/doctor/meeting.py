@@ -10,10 +10,17 @@ import numpy as np
 from carom.doctor.finding import Finding
 from carom.doctor.flight import REFINEMENTS, SAMPLES, Flight, body_gap, obstacle_gap
 from carom.doctor.patient import Patient
+from carom.motion import Fixed
+from carom.scenario import Scenario
+from carom.signal import Signal
+from carom.travel import travel, values
+
+Led = Mapping[int, Callable[[float], float]]
+"""By axis, the displacement that is prescribed [m] over time [s]."""
 
 
 def meeting(patient: Patient) -> Iterator[Finding]:
-    """Say the initial gaps and, where bodies fly freely, when the first two touch."""
+    """Say the initial gaps and, where bodies fly or are led, when the first two touch."""
     pairs = patient.description["pairs"]
     if not pairs:
         yield Finding(
@@ -33,22 +40,48 @@ def meeting(patient: Patient) -> Iterator[Finding]:
     scenario = patient.scenario
     if not patient.is_dynamic:
         return
-    driven = {load.body for load in scenario.loads} | {motion.body for motion in scenario.motions}
-    moving = {o.name for o in scenario.obstacles if o.velocity is not None or o.motion is not None}
-    free = [pair for pair in pairs if not {*driven, *moving}.intersection(pair["between"])]
-    free = [pair for pair in free if len(set(pair["between"])) == 2]
-    yield from _first_touch(patient, free, others=len(pairs) - len(free))
+    loaded = {load.body for load in scenario.loads}
+    led = {body.name: _led(scenario, body.name) for body in scenario.bodies}
+    unknown = loaded | {name for name, by_axis in led.items() if by_axis is None}
+    foreseen = [pair for pair in pairs if not unknown.intersection(pair["between"])]
+    foreseen = [pair for pair in foreseen if len(set(pair["between"])) == 2]
+    flights = {
+        body.name: flight
+        for body, flight in zip(scenario.bodies, _flights(patient, led), strict=True)
+    }
+    yield from _first_touch(patient, foreseen, flights, others=len(pairs) - len(foreseen))
+
+
+def _led(scenario: Scenario, body: str) -> Led | None:
+    """Return what supports of a body prescribe by axis; None if they do not move as one."""
+    signals: dict[int, Signal] = {}
+    for motion in scenario.motions:
+        if motion.body != body:
+            continue
+        for axis, name in enumerate("xyz"[: scenario.dimension]):
+            signal: Signal | None
+            if isinstance(motion, Fixed):
+                signal = 0.0 if name in (motion.components or "xyz") else None
+            else:
+                signal = getattr(motion, name)
+            if signal is not None and signals.setdefault(axis, signal) != signal:
+                return None
+    return {axis: _displacement(signal) for axis, signal in signals.items()}
+
+
+def _displacement(signal: Signal) -> Callable[[float], float]:
+    return lambda time: float(values(signal, np.array([time]))[0])
 
 
 def _first_touch(
-    patient: Patient, pairs: list[dict[str, Any]], *, others: int
+    patient: Patient,
+    pairs: list[dict[str, Any]],
+    flights: Mapping[str, Flight],
+    *,
+    others: int,
 ) -> Iterator[Finding]:
-    """Say which of the pairs of free bodies touches first, as if they were rigid."""
+    """Say which of the pairs touches first, as if bodies were rigid."""
     end = patient.scenario.analysis.end_time
-    flights = {
-        body.name: flight
-        for body, flight in zip(patient.scenario.bodies, _flights(patient), strict=True)
-    }
     times, closest = [], []
     for pair in pairs:
         if (gap := _gap_over_time(patient, pair, flights)) is None:
@@ -78,12 +111,12 @@ def _first_touch(
         yield Finding(
             "ok",
             "analysis.end_time",
-            "nothing that flies freely meets; what is driven by loads, motions or moving obstacles "
-            "is not foreseen",
+            "nothing that is foreseen meets; what loads drive, or supports that move apart, is not "
+            "foreseen",
         )
 
 
-def _flights(patient: Patient) -> Iterator[Flight]:
+def _flights(patient: Patient, led: Mapping[str, Led | None]) -> Iterator[Flight]:
     scenario, dimension = patient.scenario, patient.scenario.dimension
     gravity = np.asarray(scenario.analysis.gravity or [0.0] * dimension, dtype=float)
     for body, boundary, grid in zip(
@@ -96,6 +129,7 @@ def _flights(patient: Patient) -> Iterator[Flight]:
             velocity=np.asarray(body.velocity or [0.0] * dimension, dtype=float),
             gravity=gravity,
             spin=np.asarray(spin, dtype=float),
+            led=led[body.name] or {},
         )
 
 
@@ -109,12 +143,13 @@ def _gap_over_time(
     flight = flights[one]
     if other not in obstacles:
         return lambda time: body_gap(flight.at(time), flights[other].at(time))
-    obstacle = obstacles[other]
+    obstacle, dimension = obstacles[other], patient.scenario.dimension
     if obstacle_gap(obstacle, flight.points) is None:
         return None
 
     def gap(time: float) -> float:
-        return obstacle_gap(obstacle, flight.at(time)) or 0.0
+        moved = travel(obstacle, np.array([time]), dimension=dimension)[0]
+        return obstacle_gap(obstacle, flight.at(time) - moved) or 0.0
 
     return gap
 
