@@ -10,6 +10,7 @@ from typing import Any
 from rich.table import Table
 from rich.text import Text
 
+from carom.counting import count
 from carom.io import layout
 
 SHOWN_CONTACTS = 12
@@ -56,7 +57,7 @@ def outcome(summary: Mapping[str, Any]) -> Rows:
     energy, certificate = summary["energy"], summary["certificate"]
     reason = summary.get("reason")
     yield "status", f"{summary['status']}: {reason}" if reason else summary["status"]
-    yield "reached", f"{summary['end_time']:g} s in {summary['steps']} steps"
+    yield "reached", f"{summary['end_time']:g} s in {count(summary['steps'], 'step')}"
     yield (
         "wall time",
         f"{summary['wall_s']:.2f} s, {1e3 * summary['wall_s_per_step']:.3g} ms per step "

@@ -500,7 +500,7 @@ TWICE = [*TETRAHEDRON["triangles"], [0, 1, 2]]
         ({"triangles": [[0, 1, 9]]}, "triangle 0 refers to a vertex beyond the 4 there are$"),
         (
             {"triangles": [[0, 1, 1]]},
-            r"1 triangles have no area, the first is number 0 at \(0\.0.*\); remove them$",
+            r"1 triangle without area, the first is number 0 at \(0\.0.*\); remove what has none$",
         ),
         (
             {"triangles": TETRAHEDRON["triangles"][1:]},

@@ -109,7 +109,8 @@ pub enum StepError {
 /// Why a run stopped early.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
-    "step at t = {time:.9} s failed with a length of {time_step:.3e} s, after {halvings} halvings: {reason}"
+    "step at t = {time:.9} s failed with a length of {time_step:.3e} s, after {halvings} halving{}: {reason}",
+    if *halvings == 1 { "" } else { "s" }
 )]
 pub struct RunError {
     /// Start of the step that failed [s].

@@ -8,6 +8,7 @@ import sys
 import time
 from collections.abc import Iterator
 
+from carom.counting import count
 from carom.doctor.finding import Finding
 from carom.doctor.patient import Patient
 from carom.errors import ConvergenceError
@@ -50,8 +51,9 @@ def cost(patient: Patient) -> Iterator[Finding]:
     total = each * steps
     memory = _peak_memory()
     fact = (
-        f"{patient.description['dofs']:,} unknowns, {steps:,} steps; about {_duration(total)} here "
-        f"by the first {taken:,} steps ({1e3 * each:.3g} ms each; steps in contact take longer)"
+        f"{count(patient.description['dofs'], 'unknown')}, {count(steps, 'step')}; about "
+        f"{_duration(total)} here by the first {count(taken, 'step')} ({1e3 * each:.3g} ms each; "
+        "steps in contact take longer)"
     )
     yield Finding(
         "advice" if total > LONG else "ok",

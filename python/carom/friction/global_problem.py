@@ -11,6 +11,7 @@ import scipy.sparse.linalg as spla
 from numpy.typing import ArrayLike, NDArray
 
 from carom import _carom
+from carom.counting import count
 from carom.errors import InputError
 from carom.friction import arrays
 from carom.friction.measure import Measure, measure
@@ -174,7 +175,8 @@ class GlobalProblem:
             ) from None
 
     def __repr__(self) -> str:
-        return f"<GlobalProblem: {self.contacts} contacts in {self.dimension}D, {self.dofs} dofs>"
+        contacts = count(self.contacts, "contact")
+        return f"<GlobalProblem: {contacts} in {self.dimension}D, {count(self.dofs, 'dof')}>"
 
 
 def _columns(

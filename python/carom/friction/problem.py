@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self
 
+from carom.counting import count
 from carom.errors import InputError
 from carom.friction import arrays, symmetry
 from carom.friction.blocks import BlockRows, block_rows
@@ -177,6 +178,6 @@ class Problem:
 
     def __repr__(self) -> str:
         return (
-            f"<Problem: {self.contacts} contacts in {self.dimension}D, "
-            f"{len(self.columns)} blocks of W>"
+            f"<Problem: {count(self.contacts, 'contact')} in {self.dimension}D, "
+            f"{count(len(self.columns), 'block')} of W>"
         )

@@ -86,8 +86,3 @@ def first_few(indices: NDArray[np.integer]) -> str:
     """Return the first few of some numbers as text."""
     shown = ", ".join(str(i) for i in indices[:5])
     return shown if len(indices) <= 5 else f"{shown}, …"
-
-
-def count(number: int, what: str) -> str:
-    """Return a number of things as text."""
-    return f"{number:,} {what}" if number == 1 else f"{number:,} {what}s"

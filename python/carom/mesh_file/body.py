@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.mesh_file.arrays import FileMesh, Indices, MeshArrays, Refused, count, first_few
+from carom.counting import count
+from carom.mesh_file.arrays import FileMesh, Indices, MeshArrays, Refused, first_few
 from carom.mesh_file.cells import KINDS, dimension, smallest_corner
 from carom.mesh_file.formats import read_file
 from carom.messages import known

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.mesh_file.arrays import Indices, Refused, count
+from carom.counting import count
+from carom.mesh_file.arrays import Indices, Refused
 from carom.mesh_file.formats import read_file
 
 
@@ -62,7 +63,8 @@ def _closed(points: NDArray[np.float64], triangles: Indices) -> SurfaceArrays:
     points, triangles = points[used], triangles.reshape(-1, 3)
     wrong = np.flatnonzero(~np.isfinite(points).all(axis=1))
     if len(wrong):
-        raise Refused(f"has {len(wrong):,} vertices with a coordinate that is not a finite number")
+        vertices = count(len(wrong), "vertex", "vertices")
+        raise Refused(f"has {vertices} with a coordinate that is not a finite number")
     # Formats such as STL repeat the vertices of each triangle.
     points, same = np.unique(points, axis=0, return_inverse=True)
     triangles = same.reshape(-1)[triangles]

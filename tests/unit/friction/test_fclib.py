@@ -209,6 +209,6 @@ def test_no_contacts_come_back(tmp_path):
 def test_velocities_of_a_guess_must_be_those_of_the_problem(global_file, global_problem):
     spoil(global_file, "guesses/1/v", [1.0])
     with pytest.raises(
-        InputError, match=rf"guesses/1/v has 1 entries: must be {global_problem.dofs}"
+        InputError, match=rf"guesses/1/v has 1 entry: must be {global_problem.dofs}"
     ):
         read_record(global_file)

@@ -97,7 +97,7 @@ def test_a_problem_from_blocks_is_taken_as_it_is():
     asymmetric = np.array([[[1.0, 0.5], [0.0, 1.0]]])
     problem = Problem.from_blocks([0, 1], [0], asymmetric, [[-1.0, 0.0]], [0.2])
     assert problem.matrix().toarray().tolist() == asymmetric[0].tolist()
-    assert "1 contacts in 2D" in repr(problem)
+    assert "1 contact in 2D, 1 block of W" in repr(problem)
 
 
 def test_motions_and_measure_are_those_of_the_reactions(problem):

@@ -181,7 +181,7 @@ def test_what_is_written_is_read_back(tmp_path, problem, global_problem):
         ("5\n2\n", "line 1, word 1: '5': is neither HDF5 nor a text of Siconos"),
         ("2\nx\n", "line 2, word 2: 'x': the number of contacts must be an integer"),
         ("2\n1\n7\n", "line 3, word 3: '7': the storage of the first matrix must be 0 (dense)"),
-        (DENSE[:-5], "line 12, word 29: the text ends where mu needs 1 more numbers"),
+        (DENSE[:-5], "line 12, word 29: the text ends where mu needs 1 more number;"),
         (DENSE.replace("0.25", "O.25"), "line 11, word 25: 'O.25': q must be finite numbers"),
         (DENSE.replace("0.25", "nan"), "line 11, word 25: 'nan': q must be finite numbers"),
         (DENSE.replace("4 4\n 2", "4 5\n 2"), "line 6, word 7: '5': the first matrix must have 4"),
@@ -209,7 +209,7 @@ def test_what_is_written_is_read_back(tmp_path, problem, global_problem):
             "line 15, word 51: '=': the first matrix must have",
         ),
         (GLOBAL.replace("3\n2\n3 2", "3\n3\n3 3"), "the first matrix is 3 × 3 and no other foll"),
-        (GLOBAL[:-8], "line 15, word 33: the text ends where mu needs 1 more numbers"),
+        (GLOBAL[:-8], "line 15, word 33: the text ends where mu needs 1 more number;"),
     ],
 )
 def test_what_is_wrong_in_a_text_is_named_with_its_place(tmp_path, text, message):

@@ -237,6 +237,7 @@ def held(points=POINTS, **blocks):
     ("mesh", "space", "message"),
     [
         (held(), 3, "holds no cells"),
+        (held(None, tetra=TETS), 3, "has no points; repair the file"),
         (held(tetra=[[0, 1, 2]]), 3, "its tetra cells have 3 points; repair the file"),
         (held(tetra=[[0, 1, 2, 9]]), 3, "a tetra cell refers to point 9 of 5"),
         (held(POINTS[:, :2], tetra=TETS), 3, "its points have 2 coordinates, not 3"),
@@ -252,7 +253,6 @@ def held(points=POINTS, **blocks):
         ),
     ],
 )
-        (held(None, tetra=TETS), 3, "has no points; repair the file"),
 def test_what_a_reader_returns_is_looked_at(tmp_path, monkeypatch, mesh, space, message):
     (tmp_path / "part.vtu").touch()
     monkeypatch.setattr(meshio, "read", lambda path: mesh)

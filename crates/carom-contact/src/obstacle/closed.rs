@@ -104,7 +104,8 @@ impl fmt::Display for SurfaceDefect {
             }
             Self::Degenerate { count, triangle, at } => write!(
                 f,
-                "{count} triangles have no area, the first is number {triangle} at {}; remove them",
+                "{count} triangle{} without area, the first is number {triangle} at {}; remove what has none",
+                if *count == 1 { "" } else { "s" },
                 place(at)
             ),
             Self::Open { count, at } => {

@@ -11,6 +11,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from carom.counting import count
 from carom.errors import InputError, naming
 from carom.friction.global_problem import GlobalProblem
 from carom.friction.problem import Problem
@@ -114,7 +115,7 @@ def _matrix(root: h5py.Group, name: str) -> sp.sparray:
         return sp.coo_array((values, (inner, outer)), shape=(rows, columns))
     major, minor = (columns, rows) if kind == COLUMNS else (rows, columns)
     if len(outer) != major + 1:
-        raise InputError(f"{where}/p has {len(outer)} entries: must be {major + 1}")
+        raise InputError(f"{where}/p has {_entries(outer)}: must be {major + 1}")
     if outer[0] != 0 or np.any(np.diff(outer) < 0):
         raise InputError(f"{where}/p: must begin with 0 and never decrease")
     stored = int(outer[-1])
@@ -133,8 +134,8 @@ def _vectors(
     values = _numbers(root, name)
     if len(values) != len(mu) * dimension:
         raise InputError(
-            f"{_where(root, name)} has {len(values)} entries: must be {len(mu) * dimension}, "
-            f"{dimension} (spacedim) for each of the {len(mu)} contacts of mu"
+            f"{_where(root, name)} has {_entries(values)}: must be {len(mu) * dimension}, "
+            f"{dimension} (spacedim) for each of the {count(len(mu), 'contact')} of mu"
         )
     return values.reshape(len(mu), dimension)
 
@@ -154,7 +155,7 @@ def _iterate(parent: h5py.Group, name: str, problem: AnyProblem) -> Iterate:
     if isinstance(problem, GlobalProblem):
         velocities = _numbers(group, "v")
         if len(velocities) != problem.dofs:
-            raise InputError(f"{where}/v has {len(velocities)} entries: must be {problem.dofs}")
+            raise InputError(f"{where}/v has {_entries(velocities)}: must be {problem.dofs}")
     return Iterate(
         problem.vectors(f"{where}/r", _numbers(group, "r")),
         problem.vectors(f"{where}/u", _numbers(group, "u")),
@@ -196,7 +197,7 @@ def _integers(parent: h5py.Group, name: str) -> NDArray[np.int64]:
 def _integer(parent: h5py.Group, name: str) -> int:
     values = _integers(parent, name)
     if len(values) != 1:
-        raise InputError(f"{_where(parent, name)} has {len(values)} entries: must be one integer")
+        raise InputError(f"{_where(parent, name)} has {_entries(values)}: must be one integer")
     return int(values[0])
 
 
@@ -209,9 +210,9 @@ def _text(root: h5py.Group, name: str) -> str:
     return value.decode(errors="replace") if isinstance(value, bytes) else str(value)
 
 
-def _at_least(group: h5py.Group, name: str, values: NDArray[np.generic], count: int) -> None:
-    if len(values) < count:
-        raise InputError(f"{_where(group, name)} has {len(values)} entries: must be {count}")
+def _at_least(group: h5py.Group, name: str, values: NDArray[np.generic], least: int) -> None:
+    if len(values) < least:
+        raise InputError(f"{_where(group, name)} has {_entries(values)}: must be {least}")
 
 
 def _inside(group: h5py.Group, name: str, indices: NDArray[np.int64], size: int) -> None:
@@ -225,3 +226,7 @@ def _inside(group: h5py.Group, name: str, indices: NDArray[np.int64], size: int)
 
 def _where(group: h5py.Group, name: str = "") -> str:
     return f"{group.name}/{name}".strip("/")
+
+
+def _entries(values: NDArray[np.generic]) -> str:
+    return count(len(values), "entry", "entries")

@@ -39,9 +39,11 @@ class Tokens:
     def words(self, count: int, what: str) -> list[str]:
         """Take words."""
         if count > self.left:
+            missing = count - self.left
+            more = "1 more number" if missing == 1 else f"{missing} more numbers"
             raise InputError(
-                f"{self._place(len(self._words))}: the text ends where {what} needs "
-                f"{count - self.left} more numbers; is the file cut short?"
+                f"{self._place(len(self._words))}: the text ends where {what} needs {more}; "
+                "is the file cut short?"
             )
         taken = self._words[self._next : self._next + count]
         self._next += count
