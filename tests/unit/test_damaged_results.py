@@ -98,6 +98,40 @@ def test_fields_that_lack_a_part_cannot_be_audited(results):
         carom.audit(results)
 
 
+def test_a_group_in_the_place_of_an_array_is_named(results):
+    """Symptom guarded against: a traceback, for a group has neither a shape nor slices."""
+    with h5py.File(results / "fields.vtkhdf", "r+") as file:
+        del file["VTKHDF/PointData/velocity"]
+        file.create_group("VTKHDF/PointData/velocity")
+    with pytest.raises(InputError, match=r"fields\.vtkhdf: no fields of carom: "):
+        Frames(results / "fields.vtkhdf")
+    with pytest.raises(InputError, match=r"fields\.vtkhdf: not fields of carom: "):
+        carom.audit(results)
+
+
+def test_frames_that_cannot_be_read_are_named(results):
+    frames = Frames(results / "fields.vtkhdf")
+    erased(results, "fields.vtkhdf", "VTKHDF/PointData/velocity")
+    with pytest.raises(InputError, match=r"fields\.vtkhdf: no fields of carom: .*velocity"):
+        frames.field("velocity", 0)
+
+
+def test_a_summary_of_a_thousand_brackets_is_not_json(results):
+    """Symptom guarded against: the recursion of the reader ended in a traceback."""
+    (results / "summary.json").write_text("[" * 100_000)
+    with pytest.raises(InputError, match=r"summary\.json: not JSON: "):
+        carom.Result.open(results)
+
+
+def test_an_array_in_the_place_of_a_step_is_named(results):
+    with h5py.File(results / "audit.h5", "r+") as file:
+        first = min(file["steps"])
+        del file[f"steps/{first}"]
+        file[f"steps/{first}"] = 1.0
+    with pytest.raises(InputError, match=r"audit\.h5: not steps of carom: "):
+        next(read_steps(results / "audit.h5"))
+
+
 def test_steps_of_another_version_or_of_nothing_are_named(results):
     steps = results / "audit.h5"
     with h5py.File(steps, "r+") as file:

@@ -15,6 +15,7 @@ from carom.auditing.model import AuditModel
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.audit import read_steps
+from carom.io.damage import DAMAGE
 from carom.io.history import read_history
 from carom.io.ledger import read_ledger
 from carom.io.summary import read_summary
@@ -224,5 +225,5 @@ class _Fields:
 
     def __exit__(self, kind: object, error: object, trace: object) -> None:
         self._file.close()
-        if isinstance(error, KeyError):
+        if isinstance(error, DAMAGE) and not isinstance(error, InputError):
             raise InputError(f"{self._path}: not fields of carom: {error}") from error

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from carom.errors import InputError
 from carom.io.atomic import write_whole
+from carom.io.damage import DAMAGE
 from carom.io.journal import changed, going_on, shorter
 
 SCHEMA = 2
@@ -97,7 +98,9 @@ def read_steps(path: Path) -> Iterator[dict[str, Any]]:
                 )
             for name in sorted(file["steps"]):
                 yield _step(file["steps"][name])
-    except (OSError, KeyError) as error:
+    except InputError:
+        raise
+    except DAMAGE as error:
         raise InputError(f"{path}: not steps of carom: {error}") from error
 
 

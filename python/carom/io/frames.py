@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.errors import InputError
+from carom.io.damage import DAMAGE
 
 
 class Frames:
@@ -58,7 +59,7 @@ class Frames:
             raise InputError(
                 f"{path}: no such file; name a results directory of `carom run`"
             ) from None
-        except (OSError, KeyError) as error:
+        except DAMAGE as error:
             raise InputError(f"{path}: no fields of carom: {error}") from None
         if not count:
             raise InputError(f"{path}: has no frames yet")
@@ -93,10 +94,13 @@ class Frames:
         group = "PointData" if self.is_on_points(name) else "CellData"
         width = self.width(name)
         values = np.empty((len(frames), rows.stop - rows.start, width))
-        with h5py.File(self._path, "r") as file:
-            stored = file[f"VTKHDF/{group}/{name}"]
-            starts = file[f"VTKHDF/Steps/{group}Offsets/{name}"]
-            for into, frame in zip(values, frames, strict=True):
-                start = int(starts[frame])
-                into[:] = stored[start + rows.start : start + rows.stop].reshape(-1, width)
+        try:
+            with h5py.File(self._path, "r") as file:
+                stored = file[f"VTKHDF/{group}/{name}"]
+                starts = file[f"VTKHDF/Steps/{group}Offsets/{name}"]
+                for into, frame in zip(values, frames, strict=True):
+                    start = int(starts[frame])
+                    into[:] = stored[start + rows.start : start + rows.stop].reshape(-1, width)
+        except DAMAGE as error:
+            raise InputError(f"{self._path}: no fields of carom: {error}") from None
         return values

@@ -30,7 +30,7 @@ def read_summary(path: Path) -> dict[str, Any]:
     """
     try:
         summary: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:  # the latter of a thousand brackets
         raise InputError(f"{path}: not JSON: {error}") from error
     if wrong := misfit(summary, Summary):
         raise InputError(f"{path}: not a summary of carom: {wrong}")
