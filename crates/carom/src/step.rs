@@ -157,7 +157,7 @@ fn iterate_bodies<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
     let touched = bodies.iter().any(|&i| work.touched[i]);
-    let mut renewed = false;
+    let mut renewed = 0;
     for iteration in 1.. {
         if touched {
             evaluate_contacts(model, method, state, work);
@@ -174,9 +174,9 @@ fn iterate_bodies<const D: usize>(
             return Ok(iteration);
         }
         accelerate(bodies, model, state, next, iteration == 1, work);
-        if convergence.is_slow(iteration, bodies, &work.progress) {
-            refactorize(bodies, model, method, state, next, map, renewed, work)?;
-            renewed = true;
+        if convergence.is_slow(iteration, iteration - renewed, bodies, &work.progress) {
+            refactorize(bodies, model, method, state, next, map, renewed > 0, work)?;
+            renewed = iteration;
         }
     }
     unreachable!("the loop ends at max_iterations")
