@@ -33,6 +33,13 @@ const STALLED: usize = 15;
 /// block on a shaking floor stalls at 3.5; where steps do not converge, stalls at less than 200 have not been seen.
 const UNAVOIDABLE: f64 = 100.0;
 
+/// Contacts from which their problem costs so much that it is solved no better than an iteration needs that is not the last one.
+const MANY_CONTACTS: usize = 100;
+/// The tolerance of such a problem, in last corrections over motions.
+const LOOSE: f64 = 1e-5;
+/// An iteration may be the last one if the correction that is expected of it is within so many times of what is wanted.
+const NEAR: f64 = 30.0;
+
 /// How the iterations of one body go within a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BodyProgress {
@@ -130,6 +137,28 @@ impl Convergence {
         }
         let wanted = (self.tolerance * motion).max(self.round_off);
         Err(StepError::Newton { iterations: iteration, correction, wanted })
+    }
+
+    /// To what tolerance the problem of so many `contacts` is to be solved in the next iteration: to its own `tolerance` where that may
+    /// be the last one.
+    pub fn contact_tolerance(
+        &self,
+        contacts: usize,
+        bodies: &[usize],
+        progress: &[BodyProgress],
+        tolerance: f64,
+    ) -> f64 {
+        if self.is_static || contacts < MANY_CONTACTS {
+            return tolerance;
+        }
+        let largest =
+            |of: fn(&BodyProgress) -> f64| bodies.iter().map(|&i| of(&progress[i])).fold(0.0, f64::max);
+        let motion = largest(|p| p.motion);
+        let expected = largest(|p| p.correction * p.contraction);
+        if expected <= NEAR * (self.tolerance * motion).max(self.round_off) {
+            return tolerance;
+        }
+        (LOOSE * (largest(|p| p.correction) / motion).min(1.0)).max(tolerance)
     }
 
     /// Takes note of a correction [m]; whether it has been long since one was much smaller than those before.

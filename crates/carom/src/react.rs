@@ -1,6 +1,7 @@
 //! The contacts at the present guess, and their reactions.
 
 use carom_contact::Contact;
+use carom_friction::StoppingRule;
 use carom_mesh::Vector;
 
 use crate::blend::Rubbing;
@@ -98,7 +99,7 @@ pub(crate) fn prepare_contacts<const D: usize>(model: &Model<D>, map: &StepMap, 
     }
 }
 
-/// Solves the reduced problem of the contacts, while the bodies in contact are between [`BodyOperator::begin`] and
+/// Solves the reduced problem of the contacts to `tolerance`, while the bodies in contact are between [`BodyOperator::begin`] and
 /// [`BodyOperator::end`], and gives them the change of the reactions.
 ///
 /// [`BodyOperator::begin`]: crate::linearise::BodyOperator::begin
@@ -108,6 +109,7 @@ pub(crate) fn react<const D: usize>(
     method: &Method<D>,
     state: &State<D>,
     map: &StepMap,
+    tolerance: f64,
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
     let motion = &work.motion;
@@ -142,7 +144,8 @@ pub(crate) fn react<const D: usize>(
         &mut work.problem,
     );
     work.guess.clone_from(&work.reactions);
-    let report = method.solver.solve(&work.problem, &mut work.reactions, &method.stopping);
+    let stopping = StoppingRule { tolerance, ..method.stopping };
+    let report = method.solver.solve(&work.problem, &mut work.reactions, &stopping);
     work.solved_by = report.solver;
     work.friction_time += report.time;
     if !report.is_solved() {

@@ -157,7 +157,7 @@ fn iterate_bodies<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
     let touched = bodies.iter().any(|&i| work.touched[i]);
-    let mut renewed = 0;
+    let (mut renewed, mut nearly_settled) = (0, false);
     for iteration in 1.. {
         if touched {
             evaluate_contacts(model, method, state, work);
@@ -166,12 +166,20 @@ fn iterate_bodies<const D: usize>(
         residuals(bodies, model, method, state, next, map, work);
         let reacts = touched && !work.contacts.is_empty();
         begin_solves(bodies, model, reacts, work);
+        let mut tolerance = method.stopping.tolerance;
         if reacts {
-            react(model, method, state, map, work)?;
+            if !nearly_settled {
+                let contacts = work.contacts.len();
+                tolerance = convergence.contact_tolerance(contacts, bodies, &work.progress, tolerance);
+            }
+            react(model, method, state, map, tolerance, work)?;
         }
         correct(bodies, model, state, next, work)?;
         if convergence.settle(iteration, bodies, model, work)? {
-            return Ok(iteration);
+            if tolerance == method.stopping.tolerance {
+                return Ok(iteration);
+            }
+            nearly_settled = true;
         }
         accelerate(bodies, model, state, next, iteration == 1, work);
         if convergence.is_slow(iteration, iteration - renewed, bodies, &work.progress) {

@@ -9,7 +9,7 @@ use crate::FemError;
 use crate::parallel::each_chunk;
 
 /// Part of a right-hand side that the approximate solution may leave over: what an iteration with a kept factor leaves, too.
-const LEFT: f64 = 0.03;
+const LEFT: f64 = 0.02;
 /// How far the ends of the spectrum are taken beyond what was measured of it. Beyond the upper end a polynomial explodes, and
 /// below the lower one it is merely less exact.
 const MARGINS: [f64; 2] = [0.9, 1.1];
@@ -215,9 +215,12 @@ impl<const D: usize> Chebyshev<D> {
 
     /// See [`super::Factor::begin`].
     pub fn begin(&mut self, b: &[Vector<D>]) {
-        for (node, (scaled, b)) in self.whole.b.iter_mut().zip(b).enumerate() {
-            *scaled = self.matrix.scale(node, b);
-        }
+        let matrix = &self.matrix;
+        each_chunk(&mut self.whole.b, |first, scaled| {
+            for (node, scaled) in (first..).zip(scaled) {
+                *scaled = matrix.scale(node, &b[node]);
+            }
+        });
         (self.solved, self.has_added) = (false, false);
     }
 
@@ -227,9 +230,12 @@ impl<const D: usize> Chebyshev<D> {
         if self.has_added {
             self.solve_added();
         }
-        for (node, (out, x)) in out.iter_mut().zip(&self.whole.x).enumerate() {
-            *out = self.matrix.unscale(node, x);
-        }
+        let (matrix, x) = (&self.matrix, &self.whole.x);
+        each_chunk(out, |first, out| {
+            for (node, out) in (first..).zip(out) {
+                *out = matrix.unscale(node, &x[node]);
+            }
+        });
     }
 
     /// See [`super::Factor::set_reach`].
