@@ -301,4 +301,19 @@ mod tests {
         assert_eq!(renewals(DYNAMIC), [12, 24]);
         assert!(renewals(Convergence { patience: CHANGED_PATIENCE, ..DYNAMIC }).into_iter().eq(3..=30));
     }
+
+    /// Loosely where much is still to come, to the end where this may be the end, and where it costs little.
+    #[test]
+    fn contacts_are_solved_as_well_as_it_takes() {
+        let convergence = Convergence { round_off: 1e-15, ..DYNAMIC };
+        let tolerance = |contacts, corrections: &[f64]| {
+            let mut progress = BodyProgress::new(1.0);
+            corrections.iter().for_each(|&c| progress.note(c, 1.0));
+            convergence.contact_tolerance(contacts, &[0], &[progress], 1e-12)
+        };
+        assert_eq!(tolerance(MANY_CONTACTS, &[]), LOOSE);
+        assert_eq!(tolerance(MANY_CONTACTS, &[0.5, 0.1]), 0.1 * LOOSE);
+        assert_eq!(tolerance(MANY_CONTACTS, &[1e-6, 1e-8]), 1e-12);
+        assert_eq!(tolerance(MANY_CONTACTS - 1, &[0.5, 0.1]), 1e-12);
+    }
 }

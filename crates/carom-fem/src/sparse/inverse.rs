@@ -25,9 +25,6 @@ enum Kind<const D: usize> {
     Polynomial(Box<Chebyshev<D>>),
 }
 
-/// What the methods of an inverse that has not been made say.
-const NOT_MADE: &str = "a solve needs an inverse that was made";
-
 impl<const D: usize> Inverse<D> {
     /// For matrices whose nodes have these `ties`: see [`Factor`]. It is [made](Self::make) later.
     #[must_use]
@@ -96,7 +93,7 @@ impl<const D: usize> Inverse<D> {
     /// If the length does not fit or nothing was made; so do the methods below.
     pub fn begin(&mut self, x: &mut [Vector<D>]) {
         match &mut self.kind {
-            Kind::None => panic!("{NOT_MADE}"),
+            Kind::None => not_made(),
             Kind::Factor(factor) => factor.begin(x),
             Kind::Polynomial(polynomial) => polynomial.begin(x),
         }
@@ -105,7 +102,7 @@ impl<const D: usize> Inverse<D> {
     /// See [`Factor::end`].
     pub fn end(&mut self, x: &mut [Vector<D>]) {
         match &mut self.kind {
-            Kind::None => panic!("{NOT_MADE}"),
+            Kind::None => not_made(),
             Kind::Factor(factor) => factor.end(x),
             Kind::Polynomial(polynomial) => polynomial.end(x),
         }
@@ -114,7 +111,7 @@ impl<const D: usize> Inverse<D> {
     /// See [`Factor::set_reach`].
     pub fn set_reach(&mut self, nodes: impl Iterator<Item = usize>) {
         match &mut self.kind {
-            Kind::None => panic!("{NOT_MADE}"),
+            Kind::None => not_made(),
             Kind::Factor(factor) => factor.set_reach(nodes),
             Kind::Polynomial(polynomial) => polynomial.set_reach(nodes),
         }
@@ -123,7 +120,7 @@ impl<const D: usize> Inverse<D> {
     /// See [`Factor::look`].
     pub fn look(&mut self) {
         match &mut self.kind {
-            Kind::None => panic!("{NOT_MADE}"),
+            Kind::None => not_made(),
             Kind::Factor(factor) => factor.look(),
             Kind::Polynomial(polynomial) => polynomial.look(),
         }
@@ -133,7 +130,7 @@ impl<const D: usize> Inverse<D> {
     #[must_use]
     pub fn seen(&self, node: usize) -> Vector<D> {
         match &self.kind {
-            Kind::None => panic!("{NOT_MADE}"),
+            Kind::None => not_made(),
             Kind::Factor(factor) => factor.seen(node),
             Kind::Polynomial(polynomial) => polynomial.seen(node),
         }
@@ -145,7 +142,7 @@ impl<const D: usize> Inverse<D> {
     /// See [`Factor::respond`].
     pub fn respond(&mut self, nodes: impl Iterator<Item = usize>) {
         match &mut self.kind {
-            Kind::None => panic!("{NOT_MADE}"),
+            Kind::None => not_made(),
             Kind::Factor(factor) => factor.respond(nodes),
             Kind::Polynomial(polynomial) => polynomial.respond(nodes),
         }
@@ -155,7 +152,7 @@ impl<const D: usize> Inverse<D> {
     #[must_use]
     pub fn response(&self, number: usize, node: usize) -> Matrix<D> {
         match &self.kind {
-            Kind::None => panic!("{NOT_MADE}"),
+            Kind::None => not_made(),
             Kind::Factor(factor) => factor.response(number, node),
             Kind::Polynomial(polynomial) => polynomial.response(number, node),
         }
@@ -173,9 +170,13 @@ impl<const D: usize> Inverse<D> {
     /// See [`Factor::add`].
     pub fn add(&mut self, forces: impl Iterator<Item = (usize, Vector<D>)>) {
         match &mut self.kind {
-            Kind::None => panic!("{NOT_MADE}"),
+            Kind::None => not_made(),
             Kind::Factor(factor) => factor.add(forces),
             Kind::Polynomial(polynomial) => polynomial.add(forces),
         }
     }
+}
+
+fn not_made() -> ! {
+    unreachable!("a solve needs an inverse that was made")
 }

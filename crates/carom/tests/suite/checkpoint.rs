@@ -4,6 +4,7 @@ use carom::{Checkpoint, Simulation};
 use serde_json::{Value, json};
 
 use crate::common::{body, disc, parse, plane, scenario};
+use crate::large_bodies;
 
 /// Two discs, one spinning, that meet above a floor and then hit it.
 fn discs(scheme: &str, condition: &str) -> Value {
@@ -140,6 +141,13 @@ fn a_strip_that_lies_on_the_floor_with_many_nodes() {
     }
     assert!(most > 100, "{most} contacts");
     goes_on_identically::<2>(&case, 8);
+}
+
+/// A polynomial stands for the factor, and more nodes are in contact than have blocks of compliance with all others.
+#[test]
+fn a_large_block_that_lands_flat() {
+    let whole = goes_on_identically::<3>(&large_bodies::block([0.0; 3]), 2);
+    assert!(whole.summary().energy.friction > 0.0);
 }
 
 /// A block that is pressed on a floor and pulled aside in load steps, some of which must be halved.

@@ -12,6 +12,7 @@ mod edges;
 mod hypotheses;
 mod incline;
 mod invariance;
+mod large_bodies;
 mod ledger;
 mod load_steps;
 mod materials;
