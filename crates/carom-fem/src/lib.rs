@@ -12,7 +12,6 @@ mod hypothesis;
 mod loose;
 mod massless;
 pub mod material;
-mod parallel;
 mod quadrature;
 mod rigid;
 mod shape_table;

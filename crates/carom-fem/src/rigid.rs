@@ -36,10 +36,7 @@ impl<const D: usize> Body<D> {
         if !self.turns() {
             return Matrix::identity();
         }
-        let mut turned = Matrix::identity();
-        for (u, arm) in u.iter().zip(&self.frame_arms) {
-            turned += u * arm.transpose();
-        }
+        let turned = Matrix::identity() + nodal::moments(u, &self.frame_arms);
         tensor::closest_rotation(&turned).unwrap_or_else(Matrix::identity)
     }
 

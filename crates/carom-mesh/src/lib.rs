@@ -7,6 +7,7 @@ mod error;
 pub mod generate;
 mod mesh;
 pub mod nodal;
+pub mod parallel;
 pub mod sets;
 mod surface;
 pub mod tensor;

@@ -123,16 +123,16 @@ impl<const D: usize> Acceleration<D> {
         let f = &f[nodes.clone()];
         let (guess, correction) = (&mut self.guess[nodes.clone()], &mut self.correction[nodes.clone()]);
         let changes = &mut self.guesses[slot][nodes.clone()];
-        for (((change, guess), d), f) in changes.iter_mut().zip(guess).zip(&motion[nodes.clone()]).zip(f) {
+        nodal::each_of_two(changes, guess, [&motion[nodes.clone()], f], |change, guess, [d, f]| {
             let before = d - f;
             *change = before - *guess;
             *guess = before;
-        }
+        });
         let changes = &mut self.corrections[slot][nodes.clone()];
-        for ((change, correction), f) in changes.iter_mut().zip(correction).zip(f) {
+        nodal::each_of_two(changes, correction, [f], |change, correction, [f]| {
             *change = f - *correction;
             *correction = *f;
-        }
+        });
         let Products { matrix, right } = &mut record.products;
         for j in (0..differences).map(|j| (slot + DEPTH - j) % DEPTH) {
             let other = &self.corrections[j][nodes.clone()];
@@ -174,15 +174,11 @@ pub(crate) fn accelerate<const D: usize>(
         for (k, weight) in weights.into_iter().enumerate().filter(|&(_, weight)| weight != 0.0) {
             let (guesses, corrections) =
                 (&acceleration.guesses[k][b.nodes()], &acceleration.corrections[k][b.nodes()]);
-            for (m, (d, f)) in motion[b.nodes()].iter_mut().zip(guesses.iter().zip(corrections)) {
-                *m -= (d + f) * weight;
-            }
+            nodal::each(&mut motion[b.nodes()], [guesses, corrections], |m, [d, f]| *m -= (d + f) * weight);
         }
         if weights.iter().any(|&weight| weight != 0.0) {
             let (moved, start) = (&mut next.displacement[b.nodes()], &state.displacement[b.nodes()]);
-            for ((u1, u0), d) in moved.iter_mut().zip(start).zip(&motion[b.nodes()]) {
-                *u1 = u0 + d;
-            }
+            nodal::each(moved, [start, &motion[b.nodes()]], |u1, [u0, d]| *u1 = u0 + d);
         }
     }
 }

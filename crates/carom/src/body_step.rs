@@ -119,13 +119,13 @@ impl<'a, const D: usize> BodyStep<'a, D> {
         match map.stress {
             StressRule::Weighted => {
                 self.worked.internal_force(self.displacement, &mut scratch.force);
-                for ((out, f0), f1) in out.iter_mut().zip(self.internal_force).zip(&scratch.force) {
+                nodal::each(out, [self.internal_force, &scratch.force], |out, [f0, f1]| {
                     *out -= f0 * (1.0 - map.xi) + f1 * map.xi;
-                }
+                });
             }
             StressRule::Conserving => {
                 self.worked.conserving_force(self.start, self.displacement, &mut scratch.force);
-                out.iter_mut().zip(&scratch.force).for_each(|(out, f)| *out -= f);
+                nodal::each(out, [&scratch.force], |out, [f]| *out -= f);
             }
         }
         self.balance_massless(&scratch.force, &scratch.viscous, out);
@@ -134,9 +134,9 @@ impl<'a, const D: usize> BodyStep<'a, D> {
     /// Writes M(g − (v₊ − v)/Δt) + F̄ − C v̄ to `out`; C v̄ stays in `scratch`.
     pub fn inertia_and_damping(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
         let map = self.map;
-        for ((a, d), v) in scratch.velocity.iter_mut().zip(self.motion).zip(self.velocity) {
+        nodal::each(&mut scratch.velocity, [self.motion, self.velocity], |a, [d, v]| {
             *a = self.gravity - (map.end_velocity(v, d) - v) / map.dt;
-        }
+        });
         self.each_held(|n, i, rate| {
             scratch.velocity[n][i] = self.gravity[i] - (rate - self.velocity[n][i]) / map.dt;
         });
@@ -192,9 +192,7 @@ impl<'a, const D: usize> BodyStep<'a, D> {
 
     /// Writes v₊ [m/s] to `out`; a node without mass moves at the mean velocity of the step, and what is held as prescribed.
     pub fn end_velocity(&self, out: &mut [Vector<D>]) {
-        for ((v1, v0), d) in out.iter_mut().zip(self.velocity).zip(self.motion) {
-            *v1 = self.map.end_velocity(v0, d);
-        }
+        nodal::each(out, [self.velocity, self.motion], |v1, [v0, d]| *v1 = self.map.end_velocity(v0, d));
         for n in self.body.massless().iter().map(|&n| n as usize) {
             out[n] = self.motion[n] / self.map.dt;
         }

@@ -237,9 +237,8 @@ impl<const D: usize> BodyOperator<D> {
 
     /// Starts on K̄⁻¹ x: what [`Self::end`] will give can be seen, and `x` added to, at the nodes of [`Self::set_reach`].
     pub fn begin(&mut self, x: &[Vector<D>]) {
-        for (s, x) in self.scratch.iter_mut().zip(x) {
-            *s = self.turn.tr_mul(x);
-        }
+        let turn = &self.turn;
+        nodal::each(&mut self.scratch, [x], |s, [x]| *s = turn.tr_mul(x));
         self.held.clear(&mut self.scratch);
         if let Some(translation) = &mut self.translation {
             translation.resultant = nodal::total(&self.scratch);
@@ -254,9 +253,8 @@ impl<const D: usize> BodyOperator<D> {
             (Some(translation), Precision::Single) => translation.missing(&self.scratch),
             _ => Vector::zeros(),
         };
-        for (s, out) in self.scratch.iter().zip(out) {
-            *out = self.turn * (s + missing);
-        }
+        let turn = &self.turn;
+        nodal::each(out, [&self.scratch], |out, [s]| *out = turn * (s + missing));
     }
 
     /// Names the nodes of [`Self::seen`] and [`Self::add`].

@@ -124,7 +124,8 @@ impl<const D: usize> State<D> {
         let vectors =
             [&self.displacement, &self.velocity, &self.internal_force, &self.contact_force, &self.support];
         let numbers = [&self.friction_energy, &self.slip, &self.excess];
-        vectors.into_iter().flatten().all(|v| v.iter().all(|x| x.is_finite()))
+        // A sum sees all that is not finite.
+        vectors.into_iter().all(|vectors| nodal::total(vectors).sum().is_finite())
             && numbers.into_iter().flatten().all(|x| x.is_finite())
             && self.energies.kinetic.is_finite()
             && self.energies.strain.is_finite()

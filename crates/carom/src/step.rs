@@ -72,17 +72,13 @@ fn predict<const D: usize>(
     map: &StepMap,
     work: &mut Workspace<D>,
 ) -> Result<f64, StepError> {
-    for (d, v) in work.motion.iter_mut().zip(&state.velocity) {
-        *d = v * map.dt;
-    }
+    nodal::each(&mut work.motion, [&state.velocity], |d, [v]| *d = v * map.dt);
     let driven = prescribe(model, state, map, work)?;
     for (i, b) in model.bodies.iter().enumerate() {
         let nodes = b.nodes();
         let middle = &mut work.correction[nodes.clone()];
-        for ((m, u), d) in middle.iter_mut().zip(&state.displacement[nodes.clone()]).zip(&work.motion[nodes])
-        {
-            *m = u + d * 0.5;
-        }
+        let (start, motion) = (&state.displacement[nodes.clone()], &work.motion[nodes]);
+        nodal::each(middle, [start, motion], |m, [u, d]| *m = u + d * 0.5);
         work.poses[i] = Pose { frame: b.body.frame(middle), ..Pose::default() };
         // Only nodes without mass ask how the body would go on.
         if !b.body.massless().is_empty() {
@@ -122,9 +118,7 @@ fn iterate<const D: usize>(
         *progress = BodyProgress::new(nodal::largest(&work.motion[b.nodes()]));
     }
     work.acceleration.restart();
-    for ((u1, u0), d) in next.displacement.iter_mut().zip(&state.displacement).zip(&work.motion) {
-        *u1 = u0 + d;
-    }
+    nodal::each(&mut next.displacement, [&state.displacement, &work.motion], |u1, [u0, d]| *u1 = u0 + d);
     let convergence = Convergence::new(model, method, state, map);
     let mut in_contact = std::mem::take(&mut work.in_contact);
     in_contact.clear();
@@ -274,10 +268,10 @@ fn correct<const D: usize>(
         let size = nodal::largest(correction);
         let (moved, start) = (&mut next.displacement[b.nodes()], &state.displacement[b.nodes()]);
         let corrections = &work.correction[b.nodes()];
-        for (((d, c), u1), u0) in work.motion[b.nodes()].iter_mut().zip(corrections).zip(moved).zip(start) {
+        nodal::each_of_two(&mut work.motion[b.nodes()], moved, [corrections, start], |d, u1, [c, u0]| {
             *d += c;
             *u1 = u0 + *d;
-        }
+        });
         let moved = nodal::largest(&work.motion[b.nodes()]);
         work.progress[i].note(size, moved);
     }
@@ -300,11 +294,8 @@ fn refactorize<const D: usize>(
         let b = &model.bodies[i];
         let nodes = b.nodes();
         let middle = &mut work.correction[nodes.clone()];
-        for ((m, u0), u1) in
-            middle.iter_mut().zip(&state.displacement[nodes.clone()]).zip(&next.displacement[nodes])
-        {
-            *m = (u0 + u1) * 0.5;
-        }
+        let ends = [&state.displacement[nodes.clone()], &next.displacement[nodes]];
+        nodal::each(middle, ends, |m, [u0, u1]| *m = (u0 + u1) * 0.5);
         // A fresh factor that is no better may lack digits. A polynomial has replaced one only where these do not matter.
         let lacks_digits = renewed && work.operators[i].is_exact();
         let precision = if lacks_digits { Precision::Double } else { method.precision() };

@@ -1,5 +1,6 @@
 use std::marker::PhantomData;
 
+use carom_mesh::parallel::has_threads;
 use carom_mesh::{Matrix, Vector};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -7,7 +8,6 @@ use super::kinematics::Kinematics;
 use super::staging::Staging;
 use crate::FemError;
 use crate::material::{Batch, LANES, MAX_POINTS, PlasticState, Tangent};
-use crate::parallel::has_threads;
 use crate::quadrature::Integrand;
 use crate::shape_table::{Cells, ShapeTable};
 use crate::sparse::{NodalMatrix, NodeGraph};

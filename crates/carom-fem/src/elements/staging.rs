@@ -1,10 +1,10 @@
 use std::sync::Mutex;
 
 use carom_mesh::Vector;
+use carom_mesh::parallel::{each_chunk, share};
 
 use super::grid::Local;
 use crate::material::LANES;
-use crate::parallel::{each_chunk, share};
 
 /// Packs of cells from which threads share them.
 const MANY: usize = 1024;

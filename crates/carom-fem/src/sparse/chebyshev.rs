@@ -1,3 +1,4 @@
+use carom_mesh::parallel::each_chunk;
 use carom_mesh::{Matrix, Vector};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -6,7 +7,6 @@ use super::region::Region;
 use super::scaled::{Columns, Scaled};
 use super::spectrum::spectrum;
 use crate::FemError;
-use crate::parallel::each_chunk;
 
 /// Part of a right-hand side that the approximate solution may leave over: what an iteration with a kept factor leaves, too.
 const LEFT: f64 = 0.02;

@@ -1,10 +1,9 @@
 use std::ops::Mul;
 use std::sync::Arc;
 
-use carom_mesh::Vector;
+use carom_mesh::{Vector, parallel};
 
 use super::NodeGraph;
-use crate::parallel;
 
 /// A matrix with one value per pair of neighbouring nodes: `f64` for mass, a D × D block for stiffness.
 #[derive(Debug, Clone)]

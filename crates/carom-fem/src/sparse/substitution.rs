@@ -1,5 +1,6 @@
 use std::ops::Range;
 
+use carom_mesh::parallel::{has_threads, share};
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::{MatMut, MatRef, Par};
@@ -7,7 +8,6 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::abreast::Row;
 use super::real::Real;
-use crate::parallel::{has_threads, share};
 
 /// Columns taken together, so that what is loaded once serves them all.
 const COLUMNS: usize = 4;

@@ -1,13 +1,13 @@
 use std::fmt::Debug;
 use std::ops::Range;
 
+use carom_mesh::parallel::{each_chunk, has_threads};
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 
 use super::abreast::{self, ABREAST, Row};
 use super::pieces::pieces;
 use super::real::Real;
 use super::substitution::Substitution;
-use crate::parallel::{each_chunk, has_threads};
 
 /// Numbers that a factor is kept in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
