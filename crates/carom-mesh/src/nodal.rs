@@ -56,7 +56,7 @@ pub fn total<const D: usize>(a: &[Vector<D>]) -> Vector<D> {
     reduce(0..a.len(), &|nodes| part(&a[nodes]), &Add::add)
 }
 
-/// Σ w a, for as many weights.
+/// Σ w a, over as many nodes as there are weights.
 #[must_use]
 pub fn weighted_total<const D: usize>(weights: &[f64], a: &[Vector<D>]) -> Vector<D> {
     let part = |weights: &[f64], a: &[Vector<D>]| {
@@ -68,7 +68,7 @@ pub fn weighted_total<const D: usize>(weights: &[f64], a: &[Vector<D>]) -> Vecto
         }
         gathered(parts)
     };
-    reduce(0..a.len(), &|nodes| part(&weights[nodes.clone()], &a[nodes]), &Add::add)
+    reduce(0..weights.len(), &|nodes| part(&weights[nodes.clone()], &a[nodes]), &Add::add)
 }
 
 /// Σ a·b, for as many b.

@@ -18,6 +18,12 @@ pub fn has_threads() -> bool {
     rayon::current_num_threads() > 1
 }
 
+/// Does `work` on so many items in one of the threads that share them, if there are any: from another thread every sharing would
+/// have to wake one and wait for it.
+pub fn among_threads<R: Send>(items: usize, work: impl FnOnce() -> R + Send) -> R {
+    if items < MANY || !has_threads() { work() } else { rayon::scope(|_| work()) }
+}
+
 /// Calls `work` with consecutive parts of `items` that together are all of them, and the index where each begins.
 pub fn each_chunk<T: Send>(items: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
     if items.len() < MANY || !has_threads() {

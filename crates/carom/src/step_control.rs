@@ -3,6 +3,8 @@
 //! In time the next step is a new chance, and the whole one is tried as soon as the grid allows. Load steps that are hard stay so:
 //! a static analysis goes on with the length that it came down to, and doubles it after a step that was easy.
 
+use carom_mesh::parallel::among_threads;
+
 use crate::error::{RunError, StepError};
 use crate::workspace::{StepReport, Workspace};
 use crate::{Method, Model, Scheme, State, step};
@@ -43,7 +45,7 @@ pub(crate) fn advance_nominal_step<const D: usize>(
     let mut size = if load_steps { whole >> *halvings } else { whole };
     while done < whole {
         let length = dt * (size as f64 / whole as f64);
-        let taken = step(model, method, state, spare, length, work)
+        let taken = among_threads(model.node_count(), || step(model, method, state, spare, length, work))
             .and_then(|report| check_debt(state, spare, LARGEST_DEBT * energy).map(|()| report));
         match taken {
             Ok(report) => {
