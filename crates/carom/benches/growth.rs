@@ -1,9 +1,8 @@
 //! How time and memory grow with the size of a body: discs and balls that fall on a floor, one process per size.
 //!
 //! `cargo bench -p carom --bench growth -- [LARGEST_2D [LARGEST_3D]]` takes sizes up to these numbers of unknowns. Printed are medians per
-//! step in flight and in contact after the first contacts, the time of one forward and backward substitution, and the memory of the
-//! process, at its peak (while the factor is made) and while steps are made, over that of factor and mesh; at the end the exponents of a
-//! power law through all sizes.
+//! step in flight and in contact after the first contacts, and the memory of the process, at its peak and while steps are made, over
+//! that of model and inverse, which is a factor of the smallest bodies only; at the end the exponents of a power law through all sizes.
 
 use std::process::Command;
 use std::time::Instant;
