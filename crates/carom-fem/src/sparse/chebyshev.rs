@@ -112,6 +112,20 @@ impl<const D: usize, const C: usize> Term<'_, D, C> {
             }
         }
     }
+
+    fn apply_to_all(self, before: &mut [Columns<D, C>]) {
+        each_chunk(before, |first, before| Arch::new().dispatch(Chunk { term: self, first, before }));
+    }
+
+    /// Where it makes no other node move than these.
+    fn apply_at(self, nodes: &[u32], before: &mut [Columns<D, C>]) {
+        // In the order of the matrix more nodes cost less, and threads share them.
+        if 2 * nodes.len() > before.len() {
+            self.apply_to_all(before);
+        } else {
+            Arch::new().dispatch(Scattered { term: self, nodes, before });
+        }
+    }
 }
 
 /// A term for consecutive nodes.
@@ -311,8 +325,7 @@ impl<const D: usize> Chebyshev<D> {
         }
         for &omega in &weights[1..] {
             let Vectors { b, x, before } = &mut *whole;
-            let term = Term { matrix, factors: [omega, alpha], b, x };
-            each_chunk(before, |first, before| Arch::new().dispatch(Chunk { term, first, before }));
+            Term { matrix, factors: [omega, alpha], b, x }.apply_to_all(before);
             std::mem::swap(x, before);
         }
     }
@@ -350,7 +363,7 @@ fn solve_within<const D: usize, const C: usize>(
     }
     for (ring, &omega) in weights.iter().enumerate().skip(1) {
         let term = Term { matrix, factors: [omega, alpha], b, x };
-        Arch::new().dispatch(Scattered { term, nodes: region.up_to(ring), before });
+        term.apply_at(region.up_to(ring), before);
         std::mem::swap(x, before);
     }
 }
