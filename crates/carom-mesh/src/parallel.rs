@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-/// Nodes, or packs of cells, that a thread takes at a time.
+/// Nodes that a thread takes at a time.
 const CHUNK: usize = 1024;
 /// Items from which waking another thread is worth its time.
 const MANY: usize = 16 * CHUNK;
@@ -18,10 +18,10 @@ pub fn has_threads() -> bool {
     rayon::current_num_threads() > 1
 }
 
-/// Does `work` on so many items in one of the threads that share them, if there are any: from another thread every sharing would
-/// have to wake one and wait for it.
-pub fn among_threads<R: Send>(items: usize, work: impl FnOnce() -> R + Send) -> R {
-    if items < MANY || !has_threads() { work() } else { rayon::scope(|_| work()) }
+/// Does `work` on so many nodes in one of the threads that share them, if there are any: from another thread every sharing would
+/// have to wake one and wait for it. Cells are shared where there are half as many nodes as it takes to share these.
+pub fn among_threads<R: Send>(nodes: usize, work: impl FnOnce() -> R + Send) -> R {
+    if nodes < MANY / 2 || !has_threads() { work() } else { rayon::scope(|_| work()) }
 }
 
 /// Calls `work` with consecutive parts of `items` that together are all of them, and the index where each begins.

@@ -35,8 +35,9 @@ const UNAVOIDABLE: f64 = 100.0;
 
 /// Contacts from which their problem costs so much that it is solved no better than an iteration needs that is not the last one.
 const MANY_CONTACTS: usize = 100;
-/// The tolerance of such a problem, in last corrections over motions.
-const LOOSE: f64 = 1e-5;
+/// What its solution may be wrong by, in corrections that are expected, and in last ones as long as it is not known how fast they shrink.
+const LOOSE: f64 = 1e-3;
+const LOOSE_AT_FIRST: f64 = 1e-9;
 /// An iteration may be the last one if the correction that is expected of it is within so many times of what is wanted.
 const NEAR: f64 = 30.0;
 
@@ -139,26 +140,21 @@ impl Convergence {
         Err(StepError::Newton { iterations: iteration, correction, wanted })
     }
 
-    /// To what tolerance the problem of so many `contacts` is to be solved in the next iteration: to its own `tolerance` where that may
-    /// be the last one.
-    pub fn contact_tolerance(
-        &self,
-        contacts: usize,
-        bodies: &[usize],
-        progress: &[BodyProgress],
-        tolerance: f64,
-    ) -> f64 {
+    /// How wrong the motion of so many `contacts` may be after the next iteration [m]: not at all, but for the tolerance of their
+    /// problem, where that may be the last one.
+    pub fn contact_error(&self, contacts: usize, bodies: &[usize], progress: &[BodyProgress]) -> f64 {
         if self.is_static || contacts < MANY_CONTACTS {
-            return tolerance;
+            return 0.0;
         }
         let largest =
             |of: fn(&BodyProgress) -> f64| bodies.iter().map(|&i| of(&progress[i])).fold(0.0, f64::max);
         let motion = largest(|p| p.motion);
         let expected = largest(|p| p.correction * p.contraction);
         if expected <= NEAR * (self.tolerance * motion).max(self.round_off) {
-            return tolerance;
+            return 0.0;
         }
-        (LOOSE * (largest(|p| p.correction) / motion).min(1.0)).max(tolerance)
+        let known = largest(|p| p.contraction) < 1.0;
+        if known { LOOSE * expected } else { LOOSE_AT_FIRST * largest(|p| p.correction).min(motion) }
     }
 
     /// Takes note of a correction [m]; whether it has been long since one was much smaller than those before.
@@ -306,14 +302,14 @@ mod tests {
     #[test]
     fn contacts_are_solved_as_well_as_it_takes() {
         let convergence = Convergence { round_off: 1e-15, ..DYNAMIC };
-        let tolerance = |contacts, corrections: &[f64]| {
+        let error = |contacts, corrections: &[f64]| {
             let mut progress = BodyProgress::new(1.0);
             corrections.iter().for_each(|&c| progress.note(c, 1.0));
-            convergence.contact_tolerance(contacts, &[0], &[progress], 1e-12)
+            convergence.contact_error(contacts, &[0], &[progress])
         };
-        assert_eq!(tolerance(MANY_CONTACTS, &[]), LOOSE);
-        assert_eq!(tolerance(MANY_CONTACTS, &[0.5, 0.1]), 0.1 * LOOSE);
-        assert_eq!(tolerance(MANY_CONTACTS, &[1e-6, 1e-8]), 1e-12);
-        assert_eq!(tolerance(MANY_CONTACTS - 1, &[0.5, 0.1]), 1e-12);
+        assert_eq!(error(MANY_CONTACTS, &[]), LOOSE_AT_FIRST);
+        assert_eq!(error(MANY_CONTACTS, &[0.5, 0.125]), LOOSE * 0.125 / 4.0);
+        assert_eq!(error(MANY_CONTACTS, &[1e-6, 1e-8]), 0.0);
+        assert_eq!(error(MANY_CONTACTS - 1, &[0.5, 0.1]), 0.0);
     }
 }

@@ -1,7 +1,7 @@
 //! The contacts at the present guess, and their reactions.
 
 use carom_contact::Contact;
-use carom_friction::StoppingRule;
+use carom_friction::{ContactProblem, StoppingRule};
 use carom_mesh::Vector;
 
 use crate::blend::Rubbing;
@@ -99,7 +99,26 @@ pub(crate) fn prepare_contacts<const D: usize>(model: &Model<D>, map: &StepMap, 
     }
 }
 
-/// Solves the reduced problem of the contacts to `tolerance`, while the bodies in contact are between [`BodyOperator::begin`] and
+/// No contact problem is solved more loosely than this.
+const LOOSEST: f64 = 1e-4;
+
+/// The tolerance of a contact problem whose motions may be wrong by `error` [m], which is what natural residuals are of the larger of q
+/// and, by the natural stiffness, r; at least that which is asked for.
+fn tolerance<const D: usize>(
+    problem: &ContactProblem<D>,
+    reactions: &[Vector<D>],
+    error: f64,
+    least: f64,
+) -> f64 {
+    if error == 0.0 {
+        return least;
+    }
+    let squares = |vectors: &[Vector<D>]| vectors.iter().map(Vector::norm_squared).sum::<f64>();
+    let size = squares(&problem.q).max(squares(reactions) / problem.natural_stiffness().powi(2));
+    (error * (problem.q.len() as f64 / size).sqrt()).min(LOOSEST).max(least)
+}
+
+/// Solves the reduced problem of the contacts, so that their motions are wrong by about `error` [m] if that is not zero, while the bodies in contact are between [`BodyOperator::begin`] and
 /// [`BodyOperator::end`], and gives them the change of the reactions.
 ///
 /// [`BodyOperator::begin`]: crate::linearise::BodyOperator::begin
@@ -109,7 +128,7 @@ pub(crate) fn react<const D: usize>(
     method: &Method<D>,
     state: &State<D>,
     map: &StepMap,
-    tolerance: f64,
+    error: f64,
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
     let motion = &work.motion;
@@ -144,6 +163,7 @@ pub(crate) fn react<const D: usize>(
         &mut work.problem,
     );
     work.guess.clone_from(&work.reactions);
+    let tolerance = tolerance(&work.problem, &work.reactions, error, method.stopping.tolerance);
     let stopping = StoppingRule { tolerance, ..method.stopping };
     let report = method.solver.solve(&work.problem, &mut work.reactions, &stopping);
     work.solved_by = report.solver;

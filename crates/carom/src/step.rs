@@ -23,6 +23,7 @@ const SEARCH_MARGIN: f64 = 2.0;
 const MAX_SEARCHES: usize = 4;
 /// The least margin of the contact search in a static analysis, where no velocity foretells the motion, in sizes of the model.
 const STATIC_MARGIN: f64 = 1e-3;
+
 /// Takes `state` one step of length `dt` [s] further and writes the result to `next`.
 ///
 /// # Errors
@@ -160,17 +161,16 @@ fn iterate_bodies<const D: usize>(
         residuals(bodies, model, method, state, next, map, work);
         let reacts = touched && !work.contacts.is_empty();
         begin_solves(bodies, model, reacts, work);
-        let mut tolerance = method.stopping.tolerance;
+        let mut error = 0.0;
         if reacts {
             if !nearly_settled {
-                let contacts = work.contacts.len();
-                tolerance = convergence.contact_tolerance(contacts, bodies, &work.progress, tolerance);
+                error = convergence.contact_error(work.contacts.len(), bodies, &work.progress);
             }
-            react(model, method, state, map, tolerance, work)?;
+            react(model, method, state, map, error, work)?;
         }
         correct(bodies, model, state, next, work)?;
         if convergence.settle(iteration, bodies, model, work)? {
-            if tolerance == method.stopping.tolerance {
+            if error == 0.0 {
                 return Ok(iteration);
             }
             nearly_settled = true;

@@ -180,7 +180,7 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
         stress: impl Fn(usize, &mut W, &mut Batch<S>) -> f64 + Sync,
     ) -> f64 {
         if let Some(staging) = self.staging.as_ref().filter(|_| has_threads()) {
-            return staging.assemble(
+            let assembled = staging.assemble(
                 force,
                 || (scratch(), Batch::zeros()),
                 |pack, (work, stresses), local| {
@@ -189,6 +189,9 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
                     sum
                 },
             );
+            if let Some(sum) = assembled {
+                return sum;
+            }
         }
         let (mut work, mut stresses, mut local) = (scratch(), Batch::zeros(), Self::NOWHERE);
         let mut sum = 0.0;

@@ -1,4 +1,4 @@
-use std::sync::Mutex;
+use std::sync::{Mutex, TryLockError};
 
 use carom_mesh::Vector;
 use carom_mesh::parallel::{each_chunk, share};
@@ -49,15 +49,20 @@ impl<const D: usize, const N: usize> Staging<D, N> {
         Some(Self { starts, cells: at_nodes, packs: Mutex::new(vec![empty; packs.len()]) })
     }
 
-    /// Adds the nodal forces that `of_pack` writes to `force`; returns the sum of the numbers that come with them.
+    /// Adds the nodal forces that `of_pack` writes to `force`; returns the sum of the numbers that come with them, or None where it is in use:
+    /// by another step with the same body, which this thread may even have to finish.
     pub fn assemble<W>(
         &self,
         force: &mut [Vector<D>],
         scratch: impl Fn() -> W + Sync,
         of_pack: impl Fn(usize, &mut W, &mut Local<D, N>) -> f64 + Sync,
-    ) -> f64 {
-        // A thread that panicked has left nothing behind that the next evaluation does not overwrite.
-        let mut packs = self.packs.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    ) -> Option<f64> {
+        let mut packs = match self.packs.try_lock() {
+            Ok(packs) => packs,
+            // A thread that panicked has left nothing behind that the next evaluation does not overwrite.
+            Err(TryLockError::Poisoned(packs)) => packs.into_inner(),
+            Err(TryLockError::WouldBlock) => return None,
+        };
         share(&mut packs, CHUNK, &|first, packs| {
             let mut work = scratch();
             for (pack, (local, sum)) in (first..).zip(packs) {
@@ -73,6 +78,6 @@ impl<const D: usize, const N: usize> Staging<D, N> {
                 }
             }
         });
-        packs.iter().map(|(_, sum)| sum).sum()
+        Some(packs.iter().map(|(_, sum)| sum).sum())
     }
 }

@@ -235,6 +235,10 @@ impl<const D: usize> Chebyshev<D> {
                 *scaled = matrix.scale(node, &b[node]);
             }
         });
+        if self.has_added {
+            // A step was given up between what it added and the end.
+            self.added.b.fill([[0.0; 1]; D]);
+        }
         (self.solved, self.has_added) = (false, false);
     }
 

@@ -60,14 +60,17 @@ pub(super) fn spectrum<const D: usize>(matrix: &Scaled<D>) -> [f64; 2] {
 fn start<const D: usize>(matrix: &Scaled<D>, node: usize) -> Columns<D, 1> {
     let uniform = matrix.uniform(node);
     std::array::from_fn(|i| {
-        // The top bit of a product with 2⁶⁴ over the golden ratio.
-        let bit = ((node * D + i + 1) as u64)
-            .wrapping_mul(0x9E37_79B9_7F4A_7C15)
-            .wrapping_mul(0xD134_2543_DE82_EF95)
-            >> 63;
-        let rough = if bit == 0 { 1.0 } else { -1.0 };
+        let rough = if scrambled((node * D + i) as u64) >> 63 == 0 { 1.0 } else { -1.0 };
         [uniform[i][0] * (1.0 + rough)]
     })
+}
+
+/// SplitMix64 (Steele, Lea & Flood 2014, *Fast splittable pseudorandom number generators*).
+fn scrambled(n: u64) -> u64 {
+    let mut x = (n + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    x ^ (x >> 31)
 }
 
 fn dot<const D: usize>(a: &[Columns<D, 1>], b: &[Columns<D, 1>]) -> f64 {

@@ -92,3 +92,31 @@ fn a_block_that_spins_keeps_its_momentum() {
     let energy = simulation.summary().energy;
     assert!(energy.max_defect < 1e-12 * energy.initial, "{energy:?}");
 }
+
+/// From 100 contacts on their problem is solved loosely at first: as loosely as the motion bears it, not the weight.
+#[test]
+fn a_block_at_rest_takes_no_more_iterations_for_more_contacts() {
+    let iterations = |divisions: [usize; 3]| {
+        let h = 0.1;
+        let mut case = scenario(0.2, 1e-3, &[], &[]);
+        case["dimension"] = json!(3);
+        let size = divisions.map(|n| n as f64 * h);
+        case["bodies"] = json!([{
+            "name": "block", "material": "elastic", "hypothesis": "plane-strain", "thickness": 1.0, "mass": "consistent",
+            "mesh": {"kind": "box", "corner": [0.0, 0.0, 0.0], "size": size, "divisions": divisions, "cell": "hex8"},
+            "velocity": [0.0, 0.0, 0.0], "spin": [0.0, 0.0, 0.0],
+        }]);
+        case["materials"]["elastic"]["damping"] = json!({"mass": 20.0, "stiffness": 1e-3});
+        case["obstacles"] =
+            json!([{"name": "floor", "kind": "plane", "point": [0.0, 0.0, 0.0], "normal": [0.0, 0.0, 1.0]}]);
+        case["analysis"]["gravity"] = json!([0.0, 0.0, -2.0]);
+        case["contact"]["friction"] = json!(0.3);
+        case["contact"]["solver"] = json!({"kind": "auto", "tolerance": 1e-12, "max_iterations": 10000});
+        let mut simulation = Simulation::<3>::new(&parse(&case)).expect("valid");
+        simulation.advance(f64::INFINITY, || false).expect("runs");
+        assert_eq!(simulation.progress().contacts, (divisions[0] + 1) * (divisions[1] + 1));
+        simulation.summary().newton_iterations as f64 / simulation.steps() as f64
+    };
+    let (fewer, more) = (iterations([10, 8, 3]), iterations([9, 9, 3]));
+    assert!(more < 1.2 * fewer, "{fewer} with 99 contacts, {more} with 100");
+}
