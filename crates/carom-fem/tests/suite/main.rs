@@ -7,3 +7,4 @@ mod generated_bodies;
 mod locking;
 mod patch_test;
 mod revolution;
+mod threads;

@@ -1,0 +1,28 @@
+//! Threads that share a body.
+
+use carom_fem::Body;
+use carom_fem::material::LawSpec;
+use carom_mesh::{CellKind, Vector};
+use rayon::prelude::*;
+
+use crate::common::{elastic, grid, spec};
+
+/// More than one may evaluate its forces at a time, also as tasks of the threads that share each evaluation: whoever waits for the
+/// others may be given such a task.
+#[test]
+fn many_evaluate_the_forces_of_one_body_at_once() {
+    let law = LawSpec::SaintVenantKirchhoff(elastic());
+    let body = Body::new(grid(CellKind::Quad4, 100, |x: Vector<2>| x), &spec(law)).expect("valid");
+    let forces = |k: usize| {
+        let u = |x: &Vector<2>| Vector::<2>::new(x[1] * x[1], (3.0 * x[0]).sin()) * 0.01 * k as f64;
+        let u: Vec<_> = body.mesh().nodes().iter().map(u).collect();
+        let mut f = vec![Vector::zeros(); u.len()];
+        body.internal_force(&u, &mut f);
+        f
+    };
+    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    let alone: Vec<_> = pool(1).install(|| (0..400).map(forces).collect());
+    let together: Vec<_> = pool(3).install(|| (0..400).into_par_iter().with_max_len(1).map(forces).collect());
+    assert_eq!(alone, together);
+    assert!(alone[1].iter().any(|f| f.norm() > 0.0));
+}
