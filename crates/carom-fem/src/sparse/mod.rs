@@ -12,6 +12,7 @@ mod pieces;
 mod real;
 mod region;
 mod scaled;
+mod semi_iteration;
 mod spectrum;
 mod substitution;
 mod triangular;

@@ -1,0 +1,173 @@
+//! The Chebyshev semi-iteration: its terms, and how nodes share them.
+
+use carom_mesh::parallel::each_chunk;
+use pulp::{Arch, Simd, WithSimd};
+
+use super::region::Region;
+use super::scaled::{Columns, Scaled};
+
+/// Part of a right-hand side that the approximate solution may leave over: what an iteration with a kept factor leaves, too.
+pub(super) const LEFT: f64 = 0.02;
+
+/// The vectors of the semi-iteration: the right-hand side, the solution, and the one before it.
+#[derive(Debug)]
+pub(super) struct Vectors<const D: usize, const C: usize> {
+    pub b: Vec<Columns<D, C>>,
+    pub x: Vec<Columns<D, C>>,
+    pub before: Vec<Columns<D, C>>,
+}
+
+impl<const D: usize, const C: usize> Vectors<D, C> {
+    pub fn zeros(nodes: usize) -> Self {
+        let zeros = || vec![[[0.0; C]; D]; nodes];
+        Self { b: zeros(), x: zeros(), before: zeros() }
+    }
+
+    pub fn clear(&mut self, nodes: &[u32]) {
+        for &node in nodes {
+            for values in [&mut self.b, &mut self.x, &mut self.before] {
+                values[node as usize] = [[0.0; C]; D];
+            }
+        }
+    }
+}
+
+/// A term of the semi-iteration: what it makes of `x` and the vector before that.
+#[derive(Debug)]
+struct Term<'a, const D: usize, const C: usize> {
+    matrix: &'a Scaled<D>,
+    /// ω and α.
+    factors: [f32; 2],
+    b: &'a [Columns<D, C>],
+    x: &'a [Columns<D, C>],
+}
+
+impl<const D: usize, const C: usize> Clone for Term<'_, D, C> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<const D: usize, const C: usize> Copy for Term<'_, D, C> {}
+
+impl<const D: usize, const C: usize> Term<'_, D, C> {
+    #[inline(always)]
+    fn apply(&self, node: usize, before: &mut Columns<D, C>) {
+        let [omega, alpha] = self.factors;
+        let product = self.matrix.row_times(node, self.x);
+        let (b, x) = (&self.b[node], &self.x[node]);
+        for i in 0..D {
+            for c in 0..C {
+                let change = x[i][c] - before[i][c] + alpha * (b[i][c] - product[i][c]);
+                before[i][c] += omega * change;
+            }
+        }
+    }
+
+    fn apply_to_all(self, before: &mut [Columns<D, C>]) {
+        each_chunk(before, |first, before| Arch::new().dispatch(Chunk { term: self, first, before }));
+    }
+
+    /// Where it makes no other node move than these.
+    fn apply_at(self, nodes: &[u32], before: &mut [Columns<D, C>]) {
+        // In the order of the matrix more nodes cost less, and threads share them.
+        if 2 * nodes.len() > before.len() {
+            self.apply_to_all(before);
+        } else {
+            Arch::new().dispatch(Scattered { term: self, nodes, before });
+        }
+    }
+}
+
+/// A term for consecutive nodes.
+struct Chunk<'a, const D: usize, const C: usize> {
+    term: Term<'a, D, C>,
+    first: usize,
+    before: &'a mut [Columns<D, C>],
+}
+
+/// A term for some nodes.
+struct Scattered<'a, const D: usize, const C: usize> {
+    term: Term<'a, D, C>,
+    nodes: &'a [u32],
+    before: &'a mut [Columns<D, C>],
+}
+
+impl<const D: usize, const C: usize> WithSimd for Chunk<'_, D, C> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) {
+        for (node, before) in (self.first..).zip(self.before) {
+            self.term.apply(node, before);
+        }
+    }
+}
+
+impl<const D: usize, const C: usize> WithSimd for Scattered<'_, D, C> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) {
+        for &node in self.nodes {
+            self.term.apply(node as usize, &mut self.before[node as usize]);
+        }
+    }
+}
+
+/// 1/α and ω of as many terms as it takes for spectra between these positive bounds; None if they are more than `most`.
+pub(super) fn terms([least, largest]: [f64; 2], most: usize) -> Option<(f64, Vec<f32>)> {
+    let (middle, radius) = (0.5 * (largest + least), 0.5 * (largest - least));
+    let mu = radius / middle;
+    // What n terms leave is 1/Tₙ(1/μ) at most.
+    let (mut omega, mut weights) = (1.0, Vec::new());
+    let (mut before, mut chebyshev) = (1.0, 1.0 / mu);
+    while weights.len() < most {
+        weights.push(omega as f32);
+        if 1.0 / chebyshev <= LEFT {
+            return Some((middle, weights));
+        }
+        (before, chebyshev) = (chebyshev, 2.0 / mu * chebyshev - before);
+        let share = if weights.len() == 1 { 0.5 } else { 0.25 * omega };
+        omega = 1.0 / (1.0 - share * mu * mu);
+    }
+    None
+}
+
+/// The semi-iteration for `vectors.b`, from nothing.
+pub(super) fn solve<const D: usize, const C: usize>(
+    matrix: &Scaled<D>,
+    weights: &[f32],
+    alpha: f32,
+    vectors: &mut Vectors<D, C>,
+) {
+    let Vectors { b, x, before } = vectors;
+    for ((x, before), b) in x.iter_mut().zip(&mut *before).zip(&*b) {
+        *before = [[0.0; C]; D];
+        *x = b.map(|row| row.map(|b| alpha * b));
+    }
+    for &omega in &weights[1..] {
+        Term { matrix, factors: [omega, alpha], b, x }.apply_to_all(before);
+        std::mem::swap(x, before);
+    }
+}
+
+/// [`solve`] for a right-hand side that is zero outside the middle of the `region`, with vectors that are zero outside
+/// of it: each term takes in one more ring.
+pub(super) fn solve_within<const D: usize, const C: usize>(
+    matrix: &Scaled<D>,
+    weights: &[f32],
+    alpha: f32,
+    vectors: &mut Vectors<D, C>,
+    region: &Region,
+) {
+    let Vectors { b, x, before } = vectors;
+    for &node in region.up_to(0) {
+        x[node as usize] = b[node as usize].map(|row| row.map(|b| alpha * b));
+    }
+    for (ring, &omega) in weights.iter().enumerate().skip(1) {
+        let term = Term { matrix, factors: [omega, alpha], b, x };
+        term.apply_at(region.up_to(ring), before);
+        std::mem::swap(x, before);
+    }
+}
