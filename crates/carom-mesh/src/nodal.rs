@@ -56,6 +56,12 @@ pub fn total<const D: usize>(a: &[Vector<D>]) -> Vector<D> {
     reduce(0..a.len(), &|nodes| part(&a[nodes]), &Add::add)
 }
 
+/// Whether every number is finite: a sum sees all that is not.
+#[must_use]
+pub fn is_finite<const D: usize>(a: &[Vector<D>]) -> bool {
+    total(a).sum().is_finite()
+}
+
 /// Σ w a, over as many nodes as there are weights.
 #[must_use]
 pub fn weighted_total<const D: usize>(weights: &[f64], a: &[Vector<D>]) -> Vector<D> {
@@ -174,6 +180,7 @@ mod tests {
         for k in [0, 5, 8] {
             a[k][1] = f64::NAN;
             assert!(!total(&a).sum().is_finite());
+            assert!(!is_finite(&a));
             assert_eq!(largest(&a), 3.0);
         }
     }

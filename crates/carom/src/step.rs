@@ -261,8 +261,8 @@ fn correct<const D: usize>(
         let b = &model.bodies[i];
         let correction = &mut work.correction[b.nodes()];
         work.operators[i].end(correction);
-        // The largest size does not see what is not a number, a sum does.
-        if !nodal::total(correction).sum().is_finite() {
+        // The largest size does not see what is not a number.
+        if !nodal::is_finite(correction) {
             return Err(StepError::NotFinite("displacement"));
         }
         let size = nodal::largest(correction);
