@@ -14,7 +14,6 @@ import argparse
 import multiprocessing
 import os
 import tempfile
-from array import array
 from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
@@ -38,6 +37,9 @@ WARM = 0.1
 
 BLOCKS = 9
 """Parts of the rest whose growths are compared."""
+
+ROOM = 1_000_000
+"""Samples that there is room for: one for each frame or row, or ten in a second."""
 
 
 class Memory(NamedTuple):
@@ -114,12 +116,19 @@ MODES = {"recorded": recorded, "native": native}
 
 def soaked(mode: str, steps: int) -> str:
     """Run and return a row of the table."""
-    samples = array("q")  # a list of numbers would be what grows
+    samples = np.ones((ROOM, 2))  # all there from the start: a list would be what grows
+    taken = 0
+
+    def note(step: int) -> None:
+        nonlocal taken
+        samples[taken] = step, resident()
+        taken += 1
+
     start = perf_counter()
-    run = MODES[mode](steps, lambda step: samples.extend((step, resident())))
+    run = MODES[mode](steps, note)
     minutes = (perf_counter() - start) / 60.0
     summary = run.summary if isinstance(run, carom.Result) else run.summary()
-    memory = Memory(*np.array(samples, dtype=float).reshape(-1, 2).T)
+    memory = Memory(*samples[:taken].T)
     growth, error = memory.growth()
     cells = (
         f"`{mode}`",

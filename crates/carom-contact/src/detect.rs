@@ -19,6 +19,14 @@ pub struct Candidate {
     pub mirrored: bool,
 }
 
+impl Candidate {
+    /// What tells it from the others of a step: pair and node.
+    #[must_use]
+    pub fn key(&self) -> (u32, u32) {
+        (self.pair, self.node)
+    }
+}
+
 /// A node is checked once where it faces another that faces it, to this fraction of the facet.
 const MIRRORED: f64 = 0.02;
 
@@ -64,6 +72,25 @@ impl<const D: usize> ContactModel<D> {
                 Target::Surface(t) => self.detect_facets(pair_index, t, start, end, margin, search, out),
             }
         }
+        self.mark_mirrored(&|n| (start(n) + end(n)) * 0.5, out);
+    }
+
+    /// Adds to the candidates `out` of [`ContactModel::detect`] those of nodes that were `known` before and are not among them, with the
+    /// facets that they faced then.
+    pub fn recall(
+        &self,
+        known: &[Candidate],
+        start: &impl Fn(u32) -> Vector<D>,
+        end: &impl Fn(u32) -> Vector<D>,
+        out: &mut Vec<Candidate>,
+    ) {
+        let found = out.len();
+        for candidate in known.iter().filter(|c| !self.is_mortar(c.pair as usize)) {
+            if out[..found].binary_search_by_key(&candidate.key(), Candidate::key).is_err() {
+                out.push(*candidate);
+            }
+        }
+        out.sort_unstable();
         self.mark_mirrored(&|n| (start(n) + end(n)) * 0.5, out);
     }
 

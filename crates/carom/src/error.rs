@@ -75,7 +75,7 @@ pub enum StepError {
     /// A node went through its target outside of the contact search.
     #[error("a node came into contact outside of a search margin of {margin:.3e} m")]
     MissedContact {
-        /// The widest margin tried [m].
+        /// The margin [m].
         margin: f64,
     },
     /// What the massless nodes took from the balance of energy could not be given back.

@@ -1,6 +1,6 @@
 //! Which contacts take part in a step.
 
-use carom_contact::{Contact, Pair, Target};
+use carom_contact::{Candidate, Contact, Pair, Target};
 use carom_mesh::Vector;
 
 use crate::state::{Reaction, State};
@@ -9,19 +9,32 @@ use crate::{Method, Model, StepMap};
 
 /// A contact of which less than this fraction of the normal is free has nothing to move.
 const UNRESPONSIVE: f64 = 1e-6;
+/// By how much the margin grows for mortar pairs with every repetition of a search.
+const WIDENING: f64 = 4.0;
 
-/// Finds the candidates of the step between its start and the predicted end.
+/// Finds the candidates of the step between its start and the predicted end; another time between its start and where it led to, beside
+/// those already found.
+///
+/// Nodes are not looked for farther and farther away: in a fast step that would be all there are, and their problem dense. Only
+/// the rows of mortar pairs, which cannot be recalled, are found by a wider margin.
 pub(crate) fn search<const D: usize>(
     model: &Model<D>,
     state: &State<D>,
     margin: f64,
+    repetition: usize,
     work: &mut Workspace<D>,
 ) {
     let start = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
     let motion = &work.motion;
     let end = |n: u32| start(n) + motion[n as usize];
-    model.contact.detect(&start, &end, margin, &mut work.search, &mut work.candidates);
-    model.contact.detect_mortar(&start, &end, margin, &mut work.mortar, &mut work.candidates);
+    let Workspace { search, mortar, candidates, searched, .. } = work;
+    model.contact.detect(&start, &end, margin, search, candidates);
+    if repetition > 0 {
+        model.contact.recall(searched, &start, &end, candidates);
+    }
+    let wide = margin * WIDENING.powi(repetition as i32);
+    model.contact.detect_mortar(&start, &end, wide, mortar, candidates);
+    searched.clone_from(candidates);
 }
 
 /// Keeps the candidates that take part in the step and recalls their last reactions.
@@ -34,8 +47,6 @@ pub(crate) fn select_active<const D: usize>(
 ) {
     let start = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
     let contact = &model.contact;
-    work.searched.clear();
-    work.searched.extend(work.candidates.iter().map(|c| (c.pair, c.node)));
     work.start_gaps.clear();
     contact.evaluate_all(&work.candidates, &start, &mut work.mortar, &mut work.contacts);
     let mut at_starts = work.contacts.iter();
@@ -68,7 +79,7 @@ pub(crate) fn select_active<const D: usize>(
         return;
     }
     for (k, reaction) in state.reactions.iter().enumerate() {
-        if work.candidates.binary_search_by_key(&reaction.key(), |c| (c.pair, c.node)).is_err() {
+        if work.candidates.binary_search_by_key(&reaction.key(), Candidate::key).is_err() {
             work.lost.push(k);
             touch(&mut work.touched, &contact.pairs[reaction.pair as usize]);
         }
@@ -101,10 +112,10 @@ pub(crate) fn missed_a_contact<const D: usize>(
         return false;
     }
     let end = |n: u32| model.reference[n as usize] + next.displacement[n as usize];
-    let Workspace { search, missed, missed_mortar, end_contacts, .. } = work;
+    let Workspace { search, searched, missed, missed_mortar, end_contacts, .. } = work;
     model.contact.detect(&end, &end, 0.0, search, missed);
     model.contact.detect_mortar(&end, &end, 0.0, missed_mortar, missed);
-    missed.retain(|m| work.searched.binary_search(&(m.pair, m.node)).is_err());
+    missed.retain(|m| searched.binary_search_by_key(&m.key(), Candidate::key).is_err());
     model.contact.evaluate_all(missed, &end, missed_mortar, end_contacts);
     end_contacts.iter().any(|c| c.gap < -model.round_off())
 }

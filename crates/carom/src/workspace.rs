@@ -41,8 +41,8 @@ pub struct Workspace<const D: usize> {
     pub(crate) momentum: Vec<Vector<D>>,
     pub(crate) search: Search<D>,
     pub(crate) candidates: Vec<Candidate>,
-    /// Pair and node of all that the search found, ascending.
-    pub(crate) searched: Vec<(u32, u32)>,
+    /// All that the search found, ascending.
+    pub(crate) searched: Vec<Candidate>,
     pub(crate) missed: Vec<Candidate>,
     pub(crate) contacts: Vec<Contact<D>>,
     /// The nodes of every body that contacts act on, ascending.

@@ -41,8 +41,9 @@ impl Spectrum {
             let mut rotated = false;
             for (p, q) in [(0, 1), (0, 2), (1, 2)] {
                 let coupling = e[(p, q)];
-                // What this leaves out changes the eigenvalues by its square.
-                if coupling.abs() <= 0.125 * f64::EPSILON * (1.0 + 2.0 * e[(p, p)].min(e[(q, q)])) {
+                // What this leaves out changes the eigenvalues by its square. What is not a number stays so.
+                let small = 0.125 * f64::EPSILON * (1.0 + 2.0 * e[(p, p)].min(e[(q, q)]));
+                if coupling.abs() <= small || coupling.is_nan() {
                     continue;
                 }
                 rotated = true;

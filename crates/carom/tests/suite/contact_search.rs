@@ -1,6 +1,6 @@
 //! Scenes in which the search for contacts once went wrong. Each test states the symptom.
 
-use crate::common::{body, disc, parse, scenario};
+use crate::common::{body, disc, parse, plane, scenario};
 use carom::{InputError, Simulation};
 use serde_json::{Value, json};
 
@@ -95,4 +95,42 @@ fn a_bounce_is_one_event_however_little_is_merged() {
     simulation.advance(f64::INFINITY, || false).expect("runs");
     let events = simulation.summary().contacts;
     assert!(!events.is_empty() && events.len() < 10, "{} events", events.len());
+}
+
+/// Symptom: a body that turns fast widened the search until every node faced every wall, and contact problems took minutes.
+#[test]
+fn a_fast_step_does_not_make_a_contact_of_every_node() {
+    let walls = [
+        plane("floor", [0.0, -1.05], [0.0, 1.0]),
+        plane("ceiling", [0.0, 2.6], [0.0, -1.0]),
+        plane("west", [-2.6, 0.0], [1.0, 0.0]),
+        plane("east", [2.6, 0.0], [-1.0, 0.0]),
+    ];
+    let mut wheel = body("wheel", disc([0.0, 0.0], 1.0, 8), [0.0, -10.0]);
+    wheel["spin"] = json!(40.0);
+    let mut simulation =
+        Simulation::<2>::new(&parse(&scenario(0.02, 0.02, &[wheel], &walls))).expect("valid");
+    simulation.advance(f64::INFINITY, || false).expect("runs");
+    let rim = simulation.model().contact.surfaces[0].sources.len();
+    let posed = simulation.posed_problem().expect("it meets the floor").problem.len();
+    assert!(0 < posed && posed < rim, "{posed} contacts of {rim} nodes");
+}
+
+/// Symptom guarded against: a bar that another drives, within one step, across more than the search sees sinks into a third one.
+#[test]
+fn a_blow_is_passed_on_within_a_step() {
+    let bodies = [
+        body("first", bar([0.0, 0.0], [1.0, 1.0], [1, 1]), [10.0, 0.0]),
+        body("second", bar([1.001, 0.0], [1.0, 1.0], [1, 1]), [0.0, 0.0]),
+        body("third", bar([2.16, -0.5], [1.0, 2.0], [1, 2]), [0.0, 0.0]),
+    ];
+    let mut case = scenario(0.05, 0.05, &bodies, &[]);
+    case["analysis"]["max_halvings"] = json!(0);
+    let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
+    simulation.advance(f64::INFINITY, || false).expect("runs");
+    let (model, state) = (simulation.model(), simulation.state());
+    let [second, third] =
+        [1, 2].map(|b: usize| model.bodies[b].body.mean(&state.displacement[model.bodies[b].nodes()])[0]);
+    assert!(second > 0.159 && third > 0.0, "{second} m and {third} m");
+    assert!(simulation.summary().min_gap > -1e-9, "{:?}", simulation.summary().min_gap);
 }
