@@ -95,6 +95,7 @@ class Summary(TypedDict):
     version: str
     steps: int
     dofs: int
+    size: float
     end_time: float
     time_step: float
     newton_iterations: int

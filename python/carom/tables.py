@@ -19,6 +19,9 @@ SHOWN_CONTACTS = 12
 LARGE_DEFECT = 0.02
 """Defect of the ledger, relative to the energy that the run had or was given, to be warned of."""
 
+DEEP = 0.01
+"""Penetration, relative to the diameter of the largest body, to be warned of."""
+
 
 def two_columns(title: str) -> Table:
     """Return an empty table of quantities and their values."""
@@ -78,6 +81,13 @@ def outcome(summary: Mapping[str, Any]) -> Rows:
         f"{certificate['max_joule']:.3g} J from Coulomb's law in any step "
         f"({certificate['tolerance_joule']:.3g} J allowed)",
     )
+    if (gap := summary["min_gap"]) is not None and gap < -DEEP * summary["size"]:
+        yield (
+            "warning",
+            f"nodes were up to {-gap:.2g} m inside what they touch, having slid past its edges or "
+            'come too fast: set contact.sources = "both", take a smaller analysis.time_step, or '
+            "mesh more finely",
+        )
     if (check := summary.get("cross_check")) is not None:
         yield from _cross_check(check)
 

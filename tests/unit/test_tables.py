@@ -5,7 +5,7 @@ from rich.console import Console
 from carom.tables import summary_table
 
 
-def printed(*, max_defect=0.0, cross_check=None):
+def printed(*, max_defect=0.0, min_gap=None, cross_check=None):
     energy = {"initial": 4.0, "final": 3.0, "friction": 0.9, "external": 1.0, "max_drift": 1.0}
     summary = {
         "title": "Drop",
@@ -13,6 +13,8 @@ def printed(*, max_defect=0.0, cross_check=None):
         "end_time": 1.0,
         "steps": 1000,
         "dofs": 8,
+        "size": 2.0,
+        "min_gap": min_gap,
         "wall_s": 0.1,
         "wall_s_per_step": 1e-4,
         "energy": energy | {"max_defect": max_defect},
@@ -29,6 +31,11 @@ def printed(*, max_defect=0.0, cross_check=None):
 def test_books_that_miss_much_of_the_energy_are_warned_of():
     assert "misses 0.1 of the energy" in printed(max_defect=0.5)
     assert "warning" not in printed(max_defect=0.05)
+
+
+def test_nodes_deep_inside_what_they_touch_are_warned_of():
+    assert "up to 0.5 m inside" in printed(min_gap=-0.5)
+    assert "warning" not in printed(min_gap=-0.01)
 
 
 AGREED = {

@@ -9,11 +9,13 @@ use crate::{Method, Model, StepMap};
 
 /// A contact of which less than this fraction of the normal is free has nothing to move.
 const UNRESPONSIVE: f64 = 1e-6;
+/// A node this deep inside its target, in sizes of the model, is more than touching it.
+const INSIDE: f64 = 1e-6;
 /// By how much the margin grows for mortar pairs with every repetition of a search.
 const WIDENING: f64 = 4.0;
 
 /// Finds the candidates of the step between its start and the predicted end; another time between its start and where it led to, beside
-/// those already found.
+/// those already found and those missed there.
 ///
 /// Nodes are not looked for farther and farther away: in a fast step that would be all there are, and their problem dense. Only
 /// the rows of mortar pairs, which cannot be recalled, are found by a wider margin.
@@ -38,6 +40,10 @@ pub(crate) fn search<const D: usize>(
 }
 
 /// Keeps the candidates that take part in the step and recalls their last reactions.
+///
+/// A node that is found deeper inside its target than its motion explains has not just got there: it slid past an edge that no node
+/// of the other side saw. It is kept from going deeper, until the bodies part: to push it out at once, the faster the shorter the step,
+/// would create energy. In a static analysis it is pushed out: there bodies may be meant to be pressed into one another.
 pub(crate) fn select_active<const D: usize>(
     model: &Model<D>,
     method: &Method<D>,
@@ -49,13 +55,21 @@ pub(crate) fn select_active<const D: usize>(
     let contact = &model.contact;
     work.start_gaps.clear();
     contact.evaluate_all(&work.candidates, &start, &mut work.mortar, &mut work.contacts);
+    let inside = INSIDE * model.size;
+    let is_stuck = |c: &Candidate, at_start: &Contact<D>| {
+        let was_stuck = |k: usize| state.reactions[k].contact.gap < -inside;
+        let known = state.reactions.binary_search_by_key(&c.key(), Reaction::key);
+        let explained = inside + at_start.relative(|n| work.motion[n]).norm();
+        at_start.gap < -explained || known.is_ok_and(was_stuck)
+    };
     let mut at_starts = work.contacts.iter();
     work.candidates.retain(|c| {
         let Some(at_start) = at_starts.next() else { return false };
         let gap = at_start.gap;
         let active = !c.mirrored && method.condition.is_active(gap) && answers(model, at_start);
         if active {
-            work.start_gaps.push(if contact.is_two_sided(c.pair as usize) { gap.min(0.0) } else { 0.0 });
+            let stays = contact.is_two_sided(c.pair as usize) || !map.is_static() && is_stuck(c, at_start);
+            work.start_gaps.push(if stays { gap.min(0.0) } else { 0.0 });
         }
         active
     });
@@ -99,7 +113,8 @@ fn touch(touched: &mut [bool], pair: &Pair) {
     }
 }
 
-/// Whether a node that the search did not find has gone through its target by the end of the step.
+/// Whether a node that the search did not find has gone through its target by the end of the step; if so, what was missed is searched
+/// from now on.
 ///
 /// Only where the condition is written there: the others choose their contacts at the start.
 pub(crate) fn missed_a_contact<const D: usize>(
@@ -117,5 +132,10 @@ pub(crate) fn missed_a_contact<const D: usize>(
     model.contact.detect_mortar(&end, &end, 0.0, missed_mortar, missed);
     missed.retain(|m| searched.binary_search_by_key(&m.key(), Candidate::key).is_err());
     model.contact.evaluate_all(missed, &end, missed_mortar, end_contacts);
-    end_contacts.iter().any(|c| c.gap < -model.round_off())
+    let missed_one = end_contacts.iter().any(|c| c.gap < -model.round_off());
+    if missed_one {
+        searched.extend_from_slice(missed);
+        searched.sort_unstable();
+    }
+    missed_one
 }

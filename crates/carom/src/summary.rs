@@ -93,6 +93,8 @@ pub struct Summary {
     pub steps: u64,
     /// Unknown displacements.
     pub dofs: usize,
+    /// Diameter of the largest body [m].
+    pub size: f64,
     /// Time reached [s].
     pub end_time: f64,
     /// Length of a nominal step [s].
@@ -131,6 +133,7 @@ impl<const D: usize> Simulation<D> {
         Summary {
             steps: self.step,
             dofs: self.model.dofs(),
+            size: self.model.size,
             end_time: self.state.time,
             time_step: self.time_step,
             newton_iterations: t.newton_iterations,

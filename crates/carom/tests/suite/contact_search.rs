@@ -134,3 +134,25 @@ fn a_blow_is_passed_on_within_a_step() {
     assert!(second > 0.159 && third > 0.0, "{second} m and {third} m");
     assert!(simulation.summary().min_gap > -1e-9, "{:?}", simulation.summary().min_gap);
 }
+
+/// Symptom: a node that came past an edge was found deep inside, pushed out within a step, and gave the bodies many times their energy.
+///
+/// The plate sinks onto the block, whose corners nobody checks, and then draws its own corner in through the side.
+#[test]
+fn a_node_that_is_found_deep_inside_is_not_shot_out() {
+    let bodies = [
+        body("plate", bar([-1.0, 1.01], [3.0, 1.0], [1, 1]), [-10.0, -3.0]),
+        body("block", bar([0.0, 0.0], [1.0, 1.0], [1, 1]), [0.0, 0.0]),
+    ];
+    let mut simulation = Simulation::<2>::new(&parse(&scenario(0.15, 1e-3, &bodies, &[]))).expect("valid");
+    simulation.advance(f64::INFINITY, || false).expect("runs");
+    let summary = simulation.summary();
+    assert!(
+        !summary.contacts.is_empty() && summary.min_gap < -0.2,
+        "the corner is inside: {}",
+        summary.min_gap
+    );
+    let (energy, retried) = (summary.energy, summary.retried_steps);
+    assert!(energy.last < energy.initial * (1.0 + 1e-9), "{energy:?}");
+    assert_eq!(retried, 0);
+}
