@@ -275,3 +275,19 @@ def test_a_step_that_fails_says_why(changes, reason):
         failing = build(case({**changes, "analysis.max_halvings": int(halvings[0])}))
         with pytest.raises(carom.ConvergenceError, match=said + halvings + reason):
             failing.advance(1.0, 10.0)
+
+
+def test_a_step_that_fails_names_the_body_that_is_crushed():
+    press = {"kind": "prescribed", "body": "block", "on": "top", "y": "-1.1*t"}
+    crushing = case(
+        {
+            "analysis": {**STATIC, "time_step": 0.05},
+            "materials.elastic": RUBBER,
+            "motions": [HELD, press],
+            "obstacles": [],
+            "contact": {},
+        }
+    )
+    said = r'; it starts with \d+ cells? of body "block" crushed to less than half, the worst to 0'
+    with pytest.raises(carom.ConvergenceError, match=said):
+        build(crushing).advance(1.0, 10.0)

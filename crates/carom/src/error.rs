@@ -2,6 +2,8 @@ use carom_fem::FemError;
 use carom_friction::SolveReport;
 use thiserror::Error;
 
+use crate::Crushed;
+
 /// A scenario that cannot be run, found before anything is computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{message}")]
@@ -109,8 +111,9 @@ pub enum StepError {
 /// Why a run stopped early.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
-    "step at t = {time:.9} s failed with a length of {time_step:.3e} s, after {halvings} halving{}: {reason}",
-    if *halvings == 1 { "" } else { "s" }
+    "step at t = {time:.9} s failed with a length of {time_step:.3e} s, after {halvings} halving{}: {reason}{}",
+    if *halvings == 1 { "" } else { "s" },
+    crushed.as_ref().map_or_else(String::new, |crushed| format!("; it starts with {crushed}"))
 )]
 pub struct RunError {
     /// Start of the step that failed [s].
@@ -121,4 +124,6 @@ pub struct RunError {
     pub halvings: u32,
     /// Why the shortest one failed.
     pub reason: StepError,
+    /// What may be behind that: cells that are crushed at the start of the step.
+    pub crushed: Option<Crushed>,
 }

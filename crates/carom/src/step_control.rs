@@ -7,7 +7,7 @@ use carom_mesh::parallel::among_threads;
 
 use crate::error::{RunError, StepError};
 use crate::workspace::{StepReport, Workspace};
-use crate::{Method, Model, Scheme, State, step};
+use crate::{Crushed, Method, Model, Scheme, State, step};
 
 /// A load step that took no more iterations than this was easy.
 const EASY: usize = 12;
@@ -70,6 +70,7 @@ pub(crate) fn advance_nominal_step<const D: usize>(
                         time_step: length,
                         halvings: method.max_halvings,
                         reason,
+                        crushed: Crushed::find(model, state),
                     });
                 }
                 size /= 2;
