@@ -1,0 +1,44 @@
+"""What gravity and damping do to the balance of energy of massless contact.
+
+.venv/bin/python benchmarks/loads.py
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "validation"))
+
+import cylinders
+from test_loads import CASE
+
+END = 1.0  # s
+
+DAMPING = "materials.elastic.damping="
+
+CASES: dict[str, tuple[str, ...]] = {
+    "gravity": (),
+    "and mass damping 0.2 /s": (f"{DAMPING}{{mass=0.2}}",),
+    "and stiffness damping 1e-4 s": (f"{DAMPING}{{stiffness=1e-4}}",),
+    "and stiffness damping 1e-3 s": (f"{DAMPING}{{stiffness=1e-3}}",),
+    "both, 0.2 /s and 1e-3 s": (f"{DAMPING}{{mass=0.2, stiffness=1e-3}}",),
+    "both at Δt = 5e-4 s": (f"{DAMPING}{{mass=0.2, stiffness=1e-3}}", "analysis.time_step=5e-4"),
+}
+"""What differs from the bare cylinders under gravity."""
+
+
+def main() -> None:
+    """Run and print."""
+    print("| case | largest defect | iterations per step |")
+    print("| --- | --- | --- |")
+    for name, overrides in CASES.items():
+        run = cylinders.run(
+            friction=0.2, condition="massless", end_time=END, overrides=(*CASE, *overrides)
+        )
+        iterations = run.summary["newton_iterations"] / run.summary["steps"]
+        print(f"| {name} | {run.energy('max_defect'):.1e} | {iterations:.1f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
