@@ -38,8 +38,8 @@ WARM = 0.1
 BLOCKS = 9
 """Parts of the rest whose growths are compared."""
 
-ROOM = 1_000_000
-"""Samples that there is room for: one for each frame or row, or ten in a second."""
+ROOM = 100_000
+"""Samples that there is room for beside one for each row: ten in a second, for hours."""
 
 
 class Memory(NamedTuple):
@@ -116,7 +116,7 @@ MODES = {"recorded": recorded, "native": native}
 
 def soaked(mode: str, steps: int) -> str:
     """Run and return a row of the table."""
-    samples = np.ones((ROOM, 2))  # all there from the start: a list would be what grows
+    samples = np.ones((steps // HISTORY + ROOM, 2))  # all there from the start: a list would be what grows
     taken = 0
 
     def note(step: int) -> None:

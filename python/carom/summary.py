@@ -95,7 +95,7 @@ class Summary(TypedDict):
     version: str
     steps: int
     dofs: int
-    size: float
+    size: NotRequired[float]
     end_time: float
     time_step: float
     newton_iterations: int

@@ -81,12 +81,13 @@ def outcome(summary: Mapping[str, Any]) -> Rows:
         f"{certificate['max_joule']:.3g} J from Coulomb's law in any step "
         f"({certificate['tolerance_joule']:.3g} J allowed)",
     )
-    if (gap := summary["min_gap"]) is not None and gap < -DEEP * summary["size"]:
+    gap, size = summary["min_gap"], summary.get("size")
+    if gap is not None and size is not None and gap < -DEEP * size:
         yield (
             "warning",
             f"nodes were up to {-gap:.2g} m inside what they touch, having slid past its edges or "
-            'come too fast: set contact.sources = "both", take a smaller analysis.time_step, or '
-            "mesh more finely",
+            "come too fast: mesh more finely, take a smaller analysis.time_step, or have the nodes "
+            'of both bodies checked, contact.sources = "both"',
         )
     if (check := summary.get("cross_check")) is not None:
         yield from _cross_check(check)

@@ -3,7 +3,7 @@ use carom_mesh::Vector;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::project::Reach;
-use crate::{ContactModel, ContactSurface, Pair, Target};
+use crate::{Candidate, ContactModel, ContactSurface, Pair, Search, Target};
 
 /// The place where the two sides of a pair are closest.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,9 +63,31 @@ impl<const D: usize> ContactModel<D> {
         }
         closest
     }
+
+    /// Whether a candidate of the last [`ContactModel::detect`] is behind its facet by more than `depth` [m] and outside of the target all the
+    /// same, when the nodes are at `position`, the start of that search: it is on the far side of a thin body.
+    #[must_use]
+    pub fn is_beyond(
+        &self,
+        candidate: &Candidate,
+        depth: f64,
+        position: &impl Fn(u32) -> Vector<D>,
+        search: &Search<D>,
+    ) -> bool {
+        let pair = candidate.pair as usize;
+        let Target::Surface(t) = self.pairs[pair].target else { return false };
+        if self.is_mortar(pair)
+            || self.is_self_contact(pair)
+            || self.evaluate(candidate, position).gap > -depth
+        {
+            return false;
+        }
+        let x = position(candidate.node);
+        signed_distance(&x, &self.surfaces[t], &search.surfaces[t].tree, position) > 0.0
+    }
 }
 
-/// Distance of `x` to a closed surface, negative inside.
+/// Distance of `x` to a closed surface, negative inside; the boxes of the `tree` hold its facets.
 fn signed_distance<const D: usize>(
     x: &Vector<D>,
     surface: &ContactSurface,

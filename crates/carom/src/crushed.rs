@@ -6,7 +6,7 @@ use carom_mesh::Matrix;
 
 use crate::{Model, State};
 
-/// Mean det F of a cell below which it is crushed. Saint-Venant–Kirchhoff bodies soften from 0.58 on in uniaxial compression.
+/// √det C of the mean strain of a cell below which it is crushed. Saint-Venant–Kirchhoff bodies soften from 0.58 on in uniaxial compression.
 const CRUSHED: f64 = 0.5;
 
 /// The body whose cells are compressed the most, where any are crushed.
@@ -14,7 +14,7 @@ const CRUSHED: f64 = 0.5;
 pub struct Crushed {
     /// Its name.
     pub body: String,
-    /// Cells of it that are compressed to less than half their volume.
+    /// Cells of it that are compressed to less than half their volume, or area in plane stress.
     pub cells: usize,
     /// Volume of the worst of them, in parts of that of the reference configuration.
     pub least: f64,
@@ -44,7 +44,7 @@ impl fmt::Display for Crushed {
         let plural = if *cells == 1 { "" } else { "s" };
         write!(
             f,
-            "{cells} cell{plural} of body {body:?} crushed to less than half, the worst to {least:.2} of its volume"
+            "{cells} cell{plural} of body {body:?} crushed to less than half, the worst to {least:.2} of what it was"
         )
     }
 }

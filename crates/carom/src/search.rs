@@ -37,11 +37,13 @@ pub(crate) fn search<const D: usize>(
     let wide = margin * WIDENING.powi(repetition as i32);
     model.contact.detect_mortar(&start, &end, wide, mortar, candidates);
     searched.clone_from(candidates);
+    let inside = INSIDE * model.size;
+    candidates.retain(|c| !model.contact.is_beyond(c, inside, &start, search));
 }
 
 /// Keeps the candidates that take part in the step and recalls their last reactions.
 ///
-/// A node that is found deeper inside its target than its motion explains has not just got there: it slid past an edge that no node
+/// A node that is found deeper inside its target than its velocity explains has not just got there: it slid past an edge that no node
 /// of the other side saw. It is kept from going deeper, until the bodies part: to push it out at once, the faster the shorter the step,
 /// would create energy. In a static analysis it is pushed out: there bodies may be meant to be pressed into one another.
 pub(crate) fn select_active<const D: usize>(
@@ -59,7 +61,7 @@ pub(crate) fn select_active<const D: usize>(
     let is_stuck = |c: &Candidate, at_start: &Contact<D>| {
         let was_stuck = |k: usize| state.reactions[k].contact.gap < -inside;
         let known = state.reactions.binary_search_by_key(&c.key(), Reaction::key);
-        let explained = inside + at_start.relative(|n| work.motion[n]).norm();
+        let explained = inside + map.dt * at_start.relative(|n| state.velocity[n]).norm();
         at_start.gap < -explained || known.is_ok_and(was_stuck)
     };
     let mut at_starts = work.contacts.iter();

@@ -156,3 +156,21 @@ fn a_node_that_is_found_deep_inside_is_not_shot_out() {
     assert!(energy.last < energy.initial * (1.0 + 1e-9), "{energy:?}");
     assert_eq!(retried, 0);
 }
+
+/// Symptom: nodes on the far side of a thin body, behind the far side of another, passed for nodes deep inside, and held the two together.
+#[test]
+fn the_far_sides_of_thin_bodies_do_not_touch() {
+    for condition in ["gap", "midpoint"] {
+        let bodies = [
+            body("first", bar([0.0, 0.0], [0.02, 1.0], [1, 40]), [2.0, 0.0]),
+            body("second", bar([0.025, 0.0], [0.02, 1.0], [1, 40]), [0.0, 0.0]),
+        ];
+        let mut case = scenario(0.02, 5e-4, &bodies, &[]);
+        case["contact"]["condition"] = json!(condition);
+        let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
+        simulation.advance(f64::INFINITY, || false).expect("runs");
+        let summary = simulation.summary();
+        assert!(!summary.contacts.is_empty(), "{condition}: they meet");
+        assert!(summary.min_gap > -2.0 * 1e-3, "{condition}: {} m", summary.min_gap);
+    }
+}
