@@ -116,7 +116,7 @@ def cycle(divisions: int, amplitude: float, *, steps: int = 12, growth: float = 
 def main(
     out: str | Path | None = None,
     *,
-    meshes: tuple[int, ...] = (4, 6, 8),
+    meshes: tuple[int, ...] = (4, 6, 8, 10),
     amplitudes: tuple[float, ...] = AMPLITUDES,
     steps: int = 12,
 ) -> None:
