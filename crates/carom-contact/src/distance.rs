@@ -65,7 +65,9 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// Whether a candidate of the last [`ContactModel::detect`] is behind its facet by more than `depth` [m] and outside of the target all the
-    /// same, when the nodes are at `position`, the start of that search: it is on the far side of a thin body.
+    /// same, by more than that, when the nodes are at `position`, the start of that search: it is on the far side of a thin body.
+    ///
+    /// A node that is a little inside at the very edge of its target may be outside by round-off.
     #[must_use]
     pub fn is_beyond(
         &self,
@@ -83,7 +85,7 @@ impl<const D: usize> ContactModel<D> {
             return false;
         }
         let x = position(candidate.node);
-        signed_distance(&x, &self.surfaces[t], &search.surfaces[t].tree, position) > 0.0
+        signed_distance(&x, &self.surfaces[t], &search.surfaces[t].tree, position) > depth
     }
 }
 
