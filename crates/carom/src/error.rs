@@ -72,7 +72,7 @@ pub enum StepError {
         /// Number of contacts.
         contacts: usize,
         /// What the solver said.
-        report: SolveReport,
+        report: Box<SolveReport>,
     },
     /// A node went through its target outside of the contact search.
     #[error("a node came into contact outside of a search margin of {margin:.3e} m")]
@@ -125,5 +125,5 @@ pub struct RunError {
     /// Why the shortest one failed.
     pub reason: StepError,
     /// What may be behind that: cells that are crushed at the start of the step.
-    pub crushed: Option<Crushed>,
+    pub crushed: Option<Box<Crushed>>,
 }

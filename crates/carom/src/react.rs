@@ -171,7 +171,7 @@ pub(crate) fn react<const D: usize>(
     if !report.is_solved() {
         let q = &work.problem.q;
         return Err(if q.iter().all(|q| q.iter().all(|x| x.is_finite())) {
-            StepError::Friction { contacts: q.len(), report }
+            StepError::Friction { contacts: q.len(), report: Box::new(report) }
         } else {
             StepError::NotFinite("free motion of the contacts")
         });

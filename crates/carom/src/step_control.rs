@@ -70,7 +70,7 @@ pub(crate) fn advance_nominal_step<const D: usize>(
                         time_step: length,
                         halvings: method.max_halvings,
                         reason,
-                        crushed: Crushed::find(model, state),
+                        crushed: Crushed::find(model, state).map(Box::new),
                     });
                 }
                 size /= 2;
