@@ -116,7 +116,8 @@ MODES = {"recorded": recorded, "native": native}
 
 def soaked(mode: str, steps: int) -> str:
     """Run and return a row of the table."""
-    samples = np.ones((steps // HISTORY + ROOM, 2))  # all there from the start: a list would be what grows
+    # All there from the start: a list would be what grows.
+    samples = np.ones((steps // HISTORY + ROOM, 2))
     taken = 0
 
     def note(step: int) -> None:
