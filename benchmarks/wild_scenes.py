@@ -30,7 +30,7 @@ SPACING = 2.5
 
 STEPS = 80
 
-PATIENCE = 120.0
+PATIENCE = 60.0
 """Processor time of a scene [s]."""
 
 CLOSED = 1e-6

@@ -64,28 +64,25 @@ impl<const D: usize> ContactModel<D> {
         closest
     }
 
-    /// Whether a candidate of the last [`ContactModel::detect`] is behind its facet by more than `depth` [m] and outside of the target all the
-    /// same, by more than that, when the nodes are at `position`, the start of that search: it is on the far side of a thin body.
+    /// Whether a candidate of the last [`ContactModel::detect`] that is behind its facet is outside of the target all the same, by more than
+    /// `distance` [m], when the nodes are at `position`, the start of that search: it is on the far side of a thin body.
     ///
     /// A node that is a little inside at the very edge of its target may be outside by round-off.
     #[must_use]
     pub fn is_beyond(
         &self,
         candidate: &Candidate,
-        depth: f64,
+        distance: f64,
         position: &impl Fn(u32) -> Vector<D>,
         search: &Search<D>,
     ) -> bool {
         let pair = candidate.pair as usize;
         let Target::Surface(t) = self.pairs[pair].target else { return false };
-        if self.is_mortar(pair)
-            || self.is_self_contact(pair)
-            || self.evaluate(candidate, position).gap > -depth
-        {
+        if self.is_mortar(pair) || self.is_self_contact(pair) {
             return false;
         }
         let x = position(candidate.node);
-        signed_distance(&x, &self.surfaces[t], &search.surfaces[t].tree, position) > depth
+        signed_distance(&x, &self.surfaces[t], &search.surfaces[t].tree, position) > distance
     }
 }
 

@@ -64,8 +64,8 @@ impl ContactCondition {
 
     /// What the normal motion (H d)_n lacks of the variable w_n of the condition [m].
     ///
-    /// `kept` is a penetration, negative, that the step may keep but not deepen: a node that came past an edge, or in pairs checked from both sides a contact that
-    /// starts inside its target where another has stood for it; to push it out at once would create energy.
+    /// `kept` is a penetration, negative, that the step may keep but not deepen: of a node that came past an edge, or in pairs checked from
+    /// both sides of a contact that starts inside its target where another has stood for it. To push it out at once would create energy.
     /// `d` is the current motion of the step and `v` the velocity at its start.
     pub fn normal_offset<const D: usize>(
         self,

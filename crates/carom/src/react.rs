@@ -118,8 +118,8 @@ fn tolerance<const D: usize>(
     (error * (problem.q.len() as f64 / size).sqrt()).min(LOOSEST).max(least)
 }
 
-/// Solves the reduced problem of the contacts, so that their motions are wrong by about `error` [m] if that is not zero, while the bodies in contact are between [`BodyOperator::begin`] and
-/// [`BodyOperator::end`], and gives them the change of the reactions.
+/// Solves the reduced problem of the contacts, so that their motions are wrong by about `error` [m] if that is not zero, while the bodies in
+/// contact are between [`BodyOperator::begin`] and [`BodyOperator::end`], and gives them the change of the reactions.
 ///
 /// [`BodyOperator::begin`]: crate::linearise::BodyOperator::begin
 /// [`BodyOperator::end`]: crate::linearise::BodyOperator::end

@@ -37,8 +37,6 @@ pub(crate) fn search<const D: usize>(
     let wide = margin * WIDENING.powi(repetition as i32);
     model.contact.detect_mortar(&start, &end, wide, mortar, candidates);
     searched.clone_from(candidates);
-    let inside = INSIDE * model.size;
-    candidates.retain(|c| !model.contact.is_beyond(c, inside, &start, search));
 }
 
 /// Keeps the candidates that take part in the step and recalls their last reactions.
@@ -68,10 +66,13 @@ pub(crate) fn select_active<const D: usize>(
     work.candidates.retain(|c| {
         let Some(at_start) = at_starts.next() else { return false };
         let gap = at_start.gap;
-        let active = !c.mirrored && method.condition.is_active(gap) && answers(model, at_start);
+        let is_beyond = || gap < -inside && contact.is_beyond(c, inside, &start, &work.search);
+        let active =
+            !c.mirrored && method.condition.is_active(gap) && answers(model, at_start) && !is_beyond();
         if active {
-            let stays = contact.is_two_sided(c.pair as usize) || !map.is_static() && is_stuck(c, at_start);
-            work.start_gaps.push(if stays { gap.min(0.0) } else { 0.0 });
+            let stays = gap < 0.0
+                && (contact.is_two_sided(c.pair as usize) || !map.is_static() && is_stuck(c, at_start));
+            work.start_gaps.push(if stays { gap } else { 0.0 });
         }
         active
     });
