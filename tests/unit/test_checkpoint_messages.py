@@ -11,7 +11,7 @@ from restarting import scenario
 def arrays():
     """Two discs just when they touch: there are reactions, an event and factors."""
     simulation = build(scenario())
-    while not len((arrays := simulation.checkpoint())["state/reactions/node"]) > 1:
+    while not len((arrays := simulation.checkpoint())["state/reactions/site"]) > 4:
         simulation.advance(simulation.time + 2e-3, 10.0)
     return arrays
 
@@ -27,7 +27,7 @@ def first(value):
 
 
 BAD = [
-    ("schema", first(99), "schema: is 99, this version reads 2"),
+    ("schema", first(99), "schema: is 99, this version reads 3"),
     ("schema", lambda a: a.astype(np.float32), "schema: neither float64 nor uint64 in one dimens"),
     ("run/step", first(10**9), "run/step: is beyond the end of the run"),
     ("run/halvings", first(2**40), "run/halvings: is too large a number"),
@@ -38,7 +38,7 @@ BAD = [
     ("factors/0/dt", first(0.0), "factors/0/dt: is not positive"),
     ("factors/0/nodes", first(10**6), "factors/0/nodes: names a node that is not there"),
     ("state/reactions/pair", first(99), "state/reactions/pair: names a pair that is not there"),
-    ("state/reactions/node", first(10**6), "state/reactions/node: names a node that is not there"),
+    ("state/reactions/site", first(10**6), "state/reactions/node: names a node that is not there"),
     (
         "state/reactions/stencil_node",
         first(10**6),
@@ -49,7 +49,7 @@ BAD = [
         first(99),
         "state/reactions/stencil_length: does not fit the stencils",
     ),
-    ("state/reactions/pair", lambda a: a[::-1].copy(), "state/reactions/node: is not ascending"),
+    ("state/reactions/pair", lambda a: a[::-1].copy(), "state/reactions/site: is not ascending"),
 ]
 
 

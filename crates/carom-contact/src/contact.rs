@@ -1,6 +1,9 @@
 use carom_mesh::{Matrix, Vector};
 use smallvec::SmallVec;
 
+use crate::edge::Crossing;
+use crate::frame::frame;
+
 /// Nodes of a stencil that are kept without an allocation: a source node and a facet of nine.
 const INLINE: usize = 10;
 
@@ -25,6 +28,14 @@ impl<const D: usize> Contact<D> {
         let target = target.iter().zip(weights).map(|(&node, &weight)| (node, -weight));
         let stencil = std::iter::once((source, 1.0)).chain(target).collect();
         Self { gap, frame, area: 0.0, stencil, sources: 1 }
+    }
+
+    /// The contact of two edges, given by their nodes, where they cross.
+    pub(crate) fn of_crossing(crossing: &Crossing<D>, source: [u32; 2], target: [u32; 2]) -> Self {
+        let [s, t] = crossing.along;
+        let stencil = [(source[0], 1.0 - s), (source[1], s), (target[0], t - 1.0), (target[1], -t)];
+        let stencil = stencil.into_iter().collect();
+        Self { gap: crossing.gap, frame: frame(&crossing.normal), area: 0.0, stencil, sources: 2 }
     }
 
     /// The contact of a multiplier that covers `area`: its gap is the mean of the offsets along the normal.

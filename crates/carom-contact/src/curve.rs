@@ -3,6 +3,7 @@ use carom_mesh::cell::MAX_FACET_NODES;
 
 use crate::ContactSurface;
 use crate::project::{BEYOND, Projection, Reach, normal};
+use crate::surface::CORNER;
 
 /// A curve through the nodes of a boundary line with a continuous tangent, except at corners.
 ///
@@ -25,10 +26,6 @@ struct Segment {
     /// The segments before and behind; none at a corner and at the end of an open line.
     neighbours: [Option<u32>; 2],
 }
-
-/// Cosine of the turning angle in the reference configuration from which on a node is a corner: 40°. The slack keeps the nonagon,
-/// whose angles are 40° up to round-off, alike at all nodes.
-const CORNER: f64 = 0.766_044_443_118_978 - 1e-9;
 
 /// Newton or bisection steps; Newton alone needs about four.
 const MAX_STEPS: usize = 100;

@@ -1,45 +1,22 @@
 use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
+use crate::edge::Crossing;
 use crate::facing::{Projected, TIE, faced};
 use crate::frame::frame;
-use crate::project::{Reach, project};
-use crate::{Contact, ContactModel, Search, Target};
-
-/// A source node that may touch its target within a step. Ordered by pair, then node: this is the order of the contacts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Candidate {
-    /// Index of the pair.
-    pub pair: u32,
-    /// The source node.
-    pub node: u32,
-    /// The facet of a target surface that the node faces; `None` for an obstacle.
-    pub facet: Option<u32>,
-    /// Whether the node faces one that faces it and is a candidate itself: the same contact once more, to be left out.
-    pub mirrored: bool,
-}
-
-impl Candidate {
-    /// What tells it from the others of a step: pair and node.
-    #[must_use]
-    pub fn key(&self) -> (u32, u32) {
-        (self.pair, self.node)
-    }
-}
-
-/// A node is checked once where it faces another that faces it, to this fraction of the facet.
-const MIRRORED: f64 = 0.02;
+use crate::project::Reach;
+use crate::{Candidate, Contact, ContactModel, Search, Site, Target};
 
 impl<const D: usize> ContactModel<D> {
-    /// Finds the nodes that come within `margin` [m] of their target or are inside it, and the facets they face.
+    /// Finds the nodes that come within `margin` [m] of their target or are inside it, and the facets they face; in space also the
+    /// edges that cross those of the target.
     ///
     /// `start` and `end` are the positions at the start of the step and those predicted for its end. A node keeps its facet for
     /// the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
     /// the closest facet alone is ambiguous. Nodes are found inside a target to a depth of half a facet. On a smooth target
     /// the closest point may move on to other facets. Mortar pairs are left to `detect_mortar`.
     ///
-    /// Nodes see facets and no edges: bodies in space that meet with crossed edges alone sink into one another until a node faces a
-    /// facet, by less than a facet where both sides are sources. A node that slides over the rim of its target while it is a little
+    /// A node that slides over the rim of its target while it is a little
     /// inside, as the condition `midpoint` lets it, is beside the target from then on.
     pub fn detect(
         &self,
@@ -61,15 +38,17 @@ impl<const D: usize> ContactModel<D> {
                         obstacle.is_near(&start(node), margin, start)
                             || obstacle.is_near(&end(node), margin, end)
                     };
-                    out.extend(source.sources.iter().filter(near).map(|&node| Candidate {
-                        pair: pair_index,
-                        node,
-                        facet: None,
-                        mirrored: false,
-                    }));
+                    let candidate = |&node: &u32| Candidate::at_node(pair_index, node, None);
+                    out.extend(source.sources.iter().filter(near).map(candidate));
                 }
                 Target::Surface(_) if self.is_mortar(p) => {}
-                Target::Surface(t) => self.detect_facets(pair_index, t, start, end, margin, search, out),
+                Target::Surface(t) => {
+                    self.detect_facets(pair_index, t, start, end, margin, search, out);
+                    // They are the same from either side.
+                    if self.pairs[..p].iter().all(|before| before.group != pair.group) {
+                        self.detect_crossings(pair_index, t, start, end, margin, search, out);
+                    }
+                }
             }
         }
         self.mark_mirrored(&|n| (start(n) + end(n)) * 0.5, out);
@@ -92,32 +71,6 @@ impl<const D: usize> ContactModel<D> {
         }
         out.sort_unstable();
         self.mark_mirrored(&|n| (start(n) + end(n)) * 0.5, out);
-    }
-
-    /// Where both sides of a pair are sources and two nodes face one another, marks the candidate of the second side: it says
-    /// what the first says, and the two together leave the reactions undetermined and make the solvers slow.
-    fn mark_mirrored(&self, position: &impl Fn(u32) -> Vector<D>, candidates: &mut [Candidate]) {
-        for k in 0..candidates.len() {
-            let c = candidates[k];
-            let group = self.pairs[c.pair as usize].group;
-            let own = self.is_self_contact(c.pair as usize).then_some(c.pair as usize);
-            let first_side = self.pairs[..c.pair as usize].iter().position(|p| p.group == group);
-            let Some(first) = own.or(first_side) else { continue };
-            let Some(faced) = self.faced_node(&c, position) else { continue };
-            // Of a body with itself, the first of the two nodes stays.
-            candidates[k].mirrored = (own.is_none() || faced < c.node)
-                && candidates
-                    .binary_search_by_key(&(first as u32, faced), |o| (o.pair, o.node))
-                    .is_ok_and(|other| self.faced_node(&candidates[other], position) == Some(c.node));
-        }
-    }
-
-    /// The node of its facet that a candidate stands over, if it is over one.
-    fn faced_node(&self, candidate: &Candidate, position: &impl Fn(u32) -> Vector<D>) -> Option<u32> {
-        let Target::Surface(t) = self.pairs[candidate.pair as usize].target else { return None };
-        let facet = &self.surfaces[t].facets[candidate.facet? as usize];
-        let p = project(&position(candidate.node), facet, Reach::Facet, position);
-        p.nodes.iter().zip(&p.weights).find(|&(_, &weight)| weight >= 1.0 - MIRRORED).map(|(&n, _)| n)
     }
 
     fn detect_facets(
@@ -175,7 +128,7 @@ impl<const D: usize> ContactModel<D> {
             }
             projected.sort_unstable_by_key(|p| p.facet);
             if let Some(facet) = faced(projected, &outward, margin) {
-                out.push(Candidate { pair, node, facet: Some(facet), mirrored: false });
+                out.push(Candidate::at_node(pair, node, Some(facet)));
             }
         }
     }
@@ -186,19 +139,26 @@ impl<const D: usize> ContactModel<D> {
     /// the edge of a facet, or beyond a corner of a smooth target.
     #[must_use]
     pub fn evaluate(&self, candidate: &Candidate, position: &impl Fn(u32) -> Vector<D>) -> Contact<D> {
-        let x = position(candidate.node);
+        let node = match candidate.site {
+            Site::Node(node) => node,
+            Site::Crossing(source, target) => {
+                let c = Crossing::new(source.map(position), target.map(position)).clamped();
+                return Contact::of_crossing(&c, source, target);
+            }
+        };
+        let x = position(node);
         match (self.pairs[candidate.pair as usize].target, candidate.facet) {
             (Target::Surface(t), Some(f)) => {
                 let p = self.surfaces[t].project(f, &x, Reach::Beyond, position);
                 let gap = p.normal.dot(&(x - p.point));
-                Contact::new(gap, frame(&p.normal), candidate.node, p.nodes, &p.weights)
+                Contact::new(gap, frame(&p.normal), node, p.nodes, &p.weights)
             }
             (Target::Obstacle(o), _) => {
                 let obstacle = &self.obstacles[o];
                 let (gap, normal) = obstacle.gap(&x, position);
-                Contact::new(gap, frame(&normal), candidate.node, &[obstacle.node], &[1.0])
+                Contact::new(gap, frame(&normal), node, &[obstacle.node], &[1.0])
             }
-            (Target::Surface(_), None) => unreachable!("detect gives candidates on a surface their facet"),
+            (Target::Surface(_), None) => unreachable!("detect gives nodes before a surface their facet"),
         }
     }
 }

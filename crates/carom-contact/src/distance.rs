@@ -2,8 +2,9 @@ use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
+use crate::edge::Crossing;
 use crate::project::Reach;
-use crate::{Candidate, ContactModel, ContactSurface, Pair, Search, Target};
+use crate::{Candidate, ContactModel, ContactSurface, Pair, Search, Site, Target};
 
 /// The place where the two sides of a pair are closest.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,7 +82,14 @@ impl<const D: usize> ContactModel<D> {
         if self.is_mortar(pair) || self.is_self_contact(pair) {
             return false;
         }
-        let x = position(candidate.node);
+        let x = match candidate.site {
+            Site::Node(node) => position(node),
+            Site::Crossing(source, target) => {
+                let edge = source.map(position);
+                let [s, _] = Crossing::new(edge, target.map(position)).clamped().along;
+                edge[0] + (edge[1] - edge[0]) * s
+            }
+        };
         signed_distance(&x, &self.surfaces[t], &search.surfaces[t].tree, position) > distance
     }
 }

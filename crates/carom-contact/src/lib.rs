@@ -9,14 +9,17 @@
 
 mod aabb;
 mod bvh;
+mod candidate;
 mod contact;
 mod curve;
 mod detect;
 mod distance;
+mod edge;
 mod facing;
 mod frame;
 mod manifold;
 mod model;
+mod mirrored;
 mod mortar;
 mod obstacle;
 mod patch;
@@ -25,8 +28,8 @@ mod search;
 mod self_contact;
 mod surface;
 
+pub use candidate::{Candidate, Site};
 pub use contact::Contact;
-pub use detect::Candidate;
 pub use distance::Proximity;
 pub use model::{ContactModel, Pair, Target};
 pub use mortar::{Discretisation, Mortar};

@@ -2,11 +2,12 @@ use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
+use crate::edge;
 use crate::facing::Projected;
 use crate::{ContactModel, ContactSurface, Target};
 
 /// How deep inside a target surface a node is still found, in diameters of the facet it faces.
-const DEPTH: f64 = 0.5;
+pub(crate) const DEPTH: f64 = 0.5;
 
 /// What the search for contacts keeps from one call to the next: room for boxes, and the trees over them.
 ///
@@ -36,7 +37,10 @@ pub(crate) struct Swept<const D: usize> {
     pub whole: Aabb<D>,
     /// The boxes of the facets, with the room in which a node is found.
     pub tree: Bvh<D>,
+    /// The boxes of the paths of its edges, with the room in which one that crosses it is found.
+    pub edges: Bvh<D>,
     is_fitted: bool,
+    edges_are_fitted: bool,
 }
 
 impl<const D: usize> Search<D> {
@@ -52,11 +56,13 @@ impl<const D: usize> Search<D> {
             facets: Vec::new(),
             whole: Aabb::of([]),
             tree: Bvh::new([].into_iter()),
+            edges: Bvh::new([].into_iter()),
             is_fitted: false,
+            edges_are_fitted: false,
         };
         self.surfaces.resize_with(model.surfaces.len(), empty);
         for (s, (swept, surface)) in self.surfaces.iter_mut().zip(&model.surfaces).enumerate() {
-            swept.is_fitted = false;
+            (swept.is_fitted, swept.edges_are_fitted) = (false, false);
             if model.pairs.iter().any(|p| matches!(p.target, Target::Surface(_)) && p.source == s) {
                 swept.sources = Aabb::of(surface.sources.iter().flat_map(|&n| [start(n), end(n)]));
             }
@@ -89,12 +95,36 @@ impl<const D: usize> Swept<D> {
             let facet = self.facets[f as usize];
             facet.inflated(margin + DEPTH * facet.diameter())
         };
-        if self.tree.len() == self.facets.len() {
-            self.tree.refit(room);
-        } else {
-            self.tree = Bvh::new((0..self.facets.len() as u32).map(room));
-        }
+        fit(&mut self.tree, self.facets.len(), room);
         self.is_fitted = true;
+    }
+
+    /// The same for the edges of the `surface`.
+    pub fn fit_edges(
+        &mut self,
+        surface: &ContactSurface,
+        margin: f64,
+        start: &impl Fn(u32) -> Vector<D>,
+        end: &impl Fn(u32) -> Vector<D>,
+    ) {
+        if self.edges_are_fitted {
+            return;
+        }
+        let room = |e: u32| {
+            let path = edge::path(&surface.edges[e as usize], start, end);
+            path.inflated(margin + DEPTH * path.diameter())
+        };
+        fit(&mut self.edges, surface.edges.len(), room);
+        self.edges_are_fitted = true;
+    }
+}
+
+/// Gives the `count` items of a tree their boxes.
+fn fit<const D: usize>(tree: &mut Bvh<D>, count: usize, bounds: impl Fn(u32) -> Aabb<D>) {
+    if tree.len() == count {
+        tree.refit(bounds);
+    } else {
+        *tree = Bvh::new((0..count as u32).map(bounds));
     }
 }
 

@@ -4,6 +4,7 @@ use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
+use crate::edge::Edge;
 use crate::project::Reach;
 use crate::{ContactModel, ContactSurface, Target};
 
@@ -45,6 +46,13 @@ impl ContactSurface {
         let around = self.around(node);
         let nodes = around.iter().flat_map(|&f| &self.facets[f as usize].nodes);
         around.iter().chain(nodes.flat_map(|&n| self.around(n))).copied().collect()
+    }
+
+    /// Whether two edges of this surface may touch: their ends, and the facets beside them.
+    pub(crate) fn edges_may_touch(&self, edge: &Edge, other: &Edge) -> bool {
+        let source = |n: u32| self.sources.binary_search(&self.master(n)).ok();
+        let node_may = |n: u32| source(n).is_some_and(|k| other.facets().all(|f| self.may_touch_itself(k, f)));
+        edge.nodes.into_iter().all(node_may)
     }
 
     /// Whether the source number `k` may touch the facet `f` of its own surface.

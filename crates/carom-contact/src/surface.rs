@@ -4,8 +4,13 @@ use carom_mesh::{CellKind, Facet, Surface, Vector};
 
 use crate::aabb::Aabb;
 use crate::curve::Curve;
+use crate::edge::Edge;
 use crate::patch::Patch;
 use crate::project::{Projection, Reach, area_normal, project};
+
+/// Cosine of the turning angle in the reference configuration from which on a surface has a corner: 40°. The slack keeps the nonagon,
+/// whose angles are 40° up to round-off, alike at all nodes.
+pub(crate) const CORNER: f64 = 0.766_044_443_118_978 - 1e-9;
 
 /// The boundary of a body, its nodes numbered over all bodies.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +27,10 @@ pub struct ContactSurface {
     facets_around: Vec<Vec<u32>>,
     /// For every source, the facets of this surface that it never touches, ascending; empty if it touches none of them.
     pub(crate) never_touched: Vec<Vec<u32>>,
+    /// Its convex edges in space, by their nodes, once it is [`edged`](Self::edged).
+    pub(crate) edges: Vec<Edge>,
+    /// The node that every image follows.
+    masters: BTreeMap<u32, u32>,
     shape: Shape,
 }
 
@@ -55,14 +64,15 @@ impl ContactSurface {
                 }
             }
         }
-        let never_touched = Vec::new();
         Self {
             facets,
             nodes,
             sources,
             is_meridian: false,
             facets_around,
-            never_touched,
+            never_touched: Vec::new(),
+            edges: Vec::new(),
+            masters,
             shape: Shape::Faceted,
         }
     }
@@ -84,6 +94,11 @@ impl ContactSurface {
             self.shape = Shape::Curved(Curve::through(&self, reference));
         }
         self
+    }
+
+    /// The node that `node` follows, itself unless it is an image.
+    pub(crate) fn master(&self, node: u32) -> u32 {
+        *self.masters.get(&node).unwrap_or(&node)
     }
 
     /// The facets around a source and its images.

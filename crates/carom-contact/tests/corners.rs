@@ -46,7 +46,7 @@ fn contact(target: &Mesh<3>, surface: &Surface, x: &Vector3, back: &Vector3) -> 
     let at = |n: u32| if n < count { tip.nodes()[n as usize] } else { target.nodes()[(n - count) as usize] };
     let mut found: Vec<Candidate> = Vec::new();
     model.detect(&at, &at, 0.1, &mut Search::default(), &mut found);
-    let contact = found.iter().find(|c| c.node == 0).map(|c| model.evaluate(c, &at))?;
+    let contact = found.iter().find(|c| c.node() == Some(0)).map(|c| model.evaluate(c, &at))?;
     // The pair of forces has no moment.
     let mut forces = vec![Vector3::zeros(); count as usize + target.nodes().len()];
     contact.add_force(&Vector3::new(1.0, 0.0, 0.0), &mut forces);

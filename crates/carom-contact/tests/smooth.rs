@@ -45,7 +45,7 @@ impl Scene {
     /// The first node of the source at `x`, the others at `nodes`, where it started over the facet `facet`.
     fn contact(&self, nodes: &[Vector2], x: Vector2, facet: u32) -> Contact<2> {
         let at = |n: u32| if n == self.probe { x } else { nodes[n as usize] };
-        let candidate = Candidate { pair: 0, node: self.probe, facet: Some(facet), mirrored: false };
+        let candidate = Candidate::at_node(0, self.probe, Some(facet));
         self.model.evaluate(&candidate, &at)
     }
 
@@ -339,7 +339,7 @@ fn no_node_that_presses_into_a_valley_or_a_hill_is_missed() {
                 *x += shift;
             }
             let candidates = scene.detect(&nodes, 0.0);
-            let probe = candidates.iter().find(|c| c.node == scene.probe);
+            let probe = candidates.iter().find(|c| c.node() == Some(scene.probe));
             let gap = scene.model.evaluate(probe.expect("found"), &|n| nodes[n as usize]).gap;
             assert!((-0.0205..-0.018).contains(&gap), "{gap} at {}", shift[0]);
         }

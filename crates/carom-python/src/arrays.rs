@@ -32,7 +32,7 @@ pub fn table(py: Python<'_>, values: Vec<f64>, width: usize) -> PyResult<Bound<'
     PyArray1::from_vec(py, values).reshape([rows, width])
 }
 
-/// A state with the energy that each body has yet to give back [J] and its contacts: of each the source node, the target (the index of a body, or −1 − that of an obstacle), the gap where
+/// A state with the energy that each body has yet to give back [J] and its contacts: of each the source node (of edges that cross the one that takes more), the target (the index of a body, or −1 − that of an obstacle), the gap where
 /// the condition was written, the normal, and the force on the source node.
 pub fn state<'py, const D: usize>(
     py: Python<'py>,
@@ -51,7 +51,7 @@ pub fn state<'py, const D: usize>(
         Target::Surface(body) => body as i64,
         Target::Obstacle(obstacle) => -1 - obstacle as i64,
     };
-    out.set_item("contact_node", PyArray1::from_iter(py, reactions.iter().map(|r| i64::from(r.node))))?;
+    out.set_item("contact_node", PyArray1::from_iter(py, reactions.iter().map(|r| i64::from(r.node()))))?;
     out.set_item("contact_target", PyArray1::from_iter(py, reactions.iter().map(|r| target(r.pair))))?;
     out.set_item("contact_gap", PyArray1::from_iter(py, reactions.iter().map(|r| r.contact.gap)))?;
     let normals: Vec<Vector<D>> = reactions.iter().map(|r| r.contact.frame.row(0).transpose()).collect();

@@ -90,8 +90,8 @@ fn keep_contacts<const D: usize>(
         contact.add_force(&r, &mut next.contact_force);
         if r[0] > 0.0 {
             report.contacts += 1;
-            let Candidate { pair, node, .. } = *candidate;
-            next.reactions.push(Reaction { pair, node, contact: contact.clone(), force: r });
+            let Candidate { pair, site, .. } = *candidate;
+            next.reactions.push(Reaction { pair, site, contact: contact.clone(), force: r });
         }
     }
 }

@@ -83,7 +83,7 @@ pub(crate) fn select_active<const D: usize>(
     work.touched.fill(false);
     let weight = method.condition.reaction_weight(map);
     for candidate in &work.candidates {
-        let known = state.reactions.binary_search_by_key(&(candidate.pair, candidate.node), Reaction::key);
+        let known = state.reactions.binary_search_by_key(&candidate.key(), Reaction::key);
         let force = known.map_or_else(|_| Vector::zeros(), |k| state.reactions[k].force);
         work.reactions.push(force * weight);
         work.start_forces.push(force);

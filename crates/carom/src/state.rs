@@ -1,4 +1,4 @@
-use carom_contact::Contact;
+use carom_contact::{Contact, Site};
 use carom_fem::material::PlasticState;
 use carom_mesh::{Vector, nodal};
 
@@ -9,8 +9,8 @@ use crate::{Energies, Model};
 pub struct Reaction<const D: usize> {
     /// Index of the pair.
     pub pair: u32,
-    /// The source node.
-    pub node: u32,
+    /// Where on the source.
+    pub site: Site,
     /// Gap, frame and stencil where the contact condition was written.
     pub contact: Contact<D>,
     /// The reaction r [N] in that frame.
@@ -20,8 +20,21 @@ pub struct Reaction<const D: usize> {
 impl<const D: usize> Reaction<D> {
     /// What identifies a contact from step to step.
     #[must_use]
-    pub fn key(&self) -> (u32, u32) {
-        (self.pair, self.node)
+    pub fn key(&self) -> (u32, Site) {
+        (self.pair, self.site)
+    }
+
+    /// The source node; of crossed edges the one that takes more of the reaction.
+    #[must_use]
+    pub fn node(&self) -> u32 {
+        match self.site {
+            Site::Node(node) => node,
+            Site::Crossing(source, _) => {
+                let [first, second] = source.map(|n| self.contact.sources().find(|&(m, _)| m == n as usize));
+                let weight = |entry: Option<(usize, f64)>| entry.map_or(0.0, |(_, w)| w);
+                source[usize::from(weight(second) > weight(first))]
+            }
+        }
     }
 }
 
@@ -34,7 +47,7 @@ pub struct State<const D: usize> {
     pub displacement: Vec<Vector<D>>,
     /// Velocities v [m/s].
     pub velocity: Vec<Vector<D>>,
-    /// Reactions of the last step by pair and source node, ascending: the first guess of the next step.
+    /// Reactions of the last step by pair and site, ascending: the first guess of the next step.
     pub reactions: Vec<Reaction<D>>,
     /// Nodal contact forces Hᵀr [N]: mean over the last step, or at its end between massless nodes.
     pub contact_force: Vec<Vector<D>>,

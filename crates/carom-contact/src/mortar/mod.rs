@@ -34,7 +34,7 @@ use serde::{Deserialize, Serialize};
 use self::facing::Facing;
 use self::integrate::integrate;
 use self::row::Row;
-use crate::{Candidate, Contact, ContactModel, Target};
+use crate::{Candidate, Contact, ContactModel, Site, Target};
 
 /// How contact between two surfaces is written for finitely many nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -87,7 +87,7 @@ impl<const D: usize> ContactModel<D> {
             nodes.sort_unstable();
             nodes.dedup();
             nodes.retain(|n| surface.sources.binary_search(n).is_ok());
-            let candidate = |&node: &u32| Candidate { pair: pair as u32, node, facet: None, mirrored: false };
+            let candidate = |&node: &u32| Candidate::at_node(pair as u32, node, None);
             let first = mortar.found.len();
             self.integrate_rows(pair, &nodes, &middle, mortar);
             for (node, row) in nodes.iter().zip(&mortar.rows) {
@@ -97,7 +97,8 @@ impl<const D: usize> ContactModel<D> {
             let known = mortar.found.len();
             self.integrate_rows(pair, &nodes, end, mortar);
             for (node, row) in nodes.iter().zip(&mortar.rows) {
-                let is_new = mortar.found[first..known].binary_search_by_key(node, |(c, _)| c.node).is_err();
+                let known = &mortar.found[first..known];
+                let is_new = known.binary_search_by_key(&Site::Node(*node), |(c, _)| c.site).is_err();
                 let contact = row.contact(end).filter(|c| is_new && c.gap <= margin);
                 mortar.found.extend(contact.map(|c| (candidate(node), c)));
             }
@@ -127,7 +128,7 @@ impl<const D: usize> ContactModel<D> {
             }
             let mut nodes = std::mem::take(&mut mortar.nodes);
             nodes.clear();
-            nodes.extend(of_pair.iter().map(|c| c.node));
+            nodes.extend(of_pair.iter().filter_map(Candidate::node));
             self.integrate_rows(pair, &nodes, position, mortar);
             mortar.nodes = nodes;
             for (candidate, row) in of_pair.iter().zip(&mortar.rows) {

@@ -33,10 +33,10 @@ pub(super) fn contact<const D: usize>(
         if may_touch(scenario, &b.name) {
             check_manifold(&format!("bodies.{i}.mesh"), &surface, &reference)?;
         }
-        let surface = match scenario.contact.targets {
-            Targets::Smooth => surface.smoothed(&reference),
-            Targets::Faceted => surface,
-        };
+        surface = surface.edged(&reference);
+        if scenario.contact.targets == Targets::Smooth {
+            surface = surface.smoothed(&reference);
+        }
         model.surfaces.push(if entry.self_contact { surface.touching_itself(&reference) } else { surface });
     }
     for (i, entry) in scenario.obstacles.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! The state.
 
-use carom_contact::Contact;
+use carom_contact::{Contact, Site};
 use carom_mesh::{Matrix, Vector};
 
 use super::CheckpointError;
@@ -37,7 +37,8 @@ pub(super) fn exchange<const D: usize>(
 #[derive(Default)]
 struct Reactions<const D: usize> {
     pair: Vec<u32>,
-    node: Vec<u32>,
+    /// As of [`to_nodes`].
+    site: Vec<[u32; 4]>,
     force: Vec<Vector<D>>,
     gap: Vec<f64>,
     area: Vec<f64>,
@@ -50,13 +51,26 @@ struct Reactions<const D: usize> {
 
 const PREFIX: &str = "state/reactions";
 
+/// A site as four nodes: those of two edges, or one node four times.
+fn to_nodes(site: Site) -> [u32; 4] {
+    match site {
+        Site::Node(n) => [n; 4],
+        Site::Crossing([a, b], [c, d]) => [a, b, c, d],
+    }
+}
+
+/// The site of [`to_nodes`]. No edge begins where it ends.
+fn to_site([a, b, c, d]: [u32; 4]) -> Site {
+    if a == b { Site::Node(a) } else { Site::Crossing([a, b], [c, d]) }
+}
+
 impl<const D: usize> Reactions<D> {
     fn of(reactions: &[Reaction<D>]) -> Self {
         let contacts = || reactions.iter().map(|r| &r.contact);
         let stencils = || contacts().flat_map(Contact::stencil);
         Self {
             pair: reactions.iter().map(|r| r.pair).collect(),
-            node: reactions.iter().map(|r| r.node).collect(),
+            site: reactions.iter().map(|r| to_nodes(r.site)).collect(),
             force: reactions.iter().map(|r| r.force).collect(),
             gap: contacts().map(|c| c.gap).collect(),
             area: contacts().map(|c| c.area).collect(),
@@ -73,7 +87,7 @@ impl<const D: usize> Reactions<D> {
         let count = tape.rows(&name("pair"), self.pair.len())?;
         let entries = tape.rows(&name("stencil_node"), self.stencil_node.len())?;
         self.pair.resize(count, 0);
-        self.node.resize(count, 0);
+        self.site.resize(count, [0; 4]);
         self.force.resize(count, Vector::zeros());
         self.gap.resize(count, 0.0);
         self.area.resize(count, 0.0);
@@ -83,7 +97,7 @@ impl<const D: usize> Reactions<D> {
         self.stencil_node.resize(entries, 0);
         self.stencil_weight.resize(entries, 0.0);
         tape.integers(&name("pair"), &mut self.pair)?;
-        tape.integers(&name("node"), &mut self.node)?;
+        tape.integers(&name("site"), self.site.as_flattened_mut())?;
         tape.vectors(&name("force"), &mut self.force)?;
         tape.numbers(&name("gap"), &mut self.gap)?;
         tape.numbers(&name("area"), &mut self.area)?;
@@ -100,8 +114,8 @@ impl<const D: usize> Reactions<D> {
         if !all(&self.pair, model.contact.pairs.len()) {
             return Err(wrong("pair", "names a pair that is not there"));
         }
-        if !all(&self.node, model.node_count()) {
-            return Err(wrong("node", "names a node that is not there"));
+        if !all(self.site.as_flattened(), model.node_count()) {
+            return Err(wrong("site", "names a node that is not there"));
         }
         if !all(&self.stencil_node, model.reference.len()) {
             return Err(wrong("stencil_node", "names a node that is not there"));
@@ -120,7 +134,7 @@ impl<const D: usize> Reactions<D> {
                 Contact::of_stencil(self.gap[k], self.frame[k], self.area[k], stencil, self.source_count[k]);
             reactions.push(Reaction {
                 pair: self.pair[k],
-                node: self.node[k],
+                site: to_site(self.site[k]),
                 contact,
                 force: self.force[k],
             });
@@ -128,7 +142,7 @@ impl<const D: usize> Reactions<D> {
         if reactions.is_sorted_by_key(Reaction::key) {
             Ok(reactions)
         } else {
-            Err(wrong("node", "is not ascending"))
+            Err(wrong("site", "is not ascending"))
         }
     }
 }

@@ -224,7 +224,7 @@ fn arrays_that_do_not_fit_are_refused_by_name() {
         refused(name, &bad);
         let mut bad = good.clone();
         let indices =
-            ["pair", "node", "stencil_node", "source_count", "stencil_length", "nodes", "schema", "group"];
+            ["pair", "site", "stencil_node", "source_count", "stencil_length", "nodes", "schema", "group"];
         if indices.iter().any(|end| name.ends_with(end)) && !good.integers[name].is_empty() {
             bad.integers.entry(name.clone()).or_default()[0] = u64::from(u32::MAX);
             refused(name, &bad);

@@ -1,0 +1,46 @@
+/// Where on its source a contact is, the same from step to step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Site {
+    /// A node; of a mortar pair the node of a multiplier.
+    Node(u32),
+    /// Where two edges cross, that of the source first, each from its first node to its second. Their vector product points
+    /// from the target to the source.
+    Crossing([u32; 2], [u32; 2]),
+}
+
+/// What may touch its target within a step. Ordered by pair, then site: this is the order of the contacts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Candidate {
+    /// Index of the pair.
+    pub pair: u32,
+    /// The source node, or the edges.
+    pub site: Site,
+    /// The facet of a target surface that a node faces; `None` for an obstacle, a multiplier or edges.
+    pub facet: Option<u32>,
+    /// Whether it says what another candidate says, and is to be left out: a node that faces one that faces it, edges that cross at a
+    /// node that faces a facet.
+    pub mirrored: bool,
+}
+
+impl Candidate {
+    /// The source `node` of a pair, facing a facet if its target has some.
+    #[must_use]
+    pub fn at_node(pair: u32, node: u32, facet: Option<u32>) -> Self {
+        Self { pair, site: Site::Node(node), facet, mirrored: false }
+    }
+
+    /// The node, if it is at one.
+    #[must_use]
+    pub fn node(&self) -> Option<u32> {
+        match self.site {
+            Site::Node(node) => Some(node),
+            Site::Crossing(..) => None,
+        }
+    }
+
+    /// What tells it from the others of a step: pair and site.
+    #[must_use]
+    pub fn key(&self) -> (u32, Site) {
+        (self.pair, self.site)
+    }
+}
