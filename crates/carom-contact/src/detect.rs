@@ -83,7 +83,7 @@ impl<const D: usize> ContactModel<D> {
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
-        let Search { surfaces, near, projected } = search;
+        let Search { surfaces, near, projected, .. } = search;
         let source_index = self.pairs[pair as usize].source;
         let source_box = surfaces[source_index].sources.inflated(margin);
         let swept = &mut surfaces[target];

@@ -2,12 +2,11 @@
 
 use carom_mesh::Vector;
 
-use crate::edge::Crossing;
+use crate::edge::{AT_NODE, Crossing};
 use crate::project::{Reach, project};
 use crate::{Candidate, ContactModel, Site, Target};
 
-/// A node is checked once where it faces another that faces it, to this fraction of the facet; edges are not where they cross as
-/// close to a node that is checked.
+/// A node is checked once where it faces another that faces it, to this fraction of the facet.
 const MIRRORED: f64 = 0.02;
 
 /// Cosine of the angle between normals that are those of one contact.
@@ -18,12 +17,16 @@ impl<const D: usize> ContactModel<D> {
     pub(crate) fn mark_mirrored(&self, position: &impl Fn(u32) -> Vector<D>, candidates: &mut [Candidate]) {
         for k in 0..candidates.len() {
             let c = candidates[k];
-            candidates[k].mirrored = match c.site {
-                Site::Node(node) => self.is_second_side(&c, node, position, candidates),
-                Site::Crossing(source, target) => {
-                    self.is_at_node(&c, [source, target], position, candidates)
+            candidates[k].mirrored =
+                c.node().is_some_and(|node| self.is_second_side(&c, node, position, candidates));
+        }
+        // Nodes first: one that gives way to some edges does not make others give way.
+        for nodes in [true, false] {
+            for k in 0..candidates.len() {
+                if let Site::Crossing(source, target) = candidates[k].site {
+                    self.mark_at_node(k, [source, target], nodes, position, candidates);
                 }
-            };
+            }
         }
     }
 
@@ -43,7 +46,7 @@ impl<const D: usize> ContactModel<D> {
         let Some(faced) = self.faced_node(candidate, node, position) else { return false };
         (own.is_none() || faced < node)
             && find(candidates, first, faced)
-                .is_some_and(|other| self.faced_node(other, faced, position) == Some(node))
+                .is_some_and(|k| self.faced_node(&candidates[k], faced, position) == Some(node))
     }
 
     /// The node of its facet that the `node` of a candidate stands over, if it is over one.
@@ -59,37 +62,51 @@ impl<const D: usize> ContactModel<D> {
         p.nodes.iter().zip(&p.weights).find(|&(_, &weight)| weight >= 1.0 - MIRRORED).map(|(&n, _)| n)
     }
 
-    /// Whether two `edges` cross at a node of one of them that is a candidate itself, in the same direction.
-    fn is_at_node(
+    /// Of candidate `k`, two `edges` that cross at a node of one of them, and the node, if it is a candidate and faces a facet beside the
+    /// other edge, marks one: the edges, if the facet looks where they do; else, if it is the turn of the `nodes`, the node, for which
+    /// another facet there would be as good.
+    ///
+    /// Of a line of edges both at a node stay: where the line is dented, what crosses it there touches both.
+    fn mark_at_node(
         &self,
-        candidate: &Candidate,
+        k: usize,
         edges: [[u32; 2]; 2],
+        nodes: bool,
         position: &impl Fn(u32) -> Vector<D>,
-        candidates: &[Candidate],
-    ) -> bool {
+        candidates: &mut [Candidate],
+    ) {
         let crossing = Crossing::new(edges[0].map(position), edges[1].map(position));
-        let own = self.pairs[candidate.pair as usize];
-        let ends = edges.iter().zip(crossing.along).enumerate();
-        ends.filter_map(|(side, (nodes, s))| {
-            let near = if s <= MIRRORED { nodes[0] } else { nodes[1] };
-            (s <= MIRRORED || s >= 1.0 - MIRRORED).then_some((side, near))
-        })
-        .any(|(side, node)| {
-            (0..self.pairs.len()).filter(|&p| self.pairs[p].group == own.group).any(|p| {
-                let of_source = self.pairs[p].source == own.source;
-                let belongs = self.is_self_contact(p) || of_source == (side == 0);
-                belongs
-                    && find(candidates, p, node).is_some_and(|other| {
-                        let normal = self.evaluate(other, position).frame.row(0).transpose();
-                        normal.dot(&crossing.normal).abs() > ALIKE
-                    })
-            })
-        })
+        let group = self.pairs[candidates[k].pair as usize].group;
+        for side in (0..2).filter(|&side| crossing.reach()[side] < AT_NODE) {
+            let node = edges[side][crossing.nearer()[side]];
+            for pair in (0..self.pairs.len()).filter(|&p| self.pairs[p].group == group) {
+                let Some(j) = find(candidates, pair, node) else { continue };
+                let other = candidates[j];
+                if other.mirrored || !self.faces_beside(&other, &edges[1 - side]) {
+                    continue;
+                }
+                let normal = self.evaluate(&other, position).frame.row(0).transpose();
+                let is_alike = normal.dot(&crossing.normal).abs() > ALIKE;
+                if is_alike != nodes {
+                    candidates[if is_alike { k } else { j }].mirrored = true;
+                }
+            }
+        }
+    }
+
+    /// Whether the facet that a node faces is beside an edge, or at its end.
+    fn faces_beside(&self, candidate: &Candidate, edge: &[u32; 2]) -> bool {
+        match (self.pairs[candidate.pair as usize].target, candidate.facet) {
+            (Target::Surface(t), Some(f)) => {
+                let facet = &self.surfaces[t].facets[f as usize];
+                edge.iter().any(|n| facet.nodes.contains(n))
+            }
+            _ => false,
+        }
     }
 }
 
-/// The candidate of a pair at a node.
-fn find(candidates: &[Candidate], pair: usize, node: u32) -> Option<&Candidate> {
-    let key = (pair as u32, Site::Node(node));
-    candidates.binary_search_by_key(&key, Candidate::key).ok().map(|k| &candidates[k])
+/// The place of the candidate of a pair at a node.
+fn find(candidates: &[Candidate], pair: usize, node: u32) -> Option<usize> {
+    candidates.binary_search_by_key(&(pair as u32, Site::Node(node)), Candidate::key).ok()
 }

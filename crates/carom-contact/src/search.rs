@@ -2,7 +2,7 @@ use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
-use crate::edge;
+use crate::edge::{self, Found};
 use crate::facing::Projected;
 use crate::{ContactModel, ContactSurface, Target};
 
@@ -18,11 +18,12 @@ pub struct Search<const D: usize> {
     /// Facets near a node: how close to it they may come [m], their number, and the size of the box in which they find nodes [m].
     pub(crate) near: Vec<(f64, u32, f64)>,
     pub(crate) projected: Vec<Projected<D>>,
+    pub(crate) crossings: Vec<Found>,
 }
 
 impl<const D: usize> Default for Search<D> {
     fn default() -> Self {
-        Self { surfaces: Vec::new(), near: Vec::new(), projected: Vec::new() }
+        Self { surfaces: Vec::new(), near: Vec::new(), projected: Vec::new(), crossings: Vec::new() }
     }
 }
 

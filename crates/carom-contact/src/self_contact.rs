@@ -51,7 +51,8 @@ impl ContactSurface {
     /// Whether two edges of this surface may touch: their ends, and the facets beside them.
     pub(crate) fn edges_may_touch(&self, edge: &Edge, other: &Edge) -> bool {
         let source = |n: u32| self.sources.binary_search(&self.master(n)).ok();
-        let node_may = |n: u32| source(n).is_some_and(|k| other.facets().all(|f| self.may_touch_itself(k, f)));
+        let node_may =
+            |n: u32| source(n).is_some_and(|k| other.facets().all(|f| self.may_touch_itself(k, f)));
         edge.nodes.into_iter().all(node_may)
     }
 

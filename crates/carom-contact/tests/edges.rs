@@ -64,7 +64,9 @@ impl Scene {
 
     /// The candidates within `margin`, with the second body moved `by`.
     fn found(&self, margin: f64, by: &Vector3) -> Vec<(Candidate, Contact<3>)> {
-        let at = |n: u32| self.x[n as usize] + if (n as usize) < self.first_of_second { Vector3::zeros() } else { *by };
+        let at = |n: u32| {
+            self.x[n as usize] + if (n as usize) < self.first_of_second { Vector3::zeros() } else { *by }
+        };
         let (mut search, mut out) = (Search::default(), Vec::new());
         self.model.detect(&at, &at, margin, &mut search, &mut out);
         assert!(out.is_sorted());
@@ -101,7 +103,8 @@ impl Turned {
     /// From the nearest point of this box to that of another that is apart: one of them is on an edge of this one, where the distance is a
     /// convex function of the place, or a corner of the other.
     fn offset(&self, other: &Self) -> Vector3 {
-        let edges = (0..8).flat_map(|k| (0..3).filter(move |i| k >> i & 1 == 0).map(move |i| [k, k | 1 << i]));
+        let edges =
+            (0..8).flat_map(|k| (0..3).filter(move |i| k >> i & 1 == 0).map(move |i| [k, k | 1 << i]));
         let on_edges = edges.map(|ends| {
             let [a, b] = ends.map(|k| self.corner(k));
             let offset = |s: f64| {
@@ -162,7 +165,9 @@ fn the_smallest_gap_is_the_distance_of_the_bodies() {
             _ => far += 1,
         }
     }
-    println!("{edges} with edges, {nodes} with a node, {far} with a node that does not see what it is close to");
+    println!(
+        "{edges} with edges, {nodes} with a node, {far} with a node that does not see what it is close to"
+    );
     assert!(edges > 100 && nodes > 100 && far < 4, "{edges} {nodes} {far}");
 }
 
@@ -189,7 +194,8 @@ fn the_gap_changes_as_its_row_says() {
     contact.add_force(&Vector3::new(1.0, 0.0, 0.0), &mut forces);
     let moment: Vector3 = scene.x.iter().zip(&forces).map(|(x, f)| x.cross(f)).sum();
     assert!(forces.iter().sum::<Vector3>().norm() < 1e-14 && moment.norm() < 1e-14);
-    let [sources, targets] = [contact.sources().map(|(_, w)| w).sum(), contact.targets().map(|(_, w)| w).sum::<f64>()];
+    let [sources, targets] =
+        [contact.sources().map(|(_, w)| w).sum(), contact.targets().map(|(_, w)| w).sum::<f64>()];
     assert!((sources - 1.0_f64).abs() < 1e-15 && (targets + 1.0).abs() < 1e-15);
 }
 
@@ -212,7 +218,8 @@ fn flat_bars_across_one_another_touch_at_four_places() {
 /// Bars that lie one across the other, slid along until a node of one is over the rim of the other, to either side: never without a hold.
 #[test]
 fn a_bar_slides_across_a_rim_without_a_hole() {
-    let up = rotation(&Vector3::y(), 0.25 * std::f64::consts::PI) * rotation(&Vector3::z(), 0.5 * std::f64::consts::PI);
+    let up = rotation(&Vector3::y(), 0.25 * std::f64::consts::PI)
+        * rotation(&Vector3::z(), 0.5 * std::f64::consts::PI);
     let low = moved(&cuboid([3.0, 1.0, 1.0], [3, 2, 2]), &up, &Vector3::zeros());
     let tilt = rotation(&Vector3::x(), 0.25 * std::f64::consts::PI);
     let high = moved(&cuboid([3.0, 1.0, 1.0], [3, 2, 2]), &tilt, &Vector3::new(0.0, 0.0, 2.0_f64.sqrt()));
@@ -222,9 +229,14 @@ fn a_bar_slides_across_a_rim_without_a_hole() {
             let along = f64::from(k - 200) * 0.0051;
             let found = scene.found(0.01, &Vector3::new(along, 0.3 * along, -depth));
             let upright = |c: &Contact<3>| c.frame[(0, 2)].abs() > 0.6;
-            assert!(found.iter().any(|(c, at)| !c.mirrored && upright(at)), "nothing at {along}, {depth} deep");
-            let crossings = found.iter().filter(|(c, _)| c.node().is_none());
-            assert!(crossings.clone().all(|(_, at)| (at.gap + depth).abs() < 1e-12) && crossings.count() <= 1);
+            assert!(
+                found.iter().any(|(c, at)| !c.mirrored && upright(at)),
+                "nothing at {along}, {depth} deep"
+            );
+            let crossings = found.iter().filter(|(c, _)| c.node().is_none() && !c.mirrored);
+            assert!(
+                crossings.clone().all(|(_, at)| (at.gap + depth).abs() < 1e-12) && crossings.count() <= 1
+            );
         }
     }
 }
@@ -249,8 +261,13 @@ fn where_faces_hold_edges_do_not() {
         // Round bodies have no edges.
         let round = |x: &Vector3| if x.amax() > 0.0 { x * (x.amax() / x.norm()) } else { *x };
         let grid = cuboid([2.0; 3], [6; 3]);
-        let ball = Mesh::new(grid.nodes().iter().map(round).collect(), grid.blocks().to_vec()).expect("valid");
-        let other = moved(&ball, &rotation(&Vector3::new(0.6, 0.0, 0.8), 0.3), &Vector3::new(0.0, 0.0, 2.0 - overlap));
+        let ball =
+            Mesh::new(grid.nodes().iter().map(round).collect(), grid.blocks().to_vec()).expect("valid");
+        let other = moved(
+            &ball,
+            &rotation(&Vector3::new(0.6, 0.0, 0.8), 0.3),
+            &Vector3::new(0.0, 0.0, 2.0 - overlap),
+        );
         none(&ball, &other);
     }
 }

@@ -2,6 +2,9 @@ use carom_mesh::Vector;
 
 use crate::project::{BEYOND, area_normal};
 
+/// A crossing this close to the end of an edge, in its lengths, is at its node.
+pub(crate) const AT_NODE: f64 = 0.01;
+
 /// Two edges where they are closest to one another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Crossing<const D: usize> {
@@ -42,9 +45,14 @@ impl<const D: usize> Crossing<D> {
         Self { along: self.along.map(|s| s.clamp(-BEYOND, 1.0 + BEYOND)), ..self }
     }
 
-    /// Whether the lines cross within both edges.
-    pub fn is_inside(&self, slack: f64) -> bool {
-        self.along.iter().all(|s| (slack..=1.0 - slack).contains(s))
+    /// How far each of the edges reaches beyond where they cross, in its length; negative if it ends before.
+    pub fn reach(&self) -> [f64; 2] {
+        self.along.map(|s| s.min(1.0 - s))
+    }
+
+    /// Which end of each edge is the nearer one.
+    pub fn nearer(&self) -> [usize; 2] {
+        self.along.map(|s| usize::from(s > 0.5))
     }
 }
 
@@ -56,7 +64,11 @@ pub(super) fn turns_outwards<const D: usize>(along: &Vector<D>, normals: [Vector
 
 /// Whether the direction `n`, at right angles to an edge, is between the normals of its facets, so that the edge is what a plane with that
 /// normal would meet first (the edge's arc in the Gauss map; Gregorius, Game Developers Conference 2013).
-pub(super) fn is_foremost<const D: usize>(n: &Vector<D>, along: &Vector<D>, normals: &[Vector<D>; 2]) -> bool {
+pub(super) fn is_foremost<const D: usize>(
+    n: &Vector<D>,
+    along: &Vector<D>,
+    normals: &[Vector<D>; 2],
+) -> bool {
     let along = along.normalize();
     let [first, second] = normals;
     area_normal(&[*first, *n]).dot(&along) >= -TURN

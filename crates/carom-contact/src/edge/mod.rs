@@ -9,11 +9,11 @@ use carom_mesh::{CellKind, Vector};
 
 use crate::ContactSurface;
 use crate::patch::Patch;
-use crate::project::normal;
+use crate::project::{BEYOND, normal};
 use crate::surface::CORNER;
 
-pub(crate) use crossing::Crossing;
-pub(crate) use detect::path;
+pub(crate) use crossing::{AT_NODE, Crossing};
+pub(crate) use detect::{Found, path};
 
 /// Cosine of the turning angle from which on a surface has an edge and is not flat there: 1°.
 const FLAT: f64 = 0.999_847_695_156_391;
@@ -27,9 +27,18 @@ pub(crate) struct Edge {
     sides: [(u32, [f64; 2]); 2],
     /// Whether the surface turns by as much as at a corner; other edges are those of facets of something round.
     is_sharp: bool,
+    /// At which of its ends another edge goes on along it.
+    goes_on: [bool; 2],
 }
 
 impl Edge {
+    /// The ends of an edge from and to `x` [m], farther out where another edge goes on.
+    pub fn gone_on<const D: usize>(&self, x: &[Vector<D>; 2]) -> [Vector<D>; 2] {
+        let along = (x[1] - x[0]) * BEYOND;
+        let by = self.goes_on.map(f64::from);
+        [x[0] - along * by[0], x[1] + along * by[1]]
+    }
+
     /// The facets that meet there.
     pub fn facets(&self) -> impl Iterator<Item = u32> {
         self.sides.iter().map(|(facet, _)| *facet)
@@ -50,7 +59,8 @@ impl ContactSurface {
                     open.insert([from, to], (nodes, (f, at)));
                     continue;
                 };
-                let edge = Edge { nodes: first, sides: [side, (f, at)], is_sharp: false };
+                let edge =
+                    Edge { nodes: first, sides: [side, (f, at)], is_sharp: false, goes_on: [false; 2] };
                 let [m0, m1] = self.normals(&edge, reference);
                 let along = reference(first[1]) - reference(first[0]);
                 if crossing::turns_outwards(&along, [m0, m1]) && m0.dot(&m1) < FLAT {
@@ -59,18 +69,31 @@ impl ContactSurface {
             }
         }
         self.edges.sort_unstable_by_key(|e| e.nodes);
+        self.join_edges(reference);
         self
     }
 
+    /// Finds the ends at which edges go on, by less of a turn than at a corner.
+    fn join_edges<const D: usize>(&mut self, reference: &impl Fn(u32) -> Vector<D>) {
+        let mut at: BTreeMap<u32, Vec<(usize, usize, Vector<D>)>> = BTreeMap::new();
+        for (k, edge) in self.edges.iter().enumerate() {
+            let along = (reference(edge.nodes[1]) - reference(edge.nodes[0])).normalize();
+            for (end, from) in [(0, along), (1, -along)] {
+                at.entry(self.master(edge.nodes[end])).or_default().push((k, end, from));
+            }
+        }
+        for ends in at.values() {
+            for (k, end, from) in ends {
+                let goes_on =
+                    |(other, _, on): &(usize, usize, Vector<D>)| other != k && -from.dot(on) > CORNER;
+                self.edges[*k].goes_on[*end] = ends.iter().any(goes_on);
+            }
+        }
+    }
+
     /// Outward unit normals of the two facets of an edge, at its middle.
-    fn normals<const D: usize>(
-        &self,
-        edge: &Edge,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> [Vector<D>; 2] {
-        edge.sides.map(|(f, at)| {
-            normal(&Patch::new(&self.facets[f as usize], position).at(&at).tangents)
-        })
+    fn normals<const D: usize>(&self, edge: &Edge, position: &impl Fn(u32) -> Vector<D>) -> [Vector<D>; 2] {
+        edge.sides.map(|(f, at)| normal(&Patch::new(&self.facets[f as usize], position).at(&at).tangents))
     }
 }
 
