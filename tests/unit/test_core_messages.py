@@ -225,6 +225,18 @@ def case(changes):
     return carom.Scenario.from_dict(data)
 
 
+def test_edges_through_one_another_are_named_though_no_node_is_inside():
+    bar = {"kind": "box", "divisions": [1, 1, 1]}
+    low = {**bar, "corner": [-1.0, 0.0, 0.0], "size": [6.0, 1.0, 1.0]}
+    high = {**bar, "corner": [0.0, -1.0, 0.99], "size": [1.0, 6.0, 1.0]}
+    changes = {"dimension": 3, "obstacles": [], "bodies.0.mesh": low}
+    changes["bodies.1"] = {"name": "other", "material": "elastic", "mesh": high}
+    said = r'edges of "block" and "other" are 0.010000 m through one another at the start, near \('
+    with pytest.raises(InputError, match=said):
+        build(case(changes))
+    build(case({**changes, "bodies.1.mesh": {**high, "corner": [0.0, -1.0, 1.0]}}))
+
+
 @pytest.mark.parametrize(("changes", "key", "part"), BAD)
 def test_bad_input_that_needs_meshes_is_named_in_one_line(changes, key, part):
     with pytest.raises(InputError) as caught:

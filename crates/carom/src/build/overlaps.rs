@@ -1,4 +1,4 @@
-use carom_contact::{Pair, RigidShape, Target};
+use carom_contact::{Candidate, Pair, RigidShape, Search, Target};
 use carom_mesh::Vector;
 
 use super::place;
@@ -65,6 +65,34 @@ pub(super) fn check_overlaps<const D: usize>(
                 }
             });
         }
+    }
+    check_crossings(model)
+}
+
+/// Refuses bodies of which edges have passed one another, though no node of one may be inside the other.
+fn check_crossings<const D: usize>(model: &Model<D>) -> Result<(), InputError> {
+    let at = |n: u32| model.reference[n as usize];
+    let (mut search, mut candidates) = (Search::default(), Vec::new());
+    model.contact.detect(&at, &at, 0.0, &mut search, &mut candidates);
+    let of_two = |c: &&Candidate| c.node().is_none() && !model.contact.is_self_contact(c.pair as usize);
+    for candidate in candidates.iter().filter(of_two) {
+        let pair = &model.contact.pairs[candidate.pair as usize];
+        let smallest_edge = model.bodies[pair.source].body.mesh().smallest_edge();
+        let contact = model.contact.evaluate(candidate, &at);
+        let touching = TOUCHING * smallest_edge;
+        if contact.gap >= -touching || model.contact.is_beyond(candidate, touching, &at, &search) {
+            continue;
+        }
+        let [a, b] = &model.groups[pair.group].between;
+        let crossing = contact.sources().map(|(n, weight)| at(n as u32) * weight).sum::<Vector<D>>();
+        return Err(InputError::new(
+            format!("bodies.{}.mesh", pair.source),
+            format!(
+                "edges of {a:?} and {b:?} are {:.6} m through one another at the start, near {}; move one of them",
+                -contact.gap,
+                place(&crossing)
+            ),
+        ));
     }
     Ok(())
 }

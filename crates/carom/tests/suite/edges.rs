@@ -96,3 +96,34 @@ fn crossed_edges_keep_momenta_and_energy_and_let_nothing_through() {
         }
     }
 }
+
+/// Their nodes are all outside of one another, and so are the middles of facets and cells.
+#[test]
+fn edges_that_have_passed_at_the_start_are_refused() {
+    let bodies = ["low", "high"].map(|name| body(name, json!({"kind": "file", "file": name}), [0.0, 0.0]));
+    let mut case = scenario(0.1, 1e-3, &bodies, &[]);
+    case["dimension"] = json!(3);
+    for b in case["bodies"].as_array_mut().expect("a list") {
+        b["velocity"] = json!([0.0, 0.0, 0.0]);
+        b["spin"] = json!([0.0, 0.0, 0.0]);
+    }
+    let built = |overlap: f64| {
+        let height = 2.0_f64.sqrt() - overlap;
+        let meshes: Meshes<3> = [
+            ("low".to_string(), bar(4, 0.0, [0.0; 3])),
+            ("high".to_string(), bar(5, 1.1, [0.0, 0.2, height])),
+        ]
+        .into();
+        Simulation::<3>::with_meshes(&parse(&case), meshes)
+    };
+    for apart in [0.0, -1e-3] {
+        assert!(built(apart).is_ok());
+    }
+    for overlap in [1e-6, 1e-2] {
+        let error = built(overlap).err().expect("refused");
+        assert_eq!(error.key, "bodies.0.mesh");
+        let depth =
+            format!("edges of \"low\" and \"high\" are {overlap:.6} m through one another at the start");
+        assert!(error.message.starts_with(&depth), "{}", error.message);
+    }
+}
