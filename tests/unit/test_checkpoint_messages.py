@@ -38,7 +38,7 @@ BAD = [
     ("factors/0/dt", first(0.0), "factors/0/dt: is not positive"),
     ("factors/0/nodes", first(10**6), "factors/0/nodes: names a node that is not there"),
     ("state/reactions/pair", first(99), "state/reactions/pair: names a pair that is not there"),
-    ("state/reactions/site", first(10**6), "state/reactions/node: names a node that is not there"),
+    ("state/reactions/site", first(10**6), "state/reactions/site: names a node that is not there"),
     (
         "state/reactions/stencil_node",
         first(10**6),

@@ -80,6 +80,14 @@ fn crossed_edges_keep_momenta_and_energy_and_let_nothing_through() {
         let (linear_after, angular_after) = momenta(&simulation);
         let summary = simulation.summary();
         let energy = summary.energy;
+        println!(
+            "{name}: drift {:.1e}, defect {:.1e}, friction {:.3} of the energy; angular momentum {:.0e}; smallest gap {:.1e} m",
+            energy.max_drift / energy.initial,
+            energy.max_defect / energy.initial,
+            energy.friction / energy.initial,
+            (angular_after - angular).norm() / angular.norm(),
+            summary.min_gap
+        );
         assert_eq!((summary.contacts.len(), summary.retried_steps), (1, 0), "{name}");
         assert!((linear_after - linear).norm() < 1e-12 * linear.norm(), "{name}");
         assert!(energy.max_defect < 1e-11 * energy.initial, "{name}: {:e}", energy.max_defect);
