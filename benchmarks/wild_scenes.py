@@ -23,7 +23,7 @@ from unittest import mock
 import numpy as np
 
 import carom
-from carom.tables import LARGE_DEFECT, defect_share
+from carom.doubts import LARGE_DEFECT, defect_share
 
 SPACING = 2.5
 """Distance of the places where bodies start [m]."""

@@ -20,7 +20,8 @@ class Contacts:
     """The contacts that press at a moment, n of them in D dimensions.
 
     A contact is a node of one body, the source, against the surface of another or an obstacle, the
-    target. With mortar contact it is the mean of the surroundings of the node.
+    target. With mortar contact it is the mean of the surroundings of the node. In space it may be
+    an edge across an edge of the target; its node is the one that takes more of the reaction.
 
     Parameters
     ----------

@@ -11,16 +11,11 @@ from rich.table import Table
 from rich.text import Text
 
 from carom.counting import count
+from carom.doubts import doubts
 from carom.io import layout
 
 SHOWN_CONTACTS = 12
 """Contact events that fit a screen; `summary.json` has them all."""
-
-LARGE_DEFECT = 0.02
-"""Defect of the ledger, relative to the energy that the run had or was given, to be warned of."""
-
-DEEP = 0.01
-"""Penetration, relative to the diameter of the largest body, to be warned of."""
 
 
 def two_columns(title: str) -> Table:
@@ -70,27 +65,15 @@ def outcome(summary: Mapping[str, Any]) -> Rows:
     yield "friction", f"{energy['friction']:.6g} J dissipated"
     yield "largest drift", f"{energy['max_drift']:.3g} J"
     yield "largest defect", f"{energy['max_defect']:.3g} J, of the energy ledger"
-    if (share := defect_share(energy)) > LARGE_DEFECT:
-        yield (
-            "warning",
-            f"the ledger misses {share:.2g} of the energy: the time step is too long for this "
-            "deformation; take a smaller analysis.time_step",
-        )
     yield (
         "certificate",
         f"{certificate['max_joule']:.3g} J from Coulomb's law in any step "
         f"({certificate['tolerance_joule']:.3g} J allowed)",
     )
-    gap, size = summary["min_gap"], summary.get("size")
-    if gap is not None and size is not None and gap < -DEEP * size:
-        yield (
-            "warning",
-            f"nodes were up to {-gap:.2g} m inside what they touch, having slid past its edges or "
-            "come too fast: mesh more finely, take a smaller analysis.time_step, or have the nodes "
-            'of both bodies checked, contact.sources = "both"',
-        )
     if (check := summary.get("cross_check")) is not None:
-        yield from _cross_check(check)
+        yield _cross_check(check)
+    for doubt in doubts(summary):
+        yield "warning", doubt
 
 
 def contact_events(summary: Mapping[str, Any]) -> Rows:
@@ -110,38 +93,18 @@ def places(where: Path) -> Rows:
     yield "report", str(report) if report.exists() else made
 
 
-def _cross_check(check: Mapping[str, Any]) -> Rows:
-    """Yield what a second solver said, and a warning for what it said otherwise."""
-    problems, differing = check["problems"], check["disagreements"]
+def _cross_check(check: Mapping[str, Any]) -> tuple[str, str]:
+    """Return what a second solver said."""
+    problems = check["problems"]
     solvers = " and ".join(check["solvers"])
     if problems == 0:
-        yield "cross-check", "no contact problem to solve again"
-        return
-    yield (
+        return "cross-check", "no contact problem to solve again"
+    return (
         "cross-check",
         f"{problems} contact problems solved again by {solvers}: motions within "
         f"{check['max_difference']:.2g} ({check['explained_difference']:.2g} explained by the "
         f"tolerance), {check['max_certificate_joule']:.3g} J from Coulomb's law",
     )
-    if differing:
-        yield (
-            "warning",
-            f"{differing} of {problems} contact problems have a second answer with other motions, "
-            f"the most different at t = {check['time_of_max']:g} s: Coulomb's law does not decide "
-            "between them",
-        )
-    if check["unsolved"]:
-        yield (
-            "warning",
-            f"{check['unsolved']} of {problems} contact problems were not solved by the second "
-            "solver and remain unchecked",
-        )
-
-
-def defect_share(energy: Mapping[str, float]) -> float:
-    """Return the largest defect of the ledger relative to the energy that came in."""
-    supplied = energy["initial"] + abs(energy["external"])
-    return energy["max_defect"] / supplied if supplied > 0.0 else 0.0
 
 
 def _contact(contact: Mapping[str, Any]) -> str:

@@ -13,6 +13,7 @@ import matplotlib as mpl
 import numpy as np
 
 from carom import __version__
+from carom.doubts import doubts
 from carom.errors import InputError
 from carom.report.case_text import coloured
 from carom.report.curves import curves
@@ -153,15 +154,18 @@ def _colours(name: str) -> str:
 
 
 def _head(source: Source) -> Html:
-    """Return what is said at the head of a run that did not simply complete."""
-    if source.status == "completed":
+    """Return what is said at the head of a run that did not complete, or not without doubts."""
+    completed, reason = source.status == "completed", source.summary.get("reason")
+    said = [element("p", f"Warning: {doubt}.") for doubt in doubts(source.summary)]
+    if completed and not said:
         return join()
-    reason = source.summary.get("reason")
+    ended = _STATUS.get(source.status, f"The run ended as {source.status}.")
     return element(
         "div",
-        element("strong", _STATUS.get(source.status, f"The run ended as {source.status}.")),
+        None if completed else element("strong", ended),
         element("p", str(reason)) if reason else None,
-        class_="alert",
+        *said,
+        class_="alert doubts" if completed else "alert",
         role="alert",
     )
 

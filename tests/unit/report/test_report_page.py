@@ -3,6 +3,7 @@
 import base64
 import hashlib
 import html
+import json
 import re
 import shutil
 from html.parser import HTMLParser
@@ -290,6 +291,21 @@ def test_a_run_that_stops_leaves_a_page_that_says_so(scenario, tmp_path, stop, s
     assert summary["status"] == status
     assert summary["reason"] in page.text
     assert "What follows is what it has left" in page.text
+
+
+def test_a_completed_run_with_doubtful_results_says_so_on_its_page(copy):
+    def alerts(**changed):
+        path = copy / layout.SUMMARY
+        path.write_text(json.dumps({**json.loads(path.read_text()), **changed}))
+        return [
+            a["class"] for _, a in Page(write_report(copy)).elements if a.get("role") == "alert"
+        ]
+
+    assert alerts() == []
+    assert alerts(min_gap=-0.3, size=1.0) == ["alert doubts"]
+    text = Page(copy / layout.REPORT).text
+    assert "Warning: nodes were up to 0.3 m inside what they touch" in text
+    assert "What follows is what it has left" not in text
 
 
 def test_without_the_key_a_run_writes_no_page(ball, tmp_path):
