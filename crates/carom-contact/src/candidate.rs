@@ -17,8 +17,8 @@ pub struct Candidate {
     pub site: Site,
     /// The facet of a target surface that a node faces; `None` for an obstacle, a multiplier or edges.
     pub facet: Option<u32>,
-    /// Whether it says what another candidate says, and is to be left out: a node that faces one that faces it, edges that cross at a
-    /// node that faces a facet.
+    /// Whether it says what another candidate says, and is to be left out: a node that faces one that faces it, or of edges that cross at
+    /// a node and this node either.
     pub mirrored: bool,
 }
 

@@ -44,8 +44,8 @@ impl<const D: usize> ContactModel<D> {
                 Target::Surface(_) if self.is_mortar(p) => {}
                 Target::Surface(t) => {
                     self.detect_facets(pair_index, t, start, end, margin, search, out);
-                    // They are the same from either side.
-                    if self.pairs[..p].iter().all(|before| before.group != pair.group) {
+                    // From the other side they are the same.
+                    if self.directions(p).start == p {
                         self.detect_crossings(pair_index, t, start, end, margin, search, out);
                     }
                 }

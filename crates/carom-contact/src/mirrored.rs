@@ -40,11 +40,13 @@ impl<const D: usize> ContactModel<D> {
         candidates: &[Candidate],
     ) -> bool {
         let pair = candidate.pair as usize;
-        let own = self.is_self_contact(pair).then_some(pair);
-        let first_side = self.pairs[..pair].iter().position(|p| p.group == self.pairs[pair].group);
-        let Some(first) = own.or(first_side) else { return false };
+        let is_own = self.is_self_contact(pair);
+        let first = self.directions(pair).start;
+        if first == pair && !is_own {
+            return false;
+        }
         let Some(faced) = self.faced_node(candidate, node, position) else { return false };
-        (own.is_none() || faced < node)
+        (!is_own || faced < node)
             && find(candidates, first, faced)
                 .is_some_and(|k| self.faced_node(&candidates[k], faced, position) == Some(node))
     }
@@ -62,9 +64,9 @@ impl<const D: usize> ContactModel<D> {
         p.nodes.iter().zip(&p.weights).find(|&(_, &weight)| weight >= 1.0 - MIRRORED).map(|(&n, _)| n)
     }
 
-    /// Of candidate `k`, two `edges` that cross at a node of one of them, and the node, if it is a candidate and faces a facet beside the
-    /// other edge, marks one: the edges, if the facet looks where they do; else, if it is the turn of the `nodes`, the node, for which
-    /// another facet there would be as good.
+    /// Of candidate `k`, two `edges` that cross at a node of one of them, and the node, if it is a candidate, marks one: the edges, if the
+    /// facet of the node looks where they do; and if it is the turn of the `nodes`, a node whose facet is beside the other edge and looks
+    /// elsewhere, for which the second facet there would be as good.
     ///
     /// Of a line of edges both at a node stay: where the line is dented, what crosses it there touches both.
     fn mark_at_node(
@@ -76,30 +78,32 @@ impl<const D: usize> ContactModel<D> {
         candidates: &mut [Candidate],
     ) {
         let crossing = Crossing::new(edges[0].map(position), edges[1].map(position));
-        let group = self.pairs[candidates[k].pair as usize].group;
+        let pair = candidates[k].pair as usize;
         for side in (0..2).filter(|&side| crossing.reach()[side] < AT_NODE) {
             let node = edges[side][crossing.nearer()[side]];
-            for pair in (0..self.pairs.len()).filter(|&p| self.pairs[p].group == group) {
-                let Some(j) = find(candidates, pair, node) else { continue };
+            for p in self.directions(pair) {
+                let node = self.surfaces[self.pairs[p].source].master(node);
+                let Some(j) = find(candidates, p, node) else { continue };
                 let other = candidates[j];
-                if other.mirrored || !self.faces_beside(&other, &edges[1 - side]) {
+                if other.mirrored {
                     continue;
                 }
                 let normal = self.evaluate(&other, position).frame.row(0).transpose();
-                let is_alike = normal.dot(&crossing.normal).abs() > ALIKE;
-                if is_alike != nodes {
-                    candidates[if is_alike { k } else { j }].mirrored = true;
+                if normal.dot(&crossing.normal).abs() > ALIKE {
+                    candidates[k].mirrored |= !nodes;
+                } else if nodes && self.faces_beside(&other, &edges[1 - side]) {
+                    candidates[j].mirrored = true;
                 }
             }
         }
     }
 
-    /// Whether the facet that a node faces is beside an edge, or at its end.
+    /// Whether the facet that a node faces is beside an edge.
     fn faces_beside(&self, candidate: &Candidate, edge: &[u32; 2]) -> bool {
         match (self.pairs[candidate.pair as usize].target, candidate.facet) {
             (Target::Surface(t), Some(f)) => {
                 let facet = &self.surfaces[t].facets[f as usize];
-                edge.iter().any(|n| facet.nodes.contains(n))
+                edge.iter().all(|n| facet.nodes.contains(n))
             }
             _ => false,
         }

@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use crate::{ContactSurface, Discretisation, Obstacle};
 
 /// What a source surface is checked against.
@@ -18,7 +20,7 @@ pub struct Pair {
     pub target: Target,
     /// Friction coefficient.
     pub friction: f64,
-    /// The named pair that this belongs to; both directions of a two-sided check share it.
+    /// The named pair that this belongs to; both directions of a two-sided check share it and follow one another.
     pub group: usize,
     /// Whether the source is checked node by node or in the mean.
     pub discretisation: Discretisation,
@@ -39,7 +41,14 @@ impl<const D: usize> ContactModel<D> {
     /// Whether the bodies of a pair are checked from both sides, as a body with itself always is.
     #[must_use]
     pub fn is_two_sided(&self, pair: usize) -> bool {
-        let group = self.pairs[pair].group;
-        self.is_self_contact(pair) || self.pairs.iter().filter(|p| p.group == group).count() > 1
+        self.is_self_contact(pair) || self.directions(pair).len() > 1
+    }
+
+    /// The pairs of the group of a `pair`.
+    pub(crate) fn directions(&self, pair: usize) -> Range<usize> {
+        let is_of_group = |p: &Pair| p.group == self.pairs[pair].group;
+        let before = self.pairs[..pair].iter().rev().take_while(|p| is_of_group(p)).count();
+        let after = self.pairs[pair..].iter().take_while(|p| is_of_group(p)).count();
+        pair - before..pair + after
     }
 }

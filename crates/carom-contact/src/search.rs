@@ -2,7 +2,7 @@ use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
-use crate::edge::{self, Found};
+use crate::edge::Found;
 use crate::facing::Projected;
 use crate::{ContactModel, ContactSurface, Target};
 
@@ -18,6 +18,7 @@ pub struct Search<const D: usize> {
     /// Facets near a node: how close to it they may come [m], their number, and the size of the box in which they find nodes [m].
     pub(crate) near: Vec<(f64, u32, f64)>,
     pub(crate) projected: Vec<Projected<D>>,
+    /// Edges of a pair that cross.
     pub(crate) crossings: Vec<Found>,
 }
 
@@ -112,7 +113,7 @@ impl<const D: usize> Swept<D> {
             return;
         }
         let room = |e: u32| {
-            let path = edge::path(&surface.edges[e as usize], start, end);
+            let path = surface.edges[e as usize].path(start, end);
             path.inflated(margin + DEPTH * path.diameter())
         };
         fit(&mut self.edges, surface.edges.len(), room);

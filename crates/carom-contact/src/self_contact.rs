@@ -48,12 +48,13 @@ impl ContactSurface {
         around.iter().chain(nodes.flat_map(|&n| self.around(n))).copied().collect()
     }
 
-    /// Whether two edges of this surface may touch: their ends, and the facets beside them.
+    /// Whether two edges of this surface may touch: the ends of either the facets beside the other.
     pub(crate) fn edges_may_touch(&self, edge: &Edge, other: &Edge) -> bool {
         let source = |n: u32| self.sources.binary_search(&self.master(n)).ok();
-        let node_may =
-            |n: u32| source(n).is_some_and(|k| other.facets().all(|f| self.may_touch_itself(k, f)));
-        edge.nodes.into_iter().all(node_may)
+        let may = |n: u32, edge: &Edge| {
+            source(n).is_some_and(|k| edge.facets().all(|f| self.may_touch_itself(k, f)))
+        };
+        edge.nodes.into_iter().all(|n| may(n, other)) && other.nodes.into_iter().all(|n| may(n, edge))
     }
 
     /// Whether the source number `k` may touch the facet `f` of its own surface.

@@ -29,6 +29,8 @@ pub struct ContactSurface {
     pub(crate) never_touched: Vec<Vec<u32>>,
     /// Its convex edges in space, by their nodes, once it is [`edged`](Self::edged).
     pub(crate) edges: Vec<Edge>,
+    /// Whether some of them are features.
+    pub(crate) has_features: bool,
     /// The node that every image follows.
     masters: BTreeMap<u32, u32>,
     shape: Shape,
@@ -72,6 +74,7 @@ impl ContactSurface {
             facets_around,
             never_touched: Vec::new(),
             edges: Vec::new(),
+            has_features: false,
             masters,
             shape: Shape::Faceted,
         }

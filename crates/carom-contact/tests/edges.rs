@@ -1,7 +1,7 @@
 //! Edges against edges in space: found where bodies meet with them, at the distance of the bodies, and nowhere else.
 
 use carom_contact::{Candidate, Contact, ContactModel, ContactSurface, Discretisation, Pair, Search, Target};
-use carom_mesh::{Matrix, Mesh, Surface, Vector, generate};
+use carom_mesh::{CellBlock, CellKind, Matrix, Mesh, Surface, Tie, Vector, generate};
 
 type Vector3 = Vector<3>;
 
@@ -199,18 +199,23 @@ fn the_gap_changes_as_its_row_says() {
     assert!((sources - 1.0_f64).abs() < 1e-15 && (targets + 1.0).abs() < 1e-15);
 }
 
-/// Bars whose only nodes are far from one another: their four corners of contact are where the rims cross, as finely as they are cut.
+/// Bars whose only nodes are far from one another: their four corners of contact are where the rims cross, as finely as they are cut and
+/// however they are turned.
 #[test]
 fn flat_bars_across_one_another_touch_at_four_places() {
-    for cells in [1, 2, 5] {
-        for overlap in [-1e-4, 0.0, 1e-4] {
-            let low = cuboid([8.0, 1.0, 1.0], [cells, 1, 1]);
-            let high = moved(&low, &rotation(&Vector3::z(), 1.2), &Vector3::new(0.01, 0.02, 1.0 - overlap));
+    let mut next = numbers(5);
+    for k in 0..60 {
+        let around = if k == 0 { Matrix::<3>::identity() } else { turn(&mut next) };
+        let up = around * Vector3::z();
+        for (cells, overlap) in [(1, 0.0), (2, 0.0), (1, 1e-4), (5, -1e-4)] {
+            let bar = cuboid([8.0, 1.0, 1.0], [cells, 1, 1]);
+            let low = moved(&bar, &around, &Vector3::zeros());
+            let across = around * rotation(&Vector3::z(), 1.2);
+            let high = moved(&bar, &across, &(around * Vector3::new(0.01, 0.02, 1.0 - overlap)));
             let found = Scene::new(&low, &high).crossings(0.1, &Vector3::zeros());
-            let upright = found.iter().filter(|(_, c)| (c.frame[(0, 2)].abs() - 1.0).abs() < 1e-12);
-            let gaps: Vec<f64> = upright.map(|(_, c)| c.gap).collect();
-            assert!(gaps.len() == 4 && found.len() == 4, "{found:?}");
-            assert!(gaps.iter().all(|gap| (gap + overlap).abs() < 1e-12), "{gaps:?}");
+            let upright = found.iter().filter(|(_, c)| (c.frame.row(0) * up).norm() > 1.0 - 1e-9);
+            assert!(upright.clone().count() == 4 && found.len() == 4, "{k}: {found:?}");
+            assert!(upright.clone().all(|(_, c)| (c.gap + overlap).abs() < 1e-12));
         }
     }
 }
@@ -281,5 +286,86 @@ fn rims_of_thin_plates_do_not_meet_through_them() {
         for (c, at) in Scene::new(&plate, &other).crossings(0.5, &Vector3::zeros()) {
             assert!((at.gap - distance).abs() < 1e-12, "{c:?} is {} deep", at.gap);
         }
+    }
+}
+
+/// Symptom guarded against: nodes on a floor gave way to edges that came close to a wall there, and the block tipped into the floor.
+#[test]
+fn a_block_in_a_corner_keeps_the_floor() {
+    let grid = generate::grid([0.0; 3], [3.0, 3.0, 2.0], [3, 3, 2]).expect("valid");
+    let is_kept = |cell: &[u32]| {
+        let middle = cell.iter().map(|&n| grid.nodes()[n as usize]).sum::<Vector3>() / 8.0;
+        middle[2] < 1.0 || (middle[0] < 1.0 && middle[1] > 1.0 && middle[1] < 2.0)
+    };
+    let kept: Vec<u32> = grid.blocks()[0].cells().filter(|c| is_kept(c)).flat_map(<[u32]>::to_vec).collect();
+    let used: Vec<u32> = (0..grid.nodes().len() as u32).filter(|n| kept.contains(n)).collect();
+    let number = |n: &u32| used.binary_search(n).expect("kept") as u32;
+    let cells = CellBlock { kind: CellKind::Hex8, connectivity: kept.iter().map(number).collect() };
+    let step =
+        Mesh::new(used.iter().map(|&n| grid.nodes()[n as usize]).collect(), vec![cells]).expect("valid");
+    for (beside, shift) in [(1e-3, 0.0), (1e-3, 2e-3), (1e-5, 0.0), (0.0, 0.0)] {
+        let block = generate::grid([1.0 + beside, 1.0 + shift, 1.0], [0.8, 1.0, 0.8], [1; 3]).expect("valid");
+        let scene = Scene::new(&block, &step);
+        let found = scene.found(0.01, &Vector3::zeros());
+        for corner in (0..8).filter(|&n| block.nodes()[n as usize][2] == 1.0) {
+            let holds = |(c, at): &(Candidate, Contact<3>)| {
+                !c.mirrored
+                    && at.frame[(0, 2)].abs() > 0.9
+                    && at.stencil().any(|(n, w)| n == corner && w.abs() > 0.9)
+            };
+            assert!(found.iter().any(holds), "corner {corner}, {beside} from the wall, is without the floor");
+        }
+    }
+}
+
+/// Two edges meet in a node and what follows it, where a mesh is tied to itself: one line, dented there, whatever way it is numbered.
+#[test]
+fn a_line_of_edges_goes_on_through_a_seam() {
+    let up = rotation(&Vector3::x(), 0.25 * std::f64::consts::PI);
+    let bar = |tied: bool| {
+        let grid = generate::grid([-2.0, -0.5, -0.5], [4.0, 1.0, 1.0], [2, 1, 1]).expect("valid");
+        let is_middle = |n: &u32| grid.nodes()[*n as usize][0] == 0.0;
+        let seam: Vec<u32> = (0..grid.nodes().len() as u32).filter(is_middle).collect();
+        let mut nodes: Vec<Vector3> = grid.nodes().iter().map(|x| up * x).collect();
+        seam.iter().for_each(|&n| nodes[n as usize][2] *= 0.9);
+        let mut connectivity = grid.blocks()[0].connectivity.clone();
+        let mut ties = Vec::new();
+        for &master in seam.iter().filter(|_| tied) {
+            let image = nodes.len() as u32;
+            nodes.push(nodes[master as usize]);
+            connectivity[8..].iter_mut().filter(|n| **n == master).for_each(|n| *n = image);
+            ties.push(Tie { image, master });
+        }
+        let block = CellBlock { kind: CellKind::Hex8, connectivity };
+        Mesh::new(nodes, vec![block]).and_then(|mesh| mesh.with_ties(ties)).expect("valid")
+    };
+    let across = rotation(&Vector3::z(), 0.5 * std::f64::consts::PI) * up;
+    let high = cuboid([4.0, 1.0, 1.0], [1, 1, 1]);
+    let count = |tied: bool, along: f64, depth: f64| {
+        let by = Vector3::new(along, 0.0, 1.9 * 0.5_f64.sqrt() - depth);
+        Scene::new(&bar(tied), &moved(&high, &across, &by)).crossings(0.05, &Vector3::zeros()).len()
+    };
+    for (along, depth) in [(0.0, 1e-3), (0.001, 1e-3), (0.001, 0.0), (0.1, 0.0), (0.0, 0.0)] {
+        let (plain, tied) = (count(false, along, depth), count(true, along, depth));
+        assert!(plain == tied && plain > 0, "{along}, {depth}: {plain} {tied}");
+    }
+}
+
+/// Rods with many sides touch along lines of long cells, between nodes that are far away.
+#[test]
+fn round_rods_with_long_cells_hold_one_another() {
+    for cells in [2, 4, 6, 10] {
+        let grid = generate::grid([-1.5, -1.0, -1.0], [3.0, 2.0, 2.0], [3, cells, cells]).expect("valid");
+        let round = |x: &Vector3| {
+            let radius = (x[1] * x[1] + x[2] * x[2]).sqrt();
+            let shrink = if radius > 0.0 { x[1].abs().max(x[2].abs()) / radius } else { 1.0 };
+            Vector3::new(x[0], x[1] * shrink, x[2] * shrink)
+        };
+        let rod = Mesh::new(grid.nodes().iter().map(round).collect(), grid.blocks().to_vec()).expect("valid");
+        let across = rotation(&Vector3::z(), 0.5 * std::f64::consts::PI);
+        let scene = Scene::new(&rod, &moved(&rod, &across, &Vector3::new(0.0, 0.0, 1.999)));
+        let found = scene.crossings(0.05, &Vector3::zeros());
+        let holds = found.iter().any(|(_, c)| (c.gap + 0.001).abs() < 1e-12 && c.frame[(0, 2)].abs() > 0.999);
+        assert!(holds, "{} sides: {found:?}", 4 * cells);
     }
 }

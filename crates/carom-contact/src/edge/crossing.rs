@@ -10,7 +10,7 @@ pub(crate) const AT_NODE: f64 = 0.01;
 pub(crate) struct Crossing<const D: usize> {
     /// Distance of the lines along the normal [m]; negative = the source has passed the target.
     pub gap: f64,
-    /// Unit vector at right angles to both: the direction of source × target.
+    /// Unit vector at right angles to both: the direction of source × target; any where that has none.
     pub normal: Vector<D>,
     /// Where the lines are closest, in lengths of the edges from their first nodes: on the source and on the target.
     pub along: [f64; 2],

@@ -8,15 +8,23 @@ use std::collections::BTreeMap;
 use carom_mesh::{CellKind, Vector};
 
 use crate::ContactSurface;
+use crate::aabb::Aabb;
 use crate::patch::Patch;
-use crate::project::{BEYOND, normal};
+use crate::project::normal;
 use crate::surface::CORNER;
 
 pub(crate) use crossing::{AT_NODE, Crossing};
-pub(crate) use detect::{Found, path};
+pub(crate) use detect::Found;
+
+/// How far an edge may end before another crosses it where a further one goes on and crosses no more, in its lengths.
+const DENT: f64 = 0.1;
 
 /// Cosine of the turning angle from which on a surface has an edge and is not flat there: 1°.
 const FLAT: f64 = 0.999_847_695_156_391;
+
+/// Length of an edge, in widths of the facets beside it, from which on it is a feature though the surface is round there: the nodes along it
+/// are far apart for how much it turns.
+const SLENDER: f64 = 2.0;
 
 /// A straight line along which a surface turns away from its outside, as it is without deformation.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,18 +33,28 @@ pub(crate) struct Edge {
     pub nodes: [u32; 2],
     /// The facets that meet there, and where on them its middle is.
     sides: [(u32, [f64; 2]); 2],
-    /// Whether the surface turns by as much as at a corner; other edges are those of facets of something round.
-    is_sharp: bool,
+    /// Whether nodes and facets miss what crosses it: the surface turns as much as at a corner, or its facets are slender.
+    is_feature: bool,
     /// At which of its ends another edge goes on along it.
     goes_on: [bool; 2],
 }
 
 impl Edge {
-    /// The ends of an edge from and to `x` [m], farther out where another edge goes on.
-    pub fn gone_on<const D: usize>(&self, x: &[Vector<D>; 2]) -> [Vector<D>; 2] {
-        let along = (x[1] - x[0]) * BEYOND;
+    /// The ends of an edge from and to `x` [m], farther out by this fraction where another edge goes on.
+    fn gone_on<const D: usize>(&self, x: &[Vector<D>; 2], fraction: f64) -> [Vector<D>; 2] {
+        let along = (x[1] - x[0]) * fraction;
         let by = self.goes_on.map(f64::from);
         [x[0] - along * by[0], x[1] + along * by[1]]
+    }
+
+    /// A box around the edge, and a little of where another goes on, on its way through a step.
+    pub fn path<const D: usize>(
+        &self,
+        start: &impl Fn(u32) -> Vector<D>,
+        end: &impl Fn(u32) -> Vector<D>,
+    ) -> Aabb<D> {
+        let ends = |x: [Vector<D>; 2]| self.gone_on(&x, DENT);
+        Aabb::of([ends(self.nodes.map(start)), ends(self.nodes.map(end))].into_iter().flatten())
     }
 
     /// The facets that meet there.
@@ -59,17 +77,21 @@ impl ContactSurface {
                     open.insert([from, to], (nodes, (f, at)));
                     continue;
                 };
-                let edge =
-                    Edge { nodes: first, sides: [side, (f, at)], is_sharp: false, goes_on: [false; 2] };
+                let mut edge =
+                    Edge { nodes: first, sides: [side, (f, at)], is_feature: false, goes_on: [false; 2] };
                 let [m0, m1] = self.normals(&edge, reference);
                 let along = reference(first[1]) - reference(first[0]);
                 if crossing::turns_outwards(&along, [m0, m1]) && m0.dot(&m1) < FLAT {
-                    self.edges.push(Edge { is_sharp: m0.dot(&m1) < CORNER, ..edge });
+                    let is_long = |width: f64| along.norm() > SLENDER * width;
+                    edge.is_feature =
+                        m0.dot(&m1) < CORNER || self.widths(&edge, reference).into_iter().all(is_long);
+                    self.edges.push(edge);
                 }
             }
         }
         self.edges.sort_unstable_by_key(|e| e.nodes);
         self.join_edges(reference);
+        self.has_features = self.edges.iter().any(|e| e.is_feature);
         self
     }
 
@@ -89,6 +111,17 @@ impl ContactSurface {
                 self.edges[*k].goes_on[*end] = ends.iter().any(goes_on);
             }
         }
+    }
+
+    /// How wide the two facets of an edge are across it [m].
+    fn widths<const D: usize>(&self, edge: &Edge, position: &impl Fn(u32) -> Vector<D>) -> [f64; 2] {
+        let along = position(edge.nodes[1]) - position(edge.nodes[0]);
+        let across = |x: Vector<D>| (x - along * (along.dot(&x) / along.norm_squared())).norm();
+        edge.sides.map(|(f, _)| {
+            let facet = &self.facets[f as usize];
+            let corners = &facet.nodes[..facet.kind.corner_count()];
+            corners.iter().map(|&n| across(position(n) - position(edge.nodes[0]))).fold(0.0, f64::max)
+        })
     }
 
     /// Outward unit normals of the two facets of an edge, at its middle.

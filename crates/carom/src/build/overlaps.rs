@@ -74,8 +74,7 @@ fn check_crossings<const D: usize>(model: &Model<D>) -> Result<(), InputError> {
     let at = |n: u32| model.reference[n as usize];
     let (mut search, mut candidates) = (Search::default(), Vec::new());
     model.contact.detect(&at, &at, 0.0, &mut search, &mut candidates);
-    let of_two = |c: &&Candidate| c.node().is_none() && !model.contact.is_self_contact(c.pair as usize);
-    for candidate in candidates.iter().filter(of_two) {
+    for candidate in candidates.iter().filter(|c| has_straight_edges(model, c)) {
         let pair = &model.contact.pairs[candidate.pair as usize];
         let smallest_edge = model.bodies[pair.source].body.mesh().smallest_edge();
         let contact = model.contact.evaluate(candidate, &at);
@@ -95,6 +94,18 @@ fn check_crossings<const D: usize>(model: &Model<D>) -> Result<(), InputError> {
         ));
     }
     Ok(())
+}
+
+/// Whether a candidate is of the edges of two bodies, and these are where they seem to be: those of quadratic cells are curved.
+fn has_straight_edges<const D: usize>(model: &Model<D>, candidate: &Candidate) -> bool {
+    let pair = &model.contact.pairs[candidate.pair as usize];
+    let is_straight = |s: usize| !model.contact.surfaces[s].facets.iter().any(|f| f.kind.is_quadratic());
+    match pair.target {
+        Target::Surface(t) => {
+            candidate.node().is_none() && t != pair.source && is_straight(pair.source) && is_straight(t)
+        }
+        Target::Obstacle(_) => false,
+    }
 }
 
 /// Nodes, centres of facets and centres of cells of a body: bars of equal height pushed into one another have all nodes on
