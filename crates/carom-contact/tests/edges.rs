@@ -307,7 +307,7 @@ fn a_block_in_a_corner_keeps_the_floor() {
         let block = generate::grid([1.0 + beside, 1.0 + shift, 1.0], [0.8, 1.0, 0.8], [1; 3]).expect("valid");
         let scene = Scene::new(&block, &step);
         let found = scene.found(0.01, &Vector3::zeros());
-        for corner in (0..8).filter(|&n| block.nodes()[n as usize][2] == 1.0) {
+        for corner in (0..8).filter(|&n| block.nodes()[n][2] == 1.0) {
             let holds = |(c, at): &(Candidate, Contact<3>)| {
                 !c.mirrored
                     && at.frame[(0, 2)].abs() > 0.9

@@ -31,12 +31,20 @@ const SLENDER: f64 = 2.0;
 pub(crate) struct Edge {
     /// Its ends, in the sense in which they go around the first facet.
     pub nodes: [u32; 2],
-    /// The facets that meet there, and where on them its middle is.
-    sides: [(u32, [f64; 2]); 2],
+    /// The facets that meet there.
+    sides: [Side; 2],
     /// Whether nodes and facets miss what crosses it: the surface turns as much as at a corner, or its facets are slender.
     is_feature: bool,
     /// At which of its ends another edge goes on along it.
     goes_on: [bool; 2],
+}
+
+/// A facet beside an edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Side {
+    facet: u32,
+    /// Where on the facet the middle of the edge is.
+    middle: [f64; 2],
 }
 
 impl Edge {
@@ -59,7 +67,7 @@ impl Edge {
 
     /// The facets that meet there.
     pub fn facets(&self) -> impl Iterator<Item = u32> {
-        self.sides.iter().map(|(facet, _)| *facet)
+        self.sides.iter().map(|side| side.facet)
     }
 }
 
@@ -68,17 +76,18 @@ impl ContactSurface {
     /// configuration [m].
     #[must_use]
     pub fn edged<const D: usize>(mut self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
-        let mut open: BTreeMap<[u32; 2], ([u32; 2], (u32, [f64; 2]))> = BTreeMap::new();
+        let mut open: BTreeMap<[u32; 2], ([u32; 2], Side)> = BTreeMap::new();
         for (f, facet) in (0..).zip(&self.facets).filter(|(_, facet)| facet.kind.dimension() == 2) {
-            for ([a, b], at) in lines(facet.kind) {
+            for ([a, b], middle) in lines(facet.kind) {
                 let nodes = [facet.nodes[a], facet.nodes[b]];
                 let [from, to] = nodes.map(|n| self.master(n));
-                let Some((first, side)) = open.remove(&[to, from]) else {
-                    open.insert([from, to], (nodes, (f, at)));
+                let side = Side { facet: f, middle };
+                let Some((first, beside)) = open.remove(&[to, from]) else {
+                    open.insert([from, to], (nodes, side));
                     continue;
                 };
                 let mut edge =
-                    Edge { nodes: first, sides: [side, (f, at)], is_feature: false, goes_on: [false; 2] };
+                    Edge { nodes: first, sides: [beside, side], is_feature: false, goes_on: [false; 2] };
                 let [m0, m1] = self.normals(&edge, reference);
                 let along = reference(first[1]) - reference(first[0]);
                 if crossing::turns_outwards(&along, [m0, m1]) && m0.dot(&m1) < FLAT {
@@ -117,8 +126,8 @@ impl ContactSurface {
     fn widths<const D: usize>(&self, edge: &Edge, position: &impl Fn(u32) -> Vector<D>) -> [f64; 2] {
         let along = position(edge.nodes[1]) - position(edge.nodes[0]);
         let across = |x: Vector<D>| (x - along * (along.dot(&x) / along.norm_squared())).norm();
-        edge.sides.map(|(f, _)| {
-            let facet = &self.facets[f as usize];
+        edge.sides.map(|side| {
+            let facet = &self.facets[side.facet as usize];
             let corners = &facet.nodes[..facet.kind.corner_count()];
             corners.iter().map(|&n| across(position(n) - position(edge.nodes[0]))).fold(0.0, f64::max)
         })
@@ -126,7 +135,10 @@ impl ContactSurface {
 
     /// Outward unit normals of the two facets of an edge, at its middle.
     fn normals<const D: usize>(&self, edge: &Edge, position: &impl Fn(u32) -> Vector<D>) -> [Vector<D>; 2] {
-        edge.sides.map(|(f, at)| normal(&Patch::new(&self.facets[f as usize], position).at(&at).tangents))
+        edge.sides.map(|side| {
+            let patch = Patch::new(&self.facets[side.facet as usize], position);
+            normal(&patch.at(&side.middle).tangents)
+        })
     }
 }
 
