@@ -29,12 +29,12 @@ impl<const D: usize> Crossing<D> {
         let product = area_normal(&[e, f]);
         let (ee, ff, ef) = (e.norm_squared(), f.norm_squared(), e.dot(&f));
         let offset = source[0] - target[0];
-        let (eo, fo) = (e.dot(&offset), f.dot(&offset));
+        let (on_e, on_f) = (e.dot(&offset), f.dot(&offset));
         let sine = product.norm() / (ee * ff).sqrt();
         let square = ee * ff - ef * ef;
         // Edges that have become parallel, or points, on the way to a solution: any number will do.
         let safe = |x: f64| if x.is_finite() { x } else { 0.5 };
-        let along = [safe((ef * fo - ff * eo) / square), safe((ee * fo - ef * eo) / square)];
+        let along = [safe((ef * on_f - ff * on_e) / square), safe((ee * on_f - ef * on_e) / square)];
         let any = || Vector::from_fn(|i, _| if i == e.iamin() { 1.0 } else { 0.0 });
         let normal = product.try_normalize(0.0).unwrap_or_else(any);
         Self { gap: normal.dot(&offset), normal, along, sine: safe(sine) }
