@@ -85,6 +85,12 @@ impl<const D: usize> Contact<D> {
         self.stencil().take(self.sources)
     }
 
+    /// The point of the source [m] where nodes are at `position`.
+    #[must_use]
+    pub fn source_point(&self, position: &impl Fn(u32) -> Vector<D>) -> Vector<D> {
+        self.sources().fold(Vector::zeros(), |x, (n, weight)| x + position(n as u32) * weight)
+    }
+
     /// The part of the stencil on the target.
     pub fn targets(&self) -> impl ExactSizeIterator<Item = (usize, f64)> {
         self.stencil().skip(self.sources)

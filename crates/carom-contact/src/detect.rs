@@ -43,10 +43,11 @@ impl<const D: usize> ContactModel<D> {
                 }
                 Target::Surface(_) if self.is_mortar(p) => {}
                 Target::Surface(t) => {
-                    self.detect_facets(pair_index, t, start, end, margin, search, out);
+                    let Some(room) = search.meeting(pair.source, t, margin) else { continue };
+                    self.detect_facets(pair_index, t, &room, start, end, margin, search, out);
                     // From the other side they are the same.
                     if self.directions(p).start == p {
-                        self.detect_crossings(pair_index, t, start, end, margin, search, out);
+                        self.detect_crossings(pair_index, t, &room, start, end, margin, search, out);
                     }
                 }
             }
@@ -73,10 +74,12 @@ impl<const D: usize> ContactModel<D> {
         self.mark_mirrored(&|n| (start(n) + end(n)) * 0.5, out);
     }
 
+    /// Adds to `out` the nodes of a pair that come into the `room` around its target and near it, and the facets they face.
     fn detect_facets(
         &self,
         pair: u32,
         target: usize,
+        room: &Aabb<D>,
         start: &impl Fn(u32) -> Vector<D>,
         end: &impl Fn(u32) -> Vector<D>,
         margin: f64,
@@ -84,20 +87,14 @@ impl<const D: usize> ContactModel<D> {
         out: &mut Vec<Candidate>,
     ) {
         let Search { surfaces, near, projected, .. } = search;
-        let source_index = self.pairs[pair as usize].source;
-        let source_box = surfaces[source_index].sources.inflated(margin);
         let swept = &mut surfaces[target];
-        let target_box = swept.whole.inflated(margin);
-        if !source_box.overlaps(&target_box) {
-            return;
-        }
         swept.fit(margin);
-        let (source, target) = (&self.surfaces[source_index], &self.surfaces[target]);
+        let (source, target) = (&self.surfaces[self.pairs[pair as usize].source], &self.surfaces[target]);
         let middle = |n: u32| (start(n) + end(n)) * 0.5;
         let is_own = self.is_self_contact(pair as usize);
         for (k, &node) in source.sources.iter().enumerate() {
             let (x0, x1) = (start(node), end(node));
-            if !(target_box.contains(&x0) || target_box.contains(&x1)) {
+            if !(room.contains(&x0) || room.contains(&x1)) {
                 continue;
             }
             let x = middle(node);

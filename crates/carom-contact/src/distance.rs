@@ -2,9 +2,8 @@ use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
-use crate::edge::Crossing;
 use crate::project::Reach;
-use crate::{Candidate, ContactModel, ContactSurface, Pair, Search, Site, Target};
+use crate::{Candidate, Contact, ContactModel, ContactSurface, Pair, Search, Target};
 
 /// The place where the two sides of a pair are closest.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,13 +65,15 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// Whether a candidate of the last [`ContactModel::detect`] that is behind its facet is outside of the target all the same, by more than
-    /// `distance` [m], when the nodes are at `position`, the start of that search: it is on the far side of a thin body.
+    /// `distance` [m], when the nodes are at `position`, the start of that search, where it is this `contact`: it is on the far side of a
+    /// thin body.
     ///
     /// A node that is a little inside at the very edge of its target may be outside by round-off.
     #[must_use]
     pub fn is_beyond(
         &self,
         candidate: &Candidate,
+        contact: &Contact<D>,
         distance: f64,
         position: &impl Fn(u32) -> Vector<D>,
         search: &Search<D>,
@@ -82,14 +83,7 @@ impl<const D: usize> ContactModel<D> {
         if self.is_mortar(pair) || self.is_self_contact(pair) {
             return false;
         }
-        let x = match candidate.site {
-            Site::Node(node) => position(node),
-            Site::Crossing(source, target) => {
-                let edge = source.map(position);
-                let [s, _] = Crossing::new(edge, target.map(position)).clamped().along;
-                edge[0] + (edge[1] - edge[0]) * s
-            }
-        };
+        let x = contact.source_point(position);
         signed_distance(&x, &self.surfaces[t], &search.surfaces[t].tree, position) > distance
     }
 }

@@ -46,6 +46,12 @@ pub(crate) struct Swept<const D: usize> {
 }
 
 impl<const D: usize> Search<D> {
+    /// The room around the target surface that is within `margin` [m] of it, if nodes of the source surface come into its box.
+    pub(crate) fn meeting(&self, source: usize, target: usize, margin: f64) -> Option<Aabb<D>> {
+        let room = self.surfaces[target].whole.inflated(margin);
+        self.surfaces[source].sources.inflated(margin).overlaps(&room).then_some(room)
+    }
+
     /// Boxes around all that moves from `start` to `end` and belongs to a pair of `model`.
     pub(crate) fn sweep(
         &mut self,

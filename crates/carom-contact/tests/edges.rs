@@ -71,7 +71,9 @@ impl Scene {
         self.model.detect(&at, &at, margin, &mut search, &mut out);
         assert!(out.is_sorted());
         let mut found: Vec<_> = out.into_iter().map(|c| (c, self.model.evaluate(&c, &at))).collect();
-        found.retain(|(c, contact)| contact.gap >= 0.0 || !self.model.is_beyond(c, 1e-9, &at, &search));
+        found.retain(|(c, contact)| {
+            contact.gap >= 0.0 || !self.model.is_beyond(c, contact, 1e-9, &at, &search)
+        });
         found
     }
 

@@ -66,7 +66,7 @@ pub(crate) fn select_active<const D: usize>(
     work.candidates.retain(|c| {
         let Some(at_start) = at_starts.next() else { return false };
         let gap = at_start.gap;
-        let is_beyond = || gap < -inside && contact.is_beyond(c, inside, &start, &work.search);
+        let is_beyond = || gap < -inside && contact.is_beyond(c, at_start, inside, &start, &work.search);
         let active =
             !c.mirrored && method.condition.is_active(gap) && answers(model, at_start) && !is_beyond();
         if active {

@@ -29,10 +29,9 @@ impl<const D: usize> Reaction<D> {
     pub fn node(&self) -> u32 {
         match self.site {
             Site::Node(node) => node,
-            Site::Crossing(source, _) => {
-                let [first, second] = source.map(|n| self.contact.sources().find(|&(m, _)| m == n as usize));
-                let weight = |entry: Option<(usize, f64)>| entry.map_or(0.0, |(_, w)| w);
-                source[usize::from(weight(second) > weight(first))]
+            Site::Crossing([first, _], _) => {
+                let nearer = self.contact.sources().max_by(|(_, a), (_, b)| a.total_cmp(b));
+                nearer.map_or(first, |(node, _)| node as u32)
             }
         }
     }

@@ -2,6 +2,7 @@ use carom_mesh::Vector;
 
 use super::crossing::is_foremost;
 use super::{Crossing, DENT, Edge};
+use crate::aabb::Aabb;
 use crate::project::BEYOND;
 use crate::search::DEPTH;
 use crate::{Candidate, ContactModel, ContactSurface, Search, Site};
@@ -19,7 +20,7 @@ const DECIDED: f64 = 0.1;
 const TOUCHING: f64 = 1e-9;
 
 impl<const D: usize> ContactModel<D> {
-    /// Adds to `out` the edges of a pair that cross within `margin` [m] of one another, or a little way through one another.
+    /// Adds to `out` the edges of a pair that, in the `room` around its target, cross within `margin` [m] of one another, or a little way through one another.
     ///
     /// Of two edges one has to be a feature: where both are of something round, nodes and facets are as good. An edge counts if
     /// the line from the one to the other is between the normals of its facets, and if no plane of these facets keeps the two
@@ -29,35 +30,32 @@ impl<const D: usize> ContactModel<D> {
         &self,
         pair: u32,
         target: usize,
+        room: &Aabb<D>,
         start: &impl Fn(u32) -> Vector<D>,
         end: &impl Fn(u32) -> Vector<D>,
         margin: f64,
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
-        let source_index = self.pairs[pair as usize].source;
-        let (source, target_surface) = (&self.surfaces[source_index], &self.surfaces[target]);
-        let source_box = search.surfaces[source_index].sources.inflated(margin);
         let swept = &mut search.surfaces[target];
-        let target_box = swept.whole.inflated(margin);
-        let has_features = source.has_features || target_surface.has_features;
-        if !has_features || !source_box.overlaps(&target_box) {
+        let (source, target) = (&self.surfaces[self.pairs[pair as usize].source], &self.surfaces[target]);
+        if !(source.has_features || target.has_features) {
             return;
         }
-        swept.fit_edges(target_surface, margin, start, end);
+        swept.fit_edges(target, margin, start, end);
         let is_own = self.is_self_contact(pair as usize);
         let found = &mut search.crossings;
         found.clear();
         for (k, edge) in source.edges.iter().enumerate() {
             let path = edge.path(start, end);
-            if !path.overlaps(&target_box) {
+            if !path.overlaps(room) {
                 continue;
             }
             swept.edges.overlapping(&path, |other, _| {
-                let other_edge = &target_surface.edges[other as usize];
+                let other_edge = &target.edges[other as usize];
                 let may_touch = !is_own || (other as usize) > k && source.edges_may_touch(edge, other_edge);
                 if may_touch && (edge.is_feature || other_edge.is_feature) {
-                    found.extend(crossing(source, edge, target_surface, other_edge, start, end, margin));
+                    found.extend(crossing(source, edge, target, other_edge, start, end, margin));
                 }
             });
         }

@@ -146,9 +146,9 @@ impl ContactSurface {
 fn lines(kind: CellKind) -> impl Iterator<Item = ([usize; 2], [f64; 2])> {
     let reference = kind.reference();
     let around = reference.facets.iter().flat_map(|(side, nodes)| {
-        let halves = [[nodes[0], nodes[nodes.len() - 1]], [nodes[nodes.len() - 1], nodes[1]]];
-        let whole = [[nodes[0], nodes[1]], [nodes[0], nodes[1]]];
-        if side.is_quadratic() { halves.into_iter().take(2) } else { whole.into_iter().take(1) }
+        let middle = side.is_quadratic().then(|| nodes[2]);
+        let first = [nodes[0], middle.unwrap_or(nodes[1])];
+        std::iter::once(first).chain(middle.map(|node| [node, nodes[1]]))
     });
     around.map(|[a, b]| {
         let [a_at, b_at] = [a, b].map(|k| reference.nodes[k]);

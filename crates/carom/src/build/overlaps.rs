@@ -79,17 +79,16 @@ fn check_crossings<const D: usize>(model: &Model<D>) -> Result<(), InputError> {
         let smallest_edge = model.bodies[pair.source].body.mesh().smallest_edge();
         let contact = model.contact.evaluate(candidate, &at);
         let touching = TOUCHING * smallest_edge;
-        if contact.gap >= -touching || model.contact.is_beyond(candidate, touching, &at, &search) {
+        if contact.gap >= -touching || model.contact.is_beyond(candidate, &contact, touching, &at, &search) {
             continue;
         }
         let [a, b] = &model.groups[pair.group].between;
-        let crossing = contact.sources().map(|(n, weight)| at(n as u32) * weight).sum::<Vector<D>>();
         return Err(InputError::new(
             format!("bodies.{}.mesh", pair.source),
             format!(
                 "edges of {a:?} and {b:?} are {:.6} m through one another at the start, near {}; move one of them",
                 -contact.gap,
-                place(&crossing)
+                place(&contact.source_point(&at))
             ),
         ));
     }
