@@ -11,7 +11,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 # All that a wheel is made of: templates and the assets of the report too.
 SOURCES := $(shell find crates python -type f ! -name '*.pyc') \
-	Cargo.toml Cargo.lock pyproject.toml README.md
+	Cargo.toml Cargo.lock pyproject.toml README.md THIRD-PARTY-NOTICES.txt
 
 .PHONY: demo test check bench docs validate clean
 
@@ -35,6 +35,7 @@ check: $(VENV)/installed-docs
 	$(BIN)/python docs/make_command_reference.py --check
 	$(BIN)/python docs/make_messages.py --check
 	$(BIN)/python tools/renew_vendored.py --check
+	$(BIN)/python tools/make_notices.py --check
 	$(BIN)/typos
 	if [ -x $(BIN)/sphinx-build ]; then $(BIN)/sphinx-build -W --keep-going -q -t unexecuted -b html docs target/site; fi
 
