@@ -14,6 +14,7 @@ from carom.report.markup import Html, element, format_number, join
 from carom.result import Result
 from carom.scenario import Scenario
 from carom.tables import contact_events, outcome, summary_title
+from carom.time_unit import time_unit
 
 CURVES = (
     ("kinetic", BLUE),
@@ -85,6 +86,7 @@ def _energies(history: dict[str, NDArray[np.float64]]) -> Html | None:
     if len(time) < 2 or not top > 0.0:
         return None
     bottom = min(0.0, *(np.nanmin(history[name]) for name, _ in shown))
+    unit = time_unit(float(time[-1]))
     across = (time - time[0]) / (time[-1] - time[0])
     curves = [
         element(
@@ -112,8 +114,8 @@ def _energies(history: dict[str, NDArray[np.float64]]) -> Html | None:
         ),
         curves,
         _label(0, -6, [*names, element("tspan", f"up to {format_number(top, 4)} J", dx="8")]),
-        _label(0, HEIGHT + 16, f"t = {format_number(time[0], 4)} s"),
-        _label(WIDTH, HEIGHT + 16, f"{format_number(time[-1], 4)} s", anchor="end"),
+        _label(0, HEIGHT + 16, f"t = {unit.text(float(time[0]), 4)}"),
+        _label(WIDTH, HEIGHT + 16, unit.text(float(time[-1]), 4), anchor="end"),
         viewBox=f"-2 -22 {WIDTH + 4} {HEIGHT + 44}",
         width=str(WIDTH + 4),
         role="img",

@@ -14,8 +14,10 @@ from carom.plot.style import (
     PALE_GREY,
     PURPLE,
     figure,
+    run_unit,
 )
 from carom.result import Result
+from carom.time_unit import TimeUnit
 
 CURVES = (
     ("kinetic", r"$E_c$ kinetic", BLUE, "-"),
@@ -31,23 +33,24 @@ IF_ANY = ("plastic",)
 
 
 def energy_figure(result: Result) -> Figure:
-    """Draw energies and what is dissipated [J] over time [s], with the contacts as shades."""
-    time = result.history["time"]
+    """Draw energies and what is dissipated [J] over time, with the contacts as shades."""
+    unit = run_unit(result)
+    time = result.history["time"] / unit.seconds
     with figure(height=3.6) as picture:
         axes = picture.add_subplot()
         for column, label, colour, line in CURVES:
             if column in IF_ANY and not result.history[column].any():
                 continue
             axes.plot(time, result.history[column], line, color=colour, label=label)
-        _shade_contacts(axes, result)
-        axes.set_xlabel("time $t$ [s]")
+        _shade_contacts(axes, result, unit)
+        axes.set_xlabel(f"time $t$ [{unit.symbol}]")
         axes.set_ylabel("energy [J]")
         axes.set_title(result.summary["title"], parse_math=False)
         picture.legend(loc="outside right center")
     return picture
 
 
-def _shade_contacts(axes: Axes, result: Result) -> None:
+def _shade_contacts(axes: Axes, result: Result, unit: TimeUnit) -> None:
     """Shade when two bodies touch, and more lightly when a body touches an obstacle."""
     obstacles = {obstacle.name for obstacle in result.scenario.obstacles}
     labelled = set()
@@ -56,8 +59,8 @@ def _shade_contacts(axes: Axes, result: Result) -> None:
         label = "body on obstacle" if with_obstacle else "body on body"
         release = contact["release"]
         axes.axvspan(
-            contact["onset"],
-            result.history["time"][-1] if release is None else release,
+            contact["onset"] / unit.seconds,
+            (result.history["time"][-1] if release is None else release) / unit.seconds,
             color=PALE_BLUE if with_obstacle else PALE_GREY,
             linewidth=0,
             zorder=0 if with_obstacle else 0.5,

@@ -10,6 +10,9 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
+from carom.result import Result
+from carom.time_unit import TimeUnit, time_unit
+
 # Okabe & Ito's palette, told apart with any colour vision.
 BLUE, ORANGE, GREEN, BLACK, PURPLE = "#0072B2", "#D55E00", "#009E73", "#000000", "#CC79A7"
 PALE_GREY, PALE_BLUE = "#DDDDDD", "#E3EFF8"
@@ -38,6 +41,12 @@ def figure(*, height: float) -> Iterator[Figure]:
     """Give an empty figure, `height` inches high, to draw on in carom's style."""
     with mpl.rc_context(_STYLE):
         yield Figure(figsize=(WIDTH, height), layout="constrained")
+
+
+def run_unit(result: Result) -> TimeUnit:
+    """Return the unit in which the time axes of a run are: s, ms, µs and so on."""
+    times = result.history["time"]
+    return time_unit(float(times[-1]) if len(times) else 0.0)
 
 
 def save(figure: Figure, path: Path) -> Path:

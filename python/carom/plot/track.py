@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from carom.plot.style import BLUE, ORANGE, figure
+from carom.plot.style import BLUE, ORANGE, figure, run_unit
 from carom.result import Result
 
 COMPONENTS = (("x", BLUE), ("y", ORANGE))
@@ -12,7 +12,7 @@ COMPONENTS = (("x", BLUE), ("y", ORANGE))
 
 
 def track_figure(result: Result, *, track: str) -> Figure:
-    """Draw displacement [m] and velocity [m/s] of a tracked point over time [s].
+    """Draw displacement [m] and velocity [m/s] of a tracked point over time.
 
     The velocity to read is the mean over each step, v_mid = Δu/Δt. The velocity at the end of a
     step, a thin line, flips from step to step while the point is in contact.
@@ -25,7 +25,8 @@ def track_figure(result: Result, *, track: str) -> Figure:
         Name of the tracked point.
     """
     history = result.history
-    time = history["time"]
+    unit = run_unit(result)
+    time = history["time"] / unit.seconds
     with figure(height=5.0) as picture:
         displacement, velocity = picture.subplots(2, sharex=True)
         for component, colour in COMPONENTS:
@@ -51,7 +52,7 @@ def track_figure(result: Result, *, track: str) -> Figure:
             f"{result.summary['title']}: {track}".removeprefix(": "), parse_math=False
         )
         velocity.set_ylabel("velocity [m/s]")
-        velocity.set_xlabel("time $t$ [s]")
+        velocity.set_xlabel(f"time $t$ [{unit.symbol}]")
         for axes in (displacement, velocity):
             axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     return picture

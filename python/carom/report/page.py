@@ -29,6 +29,7 @@ from carom.report.number_tables import (
 )
 from carom.report.obstacles import obstacles
 from carom.report.source import UNFINISHED, Source
+from carom.time_unit import TimeUnit, time_unit
 
 LIBRARIES = ("three.min.js", "uPlot.iife.min.js")
 
@@ -88,6 +89,7 @@ def page(source: Source) -> str:
         if source.summary
         else "",
         notes=element("ul", *(element("li", note) for note in notes), id="notes"),
+        time_unit=join(data["time_unit"]["symbol"]),
         data=embedded(data, id="data"),
         scripts=join(*(Html(f"<script>{script}</script>\n") for script in scripts)),
     )
@@ -125,10 +127,12 @@ def _data(source: Source, shown: Bodies | None, notes: list[str]) -> dict[str, A
             f"Curves have {drawn['rows']} of {drawn['recorded']} rows of history.csv, evenly "
             "spaced."
         )
+    unit = _time_unit(source)
     data: dict[str, Any] = {
         "curves": drawn,
         "contacts": source.summary.get("contacts") or [],
         "end": source.summary.get("end_time"),
+        "time_unit": {"symbol": unit.symbol, "seconds": unit.seconds},
         "colour_maps": {name: _colours(map_) for name, map_ in COLOUR_MAPS.items()},
         "scene": None,
     }
@@ -145,6 +149,14 @@ def _data(source: Source, shown: Bodies | None, notes: list[str]) -> dict[str, A
             "obstacles": obstacles(case, times, notes) if case else [],
         }
     return data
+
+
+def _time_unit(source: Source) -> TimeUnit:
+    """Return the unit of the times that are drawn, by the last that there is."""
+    lists = [source.history.get("time", ())]
+    if source.frames is not None:
+        lists.append(source.frames.times)
+    return time_unit(max((float(times[-1]) for times in lists if len(times)), default=0.0))
 
 
 def _colours(name: str) -> str:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from carom.errors import InputError
 from carom.io.frames import Frames
 from carom.scenario import Scenario
+from carom.time_unit import time_unit
 from carom.view.fields import Shown
 from carom.view.obstacles import draw_obstacles
 
@@ -94,9 +95,9 @@ def animate(view: View, file: Path) -> None:
                 f'--animation {file}: {" ".join(str(error).split())}; pip install "imageio[ffmpeg]"'
             ) from None
         grid = _draw(plotter, view, 0, limits=_limits(view))
-        for frame, time in enumerate(view.frames.times):
+        for frame in range(len(view.frames.times)):
             _update(grid, view, frame)
-            plotter.add_text(_caption(float(time)), name="time", font_size=10)
+            plotter.add_text(_caption(view, frame), name="time", font_size=10)
             plotter.write_frame()
 
 
@@ -116,7 +117,7 @@ def show(view: View, frame: int) -> None:
         def turn_to(value: float) -> None:
             chosen = round(value)
             _update(grid, view, chosen)
-            plotter.add_text(_caption(float(view.frames.times[chosen])), name="time", font_size=10)
+            plotter.add_text(_caption(view, chosen), name="time", font_size=10)
 
         if len(view.frames.times) > 1:
             last = len(view.frames.times) - 1
@@ -185,7 +186,7 @@ def _draw(
     )
     low, high = np.reshape(grid.bounds, (3, 2)).T
     draw_obstacles(plotter, view.scenario, low, high, float(frames.times[frame]))
-    plotter.add_text(_caption(float(frames.times[frame])), name="time", font_size=10)
+    plotter.add_text(_caption(view, frame), name="time", font_size=10)
     for label in plotter.actors.values():
         if hasattr(label, "prop") and type(label).__name__ == "CornerAnnotation":
             label.prop.color = "black"
@@ -213,5 +214,6 @@ def _is_line(frames: Frames) -> bool:
     return bool(np.isin(frames.types, (3, 21)).all())
 
 
-def _caption(time: float) -> str:
-    return f"t = {time:.6g} s"
+def _caption(view: View, frame: int) -> str:
+    times = view.frames.times
+    return f"t = {time_unit(float(times[-1])).text(float(times[frame]))}"

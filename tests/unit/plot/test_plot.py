@@ -1,3 +1,5 @@
+import itertools
+
 import matplotlib.image
 import numpy as np
 import pytest
@@ -55,3 +57,49 @@ def test_track_figure_makes_the_mean_velocity_the_one_to_read(result):
 def test_a_title_is_text_and_no_mathematics(scenario, tmp_path):
     titled = scenario.with_overrides(['title="costs $\\\\foo$"'])
     assert len(draw(drive(FallingSimulation(titled), titled, tmp_path))) == 2
+
+
+@pytest.fixture
+def lasting(scenario, tmp_path):
+    """Return a function that gives results of a run of some length [s]."""
+
+    def run_(end):
+        short = scenario.with_overrides(
+            [f"analysis.end_time={end}", f"analysis.time_step={end / 40}"]
+        )
+        return drive(FallingSimulation(short), short, tmp_path / "short")
+
+    return run_
+
+
+@pytest.mark.parametrize(
+    ("end", "unit", "last"),
+    [
+        (6e-5, "µs", 60.0),
+        (2.5e-7, "µs", 0.25),
+        (0.0125, "ms", 12.5),
+        (0.4, "s", 0.4),
+        (15, "s", 15),
+    ],
+)
+def test_ticks_of_short_runs_do_not_overlap(lasting, end, unit, last):
+    """Symptom guarded against: 0.00000, 0.00001, 0.00002, … written over one another."""
+    result = lasting(end)
+    for picture in (energy_figure(result), track_figure(result, track="tip")):
+        axes = picture.axes[-1]
+        assert axes.get_xlabel() == f"time $t$ [{unit}]"
+        assert axes.lines[0].get_xdata()[-1] == pytest.approx(last)
+        picture.draw_without_rendering()
+        boxes = [
+            label.get_window_extent()
+            for label in axes.get_xticklabels()
+            if axes.get_xlim()[0] <= label.get_position()[0] <= axes.get_xlim()[1]
+        ]
+        assert len(boxes) > 3
+        assert all(left.x1 + 3 < right.x0 for left, right in itertools.pairwise(boxes))
+
+
+def test_shades_of_contacts_are_in_the_unit_of_the_axis(lasting):
+    (axes,) = energy_figure(lasting(0.0125)).axes
+    (start, _), (end, _) = axes.patches[0].get_corners()[[0, 2]]
+    assert (start, end) == pytest.approx((200.0, 300.0))

@@ -71,6 +71,27 @@ def disc(tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
+def steel(tmp_path_factory):
+    """The disc of steel, a hundred times smaller: a run of some microseconds."""
+    case = {
+        **DISC,
+        "title": "steel",
+        "analysis": {**DISC["analysis"], "end_time": 1.2e-5, "time_step": 2e-7},
+        "materials": {"rubber": {**DISC["materials"]["rubber"], "young": 2e11, "density": 7800.0}},
+        "bodies": [
+            {
+                **DISC["bodies"][0],
+                "mesh": {"kind": "disc", "centre": [0, 0.01001], "radius": 0.01, "divisions": 4},
+                "velocity": [2.0, -5.0],
+            }
+        ],
+        "obstacles": DISC["obstacles"][:1],
+        "output": {"fields_every": 1e-6, "report": True},
+    }
+    return carom.run(carom.Scenario.from_dict(case), out=tmp_path_factory.mktemp("steel") / "run")
+
+
+@pytest.fixture(scope="session")
 def ball(tmp_path_factory):
     """A ball in space, with a nasty title; the report was asked for afterwards."""
     result = carom.run(carom.Scenario.from_dict(BALL), out=tmp_path_factory.mktemp("ball") / "run")

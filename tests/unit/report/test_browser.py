@@ -192,6 +192,19 @@ def test_keys_step_jump_and_play(disc_page):
     assert frame(disc_page) == at
 
 
+def test_a_run_of_microseconds_is_told_in_microseconds(steel, opened):
+    """Symptom guarded against: ticks 2 × 10⁻⁶, 4 × 10⁻⁶, …, and a clock at 1.2 × 10⁻⁵ s."""
+    page = opened(steel.path / layout.REPORT)
+    scrub_to(page, 12)
+    assert page.locator("#time").inner_text().startswith("t = 12\u202fµs")
+    assert "1\u202fµs a second" in page.locator("#pace").inner_text()
+    assert page.locator("#curves .hint").inner_text().startswith("Times are in µs.")
+    event = page.locator("#timeline .event").first.get_attribute("title")
+    assert event.startswith("disc – floor: ")
+    assert event.count("\u202fµs") >= 1
+    assert "10⁻" not in event.partition(",")[0]
+
+
 def test_focus_is_seen_and_every_control_has_a_name(disc_page):
     disc_page.keyboard.press("Tab")
     for _ in range(6):

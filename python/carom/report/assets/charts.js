@@ -1,6 +1,6 @@
 // Curves over time: one marker of the current time, one zoom, legends with the values there.
 carom.makeCharts = (clock, gutter) => {
-  const { create, number } = carom.format;
+  const { create, number, inUnit } = carom.format;
   const HEIGHT = 128;
   const TALL = 250;
   const CLICK = 4; // pixels that a click may move
@@ -57,7 +57,7 @@ carom.makeCharts = (clock, gutter) => {
         padding: [8, 16, 0, 0],
         scales: { x: { time: false }, y: log ? { distr: 3 } : { range: withRoom } },
         axes: [
-          { ...axis, size: 28, space: 70 },
+          { ...axis, size: 28, space: 70, values: (_, ticks) => ticks.map((tick) => inUnit(tick, 6)) },
           { ...axis, size: gutter, space: 28, ...(log ? { splits: decades, filter: (_, ticks) => ticks } : {}) },
         ],
         series: [

@@ -19,6 +19,10 @@ carom.format = (() => {
   function quantity(value, unit, digits) {
     return unit ? `${number(value, digits)}\u202f${unit}` : number(value, digits);
   }
+  // Times are told in one unit throughout, which Python has chosen by the length of the run.
+  const clockUnit = { symbol: "s", seconds: 1 };
+  const inUnit = (time, digits) => number(time / clockUnit.seconds, digits);
+  const time = (value, digits) => `${inUnit(value, digits)}\u202f${clockUnit.symbol}`;
   function create(tag, properties = {}, ...children) {
     const element = Object.assign(document.createElement(tag), properties);
     element.append(...children);
@@ -27,5 +31,5 @@ carom.format = (() => {
   function options(select, entries) {
     select.replaceChildren(...entries.map(([value, text]) => create("option", { value, textContent: text })));
   }
-  return { number, quantity, create, options };
+  return { number, quantity, time, inUnit, clockUnit, create, options };
 })();

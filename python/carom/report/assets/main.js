@@ -3,6 +3,7 @@
   const at = (id) => document.getElementById(id);
   const { quantity, options } = carom.format;
   const data = JSON.parse(at("data").textContent);
+  Object.assign(carom.format.clockUnit, data.time_unit);
 
   async function unpackAll(packed) {
     const entries = Object.entries(packed).map(async ([name, array]) => [name, await carom.codec.unpack(array)]);
@@ -135,7 +136,7 @@
     scene.onChange(() => {
       carom.colourBar.show(scene.state.field, scene.limits(), maps[scene.state.field.map]);
       read();
-      at("stage").setAttribute("aria-label", `Deformed bodies at t = ${quantity(clock.time, "s", 5)}`);
+      at("stage").setAttribute("aria-label", `Deformed bodies at t = ${carom.format.time(clock.time, 5)}`);
       at("stage").dataset.frame = String(scene.state.frame);
     });
     clock.onChange(() => {

@@ -1,6 +1,6 @@
 // Who touches whom and when: a row for each pair, stronger where the force was larger.
 carom.makeTimeline = (parent, contacts, end, clock, charts, gutter) => {
-  const { create, quantity } = carom.format;
+  const { create, quantity, time } = carom.format;
   const rows = new Map();
   const strongest = Math.max(...contacts.map((contact) => contact.peak_force ?? 0));
   const panel = create("div", { className: "panel timeline", id: "timeline" });
@@ -27,7 +27,7 @@ carom.makeTimeline = (parent, contacts, end, clock, charts, gutter) => {
     }
     const release = contact.release ?? end;
     const middle = (contact.onset + release) / 2;
-    const text = `${pair}: ${quantity(contact.onset, "s", 5)} to ${contact.release === null ? "the end" : quantity(release, "s", 5)}, `
+    const text = `${pair}: ${time(contact.onset, 5)} to ${contact.release === null ? "the end" : time(release, 5)}, `
       + `peak ${quantity(contact.peak_force, "N", 4)}, friction ${quantity(contact.friction_work, "J", 4)}`;
     const button = create("button", { type: "button", className: "event", title: text });
     button.setAttribute("aria-label", text);

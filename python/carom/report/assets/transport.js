@@ -1,8 +1,7 @@
 // Playing and stepping through time, by buttons, slider and keys.
 carom.makeTransport = (clock, actions) => {
   const at = (id) => document.getElementById(id);
-  const { quantity } = carom.format;
-  const scrub = at("scrub");
+    const scrub = at("scrub");
   scrub.max = String(clock.last);
   const digits = Math.min(12, Math.max(4, Math.ceil(Math.log10(clock.last + 1)) + 2));
 
@@ -45,12 +44,12 @@ carom.makeTransport = (clock, actions) => {
 
   function tell() {
     scrub.value = String(clock.index);
-    const time = quantity(clock.time, "s", digits);
+    const time = carom.format.time(clock.time, digits);
     at("time").textContent = `t = ${time} · ${clock.index + 1}/${clock.last + 1}`;
     scrub.setAttribute("aria-valuetext", `t = ${time}`);
     at("play").setAttribute("aria-pressed", String(clock.playing));
     at("play").setAttribute("aria-label", clock.playing ? "Pause" : "Play");
-    at("pace").textContent = `1 s shows ${quantity(clock.pace(), "s", 3)}`;
+    at("pace").textContent = `${carom.format.time(clock.pace(), 3)} a second`;
   }
   clock.onChange(tell);
   at("transport").hidden = false;
