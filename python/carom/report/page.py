@@ -153,10 +153,10 @@ def _data(source: Source, shown: Bodies | None, notes: list[str]) -> dict[str, A
 
 def _time_unit(source: Source) -> TimeUnit:
     """Return the unit of the times that are drawn, by the last that there is."""
-    lists = [source.history.get("time", ())]
+    times = [*source.history.get("time", ())[-1:]]
     if source.frames is not None:
-        lists.append(source.frames.times)
-    return time_unit(max((float(times[-1]) for times in lists if len(times)), default=0.0))
+        times += [*source.frames.times[-1:]]
+    return time_unit(max(map(float, times), default=0.0))
 
 
 def _colours(name: str) -> str:
