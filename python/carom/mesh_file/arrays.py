@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import tomlkit
@@ -11,6 +11,35 @@ from numpy.typing import NDArray
 from carom.errors import MeshError
 
 Indices = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Note:
+    """What was done to a mesh, or left out of it, that its owner should know of.
+
+    Parameters
+    ----------
+    code
+        Name of what happened.
+    message
+        The fact, in one line.
+    where
+        Key of the case file that it is about.
+    value, allowed
+        The number that was met and the one that would have needed no note; None without a number.
+    """
+
+    code: str
+    message: str
+    where: str = ""
+    value: float | None = None
+    allowed: float | None = None
+
+    def at(self, key: str, file: str) -> Note:
+        """Return the note with its place, and the file there."""
+        return replace(
+            self, where=f"{key}.file", message=f"{_place(f'{key}.file', file)}: {self.message}"
+        )
 
 
 @dataclass(frozen=True)
@@ -28,12 +57,18 @@ class FileMesh:
         Points by the name of their set.
     cell_sets
         By the name of the set, for each block the cells of it that belong.
+    notes
+        What was left out.
+    backwards
+        Whether the format has the nodes of every cell against VTK's sense.
     """
 
     points: NDArray[np.float64]
     blocks: list[tuple[str, Indices]]
     point_sets: dict[str, Indices] = field(default_factory=dict)
     cell_sets: dict[str, list[Indices]] = field(default_factory=dict)
+    notes: list[Note] = field(default_factory=list)
+    backwards: bool = False
 
 
 @dataclass(frozen=True)
@@ -50,6 +85,8 @@ class MeshArrays:
         Nodes and cells by the name of their set; cells are numbered block after block.
     facet_sets
         By the name of the set, the nodes of its facets, one array for each kind of facet.
+    notes
+        What its owner should know of.
     """
 
     points: NDArray[np.float64]
@@ -57,6 +94,7 @@ class MeshArrays:
     node_sets: dict[str, Indices] = field(default_factory=dict)
     facet_sets: dict[str, list[Indices]] = field(default_factory=dict)
     cell_sets: dict[str, Indices] = field(default_factory=dict)
+    notes: list[Note] = field(default_factory=list)
 
 
 class Refused(Exception):  # noqa: N818 (an answer, which becomes an error with its place)
@@ -78,8 +116,12 @@ class Refused(Exception):  # noqa: N818 (an answer, which becomes an error with 
     def at(self, key: str, value: str) -> MeshError:
         """Return the error that the user sees: its place, the value there, and what is wrong."""
         place = f"{key}.{self.entry}"
-        # As the case file would write it: a name may have line breaks, a message may not.
-        return MeshError(f"{place} = {tomlkit.item(value).as_string()}: {self.what}", place)
+        return MeshError(f"{_place(place, value)}: {self.what}", place)
+
+
+def _place(key: str, value: str) -> str:
+    """Return a value as the case file would write it: it may have line breaks, a message not."""
+    return f"{key} = {tomlkit.item(value).as_string()}"
 
 
 def first_few(indices: NDArray[np.integer]) -> str:

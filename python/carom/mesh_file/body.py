@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carom.counting import count
-from carom.mesh_file.arrays import FileMesh, Indices, MeshArrays, Refused, first_few
-from carom.mesh_file.cells import KINDS, dimension, smallest_corner
+from carom.mesh_file.arrays import FileMesh, Indices, MeshArrays, Note, Refused, first_few
+from carom.mesh_file.cells import KINDS, dimension
 from carom.mesh_file.formats import read_file
+from carom.mesh_file.upright import Upright, upright
 from carom.messages import known
 
 _FLAT = 1e-9
@@ -56,7 +58,8 @@ def read_body_mesh(
         The file cannot be read, or its cells make no body.
     """
     try:
-        return _body(read_file(Path(file), space), body, scale, space)
+        arrays = _body(read_file(Path(file), space), body, scale, space)
+        return replace(arrays, notes=[note.at(key, str(file)) for note in arrays.notes])
     except Refused as refused:
         value = body if refused.entry == "body" and body is not None else str(file)
         raise refused.at(key, value) from None
@@ -90,13 +93,24 @@ def _body(mesh: FileMesh, body: str | None, scale: float, space: int) -> MeshArr
         if len(cells)
     ]
     _refuse_duplicates(blocks)
+    right = upright(points, blocks)
     return MeshArrays(
         points=points,
-        blocks=[(KINDS[kind].name, nodes) for kind, nodes in _upright(points, blocks)],
+        blocks=[(KINDS[kind].name, nodes) for kind, nodes in right.blocks],
         node_sets=_node_sets(mesh, number, space),
         facet_sets=_facet_sets(mesh, number, space),
         cell_sets=_cell_sets(mesh, chosen),
+        notes=[*mesh.notes, *_turned(right, backwards=mesh.backwards)],
     )
+
+
+def _turned(right: Upright, *, backwards: bool) -> list[Note]:
+    """Return the note that cells were turned, unless the format has it so."""
+    total = sum(len(nodes) for _, nodes in right.blocks)
+    if not right.turned or (backwards and right.turned == total):
+        return []
+    what = f"{right.which} are numbered the other way round and were turned"
+    return [Note("turned-cells", what, value=right.turned, allowed=0)]
 
 
 def _kinds(mesh: FileMesh, wanted: int | None = None) -> str:
@@ -183,31 +197,6 @@ def _refuse_duplicates(blocks: list[tuple[str, Indices]]) -> None:
                 f"({first_few(again)} from 0 in their order in the file); keep each cell once "
                 "(Gmsh's format 2 repeats cells that are in two physical groups, format 4 does not)"
             )
-
-
-def _upright(
-    points: NDArray[np.float64], blocks: list[tuple[str, Indices]]
-) -> list[tuple[str, Indices]]:
-    """Return the cells numbered as carom does, if the file numbers all of them the other way."""
-    corners = [smallest_corner(KINDS[kind], points, nodes) for kind, nodes in blocks]
-    inverted = [corner <= 0.0 for corner in corners]
-    if all(np.all(corner < 0.0) for corner in corners):
-        mirrored = [(kind, nodes[:, KINDS[kind].mirror]) for kind, nodes in blocks]
-        if all(np.all(smallest_corner(KINDS[k], points, n) > 0.0) for k, n in mirrored):
-            return mirrored
-    number = sum(int(block.sum()) for block in inverted)
-    if number:
-        total = sum(len(nodes) for _, nodes in blocks)
-        which = "; ".join(
-            f"{KINDS[kind].name} {first_few(np.flatnonzero(block))}"
-            for (kind, _), block in zip(blocks, inverted, strict=True)
-            if block.any()
-        )
-        raise Refused(
-            f"{number:,} of {count(total, 'cell')} are inverted or flat ({which} from 0 in their "
-            "order in the file); repair the mesh"
-        )
-    return blocks
 
 
 def _node_sets(mesh: FileMesh, number: Indices, space: int) -> dict[str, Indices]:

@@ -77,7 +77,13 @@ def _by_meshio(path: Path) -> FileMesh:
     for name, cells in cell_sets.items():
         if len(cells) != len(blocks):
             raise Refused(f"its set {name!r} does not fit its cells; repair the file")
-    return FileMesh(points=points, blocks=blocks, point_sets=point_sets, cell_sets=cell_sets)
+    return FileMesh(
+        points=points,
+        blocks=blocks,
+        point_sets=point_sets,
+        cell_sets=cell_sets,
+        backwards=path.suffix.lower() == ".med",
+    )
 
 
 def _refuse_endless(path: Path) -> None:
