@@ -60,9 +60,9 @@ def upright(points: NDArray[np.float64], blocks: Blocks) -> Upright:
         wrong = np.flatnonzero(smallest_corner(kind, points, nodes) <= 0.0)
         mirrored = nodes[wrong][:, kind.mirror]
         sound = smallest_corner(kind, points, mirrored) > 0.0
-        nodes = nodes.copy()
-        nodes[wrong[sound]] = mirrored[sound]
-        upright_blocks.append((name, nodes))
+        mine = nodes.copy()
+        mine[wrong[sound]] = mirrored[sound]
+        upright_blocks.append((name, mine))
         turned.append(_mask(len(nodes), wrong[sound]))
         bad.append(_mask(len(nodes), wrong[~sound]))
     some = any(block.any() for block in turned) and not all(block.all() for block in turned)
