@@ -1,20 +1,33 @@
 """The mesh in an Abaqus input file: nodes, elements, sets and surfaces.
 
 meshio's own reader leaves out surfaces, plane strain elements and all but the last block of nodes.
-Keywords that say nothing about the mesh are skipped. The numbering of elements and of their faces
-is that of the Abaqus Analysis User's Guide, "Continuum elements".
+Keywords that say nothing about the mesh are skipped, and so are elements that are no continuum,
+such as springs. The numbering of elements and of their faces is that of the Abaqus Analysis User's
+Guide, "Continuum elements".
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from carom.mesh_file.arrays import FileMesh, Indices, Refused
+from carom.counting import count
+from carom.mesh_file.arrays import FileMesh, Indices, Note, Refused
+from carom.mesh_file.deck import Row, sections
+
+_NO_CONTINUUM = re.compile(
+    r"(SPRING|DASHPOT|MASS|ROTARYI|GAP|ITS|CONN|DCOUP|JOINT|PIPE|ELBOW|FRAME|RB[23]D|U\d|D$)"
+)
+"""Beginnings of the names of elements that carry forces between nodes or flows, but fill no space.
+
+U followed by a number is a user's element, D an element of CalculiX' networks.
+"""
+
+_BEAM = re.compile(r"B[23]\d")
 
 _ELEMENTS = {  # nodes per element: kind, by the letters that begin its name
     "C3D": {4: "tetra", 10: "tetra10", 8: "hexahedron", 20: "hexahedron20", 27: "hexahedron27"}
@@ -29,8 +42,6 @@ _ELEMENTS = {  # nodes per element: kind, by the letters that begin its name
     "R3D": {3: "triangle", 4: "quad"},
     "T3D": {2: "line", 3: "line3"},
     "T2D": {2: "line", 3: "line3"},
-    "B3": {1: "line", 2: "line3"},
-    "B2": {1: "line", 2: "line3"},
     "R2D": {2: "line"},
 }
 _NODES = {
@@ -79,38 +90,18 @@ def read_abaqus(path: Path) -> FileMesh:
     """
     reader = _Reader()
     try:
-        for keyword, options, rows in _sections(path):
+        for keyword, options, rows in sections(path):
             reader.take(keyword, options, rows)
         return reader.mesh()
     except (OSError, UnicodeDecodeError, ValueError, IndexError, OverflowError) as error:
         raise Refused(f"cannot be read: {error}") from None
 
 
-def _sections(path: Path) -> Iterator[tuple[str, dict[str, str], list[list[str]]]]:
-    """Yield each keyword with its options and its lines of data, split at commas."""
-    keyword: str | None = None
-    options: dict[str, str] = {}
-    rows: list[list[str]] = []
-    text = path.read_text(encoding="utf-8", errors="replace")
-    for line in text.splitlines():
-        if line.startswith("**") or not line.strip():
-            continue
-        if not line.startswith("*"):
-            rows.append([entry.strip() for entry in line.rstrip().rstrip(",").split(",")])
-            continue
-        if keyword is not None:
-            yield keyword, options, rows
-        name, *given = (part.strip() for part in line[1:].split(","))
-        keyword, rows = " ".join(name.upper().split()), []
-        options = {}
-        for option in given:
-            key, _, value = option.partition("=")
-            options[key.strip().upper()] = value.strip().strip('"')
-        if keyword == "INCLUDE":
-            yield from _sections(path.parent / options.get("INPUT", ""))
-            keyword = None
-    if keyword is not None:
-        yield keyword, options, rows
+_Members = dict[int, bool]
+"""Numbers of a set; true for those that it names one by one, and that must therefore be there."""
+
+
+_SHELLS = ("triangle", "triangle6", "quad", "quad8", "quad9")
 
 
 @dataclass
@@ -119,13 +110,14 @@ class _Reader:
 
     points: dict[int, list[float]] = field(default_factory=dict)
     blocks: list[tuple[str, dict[int, list[int]]]] = field(default_factory=list)
-    node_sets: dict[str, list[int]] = field(default_factory=dict)
-    element_sets: dict[str, list[int]] = field(default_factory=dict)
-    surfaces: dict[str, list[tuple[int, str]]] = field(default_factory=dict)
+    node_sets: dict[str, _Members] = field(default_factory=dict)
+    element_sets: dict[str, _Members] = field(default_factory=dict)
+    surfaces: dict[str, list[tuple[int, str, bool]]] = field(default_factory=dict)
     names: dict[str, str] = field(default_factory=dict)
+    left_out: dict[str, set[int]] = field(default_factory=dict)
     parts: int = 0
 
-    def take(self, keyword: str, options: dict[str, str], rows: list[list[str]]) -> None:
+    def take(self, keyword: str, options: dict[str, str], rows: list[Row]) -> None:
         if keyword in ("PART", "INSTANCE"):
             self.parts += keyword == "PART"
             if self.parts > 1 or (keyword == "INSTANCE" and rows):
@@ -133,11 +125,11 @@ class _Reader:
                     "it has several parts or moved instances; write one part to a file"
                 )
         elif keyword == "NODE":
-            numbers = [int(row[0]) for row in rows]
+            numbers = [row.integer(0) for row in rows]
             for number, row in zip(numbers, rows, strict=True):
-                x = [float(entry) for entry in row[1:4]]
+                x = [row.number(k) for k in range(1, min(len(row.fields), 4))]
                 self.points[number] = x + [0.0] * (3 - len(x))
-            self._add(self.node_sets, options.get("NSET"), numbers)
+            self._add(self.node_sets, options.get("NSET"), dict.fromkeys(numbers, True))
         elif keyword == "ELEMENT":
             self._elements(options, rows)
         elif keyword in ("NSET", "ELSET"):
@@ -156,10 +148,13 @@ class _Reader:
         }
         blocks = [(kind, _indices(index, list(cells.values()))) for kind, cells in self.blocks]
         cell_sets: dict[str, list[list[int]]] = {}
+        without = set().union(*self.left_out.values())
         for name, numbers in self.element_sets.items():
             members: list[list[int]] = [[] for _ in blocks]
-            for number in numbers:
+            for number, must_be in numbers.items():
                 if number not in place:
+                    if not must_be or number in without:
+                        continue
                     raise ValueError(f"element set {name} has element {number}, which is not there")
                 block, k = place[number]
                 members[block].append(k)
@@ -174,7 +169,8 @@ class _Reader:
             points=np.array(list(self.points.values()), dtype=np.float64).reshape(-1, 3),
             blocks=blocks,
             point_sets={
-                self.names[n]: _indices(index, members) for n, members in self.node_sets.items()
+                self.names[n]: _indices(index, [k for k, must in of.items() if must or k in index])
+                for n, of in self.node_sets.items()
             },
             cell_sets={
                 self.names[name]: [
@@ -183,65 +179,96 @@ class _Reader:
                 ]
                 for name, members in cell_sets.items()
             },
+            notes=self._notes(),
         )
 
-    def _add(self, sets: dict[str, list[int]], name: str | None, members: list[int]) -> None:
+    def _notes(self) -> list[Note]:
+        if not self.left_out:
+            return []
+        kinds = ", ".join(
+            f"{count(len(numbers), f'{kind} element')}" for kind, numbers in self.left_out.items()
+        )
+        return [
+            Note(
+                "left-out-elements",
+                f"left out {kinds}, which fill no space",
+                value=sum(map(len, self.left_out.values())),
+                allowed=0,
+            )
+        ]
+
+    def _add(self, sets: dict[str, _Members], name: str | None, members: _Members) -> None:
         if name:
             self.names.setdefault(name.upper(), name)
-            sets.setdefault(name.upper(), []).extend(members)
+            mine = sets.setdefault(name.upper(), {})
+            for number, must_be in members.items():
+                mine[number] = must_be or mine.get(number, False)
 
-    def _elements(self, options: dict[str, str], rows: list[list[str]]) -> None:
-        kind = _kind(options.get("TYPE", "").upper())
-        flat = [int(entry) for row in rows for entry in row if entry]
+    def _elements(self, options: dict[str, str], rows: list[Row]) -> None:
+        element = options.get("TYPE", "").upper()
+        if _NO_CONTINUUM.match(element) or _BEAM.match(element):
+            numbers = [row.integer(0) for row in rows if not row.goes_on]
+            self.left_out.setdefault(element, set()).update(numbers)
+            self._add(self.element_sets, options.get("ELSET"), dict.fromkeys(numbers, True))
+            return
+        kind = _kind(element)
+        flat = [row.integer(k) for row in rows for k in range(len(row.fields))]
         width = 1 + _NODES[kind]
         if len(flat) % width:
             raise ValueError(f"elements of type {options['TYPE']} need {width - 1} nodes each")
         elements = {flat[k]: flat[k + 1 : k + width] for k in range(0, len(flat), width)}
         self.blocks.append((kind, elements))
-        self._add(self.element_sets, options.get("ELSET"), list(elements))
+        self._add(self.element_sets, options.get("ELSET"), dict.fromkeys(elements, True))
 
     def _members(
-        self, sets: dict[str, list[int]], options: dict[str, str], rows: list[list[str]]
-    ) -> list[int]:
-        members: list[int] = []
+        self, sets: dict[str, _Members], options: dict[str, str], rows: list[Row]
+    ) -> _Members:
+        members: _Members = {}
         for row in rows:
             if "GENERATE" in options:
-                first, last, step = (*map(int, row), 1)[:3]
-                members.extend(range(first, last + 1, step))
+                first, last, step = (*map(row.integer, range(len(row.fields))), 1)[:3]
+                for number in range(first, last + 1, step):
+                    members.setdefault(number, False)
                 continue
-            for entry in filter(None, row):
+            for column, entry in enumerate(row.fields):
                 if re.fullmatch(r"\d+", entry):
-                    members.append(int(entry))
+                    members[row.integer(column)] = True
                 elif entry.upper() in sets:
-                    members.extend(sets[entry.upper()])
-                else:
+                    for number, must_be in sets[entry.upper()].items():
+                        members[number] = must_be or members.get(number, False)
+                elif entry:
                     raise ValueError(f"there is no set {entry}")
         return members
 
-    def _surface(self, options: dict[str, str], rows: list[list[str]]) -> None:
+    def _surface(self, options: dict[str, str], rows: list[Row]) -> None:
         name = options.get("NAME", "")
         if options.get("TYPE", "ELEMENT").upper() == "NODE":
             self._add(
-                self.node_sets, name, self._members(self.node_sets, {}, [r[:1] for r in rows])
+                self.node_sets, name, self._members(self.node_sets, {}, [r.first() for r in rows])
             )
             return
         self.names.setdefault(name.upper(), name)
         faces = self.surfaces.setdefault(name.upper(), [])
         for row in rows:
-            face = row[1].upper() if len(row) > 1 else ""
-            faces.extend(
-                (number, face) for number in self._members(self.element_sets, {}, [row[:1]])
-            )
+            face = row.fields[1].upper() if len(row.fields) > 1 else ""
+            of_row = self._members(self.element_sets, {}, [row.first()])
+            faces.extend((number, face, must_be) for number, must_be in of_row.items())
 
     def _faces(
-        self, name: str, faces: list[tuple[int, str]], place: dict[int, tuple[int, int]]
+        self, name: str, faces: list[tuple[int, str, bool]], place: dict[int, tuple[int, int]]
     ) -> list[tuple[str, list[list[int]]]]:
         """Return the nodes of the faces of a surface, by kind."""
         found: dict[str, list[list[int]]] = {}
-        for number, face in faces:
+        without = set().union(*self.left_out.values())
+        for number, face, must_be in faces:
             if number not in place:
+                if not must_be or number in without:
+                    continue
                 raise ValueError(f"surface {name} has element {number}, which is not there")
             kind, elements = self.blocks[place[number][0]]
+            if face in ("SPOS", "SNEG") and kind in _SHELLS:
+                found.setdefault(kind, []).append(elements[number])
+                continue
             if kind not in _FACES:
                 continue
             face_kind, local = _FACES[kind]
@@ -257,7 +284,7 @@ class _Reader:
 
 def _kind(element: str) -> str:
     """Return the kind of cell that a type of element is."""
-    match = re.match(r"([A-Z]+(?:3D|2D)?|B[23])(\d+)", element)
+    match = re.match(r"([A-Z]+(?:3D|2D)?)(\d+)", element)
     kind = _ELEMENTS.get(match[1], {}).get(int(match[2])) if match else None
     if kind is None:
         raise ValueError(f"elements of type {element or '(none)'} are not known")

@@ -31,7 +31,7 @@ def body_dimension(file: str | Path, *, key: str) -> int:
         mesh = read_file(Path(file), 3)
     except Refused as refused:
         raise refused.at(key, str(file)) from None
-    return max((dimension(kind) for kind, nodes in mesh.blocks if len(nodes)), default=2)
+    return max([2, *(dimension(kind) for kind, nodes in mesh.blocks if len(nodes))])
 
 
 def read_body_mesh(
@@ -125,7 +125,8 @@ def _kinds(mesh: FileMesh, wanted: int | None = None) -> str:
 def _refuse_wrong_dimension(mesh: FileMesh, space: int) -> None:
     highest = max((dimension(kind) for kind, nodes in mesh.blocks if len(nodes)), default=-1)
     if highest < 0:
-        raise Refused("holds no cells")
+        but = f": {mesh.notes[0].message}" if mesh.notes else ""
+        raise Refused(f"holds no cells{but}")
     if highest > space:
         raise Refused(
             f"has cells of {highest} dimensions ({_kinds(mesh, highest)}) in a case of {space}; "
