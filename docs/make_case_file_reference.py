@@ -153,7 +153,7 @@ def type_of(field: FieldInfo) -> str:  # noqa: PLR0911 (one per type)
     if Table in models(annotation):
         return "D signals" if PER_DIMENSION in asked else "signal"
     if get_origin(annotation) is Literal:
-        return "string"
+        return PLAIN[type(get_args(annotation)[0])]
     if get_origin(annotation) is tuple:
         item = get_args(annotation)[0]
         if models(item):
@@ -180,7 +180,7 @@ def allowed(field: FieldInfo) -> str:
     annotation, asked = parts(field)
     rules = []
     if get_origin(annotation) is Literal:
-        rules.append(", ".join(f'`"{value}"`' for value in get_args(annotation)))
+        rules.append(", ".join(f"`{json.dumps(value)}`" for value in get_args(annotation)))
     if get_origin(annotation) is tuple:
         item = get_args(annotation)[0]
         if get_origin(item) is Literal:

@@ -42,7 +42,7 @@ class Body(Description):
     velocity
         Initial velocity of the centre of mass [m/s], shape [D]; None is none.
     spin
-        Initial angular velocity about the centre of mass [rad/s]: a number in 2D, shape [3] in 3D.
+        Initial angular velocity about the centre of mass [rad/s]: a number in 2D, a vector in 3D.
     """
 
     name: Name

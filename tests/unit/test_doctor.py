@@ -359,6 +359,38 @@ def test_a_trial_step_that_fails(case):
     assert finding.what.startswith("the trial failed at step 1: ")
 
 
+def test_a_static_trial_that_fails_is_not_told_to_check_velocities(case):
+    """Symptom guarded against: "check materials and velocities" of a case that has none."""
+    case["analysis"] = {
+        "kind": "static",
+        "end_time": 1.0,
+        "time_step": 1.0,
+        "newton": {"max_iterations": 1},
+        "max_halvings": 0,
+    }
+    case["bodies"][0]["velocity"] = None
+    case["materials"]["steel"] = {**STEEL, "kind": "saint-venant-kirchhoff"}
+    hold = {"kind": "fixed", "body": "block", "on": "bottom"}
+    push = {"kind": "prescribed", "body": "block", "on": "top", "x": "0.2*t", "y": 0.0}
+    case["motions"] = [hold, push]
+    finding = grave(cost, case)["analysis.time_step"]
+    assert finding.level == "error"
+    assert (
+        finding.remedy == "take a shorter step, or check materials and how loads and supports grow"
+    )
+
+
+@pytest.mark.parametrize(
+    ("density", "level"), [(1.0, "ok"), (1.05, "warning"), (1000.0, "warning")]
+)
+def test_a_case_without_units_is_not_measured_by_solids(case, density, level):
+    """Symptom guarded against: "no solid between foam and diamond" of examples/oblique_layer."""
+    case["materials"]["steel"] |= {"young": 8 / 3, "density": density}
+    (finding,) = [f for f in units(patient(case)) if f.key == "materials.steel"]
+    assert finding.level == level
+    assert ("a density of 1 is that of a case without units" in finding.what) == (density == 1.0)
+
+
 @pytest.fixture
 def command(capsys):
     def run(*arguments):

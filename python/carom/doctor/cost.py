@@ -43,7 +43,8 @@ def cost(patient: Patient) -> Iterator[Finding]:
             "error",
             "analysis.time_step",
             f"the trial failed at step {simulation.step + 1}: {error}",
-            "take a shorter step, or check materials and velocities",
+            "take a shorter step, or check materials and "
+            + ("velocities" if patient.is_dynamic else "how loads and supports grow"),
         )
         return
     taken = max(simulation.step, 1)

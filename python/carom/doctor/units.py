@@ -10,6 +10,7 @@ from carom.doctor.finding import Finding
 from carom.doctor.patient import Patient
 from carom.material import BlatzKo, Material, MooneyRivlin, Ogden, Yeoh
 from carom.mesh import MeshFile
+from carom.unitless import has_no_units
 
 DENSITIES = (10.0, 25e3)
 """Densities of solids, from foam to osmium [kg/m³]."""
@@ -52,6 +53,9 @@ def units(patient: Patient) -> Iterator[Finding]:
             )
             if slowest <= speed <= fastest:
                 yield Finding("ok", key, fact)
+            elif has_no_units(material.density):
+                without = "a density of 1 is that of a case without units"
+                yield Finding("ok", key, f"{fact}; {without}")
             else:
                 yield Finding(
                     "warning",
