@@ -21,7 +21,7 @@ SHOWN_CONTACTS = 12
 def two_columns(title: str) -> Table:
     """Return an empty table of quantities and their values."""
     table = Table(title=Text(title), title_justify="left", show_header=False)
-    table.add_column(style="bold", no_wrap=True)
+    table.add_column(style="bold", overflow="fold")  # names of bodies can be long
     table.add_column(overflow="fold")
     return table
 

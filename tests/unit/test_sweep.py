@@ -14,7 +14,7 @@ from carom.errors import InputError
 from carom.plot.sweep import sweep_figure
 from carom.sweep import axis, processes, sweep
 from carom.sweep.study import folder, points
-from carom.sweep.table import row
+from carom.sweep.table import row, shown_cells
 from carom.sweep.worker import Task, work
 
 CASE = {
@@ -60,6 +60,17 @@ def here(monkeypatch):
     monkeypatch.setattr("carom.sweep.here", one_by_one)
     monkeypatch.setattr("carom.plot.draw", lambda result: [])
     return worked
+
+
+def test_the_friction_that_varies_and_the_work_of_friction_have_different_titles():
+    """Symptom guarded against: two columns "friction", one of them without a unit."""
+    made = row({"contact.friction": 0.2}, {"status": "completed", "energy": {"friction": 1.25}})
+    header, cells = shown_cells(["contact.friction"], [made])
+    assert header[0] == "contact.friction"
+    assert header[header.index("friction work [J]")] != header[0]
+    assert cells[0][0] == "0.2"
+    assert cells[0][header.index("friction work [J]")] == "1.25"
+    assert len(set(header)) == len(header)
 
 
 @pytest.mark.parametrize(
@@ -239,7 +250,7 @@ def test_the_picture_has_a_curve_for_each_value_of_the_other_keys(here, scenario
     axes = [axis("contact.friction=0:0.4:3"), axis("contact.condition=gap,midpoint")]
     rows = sweep(scenario, axes, tmp_path)
     drawn = sweep_figure("Bounce", [a.key for a in axes], rows).axes[1]
-    assert drawn.get_ylabel() == "friction [J]"
+    assert drawn.get_ylabel() == "work of friction [J]"
     for curve, condition in zip(drawn.lines, ("gap", "midpoint"), strict=True):
         assert curve.get_label() == f"condition = {condition}"
         assert list(curve.get_xdata()) == [0.0, 0.2, 0.4]
@@ -247,6 +258,51 @@ def test_the_picture_has_a_curve_for_each_value_of_the_other_keys(here, scenario
         assert list(curve.get_ydata()) == expected
     words = sweep_figure("Bounce", ["contact.condition"], rows[:2]).axes[2]
     assert [tick.get_text() for tick in words.get_xticklabels()] == ["gap", "midpoint"]
+
+
+def study_rows(**columns):
+    """Rows of a study over a key x, with what columns are in each; the rest is 1."""
+    names = ("energy_initial", "energy_final", "friction", "plastic", "peak_force", "contact_time")
+    count = len(next(iter(columns.values())))
+    made = [dict.fromkeys(names, 1.0) | {"x": k, "status": "completed"} for k in range(count)]
+    for name, values in columns.items():
+        for one, value in zip(made, values, strict=True):
+            one[name] = value
+    return made
+
+
+@pytest.mark.parametrize(
+    ("column", "diagram", "values", "flat"),
+    [
+        ("energy_final", 0, [8.0, 8.0 + 2e-15, 8.0 - 4e-15], True),
+        ("energy_final", 0, [8.0, 8.1, 7.9], False),
+        ("friction", 1, [0.0, 3e-16, -1e-16], True),  # beside energies of 1 J
+        ("friction", 1, [0.0, 3e-6, 1e-6], False),
+        ("peak_force", 2, [1e7, 1e7 + 1e-8, 1e7], True),
+        ("peak_force", 2, [1e-12, 2e-12, 3e-12], False),
+        ("contact_time", 3, [2e-5, 2e-5 + 1e-20, 2e-5], True),
+    ],
+)
+def test_round_off_is_drawn_as_a_flat_line(column, diagram, values, flat):
+    """Symptom guarded against: final energies that differ by 1e-15 J, as a mountain range."""
+    axes = sweep_figure("", ["x"], study_rows(**{column: values})).axes[diagram]
+    drawn = axes.lines[0].get_ydata()
+    low, high = axes.get_ylim()
+    share = (max(drawn) - min(drawn)) / (high - low)
+    assert low <= min(drawn) <= max(drawn) <= high
+    assert share < 1e-6 if flat else share > 0.5
+
+
+def test_a_study_of_zeros_is_drawn():
+    keys = ("energy_initial", "energy_final", "friction", "peak_force")
+    figure = sweep_figure("", ["x"], study_rows(**{key: [0.0, 0.0] for key in keys}))
+    assert all(low < 0 < high for low, high in (axes.get_ylim() for axes in figure.axes[:3]))
+
+
+def test_short_contacts_are_drawn_in_microseconds():
+    axes = sweep_figure("", ["x"], study_rows(contact_time=[2e-5, 3e-5])).axes[3]
+    assert axes.get_ylabel() == "time in contact [µs]"
+    assert list(axes.lines[0].get_ydata()) == pytest.approx([20.0, 30.0])
 
 
 @pytest.fixture

@@ -13,9 +13,10 @@ from carom.cli.failures import NOT_CONVERGED, failures
 from carom.errors import naming
 from carom.plot.style import save
 from carom.plot.sweep import sweep_figure
+from carom.sheet import Sheet, print_whole
 from carom.sweep import TABLE, axis
 from carom.sweep import sweep as run_all
-from carom.sweep.table import shown_table
+from carom.sweep.table import shown_cells
 
 PICTURE = "sweep.png"
 """Name of the picture beside the table."""
@@ -69,7 +70,13 @@ def sweep(
                 scenario, axes, directory, jobs=jobs, scheduler=scheduler, force=force, done=done
             )
         save(sweep_figure(scenario.title, keys, rows), directory / PICTURE)
-    console.print(shown_table(scenario.title, keys, rows))
+    header, cells = shown_cells(keys, rows)
+    print_whole(console, Sheet(header, cells, len(keys)), title=scenario.title or "Study")
+    for row in rows:
+        if row["reason"]:
+            where = ", ".join(f"{key} = {row[key]}" for key in keys)
+            said = f"{where}: {row['status']}: {row['reason']}"
+            console.print(said, markup=False, highlight=False, soft_wrap=True)
     console.print(f"{directory / TABLE}, {directory / PICTURE}", highlight=False, soft_wrap=True)
     if failed := [row for row in rows if row["status"] != "completed"]:
         typer.echo(f"{len(failed)} of {len(rows)} runs did not complete", err=True)

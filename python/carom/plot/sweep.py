@@ -7,18 +7,29 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from carom.plot.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, figure
+from carom.time_unit import time_unit
 
 CURVES = (
     ("energy_final", "final energy [J]"),
-    ("friction", "friction [J]"),
+    ("friction", "work of friction [J]"),
     ("peak_force", "peak force [N]"),
-    ("contact_time", "time in contact [s]"),
+    ("contact_time", "time in contact"),
 )
-"""Column of the table and label of each diagram."""
+"""Column of the table and label of each diagram; times are told in the unit that suits them."""
+
+ENERGIES = ("energy_initial", "energy_final", "friction", "plastic")
+"""Columns that one energy is compared with the others of."""
+
+ROUND_OFF = 1e-9
+"""Differences that are no result, in sizes of the quantity; of an energy, of the largest energy."""
+
+FLAT = 0.05
+"""What an axis shows above and below values that do not differ, in the same sizes."""
 
 COLOURS = (BLUE, ORANGE, GREEN, PURPLE, BLACK)
 
@@ -42,12 +53,16 @@ def sweep_figure(title: str, keys: Sequence[str], rows: Sequence[Mapping[str, An
     numeric = all(isinstance(one[first], NUMBER) for one in rows)
     ticks = {word: n for n, word in enumerate(dict.fromkeys(_word(one[first]) for one in rows))}
     curves = dict.fromkeys(tuple(_word(one[key]) for key in others) for one in rows)
+    unit = time_unit(_largest(completed, ["contact_time"]))
     with figure(height=5.0) as picture:
         diagrams = picture.subplots(2, 2, sharex=True).ravel()
         for (column, label), axes in zip(CURVES, diagrams, strict=True):
             for number, curve in enumerate(curves):
                 mine = [
-                    (one[first] if numeric else ticks[_word(one[first])], one[column])
+                    (
+                        one[first] if numeric else ticks[_word(one[first])],
+                        one[column] / unit.seconds if column == "contact_time" else one[column],
+                    )
                     for one in completed
                     if tuple(_word(one[key]) for key in others) == curve and one[column] is not None
                 ]
@@ -58,8 +73,10 @@ def sweep_figure(title: str, keys: Sequence[str], rows: Sequence[Mapping[str, An
                     color=COLOURS[number % len(COLOURS)],
                     label=_curve(others, curve),
                 )
-            axes.set_ylabel(label)
+            axes.set_ylabel(f"{label} [{unit.symbol}]" if column == "contact_time" else label)
             axes.margins(x=0.03)
+            size = _largest(completed, ENERGIES if column in ENERGIES else [column])
+            _keep_flat(axes, size / (unit.seconds if column == "contact_time" else 1.0))
         for axes in diagrams[2:]:
             axes.set_xlabel(first, parse_math=False)
             if not numeric:
@@ -68,6 +85,25 @@ def sweep_figure(title: str, keys: Sequence[str], rows: Sequence[Mapping[str, An
         if others:
             _legend(picture, diagrams[0])
     return picture
+
+
+def _largest(rows: Sequence[Mapping[str, Any]], columns: Sequence[str]) -> float:
+    """Return the largest size of the values in some columns, 0 where there are none."""
+    values = (one.get(column) for one in rows for column in columns)
+    return max((abs(value) for value in values if value is not None), default=0.0)
+
+
+def _keep_flat(axes: Axes, size: float) -> None:
+    """Draw values that differ by round-off as what they are: the same.
+
+    Left to itself an axis spans what it is given, be it 1e-15 of the value. Where all is zero there
+    is no size, and nothing to magnify.
+    """
+    values = [value for line in axes.lines for value in np.asarray(line.get_ydata(), dtype=float)]
+    if not values or max(values) - min(values) > ROUND_OFF * size or not size:
+        return
+    middle = (max(values) + min(values)) / 2
+    axes.set_ylim(middle - FLAT * size, middle + FLAT * size)
 
 
 def _curve(keys: Sequence[str], values: Sequence[str]) -> str:

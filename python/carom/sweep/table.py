@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
-
-from rich.table import Table
-from rich.text import Text
 
 from carom.errors import InputError
 
@@ -29,8 +26,13 @@ FIGURES = (
 )
 """Columns of figures: energies [J], contact events, times [s], force [N], gap [m]."""
 
-SHOWN = {"energy_final": "J", "friction": "J", "contact_time": "s", "peak_force": "N"}
-"""Those that fit a screen, and their units."""
+SHOWN = {
+    "energy_final": "final energy [J]",
+    "friction": "friction work [J]",
+    "contact_time": "contact time [s]",
+    "peak_force": "peak force [N]",
+}
+"""Those that fit a screen, and what they are called there: friction is also what studies vary."""
 
 
 def row(values: Mapping[str, Any], summary: Mapping[str, Any]) -> dict[str, Any]:
@@ -89,22 +91,19 @@ def write_table(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
     partial.replace(path)
 
 
-def shown_table(title: str, keys: Iterable[str], rows: Sequence[Mapping[str, Any]]) -> Table:
-    """Return the rows for the terminal, with the figures that fit."""
-    table = Table(title=Text(title or "Study"), title_justify="left")
-    keys = list(keys)
-    figures = [f"{name.replace('_', ' ')} [{unit}]" for name, unit in SHOWN.items()]
-    for column in (*(key.rpartition(".")[2] for key in keys), "status", *figures):
-        table.add_column(Text(column), overflow="fold")
-    for one in rows:
-        values = [one[name] for name in SHOWN]
-        status = f"{one['status']}: {one['reason']}" if one["reason"] else one["status"]
-        table.add_row(
-            *(Text(_cell(one[key])) for key in keys),
-            Text(status),
-            *(Text("" if value is None else f"{value:.4g}") for value in values),
-        )
-    return table
+def shown_cells(
+    keys: Sequence[str], rows: Sequence[Mapping[str, Any]]
+) -> tuple[list[str], list[list[str]]]:
+    """Return header and cells for people: keys in full, status, and the figures that fit."""
+    cells = [
+        [
+            *(_cell(one[key]) for key in keys),
+            str(one["status"]),
+            *("" if one[name] is None else f"{one[name]:.4g}" for name in SHOWN),
+        ]
+        for one in rows
+    ]
+    return [*keys, "status", *SHOWN.values()], cells
 
 
 def _cell(value: object) -> str:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
-from rich.markdown import Markdown
 
 import carom
 from carom.cli.case import Force
@@ -15,6 +14,7 @@ from carom.cli.failures import failures
 from carom.errors import InputError
 from carom.existing import spare_existing
 from carom.messages import known
+from carom.sheet import Sheet, print_whole
 
 if TYPE_CHECKING:
     from carom.friction.bench import Run
@@ -81,7 +81,11 @@ def bench(
             for path in friction_bench.write_report(comparison, out):
                 progress.print(path)
             progress.print(friction_bench.draw_profile(comparison, out))
-    screen.print(Markdown(friction_bench.markdown(comparison)))
+    for part in friction_bench.parts(comparison):
+        if isinstance(part, Sheet):
+            print_whole(screen, part)
+        else:
+            screen.print(part, markup=False, highlight=False, soft_wrap=True)
 
 
 def _solvers(names: str | None) -> list[str]:

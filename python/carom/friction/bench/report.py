@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import json
 import math
-from collections.abc import Iterable, Sequence
 from dataclasses import asdict, fields
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from carom.friction.bench import siconos
 from carom.friction.bench.comparison import WORTH_TUNING, Comparison, geometric_mean
 from carom.friction.bench.profile import ratios, shares
 from carom.friction.bench.run import Run
+from carom.sheet import Sheet
 
 MARKDOWN, CSV, JSON = "table.md", "table.csv", "table.json"
 """Files of a report."""
@@ -44,37 +44,43 @@ def write_report(comparison: Comparison, folder: Path) -> list[Path]:
 
 def markdown(comparison: Comparison) -> str:
     """Return the tables with what follows from them."""
+    told = (table(part) if isinstance(part, Sheet) else part for part in parts(comparison))
+    return "\n\n".join(told) + "\n"
+
+
+def parts(comparison: Comparison) -> list[str | Sheet]:
+    """Return the tables and what is said between them."""
     limit, tolerance = comparison.time_limit, comparison.tolerance
-    parts = [
+    told: list[str | Sheet] = [
         f"Median time of a solve from zero in ms, one thread, tolerance {tolerance:g}, at most "
         f"{limit:g} s; a word where the answer is none.",
         times_table(comparison),
     ]
     if comparison.peer_runs:
-        parts += [
+        told += [
             f"Against {siconos.NAME}, whose answers are measured by the same residual:",
             peer_table(comparison),
             *(speed_up_text(comparison, solver) for solver in comparison.solvers[:1]),
         ]
-    parts += [
+    told += [
         "Share of its problems that a solver solves within so many times the least time of all:",
         profile_table(comparison),
         false_success_text(comparison),
     ]
-    return "\n\n".join(parts) + "\n"
+    return told
 
 
-def times_table(comparison: Comparison) -> str:
+def times_table(comparison: Comparison) -> Sheet:
     """Return the times of carom's solvers by problem."""
     rows = [
-        [case.name, case.problem.contacts, f"{case.problem.dimension}D"]
+        [case.name, str(case.problem.contacts), f"{case.problem.dimension}D"]
         + [shown(comparison.run(case.name, solver)) for solver in comparison.solvers]
         for case in comparison.cases
     ]
-    return table(["problem", "contacts", "", *comparison.solvers], rows)
+    return Sheet(["problem", "contacts", "", *comparison.solvers], rows, keys=3)
 
 
-def peer_table(comparison: Comparison) -> str:
+def peer_table(comparison: Comparison) -> Sheet:
     """Return the times of the other code, its best, and how much faster carom's default is."""
     solver = comparison.solvers[0]
     faster = comparison.speed_ups(solver)
@@ -91,7 +97,7 @@ def peer_table(comparison: Comparison) -> str:
             + [shown(comparison.run(case.name, peer)) for peer in comparison.peer_solvers]
         )
     header = ["problem", f"carom {solver}", f"best of {siconos.NAME}", "times faster"]
-    return table([*header, *comparison.peer_solvers], rows)
+    return Sheet([*header, *comparison.peer_solvers], rows)
 
 
 def speed_up_text(comparison: Comparison, solver: str) -> str:
@@ -112,15 +118,15 @@ def speed_up_text(comparison: Comparison, solver: str) -> str:
     return text + (f" It is slower on {', '.join(slower)}." if slower else "")
 
 
-def profile_table(comparison: Comparison) -> str:
+def profile_table(comparison: Comparison) -> Sheet:
     """Return the performance profiles of all solvers at some factors."""
     found = ratios([*comparison.runs, *comparison.peer_runs])
-    parts = shares(found, [*FACTORS, FAR])
+    solved = shares(found, [*FACTORS, FAR])
     rows = [
         [label(comparison, solver), *(f"{100 * share:.0f} %" for share in part)]
-        for solver, part in sorted(parts.items(), key=lambda item: [-x for x in item[1][::-1]])
+        for solver, part in sorted(solved.items(), key=lambda item: [-x for x in item[1][::-1]])
     ]
-    return table(["solver", *(f"{factor:g}×" for factor in FACTORS), "at all"], rows)
+    return Sheet(["solver", *(f"{factor:g}×" for factor in FACTORS), "at all"], rows)
 
 
 FAR = 1e300
@@ -151,10 +157,10 @@ def shown(run: Run | None) -> str:
     return f"{1e3 * run.time:.3g}" if run.solved else run.status
 
 
-def table(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+def table(sheet: Sheet) -> str:
     """Return a Markdown table."""
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join(f"| {' | '.join(map(str, line))} |" for line in lines)
+    lines = [sheet.header, ["---"] * len(sheet.header), *sheet.rows]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
 def _plain(run: Run) -> dict[str, object]:
