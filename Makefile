@@ -3,7 +3,7 @@
 # make check   format, lints, types, spelling
 # make bench   timings (see benchmarks/README.md)
 # make docs    the documentation site, site/index.html
-# make validate  long validations; rewrites docs/validation.md
+# make validate  long validations; rewrites docs/validation.md, says which numbers of the pages drifted
 
 PYTHON ?= python3
 PYTHON_SOURCES := python tests examples benchmarks docs tools
@@ -50,6 +50,7 @@ validate: $(VENV)/installed-dev
 	$(BIN)/python benchmarks/validate.py
 	$(BIN)/python benchmarks/fuzz
 	CAROM_KILLS=500 $(BIN)/pytest tests/unit/test_restart.py -k killed
+	$(BIN)/python benchmarks/claims
 
 $(BIN)/python:
 	$(PYTHON) -c 'import sys; sys.exit("carom needs Python 3.10 or later") if sys.version_info < (3, 10) else None'

@@ -11,7 +11,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "validation"))
 
 import cylinders
-from test_loads import CASE
+from sections.layout import power, table
 
 END = 1.0  # s
 
@@ -28,17 +28,16 @@ CASES: dict[str, tuple[str, ...]] = {
 """What differs from the bare cylinders under gravity."""
 
 
-def main() -> None:
-    """Run and print."""
-    print("| case | largest defect | iterations per step |")
-    print("| --- | --- | --- |")
-    for name, overrides in CASES.items():
-        run = cylinders.run(
-            friction=0.2, condition="massless", end_time=END, overrides=(*CASE, *overrides)
-        )
+def measured() -> str:
+    """Run every case and return the table."""
+    rows = []
+    for name, extra in CASES.items():
+        overrides = (*cylinders.LOADED, *extra)
+        run = cylinders.run(friction=0.2, condition="massless", end_time=END, overrides=overrides)
         iterations = run.summary["newton_iterations"] / run.summary["steps"]
-        print(f"| {name} | {run.energy('max_defect'):.1e} | {iterations:.1f} |", flush=True)
+        rows.append((name, power(run.energy("max_defect")), f"{iterations:.1f}"))
+    return table(("case", "largest defect", "iterations per step"), rows)
 
 
 if __name__ == "__main__":
-    main()
+    print(measured())

@@ -15,7 +15,10 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "validation"))
+
 import numpy as np
+from sections.layout import power, table
 
 import carom
 
@@ -117,11 +120,20 @@ class Tally:
         self.gaps.append(summary["min_gap"])
         self.seconds.append(seconds / summary["steps"])
 
+    @property
+    def median_seconds(self) -> float:
+        """Median time of a step over the completed scenes [s]."""
+        return float(np.median(self.seconds))
 
-def main() -> None:
-    """Run the scenes and print the table."""
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 40
-    first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
+
+HEADER = (
+    *("scheme", "condition", "completed", "steps tried again", "defect, median", "largest"),
+    *("scenes > 1e-9", "smallest gap [m]", "ms/step, median", "ms/step, largest"),
+)
+
+
+def run(count: int, first: int = 0) -> dict[tuple[str, str], Tally]:
+    """Run so many scenes with every scheme and contact condition."""
     tallies = {variant: Tally() for variant in VARIANTS}
     with tempfile.TemporaryDirectory() as directory:
         for seed in range(first, first + count):
@@ -134,30 +146,40 @@ def main() -> None:
                     tally.failures.append(f"scene {seed}: {error}")
                     continue
                 tally.add(result.summary, perf_counter() - start)
-    print(
-        "| scheme | condition | completed | steps tried again | defect, median | largest |", end=""
-    )
-    print(" scenes > 1e-9 | smallest gap [m] | ms/step, median | largest |")
-    print("|" + " --- |" * 10)
+    return tallies
+
+
+def tabulated(tallies: dict[tuple[str, str], Tally]) -> str:
+    """Return what the schemes did as a table."""
+    rows = []
     for (scheme, condition), tally in tallies.items():
-        defects, milliseconds = np.array(tally.defects), 1e3 * np.array(tally.seconds)
-        cells = (
-            f"`{scheme}`",
-            f"`{condition}`",
-            f"{len(defects)} of {count}",
-            f"{tally.retried} of {tally.steps}",
-            f"{np.median(defects):.1e}",
-            f"{defects.max():.1e}",
-            str(np.count_nonzero(defects > 1e-9)),
-            f"{min(tally.gaps):.1e}".replace("-", "−", 1),
-            f"{np.median(milliseconds):.2f}",
-            f"{milliseconds.max():.1f}",
+        defects = np.array(tally.defects)
+        rows.append(
+            (
+                f"`{scheme}`",
+                f"`{condition}`",
+                f"{len(defects)} of {len(defects) + len(tally.failures)}",
+                f"{tally.retried} of {tally.steps}",
+                power(np.median(defects)),
+                power(defects.max()),
+                np.count_nonzero(defects > 1e-9),
+                power(min(tally.gaps)),
+                f"{1e3 * tally.median_seconds:.2f}",
+                f"{1e3 * max(tally.seconds):.1f}",
+            )
         )
-        print(f"| {' | '.join(cells)} |")
-    for (scheme, condition), tally in tallies.items():
-        for failure in tally.failures:
-            print(f"{scheme}, {condition}, {failure}")
+    return table(HEADER, rows)
+
+
+def failures(tallies: dict[tuple[str, str], Tally]) -> list[str]:
+    """Say which scenes were not completed, and why."""
+    return [
+        f"`{scheme}`, `{condition}`, {failure}"
+        for (scheme, condition), tally in tallies.items()
+        for failure in tally.failures
+    ]
 
 
 if __name__ == "__main__":
-    main()
+    found = run(*(int(word) for word in sys.argv[1:3] or ("40",)))
+    print(tabulated(found), *failures(found), sep="\n")

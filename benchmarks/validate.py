@@ -1,24 +1,50 @@
 """Run every validation, long ones included, and rewrite docs/validation.md with its pictures.
 
+    .venv/bin/python benchmarks/validate.py [PART …]
+
 ``make validate`` runs this. The cases and the measures are those of tests/validation; every section
-of the page is a module of `sections`.
+of the page is made in `sections`, and is written as soon as it has been measured.
 """
 
 from __future__ import annotations
 
+import argparse
+import re
 import sys
 import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "validation"))
 
-from sections import bars, conservation, cylinders, damping, dissipation, layer
+from sections import (
+    bars,
+    conservation,
+    cylinders,
+    damping,
+    dissipation,
+    layer,
+    massless,
+    robustness,
+)
 from sections.layout import IMAGES, PAGE, ROOT
 
 import carom
 
-KEPT = "<!-- What follows has commands of its own; make validate leaves it as it is. -->"
-"""Where the part of the page begins that is not written here."""
+PARTS = {
+    "bars": bars.section,
+    "layer": layer.section,
+    "cylinders": cylinders.section,
+    "conservation": conservation.section,
+    "dissipation": dissipation.section,
+    "damping": damping.section,
+    "massless cylinders": massless.cylinders_section,
+    "long runs": robustness.long_runs_section,
+    "massless bars": massless.bars_section,
+    "massless layer": massless.layer_section,
+    "loads": robustness.loads_section,
+    "random scenes": robustness.random_scenes_section,
+}
+"""What the page consists of, in its order; each part begins with a heading of the second level."""
 
 INTRODUCTION = """\
 # Validation
@@ -45,16 +71,35 @@ Energies are relative to the initial energy E₀ unless a unit is given.
 
 
 def main() -> None:
-    """Run everything and write the page."""
+    """Run the parts that were asked for, or all, and write the page."""
+    parser = argparse.ArgumentParser(description="Rewrite docs/validation.md.")
+    parser.add_argument("parts", nargs="*", help=f"of {', '.join(PARTS)}; by default all")
+    chosen = parser.parse_args().parts or list(PARTS)
+    if unknown := set(chosen) - set(PARTS):
+        parser.error(f"no part: {', '.join(unknown)}")
     start = time.perf_counter()
     IMAGES.mkdir(parents=True, exist_ok=True)
-    sections = [
-        INTRODUCTION.format(version=carom.__version__),
-        *(part.section() for part in (bars, layer, cylinders, conservation, dissipation, damping)),
-    ]
-    _, *kept = PAGE.read_text(encoding="utf-8").partition(KEPT)
-    PAGE.write_text("\n".join(sections) + "\n" + "".join(kept), encoding="utf-8")
+    for name in chosen:
+        section = PARTS[name]()  # Minutes; the page is read afterwards.
+        PAGE.write_text(renewed(PAGE.read_text(encoding="utf-8"), section), encoding="utf-8")
+    if chosen == list(PARTS):
+        written = INTRODUCTION.format(version=carom.__version__)
+        sections = headed(PAGE.read_text(encoding="utf-8"))
+        PAGE.write_text("\n".join([written, *list(sections.values())[1:]]), encoding="utf-8")
     print(f"wrote {PAGE.relative_to(ROOT)} in {time.perf_counter() - start:.0f} s")
+
+
+def renewed(page: str, section: str) -> str:
+    """Return the page with one section replaced, or put at its end."""
+    sections = headed(page)
+    sections[section.partition("\n")[0]] = section
+    return "\n".join(each.rstrip("\n") + "\n" for each in sections.values())
+
+
+def headed(page: str) -> dict[str, str]:
+    """Return the sections of a page by their headings; what comes first has none."""
+    first, *rest = re.split(r"^(?=## )", page, flags=re.MULTILINE)
+    return {"": first, **{each.partition("\n")[0]: each for each in rest}}
 
 
 if __name__ == "__main__":

@@ -261,6 +261,7 @@ def _conditions(runs: dict[tuple[str, float], Run]) -> str:
             "largest defect",
             "smallest gap [m]",
             "peak force, first impact [N]",
+            "certificate [J]",
         ),
         [
             (
@@ -273,6 +274,7 @@ def _conditions(runs: dict[tuple[str, float], Run]) -> str:
                 power(run.energy("max_defect")),
                 power(run.summary["min_gap"]),
                 f"{run.summary['contacts'][0]['peak_force']:.0f}",
+                power(run.summary["certificate"]["max_joule"]),
             )
             for (condition, friction), run in sorted(
                 runs.items(), key=lambda item: (item[0][1], CONDITIONS.index(item[0][0]))

@@ -32,6 +32,14 @@ touch exactly at the end of a step would be decided by round-off."""
 PRIZE = (*CONSERVING, "contact.targets=smooth")
 """With the condition ``massless``: the scheme and the targets that conserve."""
 
+LOADED = (
+    *PRIZE,
+    "analysis.gravity=[0.0, -9.81]",
+    "bodies.0.mesh.centre=[2.0, 1.3003]",
+    "bodies.1.mesh.centre=[4.3, 1.2]",
+)
+"""The cylinders low above the floor and close to one another: all rub in the first second."""
+
 QUIET = 460.0
 """Total variation of the normal force in the first two impacts if it hardly rings [N]: in either it
 rises to its largest value and falls again."""

@@ -3,21 +3,12 @@
 import cylinders
 import pytest
 
-CASE = (
-    *cylinders.PRIZE,
-    "analysis.gravity=[0.0, -9.81]",
-    "bodies.0.mesh.centre=[2.0, 1.3003]",
-    "bodies.1.mesh.centre=[4.3, 1.2]",
-)
-"""The cylinders low above the floor and close to one another: all rub in the first second."""
-
 
 @pytest.fixture
 def loaded(cylinders_run):
     damping = "materials.elastic.damping={mass=0.2, stiffness=1e-5}"
-    return cylinders_run(
-        friction=0.2, condition="massless", end_time=1.0, overrides=(*CASE, damping)
-    )
+    overrides = (*cylinders.LOADED, damping)
+    return cylinders_run(friction=0.2, condition="massless", end_time=1.0, overrides=overrides)
 
 
 def test_every_term_takes_part(loaded):

@@ -21,7 +21,10 @@ pub fn plane(name: &str, point: [f64; 2], normal: [f64; 2]) -> Value {
     json!({"name": name, "kind": "plane", "point": point, "normal": normal})
 }
 
-/// A scenario of these bodies and obstacles with the material of the paper's cylinders and every default of the case file.
+/// A scenario of these bodies and obstacles with the material of the paper's cylinders.
+///
+/// Scheme, contact condition, sources and friction solver are those of the paper, `theta`, `gap`, `first` and `gauss-seidel`, not the
+/// defaults of the case file: tests of others set them.
 pub fn scenario(end_time: f64, time_step: f64, bodies: &[Value], obstacles: &[Value]) -> Value {
     json!({
         "title": "test",

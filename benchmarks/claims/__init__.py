@@ -1,0 +1,1 @@
+"""Every number of the documentation, measured again: see ``__main__``."""
