@@ -1,11 +1,12 @@
 """Measure every number of the documentation again and say which drifted.
 
-    .venv/bin/python benchmarks/claims [--page PAGE …] [--run NAME …] [--bare PAGE]
+    .venv/bin/python benchmarks/claims [--page PAGE …] [--run NAME …] [--write] [--bare PAGE]
 
 ``claims.toml`` has the numbers, the pages on which they stand, what measures them and what they may
 be off by. A drift of physics, of a count or of a bound ends with exit status 1; timings are told as
 ratios and never fail. What was measured is kept in ``measured.json``, with the machine.
-``--bare`` lists the numbers of a page that are in no claim.
+``--write`` puts what was measured where a number drifted, on its page and in ``claims.toml``, so
+that a reviewer sees the change. ``--bare`` lists the numbers of a page that are in no claim.
 """
 
 from __future__ import annotations
@@ -25,7 +26,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "validati
 
 import carom
 from claims.judge import Verdict, judged
-from claims.manifest import MEASURED, Manifest
+from claims.manifest import MANIFEST, MEASURED, Manifest
+from claims.pages import ROOT, Page
+from claims.rewriting import changes, claimed, rewritten
 from claims.runs import MissingError, measure, values
 
 RECORD = Path(__file__).resolve().parents[1] / "measured.json"
@@ -37,6 +40,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--page", action="append", choices=manifest.pages, help="only this page")
     parser.add_argument("--run", action="append", choices=list(manifest.runs), help="only this run")
+    parser.add_argument("--write", action="store_true", help="correct the pages where they drifted")
     parser.add_argument("--bare", choices=manifest.pages, help="list numbers in no claim")
     options = parser.parse_args()
     if options.bare:
@@ -66,7 +70,27 @@ def main() -> int:
                 verdicts += judged(claim, values(claim, output))
             except ValueError as error:
                 troubles.append(f"{claim.page}: “{claim.plain}”: {error}")
-    return told(manifest, verdicts, troubles)
+    status = told(manifest, verdicts, troubles)
+    if options.write:
+        write(manifest, verdicts)
+    return status
+
+
+def write(manifest: Manifest, verdicts: list[Verdict]) -> None:
+    """Correct the pages where they drifted, and the claims with them."""
+    claims = MANIFEST.read_text(encoding="utf-8")
+    for name in manifest.pages:
+        page = Page.read(name)
+        done = changes(page, [verdict for verdict in verdicts if verdict.claim.page == name])
+        if not done:
+            continue
+        for claim in manifest.claims:
+            if claim.page == name:
+                new = claimed(claim, page, done)
+                claims = claims.replace(f'"{claim.text}"', f'"{new}"')
+        (ROOT / name).write_text(rewritten(page, done), encoding="utf-8")
+        print(f"{name}: {len(done)} numbers corrected")
+    MANIFEST.write_text(claims, encoding="utf-8")
 
 
 def told(manifest: Manifest, verdicts: list[Verdict], troubles: list[str]) -> int:
