@@ -1,0 +1,52 @@
+"""The scripts of benchmarks/ run where carom does, and rewrite only what they are asked for."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+BENCHMARKS = ROOT / "benchmarks"
+SCRIPTS = sorted(path.stem for path in BENCHMARKS.glob("*.py"))
+
+
+@pytest.fixture
+def validate(monkeypatch):
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    monkeypatch.syspath_prepend(ROOT / "tests" / "validation")
+    import validate
+
+    return validate
+
+
+@pytest.mark.parametrize("script", [*SCRIPTS, "claims.__main__"])
+def test_a_benchmark_needs_nothing_that_only_tests_need(script):
+    """Symptom guarded against: benchmarks/loads.py stopped, as `make demo` brings no pytest."""
+    code = (
+        "import sys\n"
+        "for name in ('pytest', 'hypothesis', 'jsonschema', 'pandas', 'vtk', 'pyvista'):\n"
+        "    sys.modules[name] = None\n"
+        f"sys.path.insert(0, {str(BENCHMARKS)!r})\n"
+        f"import {script}\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], check=False, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def test_every_section_of_the_validation_page_has_a_part_that_writes_it(validate):
+    """Symptom guarded against: massless bars and layer were pasted, and had no command."""
+    page = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
+    sections = list(validate.headed(page).values())
+    assert len(sections) - 1 == len(validate.PARTS)
+    modules = (path.read_text(encoding="utf-8") for path in (BENCHMARKS / "sections").glob("*.py"))
+    templates = "".join(modules)
+    for heading in list(validate.headed(page))[1:]:
+        assert f'"""\\\n{heading}\n' in templates, heading
+
+
+def test_a_part_of_the_validation_page_is_renewed_alone(validate):
+    page = "# Validation\n\n## One\n\n1\n\n### Of one\n\n2\n\n## Two\n\n3\n"
+    renewed = validate.renewed(page, "## One\n\n4\n")
+    assert renewed == "# Validation\n\n## One\n\n4\n\n## Two\n\n3\n"
+    assert validate.renewed(page, "## Three\n\n5\n") == f"{page}\n## Three\n\n5\n"
