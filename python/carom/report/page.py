@@ -39,6 +39,8 @@ SCRIPTS = (
     "clock.js",
     "format.js",
     "colours.js",
+    "save.js",
+    "drawing.js",
     "shapes.js",
     "scene.js",
     "colour_bar.js",
@@ -46,12 +48,20 @@ SCRIPTS = (
     "timeline.js",
     "explorer.js",
     "transport.js",
+    "picture.js",
+    "film.js",
+    "printing.js",
     "main.js",
 )
 """In the order in which they need one another."""
 
 COLOUR_MAPS = {"sequential": "viridis", "diverging": "RdBu_r"}
 """Of matplotlib: for sizes, and for what has a sign."""
+
+COLOURS = (
+    "Colours: viridis by N. J. Smith, S. van der Walt and E. Firing (CC0), RdBu by Cynthia Brewer "
+    "(colorbrewer2.org, Apache License 2.0), both by way of matplotlib."
+)
 
 SIGNED = frozenset({"hydrostatic-pressure"})
 
@@ -88,6 +98,7 @@ def page(source: Source) -> str:
         numbers=_folded("All numbers of summary.json", "numbers", all_numbers(source.summary))
         if source.summary
         else "",
+        licences=_licences(),
         notes=element("ul", *(element("li", note) for note in notes), id="notes"),
         time_unit=join(data["time_unit"]["symbol"]),
         data=embedded(data, id="data"),
@@ -196,6 +207,18 @@ def _section(title: str, id: str, table: Html | None) -> Html:
 
 def _folded(title: str, id: str, content: Html) -> Html:
     return element("details", element("summary", title), content, id=id, class_="card")
+
+
+def _licences() -> Html:
+    """Return the licences of what the page holds of others, whole, as they ask for."""
+    parts = []
+    for name in ("three", "uPlot"):
+        title = {"three": "three.js"}.get(name, name)
+        parts.append(element("h3", title))
+        parts.append(element("pre", _asset("vendor", f"LICENSE-{name}")))
+    parts.append(element("p", COLOURS))
+    summary = element("summary", "Licences of what is inside this page")
+    return element("details", summary, *parts, id="licences")
 
 
 def _case(source: Source) -> Html:

@@ -5,8 +5,10 @@ import re
 from types import SimpleNamespace
 
 import pytest
+from browsing import WEBGL, Pages, found
 
 import carom
+from carom.io import layout
 from carom.report import write_report
 
 NASTY = '</script><b id="injected">&</b><img src=x onerror="window.injected = 1">'
@@ -137,3 +139,53 @@ def data_of():
         return SimpleNamespace(**json.loads(data))
 
     return read
+
+
+@pytest.fixture(scope="module")
+def launched():
+    """Return a function that starts a browser with some arguments."""
+    from playwright.sync_api import Error, sync_playwright
+
+    executable = found()
+    if executable is None:
+        pytest.skip("there is no Chromium: python tools/get_browser.py")
+    with sync_playwright() as playwright:
+
+        def launch(arguments):
+            try:
+                return playwright.chromium.launch(executable_path=executable, args=list(arguments))
+            except Error as error:
+                pytest.skip(f"{executable} does not start: {error.message.splitlines()[0]}")
+
+        yield launch
+
+
+@pytest.fixture(scope="module")
+def browser(launched):
+    browser = launched(WEBGL)
+    yield browser
+    browser.close()
+
+
+@pytest.fixture(scope="module")
+def pages(browser):
+    return Pages(browser)
+
+
+@pytest.fixture
+def opened(pages):
+    """Return a function that opens a report and closes it after the test."""
+    made = []
+
+    def open_(file, **options):
+        made.append(pages.open(file, **options))
+        return made[-1]
+
+    yield open_
+    for page in made:
+        page.context.close()
+
+
+@pytest.fixture(scope="module")
+def disc_page(disc, pages):
+    return pages.open(disc.path / layout.REPORT)

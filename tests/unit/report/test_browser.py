@@ -2,75 +2,11 @@
 
 import json
 import shutil
-import sys
-from pathlib import Path
 
 import pytest
+from browsing import BLIND, Pages, drawn, frame, scrub_to
 
 from carom.io import layout
-
-sys.path.insert(0, str(Path(__file__).parents[3] / "tools"))
-from get_browser import WEBGL, found
-
-SIZE = {"width": 1100, "height": 700}
-
-
-BLIND = ("--disable-gpu", "--disable-3d-apis", "--no-sandbox")
-"""Arguments with which it does not draw in 3D, as some remote desktops and old machines."""
-
-
-@pytest.fixture(scope="module")
-def launched():
-    """Return a function that starts a browser with some arguments."""
-    from playwright.sync_api import Error, sync_playwright
-
-    executable = found()
-    if executable is None:
-        pytest.skip("there is no Chromium: python tools/get_browser.py")
-    with sync_playwright() as playwright:
-
-        def launch(arguments):
-            try:
-                return playwright.chromium.launch(executable_path=executable, args=list(arguments))
-            except Error as error:
-                pytest.skip(f"{executable} does not start: {error.message.splitlines()[0]}")
-
-        yield launch
-
-
-@pytest.fixture(scope="module")
-def browser(launched):
-    browser = launched(WEBGL)
-    yield browser
-    browser.close()
-
-
-class Pages:
-    """Opens reports without a network, and keeps what went wrong in them."""
-
-    def __init__(self, browser):
-        self._browser = browser
-        self.wrong = []
-
-    def open(self, file, **options):
-        context = self._browser.new_context(**{"viewport": SIZE, **options})
-        context.set_offline(True)
-        page = context.new_page()
-        page.on("console", lambda message: self.wrong.append(f"{message.type}: {message.text}"))
-        page.on("pageerror", lambda error: self.wrong.append(str(error)))
-        page.on("request", self._asked)
-        page.goto(Path(file).resolve().as_uri())
-        page.wait_for_selector("html[data-ready]")
-        return page
-
-    def _asked(self, request):
-        if not request.url.startswith("file:") or request.resource_type != "document":
-            self.wrong.append(f"asked for {request.url[:80]}")
-
-
-@pytest.fixture(scope="module")
-def pages(browser):
-    return Pages(browser)
 
 
 @pytest.fixture(autouse=True)
@@ -79,49 +15,12 @@ def nothing_goes_wrong(pages):
     assert not pages.wrong
 
 
-@pytest.fixture
-def opened(pages):
-    """Return a function that opens a report and closes it after the test."""
-    made = []
-
-    def open_(file, **options):
-        made.append(pages.open(file, **options))
-        return made[-1]
-
-    yield open_
-    for page in made:
-        page.context.close()
-
-
-@pytest.fixture(scope="module")
-def disc_page(disc, pages):
-    return pages.open(disc.path / layout.REPORT)
-
-
-def scrub_to(page, frame):
-    page.locator("#scrub").evaluate(
-        "(s, frame) => { s.value = frame; s.dispatchEvent(new Event('input')); }", frame
-    )
-
-
-def frame(page):
-    return int(page.locator("#stage").get_attribute("data-frame"))
-
-
 def marked(page):
     """The time at which the markers of all curves and of the timeline stand [s]."""
     times = page.locator(".now").evaluate_all("all => all.map(m => Number(m.dataset.time))")
     assert len(times) >= 5
     assert len(set(times)) == 1
     return times[0]
-
-
-def drawn(page):
-    """What the scene shows, as a picture."""
-    page.evaluate(
-        "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
-    )
-    return page.locator("#stage canvas").screenshot()
 
 
 def test_scrubbing_moves_scene_and_curves(disc_page):

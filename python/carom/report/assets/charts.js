@@ -33,10 +33,11 @@ carom.makeCharts = (clock, gutter) => {
   function add(parent, { id, title, unit, log, tall, steps, limit, curves, times }) {
     const panel = create("div", { className: "panel", id: `panel-${id}` });
     const heading = create("h2", {}, unit ? `${title} [${unit}]` : title);
+    const printed = create("div", { className: "printed" });
     const legend = create("ul", { className: "legend" });
     const holder = create("div", { className: "chart" });
     const marker = create("div", { className: "now" });
-    panel.append(heading, legend, holder);
+    panel.append(heading, legend, holder, printed);
     parent.append(panel);
 
     const shown = curves.map((curve) => ({ ...curve, values: log ? positive(curve.values) : finite(curve.values) }));
@@ -130,8 +131,27 @@ carom.makeCharts = (clock, gutter) => {
     });
     observer.observe(holder);
 
+    // As the chart stands: what is zoomed to, without the curves that are hidden.
+    function svg() {
+      const { x, y } = plot.scales;
+      const visible = shown.filter((_, index) => plot.series[index + 1].show);
+      return carom.drawing.svg({
+        title, unit, log, steps, times, curves: visible, x: [x.min, x.max], y: [y.min ?? 0, y.max ?? 1], height: tall ? 380 : 240,
+      });
+    }
+    const { button } = carom.save;
+    heading.append(create("span", { className: "saves" },
+      button("PNG", `Save as PNG: ${title}`, async () => carom.save.picture(await carom.drawing.canvas(svg()), title)),
+      button("SVG", `Save as SVG: ${title}`, () => carom.save.text(svg(), title, "svg", "image/svg+xml")),
+      button("CSV", `Save as CSV: ${title}`, () => {
+        const titles = shown.map(({ label }) => (unit ? `${label} [${unit}]` : label));
+        carom.save.csv([["time [s]", ...titles], ...times.map((time, row) => [time, ...shown.map(({ values }) => values[row])])], title);
+      })));
+
     const chart = {
       plot,
+      svg,
+      printed,
       tell() {
         mark();
         if (plot.cursor.idx === null || plot.cursor.idx === undefined) showValues(null);
@@ -169,5 +189,5 @@ carom.makeCharts = (clock, gutter) => {
 
   clock.onChange(() => { for (const chart of charts) chart.tell(); });
   carom.theme.onChange(() => { for (const chart of charts) chart.plot.redraw(false, true); });
-  return { add, onZoom: (listener) => zoomListeners.push(listener) };
+  return { add, all: () => charts, onZoom: (listener) => zoomListeners.push(listener) };
 };

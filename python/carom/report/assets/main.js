@@ -41,8 +41,12 @@
 
   const clock = times && times.length ? carom.makeClock(times) : null;
   if (clock) {
-    const scene = arrays ? showScene() : null;
-    showCurves();
+    const maps = carom.colours.textures(data.colour_maps);
+    const scene = arrays ? showScene(maps) : null;
+    const picture = scene && carom.makePicture(scene, maps, clock);
+    const charts = showCurves();
+    if (picture) offerPictures(picture);
+    carom.makePrinting(picture, () => charts?.all() ?? []);
     clock.seek(hardestContact());
     carom.makeTransport(clock, {
       t: carom.theme.toggle,
@@ -58,11 +62,12 @@
       });
     }
   }
+  carom.save.offerTables();
   document.documentElement.dataset.ready = "true"; // for who waits for the page
 
   function showCurves() {
     const { panels } = data.curves;
-    if (!panels.length) return;
+    if (!panels.length) return null;
     at("curves").hidden = false;
     const gutter = widestName(data.contacts);
     const charts = carom.makeCharts(clock, gutter);
@@ -75,6 +80,17 @@
       }
     }
     carom.makeExplorer(data.curves, columns, charts);
+    return charts;
+  }
+
+  function offerPictures(picture) {
+    const film = carom.makeFilm(picture, clock);
+    const { button } = carom.save;
+    const at5 = () => `t=${carom.format.inUnit(clock.time, 5)}${data.time_unit.symbol}`;
+    at("fit").before(button("PNG", "Save the scene as PNG", () => carom.save.picture(picture.draw(), at5())));
+    if (film.canRecord) {
+      at("fit").before(button("Film", "Save a film: the run plays once, at the speed chosen below", film.record));
+    }
   }
 
   function sayWhyNoScene() {
@@ -86,13 +102,12 @@
     for (const part of at("scene").children) part.hidden = part !== stage;
   }
 
-  function showScene() {
+  function showScene(maps) {
     at("scene").hidden = false;
     if (!document.createElement("canvas").getContext("webgl2")) {
       sayWhyNoScene();
       return null;
     }
-    const maps = carom.colours.textures(data.colour_maps);
     const scene = carom.makeScene(data.scene, arrays, maps);
     const { fields, bodies } = data.scene;
     const isScalar = (field) => field && field.unit !== undefined;

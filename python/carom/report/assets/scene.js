@@ -290,10 +290,13 @@ carom.makeScene = (data, arrays, maps) => {
     controls.update();
   }
   function resize() {
-    const { clientWidth: width, clientHeight: height } = stage;
+    sizeTo(stage.clientWidth, stage.clientHeight, Math.min(devicePixelRatio, 2));
+    ask();
+  }
+  function sizeTo(width, height, ratio) {
     if (!width || !height) return;
     const aspect = width / height;
-    renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    renderer.setPixelRatio(ratio);
     renderer.setSize(width, height, false);
     if (flat) {
       const half = 0.54 * Math.max(box.extent[1], box.extent[0] / aspect, 1e-3 * box.size);
@@ -303,7 +306,19 @@ carom.makeScene = (data, arrays, maps) => {
       Object.assign(camera, { aspect, near: 1e-3 * box.size, far: 60 * box.size });
     }
     camera.updateProjectionMatrix();
-    ask();
+  }
+  // The scene as it stands on a canvas that keeps its pixels: WebGL forgets its own once they are shown.
+  function shot(size) {
+    if (size) sizeTo(size.width, size.height, 1);
+    draw();
+    const { width, height } = renderer.domElement;
+    const copy = carom.format.create("canvas", { width, height });
+    copy.getContext("2d").drawImage(renderer.domElement, 0, 0);
+    if (size) {
+      resize();
+      draw();
+    }
+    return copy;
   }
   function paint() {
     const { colour: of } = carom.theme;
@@ -348,6 +363,7 @@ carom.makeScene = (data, arrays, maps) => {
       paint();
     },
     fit,
+    shot,
     zoom(factor) {
       camera.zoom *= factor;
       camera.updateProjectionMatrix();

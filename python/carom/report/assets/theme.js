@@ -14,8 +14,14 @@ carom.theme = (() => {
 
   let chosen = remembered();
 
+  let isLight = false; // on paper, whatever was chosen
+  function lighten(wanted) {
+    isLight = wanted;
+    apply();
+  }
+
   function name() {
-    return chosen === "dark" || chosen === "light" ? chosen : system.matches ? "dark" : "light";
+    return isLight ? "light" : chosen === "dark" || chosen === "light" ? chosen : system.matches ? "dark" : "light";
   }
   function apply() {
     document.documentElement.dataset.theme = name();
@@ -36,5 +42,5 @@ carom.theme = (() => {
   system.addEventListener("change", apply);
   document.getElementById("theme").addEventListener("click", toggle);
   apply();
-  return { toggle, colour, onChange: (listener) => listeners.push(listener) };
+  return { toggle, lighten, colour, onChange: (listener) => listeners.push(listener) };
 })();
