@@ -40,7 +40,7 @@ def like(shown: str, value: float) -> str:
         grouped = f"{abs(value):,.{decimals}f}"
         separator = next((each for each in ", " if each in mantissa), "")
         written = grouped.replace(",", separator)
-    if value < 0:
+    if value < 0 and written.strip("0.,"):
         return f"−{written}"
     return f"+{written}" if shown.startswith("+") else written
 
@@ -48,7 +48,9 @@ def like(shown: str, value: float) -> str:
 def changes(page: Page, verdicts: Iterable[Verdict]) -> list[Change]:
     """Return what has to be changed on a page so that it says what was measured.
 
-    A bound is left to people: how far above the measurement it should be is theirs to say.
+    Physics and counts are shown as measured, also within their tolerance: a table of one run has no
+    numbers of another. Round-off changes from machine to machine and is shown anew where it
+    drifted. A bound is left to people: how far above the measurement it is is theirs to say.
     """
     found = set()
     for claim, judged in _by_claim(verdicts):
@@ -56,8 +58,9 @@ def changes(page: Page, verdicts: Iterable[Verdict]) -> list[Change]:
         for place in range(len(page.places(claim.plain))):
             spans = list(claim.spans(page))[place * len(_marks(claim)) :]
             for index, verdict in zip(measured, judged, strict=True):
-                if not verdict.holds and claim.kind != "bound":
-                    shown = like(verdict.number.shown, verdict.measured)
+                shown = like(verdict.number.shown, verdict.measured)
+                renewed = claim.kind in {"exact", "count"} and shown != verdict.number.shown
+                if renewed or (claim.kind == "round-off" and not verdict.holds):
                     found.add(Change(*spans[index], shown))
     return sorted(found)
 

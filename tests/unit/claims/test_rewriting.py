@@ -25,13 +25,14 @@ CLAIMS = """\
 "PAGE" = 2
 
 [runs]
-ball = { command = "echo 51.2 -0.25 7e-10" }
+ball = { command = "echo 51.2 -0.49 7e-10" }
 
 [[claims]]
 page = "PAGE"
 text = "the floor for «50.94» µs, or by «−0.50» %"
 kind = "exact"
 run = "ball"
+absolute = 0.1
 gives = ['^(\\S+) (\\S+)']
 
 [[claims]]
@@ -68,6 +69,7 @@ reason = "none"
         ("15 000", 16000.0, "16 000"),
         ("10,000,000", 9e6, "9,000,000"),
         ("38", 39.0, "39"),
+        ("0", -0.0004, "0"),
     ],
 )
 def test_a_number_is_shown_as_the_one_before(shown, value, expected):
@@ -86,14 +88,14 @@ def test_a_page_says_afterwards_what_was_measured(tmp_path, monkeypatch, capsys)
     assert command.main() == 1
     assert page.read_text() == (
         PAGE.replace("the floor for 50.94\n", "the floor for 51.20\n")
-        .replace("−0.50 %", "−0.25 %")
+        .replace("−0.50 %", "−0.49 %")
         .replace("2.0e-12", "7.0e-10")
     )
     after = read(manifest)
     assert [claim.text for claim in after.claims] == [
-        "the floor for «51.20» µs, or by «−0.25» %",
+        "the floor for «51.20» µs, or by «−0.49» %",
         "| ball | ‹50.94› | «7.0e-10» |",
-        "floor for 51.20 µs, or by −0.25 %. | ball | «50.94»",
+        "floor for 51.20 µs, or by −0.49 %. | ball | «50.94»",
     ]
     assert all(Page(page.read_text()).places(claim.plain) for claim in after.claims)
     capsys.readouterr()
