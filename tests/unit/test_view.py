@@ -1,9 +1,12 @@
 """`carom view` draws what a run left, without a display."""
 
 import itertools
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
+import tomlkit
 from typer.testing import CliRunner
 
 import carom
@@ -74,7 +77,7 @@ def test_a_film_without_what_writes_it_says_what_to_install(results, tmp_path, m
     answer = view(results, "--animation", tmp_path / "ball.gif")
     assert answer.exit_code == 2
     assert answer.output.endswith(
-        'ball.gif: Install imageio to use this; pip install "imageio[ffmpeg]"\n'
+        'ball.gif: Install imageio to use this; pip install "carom[view]"\n'
     )
 
 
@@ -90,6 +93,71 @@ def test_a_film_has_a_picture_of_every_frame(results, tmp_path):
         pictures = [np.asarray(p.convert("L"), float) for p in ImageSequence.Iterator(film)]
     assert len(pictures) == 3
     assert all(np.abs(a - b).max() > 20 for a, b in itertools.pairwise(pictures)), "it moves"
+
+
+def test_the_extra_brings_what_films_are_written_with():
+    """Symptom guarded against: --animation asked for imageio after pip install carom[view]."""
+    project = Path(__file__).parents[2] / "pyproject.toml"
+    extra = tomlkit.parse(project.read_text())["project"]["optional-dependencies"]["view"]
+    assert {"imageio", "pyvista"} <= {re.split(r"[\[>=<]", line)[0] for line in extra}
+    (imageio,) = [line for line in extra if line.startswith("imageio")]
+    assert imageio.startswith("imageio[ffmpeg]")  # for .mp4
+
+
+def block(dimension, size=0.2):
+    """A small block above obstacles that are large, or far away."""
+    low = [-size / 2] * dimension
+    low[-1] = 0.01
+    shape = "box" if dimension == 3 else "rectangle"
+    down = [0.0] * (dimension - 1)
+    return {
+        **BALL,
+        "dimension": dimension,
+        "bodies": [
+            {
+                **BALL["bodies"][0],
+                "mesh": {"kind": shape, "corner": low, "size": [size] * dimension}
+                | {"divisions": [2] * dimension},
+                "velocity": [*down, -1.0],
+            }
+        ],
+        "obstacles": [
+            {"name": "globe", "kind": "sphere", "centre": [*down, -1.0], "radius": 1.0},
+            {"name": "floor", "kind": "plane", "point": [*down, -9.0], "normal": [*down, 1.0]},
+        ],
+    }
+
+
+@pytest.mark.parametrize(("dimension", "size"), [(3, 0.2), (3, 2e-3), (2, 0.2)])
+def test_bodies_fill_the_picture_and_not_the_obstacles(tmp_path, dimension, size):
+    """Symptom guarded against: beside a ball of 1 m, which does not move, the block was a stamp."""
+    import matplotlib.image
+
+    carom.run(carom.Scenario.from_dict(block(dimension, size)), out=tmp_path / "run")
+    assert view(tmp_path / "run", "--screenshot", tmp_path / "a.png").exit_code == 0
+    pixels = matplotlib.image.imread(tmp_path / "a.png")[:, :, :3]
+    above = pixels[: round(0.82 * len(pixels))]  # the colours stand below
+    rows, columns = np.nonzero(np.ptp(above, axis=2) > 0.15)
+    assert len(rows) > 0.25 * above.shape[0] * above.shape[1]
+    assert 0.02 * len(pixels) < rows.min() < 0.2 * len(pixels)
+    assert columns.min() > 0
+    assert columns.max() < pixels.shape[1] - 1
+
+
+def test_the_side_that_faces_the_camera_has_the_colour_of_the_bar(tmp_path):
+    """Symptom guarded against: parts in space were dim, and no colour of the bar was on them."""
+    import matplotlib.image
+
+    still = block(3)
+    still["bodies"][0]["velocity"] = [0.0, 0.0, 0.0]
+    carom.run(carom.Scenario.from_dict(still), out=tmp_path / "run")
+    options = ("--screenshot", tmp_path / "a.png", "--field", "displacement")
+    assert view(tmp_path / "run", *options).exit_code == 0
+    pixels = matplotlib.image.imread(tmp_path / "a.png")[:, :, :3]
+    above = pixels[: round(0.82 * len(pixels))]
+    body = above[np.ptp(above, axis=2) > 0.1]
+    least = np.array(matplotlib.colormaps["viridis"](0.0)[:3])
+    assert np.percentile(body.sum(axis=1), 90) > 0.8 * least.sum()
 
 
 @pytest.mark.parametrize("option", ["--screenshot", "--animation"])

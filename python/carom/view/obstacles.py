@@ -12,6 +12,9 @@ from carom.obstacle import Obstacle, Plane, RigidBox, RigidCylinder, RigidSphere
 from carom.scenario import Scenario
 from carom.travel import travel
 
+FINE = 180
+"""Edges around what is round: beside a large obstacle a small body shows how round it is."""
+
 _LOOK = {"color": "lightgrey", "opacity": 0.5}
 _LINE = {"color": "grey", "line_width": 2}
 
@@ -58,7 +61,9 @@ def _line(obstacle: Obstacle, middle: NDArray[np.float64], size: float) -> Any: 
         along = np.array([-normal[1], normal[0], 0.0]) * size / 2
         return pyvista.Line(centre - along, centre + along)
     if isinstance(obstacle, RigidSphere):
-        circle = pyvista.Circle(radius=obstacle.radius).translate(_spatial(obstacle.centre))
+        circle = pyvista.Circle(radius=obstacle.radius, resolution=2 * FINE).translate(
+            _spatial(obstacle.centre)
+        )
         return circle.extract_feature_edges()
     if isinstance(obstacle, RigidBox):
         return _box(obstacle).extract_feature_edges()
@@ -73,7 +78,12 @@ def _solid(obstacle: Obstacle, middle: NDArray[np.float64], size: float, *, key:
         normal, centre = _plane(obstacle, middle)
         return pyvista.Plane(center=centre, direction=normal, i_size=size, j_size=size)
     if isinstance(obstacle, RigidSphere):
-        return pyvista.Sphere(radius=obstacle.radius, center=obstacle.centre)
+        return pyvista.Sphere(
+            radius=obstacle.radius,
+            center=obstacle.centre,
+            theta_resolution=FINE,
+            phi_resolution=FINE,
+        )
     if isinstance(obstacle, RigidCylinder):
         axis = np.array(obstacle.axis) / np.linalg.norm(obstacle.axis)
         point = np.array(obstacle.point)
@@ -83,7 +93,7 @@ def _solid(obstacle: Obstacle, middle: NDArray[np.float64], size: float, *, key:
             direction=axis,
             radius=obstacle.radius,
             height=size,
-            resolution=60,
+            resolution=FINE,
             capping=False,
         )
     if isinstance(obstacle, RigidBox):

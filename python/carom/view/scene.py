@@ -17,11 +17,15 @@ from carom.errors import InputError
 from carom.io.frames import Frames
 from carom.scenario import Scenario
 from carom.time_unit import time_unit
+from carom.view.camera import aim
 from carom.view.fields import Shown
 from carom.view.obstacles import draw_obstacles
 
 WINDOW = (1280, 960)
 """Pixels of a picture."""
+
+_BRIGHT = {"ambient": 0.45, "diffuse": 0.65, "specular": 0.0}
+"""Of bodies: what faces the camera has the colour of the bar, and no face is dark."""
 
 FRAMES_PER_SECOND = 25
 """Of an animation."""
@@ -92,7 +96,7 @@ def animate(view: View, file: Path) -> None:
                 plotter.open_movie(str(file), framerate=FRAMES_PER_SECOND)
         except (ImportError, ValueError) as error:
             raise InputError(
-                f'--animation {file}: {" ".join(str(error).split())}; pip install "imageio[ffmpeg]"'
+                f'--animation {file}: {" ".join(str(error).split())}; pip install "carom[view]"'
             ) from None
         grid = _draw(plotter, view, 0, limits=_limits(view))
         for frame in range(len(view.frames.times)):
@@ -161,7 +165,7 @@ def _draw(
     """Draw a frame and return its grid."""
     import pyvista  # noqa: PLC0415
 
-    frames = view.frames
+    frames, flat = view.frames, view.scenario.dimension == 2
     cells = np.insert(frames.connectivity, frames.offsets[:-1], np.diff(frames.offsets))
     grid = pyvista.UnstructuredGrid(cells, frames.types, view.positions(frame))
     grid[view.shown.title] = view.shown.values(frames, frame)
@@ -174,6 +178,8 @@ def _draw(
         show_edges=view.edges,
         edge_opacity=0.3,
         line_width=3 if _is_line(frames) else 1,
+        lighting=not flat,  # shades would tell other values than the colour bar
+        **_BRIGHT,
         scalar_bar_args={
             "title": f"{view.shown.title}\n",  # without the empty line it runs into the labels
             "color": "black",
@@ -190,18 +196,25 @@ def _draw(
     for label in plotter.actors.values():
         if hasattr(label, "prop") and type(label).__name__ == "CornerAnnotation":
             label.prop.color = "black"
-    if view.scenario.dimension == 2:
-        plotter.view_xy()
-        plotter.enable_parallel_projection()
-    else:
-        plotter.view_vector((1.0, -1.6, 0.7), viewup=(0.0, 0.0, 1.0))
     plotter.add_axes(color="black")
+    aim(plotter, view.positions(frame) if limits is None else _reached(view), flat=flat)
     return grid
 
 
 def _update(grid: Any, view: View, frame: int) -> None:  # noqa: ANN401
     grid.points = view.positions(frame)
     grid[view.shown.title] = view.shown.values(view.frames, frame)
+
+
+def _reached(view: View) -> NDArray[np.float64]:
+    """Return corners of the boxes around the bodies in all frames [m]: what a film must show."""
+    ends = []
+    for frame in range(len(view.frames.times)):
+        points = view.positions(frame)
+        ends.append((points.min(axis=0), points.max(axis=0)))
+    return np.array(
+        [np.where(side, high, low) for low, high in ends for side in np.ndindex(2, 2, 2)]
+    )
 
 
 def _limits(view: View) -> tuple[float, float]:

@@ -87,7 +87,12 @@
     const film = carom.makeFilm(picture, clock);
     const { button } = carom.save;
     const at5 = () => `t=${carom.format.inUnit(clock.time, 5)}${data.time_unit.symbol}`;
-    at("fit").before(button("PNG", "Save the scene as PNG", () => carom.save.picture(picture.draw(), at5())));
+    at("fit").before(button("PNG", "Save the scene as PNG", () => carom.save.picture(picture.draw(undefined, large()), at5())));
+    // For papers and slides, of the shape that the reader sees.
+    function large() {
+      const { clientWidth, clientHeight } = at("stage");
+      return { width: 1920, height: Math.round((1920 * clientHeight) / clientWidth) };
+    }
     if (film.canRecord) {
       at("fit").before(button("Film", "Save a film: the run plays once, at the speed chosen below", film.record));
     }
