@@ -20,6 +20,6 @@ def report(
     ] = None,
     force: Force = False,
 ) -> None:
-    """Write a page with the animated bodies, the energies and all numbers of a run."""
+    """Write a page with the animated bodies, energies and all numbers of a run; or of a study."""
     with failures(directory):
         typer.echo(write_report(directory, out=out, force=force))

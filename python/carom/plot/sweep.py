@@ -75,6 +75,7 @@ def sweep_figure(title: str, keys: Sequence[str], rows: Sequence[Mapping[str, An
                 )
             axes.set_ylabel(f"{label} [{unit.symbol}]" if column == "contact_time" else label)
             axes.margins(x=0.03)
+            axes.ticklabel_format(axis="y", useOffset=False)  # +2.799e6 above is not read
             size = _largest(completed, ENERGIES if column in ENERGIES else [column])
             _keep_flat(axes, size / (unit.seconds if column == "contact_time" else 1.0))
         for axes in diagrams[2:]:

@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-VOID = frozenset({"br", "hr", "input", "link", "meta"})
+VOID = frozenset({"br", "hr", "img", "input", "link", "meta"})
 """Elements without an end."""
 
 

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import base64
-import hashlib
-from collections.abc import Sequence
-from importlib import resources
 from string import Template
 from typing import Any
 
@@ -15,6 +12,7 @@ import numpy as np
 from carom import __version__
 from carom.doubts import doubts
 from carom.errors import InputError
+from carom.report.assembly import asset, elements, policy
 from carom.report.case_text import coloured
 from carom.report.curves import curves
 from carom.report.fields import Bodies, bodies
@@ -79,14 +77,14 @@ def page(source: Source) -> str:
     """Return the whole page."""
     notes = list(source.notes)
     shown = _bodies(source, notes)
-    scripts = [_asset("vendor", name) for name in LIBRARIES]
-    scripts.append("\n".join(_asset("assets", name) for name in SCRIPTS))
+    scripts = [asset("vendor", name) for name in LIBRARIES]
+    scripts.append("\n".join(asset("assets", name) for name in SCRIPTS))
     data = _data(source, shown, notes)
-    return Template(_asset("assets", "page.html")).substitute(
+    return Template(asset("assets", "page.html")).substitute(
         version=join(__version__),
-        policy=join(_policy(scripts)),
+        policy=join(policy(scripts)),
         title=join(source.title),
-        style=_asset("vendor", "uPlot.min.css") + _asset("assets", "style.css"),
+        style=asset("vendor", "uPlot.min.css") + asset("assets", "style.css"),
         status=join(source.status),
         head=_head(source),
         figures=key_figures(source.summary) if source.summary else "",
@@ -102,7 +100,7 @@ def page(source: Source) -> str:
         notes=element("ul", *(element("li", note) for note in notes), id="notes"),
         time_unit=join(data["time_unit"]["symbol"]),
         data=embedded(data, id="data"),
-        scripts=join(*(Html(f"<script>{script}</script>\n") for script in scripts)),
+        scripts=join(*elements(scripts)),
     )
 
 
@@ -215,7 +213,7 @@ def _licences() -> Html:
     for name in ("three", "uPlot"):
         title = {"three": "three.js"}.get(name, name)
         parts.append(element("h3", title))
-        parts.append(element("pre", _asset("vendor", f"LICENSE-{name}")))
+        parts.append(element("pre", asset("vendor", f"LICENSE-{name}")))
     parts.append(element("p", COLOURS))
     summary = element("summary", "Licences of what is inside this page")
     return element("details", summary, *parts, id="licences")
@@ -226,17 +224,3 @@ def _case(source: Source) -> Html:
         return join()
     text = element("pre", element("code", coloured(source.case_text)), tabindex="0")
     return _folded("The case as it was run: case.toml", "case", text)
-
-
-def _asset(folder: str, name: str) -> str:
-    return (resources.files("carom.report") / folder / name).read_text(encoding="utf-8")
-
-
-def _policy(scripts: Sequence[str]) -> str:
-    """Return a policy under which no other script runs, and nothing is fetched."""
-    digests = (hashlib.sha256(script.encode()).digest() for script in scripts)
-    allowed = " ".join(f"'sha256-{base64.b64encode(digest).decode()}'" for digest in digests)
-    return (
-        f"default-src 'none'; script-src {allowed}; style-src 'unsafe-inline'; "
-        "img-src data: blob:; base-uri 'none'; form-action 'none'"
-    )

@@ -86,7 +86,7 @@ def read_source(directory: Path) -> Source:
     if not found:
         raise InputError(
             f"{directory}: has no {layout.SUMMARY}, {layout.HISTORY} or {layout.FIELDS}; "
-            "name a results directory of `carom run`"
+            "name a results directory of `carom run` or a study of `carom sweep`"
         )
     notes: list[str] = []
     if layout.SUMMARY not in found:

@@ -9,6 +9,7 @@ from carom.io import layout
 from carom.io.atomic import write_whole
 from carom.report.page import page
 from carom.report.source import read_source
+from carom.report.study import is_study, read_study, study_page
 
 GENERATOR = '<meta name="generator" content="carom report'
 """By which a report is recognised."""
@@ -22,7 +23,8 @@ def write_report(
     Parameters
     ----------
     directory
-        Results directory, also of a run that failed, was interrupted, or still goes on.
+        Results directory, also of a run that failed, was interrupted, or still goes on; or the
+        directory of a study of `carom sweep`.
     out
         File to write; by default ``report.html`` in the directory.
     force
@@ -34,11 +36,13 @@ def write_report(
         The directory holds no results, or the file would be overwritten.
     """
     directory = Path(directory)
-    source = read_source(directory)
+    text = (
+        study_page(read_study(directory)) if is_study(directory) else page(read_source(directory))
+    )
     own = directory / layout.REPORT
     file = own if out is None else Path(out)
     spare_existing(file, force=force or (_is_same(file, own) and _is_report(file)))
-    write_whole(file, page(source).encode())
+    write_whole(file, text.encode())
     return file
 
 
