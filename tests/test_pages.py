@@ -80,3 +80,13 @@ def test_a_page_prints_what_it_says(page, desk, monkeypatch, capsys):
         printed = capsys.readouterr().out
         if expected is not None:
             assert printed == expected
+
+
+def test_pictures_of_the_readme_are_of_the_shipped_example():
+    """Symptom guarded against: pictures on finer meshes than those of the case that they name."""
+    for script in ("make_readme_images.py", "make_report_image.py"):
+        text = (ROOT / "docs/images" / script).read_text(encoding="utf-8")
+        assert '"examples" / "two_cylinders.toml"' in text
+        replaced = re.findall(r'"([a-z][\w.]*)=', text)
+        assert [key for key in replaced if not key.startswith("output.")] == []
+        assert bool(replaced) == ("with_overrides" in text)
