@@ -1,8 +1,11 @@
+use crate::clock::Clock;
 use crate::penalised::Penalised;
 use crate::sparse_factor::NoFactor;
 use crate::splitting::{self, LinearLaw};
 use crate::stopping::Monitor;
-use crate::{ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector};
+use crate::{
+    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, units,
+};
 
 /// The alternating direction method of multipliers: the solution of a linear system with one factor, and projections on the
 /// friction cones, in turn. W need not be symmetric.
@@ -11,9 +14,9 @@ pub struct Admm;
 
 impl<const D: usize> FrictionSolver<D> for Admm {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
-        let mut monitor = Monitor::new(problem, rule);
-        let status = run(&mut monitor, r, usize::MAX);
-        monitor.report(SolverKind::Admm, status.unwrap_or(SolveStatus::Stalled), r)
+        units::solve(problem, r, rule, |monitor, r| {
+            (SolverKind::Admm, run(monitor, r, usize::MAX).unwrap_or(SolveStatus::Stalled))
+        })
     }
 }
 
@@ -24,7 +27,11 @@ pub(crate) fn run<const D: usize>(
     max_iterations: usize,
 ) -> Option<SolveStatus> {
     let problem = monitor.problem();
-    let mut law = Reactions::new(problem, monitor.stiffness())?;
+    let mut law = match Reactions::new(problem, monitor.stiffness(), monitor.clock()) {
+        Ok(law) => law,
+        Err(NoFactor::Singular) => return None,
+        Err(NoFactor::TimeIsUp) => return Some(SolveStatus::TimeLimit),
+    };
     splitting::run(monitor, &mut law, &problem.mu, r, max_iterations)
 }
 
@@ -39,16 +46,16 @@ struct Reactions<'a, const D: usize> {
 
 impl<'a, const D: usize> Reactions<'a, D> {
     /// With the `stiffness` [N/m] of contacts that nothing can move.
-    fn new(problem: &'a ContactProblem<D>, stiffness: f64) -> Option<Self> {
+    fn new(problem: &'a ContactProblem<D>, stiffness: f64, clock: Clock) -> Result<Self, NoFactor> {
         let n = problem.len();
         let own = |i| {
             let trace = problem.w.diagonal(i).trace();
             if trace > 0.0 { D as f64 / trace } else { stiffness }
         };
-        Some(Self {
+        Ok(Self {
             problem,
             stiffness: (0..n).map(own).collect(),
-            factor: Penalised::new(&problem.w)?,
+            factor: Penalised::new(&problem.w, clock)?,
             inverse_rho: vec![0.0; n],
             a: vec![Vector::zeros(); n],
         })

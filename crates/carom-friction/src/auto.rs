@@ -1,10 +1,11 @@
+use crate::block_lu::NoStructure;
 use crate::local::Enumerative;
 use crate::newton::Newton;
 use crate::proximal::Strategy;
 use crate::stopping::Monitor;
 use crate::{
     ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, admm,
-    gauss_seidel, uzawa,
+    gauss_seidel, units, uzawa,
 };
 
 /// Starts cheaply and escalates where that does not converge; the default.
@@ -37,9 +38,7 @@ const TURN: (usize, usize) = (1000, 500);
 
 impl<const D: usize> FrictionSolver<D> for Auto {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
-        let mut monitor = Monitor::new(problem, rule);
-        let (kind, status) = run(&mut monitor, r);
-        monitor.report(kind, status, r)
+        units::solve(problem, r, rule, run)
     }
 }
 
@@ -74,15 +73,22 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
             return end;
         }
     }
-    let Some(mut newton) = Newton::new(problem, FILL * (blocks + problem.len())) else {
-        let status = uzawa::run(monitor, r, usize::MAX);
-        return (SolverKind::Uzawa, status.unwrap_or(SolveStatus::Stalled));
+    let mut newton = match Newton::new(problem, FILL * (blocks + problem.len()), monitor.clock()) {
+        Ok(newton) => newton,
+        Err(NoStructure::TimeIsUp) => return (SolverKind::Proximal, SolveStatus::TimeLimit),
+        Err(NoStructure::TooLarge) => {
+            let status = uzawa::run(monitor, r, usize::MAX);
+            return (SolverKind::Uzawa, status.unwrap_or(SolveStatus::Stalled));
+        }
     };
     let sweeps = SWEEPS_WORTH * newton.cost(problem) / gauss_seidel::cost(problem);
     if sweeps > 5 * FIRST_SWEEPS {
         if dense {
-            if let Some(status) = admm::run(monitor, r, DIRECTIONS) {
-                return (SolverKind::Admm, status);
+            match admm::run(monitor, r, DIRECTIONS) {
+                // A factor that would take longer than what is left of the time: others may use it.
+                Some(SolveStatus::TimeLimit) if !monitor.clock().is_over() => {}
+                Some(status) => return (SolverKind::Admm, status),
+                None => {}
             }
         } else if let Some(end) = sweep(monitor, r, sweeps - FIRST_SWEEPS) {
             return end;

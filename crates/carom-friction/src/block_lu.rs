@@ -2,6 +2,7 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMat;
 use faer::sparse::linalg::amd;
 
+use crate::clock::Clock;
 use crate::{BlockMatrix, Matrix, Vector, small};
 
 /// LU factor of a sparse matrix of D × D blocks with a symmetric pattern, whose pivots are its diagonal blocks.
@@ -28,15 +29,32 @@ pub(crate) struct BlockLu<const D: usize> {
     ordered: Vec<Vector<D>>,
 }
 
-/// A pivot was too small to divide by.
+/// Why there is no structure of a factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct SmallPivot;
+pub(crate) enum NoStructure {
+    /// The factor would need more blocks than are allowed.
+    TooLarge,
+    TimeIsUp,
+}
+
+/// Why there is no factor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum NoBlockFactor {
+    /// A pivot was too small to divide by.
+    SmallPivot,
+    TimeIsUp,
+}
+
+/// Products of blocks, or entries of a structure, after which the clock is looked at.
+const LOOK: usize = 1 << 16;
 
 impl<const D: usize> BlockLu<D> {
-    /// Finds the structure of factors of matrices with the pattern of `w`; None if they need more than `max_blocks` blocks.
-    pub fn new(w: &BlockMatrix<D>, max_blocks: usize) -> Option<Self> {
+    /// Finds the structure of factors of matrices with the pattern of `w`, of at most `max_blocks` blocks.
+    pub fn new(w: &BlockMatrix<D>, max_blocks: usize, clock: Clock) -> Result<Self, NoStructure> {
         let n = w.row_count();
-        let (order, place) = amd_order(w)?;
+        clock.check().map_err(|_| NoStructure::TimeIsUp)?;
+        let (order, place) = amd_order(w).ok_or(NoStructure::TooLarge)?;
+        let mut seen_since = 0;
         // Row k of U has the pattern of row k of W and of the rows whose first entry is k.
         let mut upper_starts = Vec::with_capacity(n + 1);
         upper_starts.push(0);
@@ -56,12 +74,17 @@ impl<const D: usize> BlockLu<D> {
                 add(place[j], &mut upper_columns);
             }
             for &child in &children[k] {
+                seen_since += upper_starts[child as usize + 1] - upper_starts[child as usize];
                 for e in upper_starts[child as usize]..upper_starts[child as usize + 1] {
                     add(upper_columns[e], &mut upper_columns);
                 }
             }
             if 2 * upper_columns.len() + n > max_blocks {
-                return None;
+                return Err(NoStructure::TooLarge);
+            }
+            if seen_since > LOOK {
+                clock.check().map_err(|_| NoStructure::TimeIsUp)?;
+                seen_since = 0;
             }
             upper_columns[first..].sort_unstable();
             if let Some(&parent) = upper_columns.get(first) {
@@ -82,7 +105,7 @@ impl<const D: usize> BlockLu<D> {
                 next[j as usize] += 1;
             }
         }
-        Some(Self {
+        Ok(Self {
             upper: vec![Matrix::zeros(); upper_columns.len()],
             lower: vec![Matrix::zeros(); upper_columns.len()],
             inverse_pivots: vec![Matrix::zeros(); n],
@@ -110,7 +133,9 @@ impl<const D: usize> BlockLu<D> {
         shift: f64,
         a: &[Matrix<D>],
         b: &[Matrix<D>],
-    ) -> Result<(), SmallPivot> {
+        clock: Clock,
+    ) -> Result<(), NoBlockFactor> {
+        let mut products = 0;
         for k in 0..self.order.len() {
             let i = self.order[k] as usize;
             let lower = self.lower_starts[k]..self.lower_starts[k + 1];
@@ -119,7 +144,7 @@ impl<const D: usize> BlockLu<D> {
                 // An open contact: its row is that of B alone.
                 self.lower[lower].fill(Matrix::zeros());
                 self.upper[upper].fill(Matrix::zeros());
-                self.inverse_pivots[k] = small::inverse(&b[i]).ok_or(SmallPivot)?;
+                self.inverse_pivots[k] = small::inverse(&b[i]).ok_or(NoBlockFactor::SmallPivot)?;
                 continue;
             }
             self.lower_columns[lower.clone()].iter().for_each(|&j| self.row[j as usize] = Matrix::zeros());
@@ -139,13 +164,18 @@ impl<const D: usize> BlockLu<D> {
                 let factor = factor * self.inverse_pivots[j];
                 self.lower[e] = factor;
                 let range = self.upper_starts[j]..self.upper_starts[j + 1];
+                products += 1 + range.len();
+                if products > LOOK {
+                    clock.check().map_err(|_| NoBlockFactor::TimeIsUp)?;
+                    products = 0;
+                }
                 for (&column, block) in self.upper_columns[range.clone()].iter().zip(&self.upper[range]) {
                     self.row[column as usize] -= factor * block;
                 }
             }
-            let inverse = small::inverse(&self.row[k]).ok_or(SmallPivot)?;
+            let inverse = small::inverse(&self.row[k]).ok_or(NoBlockFactor::SmallPivot)?;
             if inverse.amax() * size > 1.0 / PIVOT {
-                return Err(SmallPivot);
+                return Err(NoBlockFactor::SmallPivot);
             }
             self.inverse_pivots[k] = inverse;
             for e in upper {
@@ -227,12 +257,13 @@ mod tests {
             (0..n).map(|i| Vector::from_fn(|k, _| ((i * 3 + k) as f64).cos())).collect();
         let mut x: Vec<Vector<3>> =
             (0..n).map(|i| a[i] * (w.row_times(i, &exact) + exact[i] * 0.5) + b[i] * exact[i]).collect();
-        let mut lu = BlockLu::new(&w, 1000).expect("few blocks");
-        lu.factorize(&w, 0.5, &a, &b).expect("strong diagonal");
+        let clock = Clock::new(None);
+        let mut lu = BlockLu::new(&w, 1000, clock).expect("few blocks");
+        lu.factorize(&w, 0.5, &a, &b, clock).expect("strong diagonal");
         lu.solve(&mut x);
         for (x, e) in x.iter().zip(&exact) {
             assert!((x - e).norm() < 1e-12);
         }
-        assert!(BlockLu::new(&w, 60).is_none());
+        assert_eq!(BlockLu::new(&w, 60, clock).expect_err("few are allowed"), NoStructure::TooLarge);
     }
 }

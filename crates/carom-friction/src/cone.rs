@@ -9,9 +9,16 @@ pub fn tangential_norm<const D: usize>(x: &Vector<D>) -> f64 {
     match D {
         1 => 0.0,
         2 => x[1].abs(),
-        _ => x.rows_range(1..).norm(),
+        _ => {
+            let norm = x.rows_range(1..).norm();
+            // `hypot` is slow, and only needed where squares vanish or overflow.
+            if SAFE.contains(&norm) { norm } else { x[1].hypot(x[2]) }
+        }
     }
 }
+
+/// Lengths whose squares have all their digits.
+const SAFE: std::ops::Range<f64> = 1e-140..f64::INFINITY;
 
 /// Orthogonal projection of τ on K_μ [de Saxcé & Feng 1998]: stick, separation or slip.
 #[inline]

@@ -1,5 +1,6 @@
 //! What every solver must do. A new solver is proved by its line in `SolverKind::ALL`.
 
+mod extreme;
 mod hard;
 
 use proptest::prelude::*;

@@ -3,7 +3,7 @@ use crate::local::{AlartCurnier, Bipotential, Enumerative, LocalContact, LocalSo
 use crate::schedule::Schedule;
 use crate::stopping::Monitor;
 use crate::{
-    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone,
+    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone, units,
 };
 
 /// Block Gauss–Seidel: contact after contact, each with the present reactions of the others
@@ -28,19 +28,20 @@ pub enum Local {
 
 impl<const D: usize> FrictionSolver<D> for GaussSeidel {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
-        let mut monitor = Monitor::new(problem, rule);
-        let (kind, status) = match self.local {
-            Local::Bipotential => {
-                (SolverKind::GaussSeidel, run::<D, Bipotential>(&mut monitor, r, usize::MAX))
-            }
-            Local::Enumerative => {
-                (SolverKind::GaussSeidelEnumerative, run::<D, Enumerative>(&mut monitor, r, usize::MAX))
-            }
-            Local::AlartCurnier => {
-                (SolverKind::GaussSeidelAlartCurnier, run::<D, AlartCurnier>(&mut monitor, r, usize::MAX))
-            }
-        };
-        monitor.report(kind, status.unwrap_or(SolveStatus::Stalled), r)
+        units::solve(problem, r, rule, |monitor, r| {
+            let (kind, status) = match self.local {
+                Local::Bipotential => {
+                    (SolverKind::GaussSeidel, run::<D, Bipotential>(monitor, r, usize::MAX))
+                }
+                Local::Enumerative => {
+                    (SolverKind::GaussSeidelEnumerative, run::<D, Enumerative>(monitor, r, usize::MAX))
+                }
+                Local::AlartCurnier => {
+                    (SolverKind::GaussSeidelAlartCurnier, run::<D, AlartCurnier>(monitor, r, usize::MAX))
+                }
+            };
+            (kind, status.unwrap_or(SolveStatus::Stalled))
+        })
     }
 }
 

@@ -31,6 +31,7 @@ mod anderson;
 mod auto;
 mod block_lu;
 mod block_matrix;
+mod clock;
 pub mod cone;
 #[cfg(test)]
 mod contract;
@@ -49,8 +50,10 @@ mod schedule;
 mod small;
 mod solver;
 mod sparse_factor;
+mod speed;
 mod splitting;
 mod stopping;
+mod units;
 mod uzawa;
 
 pub use admm::Admm;

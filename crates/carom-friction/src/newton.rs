@@ -1,4 +1,5 @@
-use crate::block_lu::BlockLu;
+use crate::block_lu::{BlockLu, NoStructure};
+use crate::clock::Clock;
 use crate::equation::Equation;
 use crate::{ContactProblem, Matrix, Vector};
 
@@ -29,7 +30,8 @@ impl<const D: usize> Shifted<'_, D> {
 /// Semismooth Newton iterations on the contacts' equations, and their memory.
 #[derive(Debug)]
 pub(crate) struct Newton<const D: usize> {
-    lu: BlockLu<D>,
+    pub lu: BlockLu<D>,
+    clock: Clock,
     by_motion: Vec<Matrix<D>>,
     by_reaction: Vec<Matrix<D>>,
     motion: Vec<Vector<D>>,
@@ -51,11 +53,12 @@ pub(crate) struct NewtonEnd {
 const MEMORY: usize = 3;
 
 impl<const D: usize> Newton<D> {
-    /// None if the factors would need more than `max_blocks` blocks.
-    pub fn new(problem: &ContactProblem<D>, max_blocks: usize) -> Option<Self> {
+    /// With factors of at most `max_blocks` blocks.
+    pub fn new(problem: &ContactProblem<D>, max_blocks: usize, clock: Clock) -> Result<Self, NoStructure> {
         let n = problem.len();
-        Some(Self {
-            lu: BlockLu::new(&problem.w, max_blocks)?,
+        Ok(Self {
+            lu: BlockLu::new(&problem.w, max_blocks, clock)?,
+            clock,
             by_motion: vec![Matrix::zeros(); n],
             by_reaction: vec![Matrix::zeros(); n],
             motion: vec![Vector::zeros(); n],
@@ -96,7 +99,8 @@ impl<const D: usize> Newton<D> {
                 self.by_motion[i] = at.by_motion;
                 self.by_reaction[i] = at.by_reaction;
             }
-            if self.lu.factorize(&problem.w, shifted.shift, &self.by_motion, &self.by_reaction).is_err() {
+            let (a, b) = (&self.by_motion, &self.by_reaction);
+            if self.lu.factorize(&problem.w, shifted.shift, a, b, self.clock).is_err() {
                 return NewtonEnd { iterations: iterations + 1, converged: false };
             }
             self.lu.solve(&mut self.step);

@@ -1,7 +1,8 @@
 use faer::dyn_stack::MemBuffer;
 use faer::sparse::SymbolicSparseColMat;
 
-use crate::block_lu::BlockLu;
+use crate::block_lu::{BlockLu, NoBlockFactor, NoStructure};
+use crate::clock::Clock;
 use crate::sparse_factor::{NoFactor, SparseFactor};
 use crate::{BlockMatrix, Matrix, Vector};
 
@@ -17,16 +18,22 @@ pub(crate) enum Penalised<'a, const D: usize> {
 const MANY_BLOCKS: usize = 60_000;
 
 impl<'a, const D: usize> Penalised<'a, D> {
-    /// None if memory does not suffice.
-    pub fn new(w: &'a BlockMatrix<D>) -> Option<Self> {
-        let lu = match BlockLu::new(w, MANY_BLOCKS) {
-            None if w.is_symmetric() => return Some(Self::Supernodes(Box::new(Supernodes::new(w)?))),
-            None => BlockLu::new(w, usize::MAX)?,
-            Some(lu) => lu,
+    /// Finds the structure of the factors.
+    pub fn new(w: &'a BlockMatrix<D>, clock: Clock) -> Result<Self, NoFactor> {
+        let lu = match BlockLu::new(w, MANY_BLOCKS, clock) {
+            Err(NoStructure::TooLarge) if w.is_symmetric() => {
+                return Ok(Self::Supernodes(Box::new(Supernodes::new(w, clock)?)));
+            }
+            Err(NoStructure::TooLarge) => BlockLu::new(w, usize::MAX, clock),
+            other => other,
         };
+        let lu = lu.map_err(|error| match error {
+            NoStructure::TooLarge => NoFactor::Singular,
+            NoStructure::TimeIsUp => NoFactor::TimeIsUp,
+        })?;
         let n = w.row_count();
         let (ones, penalties) = (vec![Matrix::identity(); n], vec![Matrix::zeros(); n]);
-        Some(Self::Blocks(Box::new(Blocks { w, lu, ones, penalties })))
+        Ok(Self::Blocks(Box::new(Blocks { w, lu, ones, penalties, clock })))
     }
 
     /// Factorises with these penalties.
@@ -52,6 +59,7 @@ pub(crate) struct Blocks<'a, const D: usize> {
     lu: BlockLu<D>,
     ones: Vec<Matrix<D>>,
     penalties: Vec<Matrix<D>>,
+    clock: Clock,
 }
 
 impl<const D: usize> Blocks<'_, D> {
@@ -59,7 +67,10 @@ impl<const D: usize> Blocks<'_, D> {
         for (block, penalty) in self.penalties.iter_mut().zip(penalties) {
             *block = Matrix::identity() * *penalty;
         }
-        self.lu.factorize(self.w, 0.0, &self.ones, &self.penalties).map_err(|_| NoFactor)
+        self.lu.factorize(self.w, 0.0, &self.ones, &self.penalties, self.clock).map_err(|error| match error {
+            NoBlockFactor::SmallPivot => NoFactor::Singular,
+            NoBlockFactor::TimeIsUp => NoFactor::TimeIsUp,
+        })
     }
 }
 
@@ -72,10 +83,11 @@ pub(crate) struct Supernodes<const D: usize> {
     factor: SparseFactor,
     memory: MemBuffer,
     flat: Vec<f64>,
+    clock: Clock,
 }
 
 impl<const D: usize> Supernodes<D> {
-    fn new(w: &BlockMatrix<D>) -> Option<Self> {
+    fn new(w: &BlockMatrix<D>, clock: Clock) -> Result<Self, NoFactor> {
         let n = w.row_count() * D;
         let (mut starts, mut rows, mut values, mut diagonal) = (vec![0], Vec::new(), Vec::new(), Vec::new());
         for i in 0..w.row_count() {
@@ -92,9 +104,10 @@ impl<const D: usize> Supernodes<D> {
             }
         }
         let pattern = SymbolicSparseColMat::new_checked(n, n, starts, None, rows);
-        let factor = SparseFactor::cholesky(pattern).ok()?;
-        let memory = MemBuffer::try_new(factor.scratch(1)).ok()?;
-        Some(Self {
+        let factor = SparseFactor::cholesky(pattern, clock)?;
+        let memory = MemBuffer::try_new(factor.scratch(1)).map_err(|_| NoFactor::Singular)?;
+        Ok(Self {
+            clock,
             penalised: vec![0.0; values.len()],
             w: values,
             flat: vec![0.0; n],
@@ -109,7 +122,7 @@ impl<const D: usize> Supernodes<D> {
         for (k, &place) in self.diagonal.iter().enumerate() {
             self.penalised[place] += penalties[k / D];
         }
-        self.factor.factorize(&self.penalised)
+        self.factor.factorize(&self.penalised, self.clock)
     }
 
     fn solve(&mut self, x: &mut [Vector<D>]) {
@@ -146,8 +159,11 @@ mod tests {
         let exact: Vec<Vector<3>> =
             (0..n).map(|i| Vector::from_fn(|k, _| ((i * 3 + k) as f64).cos())).collect();
         let penalties: Vec<f64> = (0..n).map(|i| i as f64).collect();
-        let supernodes = Supernodes::new(&w).expect("small");
-        for mut factor in [Penalised::new(&w).expect("small"), Penalised::Supernodes(Box::new(supernodes))] {
+        let clock = Clock::new(None);
+        let supernodes = Supernodes::new(&w, clock).expect("small");
+        for mut factor in
+            [Penalised::new(&w, clock).expect("small"), Penalised::Supernodes(Box::new(supernodes))]
+        {
             let mut x: Vec<Vector<3>> =
                 (0..n).map(|i| w.row_times(i, &exact) + exact[i] * penalties[i]).collect();
             assert_eq!(factor.factorize(&penalties), Ok(()));

@@ -42,7 +42,8 @@ impl<const D: usize> ContactProblem<D> {
     #[must_use]
     pub fn step_length(&self, i: usize) -> f64 {
         let largest = small::largest_eigenvalue(self.w.diagonal(i));
-        if largest > 0.0 { 1.0 / largest } else { 0.0 }
+        // What is so stiff that its inverse overflows counts as what nothing can move.
+        if largest > 0.0 && (1.0 / largest).is_finite() { 1.0 / largest } else { 0.0 }
     }
 
     /// The step ρ_i of every contact [N/m].

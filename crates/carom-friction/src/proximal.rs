@@ -1,9 +1,10 @@
+use crate::block_lu::NoStructure;
 use crate::contradiction::contradicts;
 use crate::equation::Equation;
 use crate::newton::{Newton, Shifted};
 use crate::stopping::Monitor;
 use crate::{
-    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone,
+    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone, units,
 };
 
 /// The proximal point method: W + shift I instead of W, around the last answer, solved by Newton's iterations
@@ -79,15 +80,17 @@ impl Strategy {
         r: &mut [Vector<D>],
         rule: &StoppingRule,
     ) -> SolveReport {
-        let mut monitor = Monitor::new(problem, rule);
-        let status = match monitor.check(r) {
-            Some(status) => status,
-            None => match Newton::new(problem, usize::MAX) {
-                Some(mut newton) => self.run(&mut monitor, &mut newton, r, usize::MAX),
-                None => SolveStatus::Stalled,
-            },
-        };
-        monitor.report(kind, status, r)
+        units::solve(problem, r, rule, |monitor, r| {
+            if let Some(status) = monitor.check(r) {
+                return (kind, status);
+            }
+            let status = match Newton::new(monitor.problem(), usize::MAX, monitor.clock()) {
+                Ok(mut newton) => self.run(monitor, &mut newton, r, usize::MAX),
+                Err(NoStructure::TimeIsUp) => SolveStatus::TimeLimit,
+                Err(NoStructure::TooLarge) => SolveStatus::Stalled,
+            };
+            (kind, status)
+        })
     }
 
     /// Improves `r`, which was measured, until the problem is solved or `max_iterations` more are made.
@@ -124,7 +127,9 @@ impl Strategy {
                 if let Some(status) = monitor.check(r) {
                     return status;
                 }
-                if norm(r) > FAR * motion_force && contradicts(problem, r, &centre, monitor.stiffness()) {
+                if norm(r) > FAR * motion_force
+                    && contradicts(problem, r, &centre, monitor.stiffness(), &mut newton.lu, monitor.clock())
+                {
                     return SolveStatus::Inconsistent;
                 }
                 centre.copy_from_slice(r);

@@ -10,6 +10,9 @@ use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, SymbolicLu, f
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side, Spec};
 
+use crate::clock::Clock;
+use crate::speed;
+
 /// Factor of sparse matrices of one pattern: LLᵀ (supernodal) where they are symmetric and positive definite, LU otherwise.
 ///
 /// Ordering and structure are found once; [`SparseFactor::factorize`] renews the values.
@@ -33,24 +36,31 @@ enum Kind {
     Lu { symbolic: SymbolicLu<usize>, numeric: NumericLu<usize, f64> },
 }
 
-/// The matrix has no factor of the kind asked for.
+/// Why there is no factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct NoFactor;
+pub(crate) enum NoFactor {
+    /// The matrix has none of the kind asked for, or memory does not suffice.
+    Singular,
+    /// The time is up, or would be before the factor is ready.
+    TimeIsUp,
+}
 
 impl SparseFactor {
     /// For symmetric positive definite matrices with this pattern, of which only the lower triangle is read.
-    pub fn cholesky(pattern: SymbolicSparseColMat<usize>) -> Result<Self, NoFactor> {
+    pub fn cholesky(pattern: SymbolicSparseColMat<usize>, clock: Clock) -> Result<Self, NoFactor> {
+        clock.check().map_err(|_| NoFactor::TimeIsUp)?;
         let symbolic = cholesky_structure(&pattern)?;
         let (values, size) = (vec![0.0; symbolic.len_val()], size(&symbolic));
         Ok(Self { pattern, kind: Kind::Cholesky { symbolic, values }, size })
     }
 
     /// For any regular matrices with this pattern.
-    pub fn lu(pattern: SymbolicSparseColMat<usize>) -> Result<Self, NoFactor> {
+    pub fn lu(pattern: SymbolicSparseColMat<usize>, clock: Clock) -> Result<Self, NoFactor> {
+        clock.check().map_err(|_| NoFactor::TimeIsUp)?;
         let Size { fill, work } = size(&cholesky_structure(&pattern)?);
         let size = Size { fill: 2.0 * fill, work: 2.0 * work };
-        let symbolic =
-            factorize_symbolic_lu(pattern.as_ref(), LuSymbolicParams::default()).map_err(|_| NoFactor)?;
+        let symbolic = factorize_symbolic_lu(pattern.as_ref(), LuSymbolicParams::default())
+            .map_err(|_| NoFactor::Singular)?;
         Ok(Self { pattern, kind: Kind::Lu { symbolic, numeric: NumericLu::new() }, size })
     }
 
@@ -59,14 +69,21 @@ impl SparseFactor {
         self.size
     }
 
-    /// Factorises the matrix with these `values`, in the order of the pattern.
-    pub fn factorize(&mut self, values: &[f64]) -> Result<(), NoFactor> {
+    /// Factorises the matrix with these `values`, in the order of the pattern, if there is time for it: once begun it cannot be
+    /// cut short.
+    pub fn factorize(&mut self, values: &[f64], clock: Clock) -> Result<(), NoFactor> {
+        if clock
+            .left()
+            .is_some_and(|left| left.as_secs_f64() < self.size.work / speed::multiplications_per_second())
+        {
+            return Err(NoFactor::TimeIsUp);
+        }
         let matrix = SparseColMatRef::new(self.pattern.as_ref(), values);
         match &mut self.kind {
             Kind::Cholesky { symbolic, values } => {
                 let request = symbolic
                     .factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::<LltParams, f64>::default());
-                let mut memory = MemBuffer::try_new(request).map_err(|_| NoFactor)?;
+                let mut memory = MemBuffer::try_new(request).map_err(|_| NoFactor::Singular)?;
                 symbolic
                     .factorize_numeric_llt(
                         values,
@@ -78,19 +95,19 @@ impl SparseFactor {
                         Spec::default(),
                     )
                     .map(|_| ())
-                    .map_err(|_| NoFactor)
+                    .map_err(|_| NoFactor::Singular)
             }
             Kind::Lu { symbolic, numeric } => {
                 let request = symbolic.factorize_numeric_lu_scratch::<f64>(
                     Par::Seq,
                     Spec::<PartialPivLuParams, f64>::default(),
                 );
-                let mut memory = MemBuffer::try_new(request).map_err(|_| NoFactor)?;
+                let mut memory = MemBuffer::try_new(request).map_err(|_| NoFactor::Singular)?;
                 let stack = MemStack::new(&mut memory);
                 symbolic
                     .factorize_numeric_lu(numeric, matrix, Par::Seq, stack, Spec::default())
                     .map(|_| ())
-                    .map_err(|_| NoFactor)
+                    .map_err(|_| NoFactor::Singular)
             }
         }
     }
@@ -148,7 +165,7 @@ fn cholesky_structure(pattern: &SymbolicSparseColMat<usize>) -> Result<SymbolicC
         ..Default::default()
     };
     factorize_symbolic_cholesky(pattern.as_ref(), Side::Lower, SymmetricOrdering::Amd, params)
-        .map_err(|_| NoFactor)
+        .map_err(|_| NoFactor::Singular)
 }
 
 fn size(symbolic: &SymbolicCholesky<usize>) -> Size {

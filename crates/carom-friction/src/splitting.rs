@@ -56,7 +56,11 @@ pub(crate) fn run<const D: usize, P: Measured<D>, L: LinearLaw<D>>(
         return Some(status);
     }
     let mut state = Splitting::new(mu, law.stiffness(), r);
-    state.prepare(law, L::FIRST_SCALE).ok()?;
+    match state.prepare(law, L::FIRST_SCALE) {
+        Ok(()) => {}
+        Err(NoFactor::Singular) => return None,
+        Err(NoFactor::TimeIsUp) => return Some(SolveStatus::TimeLimit),
+    }
     let mut wanted = monitor.tolerance();
     let mut schedule = Schedule::new(monitor.tolerance(), monitor.iterations);
     let (mut trial, mut tried) = (PERIOD, 0.0);
@@ -84,7 +88,11 @@ pub(crate) fn run<const D: usize, P: Measured<D>, L: LinearLaw<D>>(
         let imbalance = change.imbalance();
         if tried >= trial && imbalance.is_finite() && !(1.0 / BAND..=BAND).contains(&imbalance) {
             let scale = state.scale * imbalance.clamp(1.0 / LEAP, LEAP);
-            state.prepare(law, scale).ok()?;
+            match state.prepare(law, scale) {
+                Ok(()) => {}
+                Err(NoFactor::Singular) => return None,
+                Err(NoFactor::TimeIsUp) => return Some(SolveStatus::TimeLimit),
+            }
             (trial, tried) = (GROWTH * trial, 0.0);
         }
     }
@@ -160,10 +168,10 @@ impl<'a, const D: usize> Splitting<'a, D> {
 
     /// Sets the penalties to `scale` times the stiffness, or to less where there is no factor.
     fn prepare(&mut self, law: &mut impl LinearLaw<D>, mut scale: f64) -> Result<(), NoFactor> {
-        while law.prepare(scale).is_err() {
+        while let Err(error) = law.prepare(scale) {
             scale *= 0.1;
-            if scale < SMALLEST || scale.is_nan() {
-                return Err(NoFactor);
+            if error == NoFactor::TimeIsUp || scale < SMALLEST || scale.is_nan() {
+                return Err(error);
             }
         }
         self.scale = scale;

@@ -1,7 +1,8 @@
 //! When a solver stops, and what it says then.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use crate::clock::Clock;
 use crate::residual::{Measured, Meter};
 use crate::{ContactProblem, Measure, SolverKind, Vector};
 
@@ -12,6 +13,8 @@ pub struct StoppingRule {
     pub tolerance: f64,
     /// In which units it has to be reached.
     pub criterion: Criterion,
+    /// The stiffness that counts as 1 in the residual of published codes [N/m]: 1 where a problem is in their units.
+    pub unit: f64,
     /// Iterations after which the solver gives up.
     pub max_iterations: usize,
     /// Time after which the solver gives up.
@@ -20,7 +23,20 @@ pub struct StoppingRule {
 
 impl Default for StoppingRule {
     fn default() -> Self {
-        Self { tolerance: 1e-8, criterion: Criterion::default(), max_iterations: 100_000, time_limit: None }
+        Self {
+            tolerance: 1e-8,
+            criterion: Criterion::default(),
+            unit: 1.0,
+            max_iterations: 100_000,
+            time_limit: None,
+        }
+    }
+}
+
+impl StoppingRule {
+    /// Starts the time.
+    pub(crate) fn clock(&self) -> Clock {
+        Clock::new(self.time_limit)
     }
 }
 
@@ -106,16 +122,26 @@ pub(crate) struct Monitor<'a, const D: usize, P = ContactProblem<D>> {
     problem: &'a P,
     meter: Meter,
     rule: StoppingRule,
-    start: Instant,
+    clock: Clock,
     history: Vec<Sample>,
     /// Iterations made.
     pub iterations: usize,
 }
 
 impl<'a, const D: usize, P: Measured<D>> Monitor<'a, D, P> {
-    pub fn new(problem: &'a P, rule: &StoppingRule) -> Self {
-        let (meter, history) = (problem.meter(), Vec::with_capacity(32));
-        Self { problem, meter, rule: *rule, start: Instant::now(), history, iterations: 0 }
+    pub fn new(problem: &'a P, rule: &StoppingRule, clock: Clock) -> Self {
+        let (meter, history) = (problem.meter(rule.unit), Vec::with_capacity(32));
+        Self { problem, meter, rule: *rule, clock, history, iterations: 0 }
+    }
+
+    /// The time the solve has.
+    pub fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// Whether `r` is an answer; no one takes note of it.
+    pub fn is_solved_by(&self, r: &[Vector<D>]) -> bool {
+        self.problem.measure(&self.meter, r).decisive(self.rule.criterion) <= self.rule.tolerance
     }
 
     pub fn problem(&self) -> &'a P {
@@ -182,7 +208,7 @@ impl<'a, const D: usize, P: Measured<D>> Monitor<'a, D, P> {
     pub fn exhausted_after(&self, more: usize) -> Option<SolveStatus> {
         if self.iterations.saturating_add(more) >= self.rule.max_iterations {
             Some(SolveStatus::IterationLimit)
-        } else if self.rule.time_limit.is_some_and(|limit| self.start.elapsed() >= limit) {
+        } else if self.clock.is_over() {
             Some(SolveStatus::TimeLimit)
         } else {
             None
@@ -211,7 +237,7 @@ impl<'a, const D: usize, P: Measured<D>> Monitor<'a, D, P> {
             iterations: self.iterations,
             measure,
             history: self.history,
-            time: self.start.elapsed(),
+            time: self.clock.elapsed(),
         }
     }
 }

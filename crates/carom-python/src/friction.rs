@@ -117,7 +117,13 @@ pub fn stopping_rule(
         .map(Duration::try_from_secs_f64)
         .transpose()
         .map_err(|e| PyValueError::new_err(format!("time_limit: {e}")))?;
-    Ok(StoppingRule { tolerance, criterion: Criterion::Both, max_iterations, time_limit })
+    Ok(StoppingRule {
+        tolerance,
+        criterion: Criterion::Both,
+        max_iterations,
+        time_limit,
+        ..StoppingRule::default()
+    })
 }
 
 /// The names of all solvers, the default first.

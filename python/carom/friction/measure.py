@@ -84,23 +84,62 @@ def measure(
     stiffness
         The natural ρ = n D / tr W [N/m].
     """
+    return measure_by_powers(r, w, q=q, mu=mu, stiffness=math.frexp(stiffness))
+
+
+def measure_by_powers(
+    r: NDArray[np.float64],
+    w: NDArray[np.float64],
+    *,
+    q: NDArray[np.float64],
+    mu: NDArray[np.float64],
+    stiffness: tuple[float, int],
+) -> Measure:
+    """Measure as `measure` does, with a stiffness m 2^e given as (m, e), which may be no float."""
     if not (np.isfinite(r).all() and np.isfinite(w).all()):
         return Measure(math.nan, math.nan, math.nan)
-    slip = np.linalg.norm(w[:, 1:], axis=1)
+    natural = _residual(r, w, q, mu, stiffness, largest=LARGEST_REACTIONS)
+    r_unit, w_unit = _exponent(r), _exponent(w)
+    scaled_r, scaled_w = np.ldexp(r, -r_unit), np.ldexp(w, -w_unit)
+    slip = np.linalg.norm(scaled_w[:, 1:], axis=1)
+    along = np.einsum("id,id->i", scaled_w[:, 1:], scaled_r[:, 1:])
+    gaps = np.abs(scaled_w[:, 0] * scaled_r[:, 0]) + np.abs(mu * scaled_r[:, 0] * slip + along)
+    with np.errstate(over="ignore", under="ignore"):  # An energy may be too large for a number.
+        certificate = float(np.ldexp(gaps.sum(), r_unit + w_unit))
+    return Measure(_residual(r, w, q, mu, (1.0, 0)), natural, certificate)
+
+
+def _residual(
+    r: NDArray[np.float64],
+    w: NDArray[np.float64],
+    q: NDArray[np.float64],
+    mu: NDArray[np.float64],
+    rho: tuple[float, int],
+    *,
+    largest: float = math.inf,
+) -> float:
+    """Return the residual with the stiffness ρ = m 2^e, where ‖r‖ counts as `largest` ρ‖q‖ at most.
+
+    Everything is divided by the power of two of the largest of r, ρw and ρq: no square overflows,
+    and what vanishes is nothing beside it.
+    """
+    mantissa, exponent = rho
+    sizes = [(r, 0), (w, exponent), (q, exponent)]
+    powers = [_exponent(x) + e for x, e in sizes if x.any()]
+    if not powers:
+        return 0.0
+    unit = max(powers)
+    r, w, q = (np.ldexp(r, -unit), *(mantissa * np.ldexp(x, exponent - unit) for x in (w, q)))
     shifted = w.copy()
-    shifted[:, 0] += mu * slip
+    shifted[:, 0] += mu * np.linalg.norm(w[:, 1:], axis=1)
+    error, length = np.linalg.norm(r - project(r - shifted, mu)), float(np.linalg.norm(r))
+    called_for = largest * float(np.linalg.norm(q)) if q.any() else math.inf
+    if length > called_for:  # Beside such reactions motions are lost in round-off.
+        error = np.hypot(error, np.finfo(float).eps * length)
+        length = called_for
+    return float(error / max(length, float(np.linalg.norm(q)), float(np.linalg.norm(w))))
 
-    def residual(rho: float, largest: float = math.inf) -> float:
-        error = np.linalg.norm(r - project(r - rho * shifted, mu))
-        length = float(np.linalg.norm(r))
-        if length > largest:  # Beside such reactions motions are lost in round-off.
-            error = np.hypot(error, np.finfo(float).eps * length)
-            length = largest
-        size = max(rho * float(np.linalg.norm(q)), length, rho * float(np.linalg.norm(w)))
-        return float(error / size) if size > 0.0 else 0.0
 
-    along = np.einsum("id,id->i", w[:, 1:], r[:, 1:])
-    gaps = np.abs(w[:, 0] * r[:, 0]) + np.abs(mu * r[:, 0] * slip + along)
-    called_for = stiffness * float(np.linalg.norm(q))
-    natural = residual(stiffness, LARGEST_REACTIONS * called_for if called_for else math.inf)
-    return Measure(residual(1.0), natural, float(gaps.sum()))
+def _exponent(x: NDArray[np.float64]) -> int:
+    """Return the exponent e with max |x| < 2^e; 0 where all are zero."""
+    return math.frexp(float(np.abs(x).max(initial=0.0)))[1]

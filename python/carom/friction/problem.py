@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from carom.counting import count
 from carom.errors import InputError
 from carom.friction import arrays, symmetry
 from carom.friction.blocks import BlockRows, block_rows
-from carom.friction.measure import Measure, measure
+from carom.friction.measure import Measure, measure_by_powers
 
 
 class Problem:
@@ -134,30 +135,44 @@ class Problem:
     @property
     def stiffness(self) -> float:
         """The natural unit of stiffness n D / tr W [N/m]; 1 where nothing can move."""
+        mantissa, exponent = self._stiffness()
+        with np.errstate(over="ignore", under="ignore"):
+            return float(np.ldexp(mantissa, exponent))
+
+    def _stiffness(self) -> tuple[float, int]:
+        """Return m and e of the stiffness m 2^e, which may be too large for a float."""
         owners = np.repeat(np.arange(self.contacts), np.diff(self.starts))
-        trace = float(np.einsum("kdd->", self.blocks[self.columns == owners]))
-        return self.q.size / trace if trace > 0.0 else 1.0
+        diagonal = np.einsum("kdd->kd", self.blocks[self.columns == owners])
+        exponent = math.frexp(float(np.abs(diagonal).max(initial=0.0)))[1]
+        trace = float(np.ldexp(diagonal, -exponent).sum())
+        return (self.q.size / trace, -exponent) if trace > 0.0 else (1.0, 0)
 
     def matrix(self) -> sp.bsr_array:
         """Return W [m/N], shape [n D, n D], symmetric if W was given as a matrix."""
         return self._rows.matrix()
 
-    def refuse_if_indefinite(self) -> None:
+    def refuse_if_indefinite(self, *, seconds: float = math.inf) -> None:
         """Look longer for a negative eigenvalue of W than can be afforded for every problem.
 
         A W given in blocks, which need not be symmetric, is not looked at.
+
+        Parameters
+        ----------
+        seconds
+            Time after which the search is given up [s].
 
         Raises
         ------
         InputError
             If there is one that is clearly negative.
         """
-        if self._symmetric and self.contacts:
+        if self._symmetric and self.contacts and seconds > 0.0:
             symmetry.refuse_indefinite(
                 self.matrix().tocsr(),
                 dimension=self.dimension,
                 asymmetry=self.asymmetry,
                 steps=symmetry.MANY_STEPS,
+                seconds=seconds,
             )
 
     def motions(self, reactions: ArrayLike) -> NDArray[np.float64]:
@@ -168,7 +183,8 @@ class Problem:
     def measure(self, reactions: ArrayLike) -> Measure:
         """Return how far reactions [N], shape [n, D] or [n D], are from the law."""
         r = self.vectors("reactions", reactions, finite=False)
-        return measure(r, self.motions(r), q=self.q, mu=self.mu, stiffness=self.stiffness)
+        w = self.motions(r)
+        return measure_by_powers(r, w, q=self.q, mu=self.mu, stiffness=self._stiffness())
 
     def vectors(self, name: str, values: ArrayLike, *, finite: bool = True) -> NDArray[np.float64]:
         """Return one vector per contact, shape [n, D], from that shape or a flat one."""

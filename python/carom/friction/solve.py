@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from typing import Any
 
 import numpy as np
@@ -62,7 +63,9 @@ def solve(
     max_iterations
         Iterations after which the solver gives up.
     time_limit
-        Time after which the solver gives up [s].
+        Time after which `solve` gives up [s], from its call on. It ends within one iteration of the
+        solver; what a problem cannot do without, the checks of W and the factor of M, is not cut
+        short, and a factor that would not be ready in time is not begun.
     guess
         Reactions to start from [N], shape [n, D] or [n D]; without it zero.
 
@@ -72,15 +75,23 @@ def solve(
         If the problem or an option is not valid (see `Problem`). That W is indefinite may show
         only after a solver gave up.
     """
+    begin = time.perf_counter()
     problem = _problem(W, q, mu)
     rule = _checked_rule(solver, method, tolerance, max_iterations, time_limit)
     start = np.zeros_like(problem.b if isinstance(problem, GlobalProblem) else problem.q)
     if guess is not None:
         start = problem.vectors("guess", guess)
+
+    def left() -> float:
+        limit = math.inf if time_limit is None else time_limit
+        return max(0.0, limit - (time.perf_counter() - begin))
+
+    if time_limit is not None:
+        rule["time_limit"] = left()
     if isinstance(problem, Problem):
         solution = Solution(**_carom.solve_friction(problem, start, **rule), velocities=None)
         if not solution.solved:
-            problem.refuse_if_indefinite()
+            problem.refuse_if_indefinite(seconds=left())
         return solution
     try:
         return Solution(**_carom.solve_global_friction(problem, start, method=method, **rule))

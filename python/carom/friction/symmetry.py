@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import time
 import warnings
 
 import numpy as np
@@ -66,11 +68,16 @@ def symmetrised(W: sp.csr_array, *, dimension: int, stacklevel: int) -> tuple[sp
             AsymmetryWarning,
             stacklevel=stacklevel + 1,
         )
-    return (W + transposed) * 0.5, asymmetry
+    return W * 0.5 + transposed * 0.5, asymmetry
 
 
 def refuse_indefinite(
-    W: sp.csr_array, *, dimension: int, asymmetry: float = 0.0, steps: int = STEPS
+    W: sp.csr_array,
+    *,
+    dimension: int,
+    asymmetry: float = 0.0,
+    steps: int = STEPS,
+    seconds: float = math.inf,
 ) -> None:
     """Raise if W, symmetric but for an asymmetry removed, is clearly indefinite.
 
@@ -79,27 +86,30 @@ def refuse_indefinite(
     their mean is one. Up to `DENSE` rows a Cholesky factor decides. Of larger matrices the
     diagonal, the minors of two rows and the least Ritz value of some Lanczos steps are looked at.
     That is never below the least eigenvalue: a matrix that is refused is indefinite, one that is
-    not may still be.
+    not may still be. After so many `seconds` the Lanczos process ends with what it has.
     """
     if not W.data.any():
         return
     tolerance = max(CLEARLY, 10.0 * asymmetry)
-    diagonal = W.diagonal()
-    floor = CLEARLY * CLEARLY * float(np.abs(W.data).max())
+    # Between 1/2 and 1, so that no product of two numbers vanishes that is not nothing beside it.
+    exponent = math.frexp(float(np.abs(W.data).max()))[1]
+    data, diagonal = np.ldexp(W.data, -exponent), np.ldexp(W.diagonal(), -exponent)
+    floor = CLEARLY * CLEARLY * float(np.abs(data).max())
     worst = int(np.argmin(diagonal))
     if diagonal[worst] < -floor:
         raise InputError(
-            f"W[{worst}, {worst}] = {diagonal[worst]:.6g} (contact {worst // dimension}): a "
+            f"W[{worst}, {worst}] = {W[worst, worst]:.6g} (contact {worst // dimension}): a "
             f"diagonal entry must not be negative; {_REMEDY}",
             "W",
         )
     inverse_root = 1.0 / np.sqrt(np.maximum(diagonal, floor))
     owners = np.repeat(np.arange(W.shape[0]), np.diff(W.indptr))
-    scaled = W.data * inverse_root[owners] * inverse_root[W.indices]
+    scaled = data * inverse_root[owners] * inverse_root[W.indices]
     entry = int(np.argmax(np.abs(scaled)))
     if abs(scaled[entry]) > 1.0 + tolerance:
         row, column = place(W, entry)
         bound = np.sqrt(max(diagonal[row], 0.0) * max(diagonal[column], 0.0))
+        bound = np.ldexp(bound, exponent)
         raise InputError(
             f"|W[{row}, {column}]| = {abs(W.data[entry]):.6g} is larger than "
             f"√(W[{row}, {row}] W[{column}, {column}]) = {bound:.6g} (contacts {row // dimension} "
@@ -108,7 +118,7 @@ def refuse_indefinite(
         )
     unit = sp.csr_array((scaled, W.indices, W.indptr), shape=W.shape)
     if W.shape[0] > DENSE:
-        least = _least_ritz_value(unit, steps)
+        least = _least_ritz_value(unit, steps, time.perf_counter() + seconds)
     elif _has_factor(unit, shift=tolerance):
         return
     else:
@@ -133,8 +143,8 @@ def _has_factor(unit: sp.csr_array, *, shift: float) -> bool:
     return True
 
 
-def _least_ritz_value(unit: sp.csr_array, steps: int) -> float:
-    """Return the least Ritz value of the Lanczos process [Golub & Van Loan, ch. 10].
+def _least_ritz_value(unit: sp.csr_array, steps: int, end: float) -> float:
+    """Return the least Ritz value of the Lanczos process until `end` [Golub & Van Loan, ch. 10].
 
     Lost orthogonality repeats values and moves none out of the spectrum, so nothing is done
     about it.
@@ -151,7 +161,7 @@ def _least_ritz_value(unit: sp.csr_array, steps: int) -> float:
         image -= alpha * vector
         alphas.append(alpha)
         beta = float(np.linalg.norm(image))
-        if beta <= np.finfo(float).eps * max(map(abs, alphas)):
+        if beta <= np.finfo(float).eps * max(map(abs, alphas)) or time.perf_counter() > end:
             break
         betas.append(beta)
         before, vector = vector, image / beta

@@ -42,3 +42,19 @@ def test_what_is_not_a_number_is_no_small_residual():
     found = measure(r, r, q=np.zeros((1, 2)), mu=np.array([0.5]), stiffness=1.0)
     assert not found.residual <= 1e300
     assert not found.decisive <= 1e300
+
+
+@pytest.mark.parametrize("unit", [1e-310, 1e-300, 1e-163, 1e163, 1e300])
+def test_no_reactions_are_as_wrong_in_any_unit(unit):
+    """Symptom guarded against: squares below 1e-324 vanished, and the residual with them."""
+    W, q, mu = np.diag([4.0, 4.0]), np.array([[-8.0, 0.0]]), np.zeros(1)
+    nothing = np.zeros((1, 2))
+    for problem in (Problem(W, unit * q, mu), Problem(unit / 10.0 * W, q, mu)):
+        core = _carom.measure_friction(problem, nothing)
+        assert problem.measure(nothing).natural_residual == pytest.approx(1.0)
+        assert core[1] == pytest.approx(1.0)
+        assert problem.measure(nothing).residual == pytest.approx(core[0])
+    reactions = np.array([[unit, 0.0]])
+    # w = −4 of q = −8, and ρ is 1/4: 1 of 2.
+    half = Problem(W, unit * q, mu).measure(reactions)
+    assert half.natural_residual == pytest.approx(0.5)

@@ -1,4 +1,5 @@
-"""Problems that others published, where the environment variable CAROM_FCLIB names their folder."""
+"""Problems that others published: a few beside this file, and more where the environment variable
+CAROM_FCLIB names their folder."""
 
 import os
 import warnings
@@ -8,12 +9,19 @@ import pytest
 
 from carom import friction
 
-FOLDER = os.environ.get("CAROM_FCLIB")
-FILES = sorted(p for p in Path(FOLDER or ".").rglob("*") if p.suffix in {".hdf5", ".dat"})
+HERE = Path(__file__).parent / "published"
+FOLDERS = [HERE, *(Path(folder) for folder in [os.environ.get("CAROM_FCLIB")] if folder)]
+FILES = sorted(p for f in FOLDERS for p in f.rglob("*") if p.suffix in {".hdf5", ".dat"})
 
 
-@pytest.mark.skipif(FOLDER is None, reason="CAROM_FCLIB names no folder")
-@pytest.mark.parametrize("path", FILES if FOLDER else [None], ids=lambda path: path and path.name)
+def test_published_problems_are_here_with_their_notice():
+    named = {path.name for path in HERE.iterdir()} - {"NOTICE.md"}
+    assert len(named) == 6
+    notice = (HERE / "NOTICE.md").read_text(encoding="utf-8")
+    assert all(f"`{name}`" in notice for name in named)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
 def test_published_problem_is_solved_and_survives_a_round_trip(path, tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", friction.AsymmetryWarning)

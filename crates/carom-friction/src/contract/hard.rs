@@ -123,12 +123,7 @@ fn other_units_give_the_same_answer() {
     let problem = super::problem::<3>(5, 20, &entries, 1.0, 0.1);
     let mut other = scaled(&problem, &[(length / force).sqrt(); 5]);
     other.q = problem.q.iter().map(|q| q * length).collect();
-    let rule = StoppingRule {
-        tolerance: 1e-12,
-        criterion: Criterion::Natural,
-        max_iterations: 100_000,
-        time_limit: None,
-    };
+    let rule = StoppingRule { tolerance: 1e-12, criterion: Criterion::Natural, ..Default::default() };
     for kind in SolverKind::ALL {
         let (report, r) = solve(kind, &problem, &rule);
         let (other_report, other_r) = solve(kind, &other, &rule);

@@ -2,6 +2,7 @@ use faer::dyn_stack::MemBuffer;
 use faer::sparse::SymbolicSparseColMat;
 
 use super::compliance::{Compliance, Measurable};
+use crate::clock::Clock;
 use crate::sparse_factor::{NoFactor, Size, SparseFactor};
 use crate::splitting::{self, LinearLaw};
 use crate::stopping::Monitor;
@@ -21,17 +22,18 @@ pub(super) struct Velocities<'a, const D: usize> {
     v: Vec<f64>,
     force: Vec<Vector<D>>,
     memory: MemBuffer,
+    clock: Clock,
 }
 
 impl<'a, const D: usize> Velocities<'a, D> {
     /// Finds the structure of the factor.
-    pub fn new(compliance: &'a Compliance<'a, D>) -> Result<Self, NoFactor> {
+    pub fn new(compliance: &'a Compliance<'a, D>, clock: Clock) -> Result<Self, NoFactor> {
         let stiffness = relative_stiffness(compliance);
         let (pattern, matrices) = Matrices::new(compliance, &stiffness);
         let factor = if compliance.inverse.symmetric {
-            SparseFactor::cholesky(pattern)
+            SparseFactor::cholesky(pattern, clock)
         } else {
-            SparseFactor::lu(pattern)
+            SparseFactor::lu(pattern, clock)
         }?;
         Ok(Self {
             memory: MemBuffer::new(factor.scratch(1)),
@@ -44,6 +46,7 @@ impl<'a, const D: usize> Velocities<'a, D> {
             stiffness,
             factor,
             matrices,
+            clock,
         })
     }
 
@@ -56,7 +59,7 @@ impl<'a, const D: usize> Velocities<'a, D> {
     pub fn solve(mut self, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
         let compliance = self.compliance;
         let problem = Measurable::new(compliance);
-        let mut monitor = Monitor::new(&problem, rule);
+        let mut monitor = Monitor::new(&problem, rule, self.clock);
         self.mean = monitor.stiffness();
         self.stiffness.iter_mut().for_each(|k| *k *= self.mean);
         let status = splitting::run(&mut monitor, &mut self, &compliance.problem.mu, r, usize::MAX);
@@ -91,7 +94,7 @@ impl<const D: usize> LinearLaw<D> for Velocities<'_, D> {
         for (value, (m, hkh)) in self.values.iter_mut().zip(self.matrices.m.iter().zip(&self.matrices.hkh)) {
             *value = m + unit * hkh;
         }
-        self.factor.factorize(&self.values)
+        self.factor.factorize(&self.values, self.clock)
     }
 
     fn motion(&mut self, sum: &[Vector<D>], motion: &mut [Vector<D>]) {

@@ -49,10 +49,10 @@ impl<'a, const D: usize> Measurable<'a, D> {
 }
 
 impl<const D: usize> Measured<D> for Measurable<'_, D> {
-    fn meter(&self) -> Meter {
+    fn meter(&self, unit: f64) -> Meter {
         let (n, trace) = (self.compliance.problem.len(), self.trace.value);
         let stiffness = if trace > 0.0 { (n * D) as f64 / trace } else { 1.0 };
-        Meter { stiffness, squared_q: self.squared_q }
+        Meter { stiffness, unit, size_q: self.squared_q.sqrt() }
     }
 
     /// With the natural residual rounded up by what the trace may be wrong: the residual changes at most in proportion to ρ.

@@ -1,6 +1,7 @@
 use faer::dyn_stack::MemBuffer;
 
 use super::compliance::Compliance;
+use crate::clock::{Clock, TimeIsUp};
 use crate::{BlockMatrix, ContactProblem, Matrix, Vector};
 
 /// Right-hand sides solved for at once, so that the factor is read once for all of them.
@@ -8,17 +9,17 @@ const BATCH: usize = 48;
 
 impl<const D: usize> Compliance<'_, D> {
     /// The same problem with W and q written out. Only contacts on a common part of M are coupled.
-    pub fn condense(&self) -> ContactProblem<D> {
+    pub fn condense(&self, clock: Clock) -> Result<ContactProblem<D>, TimeIsUp> {
         let mut w = self.pattern();
         let (mut x, mut memory) = (Vec::new(), self.inverse.memory(BATCH));
         for part in 0..self.inverse.parts.len() {
-            self.add_part(part, &mut w, &mut x, &mut memory);
+            self.add_part(part, &mut w, &mut x, &mut memory, clock)?;
         }
         if self.inverse.symmetric {
             w.mirror_upper();
         }
         let q = self.motions(&self.velocities(&[]));
-        ContactProblem { w, q, mu: self.problem.mu.clone() }
+        Ok(ContactProblem { w, q, mu: self.problem.mu.clone() })
     }
 
     /// Zero blocks wherever two contacts touch the same part, and on the diagonal.
@@ -48,10 +49,18 @@ impl<const D: usize> Compliance<'_, D> {
     /// Adds the share of one part to W: all of it, or what is on and above the diagonal where M is symmetric.
     ///
     /// Row i is (M⁻ᵀ H_i)ᵀ H_j over all contacts j on the part, so that rows are finished one by one and nothing but W is kept.
-    fn add_part(&self, part: usize, w: &mut BlockMatrix<D>, x: &mut Vec<f64>, memory: &mut MemBuffer) {
+    fn add_part(
+        &self,
+        part: usize,
+        w: &mut BlockMatrix<D>,
+        x: &mut Vec<f64>,
+        memory: &mut MemBuffer,
+        clock: Clock,
+    ) -> Result<(), TimeIsUp> {
         let n = self.inverse.parts.dofs(part).len();
         let links: Vec<_> = self.incidence.of_part(part).collect();
         for (batch, rows) in links.chunks(BATCH / D).enumerate() {
+            clock.check()?;
             x.clear();
             x.resize(rows.len() * D * n, 0.0);
             for (link, x) in rows.iter().zip(x.chunks_exact_mut(D * n)) {
@@ -79,5 +88,6 @@ impl<const D: usize> Compliance<'_, D> {
                 }
             }
         }
+        Ok(())
     }
 }

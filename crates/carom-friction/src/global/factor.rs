@@ -2,6 +2,7 @@ use faer::dyn_stack::{MemBuffer, StackReq};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use nalgebra::DMatrix;
 
+use crate::clock::Clock;
 use crate::sparse_factor::{NoFactor, SparseFactor};
 
 /// The inverse of M on one part.
@@ -21,6 +22,8 @@ const LOST: f64 = 1e-2;
 impl Factor {
     /// Factorises `m`; in case of failure gives the row where it is singular, or where its inverse has no correct digit.
     pub fn new(m: &SparseColMat<usize, f64>, symmetric: bool) -> Result<Self, usize> {
+        // Without it there is no answer at all: whatever time it takes is spent.
+        let clock = Clock::new(None);
         let empty = (0..m.ncols()).find(|&j| m.val_of_col(j).iter().all(|&v| v == 0.0));
         if let Some(row) = empty {
             return Err(row);
@@ -29,20 +32,20 @@ impl Factor {
             return Factor::Small(dense(m).try_inverse().ok_or(m.ncols() - 1)?).checked(m);
         }
         if symmetric {
-            let factor = Factor::sparse(SparseFactor::cholesky(pattern(m)), m.val());
+            let factor = Factor::sparse(SparseFactor::cholesky(pattern(m), clock), m.val(), clock);
             if let Ok(factor) = factor.and_then(|f| f.checked(m)) {
                 return Ok(factor);
             }
         }
-        Factor::sparse(SparseFactor::lu(pattern(m)), m.val())?.checked(m)
+        Factor::sparse(SparseFactor::lu(pattern(m), clock), m.val(), clock)?.checked(m)
     }
 
-    fn sparse(factor: Result<SparseFactor, NoFactor>, values: &[f64]) -> Result<Self, usize> {
+    fn sparse(factor: Result<SparseFactor, NoFactor>, values: &[f64], clock: Clock) -> Result<Self, usize> {
         let factorized = factor.and_then(|mut factor| {
-            factor.factorize(values)?;
+            factor.factorize(values, clock)?;
             Ok(Factor::Sparse(Box::new(factor)))
         });
-        factorized.map_err(|NoFactor| 0)
+        factorized.map_err(|_| 0)
     }
 
     /// Numbers stored.

@@ -12,14 +12,17 @@ mod run;
 #[cfg(test)]
 mod tests;
 mod trace;
+mod units;
 
-use std::time::Instant;
+use std::borrow::Cow;
 
 use faer::sparse::SparseColMat;
 
+use crate::clock::{Clock, TimeIsUp};
 use crate::{ContactProblem, SolveReport, SolverKind, StoppingRule, Vector};
 use compliance::Compliance;
 use run::Run;
+use units::GlobalUnits;
 
 /// Find r, v and w with M v = H r + f and w = Hᵀ v + b, so that r and w obey Signorini's and Coulomb's laws.
 ///
@@ -142,7 +145,10 @@ impl<const D: usize> GlobalProblem<D> {
     /// # Errors
     /// If M is singular.
     pub fn condense(&self) -> Result<ContactProblem<D>, SingularMatrix> {
-        Ok(Compliance::new(self)?.condense())
+        match Compliance::new(self)?.condense(Clock::new(None)) {
+            Ok(problem) => Ok(problem),
+            Err(TimeIsUp) => unreachable!("there is no limit"),
+        }
     }
 
     /// Improves the reactions `r`, one per contact, from the guess they hold, by `solver` where W is condensed.
@@ -156,13 +162,33 @@ impl<const D: usize> GlobalProblem<D> {
         solver: SolverKind,
         rule: &StoppingRule,
     ) -> Result<GlobalReport<D>, SingularMatrix> {
-        let start = Instant::now();
-        let compliance = Compliance::new(self)?;
-        let run = Run { compliance: &compliance, rule, start };
+        let clock = rule.clock();
+        let units = GlobalUnits::of(self);
+        let (scaled, rule) = if units.are_own() {
+            (Cow::Borrowed(self), *rule)
+        } else {
+            units.contacts.enter_reactions(r);
+            let unit = units.contacts.stiffness(rule.unit);
+            (Cow::Owned(units.enter(self)), StoppingRule { unit, ..*rule })
+        };
+        let compliance = Compliance::new(&scaled)?;
+        let run = Run { compliance: &compliance, rule: &rule, clock };
         let (method, mut report) = run.solve(r, method, solver);
-        let velocities = compliance.velocities(r);
-        let motions = compliance.motions(&velocities);
-        report.time = start.elapsed();
+        if !units.are_own() {
+            units.contacts.leave_reactions(r);
+            let mut returned = r.to_vec();
+            units.contacts.enter_reactions(&mut returned);
+            report = run.judged_again(report, &returned);
+            report.measure.certificate = units.contacts.leave_energy(report.measure.certificate);
+            r.copy_from_slice(&returned);
+        }
+        let mut velocities = compliance.velocities(r);
+        let mut motions = compliance.motions(&velocities);
+        if !units.are_own() {
+            units.leave(&mut velocities, &mut motions);
+            units.contacts.leave_reactions(r);
+        }
+        report.time = clock.elapsed();
         Ok(GlobalReport { report, method, velocities, motions })
     }
 }

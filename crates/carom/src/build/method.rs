@@ -65,7 +65,7 @@ pub(super) fn method<const D: usize>(scenario: &Scenario) -> Result<Method<D>, I
             tolerance: solver.tolerance,
             criterion: Criterion::Natural,
             max_iterations: solver.max_iterations,
-            time_limit: None,
+            ..StoppingRule::default()
         },
         cross_check: solver.cross_check,
         newton: NewtonRule { tolerance: newton.tolerance, max_iterations: newton.max_iterations },

@@ -27,8 +27,12 @@ fn the_problem_that_failed_can_be_solved_again_and_ends_the_same_way() {
     };
     let posed = simulation.posed_problem().expect("a contact problem failed");
     assert_eq!((posed.problem.len(), posed.guess.len()), (contacts, contacts));
-    let rule =
-        StoppingRule { tolerance: 1e-12, criterion: Criterion::Natural, max_iterations: 1, time_limit: None };
+    let rule = StoppingRule {
+        tolerance: 1e-12,
+        criterion: Criterion::Natural,
+        max_iterations: 1,
+        ..StoppingRule::default()
+    };
     let mut r = posed.guess.to_vec();
     let replay = SolverKind::GaussSeidel.solver().solve(posed.problem, &mut r, &rule);
     assert_eq!(replay.status, SolveStatus::IterationLimit);

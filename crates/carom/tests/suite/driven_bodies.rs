@@ -39,7 +39,7 @@ fn method<const D: usize>(scheme: Scheme, condition: ContactCondition) -> Method
             tolerance: 1e-13,
             criterion: Criterion::Natural,
             max_iterations: 10_000,
-            time_limit: None,
+            ..StoppingRule::default()
         },
         cross_check: false,
         newton: NewtonRule { tolerance: 1e-11, max_iterations: 60 },
