@@ -8,13 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.mesh_file.cells import KINDS
 from carom.obstacle import Obstacle, Plane, RigidBox, RigidCylinder, RigidSphere
-
-SAMPLES = 200
-"""Times at which the distance of a pair is looked at, before it is looked at closer."""
-
-REFINEMENTS = 20
-"""Halvings of the interval in which two touch."""
+from carom.simplices import Boundary, distance, to_point
 
 Array = NDArray[np.float64]
 
@@ -25,8 +21,8 @@ class Flight:
 
     Parameters
     ----------
-    points
-        Points of its boundary at t = 0 [m], shape [count, D].
+    boundary
+        Its boundary at t = 0.
     centre
         Its centre of mass [m], shape [D].
     velocity, gravity
@@ -38,21 +34,21 @@ class Flight:
         anywhere does not turn.
     """
 
-    points: Array
+    boundary: Boundary
     centre: Array
     velocity: Array
     gravity: Array
     spin: Array
     led: Mapping[int, Callable[[float], float]] = field(default_factory=dict)
 
-    def at(self, time: float) -> Array:
-        """Return where the points are [m]."""
-        arms = self.points - self.centre
+    def at(self, time: float) -> Boundary:
+        """Return where the boundary is."""
+        arms = self.boundary.points - self.centre
         centre = self.centre + time * self.velocity + 0.5 * time**2 * self.gravity
         for axis, displacement in self.led.items():
             centre[axis] = self.centre[axis] + displacement(time)
         turned = arms if self.led else arms @ _rotation(self.spin * time).T
-        return np.asarray(centre + turned)
+        return self.boundary.at(np.asarray(centre + turned))
 
 
 def _rotation(angle: Array) -> Array:
@@ -68,32 +64,41 @@ def _rotation(angle: Array) -> Array:
     return np.asarray(np.eye(3) + np.sin(size) * cross + (1 - np.cos(size)) * cross @ cross)
 
 
-def obstacle_gap(obstacle: Obstacle, points: Array) -> float | None:
-    """Return the least distance of points from an obstacle at rest [m]; None if it is not known."""
+def obstacle_gap(obstacle: Obstacle, boundary: Boundary) -> float | None:
+    """Return the distance of a boundary from an obstacle at rest [m]; None if it is not known."""
+    points = boundary.points
     if isinstance(obstacle, Plane):
         normal = np.asarray(obstacle.normal) / np.linalg.norm(obstacle.normal)
         return float(np.min((points - obstacle.point) @ normal))
     if isinstance(obstacle, RigidSphere):
-        distance = np.linalg.norm(points - obstacle.centre, axis=1)
-        return _round(distance, obstacle.radius, cavity=obstacle.cavity)
+        return _round(obstacle, points - obstacle.centre, boundary)
     if isinstance(obstacle, RigidCylinder):
         axis = np.asarray(obstacle.axis) / np.linalg.norm(obstacle.axis)
         arms = points - obstacle.point
-        distance = np.linalg.norm(arms - np.outer(arms @ axis, axis), axis=1)
-        return _round(distance, obstacle.radius, cavity=obstacle.cavity)
+        return _round(obstacle, arms - np.outer(arms @ axis, axis), boundary)
     if isinstance(obstacle, RigidBox):
-        low = np.asarray(obstacle.corner)
-        outside = np.maximum(np.maximum(low - points, points - low - obstacle.size), 0.0)
-        return float(np.min(np.linalg.norm(outside, axis=1)))
+        low = np.asarray(obstacle.corner, dtype=float)
+        high = low + obstacle.size
+        if np.any(np.all((points >= low) & (points <= high), axis=1)):
+            return 0.0
+        return distance(boundary, _box(low, high))[0]
     return None
 
 
-def _round(distance: Array, radius: float, *, cavity: bool) -> float:
-    return float(np.min(radius - distance if cavity else distance - radius))
+def _round(obstacle: RigidSphere | RigidCylinder, arms: Array, boundary: Boundary) -> float:
+    """Return the distance from what is round about the origin, to which these arms are taken."""
+    if obstacle.cavity:
+        return float(obstacle.radius - np.linalg.norm(arms, axis=1).max())
+    return to_point(boundary.at(arms), np.zeros(arms.shape[1])) - obstacle.radius
 
 
-def body_gap(one: Array, other: Array) -> float:
-    """Return the distance of the nearest points of two bodies [m]."""
-    from scipy.spatial import cKDTree  # noqa: PLC0415 (SciPy, which most runs do without)
-
-    return float(np.min(cKDTree(other).query(one)[0]))
+def _box(low: Array, high: Array) -> Boundary:
+    """Return the boundary of an upright box."""
+    if len(low) == 2:
+        (x, y), (u, v) = low, high
+        corners = np.array([[x, y], [u, y], [u, v], [x, v]])
+        return Boundary(corners, np.array([[0, 1], [1, 2], [2, 3], [3, 0]]))
+    kind = KINDS["hexahedron"]
+    unit = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]
+    pieces = [part for a, b, c, d in kind.sides for part in ((a, b, c), (a, c, d))]
+    return Boundary(low + np.array(unit) * (high - low), np.array(pieces))

@@ -6,13 +6,16 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from carom.doctor.finding import Finding
-from carom.doctor.flight import REFINEMENTS, SAMPLES, Flight, body_gap, obstacle_gap
+from carom.doctor.flight import Flight, obstacle_gap
 from carom.doctor.patient import Patient
+from carom.doctor.touch import first_touch
 from carom.motion import Fixed
 from carom.scenario import Scenario
 from carom.signal import Signal
+from carom.simplices import distance
 from carom.travel import travel, values
 
 Led = Mapping[int, Callable[[float], float]]
@@ -30,16 +33,7 @@ def meeting(patient: Patient) -> Iterator[Finding]:
             "add an obstacle or a second body, or enable a pair in contact.pairs",
         )
         return
-    nearest = min(pairs, key=lambda pair: pair["initial_gap"])
-    yield Finding(
-        "ok",
-        "bodies",
-        f"no overlap at the start; the nearest are {_names(nearest)}, "
-        f"{nearest['initial_gap']:.4g} m apart at {_place(nearest['at'])}",
-    )
     scenario = patient.scenario
-    if not patient.is_dynamic:
-        return
     loaded = {load.body for load in scenario.loads}
     led = {body.name: _led(scenario, body.name) for body in scenario.bodies}
     unknown = loaded | {name for name, by_axis in led.items() if by_axis is None}
@@ -49,6 +43,16 @@ def meeting(patient: Patient) -> Iterator[Finding]:
         body.name: flight
         for body, flight in zip(scenario.bodies, _flights(patient, led), strict=True)
     }
+    gaps = [(_initial_gap(patient, pair, flights), pair) for pair in pairs]
+    (gap, place), nearest = min(gaps, key=lambda found: found[0][0])
+    yield Finding(
+        "ok",
+        "bodies",
+        f"no overlap at the start; the nearest are {_names(nearest)}, {gap:.4g} m apart at "
+        f"{_place(place)}",
+    )
+    if not patient.is_dynamic:
+        return
     yield from _first_touch(patient, foreseen, flights, others=len(pairs) - len(foreseen))
 
 
@@ -87,7 +91,8 @@ def _first_touch(
         if (gap := _gap_over_time(patient, pair, flights)) is None:
             others += 1
             continue
-        time, least = _touch(gap, end, tolerance=_tolerance(patient, pair))
+        motion = _motion(patient, pair, flights)
+        time, least = first_touch(gap, motion, end, tolerance=_tolerance(patient, pair))
         times.append((time, pair))
         closest.append((least, pair))
     touching = [(time, pair) for time, pair in times if time is not None]
@@ -142,40 +147,63 @@ def _gap_over_time(
         one, other = other, one
     flight = flights[one]
     if other not in obstacles:
-        return lambda time: body_gap(flight.at(time), flights[other].at(time))
+        return lambda time: distance(flight.at(time), flights[other].at(time))[0]
     obstacle, dimension = obstacles[other], patient.scenario.dimension
-    if obstacle_gap(obstacle, flight.points) is None:
+    if obstacle_gap(obstacle, flight.boundary) is None:
         return None
 
     def gap(time: float) -> float:
         moved = travel(obstacle, np.array([time]), dimension=dimension)[0]
-        return obstacle_gap(obstacle, flight.at(time) - moved) or 0.0
+        there = flight.at(time)
+        return obstacle_gap(obstacle, there.at(there.points - moved)) or 0.0
 
     return gap
 
 
+def _motion(
+    patient: Patient, pair: Mapping[str, Any], flights: Mapping[str, Flight]
+) -> Callable[[float, float], float]:
+    """Return how far points of a pair come nearer between two times at the most [m]."""
+    obstacles = {obstacle.name: obstacle for obstacle in patient.scenario.obstacles}
+
+    def path(name: str, start: float, end: float) -> NDArray[np.float64]:
+        if name not in obstacles:
+            return flights[name].at(end).points - flights[name].at(start).points
+        times, dimension = np.array([start, end]), patient.scenario.dimension
+        return np.diff(travel(obstacles[name], times, dimension=dimension), axis=0)
+
+    def motion(start: float, end: float) -> float:
+        one, other = (path(name, start, end) for name in pair["between"])
+        common = one.mean(axis=0)
+        return float(sum(np.linalg.norm(x - common, axis=1).max() for x in (one, other)))
+
+    return motion
+
+
+def _initial_gap(
+    patient: Patient, pair: Mapping[str, Any], flights: Mapping[str, Flight]
+) -> tuple[float, list[float]]:
+    """Return the distance of a pair at the start [m] and where it is.
+
+    What the core knows counts nodes of one side, and is right where it is the least.
+    """
+    there = float(pair["initial_gap"]), list(pair["at"])
+    if len(set(pair["between"])) == 1:
+        return there
+    one, other = pair["between"]
+    if one in flights and other in flights:
+        gap, place = distance(flights[one].boundary, flights[other].boundary)
+        return (gap, list(place)) if gap < there[0] else there
+    gap_over_time = _gap_over_time(patient, pair, flights)
+    gap = there[0] if gap_over_time is None else gap_over_time(0.0)
+    return min(gap, there[0]), there[1]
+
+
 def _tolerance(patient: Patient, pair: Mapping[str, Any]) -> float:
-    """Return below which distance of points two count as touching [m]: half the shortest edge."""
+    """Return what distance counts as touching [m]: none but that of round-off."""
     edges = {b["name"]: float(b["smallest_edge"]) for b in patient.description["bodies"]}
     of_pair = [edges[name] for name in pair["between"] if name in edges]
-    return 0.5 * max(of_pair) if len(of_pair) == 2 else 1e-9 * of_pair[0]
-
-
-def _touch(
-    gap: Callable[[float], float], end: float, *, tolerance: float
-) -> tuple[float | None, float]:
-    """Return when a gap closes, None if it does not, and the least that was seen of it [m]."""
-    before, least = 0.0, np.inf
-    for time in np.linspace(0.0, end, SAMPLES + 1):
-        least = min(least, distance := gap(float(time)))
-        if distance <= tolerance:
-            low, high = before, float(time)
-            for _ in range(REFINEMENTS):
-                middle = 0.5 * (low + high)
-                low, high = (low, middle) if gap(middle) <= tolerance else (middle, high)
-            return high, least
-        before = float(time)
-    return None, float(least)
+    return 1e-9 * max(of_pair)
 
 
 def _names(pair: Mapping[str, Any]) -> str:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from carom._carom import Simulation
 from carom.scenario import Scenario
+from carom.simplices import Boundary, boundaries
 
 
 @dataclass(frozen=True)
@@ -72,19 +73,11 @@ class Patient:
         return grids
 
     @cached_property
-    def boundaries(self) -> list[NDArray[np.float64]]:
-        """Of every body the nodes of its boundary and the centres of its facets, [count, D]."""
-        surface, reference = self.simulation.surface(), self.simulation.mesh()["points"]
-        facets = np.split(surface["connectivity"], surface["offsets"][1:-1])
-        boundaries = []
-        for index in range(len(self.scenario.bodies)):
-            mine = [facets[f] for f in np.flatnonzero(surface["body"] == index)]
-            nodes = np.unique(np.concatenate(mine)) if mine else np.arange(0)
-            centres = [reference[f].mean(axis=0) for f in mine]
-            boundaries.append(
-                np.concatenate([reference[nodes], np.reshape(centres, (-1, reference.shape[1]))])
-            )
-        return boundaries
+    def boundaries(self) -> list[Boundary]:
+        """The boundary of every body, or what of it may touch."""
+        points, bodies = self.simulation.mesh()["points"], len(self.scenario.bodies)
+        found = boundaries(self.simulation.surface(), points, bodies)
+        return [boundary for boundary, _ in found]
 
     def contact_duration(self, index: int) -> float:
         """Return about how long a body's impact takes [s]: a wave through it, there and back."""
