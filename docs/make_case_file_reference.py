@@ -76,7 +76,8 @@ RULES = """\
   obstacle the nodes of the body are checked. `"first"` is the body that comes first in
   `[[bodies]]`, or, where the pair has an entry in `contact.pairs`, in `between` of that entry.
 - In the reference configuration bodies overlap neither one another nor an obstacle (deeper than
-  1e-9 of the smallest edge), unless their pair is disabled.
+  1e-9 of the smallest edge), unless their pair is disabled. Overlaps that the digits of a mesh file
+  cannot tell from touching are closed.
 - A disc has an even number of `divisions`, or `rings` is given.
 """
 

@@ -3,26 +3,54 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 
 from carom._carom import Simulation
+from carom.closing import closed
+from carom.errors import InputError
 from carom.leaps import refuse_leaps
 from carom.mesh import MeshFile
-from carom.mesh_file import MeshArrays, read_body_mesh, read_surface
+from carom.mesh_file import MeshArrays, Note, read_body_mesh, read_surface
 from carom.obstacle import RigidSurface
 from carom.scenario import Scenario
 
 
-def build(scenario: Scenario) -> Simulation:
+def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
     """Build meshes, matrices and the initial state.
+
+    Parameters
+    ----------
+    scenario
+        What to build.
+    notes
+        A list that gets what was done to meshes out of files, such as cells that were turned.
 
     Raises
     ------
     InputError
         The scenario cannot be run, such as bodies that overlap at the start.
     """
-    simulation = Simulation(_json(scenario), _meshes(scenario))
+    meshes = _meshes(scenario)
+    found = [note for arrays in meshes.values() for note in arrays.notes]
+    try:
+        simulation = _make(scenario, meshes)
+    except InputError as refusal:
+        try:
+            meshes, moves = closed(scenario, meshes, _make)
+            if not moves:
+                raise refusal from None
+            simulation = _make(scenario, meshes)
+        except InputError:  # what has been wrong before is told, not what is left of it
+            raise refusal from None
+        found += moves
     refuse_leaps(scenario, simulation.describe())
+    if notes is not None:
+        notes += found
     return simulation
+
+
+def _make(scenario: Scenario, meshes: Mapping[str, MeshArrays]) -> Simulation:
+    return Simulation(_json(scenario), dict(meshes))
 
 
 def _json(scenario: Scenario) -> str:

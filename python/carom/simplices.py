@@ -139,6 +139,15 @@ def to_point(boundary: Boundary, point: Array) -> float:
     return float(gaps.min())
 
 
+def pieces_at(boundary: Boundary, point: Array) -> Indices:
+    """Return the pieces that a point on the boundary is on: several at an edge or a corner."""
+    near = np.flatnonzero(
+        np.linalg.norm(boundary.centres - point, axis=1) <= 1.001 * boundary.radii
+    )
+    gaps = np.linalg.norm(_nearest(point, boundary.corners[near]) - point, axis=1)
+    return np.asarray(near[gaps <= 1e-9 * boundary.radii[near]])
+
+
 def behind(points: Array, boundary: Boundary, deepest: float) -> tuple[Indices, Array]:
     """Return which points are behind a boundary, though not deep, and where on it they belong.
 

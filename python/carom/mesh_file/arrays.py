@@ -87,6 +87,8 @@ class MeshArrays:
         By the name of the set, the nodes of its facets, one array for each kind of facet.
     notes
         What its owner should know of.
+    precision
+        How far a point may be from where it is meant to be, as the digits of its numbers tell [m].
     """
 
     points: NDArray[np.float64]
@@ -95,6 +97,7 @@ class MeshArrays:
     facet_sets: dict[str, list[Indices]] = field(default_factory=dict)
     cell_sets: dict[str, Indices] = field(default_factory=dict)
     notes: list[Note] = field(default_factory=list)
+    precision: float = 0.0
 
 
 class Refused(Exception):  # noqa: N818 (an answer, which becomes an error with its place)

@@ -12,6 +12,7 @@ from carom.counting import count
 from carom.mesh_file.arrays import FileMesh, Indices, MeshArrays, Note, Refused, first_few
 from carom.mesh_file.cells import KINDS, dimension
 from carom.mesh_file.formats import read_file
+from carom.mesh_file.precision import precision
 from carom.mesh_file.upright import Upright, upright
 from carom.messages import known
 
@@ -100,6 +101,7 @@ def _body(mesh: FileMesh, body: str | None, scale: float, space: int) -> MeshArr
         node_sets=_node_sets(mesh, number, space),
         facet_sets=_facet_sets(mesh, number, space),
         cell_sets=_cell_sets(mesh, chosen),
+        precision=scale * precision(mesh.points[used][:, :space]),
         notes=[*mesh.notes, *_turned(right, backwards=mesh.backwards)],
     )
 
