@@ -29,6 +29,9 @@ PlaneCell = Literal["quad4", "quad8", "quad9", "tri3", "tri6"]
 SolidCell = Literal["hex8", "hex20", "hex27", "tet4", "tet10"]
 """Hexahedra and tetrahedra, by their number of nodes."""
 
+SweptCell = Literal["hex8", "hex20", "hex27", "tet4", "tet10", "wedge6", "wedge15"]
+"""Cells of bodies that are a plane mesh in layers: wedges too."""
+
 
 def _not_zero(axis: tuple[float, ...]) -> tuple[float, ...]:
     if not any(axis):
@@ -172,7 +175,7 @@ class Box(Description):
     divisions
         Cells along the sides, shape [3].
     cell
-        Kind of cell; tetrahedra are six to a hexahedron.
+        Kind of cell; tetrahedra are six to a hexahedron, wedges two.
     """
 
     dimension: ClassVar[int | None] = 3
@@ -184,7 +187,7 @@ class Box(Description):
     corner: SpaceVector
     size: Annotated[tuple[Positive, ...], InSpace]
     divisions: Annotated[tuple[Count, ...], InSpace]
-    cell: SolidCell = "hex8"
+    cell: SweptCell = "hex8"
 
 
 class Ball(Description):
@@ -241,7 +244,7 @@ class Cylinder(Description):
     layers
         Cells along the axis.
     cell
-        Kind of cell; tetrahedra are six to a hexahedron.
+        Kind of cell; tetrahedra are six to a hexahedron, wedges two.
     """
 
     dimension: ClassVar[int | None] = 3
@@ -255,7 +258,7 @@ class Cylinder(Description):
     divisions: Count
     rings: Count | None = None
     layers: Count
-    cell: SolidCell = "hex8"
+    cell: SweptCell = "hex8"
 
     _check = model_validator(mode="after")(_rings_of_equal_width)
 
@@ -280,7 +283,7 @@ class Tube(Description):
     divisions
         Cells around, 3 or more, from the inside to the outside, and along the axis, shape [3].
     cell
-        Kind of cell; tetrahedra are six to a hexahedron.
+        Kind of cell; tetrahedra are six to a hexahedron, wedges two.
     """
 
     dimension: ClassVar[int | None] = 3
@@ -293,7 +296,7 @@ class Tube(Description):
     outer_radius: Positive
     height: Positive
     divisions: Annotated[tuple[Count, ...], InSpace, AfterValidator(_enough_around)]
-    cell: SolidCell = "hex8"
+    cell: SweptCell = "hex8"
 
     _check = model_validator(mode="after")(_radii_grow)
 

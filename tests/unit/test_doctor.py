@@ -153,7 +153,8 @@ def test_regular_cells_of_all_shapes_are_best():
     cube = np.array(
         [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]
     )
-    for vtk, points in ((5, triangle), (10, tetrahedron), (12, cube)):
+    wedge = np.array([[*corner, z] for z in (0, 1) for corner in triangle])
+    for vtk, points in ((5, triangle), (10, tetrahedron), (12, cube), (13, wedge)):
         grid = Grid(np.asarray(points, dtype=float), {vtk: np.arange(len(points))[None]})
         aspect, jacobian = quality(grid)
         assert aspect == pytest.approx([1.0])

@@ -18,7 +18,7 @@ pub enum Integrand {
     Values,
 }
 
-/// The rule for `kind`: Gauss products on squares and cubes, symmetric rules on simplices.
+/// The rule for `kind`: Gauss products on squares and cubes, symmetric rules on simplices, products of both on wedges.
 ///
 /// In a body of revolution integrands have the radius as a factor, and the strain of the hoops is made of the shape functions
 /// themselves. Gauss products are exact for all of it but N_a N_b/R.
@@ -37,7 +37,19 @@ pub fn rule(kind: CellKind, integrand: Integrand, of_revolution: bool) -> Vec<Qu
         CellKind::Hex20 | CellKind::Hex27 => gauss_3(CellKind::Hex27),
         CellKind::Tri3 | CellKind::Tri6 => triangle(simplex_degree),
         CellKind::Tet4 | CellKind::Tet10 => tetrahedron(simplex_degree),
+        CellKind::Wedge6 => swept(triangle(2), &gauss_2(CellKind::Line2.reference().nodes)),
+        CellKind::Wedge15 => swept(triangle(4), &gauss_3(CellKind::Line3)),
     }
+}
+
+/// The points of a triangle at every point of a segment. Slopes along the segment are of the full degree across it, so that
+/// stiffness and mass ask for the same rule.
+fn swept(triangle: Vec<QuadraturePoint>, segment: &[QuadraturePoint]) -> Vec<QuadraturePoint> {
+    let at = |s: &QuadraturePoint, t: QuadraturePoint| QuadraturePoint {
+        xi: [t.xi[0], t.xi[1], s.xi[0]],
+        weight: s.weight * t.weight,
+    };
+    segment.iter().flat_map(|s| triangle.iter().map(move |&t| at(s, t))).collect()
 }
 
 /// Two Gauss points per direction, in the order of the `corners`: exact for cubics.
@@ -114,7 +126,9 @@ mod tests {
 
     /// ∫ ξ^i η^j ζ^k over the reference cell.
     fn exact(kind: CellKind, powers: &[i32]) -> f64 {
-        if kind.reference().nodes[0][0] == 0.0 {
+        if kind.is_wedge() {
+            exact(CellKind::Tri3, &powers[..2]) * exact(CellKind::Line2, &powers[2..])
+        } else if kind.is_simplex() {
             // i! j! k! / (i + j + k + d)!
             let factorial = |n: i32| (1..=n).map(f64::from).product::<f64>();
             let sum: i32 = powers.iter().sum();
@@ -124,7 +138,8 @@ mod tests {
         }
     }
 
-    /// Squares and cubes: to that degree in every direction; simplices: to that degree in all.
+    /// Squares and cubes: to that degree in every direction; simplices: to that degree in all; wedges: to that degree in the
+    /// triangle and along it.
     #[test]
     fn rules_are_exact_to_the_degree_of_their_integrand() {
         for kind in CellKind::ALL {
@@ -135,11 +150,12 @@ mod tests {
                 let points = rule(kind, integrand, false);
                 assert!(points.iter().all(|p| p.weight > 0.0));
                 let d = kind.dimension();
-                let is_simplex = kind.reference().nodes[0][0] == 0.0;
                 let base = degree + 1;
                 for m in 0..base.pow(d as u32) {
                     let powers: Vec<i32> = (0..d as u32).map(|k| m / base.pow(k) % base).collect();
-                    if is_simplex && powers.iter().sum::<i32>() > degree {
+                    let of_simplex = if kind.is_wedge() { &powers[..2] } else { &powers[..] };
+                    let has_simplex = kind.is_simplex() || kind.is_wedge();
+                    if has_simplex && of_simplex.iter().sum::<i32>() > degree {
                         continue;
                     }
                     let monomial =

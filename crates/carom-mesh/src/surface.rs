@@ -199,7 +199,7 @@ mod tests {
     /// Bent edges: the facets of a cell still close it, and the vector is ∫ t₁ × t₂ dξ dη by 3 × 3 Gauss points, which are exact.
     #[test]
     fn area_vectors_of_curved_facets_are_the_integral_of_the_normal() {
-        for kind in [CellKind::Tet10, CellKind::Hex20, CellKind::Hex27] {
+        for kind in [CellKind::Tet10, CellKind::Hex20, CellKind::Hex27, CellKind::Wedge15] {
             let node = |(a, x): (usize, &[f64; 3])| {
                 Vector::<3>::from(*x) + Vector::from_fn(|i, _| 0.1 * ((3 * a + i) as f64).sin())
             };

@@ -20,10 +20,11 @@ POOR_ASPECT, BAD_ASPECT = 20.0, 100.0
 VTK_KINDS = {
     **{9: "quad", 23: "quad8", 28: "quad9", 5: "triangle", 22: "triangle6"},
     **{12: "hexahedron", 25: "hexahedron20", 29: "hexahedron27", 10: "tetra", 24: "tetra10"},
+    **{13: "wedge", 26: "wedge15"},
 }
 """The kinds of cells by VTK's numbers, as `carom.mesh_file.cells.KINDS` names them."""
 
-_IDEAL = {"triangle": np.sqrt(3.0) / 2.0, "tetra": np.sqrt(0.5)}
+_IDEAL = {"triangle": np.sqrt(3.0) / 2.0, "tetra": np.sqrt(0.5), "wedge": np.sqrt(3.0) / 2.0}
 """Determinant of unit edges at a corner of the regular cell, where that is not 1."""
 
 

@@ -17,6 +17,7 @@ import numpy as np
 
 from carom.counting import count
 from carom.mesh_file.arrays import FileMesh, Indices, Note, Refused
+from carom.mesh_file.cells import dimension
 from carom.mesh_file.deck import Row, sections
 
 _NO_CONTINUUM = re.compile(
@@ -55,28 +56,30 @@ _TRIANGLE_FACES = [(0, 1), (1, 2), (2, 0)]
 _QUAD_FACES = [(0, 1), (1, 2), (2, 3), (3, 0)]
 _TETRA_FACES = [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)]
 _HEX_FACES = [(0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
-_FACES: dict[str, tuple[str, Sequence[tuple[int, ...]]]] = {
-    "triangle": ("line", _TRIANGLE_FACES),
-    "triangle6": ("line3", [(0, 1, 3), (1, 2, 4), (2, 0, 5)]),
-    "quad": ("line", _QUAD_FACES),
-    "quad8": ("line3", [(0, 1, 4), (1, 2, 5), (2, 3, 6), (3, 0, 7)]),
-    "tetra": ("triangle", _TETRA_FACES),
-    "tetra10": (
-        "triangle6",
-        [(0, 1, 2, 4, 5, 6), (0, 3, 1, 7, 8, 4), (1, 3, 2, 8, 9, 5), (2, 3, 0, 9, 7, 6)],
-    ),
-    "hexahedron": ("quad", _HEX_FACES),
-    "hexahedron20": (
-        "quad8",
-        [
-            (0, 1, 2, 3, 8, 9, 10, 11),
-            (4, 7, 6, 5, 15, 14, 13, 12),
-            (0, 4, 5, 1, 16, 12, 17, 8),
-            (1, 5, 6, 2, 17, 13, 18, 9),
-            (2, 6, 7, 3, 18, 14, 19, 10),
-            (3, 7, 4, 0, 19, 15, 16, 11),
-        ],
-    ),
+_FACES: dict[str, Sequence[tuple[int, ...]]] = {
+    "triangle": _TRIANGLE_FACES,
+    "triangle6": [(0, 1, 3), (1, 2, 4), (2, 0, 5)],
+    "quad": _QUAD_FACES,
+    "quad8": [(0, 1, 4), (1, 2, 5), (2, 3, 6), (3, 0, 7)],
+    "tetra": _TETRA_FACES,
+    "tetra10": [(0, 1, 2, 4, 5, 6), (0, 3, 1, 7, 8, 4), (1, 3, 2, 8, 9, 5), (2, 3, 0, 9, 7, 6)],
+    "wedge": [(0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)],
+    "wedge15": [
+        (0, 1, 2, 6, 7, 8),
+        (3, 5, 4, 11, 10, 9),
+        (0, 3, 4, 1, 12, 9, 13, 6),
+        (1, 4, 5, 2, 13, 10, 14, 7),
+        (2, 5, 3, 0, 14, 11, 12, 8),
+    ],
+    "hexahedron": _HEX_FACES,
+    "hexahedron20": [
+        (0, 1, 2, 3, 8, 9, 10, 11),
+        (4, 7, 6, 5, 15, 14, 13, 12),
+        (0, 4, 5, 1, 16, 12, 17, 8),
+        (1, 5, 6, 2, 17, 13, 18, 9),
+        (2, 6, 7, 3, 18, 14, 19, 10),
+        (3, 7, 4, 0, 19, 15, 16, 11),
+    ],
 }
 
 
@@ -96,6 +99,12 @@ def read_abaqus(path: Path) -> FileMesh:
     except (OSError, UnicodeDecodeError, ValueError, IndexError, OverflowError) as error:
         raise Refused(f"cannot be read: {error}") from None
 
+
+_FACE_KINDS = {
+    **{(2, 2): "line", (2, 3): "line3", (3, 3): "triangle", (3, 6): "triangle6"},
+    **{(3, 4): "quad", (3, 8): "quad8"},
+}
+"""Kinds of faces, by the dimension of the cell and the number of their nodes."""
 
 _Members = dict[int, bool]
 """Numbers of a set; true for those that it names one by one, and that must therefore be there."""
@@ -271,14 +280,14 @@ class _Reader:
                 continue
             if kind not in _FACES:
                 continue
-            face_kind, local = _FACES[kind]
+            local = _FACES[kind]
             digits = re.fullmatch(r"S([1-6])", face)
             if digits is None or int(digits[1]) > len(local):
                 raise ValueError(
                     f'surface {name} has a face "{face}", which a {kind} does not have'
                 )
-            nodes = elements[number]
-            found.setdefault(face_kind, []).append([nodes[k] for k in local[int(digits[1]) - 1]])
+            nodes = [elements[number][k] for k in local[int(digits[1]) - 1]]
+            found.setdefault(_FACE_KINDS[dimension(kind), len(nodes)], []).append(nodes)
         return list(found.items())
 
 

@@ -58,6 +58,10 @@ _HEXAHEDRON_SIDES = (
     *((2, 3, 7, 6), (3, 0, 4, 7)),
 )
 _HEXAHEDRON: tuple[_Table, _Table] = _HEXAHEDRON_EDGES, _HEXAHEDRON_SIDES
+_WEDGE: tuple[_Table, _Table] = (
+    ((1, 2, 3), (2, 0, 4), (0, 1, 5), (5, 4, 0), (3, 5, 1), (4, 3, 2)),
+    ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
+)
 # The first two directions change places: corners, then edges, faces and the middle.
 _HEX8 = (0, 3, 2, 1, 4, 7, 6, 5)
 _HEX20 = (*_HEX8, 11, 10, 9, 8, 15, 14, 13, 12, 16, 19, 18, 17)
@@ -72,6 +76,8 @@ KINDS = {
     "quad9": Kind("quad9", 2, *_QUADRILATERAL, (0, 3, 2, 1, 7, 6, 5, 4, 8)),
     "tetra": Kind("tet4", 3, *_TETRAHEDRON, (0, 2, 1, 3)),
     "tetra10": Kind("tet10", 3, *_TETRAHEDRON, (0, 2, 1, 3, 6, 5, 4, 7, 9, 8)),
+    "wedge": Kind("wedge6", 3, *_WEDGE, (0, 2, 1, 3, 5, 4)),
+    "wedge15": Kind("wedge15", 3, *_WEDGE, (0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13)),
     "hexahedron": Kind("hex8", 3, *_HEXAHEDRON, _HEX8),
     "hexahedron20": Kind("hex20", 3, *_HEXAHEDRON, _HEX20),
     "hexahedron27": Kind("hex27", 3, *_HEXAHEDRON, (*_HEX20, 22, 23, 20, 21, 24, 25, 26)),

@@ -48,7 +48,10 @@ def read_file(path: Path, space: int) -> FileMesh:
 
 def _by_meshio(path: Path) -> FileMesh:
     import meshio  # noqa: PLC0415 (only cases with mesh files need it)
+    from meshio._mesh import topological_dimension  # noqa: PLC0415
 
+    # meshio 5.3 reads these cells and then misses their dimension.
+    topological_dimension.setdefault("wedge15", 3)
     printed = io.StringIO()
     # Whether an STL file is binary meshio sees by its size, from a count that in text is any four
     # letters: times the 50 bytes of a triangle they do not fit into 32 bits.

@@ -31,10 +31,15 @@ _HEXAHEDRON = (
     (2, 3, 7, 6),
     (3, 0, 4, 7),
 )
+_WEDGE = ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))
 _TETRAHEDRON_EDGES = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))
 _HEXAHEDRON_EDGES = (
     *((0, 1), (1, 2), (2, 3), (0, 3), (4, 5), (5, 6), (6, 7), (4, 7)),
     *((0, 4), (1, 5), (2, 6), (3, 7)),
+)
+_WEDGE_EDGES = (
+    *((0, 1), (1, 2), (0, 2), (3, 4), (4, 5), (3, 5)),
+    *((0, 3), (1, 4), (2, 5)),
 )
 
 
@@ -56,8 +61,10 @@ def _second_order(
 _FACES = {
     10: _TETRAHEDRON,
     12: _HEXAHEDRON,
+    13: _WEDGE,
     24: _second_order(_TETRAHEDRON, _TETRAHEDRON_EDGES, 4),
     25: _second_order(_HEXAHEDRON, _HEXAHEDRON_EDGES, 8),
+    26: _second_order(_WEDGE, _WEDGE_EDGES, 6),
     29: _second_order(_HEXAHEDRON, _HEXAHEDRON_EDGES, 8),
 }
 """Of cells in space by their VTK type: the perimeter of each face."""

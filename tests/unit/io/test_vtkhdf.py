@@ -4,6 +4,8 @@ import h5py
 import numpy as np
 import pytest
 
+import carom
+from carom.building import build
 from carom.io.vtkhdf import FieldsWriter
 from stand_in import MESH, made_up_fields
 
@@ -82,3 +84,34 @@ def test_three_components_are_kept(tmp_path):
     FieldsWriter(path, MESH).append([0.0], [fields])
     with h5py.File(path, "r") as file:
         np.testing.assert_array_equal(file["VTKHDF/PointData/velocity"][:], fields["velocity"])
+
+
+@pytest.mark.parametrize("cell", ["wedge6", "wedge15", "hex20", "tet10"])
+def test_sides_of_cells_look_outward_to_vtk(tmp_path, cell):
+    """VTK's pages show the base of a wedge the other way round than its sources have it."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+
+    box = carom.Box(corner=[0, 0, 0], size=[1, 2, 3], divisions=[1, 2, 1], cell=cell)
+    scenario = carom.Scenario(
+        dimension=3,
+        analysis=carom.Dynamic(end_time=1.0, time_step=1.0),
+        materials={"m": carom.LinearElastic(young=1.0, poisson=0.3, density=1.0)},
+        bodies=[carom.Body(name="b", material="m", mesh=box)],
+    )
+    native = build(scenario)
+    FieldsWriter(tmp_path / "box.vtkhdf", native.mesh()).append([0.0], [native.fields()])
+    reader = vtkHDFReader()
+    reader.SetFileName(str(tmp_path / "box.vtkhdf"))
+    reader.Update()
+    grid = reader.GetOutputDataObject(0)
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    assert grid.GetNumberOfCells() > 0
+    for index in range(grid.GetNumberOfCells()):
+        one = grid.GetCell(index)
+        ids = one.GetPointIds()
+        middle = points[[ids.GetId(k) for k in range(ids.GetNumberOfIds())]].mean(axis=0)
+        for side in range(one.GetNumberOfFaces()):
+            ids = one.GetFace(side).GetPointIds()
+            a, b, c = points[[ids.GetId(k) for k in range(3)]]
+            assert np.cross(b - a, c - a) @ (a - middle) > 0.0

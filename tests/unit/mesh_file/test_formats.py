@@ -3,11 +3,14 @@
 import meshio
 import numpy as np
 import pytest
+from meshio._mesh import topological_dimension
 
 from carom.mesh_file import read_body_mesh
 from carom.mesh_file.arrays import FileMesh
 from carom.mesh_file.body import _body
 from carom.mesh_file.cells import KINDS
+
+topological_dimension.setdefault("wedge15", 3)  # which meshio does not know
 
 CUBE = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1, 2)], dtype=float)
 HEXES = np.array([[0, 1, 4, 3, 6, 7, 10, 9], [1, 2, 5, 4, 7, 8, 11, 10]])
@@ -178,6 +181,7 @@ def test_sets_and_surfaces_of_abaqus_arrive(tmp_path):
 
 FACES = {
     "C3D4": np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float),
+    "C3D6": np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1.0]]),
     "C3D8": CUBE[[0, 1, 4, 3, 6, 7, 10, 9]],
 }
 
@@ -186,7 +190,7 @@ FACES = {
 def test_faces_of_abaqus_elements_lie_on_their_sides(tmp_path, element):
     corners = FACES[element]
     nodes = "".join(f"{k + 1}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(corners))
-    count = {"C3D4": 4, "C3D8": 6}[element]
+    count = {"C3D4": 4, "C3D6": 5, "C3D8": 6}[element]
     text = f"*NODE\n{nodes}*ELEMENT, TYPE={element}\n1, "
     text += ", ".join(str(k + 1) for k in range(len(corners)))
     text += "".join(f"\n*SURFACE, NAME=S{k}\n1, S{k}" for k in range(1, count + 1))
@@ -195,6 +199,8 @@ def test_faces_of_abaqus_elements_lie_on_their_sides(tmp_path, element):
     seen = set()
     for k in range(1, count + 1):
         facet = arrays.points[arrays.facet_sets[f"S{k}"][0][0]]
+        if element == "C3D6":
+            assert len(facet) == (3 if k < 3 else 4), "ends first, then what is around"
         normal = np.cross(facet[1] - facet[0], facet[2] - facet[0])
         distance = (corners - facet[0]) @ normal
         assert np.all(distance <= 1e-12) or np.all(distance >= -1e-12), "a side of the convex cell"
@@ -256,7 +262,9 @@ def test_a_plane_mesh_loses_its_third_coordinate():
     assert arrays.node_sets["tip"].tolist() == [2]
 
 
-@pytest.mark.parametrize("kind", ["tetra", "tetra10", "hexahedron", "hexahedron20"])
+@pytest.mark.parametrize(
+    "kind", ["tetra", "tetra10", "hexahedron", "hexahedron20", "wedge", "wedge15"]
+)
 def test_cells_numbered_the_other_way_round_are_turned(tmp_path, kind):
     """MED counts the nodes of a cell against VTK's sense."""
     box = unit_cell(kind)
@@ -272,8 +280,13 @@ def unit_cell(kind):
     corners = {
         "tetra": FACES["C3D4"],
         "hexahedron": FACES["C3D8"],
+        "wedge": FACES["C3D6"],
     }[kind.rstrip("0123456789")]
     edges = {
+        "wedge15": [
+            *[(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3)],
+            *[(0, 3), (1, 4), (2, 5)],
+        ],
         "tetra10": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
         "hexahedron20": [
             *[(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4)],
@@ -284,7 +297,7 @@ def unit_cell(kind):
     return meshio.Mesh(points, [(kind, np.arange(len(points))[None])])
 
 
-@pytest.mark.parametrize("kind", ["tetra10", "hexahedron20"])
+@pytest.mark.parametrize("kind", ["tetra10", "hexahedron20", "wedge15"])
 def test_a_mirrored_cell_keeps_its_shape(kind):
     """Mirroring the numbers and the coordinates gives the same cell."""
     points = unit_cell(kind).points

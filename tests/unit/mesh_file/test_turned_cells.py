@@ -38,12 +38,13 @@ def native(kind):
 
 
 def block(kind):
-    """Points and cells of the block, and the corners of its boundary's facets."""
+    """Points and cells of the block, and the facets of its boundary by their number of nodes."""
     model = native(kind)
     mesh, surface = model.mesh(), model.surface()
     cells = np.array(np.split(mesh["connectivity"], mesh["offsets"][1:-1]))
-    facets = np.array(np.split(surface["connectivity"], surface["offsets"][1:-1]))
-    return mesh["points"], cells, facets
+    facets = np.split(surface["connectivity"], surface["offsets"][1:-1])
+    sizes = sorted({len(facet) for facet in facets})
+    return mesh["points"], cells, {n: np.array([f for f in facets if len(f) == n]) for n in sizes}
 
 
 def read(tmp_path, points, blocks, *, space, **sets):
@@ -68,19 +69,20 @@ def test_cells_that_a_file_numbers_the_other_way_round_are_turned(tmp_path, kind
     given = cells.copy()
     given[chosen] = cells[chosen][:, KINDS[kind].mirror]
     tags = np.arange(len(cells)) % 2
-    sides = SIDES[KINDS[kind].dimension, facets.shape[1]]
+    space = KINDS[kind].dimension
     arrays = read(
         tmp_path,
         points,
-        [(kind, given), (sides, facets)],
-        space=KINDS[kind].dimension,
-        cell_data={"part": [tags, np.full(len(facets), 7)]},
+        [(kind, given), *((SIDES[space, n], nodes) for n, nodes in facets.items())],
+        space=space,
+        cell_data={"part": [tags, *(np.full(len(nodes), 7) for nodes in facets.values())]},
     )
     ((name, turned),) = arrays.blocks
     assert name == KINDS[kind].name
     np.testing.assert_array_equal(turned, cells)
     np.testing.assert_array_equal(arrays.cell_sets["part:1"], np.flatnonzero(tags))
-    np.testing.assert_array_equal(np.concatenate(arrays.facet_sets["part:7"]), facets)
+    for named, nodes in zip(arrays.facet_sets["part:7"], facets.values(), strict=True):
+        np.testing.assert_array_equal(named, nodes)
     (note,) = arrays.notes
     number = len(range(len(cells))[chosen])
     assert (note.code, note.where, note.value) == ("turned-cells", "bodies.0.mesh.file", number)

@@ -40,7 +40,7 @@ def test_cells_of_the_plane_fill_it(tmp_path, cell):
     assert (drawn.facets >= 0).all()
 
 
-@pytest.mark.parametrize("cell", ["tet4", "hex8", "tet10", "hex20", "hex27"])
+@pytest.mark.parametrize("cell", ["tet4", "hex8", "tet10", "hex20", "hex27", "wedge6", "wedge15"])
 def test_the_boundary_of_a_body_in_space_is_closed(tmp_path, cell):
     mesh = {"kind": "box", "corner": [0, 0, 0], "size": [1, 2, 3], "divisions": [2, 2, 3]}
     frames, surface, drawn = run(tmp_path, {**mesh, "cell": cell})

@@ -34,6 +34,7 @@ pub(super) fn parts(kind: CellKind) -> &'static [Part] {
             (CellKind::Quad4, &[7, 8, 6, 3]),
         ],
         CellKind::Tet4 | CellKind::Tet10 | CellKind::Hex8 | CellKind::Hex20 | CellKind::Hex27 => &[],
+        CellKind::Wedge6 | CellKind::Wedge15 => &[],
     }
 }
 

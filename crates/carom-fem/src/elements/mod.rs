@@ -116,10 +116,11 @@ macro_rules! with_node_count {
             CellKind::Line2 => with_node_count!(@ 2, $n, $body),
             CellKind::Line3 | CellKind::Tri3 => with_node_count!(@ 3, $n, $body),
             CellKind::Quad4 | CellKind::Tet4 => with_node_count!(@ 4, $n, $body),
-            CellKind::Tri6 => with_node_count!(@ 6, $n, $body),
+            CellKind::Tri6 | CellKind::Wedge6 => with_node_count!(@ 6, $n, $body),
             CellKind::Quad8 | CellKind::Hex8 => with_node_count!(@ 8, $n, $body),
             CellKind::Quad9 => with_node_count!(@ 9, $n, $body),
             CellKind::Tet10 => with_node_count!(@ 10, $n, $body),
+            CellKind::Wedge15 => with_node_count!(@ 15, $n, $body),
             CellKind::Hex20 => with_node_count!(@ 20, $n, $body),
             CellKind::Hex27 => with_node_count!(@ 27, $n, $body),
         }

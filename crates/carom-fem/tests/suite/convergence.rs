@@ -55,7 +55,7 @@ fn body_force<const D: usize, const S: usize>(law: &Arc<dyn PointLaw<S>>, x: &Ve
     -divergence
 }
 
-/// Four Gauss points per direction; on simplices those of a square or cube, folded.
+/// Four Gauss points per direction; on simplices and wedges those of a square or cube, folded.
 fn points(kind: CellKind) -> Vec<([f64; 3], f64)> {
     let line = [
         (-0.861_136_311_594_052_6, 0.347_854_845_137_453_9),
@@ -68,9 +68,9 @@ fn points(kind: CellKind) -> Vec<([f64; 3], f64)> {
         .map(|m| {
             let along: Vec<(f64, f64)> = (0..d as u32).map(|k| line[m / 4_usize.pow(k) % 4]).collect();
             let (mut xi, mut weight) = ([0.0; 3], 1.0);
-            let (mut rest, is_simplex) = (1.0, kind.reference().nodes[0][0] == 0.0);
+            let mut rest = 1.0;
             for (k, (x, w)) in along.into_iter().enumerate() {
-                if is_simplex {
+                if kind.is_simplex() || (kind.is_wedge() && k < 2) {
                     let s = 0.5 * (x + 1.0);
                     xi[k] = rest * s;
                     weight *= 0.5 * w * rest;

@@ -24,11 +24,12 @@ fn expected_rate(kind: CellKind) -> f64 {
 
 /// The error of the volume at `divisions` and twice as many falls at the rate of the cell.
 fn check_rate<const D: usize>(
+    kinds: impl Iterator<Item = CellKind>,
     exact: f64,
     divisions: usize,
     mesh: impl Fn(usize, CellKind) -> Result<Mesh<D>, MeshError>,
 ) {
-    for kind in kinds(D) {
+    for kind in kinds {
         let error = |n: usize| volume(mesh(n, kind).expect("valid")) / exact - 1.0;
         let (coarse, fine) = (error(divisions), error(2 * divisions));
         let (rate, expected) = ((coarse / fine).abs().log2(), expected_rate(kind));
@@ -90,14 +91,14 @@ fn boxes_in_every_cell_are_filled() {
 #[test]
 fn discs_and_rings_converge_to_their_area() {
     let disc = |divisions| generate::Disc { centre: [2.0, 4.0], radius: 0.7, divisions, rings: None };
-    check_rate(PI * 0.49, 4, |n, kind| disc(n).mesh(kind));
+    check_rate(kinds(2), PI * 0.49, 4, |n, kind| disc(n).mesh(kind));
     let ring = |n| generate::Ring {
         centre: [2.0, 4.0],
         inner_radius: 0.4,
         outer_radius: 0.7,
         divisions: [4 * n, n],
     };
-    check_rate(PI * (0.49 - 0.16), 2, |n, kind| ring(n).mesh(kind));
+    check_rate(kinds(2), PI * (0.49 - 0.16), 2, |n, kind| ring(n).mesh(kind));
     for kind in kinds(2) {
         let from = |x: &Vector<2>| (x - Vector::from([2.0, 4.0])).norm();
         check_sets(&disc(2).mesh(kind).expect("valid"), &[("surface", &|x| from(x) - 0.7)]);
@@ -108,11 +109,16 @@ fn discs_and_rings_converge_to_their_area() {
     }
 }
 
+/// All but wedges, whose sides would not meet.
+fn of_balls() -> impl Iterator<Item = CellKind> {
+    kinds(3).filter(|kind| !kind.is_wedge())
+}
+
 #[test]
 fn balls_converge_to_their_volume() {
     let ball = |divisions| generate::Ball { centre: [1.0, -2.0, 3.0], radius: 1.5, divisions, rings: None };
-    check_rate(4.5 * PI, 4, |n, kind| ball(n).mesh(kind));
-    for kind in kinds(3) {
+    check_rate(of_balls(), 4.5 * PI, 4, |n, kind| ball(n).mesh(kind));
+    for kind in of_balls() {
         let mesh = ball(2).mesh(kind).expect("valid");
         check_sets(&mesh, &[("surface", &|x| (x - Vector::from([1.0, -2.0, 3.0])).norm() - 1.5)]);
     }
@@ -124,9 +130,9 @@ fn cylinders_and_tubes_converge_to_their_volume_whichever_way_they_stand() {
     let base = Vector::from([0.3, 0.2, -0.1]);
     let axis = generate::Axis { base: base.into(), direction, height };
     let cylinder = |n| generate::Cylinder { axis, radius: 0.8, divisions: n, rings: None, layers: n };
-    check_rate(PI * 0.64 * height, 4, |n, kind| cylinder(n).mesh(kind));
+    check_rate(kinds(3), PI * 0.64 * height, 4, |n, kind| cylinder(n).mesh(kind));
     let tube = |n| generate::Tube { axis, inner_radius: 0.5, outer_radius: 0.8, divisions: [4 * n, n, n] };
-    check_rate(PI * (0.64 - 0.25) * height, 2, |n, kind| tube(n).mesh(kind));
+    check_rate(kinds(3), PI * (0.64 - 0.25) * height, 2, |n, kind| tube(n).mesh(kind));
     let along = |x: &Vector<3>| (x - base).dot(&Vector::from(direction)) / 3.0;
     let from = |x: &Vector<3>| ((x - base).norm_squared() - along(x).powi(2)).sqrt();
     for kind in kinds(3) {
@@ -167,6 +173,22 @@ fn facets_of_tetrahedra_agree_where_blocks_meet() {
     assert_eq!(surface(CellKind::Tet4), 2 * 6 * 16);
 }
 
+/// Facets that did not agree between layers would count as boundary.
+#[test]
+fn facets_of_wedges_are_triangles_at_the_ends_and_quadrilaterals_around() {
+    let axis = generate::Axis { base: [0.0; 3], direction: [0.0, 0.0, 1.0], height: 1.0 };
+    let cylinder = generate::Cylinder { axis, radius: 1.0, divisions: 4, rings: None, layers: 2 };
+    for (kind, hexahedra) in [(CellKind::Wedge6, CellKind::Hex8), (CellKind::Wedge15, CellKind::Hex20)] {
+        let facets = |kind: CellKind, corners: usize| {
+            let surface = Surface::of(&cylinder.mesh(kind).expect("valid"));
+            surface.facets().iter().filter(|f| f.kind.corner_count() == corners).count()
+        };
+        let (around, ends) = (2 * 16, 2 * (16 + 2 * 16));
+        assert_eq!(facets(hexahedra, 4), around + ends);
+        assert_eq!((facets(kind, 4), facets(kind, 3)), (around, 2 * ends), "{kind:?}");
+    }
+}
+
 #[test]
 fn impossible_bodies_are_refused_with_the_parameter() {
     let parameter = |result: Result<Mesh<3>, MeshError>| match result {
@@ -182,6 +204,7 @@ fn impossible_bodies_are_refused_with_the_parameter() {
     assert_eq!(parameter(generate::Ball { divisions: 3, ..ball }.mesh(kind)), "divisions");
     assert_eq!(parameter(generate::Ball { divisions: 4000, ..ball }.mesh(kind)), "divisions");
     assert_eq!(parameter(generate::Ball { rings: Some(0), ..ball }.mesh(kind)), "rings");
+    assert_eq!(parameter(ball.mesh(CellKind::Wedge6)), "cell");
     assert_eq!(parameter(generate::Cylinder { layers: 0, ..cylinder }.mesh(kind)), "layers");
     assert_eq!(parameter(generate::Cylinder { radius: f64::NAN, ..cylinder }.mesh(kind)), "radius");
     assert_eq!(parameter(generate::Tube { inner_radius: 0.0, ..tube }.mesh(kind)), "inner_radius");

@@ -8,6 +8,7 @@ mod quadratic;
 mod quadrilateral;
 mod tetrahedron;
 mod triangle;
+mod wedge;
 
 use crate::Vector;
 
@@ -44,6 +45,10 @@ pub enum CellKind {
     Hex20,
     /// Triquadratic hexahedron, 27 nodes.
     Hex27,
+    /// Linear wedge, a swept triangle, 6 nodes.
+    Wedge6,
+    /// Quadratic serendipity wedge, 15 nodes.
+    Wedge15,
 }
 
 /// Where and how a cell lives on its reference domain.
@@ -56,7 +61,7 @@ pub struct Reference {
     pub degree: usize,
     /// Reference coordinates of the nodes.
     pub nodes: &'static [[f64; 3]],
-    /// Facets with their local nodes, outward normal by the right-hand rule (in 2D: the body is on the left), all facets alike.
+    /// Facets with their local nodes, outward normal by the right-hand rule (in 2D: the body is on the left).
     pub facets: &'static [(CellKind, &'static [usize])],
     /// Values N_a(ξ) of the shape functions.
     pub shape: fn(&[f64; 3], &mut [f64]),
@@ -68,7 +73,7 @@ pub struct Reference {
 
 impl CellKind {
     /// Every kind, for tests and messages.
-    pub const ALL: [CellKind; 12] = [
+    pub const ALL: [CellKind; 14] = [
         CellKind::Line2,
         CellKind::Line3,
         CellKind::Tri3,
@@ -81,6 +86,8 @@ impl CellKind {
         CellKind::Hex8,
         CellKind::Hex20,
         CellKind::Hex27,
+        CellKind::Wedge6,
+        CellKind::Wedge15,
     ];
 
     /// The reference cell of this kind.
@@ -99,6 +106,8 @@ impl CellKind {
             CellKind::Hex8 => &hexahedron::HEX8,
             CellKind::Hex20 => &hexahedron::HEX20,
             CellKind::Hex27 => &hexahedron::HEX27,
+            CellKind::Wedge6 => &wedge::WEDGE6,
+            CellKind::Wedge15 => &wedge::WEDGE15,
         }
     }
 
@@ -121,8 +130,21 @@ impl CellKind {
             CellKind::Line2 | CellKind::Line3 => 2,
             CellKind::Tri3 | CellKind::Tri6 => 3,
             CellKind::Quad4 | CellKind::Quad8 | CellKind::Quad9 | CellKind::Tet4 | CellKind::Tet10 => 4,
+            CellKind::Wedge6 | CellKind::Wedge15 => 6,
             CellKind::Hex8 | CellKind::Hex20 | CellKind::Hex27 => 8,
         }
+    }
+
+    /// Whether the reference domain is a simplex, of which the first corner is the origin.
+    #[must_use]
+    pub fn is_simplex(self) -> bool {
+        self.dimension() > 1 && self.corner_count() == self.dimension() + 1
+    }
+
+    /// Whether the reference domain is a triangle that is swept along a line.
+    #[must_use]
+    pub fn is_wedge(self) -> bool {
+        matches!(self, CellKind::Wedge6 | CellKind::Wedge15)
     }
 
     /// Whether the shape functions are quadratic, with nodes on the middles of edges.
@@ -223,7 +245,11 @@ mod tests {
     fn facets_are_the_sides_of_the_cell_and_turn_outward() {
         for kind in CellKind::ALL.into_iter().filter(|k| k.dimension() > 1) {
             let nodes = kind.reference().nodes;
-            let sides = if nodes[0][0] == 0.0 { kind.dimension() + 1 } else { 2 * kind.dimension() };
+            let sides = match kind.dimension() {
+                _ if kind.is_wedge() => 5,
+                _ if kind.is_simplex() => kind.dimension() + 1,
+                dimension => 2 * dimension,
+            };
             assert_eq!(kind.reference().facets.len(), sides);
             for (facet, local) in kind.reference().facets {
                 assert_eq!(facet.node_count(), local.len());

@@ -28,7 +28,8 @@ impl Ball {
     /// The ball in these cells, with the set surface.
     ///
     /// # Errors
-    /// If the radius is not positive, the divisions are zero, or odd while `rings` is not given, or the cells are not of 3D.
+    /// If the radius is not positive, the divisions are zero, or odd while `rings` is not given, or the cells are not of 3D, or wedges,
+    /// which would not meet at the sides of the core.
     pub fn mesh(&self, kind: CellKind) -> Result<Mesh<3>, MeshError> {
         let n = self.divisions;
         check(is_length(self.radius), "radius", &self.radius, "the radius must be greater than 0 m")?;
@@ -36,6 +37,9 @@ impl Ball {
         check(n > 0 && (n % 2 == 0 || self.rings.is_some()), "divisions", &n, remedy)?;
         let rings = self.rings.unwrap_or(n / 2);
         check(rings > 0, "rings", &rings, "at least 1 ring is needed around the core")?;
+        let remedy =
+            "the sides of its core have cells on them that point in three directions; take hex or tet cells";
+        check(!kind.is_wedge(), "cell", &kind.reference().name, remedy)?;
         check_size((n as f64).powi(2) * (n as f64 + 6.0 * rings as f64), &n)?;
         let span = span(kind);
         let mesh = self.lattice(n * span, rings * span).mesh(kind)?;

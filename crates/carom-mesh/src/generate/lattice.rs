@@ -27,11 +27,6 @@ pub(super) fn span(kind: CellKind) -> usize {
     kind.reference().degree
 }
 
-/// Whether the reference domain is a triangle or tetrahedron, which has its first corner at the origin.
-fn is_simplex(kind: CellKind) -> bool {
-    kind.reference().nodes[0][0] == 0.0
-}
-
 /// The place of number `index` among `counts` points or cells, fastest along the first direction.
 pub(super) fn unravel<const D: usize>(mut index: usize, counts: [usize; D]) -> [usize; D] {
     counts.map(|count| {
@@ -55,7 +50,7 @@ impl<const D: usize> Block<D> {
 }
 
 impl<const D: usize> Lattice<D> {
-    /// The mesh of these cells. Boxes of points that are to be simplices are cut; points that no cell uses are dropped.
+    /// The mesh of these cells. Boxes of points that are to be simplices or wedges are cut; points that no cell uses are dropped.
     ///
     /// # Errors
     /// If the cells are not of dimension `D`.
@@ -73,7 +68,19 @@ impl<const D: usize> Lattice<D> {
             for cell in 0..cells.iter().product() {
                 let first = unravel(cell, cells);
                 let at = |offset: [usize; D]| block.point(array::from_fn(|k| first[k] * span + offset[k]));
-                if is_simplex(kind) {
+                if kind.is_wedge() {
+                    let ends: Vec<u32> = corners.iter().map(|&c| at(c)).collect();
+                    for half_of in self.halves(&ends) {
+                        let corner = |i: usize, k: usize| corners[half_of[i]][k] as f64;
+                        connectivity.extend(reference.nodes.iter().map(|xi| {
+                            at(array::from_fn(|k| {
+                                let along = |i: usize| xi[i] * (corner(i + 1, k) - corner(0, k));
+                                let across = (corner(0, k) + (0..2).map(along).sum::<f64>()).round() as usize;
+                                if k == 2 { half(xi[2]) } else { across }
+                            }))
+                        }));
+                    }
+                } else if kind.is_simplex() {
                     let ends: Vec<u32> = corners.iter().map(|&c| at(c)).collect();
                     for simplex in self.cut(&ends) {
                         let corner = |i: usize, k: usize| corners[simplex[i]][k] as f64;
@@ -98,11 +105,16 @@ impl<const D: usize> Lattice<D> {
         if D == 3 {
             return tetrahedra(corners);
         }
+        self.halves(corners).map(|[a, b, c]| [a, b, c, 0]).to_vec()
+    }
+
+    /// The triangles, by local corners, that the first four corners are cut in, along the shorter diagonal. Layers of a swept
+    /// lattice are alike, so that what is above is cut as what is below.
+    fn halves(&self, corners: &[u32]) -> [[usize; 3]; 2] {
         let length = |a: usize, b: usize| {
             (self.points[corners[a] as usize] - self.points[corners[b] as usize]).norm_squared()
         };
-        let cut_0_2 = length(0, 2) <= length(1, 3);
-        if cut_0_2 { vec![[0, 1, 2, 0], [0, 2, 3, 0]] } else { vec![[0, 1, 3, 0], [1, 2, 3, 0]] }
+        if length(0, 2) <= length(1, 3) { [[0, 1, 2], [0, 2, 3]] } else { [[0, 1, 3], [1, 2, 3]] }
     }
 }
 

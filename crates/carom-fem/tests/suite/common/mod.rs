@@ -11,8 +11,15 @@ use carom_mesh::{CellBlock, CellKind, Matrix, Mesh, Vector, generate};
 pub const PLANE: [CellKind; 5] =
     [CellKind::Tri3, CellKind::Tri6, CellKind::Quad4, CellKind::Quad8, CellKind::Quad9];
 /// The cells of 3D bodies.
-pub const SPATIAL: [CellKind; 5] =
-    [CellKind::Tet4, CellKind::Tet10, CellKind::Hex8, CellKind::Hex20, CellKind::Hex27];
+pub const SPATIAL: [CellKind; 7] = [
+    CellKind::Tet4,
+    CellKind::Tet10,
+    CellKind::Hex8,
+    CellKind::Hex20,
+    CellKind::Hex27,
+    CellKind::Wedge6,
+    CellKind::Wedge15,
+];
 
 /// A plain body of this law.
 pub fn spec(law: LawSpec) -> BodySpec {
@@ -33,7 +40,7 @@ pub fn elastic() -> ElasticConstants {
     ElasticConstants { young: 2700.0, poisson: 0.33 }
 }
 
-/// A box from the origin of `divisions` cells in every direction, cut in simplices or given more nodes as `kind` needs.
+/// A box from the origin of `divisions` cells in every direction, cut in simplices or wedges or given more nodes as `kind` needs.
 pub fn grid<const D: usize>(
     kind: CellKind,
     divisions: usize,
@@ -46,11 +53,13 @@ pub fn grid<const D: usize>(
         CellKind::Tet4 | CellKind::Tet10 => {
             &[&[0, 1, 2, 6], &[0, 2, 3, 6], &[0, 3, 7, 6], &[0, 7, 4, 6], &[0, 4, 5, 6], &[0, 5, 1, 6]]
         }
+        CellKind::Wedge6 | CellKind::Wedge15 => &[&[0, 1, 2, 4, 5, 6], &[0, 2, 3, 4, 6, 7]],
         CellKind::Hex8 | CellKind::Hex20 | CellKind::Hex27 => &[&[0, 1, 2, 3, 4, 5, 6, 7]],
         _ => &[&[0, 1, 2, 3]],
     };
     let linear = match cut[0].len() {
         3 => CellKind::Tri3,
+        6 => CellKind::Wedge6,
         8 => CellKind::Hex8,
         _ if D == 3 => CellKind::Tet4,
         _ => CellKind::Quad4,
