@@ -5,7 +5,7 @@ use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair
 use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
-use carom_mesh::{Vector, generate};
+use carom_mesh::{CellKind, Vector, generate};
 
 fn cube(name: &str, corner: [f64; 3], first_node: usize) -> ModelBody<3> {
     block(name, corner, first_node, 3, false)
@@ -16,6 +16,17 @@ fn massless_cube(name: &str, corner: [f64; 3], first_node: usize) -> ModelBody<3
 }
 
 fn block(name: &str, corner: [f64; 3], first_node: usize, cells: usize, massless: bool) -> ModelBody<3> {
+    block_of(CellKind::Hex8, name, corner, first_node, cells, massless)
+}
+
+fn block_of(
+    kind: CellKind,
+    name: &str,
+    corner: [f64; 3],
+    first_node: usize,
+    cells: usize,
+    massless: bool,
+) -> ModelBody<3> {
     let spec = BodySpec {
         law: LawSpec::SaintVenantKirchhoff(ElasticConstants { young: 2700.0, poisson: 0.33 }),
         density: 1.0,
@@ -27,7 +38,7 @@ fn block(name: &str, corner: [f64; 3], first_node: usize, cells: usize, massless
         thickness: 1.0,
         massless_contact: massless,
     };
-    let mesh = generate::grid(corner, [1.0; 3], [cells; 3]).expect("valid");
+    let mesh = generate::Grid { corner, size: [1.0; 3], divisions: [cells; 3] }.mesh(kind).expect("valid");
     ModelBody { name: name.into(), body: Body::new(mesh, &spec).expect("valid"), first_node }
 }
 
@@ -197,4 +208,35 @@ fn massless_cubes_conserve_energy_and_momenta() {
     let before = Vector::<3>::new(-0.21, 0.13, 0.0) * 0.5;
     assert!(linear.norm() < 1e-10, "{linear}");
     assert!((angular - before).norm() < 1e-10, "{angular}");
+}
+
+/// A box of wedges shows triangles at its ends and quadrilaterals around; both are touched, by a floor and by a box of hexahedra.
+#[test]
+fn boxes_of_wedges_fall_and_slide_with_their_books_closed() {
+    for (kind, axis) in [(CellKind::Wedge6, 2), (CellKind::Wedge6, 0), (CellKind::Wedge15, 2)] {
+        let mut normal = Vector::<3>::zeros();
+        normal[axis] = 1.0;
+        let above = |height: f64, aside: f64| -> [f64; 3] {
+            std::array::from_fn(|k| if k == axis { height } else { aside })
+        };
+        let a = block_of(kind, "a", above(0.00513, 0.0), 0, 2, false);
+        let nodes = a.body.node_count();
+        let b = block_of(CellKind::Hex8, "b", above(1.0113, 0.13), nodes, 2, false);
+        let discretisation = Discretisation::NodeToSegment;
+        let pair = |source, target| Pair { source, target, friction: 0.3, group: 0, discretisation };
+        let pairs = vec![pair(0, Target::Obstacle(0)), pair(1, Target::Surface(0))];
+        let floor = Obstacle::plane(Vector::zeros(), normal, u32::MAX);
+        let model = model(vec![a, b], vec![floor], pairs);
+        let speed = Vector::<3>::from_element(0.5) - normal * 1.5;
+        let velocity = vec![speed; model.node_count()];
+        let mut method = method(ContactCondition::Midpoint);
+        method.scheme = Scheme::Conserving;
+        let (state, lost, defect, _, touched) = run(&model, &method, velocity, 0.08);
+        let initial = speed.norm_squared();
+        assert!(touched, "{kind:?}");
+        assert!(lost > 1e-3 * initial, "{kind:?} along {axis}: friction takes {lost} J of {initial} J");
+        assert!(defect < 1e-9 * initial, "{kind:?} along {axis}: defect {defect:e} J of {initial} J");
+        let mean = model.bodies[0].body.mean(&state.velocity[..nodes]);
+        assert!(mean[axis] > speed[axis] + 0.5, "{kind:?} along {axis}: the floor has stopped it: {mean}");
+    }
 }
