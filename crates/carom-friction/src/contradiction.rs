@@ -162,10 +162,42 @@ impl Sum {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::BlockMatrix;
 
     #[test]
     fn sums_keep_what_cancels() {
         let products = [(1e8 + 1.0, 1e8 - 1.0), (-1e8, 1e8), (0.5, 0.25)];
         assert_eq!(Sum::of(products.into_iter()), -0.875);
+    }
+
+    /// Three contacts that hold a body in a plane from all sides, too tightly: z = (1, 1, 1) is the proof, z with an error of
+    /// 1e-4 is none, and one step of inverse iteration makes it one.
+    #[test]
+    fn a_direction_with_an_error_is_no_proof_until_it_is_sharpened() {
+        let normals = [[0.1, 0.7], [-0.9, -0.4], [0.8, -0.3]];
+        let mut w = BlockMatrix::<1>::default();
+        for a in normals {
+            let row = normals.map(|b| Matrix::<1>::new((a[0] * b[0] + a[1] * b[1]) / 3.0));
+            w.push_row(row.into_iter().enumerate());
+        }
+        let problem = ContactProblem { w, q: vec![Vector::<1>::new(-1.0); 3], mu: vec![0.0; 3] };
+        let clock = Clock::new(None);
+        let mut lu = BlockLu::new(&problem.w, 100, clock).expect("few blocks");
+        let rows = Rows::new(&problem, problem.natural_stiffness());
+        let mut z = [1.0, 1.0001, 0.9999].map(Vector::<1>::new);
+        assert!(!rows.are_contradicted_by(&z));
+        assert!(rows.look_contradicted_by(&z.map(|z| z.map(|x| 1.0 + 1e-3 * (x - 1.0)))));
+        assert!(rows.sharpen(&mut z, &mut lu, clock));
+        assert!(rows.are_contradicted_by(&z));
+        let [size, along, response, q] = rows.lengths(&z);
+        let mean: f64 = rows.compliance.iter().sum();
+        assert!((size - mean.sqrt()).abs() < 1e-9 && (along + 3.0).abs() < 1e-9);
+        assert!((q - rows.compliance.iter().map(|c| 1.0 / c).sum::<f64>().sqrt()).abs() < 1e-12);
+        assert!(response < 1e-15);
+        // Where the contacts open along z, or only touch, it is no proof.
+        let open = ContactProblem { q: vec![Vector::<1>::new(1.0); 3], ..problem.clone() };
+        assert!(!Rows::new(&open, 1.0).are_contradicted_by(&z));
+        let touching = ContactProblem { q: [-1.0, 1.0, 0.0].map(Vector::<1>::new).to_vec(), ..problem };
+        assert!(!Rows::new(&touching, 1.0).are_contradicted_by(&z));
     }
 }
