@@ -142,6 +142,20 @@ fn without_motions_there_are_no_reactions_whatever_the_guess() {
     }
 }
 
+/// A body wedged between two walls that just touch it: any thrust of the one on the other is an answer, and so is that of the guess.
+#[test]
+fn a_guess_that_is_an_answer_is_kept_where_nothing_moves() {
+    let mut w = BlockMatrix::default();
+    w.push_row([(0, Matrix::<1>::new(1.0)), (1, Matrix::<1>::new(-1.0))]);
+    w.push_row([(0, Matrix::<1>::new(-1.0)), (1, Matrix::<1>::new(1.0))]);
+    let wedged = ContactProblem { w, q: vec![Vector::<1>::zeros(); 2], mu: vec![0.0; 2] };
+    for kind in SolverKind::ALL {
+        let mut r = vec![Vector::<1>::new(3.0); 2];
+        assert!(kind.solver().solve(&wedged, &mut r, &StoppingRule::default()).is_solved(), "{kind:?}");
+        assert_eq!(r, vec![Vector::<1>::new(3.0); 2], "{kind:?}");
+    }
+}
+
 #[test]
 fn nothing_that_can_move_is_solved_only_where_nothing_overlaps() {
     for size in [1e-310, 1e-200, 1.0, 1e300] {
