@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Mapping
 
 from carom._carom import Simulation
@@ -23,7 +24,8 @@ def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
     scenario
         What to build.
     notes
-        A list that gets what was done to meshes out of files, such as cells that were turned.
+        A list that gets what was done to meshes out of files, such as cells that were turned. None
+        warns of it.
 
     Raises
     ------
@@ -44,7 +46,10 @@ def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
             raise refusal from None
         found += moves
     refuse_leaps(scenario, simulation.describe())
-    if notes is not None:
+    if notes is None:
+        for note in found:
+            warnings.warn(note.message, stacklevel=3)
+    else:
         notes += found
     return simulation
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from carom.building import build
 from carom.mesh import MeshFile
+from carom.mesh_file import Note
 from carom.scenario import Scenario
 
 COARSE_STEP = 5.0
@@ -48,8 +49,10 @@ def check(scenario: Scenario) -> Check:
     InputError
         The scenario cannot be run.
     """
-    description = build(scenario).describe()
-    warnings = (*unit_warnings(scenario, description), *_warnings(scenario, description))
+    notes: list[Note] = []
+    description = build(scenario, notes).describe()
+    done = (note.message for note in notes)
+    warnings = (*done, *unit_warnings(scenario, description), *_warnings(scenario, description))
     return Check(description=description, warnings=warnings)
 
 

@@ -161,6 +161,7 @@ class _Closing:
                 where=f"bodies.{index}.mesh.file",
                 value=float(depths.max()),
                 allowed=0.0,
+                remedy="write the file with more digits",
             )
         )
 

@@ -106,7 +106,7 @@ def mesh_case(mesh: Path, file: Path, *, unit: str = "m", material: str = "steel
     scale, values, key = UNITS[unit], MATERIALS[material], "bodies.0.mesh"
     dimension = body_dimension(mesh, key=key)
     arrays = read_body_mesh(mesh, body=None, scale=scale, space=dimension, key=key)
-    (body,) = build(_alone(mesh, dimension, scale, material)).describe()["bodies"]
+    (body,) = build(_alone(mesh, dimension, scale, material), []).describe()["bodies"]
     points, up = arrays.points, [0.0] * (dimension - 1) + [1.0]
     low, high = points.min(axis=0), points.max(axis=0)
     size = float(np.max(high - low))

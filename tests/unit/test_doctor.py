@@ -447,6 +447,17 @@ def test_a_case_without_units_is_not_measured_by_solids(case, density, level):
     assert ("a density of 1 is that of a case without units" in finding.what) == (density == 1.0)
 
 
+def test_what_was_done_to_a_mesh_is_told(case, tmp_path):
+    points = np.array([[0, 1], [1, 1], [0, 2], [1, 2.0]])
+    cells = [("triangle", [[0, 1, 2], [1, 2, 3]])]
+    meshio.write(tmp_path / "p.vtu", meshio.Mesh(points, cells))
+    case["bodies"][0]["mesh"] = {"file": str(tmp_path / "p.vtu")}
+    first, *_ = examine(carom.Scenario.from_dict(case)).findings
+    assert (first.level, first.key) == ("advice", "bodies.0.mesh.file")
+    assert "1 of 2 cells (tri3 1 from 0 in their order in the file) are numbered" in first.what
+    assert first.remedy == "look whether the program that wrote the file meant these cells"
+
+
 @pytest.fixture
 def command(capsys):
     def run(*arguments):

@@ -138,3 +138,30 @@ def test_an_open_surface_is_no_obstacle(case):
     assert answer.exit_code == 2
     assert "obstacles.0.file = " in answer.output
     assert "has 3 edges on one triangle only" in answer.output
+
+
+def test_what_was_done_to_a_mesh_is_told_by_every_way_to_run_it(case, tmp_path):
+    """One line on the terminal, and a warning in Python."""
+    mesh = meshio.read(tmp_path / "brick.vtu")
+    nodes = [f"{k + 1}, {x}, {y}, {z}" for k, (x, y, z) in enumerate(mesh.points)]
+    (hexahedron,) = mesh.cells_dict["hexahedron"] + 1
+    other = [4, 3, 2, 1, 8, 7, 6, 5]  # the same cell, numbered the other way round
+    turned = hexahedron[np.array(other) - 1]
+    deck = ["*NODE", *nodes, "*ELEMENT, TYPE=C3D8", ", ".join(map(str, [1, *turned]))]
+    deck += ["*ELEMENT, TYPE=SPRINGA", "2, 1, 2", "3, 2, 3"]
+    (tmp_path / "brick.inp").write_text("\n".join(deck))
+    case.write_text(CASE.replace("brick.vtu", "brick.inp"))
+    told = [
+        "left out 2 SPRINGA elements, which fill no",
+        "1 of 1 cell (hex8 0 from 0 in their order",
+    ]
+    for how in ("run", "check"):
+        answer = command(how, case, *(["--out", tmp_path / how] if how == "run" else []))
+        assert answer.exit_code == 0, answer.output
+        said = " ".join(answer.output.split())
+        for text in told:
+            assert said.count(text) == 1
+    with pytest.warns(UserWarning, match="brick.inp") as heard:
+        carom.run(carom.Scenario.from_toml(case), out=tmp_path / "python")
+    for text in told:
+        assert sum(text in str(warning.message) for warning in heard) == 1

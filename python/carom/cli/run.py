@@ -16,6 +16,7 @@ from carom.cli.progress import shown_progress
 from carom.errors import CertificateError, ConvergenceError, InputError, naming
 from carom.interrupt import terminable
 from carom.io import layout
+from carom.mesh_file import Note
 from carom.restart import ended
 from carom.result import Result
 from carom.running import drive
@@ -63,8 +64,11 @@ def run(
             )
             return
         with naming(case):
-            simulation = build(scenario)
-        for warning in unit_warnings(scenario, simulation.describe()):
+            simulation = build(scenario, notes := list[Note]())
+        for warning in (
+            *(note.message for note in notes),
+            *unit_warnings(scenario, simulation.describe()),
+        ):
             tell(f"warning: {warning}")
         try:
             with shown_progress(console) as progress:

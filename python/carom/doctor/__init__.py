@@ -14,6 +14,7 @@ from carom.doctor.patient import Patient
 from carom.doctor.time_step import time_step
 from carom.doctor.units import units
 from carom.errors import InputError
+from carom.mesh_file import Note
 from carom.scenario import Scenario
 
 __all__ = ["LEVELS", "Diagnosis", "Finding", "Level", "examine"]
@@ -34,11 +35,13 @@ def examine(scenario: Scenario) -> Diagnosis:
 
     A case that cannot be built, such as one whose bodies overlap, has one finding, an error.
     """
+    notes: list[Note] = []
     try:
-        patient = Patient(scenario, build(scenario))
+        patient = Patient(scenario, build(scenario, notes))
     except InputError as error:
         return Diagnosis(scenario.title, (Finding("error", error.key or "", _what(error)),))
-    findings = [finding for check in CHECKS for finding in check(patient)]
+    findings = [Finding("advice", note.where, note.message, note.remedy) for note in notes]
+    findings += [finding for check in CHECKS for finding in check(patient)]
     return Diagnosis(scenario.title, tuple(findings))
 
 

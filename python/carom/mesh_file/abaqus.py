@@ -203,6 +203,7 @@ class _Reader:
                 f"left out {kinds}, which fill no space",
                 value=sum(map(len, self.left_out.values())),
                 allowed=0,
+                remedy="what they hold or join is free now: see to it with motions and loads",
             )
         ]
 

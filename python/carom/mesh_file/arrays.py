@@ -27,6 +27,8 @@ class Note:
         Key of the case file that it is about.
     value, allowed
         The number that was met and the one that would have needed no note; None without a number.
+    remedy
+        What to do about it.
     """
 
     code: str
@@ -34,6 +36,7 @@ class Note:
     where: str = ""
     value: float | None = None
     allowed: float | None = None
+    remedy: str = ""
 
     def at(self, key: str, file: str) -> Note:
         """Return the note with its place, and the file there."""

@@ -112,7 +112,8 @@ def _turned(right: Upright, *, backwards: bool) -> list[Note]:
     if not right.turned or (backwards and right.turned == total):
         return []
     what = f"{right.which} are numbered the other way round and were turned"
-    return [Note("turned-cells", what, value=right.turned, allowed=0)]
+    remedy = "look whether the program that wrote the file meant these cells"
+    return [Note("turned-cells", what, value=right.turned, allowed=0, remedy=remedy)]
 
 
 def _kinds(mesh: FileMesh, wanted: int | None = None) -> str:
