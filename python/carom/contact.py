@@ -119,7 +119,8 @@ class Contact(Description):
         but ``massless``. Obstacles are always checked node by node.
     certificate_tolerance
         Largest distance from Coulomb's law in a step, the sum of bi-potential gaps, relative to the
-        largest energy of the run. A run with a larger one is not completed.
+        largest energy of the run, or to the largest work of the reactions of a step over the motion
+        that they prevent, where that is more. A run with a larger one is not completed.
     pairs
         What single pairs do differently.
     """

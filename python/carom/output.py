@@ -48,7 +48,9 @@ class Output(Description):
         Time between two checkpoints, from which a run that was stopped goes on [s]; None takes ten
         minutes of wall time.
     merge_contacts
-        Contact events of one pair that are closer than this count as one [s].
+        Contact events of one pair that are closer than this count as one [s]; None takes the time
+        that a pressure wave needs along the longest side of a body of the pair, of the body where
+        that is shortest, and at least three time steps; in a static analysis 0.
     track
         Points to follow.
     audit
@@ -62,7 +64,7 @@ class Output(Description):
     fields_every: Positive | None = None
     history_every: Positive | None = None
     checkpoint_every: Positive | None = None
-    merge_contacts: NonNegative = 0.03
+    merge_contacts: NonNegative | None = None
     track: tuple[Track, ...] = ()
     audit: Annotated[bool, Field(strict=True)] = False
     report: Annotated[bool, Field(strict=True)] = False

@@ -282,10 +282,11 @@ def _violation(simulation: Simulation) -> str | None:
     worst, allowed = certificate["max_joule"], certificate["tolerance_joule"]
     if worst <= allowed:
         return None
+    by_solver = certificate["solver_joule"] >= 0.5 * worst
+    remedy = "contact.solver.tolerance" if by_solver else "analysis.newton.tolerance"
     return (
         f"a step was {worst:.3g} J from Coulomb's law, more than the {allowed:.3g} J of "
-        "contact.certificate_tolerance; take a smaller contact.solver.tolerance or "
-        "analysis.newton.tolerance, or a shorter step"
+        f"contact.certificate_tolerance; take a smaller {remedy}"
     )
 
 

@@ -31,10 +31,18 @@ class EnergySummary(TypedDict):
 
 
 class CertificateSummary(TypedDict):
-    """How far the worst step was from Coulomb's law, and what a completed run may have."""
+    """How far the worst step was from Coulomb's law, and what a completed run may have.
+
+    The tolerance is relative to ``reference_joule``, the largest energy of the run or the largest
+    work of the reactions of a step over the motion that they prevent, whichever is more. Of the
+    worst step ``solver_joule`` is what the solver of the contact problem left; the rest is of
+    Newton's iterations.
+    """
 
     max_joule: float
+    solver_joule: NotRequired[float]
     max_residual: float
+    reference_joule: NotRequired[float]
     tolerance_joule: float
 
 
@@ -54,9 +62,10 @@ class BodySummary(TypedDict):
 
 
 class PairSummary(TypedDict):
-    """The books of a pair that may touch."""
+    """The books of a pair that may touch, and how close contacts are that count as one [s]."""
 
     between: list[str]
+    merge_contacts: NotRequired[float]
     friction: float
     normal_contact: float
     prescribed: float

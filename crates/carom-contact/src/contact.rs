@@ -2,7 +2,7 @@ use carom_mesh::{Matrix, Vector};
 use smallvec::SmallVec;
 
 use crate::edge::Crossing;
-use crate::frame::frame;
+use crate::frame::{carried, frame};
 
 /// Nodes of a stencil that are kept without an allocation: a source node and a facet of nine.
 const INLINE: usize = 10;
@@ -68,6 +68,11 @@ impl<const D: usize> Contact<D> {
         Self { gap, frame, area, stencil, sources }
     }
 
+    /// Turns the tangents to where those of an earlier frame of the contact were: see [`crate::frame::carried`]. A frame of zeros stands for none.
+    pub fn carry_frame(&mut self, before: &Matrix<D>) {
+        self.frame = carried(&self.frame, before);
+    }
+
     /// The same contact of a multiplier with its gap where nodes are at `position`.
     pub(crate) fn moved(&self, position: &impl Fn(u32) -> Vector<D>) -> Self {
         Self { gap: self.relative(|n| position(n as u32))[0], ..self.clone() }
@@ -76,12 +81,12 @@ impl<const D: usize> Contact<D> {
     /// The nodes involved with their weights, source nodes first: of a single node +1, and minus the shape functions for the target.
     /// The weights of either side sum to ±1.
     #[inline]
-    pub fn stencil(&self) -> impl ExactSizeIterator<Item = (usize, f64)> {
+    pub fn stencil(&self) -> impl ExactSizeIterator<Item = (usize, f64)> + Clone {
         self.stencil.iter().map(|&(node, weight)| (node as usize, weight))
     }
 
     /// The part of the stencil on the source.
-    pub fn sources(&self) -> impl ExactSizeIterator<Item = (usize, f64)> {
+    pub fn sources(&self) -> impl ExactSizeIterator<Item = (usize, f64)> + Clone {
         self.stencil().take(self.sources)
     }
 
@@ -92,7 +97,7 @@ impl<const D: usize> Contact<D> {
     }
 
     /// The part of the stencil on the target.
-    pub fn targets(&self) -> impl ExactSizeIterator<Item = (usize, f64)> {
+    pub fn targets(&self) -> impl ExactSizeIterator<Item = (usize, f64)> + Clone {
         self.stencil().skip(self.sources)
     }
 

@@ -26,9 +26,12 @@ const LARGEST: f64 = 0.5;
 struct Balance {
     missing: f64,
     available: f64,
+    /// Energy of the motion of the step, ½ Σ m (d/Δt)² [J].
+    motion: f64,
 }
 
-/// What is missing below this fraction of the energy of the model is round-off and may wait.
+/// What is missing below this fraction of the energy of the model, or of that of the motion of the step where the model starts from rest, is
+/// round-off and may wait. Where there is neither, nothing can be missing.
 const NEGLIGIBLE: f64 = 1e-14;
 
 /// Forces, balances and weights of all bodies.
@@ -153,7 +156,9 @@ impl<const D: usize> Blend<D> {
             difference[n] += given[1];
             balance.missing -= given[0].dot(&d);
             balance.available += difference[n].dot(&d);
+            balance.motion += mass * d.norm_squared();
         }
+        balance.motion *= 0.5 / (step.map.dt * step.map.dt);
         // The rows of massless nodes have no part in what is available.
         for n in body.massless().iter().map(|&n| n as usize) {
             balance.available -= difference[n].dot(&body.held().free_part(n, &step.motion[n]));
@@ -187,8 +192,9 @@ impl<const D: usize> Blend<D> {
             group.missing += c.friction * 0.5 * (c.start + c.end) * c.slip - 0.5 * (start + end);
             group.available += end - start - c.friction * (c.end - c.start) * c.slip;
         }
+        let energy = bodies.iter().map(|&i| self.balances[i].motion).sum::<f64>().max(energy);
         for &i in bodies {
-            let Balance { missing, available } = self.groups[leader_of(&self.leader, i)];
+            let Balance { missing, available, .. } = self.groups[leader_of(&self.leader, i)];
             let matters = missing.abs() > NEGLIGIBLE * energy && available > 0.0;
             self.weight[i] = if matters { (missing / available).clamp(-LARGEST, LARGEST) } else { 0.0 };
         }
@@ -232,7 +238,7 @@ impl<const D: usize> Blend<D> {
 
     /// What body `index` received through contact in the step, by the forces last measured [J].
     pub fn exchanged(&self, index: usize) -> f64 {
-        let Balance { missing, available } = self.balances[index];
+        let Balance { missing, available, .. } = self.balances[index];
         missing - self.weight[index] * available
     }
 

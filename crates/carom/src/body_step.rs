@@ -190,6 +190,26 @@ impl<'a, const D: usize> BodyStep<'a, D> {
         (self.motion[node] - expected * self.map.dt) * (STEADYING * stiffness)
     }
 
+    /// What it takes to write the rows of massless nodes at the end of the step instead of over it [J]: the work of the forces that these nodes are
+    /// left with in the mean of the step, (1 − ξ) r₀ + ξ r₊ + F̄ − C v̄ − f̄, with the contact forces `ends` = [r₀, r₊] and the internal force `end` at its end.
+    ///
+    /// In static balance at both ends a node is left with nothing but the [`Self::steadying_force`], whose work this is; where it starts a step
+    /// out of balance, as at t = 0 or when a load sets in, with what it gives way to.
+    pub fn static_balance_work(
+        &self,
+        ends: [&[Vector<D>]; 2],
+        end: &[Vector<D>],
+        viscous: &[Vector<D>],
+    ) -> f64 {
+        let mean = |[a, b]: [Vector<D>; 2]| a * (1.0 - self.map.xi) + b * self.map.xi;
+        let left = |n: usize| {
+            let contact = mean(ends.map(|force| force[n]));
+            contact + self.mean_load(n) - viscous[n] - mean([self.internal_force[n], end[n]])
+        };
+        let massless = self.body.massless().iter().map(|&n| n as usize);
+        massless.map(|n| left(n).dot(&self.body.held().free_part(n, &self.motion[n]))).sum()
+    }
+
     /// Writes v₊ [m/s] to `out`; a node without mass moves at the mean velocity of the step, and what is held as prescribed.
     pub fn end_velocity(&self, out: &mut [Vector<D>]) {
         nodal::each(out, [self.velocity, self.motion], |v1, [v0, d]| *v1 = self.map.end_velocity(v0, d));

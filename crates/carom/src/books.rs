@@ -10,6 +10,7 @@ use crate::error::StepError;
 use crate::ledger::BodyLedger;
 use crate::react::{driven, measure_rubbing};
 use crate::state::{Reaction, State};
+use crate::surface_fields::deposit;
 use crate::workspace::{GroupReport, StepReport, Workspace};
 use crate::{Energies, Method, Model, StepMap};
 
@@ -75,8 +76,10 @@ fn keep_contacts<const D: usize>(
     if work.contacts.is_empty() {
         return;
     }
-    report.residual = carom_friction::measure(&work.problem, &work.reactions).natural_residual;
     let weight = method.condition.reaction_weight(map);
+    let measure = carom_friction::measure(&work.problem, &work.reactions);
+    report.residual = measure.natural_residual;
+    report.solver_certificate = measure.certificate / weight;
     let end = |n: u32| model.reference[n as usize] + next.displacement[n as usize];
     model.contact.evaluate_all(&work.candidates, &end, &mut work.mortar, &mut work.end_contacts);
     for contact in &work.end_contacts {
@@ -87,6 +90,7 @@ fn keep_contacts<const D: usize>(
         let mut w = contact.relative(|n| work.motion[n]);
         w[0] += work.offsets[i];
         report.certificate += cone::bipotential_gap(&w, &r, work.friction[i]);
+        report.reaction_work += r.dot(&work.problem.q[i]).abs();
         contact.add_force(&r, &mut next.contact_force);
         if r[0] > 0.0 {
             report.contacts += 1;
@@ -172,8 +176,12 @@ fn close_body<const D: usize>(
     }
     let contact = exchanged.unwrap_or_else(|| {
         let work_of = |force: &[Vector<D>]| nodal::dot(step.motion, force) - held.dot(step.motion, force);
-        weights[0] * work_of(step.contact_force) + weights[1] * work_of(&next.contact_force[nodes])
+        weights[0] * work_of(step.contact_force) + weights[1] * work_of(&next.contact_force[nodes.clone()])
     });
+    if exchanged.is_none() {
+        let ends = [step.contact_force, &next.contact_force[nodes.clone()]];
+        scheme += step.static_balance_work(ends, &next.internal_force[nodes], scratch.viscous());
+    }
     let before = state.body_energies[index];
     work.bodies[index] = BodyLedger {
         kinetic: energies.kinetic - before.kinetic,
@@ -271,19 +279,5 @@ fn add_slip<const D: usize>(model: &Model<D>, next: &mut State<D>, work: &mut Wo
                 slip[node] += distance / weight;
             }
         });
-    }
-}
-
-/// Leaves the energy that friction takes at a contact to its nodes: half to the source, half to those of a deformable target.
-fn deposit<const D: usize>(model: &Model<D>, contact: &Contact<D>, energy: f64, nodes: &mut [f64]) {
-    let targets = || contact.targets().filter(|&(node, _)| node < model.node_count());
-    let whole = |side: &mut dyn Iterator<Item = (usize, f64)>| side.map(|(_, w)| w.abs()).sum::<f64>();
-    let (source_whole, target_whole) = (whole(&mut contact.sources()), whole(&mut targets()));
-    let to_target = if target_whole > 0.0 { 0.5 * energy } else { 0.0 };
-    for (node, weight) in contact.sources() {
-        nodes[node] += (energy - to_target) * weight.abs() / source_whole;
-    }
-    for (node, weight) in targets() {
-        nodes[node] += to_target * weight.abs() / target_whole;
     }
 }

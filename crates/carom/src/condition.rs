@@ -34,10 +34,11 @@ impl ContactCondition {
         }
     }
 
-    /// Whether a contact takes part in a step that it starts with this gap [m].
+    /// Whether a contact takes part in a step that it starts with this gap [m]: in one that is chosen at the start where it is closed there, up to
+    /// `round_off` [m]. At rest the gap is nothing but that, and its sign would be left to chance.
     #[must_use]
-    pub fn is_active(self, start_gap: f64) -> bool {
-        self.rules_the_end() || start_gap <= 0.0
+    pub fn is_active(self, start_gap: f64, round_off: f64) -> bool {
+        self.rules_the_end() || start_gap <= round_off
     }
 
     /// Whether the gap itself is ruled, at the end of the step.

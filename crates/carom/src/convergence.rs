@@ -1,5 +1,7 @@
 //! When the iterations of a step have ended, are slow, or lead astray.
 
+use carom_mesh::nodal;
+
 use crate::error::StepError;
 use crate::state::State;
 use crate::workspace::Workspace;
@@ -74,8 +76,11 @@ pub(crate) struct Convergence {
     safety: f64,
     patience: usize,
     max_iterations: usize,
-    /// Relative to the motion in the step.
+    /// Relative to the motion in the step, or to `reached`.
     tolerance: f64,
+    /// In a static analysis the largest displacement so far [m]: a load step is a solution of its own, of which the motion in it may be a small
+    /// part, or none where nothing changes. Elsewhere zero: positions are sums of motions.
+    reached: f64,
     /// Smaller corrections say nothing [m].
     round_off: f64,
     is_static: bool,
@@ -100,6 +105,7 @@ impl Convergence {
             patience: if changed { CHANGED_PATIENCE } else { PATIENCE },
             max_iterations: method.newton.max_iterations,
             tolerance: method.newton.tolerance,
+            reached: if is_static { nodal::largest(&state.displacement[..model.node_count()]) } else { 0.0 },
             round_off: model.round_off(),
             is_static,
             reach: 0.0,
@@ -136,7 +142,7 @@ impl Convergence {
         if let (true, Some(error)) = (self.is_static, not_held(bodies, model, work)) {
             return Err(error);
         }
-        let wanted = (self.tolerance * motion).max(self.round_off);
+        let wanted = self.wanted(motion);
         Err(StepError::Newton { iterations: iteration, correction, wanted })
     }
 
@@ -150,7 +156,7 @@ impl Convergence {
             |of: fn(&BodyProgress) -> f64| bodies.iter().map(|&i| of(&progress[i])).fold(0.0, f64::max);
         let motion = largest(|p| p.motion);
         let expected = largest(|p| p.correction * p.contraction);
-        if expected <= NEAR * (self.tolerance * motion).max(self.round_off) {
+        if expected <= NEAR * self.wanted(motion) {
             return 0.0;
         }
         let known = largest(|p| p.contraction) < 1.0;
@@ -175,7 +181,12 @@ impl Convergence {
     /// A correction this small, or one after which the next will surely be.
     fn has_converged(&self, p: &BodyProgress, motion: f64) -> bool {
         let left = (self.safety * p.contraction.max(LEAST_CONTRACTION)).min(1.0);
-        p.correction * left <= (self.tolerance * motion).max(self.round_off)
+        p.correction * left <= self.wanted(motion)
+    }
+
+    /// The correction that may be left where the largest motion in the step is `motion` [m].
+    fn wanted(&self, motion: f64) -> f64 {
+        (self.tolerance * motion.max(self.reached)).max(self.round_off)
     }
 
     /// Refuses iterations that lead away from where they set out.
@@ -240,6 +251,7 @@ mod tests {
         patience: PATIENCE,
         max_iterations: 100,
         tolerance: 1e-10,
+        reached: 0.0,
         round_off: 0.0,
         is_static: false,
         reach: 0.0,

@@ -1,7 +1,13 @@
 use serde::Serialize;
 
+use carom_contact::Target;
+
 use crate::workspace::GroupReport;
-use crate::{Group, Model};
+use crate::{Group, Model, Scheme};
+
+/// Steps of a dynamic analysis for which a pair that stays in contact may be without a reaction: one that rests under `midpoint` has none in
+/// every second step.
+const FLICKER: f64 = 3.0;
 
 /// A contact of a pair from its first reaction to its last, flickers merged.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -21,16 +27,32 @@ pub struct ContactEvent {
 /// Follows the contacts of all groups.
 #[derive(Debug)]
 pub(crate) struct EventLog {
-    merge: f64,
+    /// For each group: contacts less than this apart are one [s].
+    merge: Vec<f64>,
     pub events: Vec<ContactEvent>,
     /// For each group: its last event and the end of the last step with a reaction.
     pub last: Vec<Option<(usize, f64)>>,
 }
 
 impl EventLog {
-    /// A log that takes contacts less than `merge` [s] apart for one.
-    pub fn new<const D: usize>(model: &Model<D>, merge: f64) -> Self {
-        Self { merge, events: Vec::new(), last: vec![None; model.groups.len()] }
+    /// A log that takes contacts less than `merge` [s] apart for one. Without it a dynamic analysis in steps of `dt` [s] takes the time of
+    /// the bodies themselves, see [`crossing_time`]; the time of a static one does not say how long anything lasts, and nothing is merged there.
+    pub fn new<const D: usize>(model: &Model<D>, scheme: Scheme, dt: f64, merge: Option<f64>) -> Self {
+        let own = |group| match scheme {
+            Scheme::Static => 0.0,
+            _ => crossing_time(model, group).max(FLICKER * dt),
+        };
+        let groups = 0..model.groups.len();
+        Self {
+            merge: groups.map(|group| merge.unwrap_or_else(|| own(group))).collect(),
+            events: Vec::new(),
+            last: vec![None; model.groups.len()],
+        }
+    }
+
+    /// How close contacts of a group are that count as one [s].
+    pub fn merge(&self, group: usize) -> f64 {
+        self.merge[group]
     }
 
     /// Records what the groups did in a step from `start` to `end` [s].
@@ -44,7 +66,7 @@ impl EventLog {
                 continue;
             }
             let event = match self.last[g] {
-                Some((event, until)) if start <= until || start - until < self.merge => event,
+                Some((event, until)) if start <= until || start - until < self.merge[g] => event,
                 _ => {
                     self.events.push(ContactEvent {
                         pair: groups[g].between.clone(),
@@ -76,6 +98,26 @@ impl EventLog {
     }
 }
 
+/// How long a pressure wave takes along the longest side of a body of the group [s], of the body where that is shortest. While waves are on
+/// their way a contact may open and close again; who is out of it for longer has parted.
+fn crossing_time<const D: usize>(model: &Model<D>, group: usize) -> f64 {
+    let of_body = |index: usize| {
+        let body = &model.bodies[index].body;
+        let (low, high) = body.mesh().bounds();
+        (high - low).max() / body.wave_speed()
+    };
+    let pairs = model.contact.pairs.iter().filter(|pair| pair.group == group);
+    let bodies = pairs.flat_map(|pair| {
+        let target = match pair.target {
+            Target::Surface(target) => Some(target),
+            Target::Obstacle(_) => None,
+        };
+        std::iter::once(pair.source).chain(target)
+    });
+    let shortest = bodies.map(of_body).fold(f64::INFINITY, f64::min);
+    if shortest.is_finite() { shortest } else { 0.0 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -96,7 +138,7 @@ mod tests {
     #[test]
     fn flickers_are_one_event_and_a_later_impact_is_another() {
         let groups = vec![Group { between: ["a".into(), "b".into()], friction: 0.0 }];
-        let mut log = EventLog { merge: 0.03, events: vec![], last: vec![None] };
+        let mut log = EventLog { merge: vec![0.03], events: vec![], last: vec![None] };
         record(&mut log, &groups, 3.0, 0.99, 1.00);
         record(&mut log, &groups, 0.0, 1.00, 1.01);
         record(&mut log, &groups, 5.0, 1.01, 1.02);

@@ -1,4 +1,4 @@
-use carom_contact::ContactModel;
+use carom_contact::{ContactModel, Pair, Target};
 use carom_fem::Body;
 use carom_fem::sparse::Precision;
 use carom_friction::{FrictionSolver, StoppingRule};
@@ -61,6 +61,10 @@ pub struct Model<const D: usize> {
     pub body_of_node: Vec<u32>,
     /// Diameter of the largest body [m].
     pub size: f64,
+    /// Diameter of every body [m].
+    diameters: Vec<f64>,
+    /// The largest coordinate of a node where nothing has moved [m].
+    farthest: f64,
 }
 
 impl<const D: usize> Model<D> {
@@ -78,7 +82,10 @@ impl<const D: usize> Model<D> {
             obstacle.node = (nodes + o) as u32;
         }
         let fixed = contact.obstacles.iter().map(|_| Vector::zeros());
+        let diameters: Vec<f64> = bodies.iter().map(|b| b.body.mesh().diameter()).collect();
+        let nodes = bodies.iter().flat_map(|b| b.body.mesh().nodes());
         Self {
+            farthest: nodes.map(Vector::amax).fold(0.0, f64::max),
             reference: bodies
                 .iter()
                 .flat_map(|b| b.body.mesh().nodes().iter().copied())
@@ -93,7 +100,8 @@ impl<const D: usize> Model<D> {
                 .enumerate()
                 .flat_map(|(i, b)| std::iter::repeat_n(i as u32, b.body.node_count()))
                 .collect(),
-            size: bodies.iter().map(|b| b.body.mesh().diameter()).fold(0.0, f64::max),
+            size: diameters.iter().copied().fold(0.0, f64::max),
+            diameters,
             bodies,
             contact,
             groups,
@@ -159,10 +167,18 @@ impl<const D: usize> Model<D> {
         self.body_of_node.get(node).map(|&b| b as usize)
     }
 
-    /// Lengths below this are round-off of the coordinates [m].
+    /// Lengths below this are round-off of the coordinates [m], of small bodies far from the origin too.
     #[must_use]
     pub fn round_off(&self) -> f64 {
-        4.0 * f64::EPSILON * self.size
+        4.0 * f64::EPSILON * self.size.max(self.farthest)
+    }
+
+    /// Diameter of the smaller body of a pair [m].
+    pub(crate) fn pair_size(&self, pair: &Pair) -> f64 {
+        match pair.target {
+            Target::Surface(target) => self.diameters[pair.source].min(self.diameters[target]),
+            Target::Obstacle(_) => self.diameters[pair.source],
+        }
     }
 
     /// Number of nodes of the bodies.
@@ -181,7 +197,8 @@ impl<const D: usize> Model<D> {
 /// When Newton's iterations stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NewtonRule {
-    /// Largest correction of a displacement, relative to the largest motion of a node in the step.
+    /// Largest correction of a displacement, relative to the largest motion of a node in the step; in a static analysis to the largest
+    /// displacement since the start, if that is more.
     pub tolerance: f64,
     /// Iterations after which the step fails.
     pub max_iterations: usize,
@@ -203,7 +220,8 @@ pub struct Method<const D: usize> {
     pub newton: NewtonRule,
     /// How often a step that fails is halved.
     pub max_halvings: u32,
-    /// The bi-potential gap of a step that a certified run may have, relative to the largest energy of the run.
+    /// The bi-potential gap of a step that a certified run may have, relative to the largest energy of the run or, if that is more, to the
+    /// largest work of the reactions of a step over the motion that they prevent.
     pub certificate_tolerance: f64,
 }
 

@@ -11,7 +11,7 @@ use crate::state::State;
 use crate::workspace::Workspace;
 use crate::{Method, Model, StepMap};
 
-/// Evaluates the contacts where the condition is written.
+/// Evaluates the contacts where the condition is written, in frames that follow those before: reactions are known in these.
 pub(crate) fn evaluate_contacts<const D: usize>(
     model: &Model<D>,
     method: &Method<D>,
@@ -25,6 +25,10 @@ pub(crate) fn evaluate_contacts<const D: usize>(
         model.reference[n] + state.displacement[n] + motion[n] * weight
     };
     model.contact.evaluate_all(&work.candidates, &position, &mut work.mortar, &mut work.contacts);
+    for (contact, frame) in work.contacts.iter_mut().zip(&mut work.frames) {
+        contact.carry_frame(frame);
+        *frame = contact.frame;
+    }
 }
 
 /// Work [J] that prescribed motion does through a contact with the reaction `r`: of an obstacle that moves, and of what supports

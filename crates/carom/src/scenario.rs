@@ -93,8 +93,9 @@ pub struct Output {
     pub fields_every: f64,
     /// Interval of the history [s].
     pub history_every: f64,
-    /// Contact events of a pair that are closer than this are one [s].
-    pub merge_contacts: f64,
+    /// Contact events of a pair that are closer than this are one [s]; without it the time that a pressure wave takes through its bodies.
+    #[serde(default)]
+    pub merge_contacts: Option<f64>,
     /// Points whose motion is in the history.
     #[serde(default)]
     pub track: Vec<TrackEntry>,

@@ -1,7 +1,7 @@
 //! Which contacts take part in a step.
 
 use carom_contact::{Candidate, Contact, Pair, Target};
-use carom_mesh::Vector;
+use carom_mesh::{Matrix, Vector};
 
 use crate::state::{Reaction, State};
 use crate::workspace::Workspace;
@@ -9,7 +9,7 @@ use crate::{Method, Model, StepMap};
 
 /// A contact of which less than this fraction of the normal is free has nothing to move.
 const UNRESPONSIVE: f64 = 1e-6;
-/// A node this deep inside its target, in sizes of the model, is more than touching it.
+/// A node this deep inside its target, in sizes of the smaller body, is more than touching it.
 const INSIDE: f64 = 1e-6;
 /// By how much the margin grows for mortar pairs with every repetition of a search.
 const WIDENING: f64 = 4.0;
@@ -55,8 +55,10 @@ pub(crate) fn select_active<const D: usize>(
     let contact = &model.contact;
     work.start_gaps.clear();
     contact.evaluate_all(&work.candidates, &start, &mut work.mortar, &mut work.contacts);
-    let inside = INSIDE * model.size;
+    let round_off = model.round_off();
+    let inside = |c: &Candidate| INSIDE * model.pair_size(&contact.pairs[c.pair as usize]);
     let is_stuck = |c: &Candidate, at_start: &Contact<D>| {
+        let inside = inside(c);
         let was_stuck = |k: usize| state.reactions[k].contact.gap < -inside;
         let known = state.reactions.binary_search_by_key(&c.key(), Reaction::key);
         let explained = inside + map.dt * at_start.relative(|n| state.velocity[n]).norm();
@@ -66,9 +68,14 @@ pub(crate) fn select_active<const D: usize>(
     work.candidates.retain(|c| {
         let Some(at_start) = at_starts.next() else { return false };
         let gap = at_start.gap;
-        let is_beyond = || gap < -inside && contact.is_beyond(c, at_start, inside, &start, &work.search);
-        let active =
-            !c.mirrored && method.condition.is_active(gap) && answers(model, at_start) && !is_beyond();
+        let is_beyond = || {
+            let inside = inside(c);
+            gap < -inside && contact.is_beyond(c, at_start, inside, &start, &work.search)
+        };
+        let active = !c.mirrored
+            && method.condition.is_active(gap, round_off)
+            && answers(model, at_start)
+            && !is_beyond();
         if active {
             let stays = gap < 0.0
                 && (contact.is_two_sided(c.pair as usize) || !map.is_static() && is_stuck(c, at_start));
@@ -77,6 +84,7 @@ pub(crate) fn select_active<const D: usize>(
         active
     });
     work.contacts.clear();
+    work.frames.clear();
     work.reactions.clear();
     work.friction.clear();
     work.start_forces.clear();
@@ -84,7 +92,9 @@ pub(crate) fn select_active<const D: usize>(
     let weight = method.condition.reaction_weight(map);
     for candidate in &work.candidates {
         let known = state.reactions.binary_search_by_key(&candidate.key(), Reaction::key);
-        let force = known.map_or_else(|_| Vector::zeros(), |k| state.reactions[k].force);
+        let known = known.map(|k| &state.reactions[k]);
+        let force = known.map_or_else(|_| Vector::zeros(), |r| r.force);
+        work.frames.push(known.map_or_else(|_| Matrix::zeros(), |r| r.contact.frame));
         work.reactions.push(force * weight);
         work.start_forces.push(force);
         work.friction.push(contact.pairs[candidate.pair as usize].friction);

@@ -142,7 +142,7 @@ impl<const D: usize> Simulation<D> {
         let work = Workspace::new(&model);
         let mut simulation = Self {
             description: describe(&scenario.title, &model, &state, steps),
-            events: EventLog::new(&model, scenario.output.merge_contacts),
+            events: EventLog::new(&model, method.scheme, dt, scenario.output.merge_contacts),
             history: History::new(&model, &state, tracks),
             spare: state.clone(),
             time_step: dt,

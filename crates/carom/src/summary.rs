@@ -46,9 +46,14 @@ pub struct EnergySummary {
 pub struct CertificateSummary {
     /// Largest Σ of bi-potential gaps of a step [J].
     pub max_joule: f64,
+    /// The part of it that the solver of the contact problem left [J]; the rest is what Newton's iterations left.
+    pub solver_joule: f64,
     /// Largest residual of the contact laws.
     pub max_residual: f64,
-    /// The largest Σ that a completed run may have [J]: the tolerance of the method times the largest energy of the run.
+    /// What it is measured by [J]: the largest energy of the run, or the largest work Σ |r·q| of the reactions of a step over the motion that they
+    /// prevent, where that is more.
+    pub reference_joule: f64,
+    /// The largest Σ that a completed run may have [J]: the tolerance of the method times this reference.
     pub tolerance_joule: f64,
 }
 
@@ -75,14 +80,16 @@ impl BodySummary {
 pub struct PairSummary {
     /// The two names.
     pub between: [String; 2],
+    /// Contacts of the pair that are closer than this are one [s].
+    pub merge_contacts: f64,
     /// What it did to the energy.
     #[serde(flatten)]
     pub ledger: PairLedger,
 }
 
 impl PairSummary {
-    fn new(group: &Group, ledger: &PairLedger) -> Self {
-        Self { between: group.between.clone(), ledger: *ledger }
+    fn new(group: &Group, merge_contacts: f64, ledger: &PairLedger) -> Self {
+        Self { between: group.between.clone(), merge_contacts, ledger: *ledger }
     }
 }
 
@@ -157,8 +164,10 @@ impl<const D: usize> Simulation<D> {
             },
             certificate: CertificateSummary {
                 max_joule: t.max_certificate,
+                solver_joule: t.solver_certificate,
                 max_residual: t.max_residual,
-                tolerance_joule: self.method.certificate_tolerance * t.max_energy,
+                reference_joule: t.reference(),
+                tolerance_joule: self.method.certificate_tolerance * t.reference(),
             },
             bodies: self
                 .model
@@ -172,7 +181,8 @@ impl<const D: usize> Simulation<D> {
                 .groups
                 .iter()
                 .zip(&self.books.pairs)
-                .map(|(g, l)| PairSummary::new(g, l))
+                .enumerate()
+                .map(|(i, (g, l))| PairSummary::new(g, self.events.merge(i), l))
                 .collect(),
             max_blend: t.max_blend,
             least_friction: t.least_friction,

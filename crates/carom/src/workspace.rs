@@ -45,6 +45,8 @@ pub struct Workspace<const D: usize> {
     pub(crate) searched: Vec<Candidate>,
     pub(crate) missed: Vec<Candidate>,
     pub(crate) contacts: Vec<Contact<D>>,
+    /// The frame that every contact had when it was last evaluated, in this step or as a reaction of the last one; zeros where there is none.
+    pub(crate) frames: Vec<Matrix<D>>,
     /// The nodes of every body that contacts act on, ascending.
     pub(crate) contact_nodes: Vec<Vec<u32>>,
     /// Contacts at the end of the step.
@@ -123,6 +125,7 @@ impl<const D: usize> Workspace<D> {
             searched: Vec::new(),
             missed: Vec::new(),
             contacts: Vec::new(),
+            frames: Vec::new(),
             contact_nodes: vec![Vec::new(); bodies],
             end_contacts: Vec::new(),
             mortar: Mortar::default(),
@@ -193,6 +196,10 @@ pub struct StepReport {
     pub residual: f64,
     /// Σ of the bi-potential gaps [J].
     pub certificate: f64,
+    /// The part of it that the contact problem was left with [J]; the rest is of the motion that Newton's iterations were left with.
+    pub solver_certificate: f64,
+    /// Σ |r·q| [J]: what the reactions do over the motion that they prevent.
+    pub reaction_work: f64,
     /// What a second solver says of the last contact problem, if it was asked.
     pub cross_check: Option<CrossCheck>,
     /// What happened to the energy.
@@ -202,9 +209,11 @@ pub struct StepReport {
 impl StepReport {
     /// Whether every number is finite, but for the smallest gap where there is none.
     pub(crate) fn is_finite(&self) -> bool {
-        let Self { normal_force, blend, least_friction, residual, certificate, mut ledger, .. } = *self;
-        let numbers = [normal_force, blend, least_friction, residual, certificate];
+        let Self { normal_force, blend, least_friction, residual, .. } = *self;
+        let Self { certificate, solver_certificate, reaction_work, mut ledger, .. } = *self;
+        let numbers = [normal_force, blend, least_friction, residual];
+        let laws = [certificate, solver_certificate, reaction_work];
         let terms = ledger.terms_mut().map(|term| *term);
-        numbers.iter().chain(&terms).all(|x| x.is_finite()) && !self.min_gap.is_nan()
+        numbers.iter().chain(&laws).chain(&terms).all(|x| x.is_finite()) && !self.min_gap.is_nan()
     }
 }

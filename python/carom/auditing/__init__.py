@@ -88,8 +88,7 @@ def _check_states(
         row = files.row(rows[frame.time]) if frame.time in rows else None
         frames.frame(frame, row)
         ledger.frame(frame)
-        friction = None if row is None else row["friction"]
-        surface.frame(next(surfaces, None), frame, friction, ledger.friction_on)
+        surface.frame(next(surfaces, None), frame, row, ledger.friction_on)
         if before is None:
             check_start(model, frame, scales, findings)
         elif files.has_steps:
@@ -99,6 +98,7 @@ def _check_states(
                 checked = Step(model, step)
                 steps.step(checked)
                 ledger.step(checked)
+                surface.borne(checked.contacts, frame)
                 if row is not None:
                     at = rows.get(checked.start["time"])
                     steps.rows(checked, None if at is None else files.row(at), row)

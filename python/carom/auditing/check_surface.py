@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from carom.auditing.arrays import Array
+from carom.auditing.contacts import Contacts
 from carom.auditing.files import Facets, Frame, SurfaceFrame
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
+
+BEARS = 0.5
+"""Facets bear a contact at their node that face it at least this well, relative to the best."""
 
 
 class SurfaceChecks:
@@ -63,6 +67,7 @@ class SurfaceChecks:
             self._around = np.zeros(len(model.points))
             np.add.at(self._around, self._facets, self._area[:, None])
         self._last: Array | None = None
+        self._pressure = np.zeros(len(self._facets))
 
     def _directed(self) -> list[tuple[int, int, int]]:
         return [
@@ -79,7 +84,7 @@ class SurfaceChecks:
         self,
         fields: SurfaceFrame | None,
         frame: Frame,
-        friction: float | None,
+        row: Mapping[str, float] | None,
         share: Callable[[str, float], float | None],
     ) -> None:
         """Check the fields of an output time.
@@ -90,8 +95,8 @@ class SurfaceChecks:
             The fields; None if there are none.
         frame
             Those of the bodies at that time.
-        friction
-            What the history says of friction [J], if it has a row of that time.
+        row
+            The row of the history of that time, if it has one.
         share
             What the ledger says of friction on a body at a time [J], if it has a row.
         """
@@ -105,12 +110,12 @@ class SurfaceChecks:
         self._check("surface: frames", error, 0.0, f"{where}, displacement")
         off = ROUND_OFF * self._area + SAFETY * EPS * np.abs(self._model.points).max()
         self._check("surface: areas", fields.area - self._area, off, where)
-        self._pressure(fields.pressure, frame, where)
+        self._pressures(fields.pressure, frame, row, where)
         left = fields.friction_energy * fields.area
         size = float(np.abs(left).sum()) + ROUND_OFF * self._scales.energy
-        if friction is not None:
-            off = ROUND_OFF * (size + abs(friction))
-            self._check("surface: friction", left.sum() - friction, off, where)
+        if row is not None:
+            off = ROUND_OFF * (size + abs(row["friction"]))
+            self._check("surface: friction", left.sum() - row["friction"], off, where)
         for index, body in enumerate(self._model.bodies):
             wanted = share(body.name, frame.time)
             if wanted is not None:
@@ -124,14 +129,64 @@ class SurfaceChecks:
             self._check("surface: friction", fall, off, f"{where}, falls")
         self._last = left
 
-    def _pressure(self, pressure: Array, frame: Frame, where: str) -> None:
+    def _pressures(
+        self, pressure: Array, frame: Frame, row: Mapping[str, float] | None, where: str
+    ) -> None:
+        """Check what pressures are without the contacts: they push, and where there is a force."""
+        self._pressure, size = pressure, float(np.abs(pressure).max(initial=0.0))
+        self._check("surface: pressure", np.maximum(-pressure, 0.0), 0.0, f"{where}, pulls")
+        free = ~(frame.reaction[self._facets] != 0.0).any(axis=(1, 2))
+        self._check("surface: pressure", pressure[free], 0.0, f"{where}, of nothing")
+        if row is not None:
+            # Bodies that touch one another both bear what they press with.
+            whole, force = float((pressure * self._area).sum()), row["normal_force"]
+            most = force * (2.0 if any(side.target >= 0 for side in self._model.sides) else 1.0)
+            error = max(force - whole, whole - most, 0.0)
+            off = ROUND_OFF * (force + size * float(self._area.sum()))
+            self._check("surface: pressure", error, off, f"{where}, in sum")
+
+    def borne(self, contacts: Contacts, frame: Frame) -> None:
+        """Check the pressures of the last output time against the contacts of its step.
+
+        Parameters
+        ----------
+        contacts
+            The contacts, where the condition is written.
+        frame
+            The fields of the bodies at the end of the step.
+        """
+        if not self._known:
+            return
         chord = self._sign * self._chords(self._model.points + frame.displacement)
         length = np.linalg.norm(chord, axis=1, keepdims=True)
-        normal = np.stack([chord[:, 1], -chord[:, 0]], axis=1) / length
-        per_area = (frame.reaction / np.where(self._around > 0, self._around, 1.0)[:, None])[
-            self._facets
-        ].sum(axis=1)
-        mine = -(per_area * normal).sum(axis=1)
-        turn = SAFETY * EPS * (self._model.size + self._scales.reach) / length[:, 0]
-        off = np.abs(per_area).sum(axis=1) * (ROUND_OFF + turn)
-        self._check("surface: pressure", pressure - mine, off, where)
+        normals = np.stack([chord[:, 1], -chord[:, 0]], axis=1) / length
+        mine, off = np.zeros(len(self._area)), np.zeros(len(self._area))
+        turn = SAFETY * EPS * (self._model.size + self._scales.reach) / float(length.min())
+        for k in range(len(contacts)):
+            force, normal = float(contacts.normal_force[k]), contacts.normal[k]
+            loads = [(int(contacts.node[k]), 1.0, normal)]
+            if contacts.target[k] >= 0:
+                weights = np.abs(contacts.weights[k])
+                shares = weights / weights.sum()
+                feet = zip(contacts.followed[k].tolist(), shares.tolist(), strict=True)
+                loads += [(node, share, -normal) for node, share in feet if share > 0.0]
+            for node, share, towards in loads:
+                self._bear(node, share * force, -normals @ towards, turn, (mine, off))
+        where = f"t = {frame.time:g} s"
+        self._check("surface: pressure", self._pressure - mine, off, where)
+
+    def _bear(
+        self, node: int, force: float, facing: Array, turn: float, into: tuple[Array, Array]
+    ) -> None:
+        """Add the pressures of a force on a node to the facets around that face it."""
+        around = np.flatnonzero((self._facets == node).any(axis=1))
+        best = facing[around].max()
+        weight = np.where(facing[around] >= BEARS * best, self._area[around] * facing[around], 0.0)
+        if best <= 0.0:
+            weight = self._area[around]
+        pressures = force * weight / weight.sum() / self._area[around]
+        np.add.at(into[0], around, pressures)
+        # A facet that faces it just well enough, or just not.
+        doubt = np.abs(facing[around] - BEARS * best) <= turn
+        off = abs(force) / self._area[around] * (ROUND_OFF + turn + doubt.any())
+        np.add.at(into[1], around, off)

@@ -269,7 +269,11 @@ class Step:
             force = share * self.contacts.nodal_forces(len(model.points))
             if model.massless:
                 force += (1 - share) * self.start_contacts.nodal_forces(len(model.points))
-            contact = float((force[body.span] * d).sum())
+            received = force[body.span]
+            contact = float((received * d).sum())
+            # What rows that are static at the end of a step leave of its mean forces.
+            b = body.massless
+            scheme += float(((received - f.viscous - f.internal)[b] * d[b]).sum())
         return {
             "kinetic": body.kinetic_energy(v1) - body.kinetic_energy(v0),
             "strain": body.strain_energy(u1) - body.strain_energy(u0),

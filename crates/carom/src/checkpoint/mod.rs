@@ -27,7 +27,7 @@ pub struct Checkpoint {
 
 impl Checkpoint {
     /// Version of what is kept and of its names.
-    pub const SCHEMA: u64 = 3;
+    pub const SCHEMA: u64 = 4;
 }
 
 /// Why a run cannot be a checkpoint, or a checkpoint not the run.

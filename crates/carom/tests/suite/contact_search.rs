@@ -97,6 +97,46 @@ fn a_bounce_is_one_event_however_little_is_merged() {
     assert!(!events.is_empty() && events.len() < 10, "{} events", events.len());
 }
 
+/// Symptom: contacts less than 0.03 s apart were one, whatever the run, so that a run of 0.04 s had one contact where a small stiff body hit the
+/// floor again and again.
+#[test]
+fn what_is_one_contact_is_for_the_bodies_to_say() {
+    // The same bounces, 10⁴ times as fast and as small.
+    let bounces = |scale: f64| {
+        let mesh = json!({"kind": "rectangle", "corner": [0.0, 0.02 * scale], "size": [scale, scale], "divisions": [2, 2]});
+        let mut case = scenario(
+            4.0 * scale,
+            1e-3 * scale,
+            &[body("block", mesh, [0.0, -2.0])],
+            &[plane("floor", [0.0, 0.0], [0.0, 1.0]), plane("ceiling", [0.0, 1.4 * scale], [0.0, -1.0])],
+        );
+        case["output"]["merge_contacts"] = Value::Null;
+        let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
+        simulation.advance(f64::INFINITY, || false).expect("runs");
+        simulation.summary()
+    };
+    let (large, small) = (bounces(1.0), bounces(1e-4));
+    assert!(large.contacts.len() > 6, "{:?}", large.contacts);
+    assert_eq!(large.contacts.len(), small.contacts.len());
+    // Later on round-off has grown to steps.
+    for (a, b) in large.contacts.iter().zip(&small.contacts).take(3) {
+        assert!((a.onset - 1e4 * b.onset).abs() < 1e-9, "{} {}", a.onset, b.onset);
+    }
+    // The time of a wave across the block: √(0.33-plane-strain stiffness 4000.4 Pa / 1 kg/m³) = 63.2 m/s.
+    let crossing = 1.0 / (2700.0_f64 * 0.67 / (1.33 * 0.34)).sqrt();
+    assert!(large.pairs.iter().all(|p| (p.merge_contacts - crossing).abs() < 1e-12), "{:?}", large.pairs);
+    // A case may say otherwise.
+    let mut case = scenario(
+        0.01,
+        1e-3,
+        &[body("disc", disc([0.0, 1.1], 1.0, 4), [0.0, 0.0])],
+        &[plane("floor", [0.0, 0.0], [0.0, 1.0])],
+    );
+    case["output"]["merge_contacts"] = json!(0.7);
+    let simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
+    assert!(simulation.summary().pairs.iter().all(|p| p.merge_contacts == 0.7));
+}
+
 /// Symptom: a body that turns fast widened the search until every node faced every wall, and contact problems took minutes.
 #[test]
 fn a_fast_step_does_not_make_a_contact_of_every_node() {

@@ -1,0 +1,1 @@
+"""Deliberate errors, to see whether the tests notice."""
