@@ -15,6 +15,7 @@ from carom.io import layout
 from carom.io.atomic import sync, write_whole
 from carom.io.audit import AuditWriter
 from carom.io.checkpoint import Checkpoint, write_checkpoint
+from carom.io.digest import digest
 from carom.io.frame_queue import Frame, FrameQueue
 from carom.io.history import HistoryWriter
 from carom.io.ledger import LedgerWriter
@@ -231,6 +232,7 @@ class Recorder:
             "title": self._title,
             "version": _carom.__version__,
             **native,
+            "files": {name: digest(self._directory / name) for name in layout.DIGESTED},
             "wall_s": wall,
             "wall_s_per_step": wall / max(native["steps"], 1),
         }

@@ -119,5 +119,6 @@ class Summary(TypedDict):
     min_gap: float | None
     cross_check: CrossCheckSummary | None
     contacts: list[ContactEvent]
+    files: NotRequired[dict[str, str]]
     wall_s: float
     wall_s_per_step: float

@@ -10,20 +10,25 @@ from pathlib import Path
 
 import numpy as np
 
-from carom.auditing.check_books import BookChecks
-from carom.auditing.check_case import check_links, check_mesh, check_start
+from carom.auditing.believed import leave_rows
+from carom.auditing.check_case import check_files, check_links, check_mesh, check_start
+from carom.auditing.check_events import EventChecks
 from carom.auditing.check_frames import FrameChecks
 from carom.auditing.check_ledger import LedgerChecks
+from carom.auditing.check_momenta import MomentumChecks
+from carom.auditing.check_rows import RowChecks
 from carom.auditing.check_steps import StepChecks
+from carom.auditing.check_summary import SummaryChecks
 from carom.auditing.check_surface import SurfaceChecks
 from carom.auditing.files import Files, Frame
 from carom.auditing.model import AuditModel
-from carom.auditing.report import Audit, Check, Findings
+from carom.auditing.report import Audit, Check, Findings, Unchecked
+from carom.auditing.rows import Rows
 from carom.auditing.scales import Scales
 from carom.auditing.step import Step
 from carom.errors import InputError
 
-__all__ = ["Audit", "Check", "audit"]
+__all__ = ["Audit", "Check", "Unchecked", "audit"]
 
 
 def audit(directory: str | Path) -> Audit:
@@ -41,7 +46,12 @@ def audit(directory: str | Path) -> Audit:
         The directory holds no results of a run that has ended, or of a kind that the auditor does
         not know.
     """
-    files, findings = Files(Path(directory)), Findings()
+    return audit_files(Files(Path(directory)))
+
+
+def audit_files(files: Files) -> Audit:
+    """Check results that have been read; see `audit`."""
+    findings = Findings()
     try:
         # Tampered numbers may overflow; what is not finite is found as such.
         with np.errstate(all="ignore"):
@@ -50,7 +60,7 @@ def audit(directory: str | Path) -> Audit:
         raise
     except (KeyError, IndexError, TypeError, ValueError) as error:
         raise InputError(
-            f"{directory}: cannot be audited: {type(error).__name__}: {error}"
+            f"{files.path}: cannot be audited: {type(error).__name__}: {error}"
         ) from error
     return findings.audit(files.path)
 
@@ -58,23 +68,40 @@ def audit(directory: str | Path) -> Audit:
 def _check(files: Files, findings: Findings) -> None:
     model = files.model()
     scales = Scales(model)
+    frames = []
     for frame in files.frames():
         scales.include(frame.displacement, frame.velocity)
+        frames.append(frame.time)
+    check_files(files.path, files.summary, findings)
     check_mesh(model, findings)
     ledger = LedgerChecks(
         model, scales, findings, files.ledger, history=files.history, summary=files.summary
     )
     ledger.all()
     pressed = _check_states(files, model, scales, ledger, findings)
-    books = BookChecks(model, scales, findings, files.history, files.summary)
-    books.all()
-    for time, names, force in pressed:
-        books.force(time, names, force)
+    rows, events = Rows(model, files.history, files.summary), files.summary["contacts"]
+    RowChecks(model, scales, findings, rows, files.summary).all()
+    SummaryChecks(model, scales, findings, rows, files.summary).all()
+    momenta = MomentumChecks(model, scales, findings, rows, events)
+    momenta.all()
+    contacts = EventChecks(
+        model, scales, findings, rows, ledger=files.ledger, events=events, stored=pressed
+    )
+    contacts.all()
+    leave_rows(
+        model,
+        findings,
+        rows,
+        frames=frames,
+        stored=pressed,
+        turning=momenta.angular,
+        pressing=contacts.known,
+    )
 
 
 def _check_states(
     files: Files, model: AuditModel, scales: Scales, ledger: LedgerChecks, findings: Findings
-) -> list[tuple[float, frozenset[str], float]]:
+) -> dict[float, dict[frozenset[str], float]]:
     """Check the frames, and with each the stored step that ended there; return forces of pairs."""
     frames = FrameChecks(model, scales, findings)
     steps = StepChecks(model, scales, findings)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 CHECKS: dict[str, tuple[str, str]] = {
     # The case and its mesh.
+    "files": ("case, history and ledger are the files that the run left", ""),
     "mesh": ("the mesh has the size and the cells of the case", "m"),
     "initial velocity": ("the run starts at rest in shape, with the velocities of the case", "m/s"),
     # The states at output times.
@@ -41,16 +42,26 @@ CHECKS: dict[str, tuple[str, str]] = {
     "row: momentum": ("momentum is that of the centres", "kg m/s"),
     "row: kinetic": ("kinetic energy is at least that of the centres", "J"),
     "row: centres": ("centres move by the velocities of the scheme", "m"),
+    "row: tracks": ("tracked points move by the velocities of the scheme", "m"),
+    "row: flight": ("what touches nothing moves as gravity and mass damping say", "m"),
+    "row: angular": ("angular momentum changes by the moment of gravity alone", "kg m²/s"),
     "row: isolated": ("momentum is constant where nothing acts from outside", "kg m/s"),
-    "row: signs": ("counts, forces, certificates and residuals are not negative", ""),
+    "row: signs": ("counts, forces and lengths of steps are such as can be", ""),
+    "row: residual": ("residuals are within the tolerance of the contact solver", ""),
     "row: penetration": ("the smallest gap is not negative", "m"),
     # The summary.
     "summary: energies": ("energies are those of the first and the last row", "J"),
     "summary: extremes": ("extremes are those of the rows, or beyond them", ""),
     "summary: counts": ("steps, times and unknowns are those of the case and the rows", ""),
-    "summary: contacts": ("events account for forces and friction of the rows", ""),
+    "summary: run": ("title, wall times and cross-check are those of the case and each other", ""),
     "summary: status": ("a run is completed if it reached its end within Coulomb's law", ""),
     "summary: books": ("books of bodies and pairs are those of the last rows of the ledger", ""),
+    # The contact events of the summary.
+    "events: pairs": ("pairs have events if and only if they have touched", ""),
+    "events: times": ("events begin and end with the forces of their pairs", ""),
+    "events: force": ("forces of rows are those of the pairs in whose events they are", "N"),
+    "events: peak force": ("peaks are the largest forces of the pairs", "N"),
+    "events: friction": ("friction of events is that of their pairs in the meantime", "J"),
     # The books of bodies and pairs.
     "books: rows": ("every body has a row at every time, a pair from its first touch on", ""),
     "books: sums": ("bodies and pairs add up to the history", "J"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,19 @@ from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.scales import ROUND_OFF, Scales
 from carom.body import Body
+from carom.io import layout
+from carom.io.digest import digest
 from carom.mesh import Disc, Rectangle
+
+
+def check_files(path: Path, summary: Mapping[str, Any], findings: Findings) -> None:
+    """Check that case and tables are the files that the run left."""
+    if "files" not in summary:
+        findings.leave("whether case and tables are those of the run, which wrote no digests")
+        return
+    for name in layout.DIGESTED:
+        same = summary["files"].get(name) == digest(path / name)
+        findings.check("files", float(not same), 0.0, name)
 
 
 def check_mesh(model: AuditModel, findings: Findings) -> None:

@@ -40,8 +40,8 @@ class StepChecks:
     def __init__(self, model: AuditModel, scales: Scales, findings: Findings) -> None:
         self._model, self._scales, self._findings = model, scales, findings
         self._check = findings.check
-        self.pressed: list[tuple[float, frozenset[str], float]] = []
-        """Time [s], names of the pair and sum of its normal reactions [N] of all steps checked."""
+        self.pressed: dict[float, dict[frozenset[str], float]] = {}
+        """Sums of normal reactions [N] by names of the pair, at ends of steps [s]."""
         edges = [np.linalg.norm(np.diff(b.points[b.facets], axis=1), axis=2) for b in model.bodies]
         self._facet = float(min(edge.min() for edge in edges))
 
@@ -106,10 +106,11 @@ class StepChecks:
 
     def _note_forces(self, step: Step) -> None:
         found = step.contacts
+        forces = self.pressed.setdefault(step.time, {})
         for key in sorted(set(zip(found.source.tolist(), found.target.tolist(), strict=True))):
             mine = (found.source == key[0]) & (found.target == key[1])
             names = frozenset(self._model.name(index) for index in key)
-            self.pressed.append((step.time, names, float(found.normal_force[mine].sum())))
+            forces[names] = forces.get(names, 0.0) + float(found.normal_force[mine].sum())
 
     def _turn(self, step: Step) -> float:
         """Return how far normals may be off: places over the length of a facet."""

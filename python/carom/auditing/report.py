@@ -78,6 +78,28 @@ class Check:
 
 
 @dataclass(frozen=True)
+class Unchecked:
+    """Something that cannot be checked from what is stored.
+
+    Parameters
+    ----------
+    what
+        What it is.
+    numbers
+        The numbers that are believed, as file and key.
+    store
+        What a run has to store so that they can be checked; nothing where that is not enough.
+    """
+
+    what: str
+    numbers: tuple[str, ...] = ()
+    store: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.what}: store {self.store}" if self.store else self.what
+
+
+@dataclass(frozen=True)
 class Audit:
     """What an audit of a results directory found.
 
@@ -90,13 +112,13 @@ class Audit:
     figures
         Figures that nothing is asked of: name, value, unit.
     unchecked
-        What could not be checked, a line each.
+        What could not be checked.
     """
 
     path: Path
     checks: tuple[Check, ...]
     figures: tuple[tuple[str, float, str], ...]
-    unchecked: tuple[str, ...]
+    unchecked: tuple[Unchecked, ...]
 
     @property
     def confirmed(self) -> bool:
@@ -108,6 +130,17 @@ class Audit:
         """The checks that failed."""
         return tuple(check for check in self.checks if not check.confirmed)
 
+    @property
+    def verdict(self) -> str:
+        """How many checks hold, how many do not, and how much could not be checked."""
+        refuted, left = len(self.refuted), len(self.unchecked)
+        parts = [f"{len(self.checks) - refuted} confirmed"]
+        if refuted:
+            parts.append(f"{refuted} refuted")
+        if left:
+            parts.append(f"{left} cannot be checked from what is stored")
+        return ", ".join(parts)
+
     def as_dict(self) -> dict[str, Any]:
         """Return everything as plain data."""
         return {
@@ -117,7 +150,7 @@ class Audit:
             "figures": [
                 {"name": name, "value": value, "unit": unit} for name, value, unit in self.figures
             ],
-            "unchecked": list(self.unchecked),
+            "unchecked": [asdict(left) for left in self.unchecked],
         }
 
     def __rich__(self) -> Table:
@@ -146,8 +179,8 @@ class Audit:
         table = two_columns("Reported")
         for name, value, unit in self.figures:
             table.add_row(Text(name), Text(f"{value:.4g} {unit}".strip()))
-        for line in self.unchecked:
-            table.add_row(Text("not checked"), Text(line))
+        for left in self.unchecked:
+            table.add_row(Text("not checked"), Text(str(left)))
         return table
 
 
@@ -157,7 +190,7 @@ class Findings:
     def __init__(self) -> None:
         self._checks: dict[str, Check] = {}
         self._figures: dict[str, tuple[float, str]] = {}
-        self._unchecked: list[str] = []
+        self._unchecked: dict[str, Unchecked] = {}
 
     def check(self, name: str, figures: Values, tolerances: Values, where: str) -> None:
         """Note deviations of the check `name`; see `Check.note`."""
@@ -171,10 +204,11 @@ class Findings:
         largest = self._figures.get(name, (0.0, unit))[0]
         self._figures[name] = (max(largest, abs(value)), unit)
 
-    def leave(self, line: str) -> None:
-        """Say what was not checked."""
-        if line not in self._unchecked:
-            self._unchecked.append(line)
+    def leave(self, what: str, *numbers: str, store: str = "") -> None:
+        """Say what was not checked, which numbers that leaves, and what to store to change that."""
+        before = self._unchecked.get(what, Unchecked(what, store=store))
+        kept = dict.fromkeys((*before.numbers, *numbers))
+        self._unchecked[what] = Unchecked(what, tuple(kept), before.store)
 
     def audit(self, path: Path) -> Audit:
         """Return what was found."""
@@ -183,5 +217,5 @@ class Findings:
             path=path,
             checks=tuple(made[name] for name in CHECKS if name in made),
             figures=tuple((name, value, unit) for name, (value, unit) in self._figures.items()),
-            unchecked=tuple(self._unchecked),
+            unchecked=tuple(self._unchecked.values()),
         )

@@ -91,13 +91,19 @@ class Scales:
         tolerance = self._model.scenario.analysis.newton.tolerance * step.motion
         return SAFETY * max(tolerance, FLOOR * (self._model.size + self.reach))
 
+    def displacement_in(self, dt: Array) -> Array:
+        """Return how far displacements of steps of these lengths [s] may be off [m]."""
+        motion = (self.speed + float(np.linalg.norm(self._model.gravity)) * dt) * dt
+        tolerance = self._model.scenario.analysis.newton.tolerance * motion
+        return SAFETY * np.maximum(tolerance, FLOOR * (self._model.size + self.reach))
+
     def geometry(self, step: Step) -> float:
         """Return how far the places of contacts may be off [m]."""
         return LAST * self.displacement(step) + self.travel
 
     def force(self, step: Step, index: int) -> Array:
         """Return how far the equation of motion of nodes of a body may be off [N], [node_count]."""
-        return self._iteration(step, index) * self.displacement(step)
+        return self.iteration(step.dt, index) * self.displacement(step)
 
     def reaction(self, step: Step, total: float) -> float:
         """Return how far reactions whose sizes sum to `total` [N] may be from Coulomb's cone [N].
@@ -106,14 +112,14 @@ class Scales:
         motion of the step where that is larger.
         """
         bodies = range(len(self._model.bodies))
-        stiffest = max(float(self._iteration(step, index).max()) for index in bodies)
+        stiffest = max(float(self.iteration(step.dt, index).max()) for index in bodies)
         tolerance = self._model.scenario.contact.solver.tolerance
         return SAFETY * tolerance * (total + stiffest * step.motion)
 
-    def _iteration(self, step: Step, index: int) -> Array:
+    def iteration(self, dt: float, index: int) -> Array:
         """Return the force on nodes where all displacements are off by 1 m [N/m], [node_count]."""
         body, model = self._model.bodies[index], self._model
-        rate = 1 / (model.theta * step.dt)
+        rate = 1 / (model.theta * dt)
         damping = body.damping
         iteration = body.row_stiffness * (1.0 + damping.stiffness * rate)
-        return iteration + np.abs(body.mass.nodal) * (rate / step.dt + damping.mass * rate)
+        return iteration + np.abs(body.mass.nodal) * (rate / dt + damping.mass * rate)

@@ -46,8 +46,5 @@ def _show(found: Audit) -> None:
             highlight=False,
             soft_wrap=True,
         )
-    count = len(found.checks)
-    verdict = "confirmed" if found.confirmed else "REFUTED"
-    console.print(
-        f"{verdict}: {count - len(found.refuted)} of {count} checks hold", highlight=False
-    )
+    outcome = "confirmed" if found.confirmed else "REFUTED"
+    console.print(f"{outcome}: {found.verdict}", highlight=False)

@@ -19,6 +19,9 @@ FAILED_PROBLEM = "failed_contact_problem.hdf5"
 PROGRESS = "progress.json"
 """There while the run goes on, and after it was killed."""
 
+DIGESTED = (CASE, HISTORY, LEDGER)
+"""Files of which the summary has digests: text that is easily edited."""
+
 CHECKPOINT = "checkpoint.h5"
 PREVIOUS_CHECKPOINT = "checkpoint-previous.h5"
 FRESH_CHECKPOINT = "checkpoint-fresh.h5"

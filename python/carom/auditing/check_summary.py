@@ -1,0 +1,216 @@
+"""Checks of the summary against case, history and what a run can be."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from carom.auditing.model import AuditModel
+from carom.auditing.report import Findings
+from carom.auditing.rows import GRID, Rows
+from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
+
+SUMMED = ("friction", "viscous", "plastic", "scheme", "normal_contact", "external", "prescribed")
+"""Terms of the ledger that are sums since the start."""
+
+
+class SummaryChecks:
+    """Checks of the summary.
+
+    Parameters
+    ----------
+    model, scales
+        The model and its magnitudes.
+    findings
+        Where what is found goes.
+    rows
+        The history.
+    summary
+        What ``summary.json`` says.
+    """
+
+    def __init__(
+        self,
+        model: AuditModel,
+        scales: Scales,
+        findings: Findings,
+        rows: Rows,
+        summary: Mapping[str, Any],
+    ) -> None:
+        self._model, self._scales, self._findings = model, scales, findings
+        self._rows, self._history, self._summary = rows, rows.history, summary
+        self._end = model.scenario.analysis.end_time
+
+    def all(self) -> None:
+        """Check everything."""
+        self._energies()
+        self._extremes()
+        self._friction()
+        self._counts()
+        self._run()
+        self._status()
+
+    def _energies(self) -> None:
+        h, energy = self._history, self._summary["energy"]
+        check = self._findings.check
+        check("summary: energies", _number(energy["initial"]) - h["total"][0], 0.0, "initial")
+        check("summary: energies", _number(energy["final"]) - h["total"][-1], 0.0, "final")
+        for name in ("kinetic", "strain", *SUMMED):
+            check("summary: energies", _number(energy[name]) - h[name][-1], 0.0, name)
+
+    def _extremes(self) -> None:
+        h, summary, every = self._history, self._summary, self._rows.complete
+        energy, certificate = summary["energy"], summary["certificate"]
+        off = ROUND_OFF * self._scales.energy
+        for name, stored, rows, allowed in (
+            ("energy.max_drift", energy["max_drift"], np.abs(h["total"] - h["total"][0]), off),
+            ("energy.max_defect", energy["max_defect"], np.abs(h["defect"]), 0.0),
+            (
+                "certificate.tolerance_joule",
+                self._largest_energy(),
+                h["total"] + h["friction"],
+                off,
+            ),
+        ):
+            self._extreme(name, _number(stored) - rows.max(), allowed, exact=every)
+        for name, stored, rows in (
+            ("certificate.max_joule", certificate["max_joule"], h["certificate"]),
+            ("certificate.max_residual", certificate["max_residual"], h["residual"]),
+            ("max_blend", summary["max_blend"], h["blend"]),
+            ("energy.max_step_defect", energy["max_step_defect"], h["step_defect"]),
+        ):
+            # A row has the largest since the row before.
+            self._extreme(name, _number(stored) - rows.max(), 0.0, exact=True)
+        if summary["min_gap"] is not None:
+            excess = h["min_gap"].min() - _number(summary["min_gap"])
+            self._extreme("min_gap", excess, 0.0, exact=every)
+        if self._model.condition in ("gap", "massless") and self._model.sides:
+            one_sided = not any(side.two_sided for side in self._model.sides)
+            depth = -_number(summary["min_gap"]) if summary["min_gap"] is not None else 0.0
+            if one_sided:
+                allowed = self._scales.penetration()
+                self._findings.check("summary: extremes", max(depth, 0.0), allowed, "min_gap")
+
+    def _extreme(self, name: str, excess: float, off: float, *, exact: bool) -> None:
+        """Check that an extreme is that of the rows, or at least not less."""
+        figure = excess if exact or excess < 0 else 0.0
+        self._findings.check("summary: extremes", figure, off, name)
+        if not exact:
+            self._findings.leave(
+                "extremes between two rows",
+                f"summary.json: {name}",
+                store="output.history_every = the time step, and no halved steps",
+            )
+
+    def _friction(self) -> None:
+        """Check that the run's least friction says whether friction of any step gave energy."""
+        least, h = _number(self._summary["least_friction"]), self._history
+        self._findings.check("summary: extremes", max(least, 0.0), 0.0, "least_friction")
+        if self._model.massless:
+            self._findings.leave("the least friction of a step", "summary.json: least_friction")
+            return
+        # No step may give back more than this, and none can have taken less than nothing.
+        slip = self._scales.displacement_in(np.array(self._rows.dt)) + self._scales.travel
+        off = SAFETY**2 * float(slip) * float(h["normal_force"].max()) + (
+            ROUND_OFF * self._scales.energy
+        )
+        self._findings.check("summary: extremes", min(least, 0.0), off, "least_friction")
+        self._findings.leave(
+            "the least friction of a step, which is round-off", "summary.json: least_friction"
+        )
+
+    def _largest_energy(self) -> float:
+        """Return the largest energy of the run [J], which the certificate is measured by."""
+        allowed = _number(self._summary["certificate"]["tolerance_joule"])
+        return allowed / self._model.scenario.contact.certificate_tolerance
+
+    def _counts(self) -> None:
+        rows, summary, check = self._rows, self._summary, self._findings.check
+        end = float(rows.times[-1])
+        steps = np.ceil(end / rows.dt - GRID)
+        if summary["status"] == "failed":
+            steps = min(steps, summary["steps"])
+        dofs = sum(2 * (len(body.points) - len(body.images)) for body in self._model.bodies)
+        for name, figure in (
+            ("steps", summary["steps"] - steps),
+            ("end_time", summary["end_time"] - end),
+            ("time_step", summary["time_step"] - rows.dt),
+            ("dofs", summary["dofs"] - dofs),
+        ):
+            check("summary: counts", float(figure), 0.0, name)
+        if "size" in summary:
+            off = ROUND_OFF * self._model.size
+            check("summary: counts", _number(summary["size"]) - self._model.size, off, "size")
+        retried = float(self._history["retried_steps"].sum() - summary["retried_steps"])
+        if summary["status"] == "failed":
+            retried = max(retried, 0.0)  # the last ones may come after the last row
+        check("summary: counts", retried, 0.0, "retried_steps")
+        self._newton()
+
+    def _newton(self) -> None:
+        """Check that every row has whole iterations, one a step at least, and as many as are said.
+
+        What a row has is their mean over its steps.
+        """
+        rows, check = self._rows, self._findings.check
+        known = np.isfinite(rows.steps)
+        mean, steps = self._history["newton_iterations"][known], rows.steps[known]
+        count = mean * steps
+        off = SAFETY * EPS * np.maximum(count, 1.0)
+        check("summary: counts", count - np.rint(count), off, "newton_iterations of rows")
+        check("summary: counts", np.maximum(steps - count, 0.0), off, "newton_iterations of rows")
+        most = self._model.scenario.analysis.newton.max_iterations
+        # A step that contacts turn up in is repeated, four times in all.
+        check("summary: counts", np.maximum(mean - 4 * most, 0.0), off, "newton_iterations of rows")
+        said = float(self._summary["newton_iterations"])
+        total = float(np.rint(count).sum())
+        if known.all():
+            check("summary: counts", total - said, 0.0, "newton_iterations")
+        else:
+            check("summary: counts", max(total - said, 0.0), 0.0, "newton_iterations")
+            self._findings.leave(
+                "iterations of the nominal step that failed",
+                "summary.json: newton_iterations",
+                "history.csv: newton_iterations",
+            )
+
+    def _run(self) -> None:
+        """Check what the summary says of the run as such."""
+        summary, check = self._summary, self._findings.check
+        scenario = self._model.scenario
+        check("summary: run", float(summary["title"] != scenario.title), 0.0, "title")
+        wall, per_step = _number(summary["wall_s"]), _number(summary["wall_s_per_step"])
+        check("summary: run", max(-wall, 0.0), 0.0, "wall_s")
+        error = per_step - wall / max(summary["steps"], 1)
+        check("summary: run", error, SAFETY * EPS * wall, "wall_s_per_step")
+        asked = scenario.contact.solver.cross_check
+        answered = summary["cross_check"] is not None
+        check("summary: run", float(asked != answered), 0.0, "cross_check")
+        check("summary: run", float(summary["factorisations"] < 0), 0.0, "factorisations")
+        leave = self._findings.leave
+        leave("which version ran", "summary.json: version")
+        leave("how often matrices were factorised", "summary.json: factorisations")
+        if answered:
+            leave("what a second solver said", "summary.json: cross_check")
+
+    def _status(self) -> None:
+        """Check that a run is called completed if it is, and if it keeps Coulomb's law."""
+        summary, certificate = self._summary, self._summary["certificate"]
+        status, end = summary["status"], float(self._rows.times[-1])
+        kept = _number(certificate["max_joule"]) <= _number(certificate["tolerance_joule"])
+        known = ("completed", "uncertified", "stopped", "failed", "interrupted")
+        check = self._findings.check
+        check("summary: status", float(status not in known), 0.0, f"{status!r}")
+        if status == "failed":
+            check("summary: status", float(end >= self._end), 0.0, "failed at the end")
+        if status == "completed":
+            check("summary: status", end - self._end, 0.0, "end of the run")
+        if status in ("completed", "uncertified", "stopped"):
+            check("summary: status", float(kept == (status == "uncertified")), 0.0, "certificate")
+
+
+def _number(value: object) -> float:
+    """Return a number of the summary; null, which stands for what is not finite, is not one."""
+    return float(value) if isinstance(value, int | float) else float("nan")

@@ -1,0 +1,62 @@
+"""The rows of the history and the steps between them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from carom.auditing.arrays import Array
+from carom.auditing.model import AuditModel
+
+GRID = 1e-6
+"""Times closer than this part of a step are the same to the run."""
+
+
+class Rows:
+    """The history by rows, and how many steps were made for each.
+
+    Parameters
+    ----------
+    model
+        The model.
+    history, summary
+        What ``history.csv`` and ``summary.json`` say.
+    """
+
+    def __init__(
+        self, model: AuditModel, history: Mapping[str, Array], summary: Mapping[str, Any]
+    ) -> None:
+        self.history = history
+        self.times: Array = history["time"]
+        self.dt = model.scenario.analysis.time_step
+        self.nominal = np.zeros(len(self.times))
+        """Nominal steps since the row before, none for the first, [row_count]."""
+        self.nominal[1:] = np.maximum(np.ceil(np.diff(self.times) / self.dt - GRID), 1.0)
+        # A step that fails becomes two halves, each of which may fail: one step more each time.
+        self.steps: Array = self.nominal + history["retried_steps"]
+        """Steps since the row before, NaN where that is not known, [row_count]."""
+        self.steps[:1] = 0.0
+        if summary["status"] == "failed" and history["retried_steps"][-1] > 0:
+            self.steps[-1] = np.nan  # the last failures made no steps
+        self.single = self.steps == 1.0
+        """Whether one step led from the row before to this one, [row_count]."""
+        self.complete = bool(self.single[1:].all())
+        """Whether every step has a row."""
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    def at(self, time: float) -> int | None:
+        """Return the row of a time [s], if there is one."""
+        found = np.flatnonzero(self.times == time)
+        return int(found[0]) if len(found) else None
+
+    def drift(self, name: str) -> Array:
+        """Return the velocities of the centre of a body [m/s], shape [row_count, 2]."""
+        return np.stack([self.history[f"{name}.{column}"] for column in ("v_x", "v_y")], axis=1)
+
+    def centre(self, name: str) -> Array:
+        """Return the places of the centre of a body [m], shape [row_count, 2]."""
+        return np.stack([self.history[f"{name}.{column}"] for column in ("x", "y")], axis=1)
