@@ -20,6 +20,7 @@ from carom.auditing.check_rows import RowChecks
 from carom.auditing.check_steps import StepChecks
 from carom.auditing.check_summary import SummaryChecks
 from carom.auditing.check_surface import SurfaceChecks
+from carom.auditing.check_warnings import check_warnings
 from carom.auditing.files import Files, Frame
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Audit, Check, Findings, Unchecked
@@ -82,10 +83,11 @@ def _check(files: Files, findings: Findings) -> None:
     rows, events = Rows(model, files.history, files.summary), files.summary["contacts"]
     RowChecks(model, scales, findings, rows, files.summary).all()
     SummaryChecks(model, scales, findings, rows, files.summary).all()
+    check_warnings(model, files.summary, findings)
     momenta = MomentumChecks(model, scales, findings, rows, events)
     momenta.all()
     contacts = EventChecks(
-        model, scales, findings, rows, ledger=files.ledger, events=events, stored=pressed
+        model, scales, findings, rows, ledger=files.ledger, summary=files.summary, stored=pressed
     )
     contacts.all()
     leave_rows(

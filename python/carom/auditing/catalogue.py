@@ -56,6 +56,7 @@ CHECKS: dict[str, tuple[str, str]] = {
     "summary: run": ("title, wall times and cross-check are those of the case and each other", ""),
     "summary: status": ("a run is completed if it reached its end within Coulomb's law", ""),
     "summary: books": ("books of bodies and pairs are those of the last rows of the ledger", ""),
+    "summary: warnings": ("warnings are those that other numbers give rise to", ""),
     # The contact events of the summary.
     "events: pairs": ("pairs have events if and only if they have touched", ""),
     "events: times": ("events begin and end with the forces of their pairs", ""),

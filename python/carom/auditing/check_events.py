@@ -22,6 +22,9 @@ TERMS = ("friction", "normal_contact", "prescribed")
 PINNED = 5e-3
 """A figure is known if its bounds are no farther apart than this part of it."""
 
+FLICKER = 3.0
+"""Steps for which a pair that stays in contact may be without a force."""
+
 STORE = "output.history_every = the time step"
 
 
@@ -64,7 +67,7 @@ class EventChecks:
         The history.
     ledger
         The columns of every body and pair.
-    events
+    summary
         What ``summary.json`` says.
     stored
         For the times of stored steps [s] the normal forces of the pairs that press [N].
@@ -78,7 +81,7 @@ class EventChecks:
         rows: Rows,
         *,
         ledger: Mapping[str, Mapping[str, Array]],
-        events: list[Mapping[str, Any]],
+        summary: Mapping[str, Any],
         stored: Mapping[float, Mapping[frozenset[str], float]],
     ) -> None:
         self._model, self._scales = model, scales
@@ -109,10 +112,17 @@ class EventChecks:
                 peak=_number(event["peak_force"]),
                 friction=_number(event["friction_work"]),
             )
-            for index, event in enumerate(events)
+            for index, event in enumerate(summary["contacts"])
         ]
         self.known = np.zeros(len(rows), dtype=bool)
         """Rows whose normal force is known from something else, [row_count]."""
+        self._merge = {
+            name: _number(said.get("merge_contacts", model.scenario.output.merge_contacts))
+            for name, between in named.items()
+            for said in summary["pairs"]
+            if set(said["between"]) == between
+        }
+        """Pauses of pairs shorter than this belong to an event [s]."""
         self._claims = [self._claimed(row) for row in range(len(rows))]
 
     def all(self) -> None:
@@ -125,6 +135,7 @@ class EventChecks:
             return
         onsets = np.array([event.onset for event in self._events])
         self._check("events: times", np.maximum(-np.diff(onsets), 0.0), 0.0, "order of events")
+        self._merges()
         self._forces()
         for pair in self._pairs:
             events = self._of(pair)
@@ -252,6 +263,23 @@ class EventChecks:
             return False
         return self._presses(event.pair, row) and self._cannot(event.pair, row + 1)
 
+    def _merges(self) -> None:
+        """Check how close contacts are that count as one: as the case says, or waves run.
+
+        While a pressure wave runs along the longest side of a body, contacts may open and close.
+        """
+        given = self._model.scenario.output.merge_contacts
+        waves = {
+            body.name: float(np.ptp(body.points, axis=0).max())
+            / body.law.wave_speed(self._model.density(body.name))
+            for body in self._model.bodies
+        }
+        for pair, merge in self._merge.items():
+            own = min(waves[name] for name in pair.split("|") if name in waves)
+            wanted = max(own, FLICKER * self._rows.dt) if given is None else given
+            off = ROUND_OFF * wanted if given is None else 0.0
+            self._check("events: times", merge - wanted, off, f"{pair}, merge_contacts")
+
     # Its force.
 
     def _peak(self, event: Event) -> None:
@@ -276,7 +304,7 @@ class EventChecks:
 
     def _pauses(self, pair: str, events: list[Event]) -> None:
         """Check that pauses within an event are shorter than those between two."""
-        rows, merge = self._rows, self._model.scenario.output.merge_contacts
+        rows, merge = self._rows, self._merge.get(pair, np.nan)
         slack = GRID * rows.dt
         for before, after in pairwise(events):
             row = rows.at(after.onset)

@@ -67,12 +67,6 @@ class SummaryChecks:
         for name, stored, rows, allowed in (
             ("energy.max_drift", energy["max_drift"], np.abs(h["total"] - h["total"][0]), off),
             ("energy.max_defect", energy["max_defect"], np.abs(h["defect"]), 0.0),
-            (
-                "certificate.tolerance_joule",
-                self._largest_energy(),
-                h["total"] + h["friction"],
-                off,
-            ),
         ):
             self._extreme(name, _number(stored) - rows.max(), allowed, exact=every)
         for name, stored, rows in (
@@ -83,6 +77,7 @@ class SummaryChecks:
         ):
             # A row has the largest since the row before.
             self._extreme(name, _number(stored) - rows.max(), 0.0, exact=True)
+        self._tolerance(off)
         if summary["min_gap"] is not None:
             excess = h["min_gap"].min() - _number(summary["min_gap"])
             self._extreme("min_gap", excess, 0.0, exact=every)
@@ -121,10 +116,32 @@ class SummaryChecks:
             "the least friction of a step, which is round-off", "summary.json: least_friction"
         )
 
-    def _largest_energy(self) -> float:
-        """Return the largest energy of the run [J], which the certificate is measured by."""
-        allowed = _number(self._summary["certificate"]["tolerance_joule"])
-        return allowed / self._model.scenario.contact.certificate_tolerance
+    def _tolerance(self, off: float) -> None:
+        """Check what the certificate is measured by: the largest energy, or work of reactions."""
+        certificate, h, check = self._summary["certificate"], self._history, self._findings.check
+        share = self._model.scenario.contact.certificate_tolerance
+        allowed = _number(certificate["tolerance_joule"])
+        largest = float((h["total"] + h["friction"]).max())
+        if "reference_joule" not in certificate:
+            excess = allowed / share - largest
+            self._extreme("certificate.tolerance_joule", excess, off, exact=self._rows.complete)
+            return
+        reference = _number(certificate["reference_joule"])
+        check("summary: extremes", allowed - share * reference, EPS * allowed, "tolerance_joule")
+        excess = reference - largest
+        self._extreme("certificate.reference_joule", min(excess, 0.0), off, exact=True)
+        if excess > off:
+            self._findings.leave(
+                "what the certificate is measured by, where that is work of reactions or between "
+                "two rows",
+                "summary.json: certificate.reference_joule",
+            )
+        solver = _number(certificate.get("solver_joule", 0.0))
+        check("summary: extremes", max(-solver, 0.0), 0.0, "solver_joule")
+        self._findings.leave(
+            "how much of the certificate the contact solver left",
+            "summary.json: certificate.solver_joule",
+        )
 
     def _counts(self) -> None:
         rows, summary, check = self._rows, self._summary, self._findings.check

@@ -74,6 +74,10 @@ class Law:
         """Whether a rotation strains nothing."""
         return self.kind != "linear-elastic"
 
+    def wave_speed(self, density: float) -> float:
+        """Return the speed of pressure waves [m/s] at a density [kg/m³]."""
+        return float(np.sqrt(self.modulus / density))
+
     @property
     def modulus(self) -> float:
         """λ + 2μ [Pa], the stiffness against a strain with no way to yield."""

@@ -137,6 +137,11 @@ class AuditModel:
         mine = (i for i, b in enumerate(self.bodies) if b.span.start <= node < b.span.stop)
         return next(mine, len(self.bodies))
 
+    def density(self, body: str) -> float:
+        """Return the density of a body by name [kg/m³]."""
+        entry = next(entry for entry in self.scenario.bodies if entry.name == body)
+        return self.scenario.materials[entry.material].density
+
     def name(self, index: int) -> str:
         """Return the name of a body, or of the obstacle −1 − index; no name if there is none."""
         members = self.bodies if index >= 0 else self.scenario.obstacles

@@ -229,3 +229,34 @@ def test_results_without_digests_are_audited_and_that_is_said(directories, tmp_p
     audit = carom.audit(directory)
     assert audit.confirmed
     assert any("wrote no digests" in left.what for left in audit.unchecked)
+
+
+def warned(files, *warnings, **changes):
+    summary = {**files.summary, **changes, "warnings": list(warnings)}
+    return refuted(files.changed(summary=summary))
+
+
+def test_warnings_are_those_that_the_numbers_give_rise_to(read):
+    files = read("two pairs")
+    gap = files.summary["min_gap"]
+    said = {"code": "penetration", "message": "nodes were inside", "where": "min_gap"}
+    size = files.summary["size"]
+    assert "summary: warnings" not in warned(files)
+    assert "summary: warnings" in warned(files, {**said, "value": -gap, "allowed": 0.01 * size})
+    # With a deep gap there must be one, with that figure and that limit.
+    deep = {**said, "value": 0.1, "allowed": 0.01 * size}
+    assert "summary: warnings" not in warned(files, deep, min_gap=-0.1)
+    for changes in ({"value": 0.101}, {"allowed": 0.02 * size}, {"where": "energy"}):
+        assert "summary: warnings" in warned(files, {**deep, **changes}, min_gap=-0.1)
+    assert "summary: warnings" in warned(files, min_gap=-0.1)
+
+
+def test_warnings_of_the_case_have_its_figures(read):
+    files = read("two pairs")
+    speed = float(np.sqrt(2700 * 0.67 / (1.33 * 0.34)))  # m/s, of pressure waves
+    slow = {"code": "wave-speed", "message": "no solid", "where": "materials.m", "allowed": 300.0}
+    assert "summary: warnings" not in warned(files, {**slow, "value": speed})
+    assert "summary: warnings" in warned(files, {**slow, "value": 1.01 * speed})
+    coarse = {"code": "coarse-step", "message": "waves", "where": "analysis.time_step"}
+    assert "summary: warnings" not in warned(files, {**coarse, "value": 2e-3, "allowed": 1e-3})
+    assert "summary: warnings" in warned(files, {**coarse, "value": 3e-3, "allowed": 1e-3})

@@ -1,0 +1,79 @@
+"""Checks of the warnings of the summary: what gave rise to them, and that none is missing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from carom.auditing.model import AuditModel
+from carom.auditing.report import Findings
+from carom.auditing.scales import EPS, ROUND_OFF, SAFETY
+
+LARGE_DEFECT = 0.02
+"""Share of the energy that the ledger may miss without a word."""
+
+DEEP = 0.01
+"""Penetration, in sizes of the largest body, that is no word worth."""
+
+Figures = tuple[float, float]
+"""What a number is, and what it may be."""
+
+
+def check_warnings(model: AuditModel, summary: Mapping[str, Any], findings: Findings) -> None:
+    """Check the warnings of a summary by its other numbers and the case.
+
+    Parameters
+    ----------
+    model
+        The model.
+    summary
+        What ``summary.json`` says; one without warnings is of a version that wrote none.
+    findings
+        Where what is found goes.
+    """
+    if "warnings" not in summary:
+        return
+    written = {warning["code"]: warning for warning in summary["warnings"]}
+    for code, where, (value, allowed) in _due(summary):
+        warned = written.pop(code, None)
+        findings.check("summary: warnings", float((value > allowed) != bool(warned)), 0.0, code)
+        if warned:
+            _compare(findings, code, warned, (value, allowed))
+            findings.check("summary: warnings", float(warned["where"] != where), 0.0, code)
+    for code, warning in written.items():
+        if code == "coarse-step":
+            step = model.scenario.analysis.time_step
+            _compare(findings, code, warning, (step, float(warning["allowed"] or 0.0)))
+        elif code == "wave-speed":
+            speeds = [body.law.wave_speed(model.density(body.name)) for body in model.bodies]
+            error = min(abs(speed / _number(warning["value"]) - 1) for speed in speeds)
+            findings.check("summary: warnings", error, ROUND_OFF, code)
+        findings.leave("what warnings say of the case", "summary.json: warnings")
+    if summary["warnings"]:
+        findings.leave("the wording of warnings", "summary.json: warnings")
+
+
+def _due(summary: Mapping[str, Any]) -> Iterator[tuple[str, str, Figures]]:
+    """Yield the codes of what other numbers of the summary decide, where, and the figures."""
+    energy, gap = summary["energy"], summary["min_gap"]
+    supplied = sum(abs(energy[name]) for name in ("initial", "external", "prescribed"))
+    reference, defect = max(supplied, energy["max_drift"]), energy["max_defect"]
+    share = defect / reference if reference > 0 else (float("inf") if defect > 0 else 0.0)
+    yield "ledger-defect", "energy.max_defect", (share, LARGE_DEFECT)
+    depth = 0.0 if gap is None else -gap
+    yield "penetration", "min_gap", (depth, DEEP * summary["size"])
+    second = summary["cross_check"] or {"disagreements": 0, "unsolved": 0}
+    for code, key in (("contact-not-unique", "disagreements"), ("contact-unchecked", "unsolved")):
+        yield code, f"cross_check.{key}", (float(second[key]), 0.0)
+
+
+def _compare(findings: Findings, code: str, warning: Mapping[str, Any], figures: Figures) -> None:
+    for key, figure in zip(("value", "allowed"), figures, strict=True):
+        error = _number(warning[key]) - figure
+        off = SAFETY * EPS * abs(figure)
+        findings.check("summary: warnings", error, off, f"{code}, {key}")
+
+
+def _number(value: object) -> float:
+    """Return a number of the summary; null, which stands for what is not finite, is not one."""
+    return float(value) if isinstance(value, int | float) else float("nan")
