@@ -193,6 +193,11 @@ class RowChecks:
         self._check("row: signs", np.maximum(h["contacts"] - most, 0.0), 0.0)
         solver = self._model.scenario.contact.solver.tolerance
         self._check("row: residual", h["residual"], solver)
+        self._findings.report(
+            f"largest residual of a contact problem; the case asks for {solver:g}",
+            float(h["residual"].max()),
+            "",
+        )
         two_sided = any(side.two_sided for side in self._model.sides)
         if self._model.condition in ("gap", "massless") and self._model.sides and not two_sided:
             off = self._scales.penetration()

@@ -133,6 +133,16 @@ class StepChecks:
         held = np.zeros(len(size), dtype=bool)
         held[body.massless] = True
         self._check("equation of motion", size[~held], off[~held], at)
+        if step.motion > 0 and not held.all():
+            stiffness = body.folded(self._scales.iteration(step.dt, index))[~held]
+            correction = float((size[~held] / np.where(stiffness > 0, stiffness, np.inf)).max())
+            # Newton's tolerance is that of the last correction, beside the motion.
+            self._findings.report(
+                "residual of a step as a correction, relative to its motion; the case asks for "
+                f"{self._model.scenario.analysis.newton.tolerance:g}",
+                correction / step.motion,
+                "",
+            )
         if held.any():
             self._check("massless nodes", size[held], off[held], at)
 
