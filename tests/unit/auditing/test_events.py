@@ -260,3 +260,41 @@ def test_warnings_of_the_case_have_its_figures(read):
     coarse = {"code": "coarse-step", "message": "waves", "where": "analysis.time_step"}
     assert "summary: warnings" not in warned(files, {**coarse, "value": 2e-3, "allowed": 1e-3})
     assert "summary: warnings" in warned(files, {**coarse, "value": 3e-3, "allowed": 1e-3})
+
+
+def test_a_certificate_is_measured_by_no_less_than_the_largest_energy(read):
+    files = read("two pairs")
+    certificate = files.summary["certificate"]
+    largest = certificate["tolerance_joule"] / 1e-9  # J
+
+    def said(reference, tolerance):
+        parts = {"solver_joule": 0.0, "reference_joule": reference, "tolerance_joule": tolerance}
+        summary = {**files.summary, "certificate": {**certificate, **parts}}
+        return refuted(files.changed(summary=summary))
+
+    assert said(largest, 1e-9 * largest) == set()
+    # Where bodies rest on one another the work of reactions may be more.
+    assert said(2 * largest, 1e-9 * (2 * largest)) == set()
+    assert "summary: extremes" in said(0.9 * largest, 1e-9 * (0.9 * largest))
+    assert "summary: extremes" in said(largest, 1.01e-9 * largest)
+
+
+def test_contacts_are_merged_as_the_case_says_or_as_waves_run(read):
+    files = read("two pairs")
+
+    def merging(scenario, merge):
+        pairs = [{**pair, "merge_contacts": merge} for pair in files.summary["pairs"]]
+        changed = files.changed(scenario=scenario, summary={**files.summary, "pairs": pairs})
+        changed._model = Files.model(changed)
+        return refuted(changed)
+
+    given = files.scenario.with_overrides(["output.merge_contacts=0.03"])
+    assert merging(given, 0.03) == set()
+    assert "events: times" in merging(given, 0.0301)
+    # Of the discs, whose diameter is 2 m; a field of a model that was not given is left out.
+    own = given.model_copy(
+        update={"output": given.output.model_copy(update={"merge_contacts": None})}
+    )
+    waves = 2 / np.sqrt(2700 * 0.67 / (1.33 * 0.34))  # s
+    assert merging(own, waves) == set()
+    assert "events: times" in merging(own, 1.01 * waves)
