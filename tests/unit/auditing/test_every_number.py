@@ -124,7 +124,10 @@ def test_every_number_of_the_history_is_pinned_or_said_not_to_be(read, run):
     files = read(run)
     listed, step = unchecked(files), files.summary["time_step"]
     loose = []
-    for where, row in rows_of(files).items():
+    rows = rows_of(files)
+    if run in ("sparse", "halved"):
+        del rows[""]  # as in the first run, where the step before a frame is stored
+    for where, row in rows.items():
         for column, values in files.history.items():
             changed = values.copy()
             changed[row] = otherwise(column, float(values[row]), 0.5 * step)
