@@ -157,7 +157,9 @@ class FallingSimulation:
             },
             "certificate": {
                 "max_joule": self._certificate,
+                "solver_joule": self._certificate,
                 "max_residual": 0.0,
+                "reference_joule": 1.0,
                 "tolerance_joule": 1e-9,
             },
             "bodies": [],

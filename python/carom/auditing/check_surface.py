@@ -172,6 +172,10 @@ class SurfaceChecks:
                 loads += [(node, share, -normal) for node, share in feet if share > 0.0]
             for node, share, towards in loads:
                 self._bear(node, share * force, -normals @ towards, turn, (mine, off))
+                # The run's normal is that of its last guess.
+                around = np.flatnonzero((self._facets == node).any(axis=1))
+                slack = np.linalg.norm(contacts.reaction[k]) * contacts.normal_error[k]
+                np.add.at(off, around, SAFETY * slack / self._area[around])
         where = f"t = {frame.time:g} s"
         self._check("surface: pressure", self._pressure - mine, off, where)
 

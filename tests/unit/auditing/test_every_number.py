@@ -163,4 +163,5 @@ def test_what_cannot_be_checked_is_little_where_all_is_stored(read):
     assert unchecked(read("everything")) == {
         *("summary.json: version", "summary.json: factorisations", "summary.json: least_friction"),
         *("history.csv: certificate", "history.csv: residual"),
+        "summary.json: certificate.solver_joule",
     }
