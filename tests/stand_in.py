@@ -69,6 +69,10 @@ class FallingSimulation:
         kinetic = 8.0 * np.cos(time) ** 2
         return [time, kinetic, 8.0 - kinetic, 8.0, time / 3, 0.0, 1, *np.sin(time + np.arange(6))]
 
+    def describe(self):
+        bodies = [{"wave_speed": 100.0, "diameter": 2.0}] * 2
+        return {"suggested_time_step": self._analysis["time_step"], "bodies": bodies}
+
     def mesh(self):
         return copy.deepcopy(MESH)
 
@@ -145,6 +149,7 @@ class FallingSimulation:
         return {
             "steps": self.step,
             "dofs": 10,
+            "size": 2.0,
             "end_time": self.time,
             "time_step": self._analysis["time_step"],
             "newton_iterations": 0,

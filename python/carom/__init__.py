@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from carom.contact import Contact, FrictionSolver, Pair
     from carom.errors import (
         CaromError,
+        CaromWarning,
         CertificateError,
         ConvergenceError,
         InputError,
@@ -56,6 +57,7 @@ __all__ = [
     "BodyState",
     "Box",
     "CaromError",
+    "CaromWarning",
     "CertificateError",
     "Check",
     "Conserving",
@@ -130,6 +132,7 @@ _HOMES = {
     "contact": ("Contact", "FrictionSolver", "Pair"),
     "errors": (
         "CaromError",
+        "CaromWarning",
         "CertificateError",
         "ConvergenceError",
         "InputError",

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from carom.building import build
+from carom.doubts import Doubt
 from carom.mesh import MeshFile
 from carom.mesh_file import Note
 from carom.scenario import Scenario
@@ -15,7 +17,6 @@ COARSE_STEP = 5.0
 
 SPLIT = 1e-6
 """Rest of a step at the end of the run, in steps, that is more than round-off."""
-
 
 WAVE_SPEEDS = (10.0, 2e4)
 """Speeds of pressure waves [m/s] between that of the softest foam and that of diamond."""
@@ -49,15 +50,13 @@ def check(scenario: Scenario) -> Check:
     InputError
         The scenario cannot be run.
     """
-    notes: list[Note] = []
-    description = build(scenario, notes).describe()
-    done = (note.message for note in notes)
-    warnings = (*done, *unit_warnings(scenario, description), *_warnings(scenario, description))
-    return Check(description=description, warnings=warnings)
+    description = build(scenario, []).describe()
+    found = (*first_doubts(scenario, description), *_unlikely(scenario, description))
+    return Check(description=description, warnings=tuple(doubt.message for doubt in found))
 
 
-def unit_warnings(scenario: Scenario, description: dict[str, Any]) -> list[str]:
-    """Return what points to units that are not SI, a line for each body.
+def first_doubts(scenario: Scenario, description: Mapping[str, Any]) -> Iterator[Doubt]:
+    """Yield what a case gives rise to doubt before its first step.
 
     Parameters
     ----------
@@ -66,39 +65,61 @@ def unit_warnings(scenario: Scenario, description: dict[str, Any]) -> list[str]:
     description
         What the native simulation says of it.
     """
-    warnings = []
+    yield from _doubts_of_units(scenario, description)
+    step, suggested = scenario.analysis.time_step, description["suggested_time_step"]
+    if scenario.analysis.kind == "dynamic" and step > COARSE_STEP * suggested:
+        yield Doubt(
+            "coarse-step",
+            f"analysis.time_step = {step:g} s is {step / suggested:.3g} times the suggested "
+            f"{suggested:.3g} s: waves will not be resolved",
+            "analysis.time_step",
+            step,
+            COARSE_STEP * suggested,
+        )
+
+
+def _doubts_of_units(scenario: Scenario, description: Mapping[str, Any]) -> Iterator[Doubt]:
+    """Yield what points to units that are not SI."""
     slowest, fastest = WAVE_SPEEDS
-    for body, built in zip(scenario.bodies, description["bodies"], strict=True):
+    for index, (body, built) in enumerate(zip(scenario.bodies, description["bodies"], strict=True)):
         speed, size = built["wave_speed"], built["diameter"]
         if not slowest <= speed <= fastest:
             density = scenario.materials[body.material].density
-            warnings.append(
+            yield Doubt(
+                "wave-speed",
                 f"body {body.name}: waves run at {speed:.3g} m/s in materials.{body.material}, no "
                 f"solid between foam and diamond has that; give moduli in Pa and density "
-                f"({density:g}) in kg/m³"
+                f"({density:g}) in kg/m³",
+                f"materials.{body.material}",
+                speed,
+                slowest if speed < slowest else fastest,
             )
         if isinstance(body.mesh, MeshFile) and size > LARGE:
-            warnings.append(
+            yield Doubt(
+                "body-size",
                 f"body {body.name} is {size:.4g} m large; if its file is in millimetres, set scale "
-                f"= {body.mesh.scale * 1e-3:g} in its mesh"
+                f"= {body.mesh.scale * 1e-3:g}",
+                f"bodies.{index}.mesh.scale",
+                size,
+                LARGE,
             )
-    return warnings
 
 
-def _warnings(scenario: Scenario, description: dict[str, Any]) -> list[str]:
-    warnings = []
+def _unlikely(scenario: Scenario, description: Mapping[str, Any]) -> Iterator[Doubt]:
+    """Yield what is probably not meant, though the results are as good as others."""
     step, end = scenario.analysis.time_step, scenario.analysis.end_time
-    suggested = description["suggested_time_step"]
-    if scenario.analysis.kind == "dynamic" and step > COARSE_STEP * suggested:
-        warnings.append(
-            f"analysis.time_step = {step:g} s is {step / suggested:.3g} times the suggested "
-            f"{suggested:.3g} s: waves will not be resolved"
-        )
     rest = end / step - round(end / step)
     if abs(rest) > SPLIT:
-        warnings.append(
-            f"analysis.end_time = {end:g} s is not a whole number of time steps of {step:g} s"
+        yield Doubt(
+            "partial-step",
+            f"analysis.end_time = {end:g} s is not a whole number of time steps of {step:g} s",
+            "analysis.end_time",
+            rest,
+            SPLIT,
         )
     if not description["pairs"]:
-        warnings.append("nothing can touch: there is one body and no obstacle, or no pair enabled")
-    return warnings
+        yield Doubt(
+            "nothing-touches",
+            "nothing can touch: there is one body and no obstacle, or no pair enabled",
+            "contact.pairs",
+        )

@@ -1,9 +1,19 @@
-"""What speaks against the results of a run that ended as it should."""
+"""What speaks against the results of a run, or against its case: the warnings of ``summary.json``.
+
+Every doubt has a code, which stays the same from version to version; docs/warnings.md lists them.
+"""
 
 from __future__ import annotations
 
+import inspect
+import math
+import warnings
 from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
 from typing import Any
+
+from carom.errors import CaromWarning
+from carom.summary import WarningSummary
 
 LARGE_DEFECT = 0.02
 """Defect of the ledger, relative to the energy that the run had or was given, to be warned of."""
@@ -11,42 +21,148 @@ LARGE_DEFECT = 0.02
 DEEP = 0.01
 """Penetration, relative to the diameter of the largest body, to be warned of."""
 
+_NOT_THE_CALLER = ("carom", "contextlib")
+"""Packages in which nobody looks for what a warning is about."""
 
-def doubts(summary: Mapping[str, Any]) -> Iterator[str]:
-    """Yield a sentence for everything in ``summary.json`` that a user should know of."""
-    energy = summary.get("energy")
-    if energy is not None and (share := defect_share(energy)) > LARGE_DEFECT:
-        yield (
+
+@dataclass(frozen=True)
+class Doubt:
+    """One thing that a user should know of.
+
+    Parameters
+    ----------
+    code
+        What it is, in a word.
+    message
+        What it is, in a line, with its remedy.
+    where
+        What it is about: a dotted key of the case file or of ``summary.json``, or a file.
+    value
+        The number that gave rise to it, in the unit that the message names; None if none did.
+    allowed
+        What the number may be at most, or at least, without a word.
+    """
+
+    code: str
+    message: str
+    where: str
+    value: float | None = None
+    allowed: float | None = None
+
+    def as_summary(self) -> WarningSummary:
+        """Return what ``summary.json`` has of it."""
+        return {
+            "code": self.code,
+            "message": self.message,
+            "where": self.where,
+            "value": self.value,
+            "allowed": self.allowed,
+        }
+
+    def as_warning(self) -> CaromWarning:
+        """Return what Python's `warnings` are given."""
+        return CaromWarning(**asdict(self))
+
+
+def written_doubts(data: Mapping[str, Any]) -> list[Doubt]:
+    """Return the doubts of ``summary.json``; none of versions that did not write them down."""
+    return [Doubt(**one) for one in data.get("warnings", ())]
+
+
+def warn(doubt: Doubt) -> None:
+    """Tell Python of a doubt, as one about the line outside of carom that led here."""
+    level, frame = 1, inspect.currentframe()
+    while frame is not None:
+        if frame.f_globals.get("__name__", "").partition(".")[0] not in _NOT_THE_CALLER:
+            break
+        level, frame = level + 1, frame.f_back
+    warnings.warn(doubt.as_warning(), stacklevel=level)
+
+
+def doubts(summary: Mapping[str, Any], *, largest_energy: float) -> Iterator[Doubt]:
+    """Yield what a user should know of the results of a run.
+
+    Parameters
+    ----------
+    summary
+        What ``summary.json`` has, but for the warnings.
+    largest_energy
+        Largest energy that was there or went into friction at any time [J].
+    """
+    energy = summary["energy"]
+    share = defect_share(energy, largest_energy=largest_energy)
+    if not share <= LARGE_DEFECT:
+        yield Doubt(
+            "ledger-defect",
             f"the ledger misses {share:.2g} of the energy: the time step is too long for this "
-            "deformation; take a smaller analysis.time_step"
+            "deformation; take a smaller analysis.time_step",
+            "energy.max_defect",
+            share,
+            LARGE_DEFECT,
         )
-    gap, size = summary.get("min_gap"), summary.get("size")
-    if gap is not None and size is not None and gap < -DEEP * size:
-        yield (
+    gap, deepest = summary["min_gap"], DEEP * summary["size"]
+    if gap is not None and gap < -deepest:
+        yield Doubt(
+            "penetration",
             f"nodes were up to {-gap:.2g} m inside what they touch, having slid past its edges or "
             "come too fast: mesh more finely, take a smaller analysis.time_step, or have the nodes "
-            'of both bodies checked, contact.sources = "both"'
+            'of both bodies checked, contact.sources = "both"',
+            "min_gap",
+            -gap,
+            deepest,
         )
-    if (check := summary.get("cross_check")) is not None:
+    if (check := summary["cross_check"]) is not None:
         yield from _unconfirmed(check)
 
 
-def defect_share(energy: Mapping[str, float]) -> float:
-    """Return the largest defect of the ledger relative to the energy that came in."""
-    supplied = energy["initial"] + abs(energy["external"])
-    return energy["max_defect"] / supplied if supplied > 0.0 else 0.0
+def largest_energy(summary: Mapping[str, Any], *, certificate_tolerance: float) -> float:
+    """Return the largest energy that was there or went into friction at any time [J].
+
+    The core says of it what it allows as the distance from Coulomb's law, which is a share of it.
+
+    Parameters
+    ----------
+    summary
+        What ``summary.json`` has.
+    certificate_tolerance
+        That share, see `carom.Contact`.
+    """
+    allowed: float = summary["certificate"]["tolerance_joule"]
+    return allowed / certificate_tolerance
 
 
-def _unconfirmed(check: Mapping[str, Any]) -> Iterator[str]:
+def defect_share(energy: Mapping[str, float], *, largest_energy: float) -> float:
+    """Return the largest defect of the ledger relative to the energy that the run had.
+
+    That is what came in, from the start on, by loads and by what is moved, or what was there at
+    any time, whichever is more: a load that is taken off again leaves nothing at the end. Of no
+    energy at all, any defect is infinitely much, and none is nothing.
+    """
+    supplied = abs(energy["initial"]) + abs(energy["external"]) + abs(energy["prescribed"])
+    reference, defect = max(supplied, largest_energy), energy["max_defect"]
+    if reference > 0.0:
+        return defect / reference
+    return math.inf if defect > 0.0 else 0.0
+
+
+def _unconfirmed(check: Mapping[str, Any]) -> Iterator[Doubt]:
     problems, differing = check["problems"], check["disagreements"]
     if differing:
-        yield (
+        yield Doubt(
+            "contact-not-unique",
             f"{differing} of {problems} contact problems have a second answer with other motions, "
             f"the most different at t = {check['time_of_max']:g} s: Coulomb's law does not decide "
-            "between them"
+            "between them",
+            "cross_check.disagreements",
+            float(differing),
+            0.0,
         )
     if check["unsolved"]:
-        yield (
+        yield Doubt(
+            "contact-unchecked",
             f"{check['unsolved']} of {problems} contact problems were not solved by the second "
-            "solver and remain unchecked"
+            "solver and remain unchecked",
+            "cross_check.unsolved",
+            float(check["unsolved"]),
+            0.0,
         )

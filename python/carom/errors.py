@@ -92,6 +92,38 @@ class StorageError(CaromError, OSError):
     """
 
 
+class CaromWarning(UserWarning):
+    """Something that speaks against the results of a run, which ended nevertheless.
+
+    Parameters
+    ----------
+    message
+        One line: the fact, the number, the remedy.
+    code
+        What it is, in a word that stays the same, such as ``"ledger-defect"``.
+    where
+        What it is about: a dotted key of the case file or of ``summary.json``, or a file.
+    value
+        The number that gave rise to it, in the unit that the message names; None if none did.
+    allowed
+        What the number may be at most, or at least, without a warning.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        code: str = "",
+        where: str = "",
+        value: float | None = None,
+        allowed: float | None = None,
+    ) -> None:
+        super().__init__(message)
+        self.code = code
+        self.where = where
+        self.value = value
+        self.allowed = allowed
+
+
 @contextmanager
 def naming(file: str | PathLike[str]) -> Iterator[None]:
     """Put the name of the file in front of every `InputError` that leaves the block."""

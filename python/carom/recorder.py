@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import warnings
+from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from typing_extensions import Self
 
 from carom import _carom
+from carom.doubts import Doubt, doubts, largest_energy, written_doubts
 from carom.interrupt import uninterrupted
 from carom.io import layout
 from carom.io.atomic import sync, write_whole
@@ -51,6 +52,8 @@ class Recorder:
         What is run, see `carom.restart.identity`.
     checkpoint
         The one that the run goes on from; None if it starts.
+    notify
+        Told of every doubt, once: what is found at the end after the summary was written.
 
     Raises
     ------
@@ -67,6 +70,7 @@ class Recorder:
         *,
         case: dict[str, Any],
         checkpoint: Checkpoint | None = None,
+        notify: Callable[[Doubt], None],
     ) -> None:
         layout.has_results(directory)
         directory.mkdir(parents=True, exist_ok=True)
@@ -107,6 +111,9 @@ class Recorder:
         self._steps: int = written.get("steps", 0)
         self._last_frame: float | None = written.get("last_frame")
         self._wall_before: float = written.get("wall", 0.0)
+        self._doubts: list[Doubt] = []
+        self._notify = notify
+        self._certificate_tolerance = scenario.contact.certificate_tolerance
         self._reports = scenario.output.report
         self._start = perf_counter()
 
@@ -114,6 +121,12 @@ class Recorder:
     def wall(self) -> float:
         """Wall time of the run so far [s]."""
         return self._wall_before + perf_counter() - self._start
+
+    def doubt(self, doubt: Doubt) -> None:
+        """Take note of something that a user should know of, once."""
+        if doubt not in self._doubts:
+            self._doubts.append(doubt)
+            self._notify(doubt)
 
     @uninterrupted()
     def progress(self, progress: Progress) -> None:
@@ -148,12 +161,17 @@ class Recorder:
             "last_frame": self._last_frame,
             "frames_due": frames_due,
             "wall": self.wall,
+            "warnings": [doubt.as_summary() for doubt in self._doubts],
         }
         try:
             arrays = self._simulation.checkpoint()
         except ValueError as error:
-            warnings.warn(
-                f"no checkpoint at t = {self._simulation.time:g} s: {error}", stacklevel=2
+            self.doubt(
+                Doubt(
+                    "checkpoint-not-made",
+                    f"no checkpoint at t = {self._simulation.time:g} s: {error}",
+                    layout.CHECKPOINT,
+                )
             )
             return
         write_checkpoint(self._directory, Checkpoint(case=self._case, record=record, arrays=arrays))
@@ -236,8 +254,20 @@ class Recorder:
             "wall_s": wall,
             "wall_s_per_step": wall / max(native["steps"], 1),
         }
+        found = written_doubts(native)
+        found += doubts(
+            summary,
+            largest_energy=largest_energy(
+                native, certificate_tolerance=self._certificate_tolerance
+            ),
+        )
+        new = [doubt for doubt in dict.fromkeys(found) if doubt not in self._doubts]
+        summary["warnings"] = [doubt.as_summary() for doubt in (*self._doubts, *new)]
         write_summary(self._directory / layout.SUMMARY, summary)
-        return conclude(self._directory, reports=self._reports)
+        result = conclude(self._directory, reports=self._reports)
+        for doubt in new:
+            self._notify(doubt)
+        return result
 
 
 def conclude(directory: Path, *, reports: bool) -> Result:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from carom._carom import Simulation
+from carom.doubts import Doubt
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.checkpoint import Checkpoint, DamagedError, read_checkpoint
@@ -20,8 +21,8 @@ from carom.recorder import conclude
 from carom.result import Result, read_case
 from carom.scenario import Scenario
 
-Notify = Callable[[str], None]
-"""What is told a line that the user should see."""
+Notify = Callable[[Doubt], None]
+"""What is told that the user should know something."""
 
 
 def identity(scenario: Scenario, simulation: Simulation) -> dict[str, Any]:
@@ -74,7 +75,7 @@ def latest(
     InputError
         It is of another case, or there is none that is whole.
     """
-    damaged: list[str] = []
+    damaged: list[tuple[Path, str]] = []
     for name in (layout.CHECKPOINT, layout.FRESH_CHECKPOINT, layout.PREVIOUS_CHECKPOINT):
         try:
             checkpoint = read_checkpoint(directory / name)
@@ -83,18 +84,24 @@ def latest(
         except FileNotFoundError:
             continue
         except DamagedError as error:
-            damaged.append(str(error))
+            damaged.append((directory / name, str(error)))
         except ValueError as error:
             if isinstance(error, InputError):
                 raise
-            damaged.append(f"{directory / name} does not fit: {error}")
+            damaged.append((directory / name, f"{directory / name} does not fit: {error}"))
         else:
-            for problem in damaged:
-                notify(f"{problem}; goes on from the checkpoint at t = {checkpoint.time:g} s")
+            for file, wrong in damaged:
+                notify(
+                    Doubt(
+                        "checkpoint-damaged",
+                        f"{wrong}; goes on from the checkpoint at t = {checkpoint.time:g} s",
+                        str(file),
+                    )
+                )
             return checkpoint
     if damaged:
         raise InputError(
-            f"{damaged[0]}, and there is no other that is whole; start again with --force"
+            f"{damaged[0][1]}, and there is no other that is whole; start again with --force"
         )
     return None
 

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from rich.table import Table
 from typing_extensions import Self
 
-from carom.errors import InputError
+from carom.doubts import written_doubts
+from carom.errors import CaromWarning, InputError
 from carom.fields import Fields, parts
 from carom.io import layout
 from carom.io.frames import Frames
@@ -110,6 +111,11 @@ class Result:
             dimension=scenario.dimension,
             cell="facet",
         )
+
+    @property
+    def warnings(self) -> tuple[CaromWarning, ...]:
+        """What speaks against the results; none of runs by versions that did not write it down."""
+        return tuple(doubt.as_warning() for doubt in written_doubts(self.summary))
 
     @property
     def ledger(self) -> dict[str, dict[str, NDArray[np.float64]]]:

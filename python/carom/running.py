@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 import shlex
-import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +12,9 @@ from time import perf_counter
 
 from carom._carom import Simulation
 from carom.building import build
+from carom.checking import first_doubts
 from carom.contact import FrictionSolver
+from carom.doubts import Doubt, warn, written_doubts
 from carom.errors import CertificateError, ConvergenceError, InputError, StorageError
 from carom.interrupt import Terminated
 from carom.io import layout
@@ -90,10 +91,6 @@ def run(
     )
 
 
-def _warn(line: str) -> None:
-    warnings.warn(line, stacklevel=4)
-
-
 def drive(
     simulation: Simulation,
     scenario: Scenario,
@@ -103,7 +100,7 @@ def drive(
     progress: ShowProgress | None = None,
     resume: bool = False,
     force: bool = True,
-    notify: Notify = _warn,
+    notify: Notify = warn,
 ) -> Result:
     """Take a simulation to its end, recording as it goes; see `run`.
 
@@ -112,15 +109,19 @@ def drive(
     simulation
         What `build` made of the scenario.
     notify
-        Told what the user should know of a resumed run.
+        Told of every doubt as it arises, see `carom.doubts`; of those that the results give rise to
+        after they are written.
     """
     refuse_running(directory)
     case = identity(scenario, simulation)
     checkpoint = None
+    noted: list[Doubt] = []
     if resume:
         if (result := ended(directory, scenario)) is not None:
+            for doubt in written_doubts(result.summary):
+                notify(doubt)
             return result
-        checkpoint = latest(directory, case, simulation, notify)
+        checkpoint = latest(directory, case, simulation, noted.append)
         if checkpoint is None:
             refuse_other_results(directory, scenario)
     elif not force and layout.has_results(directory):
@@ -133,8 +134,13 @@ def drive(
     observing = Observing(observers, State(scenario, simulation)) if observers else None
     with (
         _storing(directory),
-        Recorder(directory, scenario, simulation, case=case, checkpoint=checkpoint) as recorder,
+        Recorder(
+            directory, scenario, simulation, case=case, checkpoint=checkpoint, notify=notify
+        ) as recorder,
     ):
+        before = [] if checkpoint is None else written_doubts(checkpoint.record)
+        for doubt in (*before, *first_doubts(scenario, simulation.describe()), *noted):
+            recorder.doubt(doubt)
         wish = _take(
             simulation, scenario, recorder, schedule, observing=observing, progress=progress
         )

@@ -95,6 +95,16 @@ class CrossCheckSummary(TypedDict):
     max_certificate_joule: float
 
 
+class WarningSummary(TypedDict):
+    """Something that speaks against the results; see `carom.CaromWarning`."""
+
+    code: str
+    message: str
+    where: str
+    value: float | None
+    allowed: float | None
+
+
 class Summary(TypedDict):
     """What came out of a run, in a page."""
 
@@ -120,5 +130,6 @@ class Summary(TypedDict):
     cross_check: CrossCheckSummary | None
     contacts: list[ContactEvent]
     files: NotRequired[dict[str, str]]
+    warnings: NotRequired[list[WarningSummary]]
     wall_s: float
     wall_s_per_step: float

@@ -11,7 +11,6 @@ from rich.table import Table
 from rich.text import Text
 
 from carom.counting import count
-from carom.doubts import doubts
 from carom.io import layout
 
 SHOWN_CONTACTS = 12
@@ -72,8 +71,8 @@ def outcome(summary: Mapping[str, Any]) -> Rows:
     )
     if (check := summary.get("cross_check")) is not None:
         yield _cross_check(check)
-    for doubt in doubts(summary):
-        yield "warning", doubt
+    for warning in summary.get("warnings", ()):
+        yield "warning", warning["message"]
 
 
 def contact_events(summary: Mapping[str, Any]) -> Rows:

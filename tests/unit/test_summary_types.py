@@ -38,7 +38,7 @@ def check(value, kind, place="summary"):
 
 def test_the_summary_has_the_keys_and_types_that_it_promises(tmp_path, monkeypatch):
     monkeypatch.setattr("carom.plot.draw", lambda _: None)
-    scenario = restarting.scenario("contact.solver.cross_check=true")
+    scenario = restarting.scenario("contact.solver.cross_check=true", "materials.elastic.young=27")
     check(carom.run(scenario, out=tmp_path).summary, Summary)
     stop = carom.Observer(lambda state: stop_at(state.time))
     check(carom.run(scenario, out=tmp_path, observers=[stop]).summary, Summary)

@@ -9,10 +9,10 @@ import typer
 from rich.console import Console
 
 from carom.building import build
-from carom.checking import unit_warnings
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import failures
 from carom.cli.progress import shown_progress
+from carom.doubts import Doubt
 from carom.errors import CertificateError, ConvergenceError, InputError, naming
 from carom.interrupt import terminable
 from carom.io import layout
@@ -52,6 +52,11 @@ def run(
     def tell(line: str) -> None:
         console.print(line, markup=False, highlight=False, soft_wrap=True)
 
+    def tell_of(doubt: Doubt) -> None:
+        # What is found at the end stands in the table that follows.
+        if not (directory / layout.SUMMARY).exists():
+            tell(f"warning: {doubt.message}")
+
     directory = Path("results") / case.stem if out is None else out
     with failures(case), terminable():
         if resume and force:
@@ -64,12 +69,7 @@ def run(
             )
             return
         with naming(case):
-            simulation = build(scenario, notes := list[Note]())
-        for warning in (
-            *(note.message for note in notes),
-            *unit_warnings(scenario, simulation.describe()),
-        ):
-            tell(f"warning: {warning}")
+            simulation = build(scenario)
         try:
             with shown_progress(console) as progress:
                 result = drive(
@@ -79,7 +79,7 @@ def run(
                     progress=progress,
                     resume=resume,
                     force=force,
-                    notify=tell,
+                    notify=tell_of,
                 )
         except (CertificateError, ConvergenceError, KeyboardInterrupt):
             if (directory / layout.SUMMARY).exists():

@@ -59,7 +59,10 @@ def sweep(
 
     def done(count: int, of: int, row: dict[str, Any]) -> None:
         where = ", ".join(f"{key} = {row[key]}" for key in keys)
-        console.print(f"{count}/{of}: {where}: {row['status']}", markup=False, highlight=False)
+        said = f"{count}/{of}: {where}: {row['status']}"
+        if row["warnings"]:
+            said += f", warnings: {row['warnings']}"
+        console.print(said, markup=False, highlight=False)
 
     with failures(case):
         scenario = load(case, overrides)

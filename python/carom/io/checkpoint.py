@@ -16,13 +16,14 @@ from typing import Any
 import h5py
 import numpy as np
 from numpy.typing import NDArray
-from typing_extensions import TypedDict
+from typing_extensions import NotRequired, TypedDict
 
 from carom._carom import CHECKPOINT_SCHEMA, __version__
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.atomic import write_whole
 from carom.io.form import misfit
+from carom.summary import WarningSummary
 
 _BLOCK = 512
 """Size of the text in front of the HDF5 file: the smallest that HDF5 allows [bytes]."""
@@ -40,6 +41,7 @@ class _Record(TypedDict):
     last_frame: float | None
     frames_due: int
     wall: float
+    warnings: NotRequired[list[WarningSummary]]
 
 
 class _Texts(TypedDict):

@@ -10,7 +10,6 @@ import matplotlib as mpl
 import numpy as np
 
 from carom import __version__
-from carom.doubts import doubts
 from carom.errors import InputError
 from carom.report.assembly import asset, elements, policy
 from carom.report.case_text import coloured
@@ -175,9 +174,10 @@ def _colours(name: str) -> str:
 
 
 def _head(source: Source) -> Html:
-    """Return what is said at the head of a run that did not complete, or not without doubts."""
+    """Return what is said at the head of a run that did not complete, or not without warnings."""
     completed, reason = source.status == "completed", source.summary.get("reason")
-    said = [element("p", f"Warning: {doubt}.") for doubt in doubts(source.summary)]
+    warnings = source.summary.get("warnings", ())
+    said = [element("p", f"Warning: {warning['message']}.") for warning in warnings]
     if completed and not said:
         return join()
     ended = _STATUS.get(source.status, f"The run ended as {source.status}.")

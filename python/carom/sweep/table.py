@@ -23,8 +23,9 @@ FIGURES = (
     "min_gap",
     "steps",
     "wall_s",
+    "warnings",
 )
-"""Columns of figures: energies [J], contact events, times [s], force [N], gap [m]."""
+"""Columns: energies [J], contact events, times [s], force [N], gap [m], codes of warnings."""
 
 TITLES = {
     "energy_initial": "initial energy [J]",
@@ -39,6 +40,7 @@ TITLES = {
     "min_gap": "smallest gap [m]",
     "steps": "steps",
     "wall_s": "wall time [s]",
+    "warnings": "warnings",
 }
 """What figures are called where people read them: friction is also what studies vary."""
 
@@ -68,6 +70,7 @@ def row(values: Mapping[str, Any], summary: Mapping[str, Any]) -> dict[str, Any]
         "min_gap": summary.get("min_gap"),
         "steps": summary.get("steps"),
         "wall_s": summary.get("wall_s"),
+        "warnings": " ".join(dict.fromkeys(one["code"] for one in summary.get("warnings", ()))),
     }
     status = {"status": summary["status"], "reason": summary.get("reason", "")}
     return {**values, **status, **figures}
@@ -105,16 +108,18 @@ def write_table(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
 def shown_cells(
     keys: Sequence[str], rows: Sequence[Mapping[str, Any]]
 ) -> tuple[list[str], list[list[str]]]:
-    """Return header and cells for people: keys in full, status, and the figures that fit."""
+    """Return header and cells for people: keys in full, status, the figures that fit, warnings."""
+    warned = ["warnings"] if any(one["warnings"] for one in rows) else []
     cells = [
         [
             *(_cell(one[key]) for key in keys),
             str(one["status"]),
             *("" if one[name] is None else f"{one[name]:.4g}" for name in SHOWN),
+            *(str(one[name]) for name in warned),
         ]
         for one in rows
     ]
-    return [*keys, "status", *(TITLES[name] for name in SHOWN)], cells
+    return [*keys, "status", *(TITLES[name] for name in SHOWN), *warned], cells
 
 
 def _cell(value: object) -> str:

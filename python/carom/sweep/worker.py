@@ -6,10 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from carom.building import build
+from carom.doubts import Doubt
 from carom.errors import CaromError, InputError
 from carom.io import layout
 from carom.io.summary import read_summary
-from carom.running import run
+from carom.running import drive
 from carom.scenario import Scenario
 
 
@@ -33,13 +35,19 @@ def work(task: Task) -> dict[str, Any]:
     """Run a point; return its summary, or a status and a reason where there is none."""
     directory = Path(task.directory)
     try:
-        return dict(run(Scenario.from_dict(task.case), out=directory).summary)
+        scenario = Scenario.from_dict(task.case)
+        result = drive(build(scenario), scenario, directory, force=True, notify=_leave)
+        return dict(result.summary)
     except InputError as error:
         return refused("refused", str(error))
     except CaromError as error:
         return _left(directory) or refused("failed", str(error))
     except OSError as error:
         return refused("failed", f"{error.filename or directory}: {error.strerror or error}")
+
+
+def _leave(doubt: Doubt) -> None:
+    """Leave a doubt to the table of the study, which has those of every run."""
 
 
 def refused(status: str, reason: str) -> dict[str, Any]:

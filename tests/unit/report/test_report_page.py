@@ -302,7 +302,9 @@ def test_a_completed_run_with_doubtful_results_says_so_on_its_page(copy):
         ]
 
     assert alerts() == []
-    assert alerts(min_gap=-0.3, size=1.0) == ["alert doubts"]
+    deep = {"code": "penetration", "message": "nodes were up to 0.3 m inside what they touch"}
+    deep |= {"where": "min_gap", "value": 0.3, "allowed": 0.01}
+    assert alerts(warnings=[deep]) == ["alert doubts"]
     text = Page(copy / layout.REPORT).text
     assert "Warning: nodes were up to 0.3 m inside what they touch" in text
     assert "What follows is what it has left" not in text
