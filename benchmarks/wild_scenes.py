@@ -24,7 +24,7 @@ from unittest import mock
 import numpy as np
 
 import carom
-from carom.doubts import defect_share, largest_energy
+from carom.doubts import defect_share
 
 SPACING = 2.5
 """Distance of the places where bodies start [m]."""
@@ -216,9 +216,7 @@ def ending(scenario: carom.Scenario) -> Ending:
             return Ending("broken", "".join(traceback.format_exception(error)), 0.0, 0.0, np.nan)
         end = process_time()
         summary = carom.Result.open(directory).summary
-    tolerance = scenario.contact.certificate_tolerance
-    there = largest_energy(summary, certificate_tolerance=tolerance)
-    defect = defect_share(summary["energy"], largest_energy=there)
+    defect = defect_share(summary["energy"])
     warned = any(warning["code"] == "ledger-defect" for warning in summary["warnings"])
     return Ending(summary["status"], reason, end - start, end - last, defect, warned=warned)
 

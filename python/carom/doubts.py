@@ -79,18 +79,9 @@ def warn(doubt: Doubt) -> None:
     warnings.warn(doubt.as_warning(), stacklevel=level)
 
 
-def doubts(summary: Mapping[str, Any], *, largest_energy: float) -> Iterator[Doubt]:
-    """Yield what a user should know of the results of a run.
-
-    Parameters
-    ----------
-    summary
-        What ``summary.json`` has, but for the warnings.
-    largest_energy
-        Largest energy that was there or went into friction at any time [J].
-    """
-    energy = summary["energy"]
-    share = defect_share(energy, largest_energy=largest_energy)
+def doubts(summary: Mapping[str, Any]) -> Iterator[Doubt]:
+    """Yield what a user should know of the results of a run, by what its summary has else."""
+    share = defect_share(summary["energy"])
     if not share <= LARGE_DEFECT:
         yield Doubt(
             "ledger-defect",
@@ -115,31 +106,15 @@ def doubts(summary: Mapping[str, Any], *, largest_energy: float) -> Iterator[Dou
         yield from _unconfirmed(check)
 
 
-def largest_energy(summary: Mapping[str, Any], *, certificate_tolerance: float) -> float:
-    """Return the largest energy that was there or went into friction at any time [J].
-
-    The core says of it what it allows as the distance from Coulomb's law, which is a share of it.
-
-    Parameters
-    ----------
-    summary
-        What ``summary.json`` has.
-    certificate_tolerance
-        That share, see `carom.Contact`.
-    """
-    allowed: float = summary["certificate"]["tolerance_joule"]
-    return allowed / certificate_tolerance
-
-
-def defect_share(energy: Mapping[str, float], *, largest_energy: float) -> float:
+def defect_share(energy: Mapping[str, float]) -> float:
     """Return the largest defect of the ledger relative to the energy that the run had.
 
-    That is what came in, from the start on, by loads and by what is moved, or what was there at
-    any time, whichever is more: a load that is taken off again leaves nothing at the end. Of no
+    That is what came in, from the start on, by loads and by what is moved, or the largest change of
+    the energy, whichever is more: a load that is taken off again leaves nothing at the end. Of no
     energy at all, any defect is infinitely much, and none is nothing.
     """
     supplied = abs(energy["initial"]) + abs(energy["external"]) + abs(energy["prescribed"])
-    reference, defect = max(supplied, largest_energy), energy["max_defect"]
+    reference, defect = max(supplied, energy["max_drift"]), energy["max_defect"]
     if reference > 0.0:
         return defect / reference
     return math.inf if defect > 0.0 else 0.0

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from typing_extensions import Self
 
 from carom import _carom
-from carom.doubts import Doubt, doubts, largest_energy, written_doubts
+from carom.doubts import Doubt, doubts, written_doubts
 from carom.interrupt import uninterrupted
 from carom.io import layout
 from carom.io.atomic import sync, write_whole
@@ -113,7 +113,6 @@ class Recorder:
         self._wall_before: float = written.get("wall", 0.0)
         self._doubts: list[Doubt] = []
         self._notify = notify
-        self._certificate_tolerance = scenario.contact.certificate_tolerance
         self._reports = scenario.output.report
         self._start = perf_counter()
 
@@ -255,12 +254,7 @@ class Recorder:
             "wall_s_per_step": wall / max(native["steps"], 1),
         }
         found = written_doubts(native)
-        found += doubts(
-            summary,
-            largest_energy=largest_energy(
-                native, certificate_tolerance=self._certificate_tolerance
-            ),
-        )
+        found += doubts(summary)
         new = [doubt for doubt in dict.fromkeys(found) if doubt not in self._doubts]
         summary["warnings"] = [doubt.as_summary() for doubt in (*self._doubts, *new)]
         write_summary(self._directory / layout.SUMMARY, summary)

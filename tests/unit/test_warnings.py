@@ -117,29 +117,31 @@ def test_a_block_at_rest_is_not_warned_of(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("changed", "largest", "share"),
+    ("changed", "share"),
     [
-        ({}, 4.0, 0.25),
-        ({"initial": 10.0}, 4.0, 0.1),
-        ({"external": -5.0}, 4.0, 0.2),
-        ({"prescribed": -5.0, "external": 5.0}, 4.0, 0.1),
-        ({}, 0.0, math.inf),
-        ({"max_defect": 0.0}, 0.0, 0.0),
-        ({"max_defect": math.inf}, 4.0, math.inf),
+        ({}, 0.25),
+        ({"initial": 10.0}, 0.1),
+        ({"external": -5.0}, 0.2),
+        ({"prescribed": -5.0, "external": 5.0}, 0.1),
+        ({"max_drift": 0.0}, math.inf),
+        ({"max_drift": 0.0, "max_defect": 0.0}, 0.0),
+        ({"max_defect": math.inf}, math.inf),
     ],
 )
-def test_the_defect_is_relative_to_the_energy_that_came_or_was_there(changed, largest, share):
-    energy = {"initial": 0.0, "external": 0.0, "prescribed": 0.0, "max_defect": 1.0, **changed}
-    assert doubts.defect_share(energy, largest_energy=largest) == share
+def test_the_defect_is_relative_to_the_energy_that_came_or_was_there(changed, share):
+    nothing = dict.fromkeys(("initial", "external", "prescribed"), 0.0)
+    energy = {**nothing, "max_drift": 4.0, "max_defect": 1.0, **changed}
+    assert doubts.defect_share(energy) == share
 
 
 def summary(**changed):
-    energy = {"initial": 1.0, "external": 0.0, "prescribed": 0.0, "max_defect": 0.0}
+    energy = dict.fromkeys(("external", "prescribed", "max_drift", "max_defect"), 0.0)
+    energy["initial"] = 1.0
     return {"energy": energy, "min_gap": None, "size": 2.0, "cross_check": None, **changed}
 
 
 def found(**changed):
-    return list(doubts.doubts(summary(**changed), largest_energy=1.0))
+    return list(doubts.doubts(summary(**changed)))
 
 
 def said(doubt):
