@@ -141,7 +141,7 @@ def run(count: int, first: int = 0) -> dict[tuple[str, str], Tally]:
                 start = perf_counter()
                 out = Path(directory) / "run"
                 try:
-                    result = carom.run(scene(seed, scheme, condition), out=out)
+                    result = carom.run(scene(seed, scheme, condition), out=out, force=True)
                 except carom.ConvergenceError as error:
                     tally.failures.append(f"scene {seed}: {error}")
                     continue

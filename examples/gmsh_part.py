@@ -32,7 +32,7 @@ def scenario(geometry: Path = GEOMETRY, *, end_time: float = 3.6e-4) -> carom.Sc
 
 def main(out: str | Path | None = None, geometry: Path = GEOMETRY) -> None:
     """Drop the bracket; check when it touches and that no energy comes from nowhere."""
-    result = carom.run(scenario(geometry), out=out)
+    result = carom.run(scenario(geometry), out=out, force=True)
     energy, contacts = result.summary["energy"], result.summary["contacts"]
     print(
         f"{result.summary['dofs']} dofs, {result.summary['steps']} steps, "

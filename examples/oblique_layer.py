@@ -35,7 +35,7 @@ def main(out: str | Path | None = None) -> None:
     """Run a layer that sticks and two that slip; check the dissipation and the time of contact."""
     for ratio, exact in ((0.2, 0.0), (1.0, 0.24), (2.0, 0.64)):
         directory = Path(out or "results") / f"oblique_layer_{ratio}"
-        result = carom.run(scenario(ratio=ratio), out=directory)
+        result = carom.run(scenario(ratio=ratio), out=directory, force=True)
         (contact,) = result.summary["contacts"]
         lost = contact["friction_work"] / WIDTH / SPEED**2
         release = contact["release"]

@@ -44,7 +44,7 @@ def main(out: str | Path | None = None) -> None:
     for friction, expected in ((0.0, 2.49), (0.2, 2.83)):
         short = scenario(friction=friction).with_overrides(["analysis.end_time=3.2"])
         directory = Path(out or "results") / f"two_cylinders_friction_{friction}"
-        time = meeting(carom.run(short, out=directory))
+        time = meeting(carom.run(short, out=directory, force=True))
         print(f"friction {friction}: the cylinders meet at {time:.3f} s")
         assert abs(time - expected) <= 0.03
 

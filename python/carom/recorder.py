@@ -11,6 +11,7 @@ from typing_extensions import Self
 
 from carom import _carom
 from carom.doubts import Doubt, doubts, written_doubts
+from carom.existing import make
 from carom.interrupt import uninterrupted
 from carom.io import layout
 from carom.io.atomic import sync, write_whole
@@ -73,7 +74,7 @@ class Recorder:
         notify: Callable[[Doubt], None],
     ) -> None:
         layout.has_results(directory)
-        directory.mkdir(parents=True, exist_ok=True)
+        make(directory)
         self._progress = ProgressFile(directory)
         self._directory = directory
         self._title = scenario.title

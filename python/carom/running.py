@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import math
 import re
 import shlex
@@ -39,7 +40,7 @@ def run(
     observers: Sequence[Observer] = (),
     progress: ShowProgress | None = None,
     resume: bool = False,
-    force: bool = True,
+    force: bool = False,
 ) -> Result:
     """Run a scenario and write its results.
 
@@ -59,7 +60,7 @@ def run(
         run that never stopped. Without one the run starts from the beginning, and where it has
         ended already its results are returned.
     force
-        Whether results of an earlier run in the directory are replaced, or refused.
+        Whether results of an earlier run in the directory are replaced; otherwise they are refused.
 
     Raises
     ------
@@ -99,7 +100,7 @@ def drive(
     observers: Sequence[Observer] = (),
     progress: ShowProgress | None = None,
     resume: bool = False,
-    force: bool = True,
+    force: bool = False,
     notify: Notify = warn,
 ) -> Result:
     """Take a simulation to its end, recording as it goes; see `run`.
@@ -113,6 +114,7 @@ def drive(
         after they are written.
     """
     refuse_running(directory)
+    has_results = layout.has_results(directory)
     case = identity(scenario, simulation)
     checkpoint = None
     noted: list[Doubt] = []
@@ -124,10 +126,10 @@ def drive(
         checkpoint = latest(directory, case, simulation, noted.append)
         if checkpoint is None:
             refuse_other_results(directory, scenario)
-    elif not force and layout.has_results(directory):
+    elif has_results and not force:
         raise InputError(
             f"{directory}: has results of a run; --force replaces them, --resume goes on with a "
-            "run that was stopped, or choose another --out"
+            "run that was stopped (force=True, resume=True in Python), or choose another --out"
         )
     frames = 0 if checkpoint is None else checkpoint.record["frames_due"]
     schedule = Schedule(scenario, time=simulation.time, frames=frames)
@@ -260,6 +262,10 @@ def _go(
             recorder.checkpoint(frames_due=schedule.frames)
 
 
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""Numbers of errors of a file for which there is no room."""
+
+
 @contextmanager
 def _storing(directory: Path) -> Iterator[None]:
     """Say of a file that could not be written how to go on."""
@@ -267,9 +273,11 @@ def _storing(directory: Path) -> Iterator[None]:
         yield
     except OSError as error:
         what = f"{error.filename or directory}: {error.strerror or error}"
-        remedy = "make room and start again"
+        # HDF5 gives no number with some of its errors: the disk is full, most often.
+        mend = "make room" if error.errno in (None, *_FULL) else "see to it"
+        remedy = f"{mend} and start again"
         if (directory / layout.CHECKPOINT).exists():
-            remedy = "the last checkpoint is whole: make room and go on with --resume"
+            remedy = f"the last checkpoint is whole: {mend} and go on with --resume"
         raise StorageError(f"{what}; {remedy}") from error
 
 

@@ -158,7 +158,7 @@ def test_the_command_line_takes_a_stopped_run_for_what_it_is(tmp_path, capsys):
 
 def test_a_bare_function_is_refused_before_anything_is_replaced(whole):
     with pytest.raises(carom.InputError, match=r"function stop.*give carom\.Observer"):
-        carom.run(restarting.scenario(), out=whole.path, observers=[stop])
+        carom.run(restarting.scenario(), out=whole.path, observers=[stop], force=True)
     assert carom.Result.open(whole.path).summary == whole.summary
 
 

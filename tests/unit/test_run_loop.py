@@ -1,11 +1,13 @@
 """The run loop on a simulation that knows no mechanics: what is written, whatever happens."""
 
+import errno
+
 import h5py
 import numpy as np
 import pytest
 
 import carom
-from carom import CertificateError, ConvergenceError, InputError, Result
+from carom import CertificateError, ConvergenceError, InputError, Result, StorageError
 from carom.running import drive
 from stand_in import FallingSimulation
 
@@ -95,7 +97,7 @@ def test_a_contact_problem_that_failed_is_kept_until_the_next_run(scenario, tmp_
     np.testing.assert_array_equal(record.problem.matrix().toarray(), 2.0 * np.eye(2))
     np.testing.assert_array_equal(record.guesses[0].reactions, [[0.5, 0.1]])
     assert (record.title, record.description) == ("Box", "step 60 failed")
-    drive(FallingSimulation(scenario), scenario, out)
+    drive(FallingSimulation(scenario), scenario, out, force=True)
     assert not file.exists()
 
 
@@ -103,7 +105,7 @@ def test_nothing_of_an_earlier_run_survives(scenario, tmp_path):
     drive(FallingSimulation(scenario), scenario, tmp_path)
     (tmp_path / "notes.txt").write_text("mine")
     untracked = scenario.with_overrides(["output.track=[]", "analysis.end_time=0.5"])
-    result = drive(FallingSimulation(untracked), untracked, tmp_path)
+    result = drive(FallingSimulation(untracked), untracked, tmp_path, force=True)
     assert result.summary["end_time"] == 0.5
     assert not (tmp_path / "track-tip.png").exists()
     assert (tmp_path / "notes.txt").read_text() == "mine"
@@ -113,10 +115,24 @@ def test_a_run_that_cannot_go_on_claims_no_results(scenario, tmp_path):
     drive(FallingSimulation(scenario), scenario, tmp_path)
     simulation = FallingSimulation(scenario, stop_at=0.6, stop=OSError("disk full"))
     with pytest.raises(OSError, match="disk full"):
-        drive(simulation, scenario, tmp_path)
+        drive(simulation, scenario, tmp_path, force=True)
     with pytest.raises(InputError, match=r"has no summary\.json"):
         Result.open(tmp_path)
     assert carom.read_history(tmp_path / "history.csv")["time"][-1] > 0.4
+
+
+@pytest.mark.parametrize(
+    ("number", "remedy"),
+    [(errno.ENOSPC, "make room"), (errno.EFBIG, "make room"), (errno.EIO, "see to it")],
+)
+def test_a_file_that_cannot_be_written_is_told_with_a_remedy_that_fits(
+    scenario, tmp_path, number, remedy
+):
+    stop = OSError(number, "said by the system", "history.csv")
+    with pytest.raises(StorageError) as caught:
+        drive(FallingSimulation(scenario, stop_at=0.6, stop=stop), scenario, tmp_path)
+    said = str(caught.value)
+    assert said == f"history.csv: said by the system; {remedy} and start again"
 
 
 def test_a_run_that_leaves_coulombs_law_is_not_completed(scenario, tmp_path):
@@ -127,7 +143,7 @@ def test_a_run_that_leaves_coulombs_law_is_not_completed(scenario, tmp_path):
     result = Result.open(tmp_path)
     assert result.summary["status"] == "uncertified"
     assert "contact.solver.tolerance" in result.summary["reason"]
-    drive(FallingSimulation(scenario, certificate=1e-9), scenario, tmp_path)
+    drive(FallingSimulation(scenario, certificate=1e-9), scenario, tmp_path, force=True)
     assert Result.open(tmp_path).summary["status"] == "completed"
 
 

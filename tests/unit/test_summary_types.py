@@ -41,7 +41,7 @@ def test_the_summary_has_the_keys_and_types_that_it_promises(tmp_path, monkeypat
     scenario = restarting.scenario("contact.solver.cross_check=true", "materials.elastic.young=27")
     check(carom.run(scenario, out=tmp_path).summary, Summary)
     stop = carom.Observer(lambda state: stop_at(state.time))
-    check(carom.run(scenario, out=tmp_path, observers=[stop]).summary, Summary)
+    check(carom.run(scenario, out=tmp_path, observers=[stop], force=True).summary, Summary)
 
 
 def stop_at(time):

@@ -236,8 +236,8 @@ def test_failures_are_rows_with_their_reason(here, scenario, tmp_path):
 def test_what_cannot_be_written_is_a_row(scenario, tmp_path):
     (tmp_path / "file").touch()
     task = Task(scenario.model_dump(mode="json"), str(tmp_path / "file"))
-    assert work(task)["status"] == "failed"
-    assert str(tmp_path / "file") in work(task)["reason"]
+    assert work(task)["status"] == "refused"
+    assert work(task)["reason"] == f"{tmp_path / 'file'}: is a file; choose another --out"
 
 
 def test_the_figures_of_a_run_without_contact_are_empty():

@@ -1,10 +1,14 @@
 """Commands write where they are told to, and replace nothing that is not theirs."""
 
 import hashlib
+import os
+import subprocess
+import sys
 
 import pytest
 
-from carom import cli
+from carom import InputError, Scenario, cli
+from carom import run as run_scenario
 
 CASE = """\
 [analysis]
@@ -140,3 +144,159 @@ def test_results_are_not_put_over_files_of_others(desk):
         assert carom("run", "case.toml", "--out", "out", "--quiet", *force) == 2
     assert tree(desk / "out").keys() == {"history.csv"}
     assert (desk / "out" / "history.csv").read_text() == "mine"
+
+
+LONG = "x" * 300
+
+PLACES = {
+    "file": ("out", "out: is a file; choose another --out"),
+    "below a file": ("out/deep/er", "out: is a file; choose another --out"),
+    "link": ("out", "out: is a link that leads nowhere; choose another --out"),
+    "loop": ("out/in", "out: is a link that leads nowhere; choose another --out"),
+    "long": (LONG, f"{LONG}: cannot be reached: File name too long; choose another --out"),
+    "folder": ("out", "out: has a holidays that is not of a "),
+    "files of others": ("out", "out: has a thesis.tex that is not of a "),
+}
+"""Where no results can be: what is asked for, and what is said."""
+
+
+def prepared(desk, kind):
+    """Put something where the results are to go."""
+    there = desk / "out"
+    if kind in ("file", "below a file"):
+        there.write_text("mine")
+    elif kind == "link":
+        there.symlink_to("nowhere")
+    elif kind == "loop":
+        there.symlink_to("out")
+    elif kind == "folder":
+        (there / "holidays").mkdir(parents=True)
+    elif kind == "files of others":
+        there.mkdir()
+        (there / "thesis.tex").write_text("mine")
+    return PLACES[kind]
+
+
+SWEEP = ("sweep", "case.toml", "--vary", "contact.friction=0.3", "--jobs", "1", "--quiet")
+
+
+# Symptoms guarded against: "File exists; make room and start again", exit status 1, for a file or a
+# link in place of the directory; a folder full of other files was written into.
+@pytest.mark.parametrize("kind", PLACES)
+@pytest.mark.parametrize("force", [(), ("--force",)])
+@pytest.mark.parametrize("words", [("run", "case.toml", "--quiet"), SWEEP])
+def test_a_place_for_results_that_is_none_is_refused_in_fitting_words(
+    desk, capsys, kind, force, words
+):
+    out, said = prepared(desk, kind)
+    before = tree(desk)
+    assert carom(*words, "--out", out, *force) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("error: ")
+    assert said in error
+    assert error.count("\n") == 1
+    assert tree(desk) == before
+    if kind in ("link", "loop"):
+        assert (desk / "out").is_symlink()
+
+
+@pytest.mark.parametrize("kind", PLACES)
+def test_python_refuses_the_same_places(desk, kind):
+    out, said = prepared(desk, kind)
+    before = tree(desk)
+    for force in (False, True):
+        with pytest.raises(InputError) as caught:
+            run_scenario(Scenario.from_toml("case.toml"), out=out, force=force)
+        assert str(caught.value).startswith(said)
+    assert tree(desk) == before
+
+
+def test_a_name_that_no_system_takes_is_refused():
+    with pytest.raises(InputError, match="cannot be made: embedded null byte; choose another"):
+        run_scenario(Scenario.from_toml("case.toml"), out="a\0b")
+
+
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root writes everywhere")
+def test_a_directory_that_may_not_be_written_to_is_refused(desk, capsys):
+    (desk / "out").mkdir(mode=0o500)
+    for out in ("out", "out/deep"):
+        assert carom("run", "case.toml", "--out", out) == 2
+        assert "out: cannot be written to; choose another --out" in capsys.readouterr().err
+
+
+def test_a_directory_that_may_not_be_written_to_is_named(desk, capsys, monkeypatch):
+    monkeypatch.setattr("os.access", lambda path, mode: mode == os.R_OK)
+    assert carom("run", "case.toml", "--out", "out") == 2
+    assert ".: cannot be written to; choose another --out" in capsys.readouterr().err
+    assert carom("new", "drop-test", "made.toml") == 2
+    assert "made.toml: . cannot be written to; name another" in capsys.readouterr().err
+
+
+def test_what_systems_leave_in_a_directory_does_not_count(desk):
+    (desk / "out").mkdir()
+    (desk / "out" / ".gitignore").write_text("*")
+    assert carom("run", "case.toml", "--out", "out", "--quiet") == 0
+
+
+def test_what_was_put_beside_results_stays(desk):
+    assert carom("run", "case.toml", "--out", "out", "--quiet") == 0
+    (desk / "out" / "notes.txt").write_text("mine")
+    assert carom("run", "case.toml", "--out", "out", "--quiet", "--force") == 0
+    assert (desk / "out" / "notes.txt").read_text() == "mine"
+
+
+def test_a_study_goes_on_where_it_has_begun_and_keeps_to_its_folders(desk, capsys):
+    words = (*SWEEP, "--out", "study")
+    assert carom(*words) == 0
+    for name in ("sweep.csv", "sweep.png"):
+        (desk / "study" / name).unlink()
+    assert carom(*words) == 0  # as after a study that was killed
+    (desk / "study" / "sweep.csv").unlink()
+    (desk / "study" / "notes.txt").write_text("mine")
+    capsys.readouterr()
+    assert carom(*words) == 2
+    assert "study: has a notes.txt that is not of a study" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda file: file.symlink_to("nowhere"), "is a link that leads nowhere; name another"),
+        (lambda file: file.mkdir(), "is a directory; name a file in it"),
+    ],
+)
+def test_a_file_that_cannot_be_written_is_refused_in_fitting_words(desk, capsys, make, said):
+    make(desk / "made")
+    assert carom("run", "case.toml", "--out", "out", "--quiet") == 0
+    for words in (("new", "drop-test", "made"), ("report", "out", "--out", "made")):
+        for force in ((), ("--force",)):
+            assert carom(*words, *force) == 2
+            assert f"error: made: {said}" in capsys.readouterr().err
+    (desk / "note").write_text("mine")
+    assert carom("new", "drop-test", "note/case.toml") == 2
+    assert "note/case.toml: note is a file; name a directory" in capsys.readouterr().err
+
+
+# Symptom guarded against: carom.run replaced results where the command refuses.
+def test_a_second_run_in_python_is_refused_unless_it_says_force(desk):
+    scenario = Scenario.from_toml("case.toml")
+    run_scenario(scenario, out="out")
+    before = tree(desk)
+    with pytest.raises(InputError, match=r"has results of a run; --force .*force=True") as caught:
+        run_scenario(scenario, out="out")
+    assert "\n" not in str(caught.value)
+    assert tree(desk) == before
+    assert run_scenario(scenario, out="out", force=True).summary["status"] == "completed"
+    assert run_scenario(scenario, out="out", resume=True).summary["status"] == "completed"
+
+
+# Symptom guarded against: "No module named carom.__main__".
+def test_the_command_is_a_module_too():
+    python = [sys.executable, "-m", "carom"]
+    shown = subprocess.run([*python, "--help"], capture_output=True, text=True, check=True)
+    assert "Usage: carom " in shown.stdout
+    wrong = subprocess.run(
+        [*python, "check", "no.toml"], capture_output=True, text=True, check=False
+    )
+    assert wrong.returncode == 2
+    assert wrong.stderr.startswith("error: no.toml: ")

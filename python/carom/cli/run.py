@@ -14,6 +14,7 @@ from carom.cli.failures import failures
 from carom.cli.progress import shown_progress
 from carom.doubts import Doubt
 from carom.errors import CertificateError, ConvergenceError, InputError, naming
+from carom.existing import entries
 from carom.interrupt import terminable
 from carom.io import layout
 from carom.mesh_file import Note
@@ -91,5 +92,5 @@ def run(
 def _spare_the_case(case: Path, directory: Path) -> None:
     """Refuse a results directory where the run would overwrite the case itself."""
     copy = directory / layout.CASE
-    if copy.exists() and copy.samefile(case):
+    if layout.CASE in entries(directory) and copy.exists() and copy.samefile(case):
         raise InputError(f"{case}: would be overwritten in {directory}; choose another --out")

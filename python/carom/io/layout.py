@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from carom.errors import InputError
+from carom.existing import entries, refuse_foreign
 
 CASE = "case.toml"
 SUMMARY = "summary.json"
@@ -65,15 +65,14 @@ def has_results(directory: Path) -> bool:
     Raises
     ------
     InputError
-        The directory is not one of results and has files that a run would overwrite.
+        The directory is not one of results and has something in it, or there can be none.
     """
-    present = [name for name in _NAMES if (directory / name).exists()]
+    there = entries(directory)
     # A run makes its progress file before any other, so one that was killed early has it.
-    if present and not {HISTORY, FIELDS} <= set(present) and not (directory / PROGRESS).exists():
-        raise InputError(
-            f"{directory}: has a {present[0]} that is not of a carom run; choose another --out"
-        )
-    return bool(present)
+    if PROGRESS in there or {HISTORY, FIELDS} <= there:
+        return not there.isdisjoint(_NAMES)
+    refuse_foreign(directory, there - {f"{PROGRESS}{UNFINISHED}"}, of="a carom run")
+    return False
 
 
 def clear(directory: Path) -> None:

@@ -7,11 +7,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from carom.existing import make
 from carom.scenario import Scenario
 from carom.sweep.axis import Axis, axis
 from carom.sweep.processes import here, on_cluster
 from carom.sweep.study import Point, points
-from carom.sweep.table import row, spare_other_study, write_table
+from carom.sweep.table import row, spare_files_of_others, spare_other_study, write_table
 from carom.sweep.worker import Task
 
 __all__ = ["TABLE", "Axis", "Done", "axis", "points", "sweep"]
@@ -67,6 +68,7 @@ def sweep(
         nothing is run.
     """
     study = points(scenario, axes, out)
+    spare_files_of_others(out / TABLE, [point.directory.name for point in study])
     if not force:
         spare_other_study(out / TABLE, [one.key for one in axes])
     rows: list[dict[str, Any] | None] = [None] * len(study)
@@ -86,7 +88,7 @@ def sweep(
             left.append(index)
         else:
             finish(index, summary)
-    out.mkdir(parents=True, exist_ok=True)
+    make(out)
     tasks = [_task(study[index]) for index in left]
     outcomes = (
         here(tasks, jobs=min(jobs or os.cpu_count() or 1, max(len(tasks), 1)))

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from carom.errors import InputError
+from carom.existing import entries, refuse_foreign
+from carom.io.layout import CASE
 
 FIGURES = (
     "energy_initial",
@@ -94,9 +96,35 @@ def spare_other_study(path: Path, keys: Sequence[str]) -> None:
         )
 
 
+def spare_files_of_others(table: Path, folders: Collection[str]) -> None:
+    """Refuse a directory that is not of a study and has something in it.
+
+    Parameters
+    ----------
+    table
+        The table of the study, written when its runs have ended.
+    folders
+        Names of the folders of the runs.
+
+    Raises
+    ------
+    InputError
+        There is something, or there can be no such directory.
+    """
+    directory = table.parent
+    there = entries(directory)
+    if table.name not in there:
+        mine = {name for name in there if name in folders or (directory / name / CASE).is_file()}
+        refuse_foreign(directory, there - mine - {_partial(table).name}, of="a study")
+
+
+def _partial(table: Path) -> Path:
+    return table.with_suffix(".tmp")
+
+
 def write_table(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
     """Write the rows as CSV, whole or not at all."""
-    partial = path.with_suffix(".tmp")
+    partial = _partial(path)
     with partial.open("w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, fieldnames=list(rows[0]))
         writer.writeheader()

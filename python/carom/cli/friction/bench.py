@@ -12,7 +12,7 @@ import carom
 from carom.cli.case import Force
 from carom.cli.failures import failures
 from carom.errors import InputError
-from carom.existing import spare_existing
+from carom.existing import entries, spare_existing
 from carom.messages import known
 from carom.sheet import Sheet, print_whole
 
@@ -59,7 +59,7 @@ def bench(
     with failures(folder):
         from carom.friction import bench as friction_bench  # noqa: PLC0415 (imports scipy)
 
-        if out is not None and out.is_dir():
+        if out is not None and entries(out):
             for name in friction_bench.FILES:
                 spare_existing(out / name, force=force)
         names = _solvers(solvers)
