@@ -84,9 +84,15 @@ class _Writer:
         """Return an entry of a table: parts are written in a line, lists of them as [[…]]."""
         if isinstance(value, Description):
             return self._inline(value)
-        if isinstance(value, tuple) and value and isinstance(value[0], Description):
+        if not isinstance(value, tuple):
+            return tomlkit.item(value)
+        if value and all(isinstance(member, Description) for member in value):
             return AoT([self._table(member) for member in value])
-        return tomlkit.item(list(value) if isinstance(value, tuple) else value)
+        # A vector of functions of time has tables, numbers and texts side by side.
+        array = tomlkit.array()
+        for member in value:
+            array.append(self._entry(member))
+        return array
 
     def _table(self, part: Description) -> Table:
         table = tomlkit.table()

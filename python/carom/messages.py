@@ -70,14 +70,22 @@ def known(name: str, names: Iterable[str]) -> str:
 
 def show(value: object) -> str:
     """Return a value as the case file would write it, cut to a readable length."""
-    if isinstance(value, Mapping):
+    if _is_table(value):
         return "{…}"
-    try:
-        text = tomlkit.item(value).as_string()
-    except ValueError:
-        text = repr(value)
+    if isinstance(value, list | tuple) and any(map(_is_table, value)):
+        text = f"[{', '.join(map(show, value))}]"
+    else:
+        try:
+            text = tomlkit.item(value).as_string()
+        except ValueError:
+            text = repr(value)
     text = " ".join(text.split())
     return text if len(text) <= 60 else f"{text[:59]}…"
+
+
+def _is_table(value: object) -> bool:
+    """Return whether a value is a table of the case file, read or as an object."""
+    return isinstance(value, Mapping) or hasattr(type(value), "model_fields")
 
 
 def input_error(error: ValidationError, data: Mapping[str, Any]) -> InputError:

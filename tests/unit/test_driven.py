@@ -1,8 +1,24 @@
 """Loads, motions and static analyses as case files describe them, and what is refused."""
 
+import itertools
+
 import pytest
 
-from carom import Contact, Fixed, Force, InputError, Pressure, Scenario, Static, Table, check, run
+from carom import (
+    Contact,
+    Fixed,
+    Force,
+    InputError,
+    Pressure,
+    Scenario,
+    Static,
+    Table,
+    Traction,
+    audit,
+    check,
+    run,
+)
+from carom.doctor import examine
 
 BLOCK = {
     "name": "block",
@@ -123,3 +139,40 @@ def test_what_drives_nothing_is_named(path, value, message):
 def test_what_only_the_core_can_tell_is_named(path, value, message):
     with pytest.raises(InputError, match=message):
         check(Scenario.from_dict(with_value(path, value)))
+
+
+TABLE = {"time": [0, 1], "value": [0, 0.5]}
+
+FORMS = (TABLE, 0.0, "0.1*t")
+
+
+# Symptom guarded against: AttributeError: type object 'float' has no attribute 'model_fields'.
+@pytest.mark.parametrize("vector", list(itertools.product(FORMS, repeat=2)))
+@pytest.mark.parametrize("kind", ["force", "traction"])
+def test_a_vector_mixes_tables_numbers_and_formulas(tmp_path, kind, vector):
+    load = {"kind": kind, "body": "block", "on": "right", kind: list(vector)}
+    scenario = Scenario.from_dict(with_value("loads.1", load))
+    for complete in (False, True):
+        (tmp_path / "case.toml").write_text(scenario.to_toml(complete=complete))
+        assert Scenario.from_toml(tmp_path / "case.toml") == scenario
+
+
+def test_a_traction_with_a_table_beside_a_number_runs_and_is_examined(tmp_path):
+    traction = Traction(body="block", on="right", traction=[TABLE, 0.0])
+    assert traction.traction == (Table(**TABLE), 0.0)
+    case = with_value("loads.1", traction)
+    case["output"] = {"audit": True}
+    scenario = Scenario.from_dict(case)
+    assert examine(scenario).worst != "error"
+    result = run(scenario, out=tmp_path / "out")
+    assert result.scenario == scenario
+    assert audit(result.path).confirmed
+
+
+def test_a_vector_with_tables_of_the_wrong_length_is_shown_in_a_line():
+    for mixed, said in (([TABLE, 0, "t"], '[{…}, 0.0, "t"]'), ([Table(**TABLE)], "[{…}]")):
+        case = with_value("loads.1", Force(body="block", on="right", force=mixed))
+        with pytest.raises(InputError) as caught:
+            Scenario.from_dict(case)
+        expected = f"loads.1.force = {said}: must have 2 components, not {len(mixed)}"
+        assert str(caught.value) == expected
