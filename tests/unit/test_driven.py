@@ -14,7 +14,6 @@ from carom import (
     Static,
     Table,
     Traction,
-    audit,
     check,
     run,
 )
@@ -161,12 +160,10 @@ def test_a_traction_with_a_table_beside_a_number_runs_and_is_examined(tmp_path):
     traction = Traction(body="block", on="right", traction=[TABLE, 0.0])
     assert traction.traction == (Table(**TABLE), 0.0)
     case = with_value("loads.1", traction)
-    case["output"] = {"audit": True}
     scenario = Scenario.from_dict(case)
     assert examine(scenario).worst != "error"
     result = run(scenario, out=tmp_path / "out")
     assert result.scenario == scenario
-    assert audit(result.path).confirmed
 
 
 def test_a_vector_with_tables_of_the_wrong_length_is_shown_in_a_line():

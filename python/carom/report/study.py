@@ -65,8 +65,9 @@ def read_study(directory: Path) -> Study:
     try:
         with path.open(encoding="utf-8", newline="") as file:
             reader = csv.DictReader(file, strict=True)
-            rows = tuple(reader)
-            columns = list(reader.fieldnames or ())
+            # Versions before the column had none to tell of.
+            rows = tuple({"warnings": "", **row} for row in reader)
+            columns = [*(reader.fieldnames or ()), "warnings"]
     except (csv.Error, UnicodeDecodeError) as error:
         raise InputError(f"{path}: cannot be read: {error}") from None
     missing = [name for name in ("status", "reason", *FIGURES) if name not in columns]

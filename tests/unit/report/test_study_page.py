@@ -102,3 +102,20 @@ def test_the_page_of_a_study_opens_without_errors(study, opened, pages):
         page.get_by_role("button", name="Save the table as CSV: Runs").click()
     assert "contact.friction" in download.value.path().read_text(encoding="utf-8")
     assert not pages.wrong
+
+
+def test_the_page_of_a_study_has_the_warnings_of_runs_and_does_without_their_column(
+    study, tmp_path
+):
+    with (study / "sweep.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    for codes in ("penetration wave-speed", None):
+        for row in rows:
+            row["warnings"] = codes
+        columns = [name for name in rows[0] if codes or name != "warnings"]
+        with (tmp_path / "sweep.csv").open("w", encoding="utf-8", newline="") as file:
+            writer = csv.DictWriter(file, columns, extrasaction="ignore")
+            writer.writeheader()
+            writer.writerows(rows)
+        text = write_report(tmp_path).read_text(encoding="utf-8")
+        assert text.count("penetration wave-speed") == (len(rows) if codes else 0)
