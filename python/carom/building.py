@@ -10,6 +10,7 @@ from carom._carom import Simulation
 from carom.closing import closed
 from carom.errors import InputError
 from carom.leaps import refuse_leaps
+from carom.magnitudes import refuse_unbounded
 from carom.mesh import MeshFile
 from carom.mesh_file import MeshArrays, Note, read_body_mesh, read_surface
 from carom.obstacle import RigidSurface
@@ -45,7 +46,9 @@ def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
         except InputError:  # what has been wrong before is told, not what is left of it
             raise refusal from None
         found += moves
-    refuse_leaps(scenario, simulation.describe())
+    description = simulation.describe()
+    refuse_unbounded(scenario, description)
+    refuse_leaps(scenario, description)
     if notes is None:
         for note in found:
             warnings.warn(note.message, stacklevel=3)

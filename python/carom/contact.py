@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from typing_extensions import Self
 
-from carom.description import Count, Description, Number, Positive
+from carom.description import Count, Description, Number, Positive, Share
 from carom.messages import problem
 
 Sources = Literal["finer", "first", "second", "both"]
@@ -131,7 +131,7 @@ class Contact(Description):
     sources: Sources = "finer"
     targets: Literal["smooth", "faceted"] = "smooth"
     discretisation: Discretisation = "node-to-segment"
-    certificate_tolerance: Positive = 1e-9
+    certificate_tolerance: Share = 1e-9
     pairs: tuple[Pair, ...] = ()
 
 

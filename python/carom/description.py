@@ -49,6 +49,9 @@ Number = Annotated[float, Field(strict=True)]
 Positive = Annotated[float, Field(strict=True, gt=0)]
 """A number greater than zero."""
 
+Share = Annotated[float, Field(strict=True, gt=0, le=1)]
+"""A number greater than zero, and one at most."""
+
 NonNegative = Annotated[float, Field(strict=True, ge=0)]
 """A number of zero or more."""
 
