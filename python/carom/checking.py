@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from carom.building import build
@@ -50,12 +50,15 @@ def check(scenario: Scenario) -> Check:
     InputError
         The scenario cannot be run.
     """
-    description = build(scenario, []).describe()
-    found = (*first_doubts(scenario, description), *_unlikely(scenario, description))
+    notes: list[Note] = []
+    description = build(scenario, notes).describe()
+    found = (*first_doubts(scenario, description, notes), *_unlikely(scenario, description))
     return Check(description=description, warnings=tuple(doubt.message for doubt in found))
 
 
-def first_doubts(scenario: Scenario, description: Mapping[str, Any]) -> Iterator[Doubt]:
+def first_doubts(
+    scenario: Scenario, description: Mapping[str, Any], notes: Iterable[Note] = ()
+) -> Iterator[Doubt]:
     """Yield what a case gives rise to doubt before its first step.
 
     Parameters
@@ -64,7 +67,10 @@ def first_doubts(scenario: Scenario, description: Mapping[str, Any]) -> Iterator
         The case.
     description
         What the native simulation says of it.
+    notes
+        What `build` did to meshes.
     """
+    yield from (Doubt(**asdict(note)) for note in notes)
     yield from _doubts_of_units(scenario, description)
     step, suggested = scenario.analysis.time_step, description["suggested_time_step"]
     if scenario.analysis.kind == "dynamic" and step > COARSE_STEP * suggested:

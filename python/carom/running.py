@@ -20,6 +20,7 @@ from carom.errors import CertificateError, ConvergenceError, InputError, Storage
 from carom.interrupt import Terminated
 from carom.io import layout
 from carom.io.progress import refuse_running
+from carom.mesh_file import Note
 from carom.observer import Observer, ObserverError, Observing, Stop
 from carom.progress import Pace, Progress, ShowProgress
 from carom.recorder import Recorder
@@ -79,7 +80,8 @@ def run(
         Ctrl-C; the results up to it are written, with the status ``"interrupted"``, and a
         checkpoint.
     """
-    simulation = build(scenario)
+    notes: list[Note] = []
+    simulation = build(scenario, notes)
     directory = Path("results") / _slug(scenario.title) if out is None else Path(out)
     return drive(
         simulation,
@@ -89,6 +91,7 @@ def run(
         progress=progress,
         resume=resume,
         force=force,
+        notes=notes,
     )
 
 
@@ -101,6 +104,7 @@ def drive(
     progress: ShowProgress | None = None,
     resume: bool = False,
     force: bool = False,
+    notes: Sequence[Note] = (),
     notify: Notify = warn,
 ) -> Result:
     """Take a simulation to its end, recording as it goes; see `run`.
@@ -109,6 +113,8 @@ def drive(
     ----------
     simulation
         What `build` made of the scenario.
+    notes
+        What `build` did to meshes.
     notify
         Told of every doubt as it arises, see `carom.doubts`; of those that the results give rise to
         after they are written.
@@ -141,7 +147,8 @@ def drive(
         ) as recorder,
     ):
         before = [] if checkpoint is None else written_doubts(checkpoint.record)
-        for doubt in (*before, *first_doubts(scenario, simulation.describe()), *noted):
+        first = first_doubts(scenario, simulation.describe(), notes)
+        for doubt in (*before, *first, *noted):
             recorder.doubt(doubt)
         wish = _take(
             simulation, scenario, recorder, schedule, observing=observing, progress=progress

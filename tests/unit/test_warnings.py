@@ -13,9 +13,11 @@ from typer.testing import CliRunner
 import carom
 from carom import cli, doubts
 from carom.auditing import audit
+from carom.doctor import examine
 from carom.io import layout
 from carom.recorder import Recorder
 from carom.report import write_report
+from carom.sweep import axis, sweep
 from restarting import scenario
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -333,12 +335,14 @@ def test_a_warning_survives_the_way_to_another_process():
 
 def test_every_code_is_on_the_page_of_results():
     page = (DOCS / "how-to" / "results-in-python.md").read_text(encoding="utf-8")
-    listed = set(re.findall(r"(?m)^\| `([a-z-]+)` \|", page.partition("## Warnings")[2]))
+    listed = set(re.findall(r"`([a-z]+(?:-[a-z]+)+)`", page.partition("## Warnings")[2]))
     sources = (DOCS.parent / "python" / "carom").rglob("*.py")
     used = {
         code
         for source in sources
-        for code in re.findall(r'\bDoubt\(\s*"([^"]+)"', source.read_text(encoding="utf-8"))
+        for code in re.findall(
+            r'\b(?:Doubt|Note)\(\s*"([^"]+)"', source.read_text(encoding="utf-8")
+        )
     }
     only_checked = {"partial-step", "nothing-touches"}
     assert used - only_checked <= listed
@@ -354,3 +358,29 @@ def test_the_recorder_says_everything_once(tmp_path):
         for doubt in (one, other, one):
             recorder.doubt(doubt)
     assert told == [one, other]
+
+
+def test_what_was_done_to_a_mesh_is_told_wherever_its_case_goes(tmp_path):
+    import meshio
+
+    points = [[0.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]]
+    meshio.write_points_cells(
+        tmp_path / "square.vtu",
+        [[*point, 0.0] for point in points],
+        [("triangle", [[0, 2, 1], [0, 3, 2]])],
+    )
+    body = {"name": "block", "material": "e", "mesh": {"file": str(tmp_path / "square.vtu")}}
+    case = block(bodies=[body], analysis={"end_time": 0.02, "time_step": 1e-2})
+    with pytest.warns(carom.CaromWarning, match="numbered the other way round"):
+        result = carom.run(case, out=tmp_path / "out")
+    (warning,) = [one for one in result.warnings if one.code == "turned-cells"]
+    assert (warning.where, warning.value) == ("bodies.0.mesh.file", 2)
+    assert str(warning) in carom.check(case).warnings
+    assert str(warning) in [finding.what for finding in examine(case).findings]
+    (row,) = sweep(case, [axis("materials.e.poisson=0.3")], tmp_path / "study", jobs=1)
+    assert "turned-cells" in row["warnings"].split()
+    (tmp_path / "case.toml").write_text(case.to_toml())
+    shown = CliRunner().invoke(
+        cli.app, ["run", str(tmp_path / "case.toml"), "--out", str(tmp_path / "x")]
+    )
+    assert "numbered the other way round" in shown.output

@@ -70,7 +70,8 @@ def run(
             )
             return
         with naming(case):
-            simulation = build(scenario)
+            notes: list[Note] = []
+            simulation = build(scenario, notes)
         try:
             with shown_progress(console) as progress:
                 result = drive(
@@ -80,6 +81,7 @@ def run(
                     progress=progress,
                     resume=resume,
                     force=force,
+                    notes=notes,
                     notify=tell_of,
                 )
         except (CertificateError, ConvergenceError, KeyboardInterrupt):

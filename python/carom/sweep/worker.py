@@ -11,6 +11,7 @@ from carom.doubts import Doubt
 from carom.errors import CaromError, InputError
 from carom.io import layout
 from carom.io.summary import read_summary
+from carom.mesh_file import Note
 from carom.running import drive
 from carom.scenario import Scenario
 
@@ -36,7 +37,9 @@ def work(task: Task) -> dict[str, Any]:
     directory = Path(task.directory)
     try:
         scenario = Scenario.from_dict(task.case)
-        result = drive(build(scenario), scenario, directory, force=True, notify=_leave)
+        notes: list[Note] = []
+        simulation = build(scenario, notes)
+        result = drive(simulation, scenario, directory, force=True, notes=notes, notify=_leave)
         return dict(result.summary)
     except InputError as error:
         return refused("refused", str(error))
