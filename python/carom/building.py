@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-import warnings
 from collections.abc import Mapping
 
 from carom._carom import Simulation
 from carom.closing import closed
+from carom.doubts import of_mesh, warn
 from carom.errors import InputError
 from carom.leaps import refuse_leaps
 from carom.magnitudes import refuse_unbounded
@@ -51,7 +51,7 @@ def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
     refuse_leaps(scenario, description)
     if notes is None:
         for note in found:
-            warnings.warn(note.message, stacklevel=3)
+            warn(of_mesh(note))
     else:
         notes += found
     return simulation

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 from carom.building import build
-from carom.doubts import Doubt
+from carom.doubts import Doubt, of_mesh
 from carom.mesh import MeshFile
 from carom.mesh_file import Note
 from carom.scenario import Scenario
@@ -70,7 +70,7 @@ def first_doubts(
     notes
         What `build` did to meshes.
     """
-    yield from (Doubt(**asdict(note)) for note in notes)
+    yield from map(of_mesh, notes)
     yield from _doubts_of_units(scenario, description)
     step, suggested = scenario.analysis.time_step, description["suggested_time_step"]
     if scenario.analysis.kind == "dynamic" and step > COARSE_STEP * suggested:

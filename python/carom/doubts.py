@@ -10,10 +10,13 @@ import math
 import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from carom.errors import CaromWarning
 from carom.summary import WarningSummary
+
+if TYPE_CHECKING:
+    from carom.mesh_file import Note
 
 LARGE_DEFECT = 0.02
 """Defect of the ledger, relative to the energy that the run had or was given, to be warned of."""
@@ -67,6 +70,11 @@ class Doubt:
 def written_doubts(data: Mapping[str, Any]) -> list[Doubt]:
     """Return the doubts of ``summary.json``; none of versions that did not write them down."""
     return [Doubt(**one) for one in data.get("warnings", ())]
+
+
+def of_mesh(note: Note) -> Doubt:
+    """Return the doubt that something was done to a mesh out of a file."""
+    return Doubt(note.code, note.message, note.where, note.value, note.allowed)
 
 
 def warn(doubt: Doubt) -> None:
