@@ -311,6 +311,7 @@ def test_no_second_run_in_the_same_directory(tmp_path):
     directory = tmp_path / "out"
     first = started(quietly, directory)
     while not (directory / "progress.json").exists():
+        assert first.is_alive()
         time.sleep(0.001)
     os.kill(first.pid, signal.SIGSTOP)
     try:
