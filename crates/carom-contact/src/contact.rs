@@ -68,7 +68,7 @@ impl<const D: usize> Contact<D> {
         Self { gap, frame, area, stencil, sources }
     }
 
-    /// Turns the tangents to where those of an earlier frame of the contact were: see [`crate::frame::carried`]. A frame of zeros stands for none.
+    /// Turns the tangents to where those of an earlier frame of the contact were (`carried` in frame.rs). A frame of zeros stands for none.
     pub fn carry_frame(&mut self, before: &Matrix<D>) {
         self.frame = carried(&self.frame, before);
     }
