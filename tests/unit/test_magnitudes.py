@@ -34,7 +34,7 @@ def changed(key, value):
         ("materials.elastic.young", 1.7e308, "the wave speed of left is infinite"),
         ("materials.elastic.young", 5e-324, "the wave speed of left is zero|is infinite"),
         ("bodies.0.velocity", [1e160, 0.0], "^bodies: the initial energy is not finite; check"),
-        ("obstacles.1.centre", [1e160, 9.0], "^contact: the distance of left and ball is infinit"),
+        ("obstacles.1.centre", [1e160, 9.0], "^contact: the distance of left and ball is infinite"),
         ("contact.certificate_tolerance", 1e308, "certificate_tolerance = .*: must be at most 1"),
     ],
 )
