@@ -326,6 +326,12 @@ BAD = [
         "rings = 0 makes no mesh: at least 1 ring is needed around the core",
     ),
     (
+        {**SPACE, **mesh(**{**BALL, "cell": "wedge6"})},
+        "bodies.0.mesh.cell",
+        'cell = "wedge6" makes no mesh: the sides of its core have cells on them that point in '
+        "three directions; take hex or tet cells",
+    ),
+    (
         mesh(**{**BLOCK, "size": [1, 0]}),
         "bodies.0.mesh.size",
         "size = [1.0, 0.0] makes no mesh: every side must be longer than 0 m",

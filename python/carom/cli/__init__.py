@@ -22,7 +22,8 @@ COMMANDS = {
     "plot": "Draw energies and tracked points of finished results again.",
     "view": "Show results in space: bodies as they deform, coloured by a field.",
     "watch": "Follow a run from another terminal, until it ends.",
-    "report": "Write a page with the animated bodies, the energies and all numbers of a run.",
+    "report": "Write a page with the animated bodies, energies and all numbers of a run; or "
+    "of a study.",
     "schema": "Print the JSON Schema of the case file, by which editors complete and check it.",
     "friction": "Contact problems with friction on their own.",
 }
