@@ -140,7 +140,7 @@ def test_a_large_problem_ends_in_time(solver, large):
     found = friction.solve(large, solver=solver, tolerance=1e-300, time_limit=0.5)
     assert found.status == "time-limit"
     # Processor time, which a busy machine does not stretch. The order of elimination cannot be cut
-    # short, and a limit of half a second is less than it takes; without a clock it is minutes.
+    # short, and a limit of half a second is less than it takes.
     assert process_time() - start < 20.0
 
 
