@@ -2,7 +2,7 @@
 
 ``python benchmarks/mutants`` takes an hour on two cores. Every error of ``mutants.toml`` is made in
 a copy of the tree; the tests of the crates run first, then those of Python with the package built
-anew. ``--only WORD`` makes those whose name has the word, ``--write`` writes the table into
+anew. ``--only WORD`` makes those with the word in name or file, ``--write`` writes the table into
 docs/reliability.md.
 """
 
@@ -111,7 +111,10 @@ def _judge(mutant: Mutant, tree: Path, target: Path) -> tuple[str, str]:
                 if not failed:
                     sys.exit(f"{mutant.name} does not compile:\n{said[-3000:]}")
                 return failed[0]
-    python = tree / ".mutant-venv" / "bin" / "python"
+    own = tree / ".mutant-venv"
+    if not own.exists():
+        subprocess.run(["cp", "-r", str(ROOT / ".venv"), str(own)], check=True)
+    python = own / "bin" / "python"
     code, said = _run([str(python), "-m", "pip", "install", "--quiet", "."], tree, environment)
     if code != 0:
         sys.exit(f"{mutant.name}: the package does not build:\n{said[-3000:]}")
@@ -172,7 +175,9 @@ def write(verdicts: Sequence[Verdict]) -> None:
 def main() -> int:
     """Judge the mutants; the exit status is 1 if one survives."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--only", metavar="WORD", default="", help="those whose name has this word")
+    parser.add_argument(
+        "--only", metavar="WORD", default="", help="those with this word in name or file"
+    )
     parser.add_argument("--write", action="store_true", help="write the table into the docs")
     options = parser.parse_args()
     known = (
@@ -186,13 +191,9 @@ def main() -> int:
         shutil.copytree(
             ROOT, tree, ignore=shutil.ignore_patterns(".git", ".venv", "target", "results", "*.so")
         )
-        if (ROOT / ".venv").exists():
-            subprocess.run(
-                ["cp", "-r", str(ROOT / ".venv"), str(tree / ".mutant-venv")], check=True
-            )
         target = ROOT / "target" / "mutants"
         for mutant in listed:
-            if options.only.lower() not in mutant.name.lower():
+            if options.only.lower() not in f"{mutant.name} {mutant.file}".lower():
                 continue
             verdict = judge(mutant, tree, target)
             known[mutant.name] = verdict
