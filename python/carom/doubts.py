@@ -1,6 +1,7 @@
 """What speaks against the results of a run, or against its case: the warnings of ``summary.json``.
 
-Every doubt has a code, which stays the same from version to version; docs/warnings.md lists them.
+Every doubt has a code, which stays the same from version to version;
+docs/how-to/results-in-python.md lists them.
 """
 
 from __future__ import annotations

@@ -171,18 +171,25 @@ class SurfaceChecks:
                 feet = zip(contacts.followed[k].tolist(), shares.tolist(), strict=True)
                 loads += [(node, share, -normal) for node, share in feet if share > 0.0]
             for node, share, towards in loads:
-                self._bear(node, share * force, -normals @ towards, turn, (mine, off))
                 # The run's normal is that of its last guess.
-                around = np.flatnonzero((self._facets == node).any(axis=1))
-                slack = np.linalg.norm(contacts.reaction[k]) * contacts.normal_error[k]
-                np.add.at(off, around, SAFETY * slack / self._area[around])
+                slack = SAFETY * np.linalg.norm(contacts.reaction[k]) * contacts.normal_error[k]
+                facing = -normals @ towards
+                into = (mine, off)
+                self._bear(node, share * force, facing, into, turn=turn, slack=float(slack))
         where = f"t = {frame.time:g} s"
         self._check("surface: pressure", self._pressure - mine, off, where)
 
     def _bear(
-        self, node: int, force: float, facing: Array, turn: float, into: tuple[Array, Array]
+        self,
+        node: int,
+        force: float,
+        facing: Array,
+        into: tuple[Array, Array],
+        *,
+        turn: float,
+        slack: float,
     ) -> None:
-        """Add the pressures of a force on a node to the facets around that face it."""
+        """Add the pressures of a force on a node, and how far they may be off, to its facets."""
         around = np.flatnonzero((self._facets == node).any(axis=1))
         best = facing[around].max()
         weight = np.where(facing[around] >= BEARS * best, self._area[around] * facing[around], 0.0)
@@ -192,5 +199,5 @@ class SurfaceChecks:
         np.add.at(into[0], around, pressures)
         # A facet that faces it just well enough, or just not.
         doubt = np.abs(facing[around] - BEARS * best) <= turn
-        off = abs(force) / self._area[around] * (ROUND_OFF + turn + doubt.any())
+        off = (abs(force) * (ROUND_OFF + turn + doubt.any()) + slack) / self._area[around]
         np.add.at(into[1], around, off)
