@@ -117,3 +117,9 @@ impl<const D: usize> Contact<D> {
         }
     }
 }
+
+/// How the nodes of one side of a contact share what happens to it: in proportion to their weights, none of them negative.
+pub fn shares(side: impl Iterator<Item = (usize, f64)> + Clone) -> impl Iterator<Item = (usize, f64)> {
+    let whole: f64 = side.clone().map(|(_, weight)| weight.abs()).sum();
+    side.map(move |(node, weight)| (node, weight.abs() / whole))
+}

@@ -29,7 +29,7 @@ mod self_contact;
 mod surface;
 
 pub use candidate::{Candidate, Site};
-pub use contact::Contact;
+pub use contact::{Contact, shares};
 pub use distance::Proximity;
 pub use model::{ContactModel, Pair, Target};
 pub use mortar::{Discretisation, Mortar};

@@ -1,6 +1,6 @@
 //! The end of a step: the new state, and what happened to the energy.
 
-use carom_contact::{Candidate, Contact};
+use carom_contact::{Candidate, Contact, shares};
 use carom_friction::cone;
 use carom_mesh::{Vector, nodal};
 
@@ -10,7 +10,6 @@ use crate::error::StepError;
 use crate::ledger::BodyLedger;
 use crate::react::{driven, measure_rubbing};
 use crate::state::{Reaction, State};
-use crate::surface_fields::deposit;
 use crate::workspace::{GroupReport, StepReport, Workspace};
 use crate::{Energies, Method, Model, StepMap};
 
@@ -280,4 +279,12 @@ fn add_slip<const D: usize>(model: &Model<D>, next: &mut State<D>, work: &mut Wo
             }
         });
     }
+}
+
+/// Leaves the energy that friction takes at a contact to its nodes: half to the source, half to those of a deformable target.
+fn deposit<const D: usize>(model: &Model<D>, contact: &Contact<D>, energy: f64, nodes: &mut [f64]) {
+    let targets = contact.targets().filter(|&(node, _)| node < model.node_count());
+    let to_target = if targets.clone().next().is_some() { 0.5 * energy } else { 0.0 };
+    shares(contact.sources()).for_each(|(node, share)| nodes[node] += (energy - to_target) * share);
+    shares(targets).for_each(|(node, share)| nodes[node] += to_target * share);
 }

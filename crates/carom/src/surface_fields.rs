@@ -1,9 +1,9 @@
 //! What happened on the boundaries, facet by facet.
 
-use carom_contact::Contact;
+use carom_contact::shares;
 use carom_mesh::{Facet, Vector};
 
-use crate::{Model, State};
+use crate::{Model, ModelBody, State};
 
 /// Facets around a node bear its contact if they face it at least this well, relative to the one that does best: the sides of a sole stand
 /// across it and bear nothing, whatever friction pulls at their nodes.
@@ -58,9 +58,8 @@ pub(crate) fn surface_fields<const D: usize>(model: &Model<D>, state: &State<D>)
         loads = rest;
         if !of_body.is_empty() {
             bear(
-                model,
-                state,
-                b.first_node,
+                b,
+                &state.displacement[b.nodes()],
                 facets,
                 of_body,
                 &fields.area[first..],
@@ -98,22 +97,21 @@ fn normal_loads<const D: usize>(model: &Model<D>, state: &State<D>) -> Vec<Norma
     loads
 }
 
-/// Lays the normal reactions `loads` at nodes of a body on its `facets`, as pressures [Pa].
+/// Lays the normal reactions `loads` at nodes of a body, which has moved by `displacement` [m], on its `facets` as pressures [Pa].
 fn bear<const D: usize>(
-    model: &Model<D>,
-    state: &State<D>,
-    first_node: usize,
+    b: &ModelBody<D>,
+    displacement: &[Vector<D>],
     facets: &[Facet],
     loads: &[NormalLoad<D>],
     areas: &[f64],
     pressures: &mut [f64],
 ) {
-    let b = &model.bodies[model.body_of_node[first_node] as usize];
-    let is_loaded = |n: u32| loads.binary_search_by_key(&(first_node + n as usize), |load| load.node).is_ok();
+    let number = |n: u32| b.first_node + n as usize;
+    let is_loaded = |n: u32| loads.binary_search_by_key(&number(n), |load| load.node).is_ok();
     // Facets by the loaded nodes that they have.
     let mut incident: Vec<(usize, usize)> = Vec::new();
     for (f, facet) in facets.iter().enumerate() {
-        incident.extend(facet.nodes.iter().filter(|&&n| is_loaded(n)).map(|&n| (first_node + n as usize, f)));
+        incident.extend(facet.nodes.iter().filter(|&&n| is_loaded(n)).map(|&n| (number(n), f)));
     }
     incident.sort_unstable();
     let mut weights: Vec<(usize, f64)> = Vec::new();
@@ -122,7 +120,7 @@ fn bear<const D: usize>(
         let around = incident[from..].iter().take_while(|&&(node, _)| node == load.node);
         weights.clear();
         weights.extend(around.map(|&(_, f)| {
-            let normal = facets[f].normal(b.body.mesh(), &state.displacement[b.nodes()]);
+            let normal = facets[f].normal(b.body.mesh(), displacement);
             (f, -normal.dot(&load.direction))
         }));
         let best = weights.iter().map(|&(_, facing)| facing).fold(f64::NEG_INFINITY, f64::max);
@@ -141,23 +139,4 @@ fn bear<const D: usize>(
             weights.iter().for_each(|&(f, weight)| pressures[f] += load.force * weight / whole / areas[f]);
         }
     }
-}
-
-/// How the nodes of one side of a contact share what happens to it: in proportion to their weights, none of them negative.
-pub(crate) fn shares(side: impl Iterator<Item = (usize, f64)> + Clone) -> impl Iterator<Item = (usize, f64)> {
-    let whole: f64 = side.clone().map(|(_, weight)| weight.abs()).sum();
-    side.map(move |(node, weight)| (node, weight.abs() / whole))
-}
-
-/// Leaves the energy that friction takes at a contact to its nodes: half to the source, half to those of a deformable target.
-pub(crate) fn deposit<const D: usize>(
-    model: &Model<D>,
-    contact: &Contact<D>,
-    energy: f64,
-    nodes: &mut [f64],
-) {
-    let targets = contact.targets().filter(|&(node, _)| node < model.node_count());
-    let to_target = if targets.clone().next().is_some() { 0.5 * energy } else { 0.0 };
-    shares(contact.sources()).for_each(|(node, share)| nodes[node] += (energy - to_target) * share);
-    shares(targets).for_each(|(node, share)| nodes[node] += to_target * share);
 }
