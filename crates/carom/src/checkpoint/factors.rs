@@ -6,15 +6,14 @@
 use carom_fem::sparse::Precision;
 use carom_mesh::{Matrix, Vector};
 
-use super::CheckpointError;
-use super::tape::Tape;
-use crate::linearise::Origin;
-use crate::workspace::Workspace;
+use crate::archive::{Archive, CheckpointError};
+use crate::body::fe::operator::Origin;
+use crate::step::workspace::Workspace;
 use crate::{Method, Model};
 
 /// Records or replays what the factors of all bodies were made from.
 pub(super) fn exchange<const D: usize>(
-    tape: &mut Tape<'_>,
+    archive: &mut Archive<'_>,
     model: &Model<D>,
     method: &Method<D>,
     work: &mut Workspace<D>,
@@ -23,7 +22,7 @@ pub(super) fn exchange<const D: usize>(
         let (operator, compliance) = (&mut work.operators[i], &mut work.compliances[i]);
         let name = |of: &str| format!("factors/{i}/{of}");
         let mut has_factor = operator.origin().is_some();
-        tape.flags(&name("has_factor"), [&mut has_factor])?;
+        archive.flags(&name("has_factor"), [&mut has_factor])?;
         if !has_factor {
             operator.forget();
             continue;
@@ -38,15 +37,15 @@ pub(super) fn exchange<const D: usize>(
         let mut is_double = origin.precision == Precision::Double;
         let (nodes, mut near) = compliance.kept(operator);
         let mut nodes = nodes.to_vec();
-        nodes.resize(tape.rows(&name("nodes"), nodes.len())?, 0);
-        tape.numbers(&name("dt"), [&mut origin.dt])?;
-        tape.flags(&name("is_double"), [&mut is_double])?;
-        tape.numbers(&name("frame"), origin.frame.iter_mut())?;
-        tape.vectors(&name("displacement"), &mut origin.displacement)?;
-        tape.plastic(&name("plastic"), &mut origin.history)?;
-        tape.integers(&name("nodes"), &mut nodes)?;
-        tape.flags(&name("near"), [&mut near])?;
-        if !tape.replays() {
+        nodes.resize(archive.rows(&name("nodes"), nodes.len())?, 0);
+        archive.numbers(&name("dt"), [&mut origin.dt])?;
+        archive.flags(&name("is_double"), [&mut is_double])?;
+        archive.numbers(&name("frame"), origin.frame.iter_mut())?;
+        archive.vectors(&name("displacement"), &mut origin.displacement)?;
+        archive.plastic(&name("plastic"), &mut origin.history)?;
+        archive.integers(&name("nodes"), &mut nodes)?;
+        archive.flags(&name("near"), [&mut near])?;
+        if !archive.replays() {
             continue;
         }
         if nodes.iter().any(|&node| node as usize >= b.body.node_count()) {

@@ -3,31 +3,30 @@
 use carom_contact::{Contact, Site};
 use carom_mesh::{Matrix, Vector};
 
-use super::CheckpointError;
-use super::tape::Tape;
+use crate::archive::{Archive, CheckpointError};
 use crate::{Model, Reaction, State};
 
 /// Records or replays the state.
 pub(super) fn exchange<const D: usize>(
-    tape: &mut Tape<'_>,
+    archive: &mut Archive<'_>,
     model: &Model<D>,
     state: &mut State<D>,
 ) -> Result<(), CheckpointError> {
-    tape.numbers("state/time", [&mut state.time])?;
-    tape.vectors("state/displacement", &mut state.displacement)?;
-    tape.vectors("state/velocity", &mut state.velocity)?;
-    tape.vectors("state/contact_force", &mut state.contact_force)?;
-    tape.numbers("state/friction_energy", &mut state.friction_energy)?;
-    tape.vectors("state/support", &mut state.support)?;
-    tape.numbers("state/slip", &mut state.slip)?;
-    tape.vectors("state/internal_force", &mut state.internal_force)?;
-    tape.numbers("state/energies", state.energies.terms_mut())?;
-    tape.numbers("state/body_energies", state.body_energies.iter_mut().flat_map(|e| e.terms_mut()))?;
-    tape.numbers("state/excess", &mut state.excess)?;
-    tape.plastic("state/plastic", state.history.iter_mut().flatten())?;
+    archive.numbers("state/time", [&mut state.time])?;
+    archive.vectors("state/displacement", &mut state.displacement)?;
+    archive.vectors("state/velocity", &mut state.velocity)?;
+    archive.vectors("state/contact_force", &mut state.contact_force)?;
+    archive.numbers("state/friction_energy", &mut state.friction_energy)?;
+    archive.vectors("state/support", &mut state.support)?;
+    archive.numbers("state/slip", &mut state.slip)?;
+    archive.vectors("state/internal_force", &mut state.internal_force)?;
+    archive.numbers("state/energies", state.energies.terms_mut())?;
+    archive.numbers("state/body_energies", state.body_energies.iter_mut().flat_map(|e| e.terms_mut()))?;
+    archive.numbers("state/excess", &mut state.excess)?;
+    archive.plastic("state/plastic", state.history.iter_mut().flatten())?;
     let mut reactions = Reactions::of(&state.reactions);
-    reactions.exchange(tape)?;
-    if tape.replays() {
+    reactions.exchange(archive)?;
+    if archive.replays() {
         state.reactions = reactions.into_reactions(model)?;
     }
     Ok(())
@@ -82,10 +81,10 @@ impl<const D: usize> Reactions<D> {
         }
     }
 
-    fn exchange(&mut self, tape: &mut Tape<'_>) -> Result<(), CheckpointError> {
+    fn exchange(&mut self, archive: &mut Archive<'_>) -> Result<(), CheckpointError> {
         let name = |of: &str| format!("{PREFIX}/{of}");
-        let count = tape.rows(&name("pair"), self.pair.len())?;
-        let entries = tape.rows(&name("stencil_node"), self.stencil_node.len())?;
+        let count = archive.rows(&name("pair"), self.pair.len())?;
+        let entries = archive.rows(&name("stencil_node"), self.stencil_node.len())?;
         self.pair.resize(count, 0);
         self.site.resize(count, [0; 4]);
         self.force.resize(count, Vector::zeros());
@@ -96,16 +95,16 @@ impl<const D: usize> Reactions<D> {
         self.stencil_length.resize(count, 0);
         self.stencil_node.resize(entries, 0);
         self.stencil_weight.resize(entries, 0.0);
-        tape.integers(&name("pair"), &mut self.pair)?;
-        tape.integers(&name("site"), self.site.as_flattened_mut())?;
-        tape.vectors(&name("force"), &mut self.force)?;
-        tape.numbers(&name("gap"), &mut self.gap)?;
-        tape.numbers(&name("area"), &mut self.area)?;
-        tape.numbers(&name("frame"), self.frame.iter_mut().flat_map(|f| f.iter_mut()))?;
-        tape.integers(&name("source_count"), &mut self.source_count)?;
-        tape.integers(&name("stencil_length"), &mut self.stencil_length)?;
-        tape.integers(&name("stencil_node"), &mut self.stencil_node)?;
-        tape.numbers(&name("stencil_weight"), &mut self.stencil_weight)
+        archive.integers(&name("pair"), &mut self.pair)?;
+        archive.integers(&name("site"), self.site.as_flattened_mut())?;
+        archive.vectors(&name("force"), &mut self.force)?;
+        archive.numbers(&name("gap"), &mut self.gap)?;
+        archive.numbers(&name("area"), &mut self.area)?;
+        archive.numbers(&name("frame"), self.frame.iter_mut().flat_map(|f| f.iter_mut()))?;
+        archive.integers(&name("source_count"), &mut self.source_count)?;
+        archive.integers(&name("stencil_length"), &mut self.stencil_length)?;
+        archive.integers(&name("stencil_node"), &mut self.stencil_node)?;
+        archive.numbers(&name("stencil_weight"), &mut self.stencil_weight)
     }
 
     fn into_reactions(self, model: &Model<D>) -> Result<Vec<Reaction<D>>, CheckpointError> {

@@ -1,0 +1,257 @@
+//! The equation of motion of one body over a step.
+
+use carom_fem::{Body, Worked};
+use carom_mesh::{Matrix, Vector, nodal};
+
+use crate::body::fe::drive::BodyDrive;
+use crate::model::Model;
+use crate::model::state::State;
+use crate::{StepMap, StressRule};
+
+/// Resistance of massless nodes to a change of motion, in terms of the stiffness that holds them.
+pub(crate) const STEADYING: f64 = 0.1;
+
+/// Where a step stands: the part of one body of a state, of its guess for the end, and of what stays fixed in between.
+pub(crate) struct BodyStep<'a, const D: usize> {
+    pub body: &'a Body<D>,
+    /// The body with the history of its material at the start.
+    pub worked: Worked<'a, D>,
+    pub map: &'a StepMap,
+    gravity: &'a Vector<D>,
+    /// Loads and prescribed velocities.
+    drive: &'a BodyDrive<D>,
+    /// Frame of the body in this step.
+    frame: &'a Matrix<D>,
+    /// How far the body turns in the step at its spin.
+    turn: &'a Matrix<D>,
+    /// Mean velocity at the start.
+    drift: &'a Vector<D>,
+    /// v at the start.
+    pub velocity: &'a [Vector<D>],
+    /// u at the start.
+    pub start: &'a [Vector<D>],
+    /// ∂E/∂u at the start.
+    internal_force: &'a [Vector<D>],
+    /// Contact forces that the step before ended with.
+    pub contact_force: &'a [Vector<D>],
+    /// d = u₊ − u.
+    pub motion: &'a [Vector<D>],
+    /// u₊.
+    pub displacement: &'a [Vector<D>],
+}
+
+/// How a body stands and turns in a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pose<const D: usize> {
+    /// Its mean rotation at the predicted middle of the step.
+    pub frame: Matrix<D>,
+    /// Its rotation from the start to the end of the step, at the spin of the start.
+    pub turn: Matrix<D>,
+    /// Its mean velocity at the start [m/s].
+    pub drift: Vector<D>,
+}
+
+impl<const D: usize> Default for Pose<D> {
+    fn default() -> Self {
+        Self { frame: Matrix::identity(), turn: Matrix::identity(), drift: Vector::zeros() }
+    }
+}
+
+/// Scratch vectors of one body.
+#[derive(Debug)]
+pub(crate) struct ResidualScratch<const D: usize> {
+    force: Vec<Vector<D>>,
+    velocity: Vec<Vector<D>>,
+    viscous: Vec<Vector<D>>,
+    product: Vec<Vector<D>>,
+}
+
+impl<const D: usize> ResidualScratch<D> {
+    pub fn new(nodes: usize) -> Self {
+        let zeros = vec![Vector::zeros(); nodes];
+        Self { force: zeros.clone(), velocity: zeros.clone(), viscous: zeros.clone(), product: zeros }
+    }
+
+    /// C v̄ [N] as it was last computed; zero without damping and viscosity.
+    pub fn viscous(&self) -> &[Vector<D>] {
+        &self.viscous
+    }
+}
+
+impl<'a, const D: usize> BodyStep<'a, D> {
+    /// The part of body `index` with its `pose` and `drive`; `motion` and `displacement` are those of the whole model.
+    pub fn new(
+        model: &'a Model<D>,
+        index: usize,
+        map: &'a StepMap,
+        pose: &'a Pose<D>,
+        drive: &'a BodyDrive<D>,
+        state: &'a State<D>,
+        motion: &'a [Vector<D>],
+        displacement: &'a [Vector<D>],
+    ) -> Self {
+        let b = &model.bodies[index];
+        let nodes = b.nodes();
+        Self {
+            body: &b.body,
+            worked: b.body.after(&state.history[index]),
+            map,
+            gravity: &model.gravity,
+            drive,
+            frame: &pose.frame,
+            turn: &pose.turn,
+            drift: &pose.drift,
+            velocity: &state.velocity[nodes.clone()],
+            start: &state.displacement[nodes.clone()],
+            internal_force: &state.internal_force[nodes.clone()],
+            contact_force: &state.contact_force[nodes.clone()],
+            motion: &motion[nodes.clone()],
+            displacement: &displacement[nodes],
+        }
+    }
+
+    /// Writes the residual F̄ + F̄_acc (3) without reactions [N] to `out`:
+    /// M(g − (v₊ − v)/Δt) + F̄ − f̄ − C v̄, with v̄ = (1 − ξ)v + ξv₊ and f̄ by the scheme's [`StressRule`], and in the rows of nodes
+    /// without mass −ξ(f(u₊) + C v̄ + s − F₊), with s the [`Self::steadying_force`]. What is left in held rows is for the supports.
+    pub fn residual(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
+        self.inertia_and_damping(scratch, out);
+        let map = self.map;
+        match map.stress {
+            StressRule::Weighted => {
+                self.worked.internal_force(self.displacement, &mut scratch.force);
+                nodal::each(out, [self.internal_force, &scratch.force], |out, [f0, f1]| {
+                    *out -= f0 * (1.0 - map.xi) + f1 * map.xi;
+                });
+            }
+            StressRule::Conserving => {
+                self.worked.conserving_force(self.start, self.displacement, &mut scratch.force);
+                nodal::each(out, [&scratch.force], |out, [f]| *out -= f);
+            }
+        }
+        self.balance_massless(&scratch.force, &scratch.viscous, out);
+    }
+
+    /// Writes M(g − (v₊ − v)/Δt) + F̄ − C v̄ to `out`; C v̄ stays in `scratch`.
+    pub fn inertia_and_damping(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
+        let map = self.map;
+        nodal::each(&mut scratch.velocity, [self.motion, self.velocity], |a, [d, v]| {
+            *a = self.gravity - (map.end_velocity(v, d) - v) / map.dt;
+        });
+        self.each_held(|n, i, rate| {
+            scratch.velocity[n][i] = self.gravity[i] - (rate - self.velocity[n][i]) / map.dt;
+        });
+        self.body.mass().multiply(&scratch.velocity, out);
+        out.iter_mut().zip(&self.drive.mean).for_each(|(out, f)| *out += f);
+        if self.body.is_damped() {
+            let viscous = self.viscous_force(scratch);
+            out.iter_mut().zip(viscous).for_each(|(out, f)| *out -= f);
+        }
+    }
+
+    /// Writes the rows of the nodes without mass, static at the end of the step under the internal force `end` there, to `out`.
+    pub fn balance_massless(&self, end: &[Vector<D>], viscous: &[Vector<D>], out: &mut [Vector<D>]) {
+        for (&n, k) in self.body.massless().iter().zip(self.body.massless_stiffness()) {
+            let n = n as usize;
+            let static_row =
+                -(end[n] + viscous[n] + self.steadying_force(n, *k) - self.end_load(n)) * self.map.xi;
+            // Supports see to what they hold as they do inside: over the whole step.
+            out[n] = self.body.held().free_part(n, &static_row) + self.body.held().part(n, &out[n]);
+        }
+    }
+
+    /// F̄ [N] at a node.
+    #[inline]
+    pub fn mean_load(&self, node: usize) -> Vector<D> {
+        self.drive.mean.get(node).copied().unwrap_or_else(Vector::zeros)
+    }
+
+    /// F₊ [N] at a node.
+    #[inline]
+    pub fn end_load(&self, node: usize) -> Vector<D> {
+        self.drive.end.get(node).copied().unwrap_or_else(Vector::zeros)
+    }
+
+    /// Calls `f` with node, component and v₊ of everything that is held.
+    #[inline]
+    fn each_held(&self, mut f: impl FnMut(usize, usize, f64)) {
+        for (dof, &rate) in self.body.held().dofs().iter().zip(&self.drive.rates) {
+            f(dof.node as usize, dof.component as usize, rate);
+        }
+    }
+
+    /// The force [N] with which a massless node resists a change of its motion from step to step; `stiffness` holds it.
+    ///
+    /// Static balance alone may have no stable solution near the last one: under strong compression, as where a law like
+    /// Saint-Venant–Kirchhoff's softens, boundary nodes snap. This is the inertia of a mass STEADYING·k·Δt², far below the node's
+    /// own, taken at the end of the step; a body that moves rigidly feels none. It vanishes with Δt², and the blend returns its work and its momentum.
+    #[inline]
+    pub fn steadying_force(&self, node: usize, stiffness: f64) -> Vector<D> {
+        let expected = self.drift + self.turn * (self.velocity[node] - self.drift);
+        (self.motion[node] - expected * self.map.dt) * (STEADYING * stiffness)
+    }
+
+    /// What it takes to write the rows of massless nodes at the end of the step instead of over it [J]: the work of the forces that these nodes are
+    /// left with in the mean of the step, (1 − ξ) r₀ + ξ r₊ + F̄ − C v̄ − f̄, with the contact forces `ends` = [r₀, r₊] and the internal force `end` at its end.
+    ///
+    /// In static balance at both ends a node is left with nothing but the [`Self::steadying_force`], whose work this is; where it starts a step
+    /// out of balance, as at t = 0 or when a load sets in, with what it gives way to.
+    pub fn static_balance_work(
+        &self,
+        ends: [&[Vector<D>]; 2],
+        end: &[Vector<D>],
+        viscous: &[Vector<D>],
+    ) -> f64 {
+        let mean = |[a, b]: [Vector<D>; 2]| a * (1.0 - self.map.xi) + b * self.map.xi;
+        let left = |n: usize| {
+            let contact = mean(ends.map(|force| force[n]));
+            contact + self.mean_load(n) - viscous[n] - mean([self.internal_force[n], end[n]])
+        };
+        let massless = self.body.massless().iter().map(|&n| n as usize);
+        massless.map(|n| left(n).dot(&self.body.held().free_part(n, &self.motion[n]))).sum()
+    }
+
+    /// Writes v₊ [m/s] to `out`; a node without mass moves at the mean velocity of the step, and what is held as prescribed.
+    pub fn end_velocity(&self, out: &mut [Vector<D>]) {
+        nodal::each(out, [self.velocity, self.motion], |v1, [v0, d]| *v1 = self.map.end_velocity(v0, d));
+        for n in self.body.massless().iter().map(|&n| n as usize) {
+            out[n] = self.motion[n] / self.map.dt;
+        }
+        self.each_held(|n, i, rate| out[n][i] = rate);
+    }
+
+    /// Work of gravity and loads and dissipation by damping over the step [J].
+    pub fn external_and_viscous_work(&self, scratch: &mut ResidualScratch<D>) -> (f64, f64) {
+        let mut external = self.gravity.dot(&self.body.mean(self.motion)) * self.body.total_mass();
+        external += self.drive.mean.iter().zip(self.motion).map(|(f, d)| f.dot(d)).sum::<f64>();
+        let viscous =
+            if self.body.is_damped() { nodal::dot(self.motion, self.viscous_force(scratch)) } else { 0.0 };
+        (external, viscous)
+    }
+
+    /// The viscous force C v̄ [N] of damping and viscosity; zero without.
+    pub fn viscous_force<'s>(&self, scratch: &'s mut ResidualScratch<D>) -> &'s [Vector<D>] {
+        if self.body.is_damped() {
+            let ResidualScratch { velocity, viscous, product, .. } = scratch;
+            for ((mean, d), v) in velocity.iter_mut().zip(self.motion).zip(self.velocity) {
+                *mean = self.map.mean_velocity(v, d);
+            }
+            for n in self.body.massless().iter().map(|&n| n as usize) {
+                velocity[n] = self.motion[n] / self.map.dt;
+            }
+            if !self.map.is_static() {
+                self.each_held(|n, i, _| velocity[n][i] = self.motion[n][i] / self.map.dt);
+            }
+            self.body.damping_force(self.frame, velocity, viscous, product);
+            if !self.map.is_static() {
+                self.body.add_viscous_force(self.start, self.displacement, self.map.dt, viscous);
+            }
+        }
+        &scratch.viscous
+    }
+}
+
+/// The largest motion of a node that free flight predicts for the step [m].
+pub(crate) fn predicted_motion<const D: usize>(state: &State<D>, gravity: &Vector<D>, dt: f64) -> f64 {
+    let speed = state.velocity.iter().map(Vector::norm_squared).fold(0.0, f64::max).sqrt();
+    (speed + gravity.norm() * dt) * dt
+}

@@ -1,0 +1,313 @@
+//! The iteration matrix K̄ of each body.
+
+use carom_fem::material::PlasticState;
+use carom_fem::sparse::{Inverse, NodalMatrix, Precision};
+use carom_fem::{Body, Held, Worked};
+use carom_mesh::{Matrix, Vector, nodal};
+
+use crate::StepMap;
+use crate::body::fe::equation::STEADYING;
+use crate::error::StepError;
+
+/// Share of the square of the lowest elastic frequency, by its scale c/L, that stands in for inertia where nothing else keeps K̄
+/// from being singular: below what a contact resists with, and far enough above round-off for W to stay well-conditioned.
+const PROXIMAL: f64 = 0.05;
+
+/// The factor of M [1/s²] that makes K̄ of a loose body regular in a static analysis; 0 where supports hold it.
+///
+/// It is in K̄ alone, never in a residual: each iteration is held back towards the last guess, and the solution is the same.
+fn proximal_coefficient<const D: usize>(body: &Body<D>) -> f64 {
+    if body.is_loose() { PROXIMAL * (body.wave_speed() / body.mesh().diameter()).powi(2) } else { 0.0 }
+}
+
+/// The inverse of K̄ = ξ K + ξ/(θΔt) C + M/(θΔt²) (3) of one body: a factor, or for large bodies in short steps a polynomial that
+/// does what a factor would ([`Inverse`]). "Factor" stands for both here.
+///
+/// Reactions never enter K̄, so bodies are uncoupled in it and one factor serves for many steps: it is made in one
+/// configuration and applied in the frame that turns with the body since (M is isotropic and an objective law turns its
+/// stiffness along). Newton's iterations then converge linearly but fast, and the factor is renewed where they do not. Tied nodes are its affair
+/// alone: it takes and gives vectors of all nodes (see [`carom_fem::sparse::Factor`]), and what starts equal at two of them stays so. Held displacements
+/// have rows of their own in K̄: forces on them move nothing. As they are held in the axes of space, such a body's factor does not turn.
+#[derive(Debug)]
+pub(crate) struct BodyOperator<const D: usize> {
+    inverse: Inverse<D>,
+    /// The factors of K, C and M that K̄ was made with.
+    coefficients: Option<[f64; 3]>,
+    /// What a body that its supports leave loose has in place of inertia in a static analysis [1/s²].
+    proximal: f64,
+    /// Frame of the body in the configuration of K.
+    factor_frame: Matrix<D>,
+    /// Rotation since then.
+    turn: Matrix<D>,
+    /// Grows with every factorisation, so that what was derived from a factor knows when it is stale.
+    pub generation: u64,
+    held: Held,
+    translation: Option<Translation<D>>,
+    scratch: Vec<Vector<D>>,
+    origin: Origin<D>,
+}
+
+/// Where and for what steps a factor was made: all that it takes to make it again.
+#[derive(Debug, Clone)]
+pub(crate) struct Origin<const D: usize> {
+    /// Length of the steps [s].
+    pub dt: f64,
+    pub precision: Precision,
+    /// Frame of the body.
+    pub frame: Matrix<D>,
+    /// u [m].
+    pub displacement: Vec<Vector<D>>,
+    /// What the material remembered.
+    pub history: Vec<PlasticState>,
+}
+
+/// The uniform part of a solution, which mass alone resists: Σ m x = Σ b over the coefficient of M, whatever the stiffness. A factor in
+/// single precision would miss it by 10⁻⁷, and momentum with it.
+#[derive(Debug)]
+struct Translation<const D: usize> {
+    nodal_mass: Vec<f64>,
+    total_mass: f64,
+    /// 1 for the components that are free, 0 for the radial one of a body of revolution.
+    free: Vector<D>,
+    /// The coefficient of M [1/s²].
+    coefficient: f64,
+    /// Σ b.
+    resultant: Vector<D>,
+}
+
+impl<const D: usize> Translation<D> {
+    /// None where something else than mass resists: supports, and what steadies nodes without mass.
+    fn of(body: &Body<D>) -> Option<Self> {
+        let alone = body.held().is_empty() && body.massless().is_empty();
+        alone.then(|| Self {
+            nodal_mass: body.nodal_mass().to_vec(),
+            total_mass: body.total_mass(),
+            free: body.resultant(Vector::from_element(1.0)),
+            coefficient: 0.0,
+            resultant: Vector::zeros(),
+        })
+    }
+
+    /// What the uniform part of the solution `x` is too small by.
+    fn missing(&self, x: &[Vector<D>]) -> Vector<D> {
+        let sum = nodal::weighted_total(&self.nodal_mass, x);
+        let missing = (self.resultant / self.coefficient - sum) / self.total_mass;
+        missing.component_mul(&self.free)
+    }
+}
+
+impl<const D: usize> BodyOperator<D> {
+    pub fn new(body: &Body<D>) -> Self {
+        Self {
+            inverse: Inverse::new(body.mesh().ties()),
+            coefficients: None,
+            proximal: proximal_coefficient(body),
+            factor_frame: Matrix::identity(),
+            turn: Matrix::identity(),
+            generation: 0,
+            held: body.held().clone(),
+            translation: Translation::of(body),
+            scratch: vec![Vector::zeros(); body.node_count()],
+            origin: Origin {
+                dt: 0.0,
+                precision: Precision::Double,
+                frame: Matrix::identity(),
+                displacement: vec![Vector::zeros(); body.node_count()],
+                history: body.virgin(),
+            },
+        }
+    }
+
+    /// Whether the factor belongs to steps like `map`.
+    pub fn fits(&self, map: &StepMap) -> bool {
+        self.inverse.is_made() && self.coefficients == Some(self.coefficients(map))
+    }
+
+    /// The factors of K, C and M in K̄.
+    fn coefficients(&self, map: &StepMap) -> [f64; 3] {
+        let mass = if map.is_static() { self.proximal } else { map.mass_coefficient() };
+        [map.stiffness_coefficient(), map.damping_coefficient(), mass]
+    }
+
+    /// Whether only contact, or nothing, keeps the body from moving rigidly.
+    pub fn is_loose(&self) -> bool {
+        self.proximal > 0.0
+    }
+
+    /// Whether the factor is exact but for round-off.
+    pub fn is_exact(&self) -> bool {
+        self.inverse.is_exact()
+    }
+
+    /// Where the present factor was made; none where no step may rely on it.
+    pub fn origin(&self) -> Option<&Origin<D>> {
+        self.coefficients.is_some().then_some(&self.origin)
+    }
+
+    /// Lets no step rely on the factor.
+    pub fn forget(&mut self) {
+        self.coefficients = None;
+    }
+
+    /// Makes the factor with the stiffness at `u`, where the frame of the body is `frame`.
+    ///
+    /// The factor is kept in `precision` (see [`crate::Method::precision`]), and is exact where that is double.
+    ///
+    /// A configuration under strong compression, or a guess on the way to one, may be where K̄ is indefinite. The stiffness of the
+    /// reference configuration, turned, serves there: slower, but it never is.
+    pub fn factorize(
+        &mut self,
+        worked: &Worked<'_, D>,
+        map: &StepMap,
+        u: &[Vector<D>],
+        frame: &Matrix<D>,
+        precision: Precision,
+    ) -> Result<(), StepError> {
+        self.factorize_at(worked, map, u, frame, precision).or_else(|_| {
+            self.factorize_at(
+                &worked.body.after(&[]),
+                map,
+                &vec![Vector::zeros(); u.len()],
+                &Matrix::identity(),
+                precision,
+            )?;
+            self.turn_to(frame);
+            Ok::<(), StepError>(())
+        })?;
+        let Origin { displacement, history, .. } = &mut self.origin;
+        displacement.copy_from_slice(u);
+        history.copy_from_slice(worked.history());
+        (self.origin.dt, self.origin.precision, self.origin.frame) = (map.dt, precision, *frame);
+        Ok(())
+    }
+
+    fn factorize_at(
+        &mut self,
+        worked: &Worked<'_, D>,
+        map: &StepMap,
+        u: &[Vector<D>],
+        frame: &Matrix<D>,
+        precision: Precision,
+    ) -> Result<(), StepError> {
+        let body = worked.body;
+        let mut stiffness = worked.stiffness(u);
+        for (&n, k) in body.massless().iter().zip(body.massless_stiffness()) {
+            stiffness.values[body.graph().entry(n, n)] += Matrix::from_diagonal_element(STEADYING * k);
+        }
+        let coefficients = self.coefficients(map);
+        let [k, c, m] = coefficients;
+        let damping = body.damping();
+        let mass_coefficient = m + c * damping.mass;
+        let mass: &NodalMatrix<f64> = body.mass();
+        let damping_stiffness = body.damping_stiffness();
+        // The force of viscosity is that of the mean rate of the step, d/Δt, whatever the scheme.
+        let viscosity = if map.is_static() { None } else { body.viscosity(u) };
+        self.coefficients = None;
+        for (entry, block) in stiffness.values.iter_mut().enumerate() {
+            *block *= k;
+            *block += Matrix::from_diagonal_element(mass.values[entry] * mass_coefficient);
+            if let Some(k0) = damping_stiffness {
+                *block += frame * k0.values[entry] * frame.transpose() * (c * damping.stiffness);
+            }
+            if let Some(viscosity) = &viscosity {
+                *block += viscosity.values[entry] / map.dt;
+            }
+        }
+        self.held.uncouple(&mut stiffness);
+        self.inverse.make(precision, &stiffness)?;
+        self.coefficients = Some(coefficients);
+        self.translation.iter_mut().for_each(|t| t.coefficient = mass_coefficient);
+        self.factor_frame = *frame;
+        self.turn = Matrix::identity();
+        self.generation += 1;
+        Ok(())
+    }
+
+    /// Follows the body, whose frame is now `frame`.
+    pub fn turn_to(&mut self, frame: &Matrix<D>) {
+        if self.held.is_empty() {
+            self.turn = frame * self.factor_frame.transpose();
+        }
+    }
+
+    /// The rotation of the body since the factor was made.
+    pub fn turn(&self) -> &Matrix<D> {
+        &self.turn
+    }
+
+    /// Starts on K̄⁻¹ x: what [`Self::end`] will give can be seen, and `x` added to, at the nodes of [`Self::set_reach`].
+    pub fn begin(&mut self, x: &[Vector<D>]) {
+        let turn = &self.turn;
+        nodal::each(&mut self.scratch, [x], |s, [x]| *s = turn.tr_mul(x));
+        self.held.clear(&mut self.scratch);
+        if let Some(translation) = &mut self.translation {
+            translation.resultant = nodal::total(&self.scratch);
+        }
+        self.inverse.begin(&mut self.scratch);
+    }
+
+    /// Writes K̄⁻¹ x for the `x` that was begun with, and what was added to it, to `out`; zero where displacements are held.
+    pub fn end(&mut self, out: &mut [Vector<D>]) {
+        self.inverse.end(&mut self.scratch);
+        let missing = match (&self.translation, self.inverse.precision()) {
+            (Some(translation), Precision::Single) => translation.missing(&self.scratch),
+            _ => Vector::zeros(),
+        };
+        let turn = &self.turn;
+        nodal::each(out, [&self.scratch], |out, [s]| *out = turn * (s + missing));
+    }
+
+    /// Names the nodes of [`Self::seen`] and [`Self::add`].
+    pub fn set_reach(&mut self, nodes: impl Iterator<Item = usize>) {
+        self.inverse.set_reach(nodes);
+    }
+
+    /// Solves at the nodes of the reach, for [`Self::seen`].
+    pub fn look(&mut self) {
+        self.inverse.look();
+    }
+
+    /// K̄⁻¹ x at a node of the reach, as it was at the last look.
+    pub fn seen(&self, node: usize) -> Vector<D> {
+        self.turn * self.inverse.seen(node)
+    }
+
+    /// Adds `forces`, each at a node of the reach, to `x`.
+    pub fn add(&mut self, forces: impl Iterator<Item = (usize, Vector<D>)>) {
+        let Self { inverse, turn, held, translation, .. } = self;
+        inverse.add(forces.map(|(node, force)| {
+            let force = held.free_part(node, &turn.tr_mul(&force));
+            translation.iter_mut().for_each(|t| t.resultant += force);
+            (node, force)
+        }));
+    }
+
+    /// Nodes that [`Self::respond`] takes at once.
+    pub const AT_ONCE: usize = Inverse::<D>::AT_ONCE;
+
+    /// Solves for unit forces at so many nodes of the reach at most: see [`Self::response`]. Nodes near each other in the [`Self::order`]
+    /// cost least.
+    pub fn respond(&mut self, nodes: impl Iterator<Item = usize>) {
+        self.inverse.respond(nodes);
+    }
+
+    /// The block (K̄⁻¹)_ab in the frame of the factor for any node a of the reach and one of these nodes b, named by its number among them, too.
+    /// Where displacements are held a force moves nothing.
+    pub fn response(&self, a: usize, (number, b): (usize, usize)) -> Matrix<D> {
+        let mut block = self.inverse.response(number, a);
+        for component in (0..D).filter(|&component| self.held.holds(b, component)) {
+            block.set_column(component, &Vector::zeros());
+        }
+        block
+    }
+
+    /// When a node is eliminated.
+    pub fn order(&self, node: usize) -> usize {
+        self.inverse.order(node)
+    }
+
+    /// Memory of the factor [bytes].
+    pub fn bytes(&self) -> usize {
+        self.inverse.bytes()
+    }
+}

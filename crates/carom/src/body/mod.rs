@@ -1,0 +1,3 @@
+//! Bodies in a step.
+
+pub(crate) mod fe;

@@ -1,0 +1,153 @@
+use serde::Serialize;
+
+use carom_contact::Target;
+
+use crate::step::workspace::GroupReport;
+use crate::{Group, Model, Scheme};
+
+/// Steps of a dynamic analysis for which a pair that stays in contact may be without a reaction: one that rests under `midpoint` has none in
+/// every second step.
+const FLICKER: f64 = 3.0;
+
+/// A contact of a pair from its first reaction to its last, flickers merged.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ContactEvent {
+    /// The two names.
+    pub pair: [String; 2],
+    /// End of the first step with a reaction [s].
+    pub onset: f64,
+    /// End of the last step with a reaction [s]; none while the pair may still be touching.
+    pub release: Option<f64>,
+    /// Largest sum of the normal reactions [N].
+    pub peak_force: f64,
+    /// Dissipated by friction [J].
+    pub friction_work: f64,
+}
+
+/// Follows the contacts of all groups.
+#[derive(Debug)]
+pub(crate) struct EventLog {
+    /// For each group: contacts less than this apart are one [s].
+    merge: Vec<f64>,
+    pub events: Vec<ContactEvent>,
+    /// For each group: its last event and the end of the last step with a reaction.
+    pub last: Vec<Option<(usize, f64)>>,
+}
+
+impl EventLog {
+    /// A log that takes contacts less than `merge` [s] apart for one. Without it a dynamic analysis in steps of `dt` [s] takes the time of
+    /// the bodies themselves, see [`crossing_time`]; the time of a static one does not say how long anything lasts, and nothing is merged there.
+    pub fn new<const D: usize>(model: &Model<D>, scheme: Scheme, dt: f64, merge: Option<f64>) -> Self {
+        let own = |group| match scheme {
+            Scheme::Static => 0.0,
+            _ => crossing_time(model, group).max(FLICKER * dt),
+        };
+        let groups = 0..model.groups.len();
+        Self {
+            merge: groups.map(|group| merge.unwrap_or_else(|| own(group))).collect(),
+            events: Vec::new(),
+            last: vec![None; model.groups.len()],
+        }
+    }
+
+    /// How close contacts of a group are that count as one [s].
+    pub fn merge(&self, group: usize) -> f64 {
+        self.merge[group]
+    }
+
+    /// Records what the groups did in a step from `start` to `end` [s].
+    pub fn record(&mut self, groups: &[Group], reports: &[GroupReport], start: f64, end: f64) {
+        for (g, report) in reports.iter().enumerate() {
+            if report.normal_force <= 0.0 {
+                // A reaction that is gone by the end of the step may still have rubbed in it.
+                if let Some((event, _)) = self.last[g] {
+                    self.events[event].friction_work += report.ledger.friction;
+                }
+                continue;
+            }
+            let event = match self.last[g] {
+                Some((event, until)) if start <= until || start - until < self.merge[g] => event,
+                _ => {
+                    self.events.push(ContactEvent {
+                        pair: groups[g].between.clone(),
+                        onset: end,
+                        release: None,
+                        peak_force: 0.0,
+                        friction_work: 0.0,
+                    });
+                    self.events.len() - 1
+                }
+            };
+            self.last[g] = Some((event, end));
+            let event = &mut self.events[event];
+            event.peak_force = event.peak_force.max(report.normal_force);
+            event.friction_work += report.ledger.friction;
+            event.release = Some(end);
+        }
+    }
+
+    /// The events so far; those that had a reaction in the step that ended at `now` are still open.
+    pub fn events(&self, now: f64) -> Vec<ContactEvent> {
+        let mut events = self.events.clone();
+        for &(event, until) in self.last.iter().flatten() {
+            if until >= now {
+                events[event].release = None;
+            }
+        }
+        events
+    }
+}
+
+/// How long a pressure wave takes along the longest side of a body of the group [s], of the body where that is shortest. While waves are on
+/// their way a contact may open and close again; who is out of it for longer has parted.
+fn crossing_time<const D: usize>(model: &Model<D>, group: usize) -> f64 {
+    let of_body = |index: usize| {
+        let body = &model.bodies[index].body;
+        let (low, high) = body.mesh().bounds();
+        (high - low).max() / body.wave_speed()
+    };
+    let pairs = model.contact.pairs.iter().filter(|pair| pair.group == group);
+    let bodies = pairs.flat_map(|pair| {
+        let target = match pair.target {
+            Target::Surface(target) => Some(target),
+            Target::Obstacle(_) => None,
+        };
+        std::iter::once(pair.source).chain(target)
+    });
+    let shortest = bodies.map(of_body).fold(f64::INFINITY, f64::min);
+    if shortest.is_finite() { shortest } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::PairLedger;
+
+    fn record(log: &mut EventLog, groups: &[Group], force: f64, start: f64, end: f64) {
+        log.record(
+            groups,
+            &[GroupReport {
+                normal_force: force,
+                ledger: PairLedger { friction: 0.5, ..PairLedger::default() },
+            }],
+            start,
+            end,
+        );
+    }
+
+    #[test]
+    fn flickers_are_one_event_and_a_later_impact_is_another() {
+        let groups = vec![Group { between: ["a".into(), "b".into()], friction: 0.0 }];
+        let mut log = EventLog { merge: vec![0.03], events: vec![], last: vec![None] };
+        record(&mut log, &groups, 3.0, 0.99, 1.00);
+        record(&mut log, &groups, 0.0, 1.00, 1.01);
+        record(&mut log, &groups, 5.0, 1.01, 1.02);
+        record(&mut log, &groups, 4.0, 2.00, 2.01);
+        let events = log.events(2.01);
+        assert_eq!(events.len(), 2);
+        assert_eq!((events[0].onset, events[0].release), (1.00, Some(1.02)));
+        assert_eq!((events[0].peak_force, events[0].friction_work), (5.0, 1.5));
+        assert_eq!((events[1].onset, events[1].release), (2.01, None));
+        assert_eq!(log.events(3.0)[1].release, Some(2.01));
+    }
+}

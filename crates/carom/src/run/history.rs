@@ -1,0 +1,227 @@
+use carom_mesh::{Vector, nodal};
+
+use crate::step::workspace::StepReport;
+use crate::{Ledger, Model, State};
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// A node whose motion is in the history.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Track {
+    pub name: String,
+    pub node: usize,
+}
+
+/// Where a tracked node was and how fast it moved on average in the last step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Trail<const D: usize> {
+    pub displacement: Vector<D>,
+    pub mean_velocity: Vector<D>,
+}
+
+/// Rows of numbers over time, recorded natively.
+#[derive(Debug)]
+pub(crate) struct History<const D: usize> {
+    tracks: Vec<Track>,
+    pub trails: Vec<Trail<D>>,
+    columns: Vec<String>,
+    pub rows: Vec<f64>,
+    pub since: Since,
+}
+
+/// What is gathered between two rows.
+#[derive(Debug, Default)]
+pub(crate) struct Since {
+    pub steps: usize,
+    pub iterations: usize,
+    /// Steps that failed and were taken again in halves.
+    pub retried: u64,
+    /// Length of the shortest step [s]; zero without steps.
+    pub shortest_step: f64,
+    pub certificate: f64,
+    pub residual: f64,
+    pub blend: f64,
+    pub step_defect: f64,
+    /// Of the last step alone, like the next two.
+    pub contacts: usize,
+    pub min_gap: f64,
+    pub normal_force: f64,
+}
+
+impl<const D: usize> History<D> {
+    /// A history of a run that starts from `state`.
+    pub fn new(model: &Model<D>, state: &State<D>, tracks: Vec<Track>) -> Self {
+        let axes = &AXES[..D];
+        let mut columns: Vec<String> = [
+            "time",
+            "kinetic",
+            "strain",
+            "total",
+            "friction",
+            "viscous",
+            "plastic",
+            "scheme",
+            "normal_contact",
+            "external",
+            "prescribed",
+            "defect",
+        ]
+        .map(String::from)
+        .to_vec();
+        columns.extend(axes.iter().map(|a| format!("momentum_{a}")));
+        if D == 2 {
+            columns.push("angular_momentum".to_string());
+        } else {
+            columns.extend(axes.iter().map(|a| format!("angular_momentum_{a}")));
+        }
+        for b in &model.bodies {
+            columns.extend(axes.iter().map(|a| format!("{}.{a}", b.name)));
+            columns.extend(axes.iter().map(|a| format!("{}.v_{a}", b.name)));
+            if D == 2 {
+                columns.push(format!("{}.spin", b.name));
+            } else {
+                columns.extend(axes.iter().map(|a| format!("{}.spin_{a}", b.name)));
+            }
+        }
+        columns.extend(
+            [
+                "contacts",
+                "min_gap",
+                "normal_force",
+                "newton_iterations",
+                "retried_steps",
+                "shortest_step",
+                "certificate",
+                "residual",
+                "blend",
+                "step_defect",
+            ]
+            .map(String::from),
+        );
+        for m in &model.motions {
+            columns.extend(axes.iter().map(|a| format!("{}.force_{a}", m.name)));
+        }
+        for t in &tracks {
+            for quantity in ["u", "v", "vmid"] {
+                columns.extend(axes.iter().map(|a| format!("{}.{quantity}_{a}", t.name)));
+            }
+        }
+        let mut history =
+            Self { trails: Vec::new(), tracks, columns, rows: Vec::new(), since: Since::default() };
+        history.restart(state);
+        history
+    }
+
+    /// Forgets what was recorded and starts again from `state`.
+    pub fn restart(&mut self, state: &State<D>) {
+        self.rows.clear();
+        self.since = Since::default();
+        self.trails = self
+            .tracks
+            .iter()
+            .map(|t| Trail {
+                displacement: state.displacement[t.node],
+                mean_velocity: state.velocity[t.node],
+            })
+            .collect();
+    }
+
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// Hands over the rows recorded so far, one after the other.
+    pub fn take(&mut self) -> Vec<f64> {
+        std::mem::take(&mut self.rows)
+    }
+
+    /// Notes a step of length `dt` [s] that ended in `state` for the next row.
+    pub fn observe(&mut self, report: &StepReport, state: &State<D>, dt: f64) {
+        let since = &mut self.since;
+        since.shortest_step = if since.steps == 0 { dt } else { since.shortest_step.min(dt) };
+        since.steps += 1;
+        since.iterations += report.newton_iterations;
+        since.certificate = since.certificate.max(report.certificate);
+        since.residual = since.residual.max(report.residual);
+        since.blend = since.blend.max(report.blend);
+        since.step_defect = since.step_defect.max(report.ledger.defect().abs());
+        since.contacts = report.contacts;
+        since.min_gap = report.min_gap;
+        since.normal_force = report.normal_force;
+        for (trail, t) in self.trails.iter_mut().zip(&self.tracks) {
+            let u = state.displacement[t.node];
+            *trail = Trail { displacement: u, mean_velocity: (u - trail.displacement) / dt };
+        }
+    }
+
+    /// Writes a row; returns the smallest gap of all pairs [m].
+    pub fn record(&mut self, model: &Model<D>, state: &State<D>, ledger: &Ledger) -> f64 {
+        let e = &state.energies;
+        self.rows.extend([
+            state.time,
+            e.kinetic,
+            e.strain,
+            e.total(),
+            ledger.friction,
+            ledger.viscous,
+            ledger.plastic,
+            ledger.scheme,
+            ledger.normal_contact,
+            ledger.external,
+            ledger.prescribed,
+            ledger.defect(),
+        ]);
+        let mut momentum = Vector::<D>::zeros();
+        let mut moment = [0.0; 3];
+        for b in &model.bodies {
+            let (u, v) = (&state.displacement[b.nodes()], &state.velocity[b.nodes()]);
+            let mut mv = vec![Vector::zeros(); v.len()];
+            b.body.mass().multiply(v, &mut mv);
+            momentum += b.body.resultant(nodal::total(&mv));
+            let l = b.body.angular_momentum(u, &mv);
+            (0..3).for_each(|i| moment[i] += l[i]);
+        }
+        self.rows.extend(momentum.iter());
+        self.rows.extend(rotational::<D>(&moment));
+        for b in &model.bodies {
+            let (u, v) = (&state.displacement[b.nodes()], &state.velocity[b.nodes()]);
+            self.rows.extend(b.body.centre(u).iter());
+            self.rows.extend(b.body.mean(v).iter());
+            self.rows.extend(rotational::<D>(&b.body.spin(u, v)));
+        }
+        let since = std::mem::take(&mut self.since);
+        let at = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
+        let min_gap = model
+            .contact
+            .pairs
+            .iter()
+            .filter_map(|p| model.contact.proximity(p, &at))
+            .map(|p| p.gap)
+            // Nodes deep between others are closest to a side; the contacts know what they face.
+            .fold(if since.steps > 0 { since.min_gap } else { f64::INFINITY }, f64::min);
+        self.rows.extend([
+            since.contacts as f64,
+            min_gap,
+            since.normal_force,
+            if since.steps > 0 { since.iterations as f64 / since.steps as f64 } else { 0.0 },
+            since.retried as f64,
+            since.shortest_step,
+            since.certificate,
+            since.residual,
+            since.blend,
+            since.step_defect,
+        ]);
+        state.support.iter().for_each(|force| self.rows.extend(force.iter()));
+        for (t, trail) in self.tracks.iter().zip(&self.trails) {
+            self.rows.extend(state.displacement[t.node].iter());
+            self.rows.extend(state.velocity[t.node].iter());
+            self.rows.extend(trail.mean_velocity.iter());
+        }
+        min_gap
+    }
+}
+
+/// The components of a rotational quantity that exist in D dimensions: z in 2D, all in 3D.
+fn rotational<const D: usize>(v: &[f64; 3]) -> &[f64] {
+    if D == 2 { &v[2..] } else { v }
+}

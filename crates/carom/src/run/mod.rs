@@ -1,0 +1,13 @@
+//! Through time: nominal steps, the books, and what is told of them.
+
+pub(crate) mod control;
+pub(crate) mod crushed;
+pub(crate) mod describe;
+pub(crate) mod events;
+pub(crate) mod history;
+pub(crate) mod nominal_step;
+pub(crate) mod simulation;
+pub(crate) mod summary;
+pub(crate) mod surface_fields;
+pub(crate) mod totals;
+pub(crate) mod tracked;

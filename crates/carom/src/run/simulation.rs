@@ -1,0 +1,420 @@
+use std::time::Duration;
+
+use carom_fem::CellState;
+use carom_mesh::Vector;
+use serde::Serialize;
+
+use crate::build::{Meshes, build};
+use crate::contact::cross_check::CrossCheckSummary;
+use crate::error::{InputError, RunError};
+use crate::ledger::table::LedgerTable;
+use crate::run::control::advance_nominal_step;
+use crate::run::describe::{Description, describe};
+use crate::run::events::EventLog;
+use crate::run::history::History;
+use crate::run::nominal_step::NominalStep;
+use crate::run::surface_fields::{SurfaceFields, surface_fields};
+use crate::run::totals::Totals;
+use crate::run::tracked::tracks;
+use crate::scenario::Scenario;
+use crate::step::workspace::{PosedProblem, Workspace};
+use crate::{Books, Energies, Ledger, Method, Model, State};
+
+/// How [`Simulation::advance`] ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// The time asked for is reached.
+    Reached,
+    /// The caller asked for a pause.
+    Paused,
+}
+
+/// The most steps a run may have; more is a slip of units.
+const MAX_STEPS: f64 = 1e10;
+
+/// A run: the model, its state, and the books.
+pub struct Simulation<const D: usize> {
+    pub(crate) model: Model<D>,
+    pub(crate) method: Method<D>,
+    pub(crate) state: State<D>,
+    pub(crate) spare: State<D>,
+    pub(crate) work: Workspace<D>,
+    pub(crate) description: Description,
+    pub(crate) time_step: f64,
+    pub(crate) end_time: f64,
+    pub(crate) steps: u64,
+    pub(crate) step: u64,
+    /// How often the steps of a static analysis are halved at present.
+    pub(crate) halvings: u32,
+    pub(crate) history_every: f64,
+    pub(crate) history_rows: u64,
+    pub(crate) last_recorded: Option<f64>,
+    pub(crate) history: History<D>,
+    pub(crate) events: EventLog,
+    pub(crate) initial_energies: Vec<Energies>,
+    pub(crate) books: Books,
+    pub(crate) ledger_table: LedgerTable,
+    pub(crate) totals: Totals,
+    pub(crate) cross_checks: CrossCheckSummary,
+    pub(crate) last_step: Option<Ledger>,
+    pub(crate) nominal_step: NominalStep,
+}
+
+/// A step as its two states.
+#[derive(Debug, Clone, Copy)]
+pub struct StepPair<'a, const D: usize> {
+    /// The state that it started from.
+    pub start: &'a State<D>,
+    /// The state that it ended in.
+    pub end: &'a State<D>,
+    /// Blend α of start and end stresses of every body.
+    pub blend: &'a [f64],
+    /// What the step says of the energy.
+    pub ledger: Ledger,
+}
+
+/// A quick look at a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Progress {
+    /// Steps done.
+    pub step: u64,
+    /// Time [s].
+    pub time: f64,
+    /// Contacts with a reaction in the last step.
+    pub contacts: usize,
+    /// Steps or substeps that failed and were halved.
+    pub retried: u64,
+    /// Kinetic energy [J].
+    pub kinetic: f64,
+    /// Strain energy [J].
+    pub strain: f64,
+    /// Dissipated by friction since the start [J].
+    pub friction: f64,
+    /// Kinetic plus strain energy [J].
+    pub total: f64,
+}
+
+/// Fields of a state, node by node and cell by cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fields<'a, const D: usize> {
+    /// Displacements [m].
+    pub displacement: &'a [Vector<D>],
+    /// Velocities [m/s].
+    pub velocity: &'a [Vector<D>],
+    /// Contact forces [N].
+    pub reaction: &'a [Vector<D>],
+    /// Mean state of every cell.
+    pub cells: Vec<CellState>,
+}
+
+impl<const D: usize> Simulation<D> {
+    /// Builds a run from its scenario, which generates all its meshes.
+    ///
+    /// # Errors
+    /// If the scenario cannot be run; see [`build`].
+    pub fn new(scenario: &Scenario) -> Result<Self, InputError> {
+        Self::with_meshes(scenario, Meshes::new())
+    }
+
+    /// Builds a run from its scenario and the `meshes` that it takes from files.
+    ///
+    /// # Errors
+    /// If the scenario cannot be run; see [`build`].
+    pub fn with_meshes(scenario: &Scenario, meshes: Meshes<D>) -> Result<Self, InputError> {
+        let (model, method, state) = build(scenario, meshes)?;
+        let tracks = tracks(&model, &scenario.output.track)?;
+        let (dt, end) = (scenario.analysis.time_step, scenario.analysis.end_time);
+        for (key, every) in [
+            ("output.history_every", scenario.output.history_every),
+            ("output.fields_every", scenario.output.fields_every),
+        ] {
+            if !(every.is_finite() && every > 0.0) {
+                return Err(InputError::new(key, format!("{every}: the interval must be greater than 0 s")));
+            }
+        }
+        if end / dt > MAX_STEPS {
+            let message =
+                format!("{dt}: the run would have {:.1e} steps, more than {MAX_STEPS:.0e}", end / dt);
+            return Err(InputError::new("analysis.time_step", message));
+        }
+        // A last step shorter than this fraction of the others would only be round-off of end_time/time_step.
+        let steps = (end / dt - 1e-6).ceil().max(1.0) as u64;
+        let work = Workspace::new(&model);
+        let mut simulation = Self {
+            description: describe(&scenario.title, &model, &state, steps),
+            events: EventLog::new(&model, method.scheme, dt, scenario.output.merge_contacts),
+            history: History::new(&model, &state, tracks),
+            spare: state.clone(),
+            time_step: dt,
+            end_time: end,
+            steps,
+            step: 0,
+            halvings: 0,
+            history_every: scenario.output.history_every,
+            history_rows: 0,
+            last_recorded: None,
+            initial_energies: state.body_energies.clone(),
+            books: Books::new(model.bodies.len(), model.groups.len()),
+            ledger_table: LedgerTable::default(),
+            totals: Totals::new(&state.energies),
+            cross_checks: CrossCheckSummary::default(),
+            last_step: None,
+            nominal_step: NominalStep::default(),
+            model,
+            method,
+            state,
+            work,
+        };
+        simulation.record();
+        Ok(simulation)
+    }
+}
+
+impl<const D: usize> Simulation<D> {
+    /// What is run.
+    #[must_use]
+    pub fn description(&self) -> &Description {
+        &self.description
+    }
+
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> &Model<D> {
+        &self.model
+    }
+
+    /// The present state.
+    #[must_use]
+    pub fn state(&self) -> &State<D> {
+        &self.state
+    }
+
+    /// The last step made, which may be a part of a nominal one, for whoever wants to check it.
+    #[must_use]
+    pub fn last_step(&self) -> Option<StepPair<'_, D>> {
+        let ledger = self.last_step?;
+        Some(StepPair { start: &self.spare, end: &self.state, blend: self.work.blend_weights(), ledger })
+    }
+
+    /// What the last nominal step says about itself; nothing before the first, or after a restart.
+    #[must_use]
+    pub fn nominal_step(&self) -> &NominalStep {
+        &self.nominal_step
+    }
+
+    /// Overwrites the velocities [m/s], one per node: initial conditions that no scenario describes. Only before the first step.
+    ///
+    /// # Panics
+    /// If steps were made already or the number of nodes is not that of the model.
+    pub fn set_initial_velocity(&mut self, velocity: Vec<Vector<D>>) {
+        assert_eq!(self.step, 0, "initial velocities belong before the first step");
+        self.state = State::initial(&self.model, velocity);
+        self.initial_energies.clone_from(&self.state.body_energies);
+        self.description.energy = self.state.energies.total();
+        self.totals = Totals::new(&self.state.energies);
+        self.ledger_table = LedgerTable::default();
+        self.history.restart(&self.state);
+        self.last_recorded = None;
+        self.history_rows = 0;
+        self.record();
+    }
+
+    /// Time [s].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// Nominal steps done.
+    #[must_use]
+    pub fn step(&self) -> u64 {
+        self.step
+    }
+
+    /// Nominal steps of the whole run.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The last contact problem that a step posed; after [`crate::StepError::Friction`] the one that failed, at the shortest
+    /// length tried.
+    #[must_use]
+    pub fn posed_problem(&self) -> Option<PosedProblem<'_, D>> {
+        self.work.posed_problem()
+    }
+
+    /// Memory of the factors of all bodies [bytes].
+    #[must_use]
+    pub fn factor_bytes(&self) -> usize {
+        self.work.factor_bytes()
+    }
+
+    /// Newton iterations made so far.
+    #[must_use]
+    pub fn newton_iterations(&self) -> u64 {
+        self.totals.newton_iterations
+    }
+
+    /// Time spent in the friction solver so far.
+    #[must_use]
+    pub fn friction_time(&self) -> Duration {
+        self.work.friction_time
+    }
+
+    /// The books since the start.
+    #[must_use]
+    pub fn books(&self) -> &Books {
+        &self.books
+    }
+
+    /// Runs until time `until` [s] (the end of the run at most), or until `pause`, asked after every step, says so.
+    ///
+    /// # Errors
+    /// If a step fails after all retries; the state is then that after the last good step.
+    pub fn advance(&mut self, until: f64, mut pause: impl FnMut() -> bool) -> Result<Outcome, RunError> {
+        while self.step < self.steps && self.state.time < until - 1e-6 * self.time_step {
+            self.one_step()?;
+            if pause() {
+                return Ok(Outcome::Paused);
+            }
+        }
+        Ok(Outcome::Reached)
+    }
+
+    fn one_step(&mut self) -> Result<(), RunError> {
+        // Times are multiples of the step, not sums, so that they do not drift; all steps but a shorter last one have the very
+        // same length, so that they share their factors.
+        let start = self.step as f64 * self.time_step;
+        let rest = self.end_time - start;
+        let length = if rest < (1.0 - 1e-6) * self.time_step { rest } else { self.time_step };
+        let last = self.step + 1 == self.steps;
+        let end = if last { self.end_time } else { (self.step + 1) as f64 * self.time_step };
+        let Self {
+            model,
+            method,
+            state,
+            spare,
+            work,
+            events,
+            history,
+            books,
+            totals,
+            cross_checks,
+            initial_energies,
+            last_step,
+            nominal_step,
+            halvings,
+            ..
+        } = self;
+        let mut previous_time = state.time;
+        let initial = initial_energies.iter().map(Energies::total).sum::<f64>();
+        let mut failed = 0;
+        *nominal_step = NominalStep::default();
+        let outcome = advance_nominal_step(
+            model,
+            method,
+            state,
+            spare,
+            end,
+            length,
+            totals.max_energy,
+            work,
+            &mut failed,
+            halvings,
+            |state, report, work| {
+                books.add(report.ledger, &work.bodies, work.groups.iter().map(|g| g.ledger));
+                books.set_changes(initial_energies, &state.body_energies);
+                *last_step = Some(report.ledger);
+                nominal_step.note(report);
+                events.record(&model.groups, &work.groups, previous_time, state.time);
+                history.observe(report, state, state.time - previous_time);
+                report.cross_check.iter().for_each(|check| cross_checks.note(check, state.time));
+                previous_time = state.time;
+                totals.note(report, &state.energies, books, initial);
+            },
+        );
+        self.totals.retried += failed;
+        self.history.since.retried += failed;
+        outcome?;
+        self.step += 1;
+        let due = (self.history_rows as f64) * self.history_every;
+        if self.state.time >= due - 1e-6 * self.time_step {
+            self.record();
+        }
+        Ok(())
+    }
+
+    /// Records the last row of the history if it is not there yet.
+    pub fn finish(&mut self) {
+        if self.last_recorded != Some(self.state.time) {
+            self.record();
+        }
+    }
+
+    fn record(&mut self) {
+        let min_gap = self.history.record(&self.model, &self.state, &self.books.total);
+        self.ledger_table.record(self.state.time, &self.books);
+        self.totals.min_gap = self.totals.min_gap.min(min_gap);
+        self.last_recorded = Some(self.state.time);
+        // The next multiple of the interval after now.
+        self.history_rows =
+            ((self.state.time + 1e-6 * self.time_step) / self.history_every).floor() as u64 + 1;
+    }
+
+    /// Names of the columns of the history.
+    #[must_use]
+    pub fn history_columns(&self) -> &[String] {
+        self.history.columns()
+    }
+
+    /// The rows of the ledger recorded since the last call, one after the other: see [`LedgerTable`].
+    pub fn take_ledger(&mut self) -> Vec<f64> {
+        self.ledger_table.take()
+    }
+
+    /// The fields on the boundaries.
+    #[must_use]
+    pub fn surface_fields(&self) -> SurfaceFields {
+        surface_fields(&self.model, &self.state)
+    }
+
+    /// The rows recorded since the last call, one after the other.
+    pub fn take_history(&mut self) -> Vec<f64> {
+        self.history.take()
+    }
+
+    /// A quick look.
+    #[must_use]
+    pub fn progress(&self) -> Progress {
+        let e = self.state.energies;
+        Progress {
+            step: self.step,
+            time: self.state.time,
+            contacts: self.totals.contacts,
+            retried: self.totals.retried,
+            kinetic: e.kinetic,
+            strain: e.strain,
+            friction: self.books.total.friction,
+            total: e.total(),
+        }
+    }
+
+    /// The fields of the present state.
+    #[must_use]
+    pub fn fields(&self) -> Fields<'_, D> {
+        let (s, nodes) = (&self.state, self.model.node_count());
+        Fields {
+            displacement: &s.displacement[..nodes],
+            velocity: &s.velocity[..nodes],
+            reaction: &s.contact_force[..nodes],
+            cells: self
+                .model
+                .bodies
+                .iter()
+                .zip(&s.history)
+                .flat_map(|(b, history)| b.body.after(history).cell_states(&s.displacement[b.nodes()]))
+                .collect(),
+        }
+    }
+}

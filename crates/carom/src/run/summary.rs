@@ -1,0 +1,194 @@
+//! What came out of a run, in a page.
+
+use serde::Serialize;
+
+use crate::contact::cross_check::CrossCheckSummary;
+use crate::model::Group;
+use crate::run::events::ContactEvent;
+use crate::{BodyLedger, Energies, PairLedger, Simulation};
+
+/// Energies of a run [J].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct EnergySummary {
+    /// Total at the start.
+    pub initial: f64,
+    /// Total now.
+    #[serde(rename = "final")]
+    pub last: f64,
+    /// Kinetic energy now.
+    pub kinetic: f64,
+    /// Strain energy now.
+    pub strain: f64,
+    /// Dissipated by friction.
+    pub friction: f64,
+    /// Dissipated by damping and viscosity.
+    pub viscous: f64,
+    /// Plastic work.
+    pub plastic: f64,
+    /// Dissipated by the time scheme.
+    pub scheme: f64,
+    /// Taken by normal reactions.
+    pub normal_contact: f64,
+    /// Work of obstacles that move.
+    pub prescribed: f64,
+    /// Work of gravity and loads.
+    pub external: f64,
+    /// Largest |E(t) − E(0)|.
+    pub max_drift: f64,
+    /// Largest |defect| of the ledger.
+    pub max_defect: f64,
+    /// Largest |defect| of a single step.
+    pub max_step_defect: f64,
+}
+
+/// How far the run was from Coulomb's law.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CertificateSummary {
+    /// Largest Σ of bi-potential gaps of a step [J].
+    pub max_joule: f64,
+    /// The part of it that the solver of the contact problem left [J]; the rest is what Newton's iterations left.
+    pub solver_joule: f64,
+    /// Largest residual of the contact laws.
+    pub max_residual: f64,
+    /// What it is measured by [J]: the largest energy of the run, or the largest work Σ |r·q| of the reactions of a step over the motion that they
+    /// prevent, where that is more.
+    pub reference_joule: f64,
+    /// The largest Σ that a completed run may have [J]: the tolerance of the method times this reference.
+    pub tolerance_joule: f64,
+}
+
+/// The books of a body at the end.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BodySummary {
+    /// Name.
+    pub name: String,
+    /// What happened to its energy.
+    #[serde(flatten)]
+    pub ledger: BodyLedger,
+    /// What its terms do not explain [J].
+    pub defect: f64,
+}
+
+impl BodySummary {
+    fn new(name: &str, ledger: &BodyLedger) -> Self {
+        Self { name: name.to_string(), ledger: *ledger, defect: ledger.defect() }
+    }
+}
+
+/// The books of a pair at the end.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PairSummary {
+    /// The two names.
+    pub between: [String; 2],
+    /// Contacts of the pair that are closer than this are one [s].
+    pub merge_contacts: f64,
+    /// What it did to the energy.
+    #[serde(flatten)]
+    pub ledger: PairLedger,
+}
+
+impl PairSummary {
+    fn new(group: &Group, merge_contacts: f64, ledger: &PairLedger) -> Self {
+        Self { between: group.between.clone(), merge_contacts, ledger: *ledger }
+    }
+}
+
+/// The native part of summary.json.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// Nominal steps done.
+    pub steps: u64,
+    /// Unknown displacements.
+    pub dofs: usize,
+    /// Diameter of the largest body [m].
+    pub size: f64,
+    /// Time reached [s].
+    pub end_time: f64,
+    /// Length of a nominal step [s].
+    pub time_step: f64,
+    /// Newton iterations.
+    pub newton_iterations: u64,
+    /// Factorisations of iteration matrices, and polynomials made in their place.
+    pub factorisations: u64,
+    /// Steps or substeps that failed and were halved.
+    pub retried_steps: u64,
+    /// Energies.
+    pub energy: EnergySummary,
+    /// Distance from Coulomb's law.
+    pub certificate: CertificateSummary,
+    /// The books of every body.
+    pub bodies: Vec<BodySummary>,
+    /// The books of every pair that may touch.
+    pub pairs: Vec<PairSummary>,
+    /// Largest blend |α| of start and end stresses; 0 unless massless contacts conserve.
+    pub max_blend: f64,
+    /// Smallest dissipation by friction of a contact in a step [J]; never negative by more than round-off.
+    pub least_friction: f64,
+    /// Smallest gap seen [m].
+    pub min_gap: f64,
+    /// What a second solver said of the contact problems, if it was asked.
+    pub cross_check: Option<CrossCheckSummary>,
+    /// Contact events.
+    pub contacts: Vec<ContactEvent>,
+}
+
+impl<const D: usize> Simulation<D> {
+    /// The summary so far.
+    #[must_use]
+    pub fn summary(&self) -> Summary {
+        let (e, t, l) = (self.state.energies, &self.totals, &self.books.total);
+        Summary {
+            steps: self.step,
+            dofs: self.model.dofs(),
+            size: self.model.size,
+            end_time: self.state.time,
+            time_step: self.time_step,
+            newton_iterations: t.newton_iterations,
+            factorisations: self.work.factorisations,
+            retried_steps: t.retried,
+            energy: EnergySummary {
+                initial: self.initial_energies.iter().map(Energies::total).sum(),
+                last: e.total(),
+                kinetic: e.kinetic,
+                strain: e.strain,
+                friction: l.friction,
+                viscous: l.viscous,
+                plastic: l.plastic,
+                scheme: l.scheme,
+                normal_contact: l.normal_contact,
+                prescribed: l.prescribed,
+                external: l.external,
+                max_drift: t.max_drift,
+                max_defect: t.max_defect,
+                max_step_defect: t.max_step_defect,
+            },
+            certificate: CertificateSummary {
+                max_joule: t.max_certificate,
+                solver_joule: t.solver_certificate,
+                max_residual: t.max_residual,
+                reference_joule: t.reference(),
+                tolerance_joule: self.method.certificate_tolerance * t.reference(),
+            },
+            bodies: self
+                .model
+                .bodies
+                .iter()
+                .zip(&self.books.bodies)
+                .map(|(b, l)| BodySummary::new(&b.name, l))
+                .collect(),
+            pairs: self
+                .model
+                .groups
+                .iter()
+                .zip(&self.books.pairs)
+                .enumerate()
+                .map(|(i, (g, l))| PairSummary::new(g, self.events.merge(i), l))
+                .collect(),
+            max_blend: t.max_blend,
+            least_friction: t.least_friction,
+            min_gap: t.min_gap,
+            cross_check: self.method.cross_check.then(|| self.cross_checks.clone()),
+            contacts: self.events.events(self.state.time),
+        }
+    }
+}

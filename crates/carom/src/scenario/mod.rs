@@ -1,0 +1,332 @@
+//! The scenario as data: what the case file and the Python objects describe. Field names are those of the case file.
+
+mod drive;
+mod mesh_spec;
+
+use std::collections::BTreeMap;
+
+use carom_contact::Discretisation;
+use carom_fem::material::{LawSpec, Viscosity};
+pub use carom_fem::{Formulation, Hypothesis};
+use carom_fem::{MassKind, RayleighDamping};
+use carom_friction::SolverKind;
+use serde::{Deserialize, Serialize};
+
+pub use drive::{Axis, Displacement, LoadEntry, LoadSpec, MotionEntry, MotionSpec};
+
+pub use self::mesh_spec::{Cell, MeshSpec};
+use crate::{ContactCondition, Scheme};
+
+/// A complete case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Scenario {
+    /// Title.
+    #[serde(default)]
+    pub title: String,
+    /// Dimension of space: 2 or 3.
+    #[serde(default = "two")]
+    pub dimension: usize,
+    /// What is computed.
+    pub analysis: Analysis,
+    /// What is kept.
+    pub output: Output,
+    /// Materials by name.
+    pub materials: BTreeMap<String, MaterialSpec>,
+    /// Deformable bodies.
+    pub bodies: Vec<BodyEntry>,
+    /// Rigid obstacles.
+    #[serde(default)]
+    pub obstacles: Vec<ObstacleEntry>,
+    /// Forces on bodies.
+    #[serde(default)]
+    pub loads: Vec<LoadEntry>,
+    /// Prescribed motion of parts of bodies.
+    #[serde(default)]
+    pub motions: Vec<MotionEntry>,
+    /// Contact.
+    pub contact: ContactSpec,
+}
+
+/// Time, scheme and iterations.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Analysis {
+    /// Kind of analysis.
+    pub kind: AnalysisKind,
+    /// End of the run [s].
+    pub end_time: f64,
+    /// Length of a step [s].
+    pub time_step: f64,
+    /// Time scheme of a dynamic analysis.
+    #[serde(default = "none")]
+    pub scheme: Scheme,
+    /// Newton's iterations.
+    pub newton: NewtonSpec,
+    /// How often a step that fails is halved.
+    pub max_halvings: u32,
+    /// Gravity [m/s²].
+    pub gravity: Option<Vec<f64>>,
+}
+
+/// Kinds of analysis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AnalysisKind {
+    /// Motion in time.
+    #[default]
+    Dynamic,
+    /// Balance of forces, step by step.
+    Static,
+}
+
+/// When Newton's iterations stop.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct NewtonSpec {
+    /// Largest correction of a displacement, relative to the largest motion of a node in the step.
+    pub tolerance: f64,
+    /// Iterations after which the step fails.
+    pub max_iterations: usize,
+}
+
+/// What is kept of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Output {
+    /// Interval of the fields [s].
+    pub fields_every: f64,
+    /// Interval of the history [s].
+    pub history_every: f64,
+    /// Contact events of a pair that are closer than this are one [s]; without it the time that a pressure wave takes through its bodies.
+    #[serde(default)]
+    pub merge_contacts: Option<f64>,
+    /// Points whose motion is in the history.
+    #[serde(default)]
+    pub track: Vec<TrackEntry>,
+}
+
+/// A point of a body to follow.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TrackEntry {
+    /// Name, the prefix of its columns in the history.
+    pub name: String,
+    /// Body.
+    pub body: String,
+    /// Reference position [m]; the nearest node is followed.
+    pub point: Vec<f64>,
+}
+
+/// A material.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MaterialSpec {
+    /// The law.
+    #[serde(flatten)]
+    pub law: LawSpec,
+    /// Density [kg/m³].
+    pub density: f64,
+    /// Damping.
+    #[serde(default)]
+    pub damping: RayleighDamping,
+    /// Kelvin–Voigt viscosity.
+    #[serde(default)]
+    pub viscosity: Viscosity,
+}
+
+/// A deformable body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BodyEntry {
+    /// Name.
+    pub name: String,
+    /// Name of its material.
+    pub material: String,
+    /// What it is in space, in 2D.
+    #[serde(default)]
+    pub hypothesis: Hypothesis,
+    /// How its deformation follows from its displacements.
+    #[serde(default)]
+    pub formulation: Formulation,
+    /// Thickness in 2D [m]; not used of a body of revolution.
+    pub thickness: f64,
+    /// Mass matrix.
+    pub mass: MassKind,
+    /// Mesh.
+    pub mesh: MeshSpec,
+    /// Sets of facets that may touch others; the whole boundary if not given.
+    #[serde(default)]
+    pub contact_sets: Option<Vec<String>>,
+    /// Whether the body may touch itself.
+    #[serde(default)]
+    pub self_contact: bool,
+    /// Initial velocity [m/s]; none if not given.
+    #[serde(default)]
+    pub velocity: Option<Vec<f64>>,
+    /// Initial spin about the centre of mass [rad/s].
+    #[serde(default)]
+    pub spin: Spin,
+}
+
+/// Angular velocity of a body.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Spin {
+    /// None.
+    #[default]
+    None,
+    /// In the plane [rad/s].
+    InPlane(f64),
+    /// In space: (ω_x, ω_y, ω_z) [rad/s].
+    InSpace([f64; 3]),
+}
+
+/// A rigid obstacle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ObstacleEntry {
+    /// Name.
+    pub name: String,
+    /// Velocity [m/s]; none if not given.
+    #[serde(default)]
+    pub velocity: Option<Vec<f64>>,
+    /// Displacement [m], in place of a velocity.
+    #[serde(default)]
+    pub motion: Option<Displacement>,
+    /// Shape.
+    #[serde(flatten)]
+    pub shape: ObstacleShape,
+}
+
+/// Shapes of rigid obstacles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum ObstacleShape {
+    /// A half space.
+    Plane {
+        /// A point of the plane [m].
+        point: Vec<f64>,
+        /// Normal towards the free side, of any length.
+        normal: Vec<f64>,
+    },
+    /// A ball, in 2D a disc.
+    Sphere {
+        /// Centre [m].
+        centre: Vec<f64>,
+        /// Radius [m].
+        radius: f64,
+        /// Whether the inside is free, and not the outside.
+        #[serde(default)]
+        cavity: bool,
+    },
+    /// A cylinder without ends, in 3D.
+    Cylinder {
+        /// A point of the axis [m].
+        point: Vec<f64>,
+        /// Direction of the axis, of any length.
+        axis: Vec<f64>,
+        /// Radius [m].
+        radius: f64,
+        /// Whether the inside is free, and not the outside.
+        #[serde(default)]
+        cavity: bool,
+    },
+    /// A box with sides along the axes, in 2D a rectangle.
+    Box {
+        /// The corner with the smallest coordinates [m].
+        corner: Vec<f64>,
+        /// Sides [m].
+        size: Vec<f64>,
+    },
+    /// What a closed surface of triangles encloses, in 3D.
+    Surface {
+        /// Vertices [m].
+        vertices: Vec<Vec<f64>>,
+        /// The vertices of every triangle, counter-clockwise as seen from outside.
+        triangles: Vec<[u32; 3]>,
+    },
+}
+
+/// Contact.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ContactSpec {
+    /// Where in time the unilateral condition is written.
+    pub condition: ContactCondition,
+    /// Friction coefficient of every pair that names none.
+    pub friction: f64,
+    /// Solver of the reduced problem.
+    pub solver: SolverSpec,
+    /// Whose nodes are checked in pairs of bodies that say nothing else.
+    pub sources: Sources,
+    /// What they are checked against.
+    pub targets: Targets,
+    /// How contact between two bodies is written in pairs that say nothing else.
+    #[serde(default)]
+    pub discretisation: Discretisation,
+    /// The bi-potential gap of a step that a certified run may have, relative to the largest energy of the run.
+    pub certificate_tolerance: f64,
+    /// Exceptions for pairs.
+    #[serde(default)]
+    pub pairs: Vec<PairEntry>,
+}
+
+/// The friction solver and when it stops.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct SolverSpec {
+    /// Solver.
+    pub kind: SolverKind,
+    /// Residual at which it stops.
+    pub tolerance: f64,
+    /// Iterations after which it gives up.
+    pub max_iterations: usize,
+    /// Whether a second solver solves the problem of every step again.
+    #[serde(default)]
+    pub cross_check: bool,
+}
+
+/// Whose nodes are checked against whose facets in a pair of bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sources {
+    /// Nodes of the body with the finer boundary against facets of the other; of the first if they are alike.
+    #[default]
+    Finer,
+    /// Nodes of the first body against facets of the second.
+    First,
+    /// Nodes of the second body against facets of the first.
+    Second,
+    /// Both.
+    Both,
+}
+
+/// The shape of a body's boundary in the eyes of the nodes that meet it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Targets {
+    /// A curve through the nodes with a continuous tangent, but for corners of more than 40°.
+    #[default]
+    Smooth,
+    /// The facets of the mesh.
+    Faceted,
+}
+
+/// What is different for a pair.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PairEntry {
+    /// The two names.
+    pub between: [String; 2],
+    /// Friction coefficient.
+    pub friction: Option<f64>,
+    /// Whose nodes are checked.
+    pub sources: Option<Sources>,
+    /// How contact between the two is written.
+    pub discretisation: Option<Discretisation>,
+    /// Whether the two may touch at all.
+    #[serde(default = "yes")]
+    pub enabled: bool,
+}
+
+fn none() -> Scheme {
+    Scheme::Static
+}
+
+fn two() -> usize {
+    2
+}
+
+fn yes() -> bool {
+    true
+}

@@ -1,0 +1,184 @@
+//! Anderson's acceleration of the iterations of a step, which a kept factor makes a fixed-point iteration.
+//!
+//! With corrections f_k at guesses d_k, the next guess is not d_k + f_k but that of the combination of the last guesses whose
+//! corrections cancel best (Walker & Ni, SIAM J. Numer. Anal. 49, 2011). Bodies in contact depend on one another and share a
+//! combination, others have their own. The acceleration is local to a step: contacts of the next one are others.
+
+use std::ops::Range;
+
+use carom_mesh::{Vector, nodal};
+
+use crate::Model;
+use crate::model::state::State;
+use crate::step::workspace::Workspace;
+
+/// Differences combined.
+const DEPTH: usize = 3;
+/// Differences of corrections that are parallel up to this, relative and squared, say nothing new.
+const PARALLEL: f64 = 1e-12;
+/// Largest weight of a difference: beyond it the combination is an extrapolation that nothing supports. Still too large for steps ten
+/// times as long as those of the two cylinders, where weights of at most 0.3 hold: see docs/speed.md.
+const LARGEST_WEIGHT: f64 = 2.0;
+/// A free body whose corrections shrink faster than this is left alone: acceleration would cost more than it saves.
+const FAST: f64 = 0.05;
+
+/// The last guesses and corrections, one vector per node of the model.
+#[derive(Debug)]
+pub(crate) struct Acceleration<const D: usize> {
+    guess: Vec<Vector<D>>,
+    correction: Vec<Vector<D>>,
+    /// Differences from guess to guess, a ring.
+    guesses: [Vec<Vector<D>>; DEPTH],
+    /// Differences from correction to correction, alike.
+    corrections: [Vec<Vector<D>>; DEPTH],
+    bodies: Vec<Record>,
+}
+
+/// What is known of a body.
+#[derive(Debug, Clone, Copy, Default)]
+struct Record {
+    products: Products,
+    /// Iterations taken note of.
+    count: usize,
+}
+
+impl Record {
+    /// Number of differences there are.
+    fn differences(&self) -> usize {
+        self.count.saturating_sub(1).min(DEPTH)
+    }
+
+    /// Place of the latest difference.
+    fn slot(&self) -> usize {
+        self.count % DEPTH
+    }
+}
+
+/// Inner products of the differences of corrections with one another, and with the last correction.
+#[derive(Debug, Clone, Copy, Default)]
+struct Products {
+    matrix: [[f64; DEPTH]; DEPTH],
+    right: [f64; DEPTH],
+}
+
+impl Products {
+    fn add(&mut self, other: &Self) {
+        for i in 0..DEPTH {
+            self.right[i] += other.right[i];
+            (0..DEPTH).for_each(|j| self.matrix[i][j] += other.matrix[i][j]);
+        }
+    }
+
+    /// The weights of the first `count` differences of the ring that leave least of the correction; the latest is in `slot`.
+    fn weights(&self, count: usize, slot: usize) -> [f64; DEPTH] {
+        // Older differences are left out where newer ones say as much: elimination from the latest on.
+        let places: [usize; DEPTH] = std::array::from_fn(|i| (slot + DEPTH - i) % DEPTH);
+        let (mut l, mut y) = ([[0.0; DEPTH]; DEPTH], [0.0; DEPTH]);
+        let mut used = count;
+        for i in 0..count {
+            let p = places[i];
+            for j in 0..=i {
+                let sum = self.matrix[p][places[j]] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
+                l[i][j] = if i == j { sum } else { sum / l[j][j] };
+            }
+            if l[i][i] <= PARALLEL * self.matrix[p][p] {
+                used = i;
+                break;
+            }
+            l[i][i] = l[i][i].sqrt();
+            y[i] = (self.right[p] - (0..i).map(|k| l[i][k] * y[k]).sum::<f64>()) / l[i][i];
+        }
+        let mut weights = [0.0; DEPTH];
+        for i in (0..used).rev() {
+            y[i] = (y[i] - (i + 1..used).map(|k| l[k][i] * y[k]).sum::<f64>()) / l[i][i];
+            weights[places[i]] = y[i];
+        }
+        if weights.iter().all(|w| w.abs() <= LARGEST_WEIGHT) { weights } else { [0.0; DEPTH] }
+    }
+}
+
+impl<const D: usize> Acceleration<D> {
+    /// For a model with so many positions and bodies.
+    pub fn new(positions: usize, bodies: usize) -> Self {
+        let zeros = vec![Vector::zeros(); positions];
+        Self {
+            guess: zeros.clone(),
+            correction: zeros.clone(),
+            guesses: std::array::from_fn(|_| zeros.clone()),
+            corrections: std::array::from_fn(|_| zeros.clone()),
+            bodies: vec![Record::default(); bodies],
+        }
+    }
+
+    /// Forgets all, because the iteration has become another.
+    pub fn restart(&mut self) {
+        self.bodies.fill(Record::default());
+    }
+
+    /// Takes note of the correction `f` of a body, at `nodes` of the model, and of the guess that led to it, to the `motion` so far.
+    fn record(&mut self, body: usize, nodes: Range<usize>, motion: &[Vector<D>], f: &[Vector<D>]) {
+        let record = &mut self.bodies[body];
+        record.count += 1;
+        let (slot, differences) = (record.slot(), record.differences());
+        let f = &f[nodes.clone()];
+        let (guess, correction) = (&mut self.guess[nodes.clone()], &mut self.correction[nodes.clone()]);
+        let changes = &mut self.guesses[slot][nodes.clone()];
+        nodal::each_of_two(changes, guess, [&motion[nodes.clone()], f], |change, guess, [d, f]| {
+            let before = d - f;
+            *change = before - *guess;
+            *guess = before;
+        });
+        let changes = &mut self.corrections[slot][nodes.clone()];
+        nodal::each_of_two(changes, correction, [f], |change, correction, [f]| {
+            *change = f - *correction;
+            *correction = *f;
+        });
+        let Products { matrix, right } = &mut record.products;
+        for j in (0..differences).map(|j| (slot + DEPTH - j) % DEPTH) {
+            let other = &self.corrections[j][nodes.clone()];
+            matrix[slot][j] = nodal::dot(&self.corrections[slot][nodes.clone()], other);
+            matrix[j][slot] = matrix[slot][j];
+            right[j] = nodal::dot(other, f);
+        }
+    }
+}
+
+/// Moves the `bodies` on to better guesses.
+///
+/// Where a step ends its last correction stands as it is: the momentum of the bodies is then balanced by the reactions to round-off.
+pub(crate) fn accelerate<const D: usize>(
+    bodies: &[usize],
+    model: &Model<D>,
+    state: &State<D>,
+    next: &mut State<D>,
+    first: bool,
+    work: &mut Workspace<D>,
+) {
+    let Workspace { acceleration, motion, correction, progress, touched, .. } = work;
+    let mut together = Products::default();
+    for &i in bodies {
+        let b = &model.bodies[i];
+        let slow = !first && progress[i].contraction > FAST;
+        if touched[i] || slow || acceleration.bodies[i].count > 0 {
+            acceleration.record(i, b.nodes(), motion, correction);
+        }
+        if touched[i] {
+            together.add(&acceleration.bodies[i].products);
+        }
+    }
+    for &i in bodies {
+        let b = &model.bodies[i];
+        let record = &acceleration.bodies[i];
+        let products = if touched[i] { &together } else { &record.products };
+        let weights = products.weights(record.differences(), record.slot());
+        for (k, weight) in weights.into_iter().enumerate().filter(|&(_, weight)| weight != 0.0) {
+            let (guesses, corrections) =
+                (&acceleration.guesses[k][b.nodes()], &acceleration.corrections[k][b.nodes()]);
+            nodal::each(&mut motion[b.nodes()], [guesses, corrections], |m, [d, f]| *m -= (d + f) * weight);
+        }
+        if weights.iter().any(|&weight| weight != 0.0) {
+            let (moved, start) = (&mut next.displacement[b.nodes()], &state.displacement[b.nodes()]);
+            nodal::each(moved, [start, &motion[b.nodes()]], |u1, [u0, d]| *u1 = u0 + d);
+        }
+    }
+}
