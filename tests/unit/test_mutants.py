@@ -51,6 +51,6 @@ def test_errors_that_survive_and_those_that_do_not_are_in_the_table(listed):
         listed.Verdict("b", "python/carom/output.py", "nobody", "", 2.0),
     ]
     assert listed.table(verdicts).splitlines()[2:] == [
-        "| a | [step/commit.rs](../crates/carom/src/step/commit.rs) | carom | `ledger::fails` |",
+        "| a | [commit.rs](../crates/carom/src/step/commit.rs) | carom | `ledger::fails` |",
         "| b | [output.py](../python/carom/output.py) | nobody |  |",
     ]

@@ -84,7 +84,7 @@ impl Simulation {
         with!(&self.inner, run => {
             let model = run.model();
             let meshes = model.bodies.iter().map(|b| (b.first_node, b.body.mesh()));
-            arrays::grid(py, &model.reference[..model.node_count()], meshes)
+            arrays::grid(py, &model.assembly.reference[..model.node_count()], meshes)
         })
     }
 
@@ -114,7 +114,7 @@ impl Simulation {
         with!(&self.inner, run => {
             let model = run.model();
             let surfaces = model.bodies.iter().map(|b| (b.first_node, b.body.surface()));
-            arrays::surface_grid(py, &model.reference[..model.node_count()], surfaces)
+            arrays::surface_grid(py, &model.assembly.reference[..model.node_count()], surfaces)
         })
     }
 
@@ -135,7 +135,7 @@ impl Simulation {
     fn ledger_entries(&self) -> Vec<String> {
         with!(&self.inner, run => {
             let bodies = run.model().bodies.iter().map(|b| b.name.clone());
-            bodies.chain(run.model().groups.iter().map(|g| g.between.join("|"))).collect()
+            bodies.chain(run.model().assembly.groups.iter().map(|g| g.between.join("|"))).collect()
         })
     }
 

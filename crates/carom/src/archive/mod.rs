@@ -31,13 +31,14 @@ pub struct CheckpointError {
 }
 
 impl CheckpointError {
-    pub(crate) fn new(array: &str, what: impl Into<String>) -> Self {
+    /// An error of an array.
+    pub fn new(array: &str, what: impl Into<String>) -> Self {
         Self { array: array.to_string(), what: what.into() }
     }
 }
 
 /// A checkpoint that is written or read, by the same list of arrays.
-pub(crate) enum Archive<'a> {
+pub enum Archive<'a> {
     /// Values go into the checkpoint.
     Record(&'a mut Checkpoint),
     /// Values are overwritten by those of the checkpoint.

@@ -1,3 +1,229 @@
-//! Bodies in a step.
+//! What a step asks of a body, whatever it is made of.
+//!
+//! A step knows nodes, forces on them and how they yield; it knows nothing of cells. A body owns its factors and its scratch and answers for
+//! itself, stage by stage; the [`fe`] body of finite elements is one of these.
 
 pub(crate) mod fe;
+
+use carom_fem::material::PlasticState;
+use carom_fem::sparse::Precision;
+use carom_mesh::{Matrix, Vector};
+
+use crate::StepMap;
+use crate::archive::{Archive, CheckpointError};
+use crate::error::StepError;
+use crate::ledger::{BodyLedger, Energies};
+
+/// A step in time, and the rules that hold for every body in it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// What the time scheme says.
+    pub map: StepMap,
+    /// Time at its start [s].
+    pub start: f64,
+    /// The numbers that factors are kept in.
+    pub precision: Precision,
+    /// How much the contact forces at its start and at its end count in it.
+    pub contact_weights: [f64; 2],
+    /// Whether stresses of start and end are blended so that massless contact keeps the energy: see [`Body::balance`].
+    pub is_blended: bool,
+}
+
+/// The part of one body in a state; vectors have an entry per node of the body.
+#[derive(Debug, Clone, Copy)]
+pub struct BodyState<'a, const D: usize> {
+    /// u [m].
+    pub displacement: &'a [Vector<D>],
+    /// v [m/s].
+    pub velocity: &'a [Vector<D>],
+    /// ∂E/∂u [N].
+    pub internal_force: &'a [Vector<D>],
+    /// Contact forces [N].
+    pub contact_force: &'a [Vector<D>],
+    /// What its material remembers; empty where it remembers nothing.
+    pub history: &'a [PlasticState],
+    /// Its energies [J].
+    pub energies: Energies,
+}
+
+/// What is guessed of the motion of a body in a step.
+#[derive(Debug, Clone, Copy)]
+pub struct Guess<'a, const D: usize> {
+    /// The step.
+    pub interval: &'a Interval,
+    /// Where it starts.
+    pub start: BodyState<'a, D>,
+    /// d = u₊ − u [m], an entry per node of the body.
+    pub motion: &'a [Vector<D>],
+    /// u₊ [m].
+    pub displacement: &'a [Vector<D>],
+}
+
+/// What a body expects of a step before it knows of contacts.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Forecast {
+    /// Largest speed of a node at the start [m/s].
+    pub speed: f64,
+    /// Acceleration that it is under without contact [m/s²].
+    pub acceleration: f64,
+    /// Largest motion that is prescribed [m].
+    pub driven: f64,
+    /// Whether a factor was made.
+    pub is_factorised: bool,
+}
+
+/// The two ends of the balance of energy of a body with nodes without mass: α is their ratio.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Balance {
+    /// What is missing with the conserving force alone [J].
+    pub missing: f64,
+    /// What the difference of the stresses of both ends gives [J].
+    pub available: f64,
+    /// Energy of the motion of the step, ½ Σ m (d/Δt)² [J].
+    pub motion: f64,
+}
+
+/// What a body writes at the end of a step, beside its displacements.
+#[derive(Debug)]
+pub struct BodyEnd<'a, const D: usize> {
+    /// Contact forces [N] that the step ended with.
+    pub contact_force: &'a [Vector<D>],
+    /// v₊ [m/s].
+    pub velocity: &'a mut [Vector<D>],
+    /// ∂E/∂u at u₊ [N].
+    pub internal_force: &'a mut [Vector<D>],
+    /// What the material remembers.
+    pub history: &'a mut [PlasticState],
+    /// The force of every support of the model [N], to which a body adds its own.
+    pub support: &'a mut [Vector<D>],
+}
+
+/// A body in a step, with its factors and its scratch.
+///
+/// Slices have an entry per node of the body unless it is said otherwise, and nodes are numbered within it. A body alone decides what K̄ is,
+/// the matrix with which it corrects its motion; the step asks for K̄⁻¹ by parts, so that reactions, which depend on all bodies, can join in
+/// between: [`Self::begin_solve`] with what is known, [`Self::partial_solve`] at the contacts, [`Self::add_forces`] once these are solved, and
+/// [`Self::end_solve`].
+pub trait Body<const D: usize>: Send + Sync {
+    /// Number of its nodes.
+    fn node_count(&self) -> usize;
+
+    /// What its material remembers at the start of a run.
+    fn initial_history(&self) -> Vec<PlasticState> {
+        Vec::new()
+    }
+
+    /// Makes the velocities [m/s] at t = 0 obey what binds and drives the nodes.
+    fn constrain(&self, _velocity: &mut [Vector<D>]) {}
+
+    /// Writes ∂E/∂u [N] at `state`, whose own forces and energies are not read, and returns its energies.
+    fn measure(&self, state: &BodyState<'_, D>, internal_force: &mut [Vector<D>]) -> Energies;
+
+    /// The velocity at which it moves as a whole [m/s].
+    fn mean_velocity(&self, velocity: &[Vector<D>]) -> Vector<D>;
+
+    /// Starts a step: `motion`, which holds free flight Δt v [m], becomes what is prescribed where it is, and a K̄ is there that fits.
+    ///
+    /// # Errors
+    /// If what is prescribed is not finite or K̄ cannot be factorised.
+    fn begin_step(
+        &mut self,
+        interval: &Interval,
+        start: &BodyState<'_, D>,
+        motion: &mut [Vector<D>],
+    ) -> Result<Forecast, StepError>;
+
+    /// The balance of energy at a guess, of steps that [are blended](Interval::is_blended).
+    fn balance(&mut self, _guess: &Guess<'_, D>) -> Balance {
+        Balance::default()
+    }
+
+    /// Writes the residual [N] of its equation of motion at a guess, without reactions, to `out`. In steps that are blended the
+    /// weight of the blend is given, and [`Self::balance`] has been asked at the same guess.
+    fn residual(&mut self, guess: &Guess<'_, D>, blend: Option<f64>, out: &mut [Vector<D>]);
+
+    /// Begins to solve for the correction of the motion under a `residual` [N].
+    fn begin_solve(&mut self, residual: &[Vector<D>]);
+
+    /// Names the nodes of [`Self::partial_solve`], [`Self::add_forces`], [`Self::respond`], ascending or not.
+    fn set_reach(&mut self, nodes: &[u32]);
+
+    /// Writes the correction [m] as it stands to `out` at these `nodes`, which are of the reach.
+    fn partial_solve(&mut self, nodes: &[u32], out: &mut [Vector<D>]);
+
+    /// Adds `forces` [N] to the residual at these `nodes`, which are of the reach.
+    fn add_forces(&mut self, nodes: &[u32], forces: &[Vector<D>]);
+
+    /// Writes the correction [m].
+    fn end_solve(&mut self, correction: &mut [Vector<D>]);
+
+    /// Makes K̄ anew at a guess; `again` if it was made in this step before.
+    ///
+    /// # Errors
+    /// If K̄ cannot be factorised.
+    fn renew(&mut self, guess: &Guess<'_, D>, again: bool) -> Result<(), StepError>;
+
+    /// Lets no step rely on K̄ as it is.
+    fn forget(&mut self);
+
+    /// Completes the state at the end of a step and says what happened to the energy; returns that and the energies [J].
+    fn end_step(
+        &mut self,
+        guess: &Guess<'_, D>,
+        blend: Option<f64>,
+        end: BodyEnd<'_, D>,
+    ) -> (BodyLedger, Energies);
+
+    /// Grows with every K̄.
+    fn generation(&self) -> u64;
+
+    /// The rotation since K̄ was made: blocks of [`Self::response`] are to be turned by it.
+    fn turn(&self) -> Matrix<D> {
+        Matrix::identity()
+    }
+
+    /// The nodes of the surface that feel a force at `node` within a step, itself among them, ascending; none if all do.
+    fn near(&self, _node: u32) -> Option<Vec<u32>> {
+        None
+    }
+
+    /// When a node is eliminated: unit forces on nodes near each other in this order cost least.
+    fn order(&self, node: u32) -> usize {
+        node as usize
+    }
+
+    /// So many nodes does [`Self::respond`] take at once.
+    fn responses_at_once(&self) -> usize {
+        1
+    }
+
+    /// Solves for unit forces at these nodes of the reach.
+    fn respond(&mut self, nodes: &[u32]);
+
+    /// The block (K̄⁻¹)_ab [m/N] for a node a of the reach and a node b that was `number` among those last given to [`Self::respond`].
+    fn response(&self, a: u32, b: u32, number: usize) -> Matrix<D>;
+
+    /// Whether only contact, or nothing, keeps the body from moving rigidly in a static analysis.
+    fn is_loose(&self) -> bool {
+        false
+    }
+
+    /// Memory of its factor [bytes].
+    fn factor_bytes(&self) -> usize {
+        0
+    }
+
+    /// Records what K̄ was made from, or makes it again, under names that begin with `name`; `map` gives that of steps of a length [s]. Returns
+    /// whether there is a K̄.
+    ///
+    /// # Errors
+    /// If the archive does not fit.
+    fn exchange(
+        &mut self,
+        _archive: &mut Archive<'_>,
+        _name: &str,
+        _map: &dyn Fn(f64) -> StepMap,
+    ) -> Result<bool, CheckpointError> {
+        Ok(false)
+    }
+}

@@ -6,8 +6,9 @@ use super::body::may_touch;
 use super::mortar::discretisation;
 use super::obstacle::obstacle;
 use super::{number, place};
+use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
-use crate::model::{Group, ModelBody};
+use crate::model::assembly::Group;
 use crate::scenario::{Scenario, Sources, Targets};
 
 /// The largest friction coefficient.

@@ -3,8 +3,9 @@
 use carom_mesh::{Facet, Surface};
 
 use super::vector;
+use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
-use crate::model::{Model, ModelBody};
+use crate::model::Model;
 use crate::scenario::{Axis, Displacement, LoadSpec, MotionSpec, ObstacleEntry, Scenario};
 use crate::{Load, Motion, ObstacleMotion, Signal, SignalSpec};
 
@@ -30,7 +31,7 @@ pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Res
         })?;
         let components = match &entry.motion {
             MotionSpec::Fixed { components } => fixed(&key, components.as_deref())?,
-            MotionSpec::Prescribed(d) => displacement(&key, d, end, model.size)?,
+            MotionSpec::Prescribed(d) => displacement(&key, d, end, model.assembly.size)?,
         };
         let motion = Motion { name: name(&motions, &entry.body, &entry.on), body: index, nodes, components };
         refuse_contradictions(&key, &motions, &motion, model.bodies[index].body.mesh().masters().as_slice())?;
@@ -38,7 +39,7 @@ pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Res
     }
     let mut obstacle_motions = Vec::new();
     for (k, entry) in scenario.obstacles.iter().enumerate() {
-        obstacle_motions.push(obstacle_motion(&format!("obstacles.{k}"), entry, end, model.size)?);
+        obstacle_motions.push(obstacle_motion(&format!("obstacles.{k}"), entry, end, model.assembly.size)?);
     }
     let mut model = model.with_motions(motions).with_obstacle_motions(obstacle_motions);
     for (k, entry) in scenario.loads.iter().enumerate() {
@@ -78,7 +79,8 @@ fn find_body<'a, const D: usize>(
     key: &str,
     name: &str,
 ) -> Result<(usize, &'a ModelBody<D>), InputError> {
-    model.bodies.iter().enumerate().find(|(_, b)| b.name == name).ok_or_else(|| {
+    let bodies = model.bodies.iter().map(|b| &**b);
+    bodies.enumerate().find(|(_, b)| b.name == name).ok_or_else(|| {
         let known: Vec<&str> = model.bodies.iter().map(|b| b.name.as_str()).collect();
         InputError::new(format!("{key}.body"), format!("there is no body {name:?}; known are {known:?}"))
     })

@@ -2,7 +2,7 @@ use carom_friction::{Criterion, StoppingRule};
 
 use super::number;
 use crate::error::InputError;
-use crate::model::{Method, NewtonRule};
+use crate::model::method::{Method, NewtonRule};
 use crate::scenario::{AnalysisKind, Scenario, Spin};
 use crate::{ContactCondition, Scheme};
 

@@ -14,8 +14,10 @@ use std::collections::BTreeMap;
 
 use carom_mesh::{Mesh, Vector};
 
+use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
-use crate::model::{Method, Model, ModelBody};
+use crate::model::Model;
+use crate::model::method::Method;
 use crate::scenario::Scenario;
 use crate::{Scheme, State};
 
@@ -41,7 +43,7 @@ pub fn build<const D: usize>(
     for (i, entry) in scenario.bodies.iter().enumerate() {
         let first_node = bodies.last().map_or(0, |b| b.nodes().end);
         let body = body::body(scenario, i, entry, meshes.remove(&entry.name))?;
-        bodies.push(ModelBody { name: entry.name.clone(), body, first_node });
+        bodies.push(ModelBody::new(&entry.name, body, first_node));
     }
     if bodies.is_empty() {
         return Err(InputError::new("bodies", "there is no body; add one [[bodies]] table at least"));
@@ -60,8 +62,8 @@ pub fn build<const D: usize>(
     overlaps::check_overlaps(scenario, &model)?;
     let velocity = velocity::initial_velocity(scenario, &model)?;
     let state = match method.scheme {
-        Scheme::Static => State::at_rest(&model),
-        _ => State::initial(&model, velocity),
+        Scheme::Static => model.state_at_rest(),
+        _ => model.initial_state(velocity),
     };
     if !state.is_finite() {
         return Err(InputError::new(

@@ -1,7 +1,7 @@
 use carom_contact::Discretisation;
 
+use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
-use crate::model::ModelBody;
 use crate::scenario::{PairEntry, Scenario, Sources};
 
 /// How contact between two bodies is written, which the exception `pair` may say with its index.

@@ -2,8 +2,9 @@ use carom_contact::{Candidate, Pair, RigidShape, Search, Target};
 use carom_mesh::Vector;
 
 use super::place;
+use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
-use crate::model::{Model, ModelBody};
+use crate::model::Model;
 use crate::scenario::Scenario;
 
 /// Overlaps at the start deeper than this, relative to the smallest edge, are an error.
@@ -14,9 +15,9 @@ pub(super) fn check_overlaps<const D: usize>(
     scenario: &Scenario,
     model: &Model<D>,
 ) -> Result<(), InputError> {
-    let at = |n: u32| model.reference[n as usize];
+    let at = |n: u32| model.assembly.reference[n as usize];
     let is_other = |pair: &&Pair| pair.target != Target::Surface(pair.source);
-    for pair in model.contact.pairs.iter().filter(is_other) {
+    for pair in model.assembly.contact.pairs.iter().filter(is_other) {
         // Both directions are checked, whichever the contact condition uses.
         let mut directions = vec![*pair];
         if let Target::Surface(b) = pair.target {
@@ -24,14 +25,14 @@ pub(super) fn check_overlaps<const D: usize>(
         }
         for direction in directions {
             let points = sample(&model.bodies[direction.source]);
-            let Some(closest) = model.contact.closest(points, direction.target, &at) else {
+            let Some(closest) = model.assembly.contact.closest(points, direction.target, &at) else {
                 continue;
             };
             let source = &model.bodies[direction.source];
             if closest.gap >= -TOUCHING * source.body.mesh().smallest_edge() {
                 continue;
             }
-            let [a, b] = &model.groups[pair.group].between;
+            let [a, b] = &model.assembly.groups[pair.group].between;
             let place = place(&closest.at);
             let index = direction.source;
             return Err(match direction.target {
@@ -44,8 +45,9 @@ pub(super) fn check_overlaps<const D: usize>(
                     ),
                 ),
                 Target::Obstacle(o) => {
-                    let obstacle = &model.contact.obstacles[o];
-                    let outside = source.nodes().all(|n| obstacle.gap(&model.reference[n], &at).0 < 0.0);
+                    let obstacle = &model.assembly.contact.obstacles[o];
+                    let outside =
+                        source.nodes().all(|n| obstacle.gap(&model.assembly.reference[n], &at).0 < 0.0);
                     let fact = if outside { "lies outside, behind" } else { "overlaps" };
                     let free = match obstacle.shape {
                         RigidShape::Plane { .. } => "turn the normal of",
@@ -71,18 +73,20 @@ pub(super) fn check_overlaps<const D: usize>(
 
 /// Refuses bodies of which edges have passed one another, though no node of one may be inside the other.
 fn check_crossings<const D: usize>(model: &Model<D>) -> Result<(), InputError> {
-    let at = |n: u32| model.reference[n as usize];
+    let at = |n: u32| model.assembly.reference[n as usize];
     let (mut search, mut candidates) = (Search::default(), Vec::new());
-    model.contact.detect(&at, &at, 0.0, &mut search, &mut candidates);
+    model.assembly.contact.detect(&at, &at, 0.0, &mut search, &mut candidates);
     for candidate in candidates.iter().filter(|c| has_straight_edges(model, c)) {
-        let pair = &model.contact.pairs[candidate.pair as usize];
+        let pair = &model.assembly.contact.pairs[candidate.pair as usize];
         let smallest_edge = model.bodies[pair.source].body.mesh().smallest_edge();
-        let contact = model.contact.evaluate(candidate, &at);
+        let contact = model.assembly.contact.evaluate(candidate, &at);
         let touching = TOUCHING * smallest_edge;
-        if contact.gap >= -touching || model.contact.is_beyond(candidate, &contact, touching, &at, &search) {
+        if contact.gap >= -touching
+            || model.assembly.contact.is_beyond(candidate, &contact, touching, &at, &search)
+        {
             continue;
         }
-        let [a, b] = &model.groups[pair.group].between;
+        let [a, b] = &model.assembly.groups[pair.group].between;
         return Err(InputError::new(
             format!("bodies.{}.mesh", pair.source),
             format!(
@@ -97,8 +101,9 @@ fn check_crossings<const D: usize>(model: &Model<D>) -> Result<(), InputError> {
 
 /// Whether a candidate is of the edges of two bodies, and these are where they seem to be: those of quadratic cells are curved.
 fn has_straight_edges<const D: usize>(model: &Model<D>, candidate: &Candidate) -> bool {
-    let pair = &model.contact.pairs[candidate.pair as usize];
-    let is_straight = |s: usize| !model.contact.surfaces[s].facets.iter().any(|f| f.kind.is_quadratic());
+    let pair = &model.assembly.contact.pairs[candidate.pair as usize];
+    let is_straight =
+        |s: usize| !model.assembly.contact.surfaces[s].facets.iter().any(|f| f.kind.is_quadratic());
     match pair.target {
         Target::Surface(t) => {
             candidate.node().is_none() && t != pair.source && is_straight(pair.source) && is_straight(t)

@@ -41,8 +41,8 @@ impl<const D: usize> Simulation<D> {
             let what = format!("is {schema}, this version reads {}", Checkpoint::SCHEMA);
             return Err(CheckpointError::new("schema", what));
         }
-        state::exchange(archive, &self.model, &mut self.state)?;
+        state::exchange(archive, &self.model.assembly, &mut self.state)?;
         progress::exchange(archive, self)?;
-        factors::exchange(archive, &self.model, &self.method, &mut self.work)
+        factors::exchange(archive, &self.method, &mut self.work)
     }
 }

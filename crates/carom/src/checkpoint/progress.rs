@@ -23,7 +23,7 @@ pub(super) fn exchange<const D: usize>(archive: &mut Archive<'_>, run: &mut Simu
     books(archive, &mut run.books)?;
     totals(archive, &mut run.totals)?;
     cross_checks(archive, &mut run.cross_checks)?;
-    events(archive, &run.model.groups, &mut run.events)?;
+    events(archive, &run.model.assembly.groups, &mut run.events)?;
     history(archive, &mut run.history)?;
     archive.pending("ledger/rows", &mut run.ledger_table.rows)
 }

@@ -4,12 +4,12 @@ use carom_contact::{Contact, Site};
 use carom_mesh::{Matrix, Vector};
 
 use crate::archive::{Archive, CheckpointError};
-use crate::{Model, Reaction, State};
+use crate::{Assembly, Reaction, State};
 
 /// Records or replays the state.
 pub(super) fn exchange<const D: usize>(
     archive: &mut Archive<'_>,
-    model: &Model<D>,
+    assembly: &Assembly<D>,
     state: &mut State<D>,
 ) -> Result<(), CheckpointError> {
     archive.numbers("state/time", [&mut state.time])?;
@@ -27,7 +27,7 @@ pub(super) fn exchange<const D: usize>(
     let mut reactions = Reactions::of(&state.reactions);
     reactions.exchange(archive)?;
     if archive.replays() {
-        state.reactions = reactions.into_reactions(model)?;
+        state.reactions = reactions.into_reactions(assembly)?;
     }
     Ok(())
 }
@@ -107,16 +107,16 @@ impl<const D: usize> Reactions<D> {
         archive.numbers(&name("stencil_weight"), &mut self.stencil_weight)
     }
 
-    fn into_reactions(self, model: &Model<D>) -> Result<Vec<Reaction<D>>, CheckpointError> {
+    fn into_reactions(self, assembly: &Assembly<D>) -> Result<Vec<Reaction<D>>, CheckpointError> {
         let wrong = |of: &str, what: &str| CheckpointError::new(&format!("{PREFIX}/{of}"), what);
         let all = |indices: &[u32], count: usize| indices.iter().all(|&i| (i as usize) < count);
-        if !all(&self.pair, model.contact.pairs.len()) {
+        if !all(&self.pair, assembly.contact.pairs.len()) {
             return Err(wrong("pair", "names a pair that is not there"));
         }
-        if !all(self.site.as_flattened(), model.node_count()) {
+        if !all(self.site.as_flattened(), assembly.node_count()) {
             return Err(wrong("site", "names a node that is not there"));
         }
-        if !all(&self.stencil_node, model.reference.len()) {
+        if !all(&self.stencil_node, assembly.reference.len()) {
             return Err(wrong("stencil_node", "names a node that is not there"));
         }
         let entries = self.stencil_length.iter().try_fold(0_usize, |sum, &n| sum.checked_add(n));

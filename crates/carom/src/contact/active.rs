@@ -1,122 +1,143 @@
-//! Which contacts take part in a step.
+//! Which contacts take part in a step, and the reactions known of them.
 
-use carom_contact::{Candidate, Contact, Pair, Target};
+use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Target};
 use carom_mesh::{Matrix, Vector};
 
-use crate::model::state::{Reaction, State};
-use crate::step::workspace::Workspace;
-use crate::{Method, Model, StepMap};
+use crate::model::assembly::Assembly;
+use crate::model::given::Given;
+use crate::model::state::Reaction;
 
 /// A contact of which less than this fraction of the normal is free has nothing to move.
 const UNRESPONSIVE: f64 = 1e-6;
 /// A node this deep inside its target, in sizes of the smaller body, is more than touching it.
 const INSIDE: f64 = 1e-6;
-/// By how much the margin grows for mortar pairs with every repetition of a search.
-const WIDENING: f64 = 4.0;
 
-/// Finds the candidates of the step between its start and the predicted end; another time between its start and where it led to, beside
-/// those already found and those missed there.
-///
-/// Nodes are not looked for farther and farther away: in a fast step that would be all there are, and their problem dense. Only
-/// the rows of mortar pairs, which cannot be recalled, are found by a wider margin.
-pub(crate) fn search<const D: usize>(
-    model: &Model<D>,
-    state: &State<D>,
-    margin: f64,
-    repetition: usize,
-    work: &mut Workspace<D>,
-) {
-    let start = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
-    let motion = &work.motion;
-    let end = |n: u32| start(n) + motion[n as usize];
-    let Workspace { search, mortar, candidates, searched, .. } = work;
-    model.contact.detect(&start, &end, margin, search, candidates);
-    if repetition > 0 {
-        model.contact.recall(searched, &start, &end, candidates);
-    }
-    let wide = margin * WIDENING.powi(repetition as i32);
-    model.contact.detect_mortar(&start, &end, wide, mortar, candidates);
-    searched.clone_from(candidates);
+/// The contacts that take part in a step, in the order of their candidates.
+#[derive(Debug, Default)]
+pub(crate) struct ActiveSet<const D: usize> {
+    pub candidates: Vec<Candidate>,
+    pub mortar: Mortar<D>,
+    pub contacts: Vec<Contact<D>>,
+    /// The frame that every contact had when it was last evaluated, in this step or as a reaction of the last one; zeros where there is none.
+    frames: Vec<Matrix<D>>,
+    pub friction: Vec<f64>,
+    /// Penetration [m] that a contact may keep, negative: see `ContactCondition::normal_offset`.
+    pub start_gaps: Vec<f64>,
+    /// Reactions [N] that the step starts with, in the frame of the last step.
+    pub start_forces: Vec<Vector<D>>,
+    /// Reactions as the reduced problem has them: see `ContactCondition::reaction_weight`.
+    pub reactions: Vec<Vector<D>>,
+    /// Reactions of the state whose contacts have no part in the step.
+    pub lost: Vec<usize>,
+    /// Whether contacts act on a body.
+    pub touched: Vec<bool>,
 }
 
-/// Keeps the candidates that take part in the step and recalls their last reactions.
-///
-/// A node that is found deeper inside its target than its velocity explains has not just got there: it slid past an edge that no node
-/// of the other side saw. It is kept from going deeper, until the bodies part: to push it out at once, the faster the shorter the step,
-/// would create energy. In a static analysis it is pushed out: there bodies may be meant to be pressed into one another.
-pub(crate) fn select_active<const D: usize>(
-    model: &Model<D>,
-    method: &Method<D>,
-    state: &State<D>,
-    map: &StepMap,
-    work: &mut Workspace<D>,
-) {
-    let start = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
-    let contact = &model.contact;
-    work.start_gaps.clear();
-    contact.evaluate_all(&work.candidates, &start, &mut work.mortar, &mut work.contacts);
-    let round_off = model.round_off();
-    let inside = |c: &Candidate| INSIDE * model.pair_size(&contact.pairs[c.pair as usize]);
-    let is_stuck = |c: &Candidate, at_start: &Contact<D>| {
-        let inside = inside(c);
-        let was_stuck = |k: usize| state.reactions[k].contact.gap < -inside;
-        let known = state.reactions.binary_search_by_key(&c.key(), Reaction::key);
-        let explained = inside + map.dt * at_start.relative(|n| state.velocity[n]).norm();
-        at_start.gap < -explained || known.is_ok_and(was_stuck)
-    };
-    let mut at_starts = work.contacts.iter();
-    work.candidates.retain(|c| {
-        let Some(at_start) = at_starts.next() else { return false };
-        let gap = at_start.gap;
-        let is_beyond = || {
+impl<const D: usize> ActiveSet<D> {
+    /// Of so many bodies.
+    pub fn new(bodies: usize) -> Self {
+        Self { touched: vec![false; bodies], ..Self::default() }
+    }
+
+    /// Keeps the candidates that take part in the step and recalls their last reactions.
+    ///
+    /// A node that is found deeper inside its target than its velocity explains has not just got there: it slid past an edge that no node
+    /// of the other side saw. It is kept from going deeper, until the bodies part: to push it out at once, the faster the shorter the step,
+    /// would create energy. In a static analysis it is pushed out: there bodies may be meant to be pressed into one another.
+    pub fn select(&mut self, given: &Given<'_, D>, search: &Search<D>) {
+        let Given { assembly, method, state, interval } = *given;
+        let (contact, map) = (&assembly.contact, &interval.map);
+        let start = |n: u32| given.position(n);
+        self.start_gaps.clear();
+        contact.evaluate_all(&self.candidates, &start, &mut self.mortar, &mut self.contacts);
+        let round_off = assembly.round_off();
+        let inside = |c: &Candidate| INSIDE * assembly.pair_size(&contact.pairs[c.pair as usize]);
+        let is_stuck = |c: &Candidate, at_start: &Contact<D>| {
             let inside = inside(c);
-            gap < -inside && contact.is_beyond(c, at_start, inside, &start, &work.search)
+            let was_stuck = |k: usize| state.reactions[k].contact.gap < -inside;
+            let known = state.reactions.binary_search_by_key(&c.key(), Reaction::key);
+            let explained = inside + map.dt * at_start.relative(|n| state.velocity[n]).norm();
+            at_start.gap < -explained || known.is_ok_and(was_stuck)
         };
-        let active = !c.mirrored
-            && method.condition.is_active(gap, round_off)
-            && answers(model, at_start)
-            && !is_beyond();
-        if active {
-            let stays = gap < 0.0
-                && (contact.is_two_sided(c.pair as usize) || !map.is_static() && is_stuck(c, at_start));
-            work.start_gaps.push(if stays { gap } else { 0.0 });
+        let mut at_starts = self.contacts.iter();
+        self.candidates.retain(|c| {
+            let Some(at_start) = at_starts.next() else { return false };
+            let gap = at_start.gap;
+            let is_beyond = || {
+                let inside = inside(c);
+                gap < -inside && contact.is_beyond(c, at_start, inside, &start, search)
+            };
+            let active = !c.mirrored
+                && method.condition.is_active(gap, round_off)
+                && answers(assembly, at_start)
+                && !is_beyond();
+            if active {
+                let stays = gap < 0.0
+                    && (contact.is_two_sided(c.pair as usize) || !map.is_static() && is_stuck(c, at_start));
+                self.start_gaps.push(if stays { gap } else { 0.0 });
+            }
+            active
+        });
+        self.recall(given);
+    }
+
+    /// What is known of the contacts from the step before, and whom they touch.
+    fn recall(&mut self, given: &Given<'_, D>) {
+        let (pairs, reactions) = (&given.assembly.contact.pairs, &given.state.reactions);
+        self.contacts.clear();
+        self.frames.clear();
+        self.reactions.clear();
+        self.friction.clear();
+        self.start_forces.clear();
+        self.touched.fill(false);
+        let weight = given.reaction_weight();
+        for candidate in &self.candidates {
+            let known = reactions.binary_search_by_key(&candidate.key(), Reaction::key);
+            let known = known.map(|k| &reactions[k]);
+            let force = known.map_or_else(|_| Vector::zeros(), |r| r.force);
+            self.frames.push(known.map_or_else(|_| Matrix::zeros(), |r| r.contact.frame));
+            self.reactions.push(force * weight);
+            self.start_forces.push(force);
+            self.friction.push(pairs[candidate.pair as usize].friction);
+            touch(&mut self.touched, &pairs[candidate.pair as usize]);
         }
-        active
-    });
-    work.contacts.clear();
-    work.frames.clear();
-    work.reactions.clear();
-    work.friction.clear();
-    work.start_forces.clear();
-    work.touched.fill(false);
-    let weight = method.condition.reaction_weight(map);
-    for candidate in &work.candidates {
-        let known = state.reactions.binary_search_by_key(&candidate.key(), Reaction::key);
-        let known = known.map(|k| &state.reactions[k]);
-        let force = known.map_or_else(|_| Vector::zeros(), |r| r.force);
-        work.frames.push(known.map_or_else(|_| Matrix::zeros(), |r| r.contact.frame));
-        work.reactions.push(force * weight);
-        work.start_forces.push(force);
-        work.friction.push(contact.pairs[candidate.pair as usize].friction);
-        touch(&mut work.touched, &contact.pairs[candidate.pair as usize]);
+        // Contacts that the step starts with and that are out of reach by its end still share their bodies' balance.
+        self.lost.clear();
+        if !given.method.condition.is_massless() {
+            return;
+        }
+        for (k, reaction) in reactions.iter().enumerate() {
+            if self.candidates.binary_search_by_key(&reaction.key(), Candidate::key).is_err() {
+                self.lost.push(k);
+                touch(&mut self.touched, &pairs[reaction.pair as usize]);
+            }
+        }
     }
-    // Contacts that the step starts with and that are out of reach by its end still share their bodies' balance.
-    work.lost.clear();
-    if !method.condition.is_massless() {
-        return;
+
+    /// Evaluates the contacts where the condition is written, in frames that follow those before: reactions are known in these.
+    pub fn evaluate(&mut self, given: &Given<'_, D>, motion: &[Vector<D>]) {
+        let weight = given.method.condition.evaluation_weight();
+        let position = |n: u32| given.position(n) + motion[n as usize] * weight;
+        let contact = &given.assembly.contact;
+        contact.evaluate_all(&self.candidates, &position, &mut self.mortar, &mut self.contacts);
+        for (contact, frame) in self.contacts.iter_mut().zip(&mut self.frames) {
+            contact.carry_frame(frame);
+            *frame = contact.frame;
+        }
     }
-    for (k, reaction) in state.reactions.iter().enumerate() {
-        if work.candidates.binary_search_by_key(&reaction.key(), Candidate::key).is_err() {
-            work.lost.push(k);
-            touch(&mut work.touched, &contact.pairs[reaction.pair as usize]);
+
+    /// Adds the reactions known so far to `forces` [N].
+    pub fn add_reactions(&self, forces: &mut [Vector<D>]) {
+        for (contact, r) in self.contacts.iter().zip(&self.reactions) {
+            contact.add_force(r, forces);
         }
     }
 }
 
 /// Whether a normal reaction could move anything: not where both sides are prescribed, as where a support stands on an obstacle.
-fn answers<const D: usize>(model: &Model<D>, contact: &Contact<D>) -> bool {
+fn answers<const D: usize>(assembly: &Assembly<D>, contact: &Contact<D>) -> bool {
     let normal = contact.frame.row(0).transpose();
-    contact.stencil().any(|(n, weight)| (model.free_part(n, &normal) * weight).norm() > UNRESPONSIVE)
+    contact.stencil().any(|(n, weight)| (assembly.free_part(n, &normal) * weight).norm() > UNRESPONSIVE)
 }
 
 fn touch(touched: &mut [bool], pair: &Pair) {
@@ -124,31 +145,4 @@ fn touch(touched: &mut [bool], pair: &Pair) {
     if let Target::Surface(target) = pair.target {
         touched[target] = true;
     }
-}
-
-/// Whether a node that the search did not find has gone through its target by the end of the step; if so, what was missed is searched
-/// from now on.
-///
-/// Only where the condition is written there: the others choose their contacts at the start.
-pub(crate) fn missed_a_contact<const D: usize>(
-    model: &Model<D>,
-    method: &Method<D>,
-    next: &State<D>,
-    work: &mut Workspace<D>,
-) -> bool {
-    if !method.condition.rules_the_end() {
-        return false;
-    }
-    let end = |n: u32| model.reference[n as usize] + next.displacement[n as usize];
-    let Workspace { search, searched, missed, missed_mortar, end_contacts, .. } = work;
-    model.contact.detect(&end, &end, 0.0, search, missed);
-    model.contact.detect_mortar(&end, &end, 0.0, missed_mortar, missed);
-    missed.retain(|m| searched.binary_search_by_key(&m.key(), Candidate::key).is_err());
-    model.contact.evaluate_all(missed, &end, missed_mortar, end_contacts);
-    let missed_one = end_contacts.iter().any(|c| c.gap < -model.round_off());
-    if missed_one {
-        searched.extend_from_slice(missed);
-        searched.sort_unstable();
-    }
-    missed_one
 }

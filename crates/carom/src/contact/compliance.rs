@@ -1,15 +1,13 @@
 //! How the nodes of one body yield to forces on one another: blocks of K̄⁻¹.
 
-use carom_fem::Body;
 use carom_mesh::Matrix;
 
-use crate::body::fe::operator::BodyOperator;
+use crate::archive::{Archive, CheckpointError};
+use crate::body::Body;
 
-/// Contact nodes of a body up to which every pair of them has its block.
+/// Contact nodes of a body up to which every pair of them has its block. Beyond these, a node has blocks with those that are [near](Body::near):
+/// what W lacks costs iterations, not accuracy.
 const FEW: usize = 100;
-/// Beyond these, a node has blocks with the nodes of the surface that it reaches in so many cells. Within a step of time a force is
-/// felt as far as a wave goes; what W lacks of that costs iterations, not accuracy (see [`crate::contact::delassus::condense`]).
-const RINGS: usize = 3;
 
 /// The blocks of K̄⁻¹ of one body between the nodes that have been in contact, computed when a node first is and kept with the
 /// factor.
@@ -21,6 +19,8 @@ pub(crate) struct Compliance<const D: usize> {
     places: Vec<u32>,
     table: Table<D>,
     generation: u64,
+    /// The rotation of the body since its blocks were made.
+    pub turn: Matrix<D>,
 }
 
 #[derive(Debug)]
@@ -34,8 +34,6 @@ enum Table<const D: usize> {
 /// The blocks of every column with the nodes near it, itself among them.
 #[derive(Debug)]
 struct Near<const D: usize> {
-    /// Whether a node is on the surface.
-    surface: Vec<bool>,
     starts: Vec<usize>,
     /// Ascending within a column.
     others: Vec<u32>,
@@ -43,49 +41,31 @@ struct Near<const D: usize> {
 }
 
 impl<const D: usize> Near<D> {
-    fn new(body: &Body<D>) -> Self {
-        let mut surface = vec![false; body.node_count()];
-        body.surface().nodes().iter().for_each(|&node| surface[node as usize] = true);
-        Self { surface, starts: vec![0], others: Vec::new(), blocks: Vec::new() }
+    fn new() -> Self {
+        Self { starts: vec![0], others: Vec::new(), blocks: Vec::new() }
     }
 
     /// Appends the columns of `nodes`.
-    fn extend(&mut self, body: &Body<D>, operator: &mut BodyOperator<D>, nodes: &[u32]) {
+    fn extend(&mut self, body: &mut dyn Body<D>, nodes: &[u32]) {
         let known = self.starts.len() - 1;
         for &node in nodes {
-            self.find_others(body, node);
+            self.others.extend(body.near(node).unwrap_or_else(|| nodes.to_vec()));
+            self.starts.push(self.others.len());
         }
         self.blocks.resize(self.others.len(), Matrix::zeros());
         let mut order: Vec<usize> = (0..nodes.len()).collect();
-        order.sort_by_key(|&k| operator.order(nodes[k] as usize));
-        for group in order.chunks(BodyOperator::<D>::AT_ONCE) {
+        order.sort_by_key(|&k| body.order(nodes[k]));
+        for group in order.chunks(body.responses_at_once()) {
+            let columns: Vec<u32> = group.iter().map(|&k| nodes[k]).collect();
             let others = group.iter().flat_map(|&k| &self.others[self.column(known + k)]);
-            operator.set_reach(others.map(|&a| a as usize));
-            operator.respond(group.iter().map(|&k| nodes[k] as usize));
+            body.set_reach(&others.copied().collect::<Vec<u32>>());
+            body.respond(&columns);
             for (number, &k) in group.iter().enumerate() {
                 for entry in self.column(known + k) {
-                    self.blocks[entry] =
-                        operator.response(self.others[entry] as usize, (number, nodes[k] as usize));
+                    self.blocks[entry] = body.response(self.others[entry], nodes[k], number);
                 }
             }
         }
-    }
-
-    /// Appends the nodes of the column of `node`: ring by ring those that share a cell with others found so far, also by ways that lead
-    /// through the inside.
-    fn find_others(&mut self, body: &Body<D>, node: u32) {
-        let Self { surface, starts, others, .. } = self;
-        let first = others.len();
-        others.push(node);
-        let mut found = vec![node];
-        for _ in 0..RINGS {
-            found = found.iter().flat_map(|&n| body.graph().row(n as usize).map(|(_, m)| m as u32)).collect();
-            found.sort_unstable();
-            found.dedup();
-        }
-        others.extend(found.into_iter().filter(|&n| n != node && surface[n as usize]));
-        others[first..].sort_unstable();
-        starts.push(others.len());
     }
 
     fn column(&self, place: usize) -> std::ops::Range<usize> {
@@ -94,27 +74,24 @@ impl<const D: usize> Near<D> {
 }
 
 impl<const D: usize> Compliance<D> {
-    pub fn new(body: &Body<D>) -> Self {
+    /// Of a body with so many nodes.
+    pub fn new(nodes: usize) -> Self {
         Self {
             nodes: Vec::new(),
-            places: vec![u32::MAX; body.node_count()],
+            places: vec![u32::MAX; nodes],
             table: Table::All(Vec::new()),
             generation: 0,
+            turn: Matrix::identity(),
         }
     }
 
-    /// Makes sure that the blocks between `nodes` are there and belong to the present factor. If forces are not felt `everywhere` at
+    /// Makes sure that the blocks between `nodes` are there and belong to the present K̄. If forces are not felt `everywhere` at
     /// once, as in a static analysis, many nodes have blocks only with those around them.
-    pub fn prepare(
-        &mut self,
-        body: &Body<D>,
-        operator: &mut BodyOperator<D>,
-        nodes: &[u32],
-        everywhere: bool,
-    ) {
-        if self.generation != operator.generation {
+    pub fn prepare(&mut self, body: &mut dyn Body<D>, nodes: &[u32], everywhere: bool) {
+        self.turn = body.turn();
+        if self.generation != body.generation() {
             self.clear();
-            self.generation = operator.generation;
+            self.generation = body.generation();
         }
         let new = nodes.iter().filter(|&&node| self.places[node as usize] == u32::MAX).count();
         if new == 0 {
@@ -122,31 +99,48 @@ impl<const D: usize> Compliance<D> {
         }
         let many = self.nodes.len() + new > FEW && !everywhere;
         if many && matches!(self.table, Table::All(_)) {
-            self.clear();
-            self.table = Table::Near(Near::new(body));
+            // A body that feels everything everywhere keeps all blocks.
+            let feels_nearby = nodes.first().is_some_and(|&node| body.near(node).is_some());
+            if feels_nearby {
+                self.clear();
+                self.table = Table::Near(Near::new());
+            }
         }
-        self.extend(body, operator, nodes);
+        self.extend(body, nodes);
     }
 
-    /// The nodes whose blocks belong to the present factor, in the order of their first contact, and whether they have these only
-    /// with the nodes near them.
-    pub fn kept(&self, operator: &BodyOperator<D>) -> (&[u32], bool) {
-        let nodes: &[u32] = if self.generation == operator.generation { &self.nodes } else { &[] };
-        (nodes, !nodes.is_empty() && matches!(self.table, Table::Near(_)))
-    }
-
-    /// Makes the blocks that there were when [`Self::kept`] gave this answer.
-    pub fn restore(&mut self, body: &Body<D>, operator: &mut BodyOperator<D>, nodes: &[u32], near: bool) {
+    /// Records the nodes whose blocks belong to the present K̄, in the order of their first contact, under names that begin with `name`; or
+    /// makes these blocks again.
+    pub fn exchange(
+        &mut self,
+        archive: &mut Archive<'_>,
+        name: &str,
+        body: &mut dyn Body<D>,
+    ) -> Result<(), CheckpointError> {
+        let list = format!("{name}/nodes");
+        let is_fresh = self.generation == body.generation();
+        let mut nodes = if is_fresh { self.nodes.clone() } else { Vec::new() };
+        let mut near = !nodes.is_empty() && matches!(self.table, Table::Near(_));
+        nodes.resize(archive.rows(&list, nodes.len())?, 0);
+        archive.integers(&list, &mut nodes)?;
+        archive.flags(&format!("{name}/near"), [&mut near])?;
+        if !archive.replays() {
+            return Ok(());
+        }
+        if nodes.iter().any(|&node| node as usize >= self.places.len()) {
+            return Err(CheckpointError::new(&list, "names a node that is not there"));
+        }
         self.clear();
-        self.generation = operator.generation;
+        self.generation = body.generation();
         if near {
-            self.table = Table::Near(Near::new(body));
+            self.table = Table::Near(Near::new());
         }
-        self.extend(body, operator, nodes);
+        self.extend(body, &nodes);
+        Ok(())
     }
 
     /// Adds the blocks of those of `nodes` that have none.
-    fn extend(&mut self, body: &Body<D>, operator: &mut BodyOperator<D>, nodes: &[u32]) {
+    fn extend(&mut self, body: &mut dyn Body<D>, nodes: &[u32]) {
         let known = self.nodes.len();
         for &node in nodes {
             let place = &mut self.places[node as usize];
@@ -157,18 +151,18 @@ impl<const D: usize> Compliance<D> {
         }
         match &mut self.table {
             Table::All(blocks) => {
-                operator.set_reach(self.nodes.iter().map(|&node| node as usize));
+                body.set_reach(&self.nodes);
                 let mut place = known;
-                for group in self.nodes[known..].chunks(BodyOperator::<D>::AT_ONCE) {
-                    operator.respond(group.iter().map(|&b| b as usize));
+                for group in self.nodes[known..].chunks(body.responses_at_once()) {
+                    body.respond(group);
                     for (number, &b) in group.iter().enumerate() {
                         let others = self.nodes[..=place].iter();
-                        blocks.extend(others.map(|&a| operator.response(a as usize, (number, b as usize))));
+                        blocks.extend(others.map(|&a| body.response(a, b, number)));
                         place += 1;
                     }
                 }
             }
-            Table::Near(near) => near.extend(body, operator, &self.nodes[known..]),
+            Table::Near(near) => near.extend(body, &self.nodes[known..]),
         }
     }
 

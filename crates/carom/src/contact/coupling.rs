@@ -2,8 +2,8 @@
 
 use carom_contact::Contact;
 
-use crate::Model;
-use crate::contact::compliance::Compliance;
+use super::compliance::Compliance;
+use crate::model::assembly::Assembly;
 
 /// No more contacts.
 const END: u32 = u32::MAX;
@@ -31,12 +31,12 @@ impl Coupling {
     }
 
     /// Lists `contacts` by node and body.
-    pub fn list<const D: usize>(&mut self, model: &Model<D>, contacts: &[Contact<D>]) {
+    pub fn list<const D: usize>(&mut self, assembly: &Assembly<D>, contacts: &[Contact<D>]) {
         self.links.clear();
         self.of_body.iter_mut().for_each(Vec::clear);
         for (i, contact) in (0_u32..).zip(contacts) {
             for (node, _) in contact.stencil() {
-                let Some(b) = model.body_of(node) else { continue };
+                let Some(b) = assembly.body_of(node) else { continue };
                 self.links.push((i, self.last[node]));
                 self.last[node] = self.links.len() as u32 - 1;
                 if self.of_body[b].last() != Some(&i) {
@@ -47,15 +47,15 @@ impl Coupling {
     }
 
     /// Undoes [`Self::list`].
-    pub fn forget<const D: usize>(&mut self, model: &Model<D>, contacts: &[Contact<D>]) {
+    pub fn forget<const D: usize>(&mut self, assembly: &Assembly<D>, contacts: &[Contact<D>]) {
         let nodes = contacts.iter().flat_map(|contact| contact.stencil().map(|(node, _)| node));
-        nodes.filter(|&node| model.body_of(node).is_some()).for_each(|node| self.last[node] = END);
+        nodes.filter(|&node| assembly.body_of(node).is_some()).for_each(|node| self.last[node] = END);
     }
 
     /// The contacts that may respond to `contact`, number `i`, and itself, ascending.
     pub fn partners<const D: usize>(
         &mut self,
-        model: &Model<D>,
+        assembly: &Assembly<D>,
         compliances: &[Compliance<D>],
         i: usize,
         contact: &Contact<D>,
@@ -65,9 +65,9 @@ impl Coupling {
         partners.push(i as u32);
         let mut whole = None;
         for (node, _) in contact.stencil() {
-            let Some(b) = model.body_of(node) else { continue };
-            let first = model.bodies[b].first_node;
-            match compliances[b].near(node - first) {
+            let Some((b, own)) = assembly.place_of(node) else { continue };
+            let first = node - own;
+            match compliances[b].near(own) {
                 Some(near) => {
                     for &other in near {
                         let mut place = last[first + other as usize];

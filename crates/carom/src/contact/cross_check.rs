@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use carom_friction::{ContactProblem, SolveStatus, SolverKind, Vector};
 use serde::Serialize;
 
-use crate::step::workspace::Workspace;
-use crate::{Method, StepMap};
+use super::Contacts;
+use crate::model::given::Given;
 
 /// The answer of a second solver to the last contact problem of a step, from the same guess.
 ///
@@ -36,23 +36,23 @@ impl CrossCheck {
 
 /// Solves the last contact problem of a converged step again, if the method wants it and there was one.
 pub(crate) fn cross_check<const D: usize>(
-    method: &Method<D>,
-    map: &StepMap,
-    work: &Workspace<D>,
+    given: &Given<'_, D>,
+    contacts: &Contacts<D>,
 ) -> Option<CrossCheck> {
-    if !method.cross_check || work.candidates.is_empty() {
+    let (method, Contacts { active, reduced, .. }) = (given.method, contacts);
+    if !method.cross_check || active.candidates.is_empty() {
         return None;
     }
-    let problem = &work.problem;
-    let solver = second_solver(work.solved_by);
-    let mut second = work.guess.clone();
+    let problem = &reduced.problem;
+    let solver = second_solver(reduced.solved_by);
+    let mut second = reduced.guess.clone();
     let report = solver.solver().solve(problem, &mut second, &method.stopping);
     Some(CrossCheck {
         solver,
         status: report.status,
-        difference: difference_of_motions(problem, &work.reactions, &second),
+        difference: difference_of_motions(problem, &active.reactions, &second),
         explained: explained_difference(problem.len() * D, method.stopping.tolerance),
-        certificate: report.measure.certificate / method.condition.reaction_weight(map),
+        certificate: report.measure.certificate / given.reaction_weight(),
     })
 }
 

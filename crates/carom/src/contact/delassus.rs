@@ -1,13 +1,13 @@
-//! The reduced problem of the contact points alone: W = H K̄⁻¹ Hᵀ and q.
+//! W = H K̄⁻¹ Hᵀ and q of the contact points alone.
 
 use carom_contact::Contact;
 use carom_friction::ContactProblem;
 use carom_mesh::{Matrix, Vector};
 
-use crate::Model;
-use crate::body::fe::operator::BodyOperator;
-use crate::contact::compliance::Compliance;
-use crate::contact::coupling::Coupling;
+use super::active::ActiveSet;
+use super::compliance::Compliance;
+use super::coupling::Coupling;
+use crate::model::assembly::Assembly;
 
 /// A direction along a facet that yields less than this where the normal is held, relative to the normal, is held itself.
 const RIGID: f64 = 1e-6;
@@ -17,9 +17,80 @@ const HELD_COMPLIANCE: [f64; 2] = [1.0, 1e-3];
 /// Sliding below this, relative to the motion of the contact, is round-off.
 const NO_SLIDING: f64 = 1e-9;
 
+/// The blocks of K̄⁻¹ at the contact nodes of every body, and what makes W of them.
+#[derive(Debug)]
+pub(crate) struct Delassus<const D: usize> {
+    pub compliances: Vec<Compliance<D>>,
+    coupling: Coupling,
+    /// A row of W on its way to the problem.
+    row_blocks: Vec<(usize, Matrix<D>)>,
+}
+
+impl<const D: usize> Delassus<D> {
+    /// Of the bodies of an assembly.
+    pub fn new(assembly: &Assembly<D>) -> Self {
+        let bodies = 0..assembly.body_count();
+        Self {
+            compliances: bodies.map(|i| Compliance::new(assembly.nodes(i).len())).collect(),
+            coupling: Coupling::new(assembly.node_count(), assembly.body_count()),
+            row_blocks: Vec::new(),
+        }
+    }
+
+    /// Writes W, q and μ of the contacts to `problem`.
+    ///
+    /// `motion` is the nodal motion d that the step would make with the reactions known so far, and q what W leaves of it without them:
+    /// once these no longer change, the law holds for the motion itself, whatever the accuracy of W. `offsets` are what the normal components
+    /// lack of the contact condition's variable. The columns of W were prepared.
+    pub fn condense(
+        &mut self,
+        assembly: &Assembly<D>,
+        active: &ActiveSet<D>,
+        offsets: &[f64],
+        motion: &[Vector<D>],
+        problem: &mut ContactProblem<D>,
+    ) {
+        let Self { compliances, coupling, row_blocks } = self;
+        let ActiveSet { contacts, reactions, .. } = active;
+        problem.w.clear();
+        problem.q.clear();
+        problem.mu.clear();
+        problem.mu.extend_from_slice(&active.friction);
+        coupling.list(assembly, contacts);
+        for (i, row) in contacts.iter().enumerate() {
+            let mut q = row.relative(|n| motion[n]);
+            q[0] += offsets[i];
+            problem.q.push(q);
+            row_blocks.clear();
+            for &j in coupling.partners(assembly, compliances, i, row) {
+                let j = j as usize;
+                // W is symmetric, also where round-off is not.
+                let block = if j < i {
+                    problem.w.block(j, i).map(Matrix::transpose)
+                } else {
+                    coupling_block(assembly, compliances, row, &contacts[j])
+                };
+                let Some(mut block) = block.or_else(|| (i == j).then(Matrix::zeros)) else { continue };
+                if i == j {
+                    // A stand-in, which moves nothing: it has no part in the motion.
+                    let support = support(assembly, row, &q, motion, &block);
+                    problem.q[i] += support * reactions[i];
+                    block += support;
+                }
+                row_blocks.push((j, block));
+            }
+            problem.w.push_row(row_blocks.drain(..));
+        }
+        coupling.forget(assembly, contacts);
+        for (i, q) in problem.q.iter_mut().enumerate() {
+            *q -= problem.w.row_times(i, reactions);
+        }
+    }
+}
+
 /// What makes the compliance `block` of a contact regular where supports hold its nodes along the facet and W would be singular.
 fn support<const D: usize>(
-    model: &Model<D>,
+    assembly: &Assembly<D>,
     contact: &Contact<D>,
     q: &Vector<D>,
     motion: &[Vector<D>],
@@ -27,13 +98,11 @@ fn support<const D: usize>(
 ) -> Matrix<D> {
     let mut support = Matrix::zeros();
     for (node, _) in contact.stencil() {
-        let Some(b) = model.body_of(node) else { continue };
-        let b = &model.bodies[b];
-        let held = b.body.held();
-        if !held.touches(node - b.first_node) {
+        if assembly.body_of(node).is_none() {
             continue;
         }
-        for component in (0..D).filter(|&i| held.holds(node - b.first_node, i)) {
+        let held = assembly.held(node);
+        for component in (0..D).filter(|&i| held[i]) {
             let mut along: Vector<D> = contact.frame.column(component).into();
             along[0] = 0.0;
             let Some(along) = along.try_normalize(RIGID) else { continue };
@@ -41,7 +110,7 @@ fn support<const D: usize>(
             let response = block * along;
             // A tilted facet couples both directions: what counts is how far the pair of them is from singular.
             if along.dot(&response) - response[0] * response[0] / block[(0, 0)] < RIGID * block[(0, 0)] {
-                let driven = contact.relative(|n| model.prescribed_part(n, &motion[n]));
+                let driven = contact.relative(|n| assembly.prescribed_part(n, &motion[n]));
                 let slides = along.dot(&driven).abs() > NO_SLIDING * q.amax();
                 let compliance = HELD_COMPLIANCE[usize::from(slides)] * block[(0, 0)];
                 support += along * along.transpose() * compliance;
@@ -51,63 +120,9 @@ fn support<const D: usize>(
     support
 }
 
-/// Writes W, q and μ of `contacts` to `problem`.
-///
-/// `motion` is the nodal motion d that the step would make with the `reactions` known so far, and q what W leaves of it without them:
-/// once these no longer change, the law holds for the motion itself, whatever the accuracy of W. `offsets` are what the normal components
-/// lack of the contact condition's variable. The columns of W were prepared; `coupling` and `row_blocks` are scratch.
-pub(crate) fn condense<const D: usize>(
-    model: &Model<D>,
-    operators: &[BodyOperator<D>],
-    compliances: &[Compliance<D>],
-    contacts: &[Contact<D>],
-    friction: &[f64],
-    offsets: &[f64],
-    motion: &[Vector<D>],
-    reactions: &[Vector<D>],
-    coupling: &mut Coupling,
-    row_blocks: &mut Vec<(usize, Matrix<D>)>,
-    problem: &mut ContactProblem<D>,
-) {
-    problem.w.clear();
-    problem.q.clear();
-    problem.mu.clear();
-    problem.mu.extend_from_slice(friction);
-    coupling.list(model, contacts);
-    for (i, row) in contacts.iter().enumerate() {
-        let mut q = row.relative(|n| motion[n]);
-        q[0] += offsets[i];
-        problem.q.push(q);
-        row_blocks.clear();
-        for &j in coupling.partners(model, compliances, i, row) {
-            let j = j as usize;
-            // W is symmetric, also where round-off is not.
-            let block = if j < i {
-                problem.w.block(j, i).map(Matrix::transpose)
-            } else {
-                coupling_block(model, operators, compliances, row, &contacts[j])
-            };
-            let Some(mut block) = block.or_else(|| (i == j).then(Matrix::zeros)) else { continue };
-            if i == j {
-                // A stand-in, which moves nothing: it has no part in the motion.
-                let support = support(model, row, &q, motion, &block);
-                problem.q[i] += support * reactions[i];
-                block += support;
-            }
-            row_blocks.push((j, block));
-        }
-        problem.w.push_row(row_blocks.drain(..));
-    }
-    coupling.forget(model, contacts);
-    for (i, q) in problem.q.iter_mut().enumerate() {
-        *q -= problem.w.row_times(i, reactions);
-    }
-}
-
 /// The block of W between two contacts, if nodes of a body respond to one another.
 fn coupling_block<const D: usize>(
-    model: &Model<D>,
-    operators: &[BodyOperator<D>],
+    assembly: &Assembly<D>,
     compliances: &[Compliance<D>],
     row: &Contact<D>,
     column: &Contact<D>,
@@ -115,17 +130,17 @@ fn coupling_block<const D: usize>(
     let mut block: Option<Matrix<D>> = None;
     for (m, column_weight) in column.stencil() {
         // The motion of obstacles is prescribed: they do not respond.
-        let Some(b) = model.body_of(m) else { continue };
-        let first = model.bodies[b].first_node;
+        let Some((b, own)) = assembly.place_of(m) else { continue };
+        let first = m - own;
         let mut response: Option<Matrix<D>> = None;
-        for (n, row_weight) in row.stencil().filter(|&(n, _)| model.body_of(n) == Some(b)) {
-            if let Some(yields) = compliances[b].block(n - first, m - first) {
+        for (n, row_weight) in row.stencil().filter(|&(n, _)| assembly.body_of(n) == Some(b)) {
+            if let Some(yields) = compliances[b].block(n - first, own) {
                 let yields = yields * (row_weight * column_weight);
                 response = Some(response.map_or(yields, |sum| sum + yields));
             }
         }
         if let Some(response) = response {
-            let turn = operators[b].turn();
+            let turn = &compliances[b].turn;
             let part = row.frame * turn * response * turn.transpose() * column.frame.transpose();
             block = Some(block.map_or(part, |sum| sum + part));
         }

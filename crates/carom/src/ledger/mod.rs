@@ -130,6 +130,24 @@ impl Ledger {
 }
 
 impl Ledger {
+    /// Adds what happened to the energy of a body, but for what it received through contact: pairs say where that comes from.
+    pub(crate) fn add_body(&mut self, body: &BodyLedger) {
+        self.kinetic += body.kinetic;
+        self.strain += body.strain;
+        self.external += body.external;
+        self.prescribed += body.prescribed;
+        self.viscous += body.viscous;
+        self.plastic += body.plastic;
+        self.scheme += body.scheme;
+    }
+
+    /// Adds what a pair did.
+    pub(crate) fn add_pair(&mut self, pair: &PairLedger) {
+        self.friction += pair.friction;
+        self.normal_contact += pair.normal_contact;
+        self.prescribed += pair.prescribed;
+    }
+
     pub(crate) fn terms_mut(&mut self) -> [&mut f64; 9] {
         let Self {
             kinetic,

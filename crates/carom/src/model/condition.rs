@@ -63,6 +63,12 @@ impl ContactCondition {
         if self.is_massless() { map.xi } else { 1.0 }
     }
 
+    /// How much the contact forces that the last step and this one ended with count in this one.
+    #[must_use]
+    pub fn weights_of_ends(self, map: &StepMap) -> [f64; 2] {
+        if self.is_massless() { [1.0 - map.xi, map.xi] } else { [0.0, 1.0] }
+    }
+
     /// What the normal motion (H d)_n lacks of the variable w_n of the condition [m].
     ///
     /// `kept` is a penetration, negative, that the step may keep but not deepen: of a node that came past an edge, or in pairs checked from

@@ -1,8 +1,12 @@
+use std::ops::Range;
+
 use carom_contact::{Contact, Site};
 use carom_fem::material::PlasticState;
 use carom_mesh::{Vector, nodal};
 
-use crate::{Energies, Model};
+use crate::body::{Body, BodyState};
+use crate::ledger::Energies;
+use crate::model::assembly::Assembly;
 
 /// A contact that pressed in the last step.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,21 +76,16 @@ impl<const D: usize> State<D> {
     /// The state at t = 0 with these velocities of the nodes of all bodies, and the bodies in their reference configuration. Tied nodes start as their
     /// masters do, and what is prescribed as prescribed.
     #[must_use]
-    pub fn initial(model: &Model<D>, mut velocity: Vec<Vector<D>>) -> Self {
-        for b in &model.bodies {
-            for tie in b.body.mesh().ties() {
-                velocity[b.first_node + tie.image as usize] = velocity[b.first_node + tie.master as usize];
-            }
+    pub fn initial(
+        assembly: &Assembly<D>,
+        bodies: &[Box<dyn Body<D>>],
+        mut velocity: Vec<Vector<D>>,
+    ) -> Self {
+        assert_eq!(velocity.len(), assembly.node_count(), "one velocity per node");
+        for (i, body) in bodies.iter().enumerate() {
+            body.constrain(&mut velocity[assembly.nodes(i)]);
         }
-        assert_eq!(velocity.len(), model.node_count(), "one velocity per node");
-        for (i, b) in model.bodies.iter().enumerate() {
-            for (dof, driver) in b.body.held().dofs().iter().zip(model.drivers(i)) {
-                let component = dof.component as usize;
-                velocity[b.first_node + dof.node as usize][component] =
-                    driver.map_or(0.0, |k| model.signal(k, component, 0.0).rate);
-            }
-        }
-        velocity.extend(model.obstacle_motions.iter().map(|m| m.velocity(0.0)));
+        velocity.extend(assembly.obstacle_motions.iter().map(|m| m.velocity(0.0)));
         let zeros = vec![Vector::zeros(); velocity.len()];
         let mut state = Self {
             time: 0.0,
@@ -95,39 +94,49 @@ impl<const D: usize> State<D> {
             reactions: Vec::new(),
             contact_force: zeros.clone(),
             friction_energy: vec![0.0; zeros.len()],
-            support: vec![Vector::zeros(); model.motions.len()],
-            history: model.bodies.iter().map(|b| b.body.virgin()).collect(),
+            support: vec![Vector::zeros(); assembly.supports],
+            history: bodies.iter().map(|body| body.initial_history()).collect(),
             slip: vec![0.0; zeros.len()],
             internal_force: zeros,
             energies: Energies::default(),
-            body_energies: vec![Energies::default(); model.bodies.len()],
-            excess: vec![0.0; model.bodies.len()],
+            body_energies: vec![Energies::default(); bodies.len()],
+            excess: vec![0.0; bodies.len()],
         };
-        state.refresh(model);
+        state.refresh(assembly, bodies);
         state
     }
 
     /// The state that a static analysis starts from: there are no velocities, whatever the rate at which supports set out.
     #[must_use]
-    pub fn at_rest(model: &Model<D>) -> Self {
-        let mut state = Self::initial(model, vec![Vector::zeros(); model.node_count()]);
+    pub fn at_rest(assembly: &Assembly<D>, bodies: &[Box<dyn Body<D>>]) -> Self {
+        let mut state = Self::initial(assembly, bodies, vec![Vector::zeros(); assembly.node_count()]);
         state.velocity.fill(Vector::zeros());
-        state.refresh(model);
+        state.refresh(assembly, bodies);
         state
     }
 
     /// Recomputes forces and energies from displacements and velocities.
-    pub(crate) fn refresh(&mut self, model: &Model<D>) {
-        let mut momentum = vec![Vector::zeros(); self.velocity.len()];
-        for ((b, energies), history) in model.bodies.iter().zip(&mut self.body_energies).zip(&self.history) {
-            let nodes = b.nodes();
-            let worked = b.body.after(history);
-            worked.internal_force(&self.displacement[nodes.clone()], &mut self.internal_force[nodes.clone()]);
-            b.body.mass().multiply(&self.velocity[nodes.clone()], &mut momentum[nodes.clone()]);
-            energies.strain = worked.strain_energy(&self.displacement[nodes.clone()]);
-            energies.kinetic = 0.5 * nodal::dot(&self.velocity[nodes.clone()], &momentum[nodes]);
+    fn refresh(&mut self, assembly: &Assembly<D>, bodies: &[Box<dyn Body<D>>]) {
+        let mut forces = vec![Vector::zeros(); self.internal_force.len()];
+        for (i, body) in bodies.iter().enumerate() {
+            let nodes = assembly.nodes(i);
+            let energies = body.measure(&self.body(i, nodes.clone()), &mut forces[nodes]);
+            self.body_energies[i] = energies;
         }
+        self.internal_force = forces;
         self.energies = self.body_energies.iter().copied().sum();
+    }
+
+    /// The part of body `index`, which has these `nodes`.
+    pub(crate) fn body(&self, index: usize, nodes: Range<usize>) -> BodyState<'_, D> {
+        BodyState {
+            displacement: &self.displacement[nodes.clone()],
+            velocity: &self.velocity[nodes.clone()],
+            internal_force: &self.internal_force[nodes.clone()],
+            contact_force: &self.contact_force[nodes],
+            history: &self.history[index],
+            energies: self.body_energies[index],
+        }
     }
 
     /// Whether every number is finite.

@@ -6,7 +6,8 @@
 use carom_mesh::parallel::among_threads;
 
 use crate::error::{RunError, StepError};
-use crate::step::workspace::{StepReport, Workspace};
+use crate::step::report::StepReport;
+use crate::step::workspace::Workspace;
 use crate::{Crushed, Method, Model, Scheme, State, step};
 
 /// A load step that took no more iterations than this was easy.
@@ -46,8 +47,9 @@ pub(crate) fn advance_nominal_step<const D: usize>(
     let mut size = if load_steps { whole >> *halvings } else { whole };
     while done < whole {
         let length = dt * (size as f64 / whole as f64);
-        let taken = among_threads(model.node_count(), || step(model, method, state, spare, length, work))
-            .and_then(|report| check_debt(state, spare, energy, &report).map(|()| report));
+        let taken =
+            among_threads(model.node_count(), || step(&model.assembly, method, state, spare, length, work))
+                .and_then(|report| check_debt(state, spare, energy, &report).map(|()| report));
         match taken {
             Ok(report) => {
                 done += size;

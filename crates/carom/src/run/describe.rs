@@ -85,15 +85,16 @@ pub(crate) fn describe<const D: usize>(
             }
         })
         .collect();
-    let at = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
+    let at = |n: u32| model.assembly.reference[n as usize] + state.displacement[n as usize];
     let mut pairs: Vec<PairDescription> = Vec::new();
-    for (g, group) in model.groups.iter().enumerate() {
+    for (g, group) in model.assembly.groups.iter().enumerate() {
         let closest = model
+            .assembly
             .contact
             .pairs
             .iter()
             .filter(|p| p.group == g)
-            .filter_map(|p| model.contact.proximity(p, &at))
+            .filter_map(|p| model.assembly.contact.proximity(p, &at))
             .min_by(|a, b| a.gap.total_cmp(&b.gap));
         if let Some(closest) = closest {
             pairs.push(PairDescription {

@@ -2,7 +2,7 @@ use serde::Serialize;
 
 use carom_contact::Target;
 
-use crate::step::workspace::GroupReport;
+use crate::step::report::GroupReport;
 use crate::{Group, Model, Scheme};
 
 /// Steps of a dynamic analysis for which a pair that stays in contact may be without a reaction: one that rests under `midpoint` has none in
@@ -42,11 +42,11 @@ impl EventLog {
             Scheme::Static => 0.0,
             _ => crossing_time(model, group).max(FLICKER * dt),
         };
-        let groups = 0..model.groups.len();
+        let groups = 0..model.assembly.groups.len();
         Self {
             merge: groups.map(|group| merge.unwrap_or_else(|| own(group))).collect(),
             events: Vec::new(),
-            last: vec![None; model.groups.len()],
+            last: vec![None; model.assembly.groups.len()],
         }
     }
 
@@ -106,7 +106,7 @@ fn crossing_time<const D: usize>(model: &Model<D>, group: usize) -> f64 {
         let (low, high) = body.mesh().bounds();
         (high - low).max() / body.wave_speed()
     };
-    let pairs = model.contact.pairs.iter().filter(|pair| pair.group == group);
+    let pairs = model.assembly.contact.pairs.iter().filter(|pair| pair.group == group);
     let bodies = pairs.flat_map(|pair| {
         let target = match pair.target {
             Target::Surface(target) => Some(target),

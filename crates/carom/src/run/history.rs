@@ -1,6 +1,6 @@
 use carom_mesh::{Vector, nodal};
 
-use crate::step::workspace::StepReport;
+use crate::step::report::StepReport;
 use crate::{Ledger, Model, State};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -190,12 +190,13 @@ impl<const D: usize> History<D> {
             self.rows.extend(rotational::<D>(&b.body.spin(u, v)));
         }
         let since = std::mem::take(&mut self.since);
-        let at = |n: u32| model.reference[n as usize] + state.displacement[n as usize];
+        let at = |n: u32| model.assembly.reference[n as usize] + state.displacement[n as usize];
         let min_gap = model
+            .assembly
             .contact
             .pairs
             .iter()
-            .filter_map(|p| model.contact.proximity(p, &at))
+            .filter_map(|p| model.assembly.contact.proximity(p, &at))
             .map(|p| p.gap)
             // Nodes deep between others are closest to a side; the contacts know what they face.
             .fold(if since.steps > 0 { since.min_gap } else { f64::INFINITY }, f64::min);

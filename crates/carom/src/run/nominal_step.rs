@@ -1,7 +1,7 @@
 use serde::Serialize;
 
 use crate::Ledger;
-use crate::step::workspace::StepReport;
+use crate::step::report::StepReport;
 
 /// What a nominal step says about itself, the substeps that it was taken in together.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]

@@ -5,6 +5,7 @@ use carom_mesh::Vector;
 use serde::Serialize;
 
 use crate::build::{Meshes, build};
+use crate::contact::PosedProblem;
 use crate::contact::cross_check::CrossCheckSummary;
 use crate::error::{InputError, RunError};
 use crate::ledger::table::LedgerTable;
@@ -17,7 +18,7 @@ use crate::run::surface_fields::{SurfaceFields, surface_fields};
 use crate::run::totals::Totals;
 use crate::run::tracked::tracks;
 use crate::scenario::Scenario;
-use crate::step::workspace::{PosedProblem, Workspace};
+use crate::step::workspace::Workspace;
 use crate::{Books, Energies, Ledger, Method, Model, State};
 
 /// How [`Simulation::advance`] ended.
@@ -154,7 +155,7 @@ impl<const D: usize> Simulation<D> {
             history_rows: 0,
             last_recorded: None,
             initial_energies: state.body_energies.clone(),
-            books: Books::new(model.bodies.len(), model.groups.len()),
+            books: Books::new(model.bodies.len(), model.assembly.groups.len()),
             ledger_table: LedgerTable::default(),
             totals: Totals::new(&state.energies),
             cross_checks: CrossCheckSummary::default(),
@@ -208,7 +209,7 @@ impl<const D: usize> Simulation<D> {
     /// If steps were made already or the number of nodes is not that of the model.
     pub fn set_initial_velocity(&mut self, velocity: Vec<Vector<D>>) {
         assert_eq!(self.step, 0, "initial velocities belong before the first step");
-        self.state = State::initial(&self.model, velocity);
+        self.state = self.model.initial_state(velocity);
         self.initial_energies.clone_from(&self.state.body_energies);
         self.description.energy = self.state.energies.total();
         self.totals = Totals::new(&self.state.energies);
@@ -259,7 +260,7 @@ impl<const D: usize> Simulation<D> {
     /// Time spent in the friction solver so far.
     #[must_use]
     pub fn friction_time(&self) -> Duration {
-        self.work.friction_time
+        self.work.friction_time()
     }
 
     /// The books since the start.
@@ -323,11 +324,11 @@ impl<const D: usize> Simulation<D> {
             &mut failed,
             halvings,
             |state, report, work| {
-                books.add(report.ledger, &work.bodies, work.groups.iter().map(|g| g.ledger));
+                books.add(report.ledger, &work.body_ledgers, work.groups.iter().map(|g| g.ledger));
                 books.set_changes(initial_energies, &state.body_energies);
                 *last_step = Some(report.ledger);
                 nominal_step.note(report);
-                events.record(&model.groups, &work.groups, previous_time, state.time);
+                events.record(&model.assembly.groups, &work.groups, previous_time, state.time);
                 history.observe(report, state, state.time - previous_time);
                 report.cross_check.iter().for_each(|check| cross_checks.note(check, state.time));
                 previous_time = state.time;

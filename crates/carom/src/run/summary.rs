@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::contact::cross_check::CrossCheckSummary;
-use crate::model::Group;
+use crate::model::assembly::Group;
 use crate::run::events::ContactEvent;
 use crate::{BodyLedger, Energies, PairLedger, Simulation};
 
@@ -140,7 +140,7 @@ impl<const D: usize> Simulation<D> {
         Summary {
             steps: self.step,
             dofs: self.model.dofs(),
-            size: self.model.size,
+            size: self.model.assembly.size,
             end_time: self.state.time,
             time_step: self.time_step,
             newton_iterations: t.newton_iterations,
@@ -178,6 +178,7 @@ impl<const D: usize> Simulation<D> {
                 .collect(),
             pairs: self
                 .model
+                .assembly
                 .groups
                 .iter()
                 .zip(&self.books.pairs)

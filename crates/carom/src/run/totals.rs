@@ -1,4 +1,4 @@
-use crate::step::workspace::StepReport;
+use crate::step::report::StepReport;
 use crate::{Books, Energies};
 
 /// Extremes and counts over the run.

@@ -35,7 +35,7 @@ fn track<const D: usize>(model: &Model<D>, index: usize, entry: &TrackEntry) -> 
         ));
     }
     let point = Vector::from_column_slice(&entry.point);
-    let distance = |n: &usize| (model.reference[*n] - point).norm();
+    let distance = |n: &usize| (model.assembly.reference[*n] - point).norm();
     let nearest = body.nodes().min_by(|a, b| distance(a).total_cmp(&distance(b)));
     match nearest {
         Some(node) if distance(&node) <= 0.25 * body.body.mesh().diameter() => {

@@ -151,7 +151,7 @@ fn a_fast_step_does_not_make_a_contact_of_every_node() {
     let mut simulation =
         Simulation::<2>::new(&parse(&scenario(0.02, 0.02, &[wheel], &walls))).expect("valid");
     simulation.advance(f64::INFINITY, || false).expect("runs");
-    let rim = simulation.model().contact.surfaces[0].sources.len();
+    let rim = simulation.model().assembly.contact.surfaces[0].sources.len();
     let posed = simulation.posed_problem().expect("it meets the floor").problem.len();
     assert!(0 < posed && posed < rim, "{posed} contacts of {rim} nodes");
 }

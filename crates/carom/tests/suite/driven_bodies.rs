@@ -68,7 +68,7 @@ fn bar(cells: usize, law: LawSpec, density: f64) -> Body<2> {
 fn model_of<const D: usize>(body: Body<D>) -> Model<D> {
     let contact =
         ContactModel { surfaces: vec![ContactSurface::new(body.surface(), 0)], ..ContactModel::default() };
-    let bodies = vec![ModelBody { name: "part".into(), body, first_node: 0 }];
+    let bodies = vec![ModelBody::new("part", body, 0)];
     Model::new(bodies, contact, vec![], Vector::zeros())
 }
 
@@ -84,16 +84,16 @@ fn run<const D: usize>(
     dt: f64,
     mut observe: impl FnMut(&State<D>, &Workspace<D>),
 ) -> (State<D>, f64, [f64; 2]) {
-    let mut state = State::initial(model, vec![Vector::zeros(); model.node_count()]);
+    let mut state = model.initial_state(vec![Vector::zeros(); model.node_count()]);
     let mut next = state.clone();
     let mut work = Workspace::new(model);
     let (mut defect, mut sums) = (0.0_f64, [0.0; 2]);
     for k in 1..=steps {
-        let report = step(model, method, &state, &mut next, dt, &mut work).expect("converges");
+        let report = step(&model.assembly, method, &state, &mut next, dt, &mut work).expect("converges");
         next.time = k as f64 * dt;
         std::mem::swap(&mut state, &mut next);
         defect = defect.max(report.ledger.defect().abs());
-        for body in &work.bodies {
+        for body in &work.body_ledgers {
             defect = defect.max(body.defect().abs());
         }
         sums[0] += report.ledger.external;
@@ -119,7 +119,7 @@ fn wave_from_a_load_is_doubled_at_the_support() {
         .with_load(0, load);
     let dt = 2.5e-3;
     let pull = |t: f64| if (0.0..1.0).contains(&t) { 1e-3 * (PI * t).sin().powi(2) } else { 0.0 };
-    let tip_node = model.reference.iter().position(|x| x[0] == 1.0).expect("a tip");
+    let tip_node = model.assembly.reference.iter().position(|x| x[0] == 1.0).expect("a tip");
     let (mut worst_tip, mut worst_wall) = (0.0_f64, 0.0_f64);
     let (_, defect, _) = run(&model, &method(THETA, ContactCondition::Gap), 760, dt, |state, _| {
         worst_tip = worst_tip.max((state.velocity[tip_node][0] - pull(state.time)).abs());
@@ -144,7 +144,7 @@ fn shaken_bar_answers_with_its_standing_wave() {
     let zero = || Some(Signal::Constant(0.0));
     let model = model_of(body)
         .with_motions(vec![motion(wall, [Some(formula(shake)), None]), motion(all, [None, zero()])]);
-    let tip = model.reference.iter().position(|x| x[0] == 1.0).expect("a tip");
+    let tip = model.assembly.reference.iter().position(|x| x[0] == 1.0).expect("a tip");
     let (mut worst, mut peak) = (0.0_f64, 0.0_f64);
     let (_, defect, [_, prescribed]) =
         run(&model, &method(Scheme::Conserving, ContactCondition::Gap), 4000, 0.01, |state, _| {
@@ -255,7 +255,7 @@ fn block_pressed_on_a_shaking_floor_keeps_the_books() {
             }],
         };
         let groups = vec![carom::Group { between: ["part".into(), "floor".into()], friction: 0.4 }];
-        let bodies = vec![ModelBody { name: "part".into(), body, first_node: 0 }];
+        let bodies = vec![ModelBody::new("part", body, 0)];
         let pressed = [Some(Signal::Constant(0.0)), Some(formula("-0.05*(1 - cos(2*pi*t))"))];
         // The left side slides along a wall: its lower corner is a contact that cannot answer along the floor.
         let guided = [Some(Signal::Constant(0.0)), None];
@@ -271,7 +271,7 @@ fn block_pressed_on_a_shaking_floor_keeps_the_books() {
                 friction += work.groups[0].ledger.friction;
                 let floor = state.displacement[model.node_count()][1];
                 for n in 0..model.node_count() {
-                    lowest = lowest.min(model.reference[n][1] + state.displacement[n][1] - floor);
+                    lowest = lowest.min(model.assembly.reference[n][1] + state.displacement[n][1] - floor);
                 }
             });
         let scale = prescribed.abs() + friction + state.energies.total();

@@ -201,7 +201,7 @@ fn a_workspace_that_is_thrown_away_takes_nothing_with_it() {
             if throws_away && k % 10 == 0 {
                 work = Workspace::new(&model);
             }
-            step(&model, &method, &state, &mut next, 1e-3, &mut work).expect("converges");
+            step(&model.assembly, &method, &state, &mut next, 1e-3, &mut work).expect("converges");
             std::mem::swap(&mut state, &mut next);
         }
         assert!(state.friction_energy.iter().sum::<f64>() > 1e-3, "they have touched");

@@ -47,7 +47,7 @@ fn angular_momentum(simulation: &Simulation<2>) -> f64 {
         b.body.mass().multiply(v, &mut mv);
         b.body.angular_momentum(u, &mv)[2]
     };
-    simulation.model().bodies.iter().map(of).sum()
+    simulation.model().bodies.iter().map(|b| of(b)).sum()
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn bar(law: &str, scheme: &Value, dt: f64, speed: f64) -> (f64, Summary) {
         json!({"kind": law, "young": YOUNG, "poisson": 0.0, "density": 1.0, "viscosity": viscosity});
     let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
     let mode = |x: &Vector<2>| Vector::<2>::new(speed * (std::f64::consts::PI * x[0] / LENGTH).cos(), 0.0);
-    let velocity = simulation.model().reference.iter().map(mode).collect();
+    let velocity = simulation.model().assembly.reference.iter().map(mode).collect();
     simulation.set_initial_velocity(velocity);
     simulation.advance(f64::INFINITY, || false).expect("runs");
     (simulation.state().displacement[0][0] / speed, simulation.summary())

@@ -32,6 +32,7 @@ fn error(theta: f64, xi: f64, dt: f64) -> (f64, f64, carom::Summary) {
     let mut simulation = Simulation::<2>::new(&crate::common::parse(&case)).expect("valid");
     let velocity = simulation
         .model()
+        .assembly
         .reference
         .iter()
         .map(|x| Vector::<2>::new((std::f64::consts::PI * x[0] / LENGTH).cos(), 0.0))

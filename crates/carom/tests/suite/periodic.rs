@@ -175,7 +175,7 @@ fn a_periodic_body_cannot_spin() {
 #[test]
 fn tied_nodes_start_alike() {
     let mut simulation = oblique_impact(2, 0.0, "saint-venant-kirchhoff");
-    let reference = &simulation.model().reference[..simulation.model().node_count()];
+    let reference = &simulation.model().assembly.reference[..simulation.model().node_count()];
     let shear = reference.iter().map(|x| Vector::<2>::new(-x[1], x[0])).collect();
     simulation.set_initial_velocity(shear);
     assert_ties_hold(&simulation);

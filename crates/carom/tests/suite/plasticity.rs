@@ -93,7 +93,7 @@ fn the_paper_s_scheme_converges_to_the_same_plastic_work() {
 
 /// How much shorter a bar is [mm], from the mean motion of its top, with the foot on the plane.
 fn shortening<const D: usize>(simulation: &Simulation<D>) -> f64 {
-    let nodes = simulation.model().reference.iter().zip(&simulation.state().displacement);
+    let nodes = simulation.model().assembly.reference.iter().zip(&simulation.state().displacement);
     let (count, sum) = nodes
         .filter(|(x, _)| x[D - 1] > 6.0 - 1e-9)
         .fold((0.0, 0.0), |(count, sum), (_, u)| (count + 1.0, sum - u[D - 1]));
@@ -163,7 +163,13 @@ fn round_bar_in_tension_bears_what_its_hardening_says() {
         let alpha = (1.5_f64.ln() - 0.4 / 117.0) / (1.0 + 2.0 / 117.0);
         let force = std::f64::consts::PI * (0.4 + 2.0 * alpha) / 1.5;
         let state = simulation.state();
-        let top = simulation.model().reference.iter().zip(&state.internal_force).filter(|(x, _)| x[1] > 1.99);
+        let top = simulation
+            .model()
+            .assembly
+            .reference
+            .iter()
+            .zip(&state.internal_force)
+            .filter(|(x, _)| x[1] > 1.99);
         let borne: f64 = top.map(|(_, f)| f[1]).sum();
         assert!((borne / force - 1.0).abs() < 1e-8, "{formulation}: {borne} {force}");
         let work = 2.0 * std::f64::consts::PI * (0.4 * alpha + alpha * alpha);

@@ -39,7 +39,7 @@ fn block_of(
         massless_contact: massless,
     };
     let mesh = generate::Grid { corner, size: [1.0; 3], divisions: [cells; 3] }.mesh(kind).expect("valid");
-    ModelBody { name: name.into(), body: Body::new(mesh, &spec).expect("valid"), first_node }
+    ModelBody::new(name, Body::new(mesh, &spec).expect("valid"), first_node)
 }
 
 fn model(bodies: Vec<ModelBody<3>>, obstacles: Vec<Obstacle<3>>, pairs: Vec<Pair>) -> Model<3> {
@@ -73,13 +73,13 @@ fn run(
     velocity: Vec<Vector<3>>,
     end: f64,
 ) -> (State<3>, f64, f64, f64, bool) {
-    let mut state = State::initial(model, velocity);
+    let mut state = model.initial_state(velocity);
     let mut next = state.clone();
     let mut work = Workspace::new(model);
     let (mut friction, mut defect, mut min_gap, mut touched) = (0.0, 0.0_f64, f64::INFINITY, false);
     let mut sum = 0.0;
     while state.time < end {
-        let report = step(model, method, &state, &mut next, 1e-3, &mut work).expect("converges");
+        let report = step(&model.assembly, method, &state, &mut next, 1e-3, &mut work).expect("converges");
         friction += report.ledger.friction;
         sum += report.ledger.defect();
         defect = defect.max(sum.abs());

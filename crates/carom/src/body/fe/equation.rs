@@ -3,23 +3,23 @@
 use carom_fem::{Body, Worked};
 use carom_mesh::{Matrix, Vector, nodal};
 
-use crate::body::fe::drive::BodyDrive;
-use crate::model::Model;
-use crate::model::state::State;
-use crate::{StepMap, StressRule};
+use super::drive::Drive;
+use super::part::ModelBody;
+use crate::body::Guess;
+use crate::scheme::{StepMap, StressRule};
 
 /// Resistance of massless nodes to a change of motion, in terms of the stiffness that holds them.
 pub(crate) const STEADYING: f64 = 0.1;
 
-/// Where a step stands: the part of one body of a state, of its guess for the end, and of what stays fixed in between.
-pub(crate) struct BodyStep<'a, const D: usize> {
+/// The equation of motion at a guess.
+pub(crate) struct Equation<'a, const D: usize> {
     pub body: &'a Body<D>,
     /// The body with the history of its material at the start.
     pub worked: Worked<'a, D>,
     pub map: &'a StepMap,
     gravity: &'a Vector<D>,
     /// Loads and prescribed velocities.
-    drive: &'a BodyDrive<D>,
+    drive: &'a Drive<D>,
     /// Frame of the body in this step.
     frame: &'a Matrix<D>,
     /// How far the body turns in the step at its spin.
@@ -78,35 +78,25 @@ impl<const D: usize> ResidualScratch<D> {
     }
 }
 
-impl<'a, const D: usize> BodyStep<'a, D> {
-    /// The part of body `index` with its `pose` and `drive`; `motion` and `displacement` are those of the whole model.
-    pub fn new(
-        model: &'a Model<D>,
-        index: usize,
-        map: &'a StepMap,
-        pose: &'a Pose<D>,
-        drive: &'a BodyDrive<D>,
-        state: &'a State<D>,
-        motion: &'a [Vector<D>],
-        displacement: &'a [Vector<D>],
-    ) -> Self {
-        let b = &model.bodies[index];
-        let nodes = b.nodes();
+impl<'a, const D: usize> Equation<'a, D> {
+    /// Of a body with its `pose` and `drive`.
+    pub fn new(part: &'a ModelBody<D>, guess: &Guess<'a, D>, pose: &'a Pose<D>, drive: &'a Drive<D>) -> Self {
+        let start = &guess.start;
         Self {
-            body: &b.body,
-            worked: b.body.after(&state.history[index]),
-            map,
-            gravity: &model.gravity,
+            body: &part.body,
+            worked: part.body.after(start.history),
+            map: &guess.interval.map,
+            gravity: &part.gravity,
             drive,
             frame: &pose.frame,
             turn: &pose.turn,
             drift: &pose.drift,
-            velocity: &state.velocity[nodes.clone()],
-            start: &state.displacement[nodes.clone()],
-            internal_force: &state.internal_force[nodes.clone()],
-            contact_force: &state.contact_force[nodes.clone()],
-            motion: &motion[nodes.clone()],
-            displacement: &displacement[nodes],
+            velocity: start.velocity,
+            start: start.displacement,
+            internal_force: start.internal_force,
+            contact_force: start.contact_force,
+            motion: guess.motion,
+            displacement: guess.displacement,
         }
     }
 
@@ -248,10 +238,4 @@ impl<'a, const D: usize> BodyStep<'a, D> {
         }
         &scratch.viscous
     }
-}
-
-/// The largest motion of a node that free flight predicts for the step [m].
-pub(crate) fn predicted_motion<const D: usize>(state: &State<D>, gravity: &Vector<D>, dt: f64) -> f64 {
-    let speed = state.velocity.iter().map(Vector::norm_squared).fold(0.0, f64::max).sqrt();
-    (speed + gravity.norm() * dt) * dt
 }

@@ -1,5 +1,358 @@
 //! A body of finite elements.
 
-pub(crate) mod drive;
-pub(crate) mod equation;
-pub(crate) mod operator;
+mod blended;
+mod drive;
+mod equation;
+mod iteration_matrix;
+pub(crate) mod load;
+pub(crate) mod part;
+pub(crate) mod supports;
+
+use std::sync::{Arc, OnceLock};
+
+use carom_fem::material::PlasticState;
+use carom_fem::sparse::Precision;
+use carom_mesh::{Matrix, Vector, nodal, tensor};
+
+use self::blended::BlendedForces;
+use self::drive::{Drive, support_work};
+use self::equation::{Equation, Pose, ResidualScratch};
+use self::iteration_matrix::IterationMatrix;
+use self::part::ModelBody;
+use super::{Balance, Body, BodyEnd, BodyState, Forecast, Guess, Interval};
+use crate::archive::{Archive, CheckpointError};
+use crate::error::StepError;
+use crate::ledger::{BodyLedger, Energies};
+use crate::scheme::StepMap;
+
+/// In so many cells around a node of the surface others feel a force on it: within a step of time a force is felt as far as a wave goes. What
+/// this leaves out costs iterations, not accuracy.
+const RINGS: usize = 3;
+
+/// A body of finite elements in a step.
+pub(crate) struct FeBody<const D: usize> {
+    part: Arc<ModelBody<D>>,
+    matrix: IterationMatrix<D>,
+    pose: Pose<D>,
+    drive: Drive<D>,
+    scratch: ResidualScratch<D>,
+    blended: BlendedForces<D>,
+    /// Whether a node is on the surface; empty until somebody asks.
+    is_on_surface: OnceLock<Vec<bool>>,
+    /// The configuration half way through the step.
+    middle: Vec<Vector<D>>,
+    /// The residual at the end of a step [N]; empty where nothing is held.
+    residual: Vec<Vector<D>>,
+    /// v₊ − v [m/s], and M times it or M v₊.
+    jump: Vec<Vector<D>>,
+    momentum: Vec<Vector<D>>,
+}
+
+impl<const D: usize> FeBody<D> {
+    /// The body as it steps.
+    pub fn new(part: Arc<ModelBody<D>>) -> Self {
+        let zeros = vec![Vector::zeros(); part.body.node_count()];
+        let held = if part.body.held().is_empty() { Vec::new() } else { zeros.clone() };
+        Self {
+            matrix: IterationMatrix::new(&part.body),
+            pose: Pose::default(),
+            drive: Drive::new(&part),
+            scratch: ResidualScratch::new(part.body.node_count()),
+            blended: BlendedForces::default(),
+            is_on_surface: OnceLock::new(),
+            residual: held,
+            middle: zeros.clone(),
+            jump: zeros.clone(),
+            momentum: zeros,
+            part,
+        }
+    }
+
+    /// Makes K̄ in the middle configuration.
+    fn factorise(
+        &mut self,
+        interval: &Interval,
+        history: &[PlasticState],
+        precision: Precision,
+    ) -> Result<(), StepError> {
+        let worked = self.part.body.after(history);
+        self.matrix.factorize(&worked, &interval.map, &self.middle, &self.pose.frame, precision)
+    }
+
+    /// The nodes of the surface.
+    fn is_on_surface(&self) -> &[bool] {
+        self.is_on_surface.get_or_init(|| {
+            let body = &self.part.body;
+            let mut surface = vec![false; body.node_count()];
+            body.surface().nodes().iter().for_each(|&node| surface[node as usize] = true);
+            surface
+        })
+    }
+
+    /// The work of supports [J], whose forces are added to `support` [N], at the final motion of a step.
+    fn close_supports(
+        &mut self,
+        guess: &Guess<'_, D>,
+        blend: Option<f64>,
+        contact_force: &[Vector<D>],
+        support: &mut [Vector<D>],
+    ) -> f64 {
+        let Self { part, pose, drive, scratch, blended, residual, jump, momentum, .. } = self;
+        let equation = Equation::new(part, guess, pose, drive);
+        match blend {
+            Some(weight) => blended.residual(&equation, weight, scratch, residual),
+            None => equation.residual(scratch, residual),
+        }
+        part.body.mass().multiply(jump, momentum);
+        let work = support_work(&equation, &drive.rates, residual, momentum);
+        let weights = guess.interval.contact_weights;
+        for (dof, k) in part.supports.driven(&part.body) {
+            let (n, i) = (dof.node as usize, dof.component as usize);
+            let contact = weights[0] * guess.start.contact_force[n][i] + weights[1] * contact_force[n][i];
+            support[k][i] -= residual[n][i] + contact;
+        }
+        work
+    }
+}
+
+impl<const D: usize> Body<D> for FeBody<D> {
+    fn node_count(&self) -> usize {
+        self.part.body.node_count()
+    }
+
+    fn initial_history(&self) -> Vec<PlasticState> {
+        self.part.body.virgin()
+    }
+
+    fn constrain(&self, velocity: &mut [Vector<D>]) {
+        let ModelBody { body, supports, .. } = &*self.part;
+        for tie in body.mesh().ties() {
+            velocity[tie.image as usize] = velocity[tie.master as usize];
+        }
+        for (dof, there) in supports.at(body, 0.0) {
+            velocity[dof.node as usize][dof.component as usize] = there.rate;
+        }
+    }
+
+    fn measure(&self, state: &BodyState<'_, D>, internal_force: &mut [Vector<D>]) -> Energies {
+        let body = &self.part.body;
+        let worked = body.after(state.history);
+        worked.internal_force(state.displacement, internal_force);
+        let mut momentum = vec![Vector::zeros(); body.node_count()];
+        body.mass().multiply(state.velocity, &mut momentum);
+        Energies {
+            strain: worked.strain_energy(state.displacement),
+            kinetic: 0.5 * nodal::dot(state.velocity, &momentum),
+        }
+    }
+
+    fn mean_velocity(&self, velocity: &[Vector<D>]) -> Vector<D> {
+        self.part.body.mean(velocity)
+    }
+
+    fn begin_step(
+        &mut self,
+        interval: &Interval,
+        start: &BodyState<'_, D>,
+        motion: &mut [Vector<D>],
+    ) -> Result<Forecast, StepError> {
+        let part = Arc::clone(&self.part);
+        let body = &part.body;
+        let dt = interval.map.dt;
+        let driven = self.drive.prescribe(&part, interval, start.displacement, motion);
+        let driven = driven.ok_or(StepError::NotFinite("prescribed motion"))?;
+        nodal::each(&mut self.middle, [start.displacement, motion], |m, [u, d]| *m = u + d * 0.5);
+        self.pose = Pose { frame: body.frame(&self.middle), ..Pose::default() };
+        let (u, v) = (start.displacement, start.velocity);
+        // Only nodes without mass ask how the body would go on.
+        if !body.massless().is_empty() {
+            let spin = if body.turns() { body.spin(u, v) } else { [0.0; 3] };
+            self.pose.turn = tensor::rotation(&spin.map(|w| w * dt));
+            self.pose.drift = body.mean(v);
+        }
+        let speed = v.iter().map(Vector::norm_squared).fold(0.0, f64::max).sqrt();
+        let is_factorised = !self.matrix.fits(&interval.map);
+        if is_factorised {
+            self.factorise(interval, start.history, interval.precision)?;
+        }
+        self.matrix.turn_to(&self.pose.frame);
+        Ok(Forecast { speed, acceleration: part.gravity.norm(), driven, is_factorised })
+    }
+
+    fn balance(&mut self, guess: &Guess<'_, D>) -> Balance {
+        self.drive.load(&self.part, guess);
+        let equation = Equation::new(&self.part, guess, &self.pose, &self.drive);
+        self.blended.measure(&equation, &mut self.scratch)
+    }
+
+    fn residual(&mut self, guess: &Guess<'_, D>, blend: Option<f64>, out: &mut [Vector<D>]) {
+        if blend.is_none() {
+            self.drive.load(&self.part, guess);
+        }
+        let equation = Equation::new(&self.part, guess, &self.pose, &self.drive);
+        match blend {
+            Some(weight) => self.blended.residual(&equation, weight, &mut self.scratch, out),
+            None => equation.residual(&mut self.scratch, out),
+        }
+    }
+
+    fn begin_solve(&mut self, residual: &[Vector<D>]) {
+        self.matrix.begin(residual);
+    }
+
+    fn set_reach(&mut self, nodes: &[u32]) {
+        self.matrix.set_reach(nodes.iter().map(|&node| node as usize));
+    }
+
+    fn partial_solve(&mut self, nodes: &[u32], out: &mut [Vector<D>]) {
+        self.matrix.look();
+        nodes.iter().for_each(|&node| out[node as usize] = self.matrix.seen(node as usize));
+    }
+
+    fn add_forces(&mut self, nodes: &[u32], forces: &[Vector<D>]) {
+        self.matrix.add(nodes.iter().map(|&node| (node as usize, forces[node as usize])));
+    }
+
+    fn end_solve(&mut self, correction: &mut [Vector<D>]) {
+        self.matrix.end(correction);
+    }
+
+    fn renew(&mut self, guess: &Guess<'_, D>, again: bool) -> Result<(), StepError> {
+        let ends = [guess.start.displacement, guess.displacement];
+        nodal::each(&mut self.middle, ends, |m, [u0, u1]| *m = (u0 + u1) * 0.5);
+        // A fresh factor that is no better may lack digits. A polynomial has replaced one only where these do not matter.
+        let lacks_digits = again && self.matrix.is_exact();
+        let precision = if lacks_digits { Precision::Double } else { guess.interval.precision };
+        self.factorise(guess.interval, guess.start.history, precision)
+    }
+
+    fn forget(&mut self) {
+        self.matrix.forget();
+    }
+
+    fn end_step(
+        &mut self,
+        guess: &Guess<'_, D>,
+        blend: Option<f64>,
+        end: BodyEnd<'_, D>,
+    ) -> (BodyLedger, Energies) {
+        let map = &guess.interval.map;
+        let start = &guess.start;
+        self.drive.load(&self.part, guess);
+        let Self { part, pose, drive, scratch, blended, jump, .. } = self;
+        let equation = Equation::new(part, guess, pose, drive);
+        equation.end_velocity(end.velocity);
+        nodal::each(jump, [&*end.velocity, start.velocity], |jump, [v1, v0]| *jump = v1 - v0);
+        let mut elastic = None;
+        let exchanged = blend.map(|weight| {
+            let Balance { missing, available, .. } = blended.measure(&equation, scratch);
+            end.internal_force.copy_from_slice(&blended.end);
+            missing - weight * available
+        });
+        if exchanged.is_none() {
+            // After plastic flow the stored energy is another: that of the new history.
+            let energy = equation.worked.internal_force_and_energy(guess.displacement, end.internal_force);
+            elastic = equation.worked.is_virgin().then_some(energy);
+        }
+        let mut prescribed = 0.0;
+        if !self.part.body.held().is_empty() {
+            prescribed = self.close_supports(guess, blend, end.contact_force, end.support);
+        }
+        let Self { part, pose, drive, scratch, jump, momentum, .. } = self;
+        let equation = Equation::new(part, guess, pose, drive);
+        let (body, held) = (&part.body, part.body.held());
+        body.mass().multiply(end.velocity, momentum);
+        let kinetic = 0.5 * nodal::dot(end.velocity, momentum);
+        let plastic = equation.worked.update(guess.displacement, end.history);
+        let strain = elastic.unwrap_or_else(|| body.after(end.history).strain_energy(guess.displacement));
+        let (external, viscous) = equation.external_and_viscous_work(scratch);
+        let mut scheme = 0.0;
+        if map.kinetic_dissipation != 0.0 {
+            body.mass().multiply(jump, momentum);
+            // What is held moves as prescribed, not as the scheme would have it.
+            held.clear(jump);
+            scheme += map.kinetic_dissipation * nodal::dot(jump, momentum);
+        }
+        if map.strain_dissipation != 0.0 {
+            scheme += map.strain_dissipation
+                * (nodal::dot(guess.motion, end.internal_force)
+                    - nodal::dot(guess.motion, start.internal_force));
+        }
+        let weights = guess.interval.contact_weights;
+        let contact = exchanged.unwrap_or_else(|| {
+            let work_of =
+                |force: &[Vector<D>]| nodal::dot(guess.motion, force) - held.dot(guess.motion, force);
+            weights[0] * work_of(start.contact_force) + weights[1] * work_of(end.contact_force)
+        });
+        if exchanged.is_none() {
+            let ends = [start.contact_force, end.contact_force];
+            scheme += equation.static_balance_work(ends, end.internal_force, scratch.viscous());
+        }
+        let ledger = BodyLedger {
+            kinetic: kinetic - start.energies.kinetic,
+            strain: strain - start.energies.strain,
+            external,
+            prescribed,
+            viscous,
+            plastic,
+            scheme,
+            contact,
+        };
+        (ledger, Energies { kinetic, strain })
+    }
+
+    fn generation(&self) -> u64 {
+        self.matrix.generation
+    }
+
+    fn turn(&self) -> Matrix<D> {
+        *self.matrix.turn()
+    }
+
+    /// Ring by ring those that share a cell with others found so far, also by ways that lead through the inside.
+    fn near(&self, node: u32) -> Option<Vec<u32>> {
+        let graph = self.part.body.graph();
+        let surface = self.is_on_surface();
+        let mut found = vec![node];
+        for _ in 0..RINGS {
+            found = found.iter().flat_map(|&n| graph.row(n as usize).map(|(_, m)| m as u32)).collect();
+            found.sort_unstable();
+            found.dedup();
+        }
+        found.retain(|&n| n == node || surface[n as usize]);
+        Some(found)
+    }
+
+    fn order(&self, node: u32) -> usize {
+        self.matrix.order(node as usize)
+    }
+
+    fn responses_at_once(&self) -> usize {
+        IterationMatrix::<D>::AT_ONCE
+    }
+
+    fn respond(&mut self, nodes: &[u32]) {
+        self.matrix.respond(nodes.iter().map(|&node| node as usize));
+    }
+
+    fn response(&self, a: u32, b: u32, number: usize) -> Matrix<D> {
+        self.matrix.response(a as usize, (number, b as usize))
+    }
+
+    fn is_loose(&self) -> bool {
+        self.matrix.is_loose()
+    }
+
+    fn factor_bytes(&self) -> usize {
+        self.matrix.bytes()
+    }
+
+    fn exchange(
+        &mut self,
+        archive: &mut Archive<'_>,
+        name: &str,
+        map: &dyn Fn(f64) -> StepMap,
+    ) -> Result<bool, CheckpointError> {
+        self.matrix.exchange(archive, name, &self.part.body, map)
+    }
+}

@@ -8,9 +8,9 @@ use std::ops::Range;
 
 use carom_mesh::{Vector, nodal};
 
-use crate::Model;
+use super::convergence::BodyProgress;
+use crate::model::given::Given;
 use crate::model::state::State;
-use crate::step::workspace::Workspace;
 
 /// Differences combined.
 const DEPTH: usize = 3;
@@ -97,6 +97,19 @@ impl Products {
     }
 }
 
+/// What the last iteration has led to.
+pub(crate) struct Last<'a, const D: usize> {
+    /// Whether it was the first of the step.
+    pub is_first: bool,
+    /// Whether contacts act on a body.
+    pub touched: &'a [bool],
+    pub progress: &'a [BodyProgress],
+    /// d [m].
+    pub motion: &'a [Vector<D>],
+    /// The correction [m] that led to it.
+    pub correction: &'a [Vector<D>],
+}
+
 impl<const D: usize> Acceleration<D> {
     /// For a model with so many positions and bodies.
     pub fn new(positions: usize, bodies: usize) -> Self {
@@ -141,44 +154,46 @@ impl<const D: usize> Acceleration<D> {
             right[j] = nodal::dot(other, f);
         }
     }
-}
 
-/// Moves the `bodies` on to better guesses.
-///
-/// Where a step ends its last correction stands as it is: the momentum of the bodies is then balanced by the reactions to round-off.
-pub(crate) fn accelerate<const D: usize>(
-    bodies: &[usize],
-    model: &Model<D>,
-    state: &State<D>,
-    next: &mut State<D>,
-    first: bool,
-    work: &mut Workspace<D>,
-) {
-    let Workspace { acceleration, motion, correction, progress, touched, .. } = work;
-    let mut together = Products::default();
-    for &i in bodies {
-        let b = &model.bodies[i];
-        let slow = !first && progress[i].contraction > FAST;
-        if touched[i] || slow || acceleration.bodies[i].count > 0 {
-            acceleration.record(i, b.nodes(), motion, correction);
-        }
-        if touched[i] {
-            together.add(&acceleration.bodies[i].products);
+    /// Takes note of the last `correction` [m] of the `bodies`, which led to the `motion` [m] so far.
+    pub fn take_note(&mut self, bodies: &[usize], last: &Last<'_, D>, nodes: impl Fn(usize) -> Range<usize>) {
+        for &i in bodies {
+            let slow = !last.is_first && last.progress[i].contraction > FAST;
+            if last.touched[i] || slow || self.bodies[i].count > 0 {
+                self.record(i, nodes(i), last.motion, last.correction);
+            }
         }
     }
-    for &i in bodies {
-        let b = &model.bodies[i];
-        let record = &acceleration.bodies[i];
-        let products = if touched[i] { &together } else { &record.products };
-        let weights = products.weights(record.differences(), record.slot());
-        for (k, weight) in weights.into_iter().enumerate().filter(|&(_, weight)| weight != 0.0) {
-            let (guesses, corrections) =
-                (&acceleration.guesses[k][b.nodes()], &acceleration.corrections[k][b.nodes()]);
-            nodal::each(&mut motion[b.nodes()], [guesses, corrections], |m, [d, f]| *m -= (d + f) * weight);
-        }
-        if weights.iter().any(|&weight| weight != 0.0) {
-            let (moved, start) = (&mut next.displacement[b.nodes()], &state.displacement[b.nodes()]);
-            nodal::each(moved, [start, &motion[b.nodes()]], |u1, [u0, d]| *u1 = u0 + d);
+
+    /// Moves the `bodies`, some of which contacts have `touched`, on to better guesses.
+    ///
+    /// Where a step ends its last correction stands as it is: the momentum of the bodies is then balanced by the reactions to round-off.
+    pub fn accelerate(
+        &self,
+        bodies: &[usize],
+        touched: &[bool],
+        given: &Given<'_, D>,
+        motion: &mut [Vector<D>],
+        next: &mut State<D>,
+    ) {
+        let mut together = Products::default();
+        bodies.iter().filter(|&&i| touched[i]).for_each(|&i| together.add(&self.bodies[i].products));
+        for &i in bodies {
+            let nodes = given.assembly.nodes(i);
+            let record = &self.bodies[i];
+            let products = if touched[i] { &together } else { &record.products };
+            let weights = products.weights(record.differences(), record.slot());
+            for (k, weight) in weights.into_iter().enumerate().filter(|&(_, weight)| weight != 0.0) {
+                let (guesses, corrections) =
+                    (&self.guesses[k][nodes.clone()], &self.corrections[k][nodes.clone()]);
+                let motion = &mut motion[nodes.clone()];
+                nodal::each(motion, [guesses, corrections], |m, [d, f]| *m -= (d + f) * weight);
+            }
+            if weights.iter().any(|&weight| weight != 0.0) {
+                let start = &given.state.displacement[nodes.clone()];
+                let moved = &mut next.displacement[nodes.clone()];
+                nodal::each(moved, [start, &motion[nodes]], |u1, [u0, d]| *u1 = u0 + d);
+            }
         }
     }
 }

@@ -3,9 +3,9 @@
 use carom_mesh::nodal;
 
 use crate::error::StepError;
-use crate::model::state::State;
-use crate::step::workspace::Workspace;
-use crate::{Method, Model, StepMap, StressRule};
+use crate::model::assembly::Assembly;
+use crate::model::given::Given;
+use crate::scheme::StressRule;
 
 /// A factor is renewed within a step when iterations converge slower than this, `PATIENCE` iterations after the last one. Elastic bodies
 /// get over what makes them slow, and a factor made there would be a worse one afterwards.
@@ -54,12 +54,14 @@ pub(crate) struct BodyProgress {
     predicted: f64,
     /// The larger of that and of the motion in the step so far [m].
     pub motion: f64,
+    /// Whether only contact, or nothing, keeps the body from moving rigidly in a static analysis.
+    is_loose: bool,
 }
 
 impl BodyProgress {
     /// At the start of the iterations, with the largest component of the `predicted` motion [m].
-    pub fn new(predicted: f64) -> Self {
-        Self { predicted, motion: predicted, correction: f64::INFINITY, contraction: 1.0 }
+    pub fn new(predicted: f64, is_loose: bool) -> Self {
+        Self { predicted, is_loose, motion: predicted, correction: f64::INFINITY, contraction: 1.0 }
     }
 
     /// Takes note of a new correction and of the motion that it leads to.
@@ -92,12 +94,9 @@ pub(crate) struct Convergence {
 }
 
 impl Convergence {
-    pub fn new<const D: usize>(
-        model: &Model<D>,
-        method: &Method<D>,
-        state: &State<D>,
-        map: &StepMap,
-    ) -> Self {
+    pub fn new<const D: usize>(given: &Given<'_, D>) -> Self {
+        let Given { assembly, method, state, interval } = *given;
+        let map = &interval.map;
         let is_static = map.is_static();
         let changed = is_static || state.history.iter().any(|history| !history.is_empty());
         Self {
@@ -105,8 +104,12 @@ impl Convergence {
             patience: if changed { CHANGED_PATIENCE } else { PATIENCE },
             max_iterations: method.newton.max_iterations,
             tolerance: method.newton.tolerance,
-            reached: if is_static { nodal::largest(&state.displacement[..model.node_count()]) } else { 0.0 },
-            round_off: model.round_off(),
+            reached: if is_static {
+                nodal::largest(&state.displacement[..assembly.node_count()])
+            } else {
+                0.0
+            },
+            round_off: assembly.round_off(),
             is_static,
             reach: 0.0,
             least: f64::INFINITY,
@@ -122,13 +125,17 @@ impl Convergence {
         &mut self,
         iteration: usize,
         bodies: &[usize],
-        model: &Model<D>,
-        work: &Workspace<D>,
+        all: &[BodyProgress],
+        assembly: &Assembly<D>,
     ) -> Result<bool, StepError> {
-        let progress = || bodies.iter().map(|&i| &work.progress[i]);
+        let progress = || bodies.iter().map(|&i| &all[i]);
         let motion = progress().map(|p| p.motion).fold(0.0, f64::max);
         let correction = progress().map(|p| p.correction).fold(0.0, f64::max);
-        self.check_reach(iteration, bodies, motion, correction, model, work)?;
+        if self.is_static && motion > assembly.size {
+            let lost = StepError::Runaway { motion, size: assembly.size };
+            return Err(not_held(bodies, all, assembly).unwrap_or(lost));
+        }
+        self.check_reach(iteration, motion, correction)?;
         if progress().all(|p| self.has_converged(p, motion)) {
             return Ok(true);
         }
@@ -139,7 +146,7 @@ impl Convergence {
         if iteration < self.max_iterations && !hopeless {
             return Ok(false);
         }
-        if let (true, Some(error)) = (self.is_static, not_held(bodies, model, work)) {
+        if let (true, Some(error)) = (self.is_static, not_held(bodies, all, assembly)) {
             return Err(error);
         }
         let wanted = self.wanted(motion);
@@ -189,28 +196,12 @@ impl Convergence {
         (self.tolerance * motion.max(self.reached)).max(self.round_off)
     }
 
-    /// Refuses iterations that lead away from where they set out.
-    fn check_reach<const D: usize>(
-        &mut self,
-        iteration: usize,
-        bodies: &[usize],
-        motion: f64,
-        correction: f64,
-        model: &Model<D>,
-        work: &Workspace<D>,
-    ) -> Result<(), StepError> {
-        if self.is_static {
-            let lost = motion > model.size;
-            return if lost {
-                Err(not_held(bodies, model, work).unwrap_or(StepError::Runaway { motion, size: model.size }))
-            } else {
-                Ok(())
-            };
-        }
+    /// Refuses iterations that lead away from where they set out. Load steps may.
+    fn check_reach(&mut self, iteration: usize, motion: f64, correction: f64) -> Result<(), StepError> {
         if iteration == 1 {
             self.reach = motion.max(correction).max(self.round_off);
         }
-        if correction > ASTRAY * self.reach {
+        if correction > ASTRAY * self.reach && !self.is_static {
             return Err(StepError::Astray { iterations: iteration, correction, reach: self.reach });
         }
         Ok(())
@@ -234,12 +225,17 @@ impl Convergence {
 }
 
 /// Says which of the `bodies` is loose and nothing holds it, if its corrections are the largest and do not shrink.
-fn not_held<const D: usize>(bodies: &[usize], model: &Model<D>, work: &Workspace<D>) -> Option<StepError> {
-    let loose = bodies.iter().filter(|&&i| work.operators[i].is_loose());
-    loose
-        .filter(|&&i| work.progress[i].contraction > NO_CONTRACTION)
-        .max_by(|&&i, &&j| work.progress[i].correction.total_cmp(&work.progress[j].correction))
-        .map(|&i| StepError::NotHeld { body: model.bodies[i].name.clone() })
+fn not_held<const D: usize>(
+    bodies: &[usize],
+    progress: &[BodyProgress],
+    assembly: &Assembly<D>,
+) -> Option<StepError> {
+    let lost = |i: &&usize| progress[**i].is_loose && progress[**i].contraction > NO_CONTRACTION;
+    let worst = bodies
+        .iter()
+        .filter(lost)
+        .max_by(|&&i, &&j| progress[i].correction.total_cmp(&progress[j].correction))?;
+    Some(StepError::NotHeld { body: assembly.name(*worst).to_string() })
 }
 
 #[cfg(test)]
@@ -291,7 +287,7 @@ mod tests {
 
     /// The iterations of 30 slow ones after which a factor is made.
     fn renewals(convergence: Convergence) -> Vec<usize> {
-        let mut slow = BodyProgress::new(1.0);
+        let mut slow = BodyProgress::new(1.0, false);
         (0..2).for_each(|_| slow.note(1.0, 1.0));
         let mut renewed = Vec::new();
         for iteration in 1..=30 {
@@ -315,7 +311,7 @@ mod tests {
     fn contacts_are_solved_as_well_as_it_takes() {
         let convergence = Convergence { round_off: 1e-15, ..DYNAMIC };
         let error = |contacts, corrections: &[f64]| {
-            let mut progress = BodyProgress::new(1.0);
+            let mut progress = BodyProgress::new(1.0, false);
             corrections.iter().for_each(|&c| progress.note(c, 1.0));
             convergence.contact_error(contacts, &[0], &[progress])
         };

@@ -5,9 +5,10 @@ use carom_fem::sparse::{Inverse, NodalMatrix, Precision};
 use carom_fem::{Body, Held, Worked};
 use carom_mesh::{Matrix, Vector, nodal};
 
-use crate::StepMap;
-use crate::body::fe::equation::STEADYING;
+use super::equation::STEADYING;
+use crate::archive::{Archive, CheckpointError};
 use crate::error::StepError;
+use crate::scheme::StepMap;
 
 /// Share of the square of the lowest elastic frequency, by its scale c/L, that stands in for inertia where nothing else keeps K̄
 /// from being singular: below what a contact resists with, and far enough above round-off for W to stay well-conditioned.
@@ -29,7 +30,7 @@ fn proximal_coefficient<const D: usize>(body: &Body<D>) -> f64 {
 /// alone: it takes and gives vectors of all nodes (see [`carom_fem::sparse::Factor`]), and what starts equal at two of them stays so. Held displacements
 /// have rows of their own in K̄: forces on them move nothing. As they are held in the axes of space, such a body's factor does not turn.
 #[derive(Debug)]
-pub(crate) struct BodyOperator<const D: usize> {
+pub(crate) struct IterationMatrix<const D: usize> {
     inverse: Inverse<D>,
     /// The factors of K, C and M that K̄ was made with.
     coefficients: Option<[f64; 3]>,
@@ -49,16 +50,16 @@ pub(crate) struct BodyOperator<const D: usize> {
 
 /// Where and for what steps a factor was made: all that it takes to make it again.
 #[derive(Debug, Clone)]
-pub(crate) struct Origin<const D: usize> {
+struct Origin<const D: usize> {
     /// Length of the steps [s].
-    pub dt: f64,
-    pub precision: Precision,
+    dt: f64,
+    precision: Precision,
     /// Frame of the body.
-    pub frame: Matrix<D>,
+    frame: Matrix<D>,
     /// u [m].
-    pub displacement: Vec<Vector<D>>,
+    displacement: Vec<Vector<D>>,
     /// What the material remembered.
-    pub history: Vec<PlasticState>,
+    history: Vec<PlasticState>,
 }
 
 /// The uniform part of a solution, which mass alone resists: Σ m x = Σ b over the coefficient of M, whatever the stiffness. A factor in
@@ -96,7 +97,7 @@ impl<const D: usize> Translation<D> {
     }
 }
 
-impl<const D: usize> BodyOperator<D> {
+impl<const D: usize> IterationMatrix<D> {
     pub fn new(body: &Body<D>) -> Self {
         Self {
             inverse: Inverse::new(body.mesh().ties()),
@@ -139,9 +140,43 @@ impl<const D: usize> BodyOperator<D> {
         self.inverse.is_exact()
     }
 
-    /// Where the present factor was made; none where no step may rely on it.
-    pub fn origin(&self) -> Option<&Origin<D>> {
-        self.coefficients.is_some().then_some(&self.origin)
+    /// Records where the present factor was made, or makes it there again: the same factor comes out of the same stiffness. Returns whether
+    /// there is a factor that steps may rely on.
+    ///
+    /// # Errors
+    /// If the archive does not fit.
+    pub fn exchange(
+        &mut self,
+        archive: &mut Archive<'_>,
+        name: &str,
+        body: &Body<D>,
+        map: &dyn Fn(f64) -> StepMap,
+    ) -> Result<bool, CheckpointError> {
+        let name = |of: &str| format!("{name}/{of}");
+        let mut has_factor = self.coefficients.is_some();
+        archive.flags(&name("has_factor"), [&mut has_factor])?;
+        if !has_factor {
+            self.forget();
+            return Ok(false);
+        }
+        let mut origin = self.origin.clone();
+        let mut is_double = origin.precision == Precision::Double;
+        archive.numbers(&name("dt"), [&mut origin.dt])?;
+        archive.flags(&name("is_double"), [&mut is_double])?;
+        archive.numbers(&name("frame"), origin.frame.iter_mut())?;
+        archive.vectors(&name("displacement"), &mut origin.displacement)?;
+        archive.plastic(&name("plastic"), &mut origin.history)?;
+        if !archive.replays() {
+            return Ok(true);
+        }
+        if origin.dt <= 0.0 {
+            return Err(CheckpointError::new(&name("dt"), "is not positive"));
+        }
+        let precision = if is_double { Precision::Double } else { Precision::Single };
+        let worked = body.after(&origin.history);
+        self.factorize(&worked, &map(origin.dt), &origin.displacement, &origin.frame, precision)
+            .map_err(|e| CheckpointError::new(&name("displacement"), e.to_string()))?;
+        Ok(true)
     }
 
     /// Lets no step rely on the factor.
@@ -151,7 +186,7 @@ impl<const D: usize> BodyOperator<D> {
 
     /// Makes the factor with the stiffness at `u`, where the frame of the body is `frame`.
     ///
-    /// The factor is kept in `precision` (see [`crate::Method::precision`]), and is exact where that is double.
+    /// The factor is kept in `precision` (see [`crate::body::Interval::precision`]), and is exact where that is double.
     ///
     /// A configuration under strong compression, or a guess on the way to one, may be where K̄ is indefinite. The stiffness of the
     /// reference configuration, turned, serves there: slower, but it never is.

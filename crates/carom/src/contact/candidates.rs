@@ -1,0 +1,72 @@
+//! Which contacts there may be in a step.
+
+use carom_contact::{Candidate, Contact, Mortar, Search};
+use carom_mesh::Vector;
+
+use super::active::ActiveSet;
+use crate::model::given::Given;
+use crate::model::state::State;
+
+/// By how much the margin grows for mortar pairs with every repetition of a search.
+const WIDENING: f64 = 4.0;
+
+/// Finds candidates, and sees afterwards whether one was missed.
+#[derive(Debug, Default)]
+pub(crate) struct Finder<const D: usize> {
+    pub search: Search<D>,
+    /// All that the search found, ascending.
+    found: Vec<Candidate>,
+    missed: Vec<Candidate>,
+    missed_contacts: Vec<Contact<D>>,
+    missed_mortar: Mortar<D>,
+}
+
+impl<const D: usize> Finder<D> {
+    /// Finds the candidates of the step between its start and the predicted end; another time between its start and where it led to, beside
+    /// those already found and those missed there.
+    ///
+    /// Nodes are not looked for farther and farther away: in a fast step that would be all there are, and their problem dense. Only
+    /// the rows of mortar pairs, which cannot be recalled, are found by a wider margin.
+    pub fn find(
+        &mut self,
+        given: &Given<'_, D>,
+        motion: &[Vector<D>],
+        margin: f64,
+        repetition: usize,
+        active: &mut ActiveSet<D>,
+    ) {
+        let start = |n: u32| given.position(n);
+        let end = |n: u32| start(n) + motion[n as usize];
+        let (contact, candidates) = (&given.assembly.contact, &mut active.candidates);
+        contact.detect(&start, &end, margin, &mut self.search, candidates);
+        if repetition > 0 {
+            contact.recall(&self.found, &start, &end, candidates);
+        }
+        let wide = margin * WIDENING.powi(repetition as i32);
+        contact.detect_mortar(&start, &end, wide, &mut active.mortar, candidates);
+        self.found.clone_from(candidates);
+    }
+
+    /// Whether a node that the search did not find has gone through its target by the end of the step; if so, what was missed is searched
+    /// from now on.
+    ///
+    /// Only where the condition is written there: the others choose their contacts at the start.
+    pub fn missed_one(&mut self, given: &Given<'_, D>, next: &State<D>) -> bool {
+        if !given.method.condition.rules_the_end() {
+            return false;
+        }
+        let assembly = given.assembly;
+        let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
+        let Self { search, found, missed, missed_mortar, missed_contacts } = self;
+        assembly.contact.detect(&end, &end, 0.0, search, missed);
+        assembly.contact.detect_mortar(&end, &end, 0.0, missed_mortar, missed);
+        missed.retain(|m| found.binary_search_by_key(&m.key(), Candidate::key).is_err());
+        assembly.contact.evaluate_all(missed, &end, missed_mortar, missed_contacts);
+        let missed_one = missed_contacts.iter().any(|c| c.gap < -assembly.round_off());
+        if missed_one {
+            found.extend_from_slice(missed);
+            found.sort_unstable();
+        }
+        missed_one
+    }
+}

@@ -1,0 +1,163 @@
+//! The reduced problem of the contact points, and its reactions.
+
+use std::time::Duration;
+
+use carom_friction::{ContactProblem, SolverKind, StoppingRule};
+use carom_mesh::Vector;
+
+use super::active::ActiveSet;
+use super::delassus::Delassus;
+use crate::body::Body;
+use crate::error::StepError;
+use crate::model::assembly::Assembly;
+use crate::model::given::Given;
+
+/// No contact problem is solved more loosely than this.
+const LOOSEST: f64 = 1e-4;
+
+/// The tolerance of a contact problem whose motions may be wrong by `error` [m], which is what natural residuals are of the larger of q
+/// and, by the natural stiffness, r; at least that which is asked for.
+fn tolerance<const D: usize>(
+    problem: &ContactProblem<D>,
+    reactions: &[Vector<D>],
+    error: f64,
+    least: f64,
+) -> f64 {
+    if error == 0.0 {
+        return least;
+    }
+    let squares = |vectors: &[Vector<D>]| vectors.iter().map(Vector::norm_squared).sum::<f64>();
+    let size = squares(&problem.q).max(squares(reactions) / problem.natural_stiffness().powi(2));
+    (error * (problem.q.len() as f64 / size).sqrt()).min(LOOSEST).max(least)
+}
+
+/// The reduced problem of a step and what leads to it.
+#[derive(Debug)]
+pub(crate) struct Reduced<const D: usize> {
+    pub delassus: Delassus<D>,
+    pub problem: ContactProblem<D>,
+    /// What the normal motions lack of the variable of the condition [m].
+    pub offsets: Vec<f64>,
+    /// The reactions that the friction solver last started from.
+    pub guess: Vec<Vector<D>>,
+    /// The solver that gave the last reactions.
+    pub solved_by: SolverKind,
+    /// Time spent in the friction solver so far.
+    pub friction_time: Duration,
+    /// The nodes of every body that contacts act on, ascending.
+    nodes: Vec<Vec<u32>>,
+    /// The motion with the reactions known so far, at these nodes and of obstacles [m].
+    known_motion: Vec<Vector<D>>,
+    /// The change of the nodal forces by that of the reactions, at these nodes [N].
+    change: Vec<Vector<D>>,
+}
+
+impl<const D: usize> Reduced<D> {
+    /// Of an assembly.
+    pub fn new(assembly: &Assembly<D>) -> Self {
+        let zeros = vec![Vector::zeros(); assembly.reference.len()];
+        Self {
+            delassus: Delassus::new(assembly),
+            problem: ContactProblem::default(),
+            offsets: Vec::new(),
+            guess: Vec::new(),
+            solved_by: SolverKind::default(),
+            friction_time: Duration::ZERO,
+            nodes: vec![Vec::new(); assembly.body_count()],
+            known_motion: zeros.clone(),
+            change: zeros,
+        }
+    }
+
+    /// Gets the bodies ready to respond at the nodes of the contacts: their compliance there, and the reach of these nodes.
+    pub fn prepare(&mut self, given: &Given<'_, D>, active: &ActiveSet<D>, bodies: &mut [Box<dyn Body<D>>]) {
+        self.nodes.iter_mut().for_each(Vec::clear);
+        for (node, _) in active.contacts.iter().flat_map(|contact| contact.stencil()) {
+            // The motion of obstacles is prescribed: they do not respond.
+            if let Some((b, own)) = given.assembly.place_of(node) {
+                self.nodes[b].push(own as u32);
+            }
+        }
+        let everywhere = given.interval.map.is_static();
+        for ((nodes, compliance), body) in
+            self.nodes.iter_mut().zip(&mut self.delassus.compliances).zip(bodies)
+        {
+            if nodes.is_empty() {
+                continue;
+            }
+            nodes.sort_unstable();
+            nodes.dedup();
+            compliance.prepare(&mut **body, nodes, everywhere);
+            body.set_reach(nodes);
+        }
+    }
+
+    /// Solves the reduced problem of the contacts, so that their motions are wrong by about `error` [m] if that is not zero, while the bodies in
+    /// contact are between [`Body::begin_solve`] and [`Body::end_solve`], and gives them the change of the reactions.
+    pub fn solve(
+        &mut self,
+        given: &Given<'_, D>,
+        active: &mut ActiveSet<D>,
+        motion: &[Vector<D>],
+        error: f64,
+        bodies: &mut [Box<dyn Body<D>>],
+    ) -> Result<(), StepError> {
+        let Given { assembly, method, state, interval } = *given;
+        let start = |n: usize| state.velocity[n];
+        self.offsets.clear();
+        self.offsets.extend(active.contacts.iter().zip(&active.start_gaps).map(|(contact, &kept)| {
+            method.condition.normal_offset(contact, kept, &interval.map, |n| motion[n], start)
+        }));
+        self.look(assembly, motion, bodies);
+        let Self { delassus, problem, offsets, known_motion, .. } = self;
+        delassus.condense(assembly, active, offsets, known_motion, problem);
+        self.guess.clone_from(&active.reactions);
+        let tolerance = tolerance(&self.problem, &active.reactions, error, method.stopping.tolerance);
+        let stopping = StoppingRule { tolerance, ..method.stopping };
+        let report = method.solver.solve(&self.problem, &mut active.reactions, &stopping);
+        self.solved_by = report.solver;
+        self.friction_time += report.time;
+        if !report.is_solved() {
+            let q = &self.problem.q;
+            return Err(if q.iter().all(|q| q.iter().all(|x| x.is_finite())) {
+                StepError::Friction { contacts: q.len(), report: Box::new(report) }
+            } else {
+                StepError::NotFinite("free motion of the contacts")
+            });
+        }
+        self.give(assembly, active, bodies);
+        Ok(())
+    }
+
+    /// Writes the motion with the reactions known so far.
+    fn look(&mut self, assembly: &Assembly<D>, motion: &[Vector<D>], bodies: &mut [Box<dyn Body<D>>]) {
+        let obstacles = assembly.node_count()..;
+        self.known_motion[obstacles.clone()].copy_from_slice(&motion[obstacles]);
+        for (i, (body, nodes)) in bodies.iter_mut().zip(&self.nodes).enumerate() {
+            if nodes.is_empty() {
+                continue;
+            }
+            let own = assembly.nodes(i);
+            let seen = &mut self.known_motion[own.clone()];
+            body.partial_solve(nodes, seen);
+            let motion = &motion[own];
+            nodes.iter().map(|&n| n as usize).for_each(|n| seen[n] = motion[n] + seen[n]);
+        }
+    }
+
+    /// Gives the bodies the change of the reactions.
+    fn give(&mut self, assembly: &Assembly<D>, active: &ActiveSet<D>, bodies: &mut [Box<dyn Body<D>>]) {
+        for (i, nodes) in self.nodes.iter().enumerate() {
+            let first = assembly.nodes(i).start;
+            nodes.iter().for_each(|&node| self.change[first + node as usize] = Vector::zeros());
+        }
+        for ((contact, r), before) in active.contacts.iter().zip(&active.reactions).zip(&self.guess) {
+            contact.add_force(&(r - before), &mut self.change);
+        }
+        for (i, (body, nodes)) in bodies.iter_mut().zip(&self.nodes).enumerate() {
+            if !nodes.is_empty() {
+                body.add_forces(nodes, &self.change[assembly.nodes(i)]);
+            }
+        }
+    }
+}

@@ -1,0 +1,177 @@
+use std::ops::Range;
+
+use carom_contact::{ContactModel, Pair, Target};
+use carom_mesh::Vector;
+
+use crate::model::obstacle_motion::ObstacleMotion;
+
+/// A named pair of bodies, or of a body and an obstacle, that may touch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Group {
+    /// The two names.
+    pub between: [String; 2],
+    /// Friction coefficient.
+    pub friction: f64,
+}
+
+/// A body as the others see it: a name and places.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Member<const D: usize> {
+    /// Name.
+    pub name: String,
+    /// Reference positions of its nodes [m].
+    pub reference: Vec<Vector<D>>,
+    /// Its diameter [m].
+    pub diameter: f64,
+    /// Which components of the displacement of every node are prescribed; empty where none is.
+    pub held: Vec<[bool; D]>,
+}
+
+/// Bodies in their places and what may touch what: all that a step needs to know beside the bodies themselves.
+#[derive(Debug)]
+pub struct Assembly<const D: usize> {
+    /// Who may touch whom; surface i is that of body i.
+    pub contact: ContactModel<D>,
+    /// The named pairs that the pairs of `contact` belong to.
+    pub groups: Vec<Group>,
+    /// Reference positions of all nodes [m]; after those of the bodies, zero for every obstacle, whose displacement says how far
+    /// it has moved.
+    pub reference: Vec<Vector<D>>,
+    /// How the obstacles move.
+    pub obstacle_motions: Vec<ObstacleMotion<D>>,
+    /// Number of supports whose forces are recorded.
+    pub supports: usize,
+    /// Diameter of the largest body [m].
+    pub size: f64,
+    names: Vec<String>,
+    /// The numbers of the nodes of every body.
+    nodes: Vec<Range<usize>>,
+    body_of_node: Vec<u32>,
+    /// Which components of every node and obstacle are prescribed.
+    held: Vec<[bool; D]>,
+    diameters: Vec<f64>,
+    /// The largest coordinate of a node where nothing has moved [m].
+    farthest: f64,
+}
+
+impl<const D: usize> Assembly<D> {
+    /// The assembly of these bodies, whose nodes are numbered one body after the other, and of the contacts between their surfaces;
+    /// obstacles stand still.
+    #[must_use]
+    pub fn new(members: Vec<Member<D>>, mut contact: ContactModel<D>, groups: Vec<Group>) -> Self {
+        let count: usize = members.iter().map(|m| m.reference.len()).sum();
+        for (o, obstacle) in contact.obstacles.iter_mut().enumerate() {
+            obstacle.node = (count + o) as u32;
+        }
+        let obstacles = contact.obstacles.len();
+        let mut assembly = Self {
+            obstacle_motions: vec![ObstacleMotion::Velocity(Vector::zeros()); obstacles],
+            supports: 0,
+            size: members.iter().map(|m| m.diameter).fold(0.0, f64::max),
+            farthest: members.iter().flat_map(|m| &m.reference).map(Vector::amax).fold(0.0, f64::max),
+            names: Vec::with_capacity(members.len()),
+            nodes: Vec::with_capacity(members.len()),
+            body_of_node: Vec::with_capacity(count),
+            held: Vec::with_capacity(count + obstacles),
+            diameters: members.iter().map(|m| m.diameter).collect(),
+            reference: Vec::with_capacity(count + obstacles),
+            contact,
+            groups,
+        };
+        for (i, member) in members.into_iter().enumerate() {
+            let first = assembly.reference.len();
+            assembly.reference.extend(member.reference);
+            let end = assembly.reference.len();
+            assembly.nodes.push(first..end);
+            assembly.names.push(member.name);
+            assembly.body_of_node.resize(end, i as u32);
+            assembly.held.resize(end, [false; D]);
+            assembly.hold(i, &member.held);
+        }
+        assembly.reference.resize(count + obstacles, Vector::zeros());
+        assembly.held.resize(count + obstacles, [true; D]);
+        assembly
+    }
+
+    /// Says which components of the nodes of body `index` are prescribed; none if `held` is empty.
+    pub(crate) fn hold(&mut self, index: usize, held: &[[bool; D]]) {
+        let own = &mut self.held[self.nodes[index].clone()];
+        if held.is_empty() { own.fill([false; D]) } else { own.copy_from_slice(held) }
+    }
+
+    /// Number of bodies.
+    #[must_use]
+    pub fn body_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Number of nodes of the bodies.
+    #[must_use]
+    pub fn node_count(&self) -> usize {
+        self.body_of_node.len()
+    }
+
+    /// The numbers of the nodes of body `index`.
+    #[inline]
+    #[must_use]
+    pub fn nodes(&self, index: usize) -> Range<usize> {
+        self.nodes[index].clone()
+    }
+
+    /// The name of body `index`.
+    #[must_use]
+    pub fn name(&self, index: usize) -> &str {
+        &self.names[index]
+    }
+
+    /// The body that a node belongs to; none if it is the position of an obstacle.
+    #[inline]
+    #[must_use]
+    pub fn body_of(&self, node: usize) -> Option<usize> {
+        self.body_of_node.get(node).map(|&b| b as usize)
+    }
+
+    /// The body of a node and its number in that; none if it is the position of an obstacle.
+    #[inline]
+    #[must_use]
+    pub fn place_of(&self, node: usize) -> Option<(usize, usize)> {
+        self.body_of(node).map(|b| (b, node - self.nodes[b].start))
+    }
+
+    /// Which components of the displacement of a node are prescribed: all of them of an obstacle.
+    #[inline]
+    #[must_use]
+    pub fn held(&self, node: usize) -> &[bool; D] {
+        &self.held[node]
+    }
+
+    /// The part of a vector at a node that is prescribed: all of it at obstacles.
+    #[inline]
+    #[must_use]
+    pub fn prescribed_part(&self, node: usize, v: &Vector<D>) -> Vector<D> {
+        let held = &self.held[node];
+        Vector::from_fn(|i, _| if held[i] { v[i] } else { 0.0 })
+    }
+
+    /// The part of a vector at a node that can answer to a force: nothing of it at obstacles.
+    #[inline]
+    #[must_use]
+    pub fn free_part(&self, node: usize, v: &Vector<D>) -> Vector<D> {
+        v - self.prescribed_part(node, v)
+    }
+
+    /// Lengths below this are round-off of the coordinates [m], of small bodies far from the origin too.
+    #[must_use]
+    pub fn round_off(&self) -> f64 {
+        4.0 * f64::EPSILON * self.size.max(self.farthest)
+    }
+
+    /// Diameter of the smaller body of a pair [m].
+    #[must_use]
+    pub fn pair_size(&self, pair: &Pair) -> f64 {
+        match pair.target {
+            Target::Surface(target) => self.diameters[pair.source].min(self.diameters[target]),
+            Target::Obstacle(_) => self.diameters[pair.source],
+        }
+    }
+}

@@ -1,0 +1,71 @@
+use carom_mesh::Vector;
+
+use crate::StepError;
+use crate::body::{BodyState, Guess, Interval};
+use crate::model::assembly::Assembly;
+use crate::model::method::Method;
+use crate::model::state::State;
+
+/// What is given in a step: who takes part, by what method, from where and for how long.
+#[derive(Clone, Copy)]
+pub(crate) struct Given<'a, const D: usize> {
+    pub assembly: &'a Assembly<D>,
+    pub method: &'a Method<D>,
+    /// The state that the step starts from.
+    pub state: &'a State<D>,
+    pub interval: &'a Interval,
+}
+
+impl<'a, const D: usize> Given<'a, D> {
+    /// The part of body `index` in the state.
+    pub fn start(&self, index: usize) -> BodyState<'a, D> {
+        self.state.body(index, self.assembly.nodes(index))
+    }
+
+    /// What is guessed of body `index`, where the model moves by `motion` [m] to `displacement` [m].
+    pub fn guess<'g>(
+        &'g self,
+        index: usize,
+        motion: &'g [Vector<D>],
+        displacement: &'g [Vector<D>],
+    ) -> Guess<'g, D> {
+        let nodes = self.assembly.nodes(index);
+        Guess {
+            interval: self.interval,
+            start: self.start(index),
+            motion: &motion[nodes.clone()],
+            displacement: &displacement[nodes],
+        }
+    }
+
+    /// Where a node is at the start of the step [m].
+    #[inline]
+    pub fn position(&self, node: u32) -> Vector<D> {
+        self.assembly.reference[node as usize] + self.state.displacement[node as usize]
+    }
+
+    /// How much of a reaction the reduced problem solves for.
+    pub fn reaction_weight(&self) -> f64 {
+        self.method.condition.reaction_weight(&self.interval.map)
+    }
+
+    /// Sets the motion [m] of obstacles, whose places come after the nodes of bodies; returns the largest that is prescribed [m].
+    ///
+    /// # Errors
+    /// If a function of time is not finite.
+    pub fn move_obstacles(&self, motion: &mut [Vector<D>]) -> Result<f64, StepError> {
+        let dt = self.interval.map.dt;
+        let end = self.interval.start + dt;
+        let obstacles = self.assembly.node_count()..;
+        let (mut largest, mut sum): (f64, f64) = (0.0, 0.0);
+        let starts = &self.state.displacement[obstacles.clone()];
+        for ((d, u), moved) in motion[obstacles].iter_mut().zip(starts).zip(&self.assembly.obstacle_motions) {
+            *d = moved.increment(u, end, dt);
+            if moved.is_prescribed() {
+                largest = largest.max(d.norm());
+            }
+            sum += d.sum();
+        }
+        if sum.is_finite() { Ok(largest) } else { Err(StepError::NotFinite("prescribed motion")) }
+    }
+}

@@ -1,0 +1,67 @@
+use carom_fem::sparse::Precision;
+use carom_friction::{FrictionSolver, StoppingRule};
+
+use crate::body::Interval;
+use crate::model::condition::ContactCondition;
+use crate::scheme::Scheme;
+
+/// When Newton's iterations stop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NewtonRule {
+    /// Largest correction of a displacement, relative to the largest motion of a node in the step; in a static analysis to the largest
+    /// displacement since the start, if that is more.
+    pub tolerance: f64,
+    /// Iterations after which the step fails.
+    pub max_iterations: usize,
+}
+
+/// How a model is taken through time.
+pub struct Method<const D: usize> {
+    /// Time scheme.
+    pub scheme: Scheme,
+    /// Contact condition.
+    pub condition: ContactCondition,
+    /// Solver of the reduced contact problem.
+    pub solver: Box<dyn FrictionSolver<D>>,
+    /// When that solver stops.
+    pub stopping: StoppingRule,
+    /// Whether a second solver solves the problem of every step again (see [`crate::CrossCheck`]).
+    pub cross_check: bool,
+    /// When Newton's iterations stop.
+    pub newton: NewtonRule,
+    /// How often a step that fails is halved.
+    pub max_halvings: u32,
+    /// The bi-potential gap of a step that a certified run may have, relative to the largest energy of the run or, if that is more, to the
+    /// largest work of the reactions of a step over the motion that they prevent.
+    pub certificate_tolerance: f64,
+}
+
+impl<const D: usize> Method<D> {
+    /// The step of length `dt` [s] that starts at time `start` [s].
+    #[must_use]
+    pub fn interval(&self, start: f64, dt: f64) -> Interval {
+        let map = self.scheme.step_map(dt);
+        Interval {
+            map,
+            start,
+            precision: self.precision(),
+            contact_weights: self.condition.weights_of_ends(&map),
+            is_blended: self.is_blended(),
+        }
+    }
+
+    /// The numbers that factors are kept in: double precision in a static analysis, where no mass keeps K̄ well-conditioned, and with
+    /// massless contact, whose balance of energy sees the last correction itself and not its square.
+    fn precision(&self) -> Precision {
+        if self.scheme == Scheme::Static || self.condition.is_massless() {
+            Precision::Double
+        } else {
+            Precision::Single
+        }
+    }
+
+    /// Whether the balance of massless contact nodes is closed by a blend of start and end stresses.
+    fn is_blended(&self) -> bool {
+        self.scheme == Scheme::Conserving && self.condition.is_massless()
+    }
+}

@@ -1,0 +1,52 @@
+use crate::contact::cross_check::CrossCheck;
+use crate::ledger::{Ledger, PairLedger};
+
+/// What one group of contacts did in a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct GroupReport {
+    /// Sum of the normal reactions [N].
+    pub normal_force: f64,
+    /// What happened to the energy.
+    pub ledger: PairLedger,
+}
+
+/// What a step says about itself.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StepReport {
+    /// Newton iterations.
+    pub newton_iterations: usize,
+    /// Contacts with a reaction.
+    pub contacts: usize,
+    /// Smallest gap of a contact candidate at the end of the step [m]; infinite without candidates.
+    pub min_gap: f64,
+    /// Sum of the normal reactions [N].
+    pub normal_force: f64,
+    /// Largest blend |α| of start and end stresses: see the scheme `conserving` with `massless` contact.
+    pub blend: f64,
+    /// Smallest dissipation by friction of a contact [J]; negative = friction did work on the bodies.
+    pub least_friction: f64,
+    /// Residual of the contact laws (see `carom_friction::Measure`).
+    pub residual: f64,
+    /// Σ of the bi-potential gaps [J].
+    pub certificate: f64,
+    /// The part of it that the contact problem was left with [J]; the rest is of the motion that Newton's iterations were left with.
+    pub solver_certificate: f64,
+    /// Σ |r·q| [J]: what the reactions do over the motion that they prevent.
+    pub reaction_work: f64,
+    /// What a second solver says of the last contact problem, if it was asked.
+    pub cross_check: Option<CrossCheck>,
+    /// What happened to the energy.
+    pub ledger: Ledger,
+}
+
+impl StepReport {
+    /// Whether every number is finite, but for the smallest gap where there is none.
+    pub(crate) fn is_finite(&self) -> bool {
+        let Self { normal_force, blend, least_friction, residual, .. } = *self;
+        let Self { certificate, solver_certificate, reaction_work, mut ledger, .. } = *self;
+        let numbers = [normal_force, blend, least_friction, residual];
+        let laws = [certificate, solver_certificate, reaction_work];
+        let terms = ledger.terms_mut().map(|term| *term);
+        numbers.iter().chain(&laws).chain(&terms).all(|x| x.is_finite()) && !self.min_gap.is_nan()
+    }
+}
