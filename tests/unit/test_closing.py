@@ -158,6 +158,8 @@ def test_precision_is_that_of_the_last_digit():
         assert precision(points) == pytest.approx(0.5 * 10.0 ** (2 - digits))
     assert precision(exact) == 0.0
     assert precision(np.zeros((2, 2))) == 0.0
+    # Symptom guarded against: a warning of an overflow beside the message on a mesh of no size.
+    assert precision(np.array([[0.0, 2e-322], [1e-300, 4e-323]])) == 0.0
     single = exact.astype(np.float32)
     last_bit = 0.5 * 2.0**-19  # of numbers between 16 and 32
     assert precision(single.astype(float)) == pytest.approx(last_bit)

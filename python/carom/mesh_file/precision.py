@@ -26,8 +26,11 @@ def precision(points: NDArray[np.float64]) -> float:
     found = 0.0
     exponents = np.floor(np.log10(values))
     for digits in range(FEWEST, MOST + 1):
-        whole = values * 10.0 ** (digits - 1 - exponents)
-        if np.all(np.abs(whole - np.rint(whole)) <= _ROUND_OFF * whole):
+        # Of numbers near the smallest there is no such power, and they have no digits to speak of.
+        with np.errstate(over="ignore", invalid="ignore"):
+            whole = values * 10.0 ** (digits - 1 - exponents)
+            are_whole = np.abs(whole - np.rint(whole)) <= _ROUND_OFF * whole
+        if np.all(are_whole):
             found = 0.5 * 10.0 ** (np.floor(np.log10(largest)) + 1 - digits)
             break
     with np.errstate(over="ignore"):

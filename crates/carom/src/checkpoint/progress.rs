@@ -62,10 +62,17 @@ fn cross_checks(archive: &mut Archive<'_>, checks: &mut CrossCheckSummary) -> Do
     checks.solvers = names().zip(solvers).filter(|&(_, count)| count > 0).collect();
     let counts = [&mut checks.problems, &mut checks.unsolved, &mut checks.disagreements];
     archive.integers("cross_checks/counts", counts)?;
+    if checks.unsolved.saturating_add(checks.disagreements) > checks.problems {
+        return Err(CheckpointError::new("cross_checks/counts", "has more answers than problems"));
+    }
     let sizes =
         [&mut checks.max_difference, &mut checks.explained_difference, &mut checks.max_certificate_joule];
     archive.extremes("cross_checks/sizes", sizes)?;
-    archive.optional("cross_checks/time_of_max", [&mut checks.time_of_max])
+    archive.optional("cross_checks/time_of_max", [&mut checks.time_of_max])?;
+    if checks.disagreements > 0 && checks.time_of_max.is_none() {
+        return Err(CheckpointError::new("cross_checks/time_of_max", "is missing where answers differ"));
+    }
+    Ok(())
 }
 
 fn events(archive: &mut Archive<'_>, groups: &[Group], log: &mut EventLog) -> Done {
