@@ -2,8 +2,6 @@ use carom_fem::FemError;
 use carom_friction::SolveReport;
 use thiserror::Error;
 
-use crate::Crushed;
-
 /// A scenario that cannot be run, found before anything is computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{message}")]
@@ -106,24 +104,4 @@ pub enum StepError {
     /// The iteration matrix could not be factorised.
     #[error(transparent)]
     Matrix(#[from] FemError),
-}
-
-/// Why a run stopped early.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error(
-    "step at t = {time:.9} s failed with a length of {time_step:.3e} s, after {halvings} halving{}: {reason}{}",
-    if *halvings == 1 { "" } else { "s" },
-    crushed.as_ref().map_or_else(String::new, |crushed| format!("; it starts with {crushed}"))
-)]
-pub struct RunError {
-    /// Start of the step that failed [s].
-    pub time: f64,
-    /// Shortest step tried [s].
-    pub time_step: f64,
-    /// How often the step was halved.
-    pub halvings: u32,
-    /// Why the shortest one failed.
-    pub reason: StepError,
-    /// What may be behind that: cells that are crushed at the start of the step.
-    pub crushed: Option<Box<Crushed>>,
 }

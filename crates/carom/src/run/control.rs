@@ -5,7 +5,8 @@
 
 use carom_mesh::parallel::among_threads;
 
-use crate::error::{RunError, StepError};
+use super::error::RunError;
+use crate::error::StepError;
 use crate::step::report::StepReport;
 use crate::step::workspace::Workspace;
 use crate::{Crushed, Method, Model, Scheme, State, step};

@@ -3,6 +3,7 @@
 pub(crate) mod control;
 pub(crate) mod crushed;
 pub(crate) mod describe;
+pub(crate) mod error;
 pub(crate) mod events;
 pub(crate) mod history;
 pub(crate) mod nominal_step;

@@ -4,10 +4,11 @@ use carom_fem::CellState;
 use carom_mesh::Vector;
 use serde::Serialize;
 
+use super::error::RunError;
 use crate::build::{Meshes, build};
 use crate::contact::PosedProblem;
 use crate::contact::cross_check::CrossCheckSummary;
-use crate::error::{InputError, RunError};
+use crate::error::InputError;
 use crate::ledger::table::LedgerTable;
 use crate::run::control::advance_nominal_step;
 use crate::run::describe::{Description, describe};

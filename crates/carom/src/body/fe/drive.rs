@@ -2,7 +2,6 @@
 
 use carom_mesh::Vector;
 
-use super::equation::Equation;
 use super::part::ModelBody;
 use crate::body::{Guess, Interval};
 use crate::signal::Signal;
@@ -73,28 +72,4 @@ impl<const D: usize> Drive<D> {
         }
         sum.is_finite().then_some(largest)
     }
-}
-
-/// What the supports of a body do, at the final motion of a step.
-///
-/// `residual` is that of the body without reactions, scaled as the step's; its held rows are what the supports make up for:
-/// with R = −residual, the force of a support less what contact presses on it, their work is Σ R·d plus, where v₊ is not what the
-/// scheme makes of d, [M(v₊ − v)]·(½(v + v₊) − d/Δt). The change of kinetic energy is then closed whatever the motion.
-pub(crate) fn support_work<const D: usize>(
-    equation: &Equation<'_, D>,
-    rates: &[f64],
-    residual: &[Vector<D>],
-    momentum_change: &[Vector<D>],
-) -> f64 {
-    let mut work = 0.0;
-    for (dof, rate) in equation.body.held().dofs().iter().zip(rates) {
-        let (n, i) = (dof.node as usize, dof.component as usize);
-        let d = equation.motion[n][i];
-        work -= residual[n][i] * d;
-        if !equation.map.is_static() {
-            let mean = 0.5 * (equation.velocity[n][i] + rate);
-            work += momentum_change[n][i] * (mean - d / equation.map.dt);
-        }
-    }
-    work
 }

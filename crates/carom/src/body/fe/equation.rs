@@ -238,4 +238,22 @@ impl<'a, const D: usize> Equation<'a, D> {
         }
         &scratch.viscous
     }
+
+    /// What the supports do at the final motion of a step [J].
+    ///
+    /// `residual` is that of the body without reactions, scaled as the step's; its held rows are what the supports make up for:
+    /// with R = −residual, the force of a support less what contact presses on it, their work is Σ R·d plus, where v₊ is not what the
+    /// scheme makes of d, [M(v₊ − v)]·(½(v + v₊) − d/Δt). The change of kinetic energy is then closed whatever the motion.
+    pub fn support_work(&self, residual: &[Vector<D>], momentum_change: &[Vector<D>]) -> f64 {
+        let mut work = 0.0;
+        self.each_held(|n, i, rate| {
+            let d = self.motion[n][i];
+            work -= residual[n][i] * d;
+            if !self.map.is_static() {
+                let mean = 0.5 * (self.velocity[n][i] + rate);
+                work += momentum_change[n][i] * (mean - d / self.map.dt);
+            }
+        });
+        work
+    }
 }

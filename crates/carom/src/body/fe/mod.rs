@@ -15,7 +15,7 @@ use carom_fem::sparse::Precision;
 use carom_mesh::{Matrix, Vector, nodal, tensor};
 
 use self::blended::BlendedForces;
-use self::drive::{Drive, support_work};
+use self::drive::Drive;
 use self::equation::{Equation, Pose, ResidualScratch};
 use self::iteration_matrix::IterationMatrix;
 use self::part::ModelBody;
@@ -104,7 +104,7 @@ impl<const D: usize> FeBody<D> {
             None => equation.residual(scratch, residual),
         }
         part.body.mass().multiply(jump, momentum);
-        let work = support_work(&equation, &drive.rates, residual, momentum);
+        let work = equation.support_work(residual, momentum);
         let weights = guess.interval.contact_weights;
         for (dof, k) in part.supports.driven(&part.body) {
             let (n, i) = (dof.node as usize, dof.component as usize);
