@@ -80,6 +80,23 @@ impl ContactSurface {
         }
     }
 
+    /// Points without facets, such as that of a particle: they may touch others, and nothing can touch them. `nodes` are ascending.
+    #[must_use]
+    pub fn of_points(nodes: Vec<u32>) -> Self {
+        Self {
+            facets: Vec::new(),
+            facets_around: vec![Vec::new(); nodes.len()],
+            sources: nodes.clone(),
+            nodes,
+            is_meridian: false,
+            never_touched: Vec::new(),
+            edges: Vec::new(),
+            has_features: false,
+            masters: BTreeMap::new(),
+            shape: Shape::Faceted,
+        }
+    }
+
     /// The same boundary as the meridian of a body of revolution.
     #[must_use]
     pub fn revolved(self) -> Self {

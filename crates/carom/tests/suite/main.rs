@@ -9,6 +9,7 @@ mod contact_search;
 mod curved_obstacles;
 mod driven_bodies;
 mod edges;
+mod foreign_body;
 mod hypotheses;
 mod incline;
 mod invariance;
