@@ -8,20 +8,13 @@ use std::ops::Range;
 
 use carom_mesh::{Vector, nodal};
 
+use super::control::CONTROL;
 use super::convergence::BodyProgress;
 use crate::model::given::Given;
 use crate::model::state::State;
 
 /// Differences combined.
 const DEPTH: usize = 3;
-/// Differences of corrections that are parallel up to this, relative and squared, say nothing new.
-const PARALLEL: f64 = 1e-12;
-/// Largest weight of a difference: beyond it the combination is an extrapolation that nothing supports. Still too large for steps ten
-/// times as long as those of the two cylinders, where weights of at most 0.3 hold: see docs/speed.md.
-const LARGEST_WEIGHT: f64 = 2.0;
-/// A free body whose corrections shrink faster than this is left alone: acceleration would cost more than it saves.
-const FAST: f64 = 0.05;
-
 /// The last guesses and corrections, one vector per node of the model.
 #[derive(Debug)]
 pub(crate) struct Acceleration<const D: usize> {
@@ -81,7 +74,7 @@ impl Products {
                 let sum = self.matrix[p][places[j]] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
                 l[i][j] = if i == j { sum } else { sum / l[j][j] };
             }
-            if l[i][i] <= PARALLEL * self.matrix[p][p] {
+            if l[i][i] <= CONTROL.parallel * self.matrix[p][p] {
                 used = i;
                 break;
             }
@@ -93,7 +86,7 @@ impl Products {
             y[i] = (y[i] - (i + 1..used).map(|k| l[k][i] * y[k]).sum::<f64>()) / l[i][i];
             weights[places[i]] = y[i];
         }
-        if weights.iter().all(|w| w.abs() <= LARGEST_WEIGHT) { weights } else { [0.0; DEPTH] }
+        if weights.iter().all(|w| w.abs() <= CONTROL.largest_weight) { weights } else { [0.0; DEPTH] }
     }
 }
 
@@ -158,7 +151,7 @@ impl<const D: usize> Acceleration<D> {
     /// Takes note of the last `correction` [m] of the `bodies`, which led to the `motion` [m] so far.
     pub fn take_note(&mut self, bodies: &[usize], last: &Last<'_, D>, nodes: impl Fn(usize) -> Range<usize>) {
         for &i in bodies {
-            let slow = !last.is_first && last.progress[i].contraction > FAST;
+            let slow = !last.is_first && last.progress[i].contraction > CONTROL.fast;
             if last.touched[i] || slow || self.bodies[i].count > 0 {
                 self.record(i, nodes(i), last.motion, last.correction);
             }

@@ -2,46 +2,11 @@
 
 use carom_mesh::nodal;
 
+use super::control::CONTROL;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
 use crate::scheme::StressRule;
-
-/// A factor is renewed within a step when iterations converge slower than this, `PATIENCE` iterations after the last one. Elastic bodies
-/// get over what makes them slow, and a factor made there would be a worse one afterwards.
-const SLOW_CONTRACTION: f64 = 0.3;
-/// See `SLOW_CONTRACTION`.
-const PATIENCE: usize = 12;
-/// As `PATIENCE`, in a static analysis, whose steps are long and few, and where plastic flow makes another body of one.
-const CHANGED_PATIENCE: usize = 3;
-/// A correction is the last one where this times its contraction would leave less than what is wanted. The contraction is that of
-/// accelerated iterations, and the last correction stands as it is. Measured: with 10 the energy of conserving runs drifts three times as far.
-const SAFETY: f64 = 30.0;
-/// The same where errors do not count so much: every load step of a static analysis is a solution of its own, and beside the error of the
-/// weighted stresses of a long step that of its iterations is nothing.
-const LESS_SAFETY: f64 = 10.0;
-/// No contraction is trusted to be better than this: after a wild guess a correction may look small that is not.
-const LEAST_CONTRACTION: f64 = 1e-3;
-/// A loose body whose corrections shrink no faster than this is driven away by forces that nothing resists.
-const NO_CONTRACTION: f64 = 0.95;
-/// A correction larger than this times the first one, or the motion that the step set out with, leads away from the solution next to
-/// the start. Iterations may well converge from there, to another one: a body buckled or turned inside out.
-const ASTRAY: f64 = 3.0;
-/// Iterations that have not halved the smallest correction for so long get nowhere, and a shorter step is the better chance. Measured on
-/// impacts at up to twenty times the speed of waves: of 568 steps that did not converge 480 had such a spell, of 1640 that converged
-/// after more than 12 iterations 3. Load steps go on, as plastic flow takes its time to settle.
-const STALLED: usize = 15;
-/// Iterations that got so far down, in units of round-off, before they got nowhere have converged: nothing better can be had. A clamped
-/// block on a shaking floor stalls at 3.5; where steps do not converge, stalls at less than 200 have not been seen.
-const UNAVOIDABLE: f64 = 100.0;
-
-/// Contacts from which their problem costs so much that it is solved no better than an iteration needs that is not the last one.
-const MANY_CONTACTS: usize = 100;
-/// What its solution may be wrong by, in corrections that are expected, and in last ones as long as it is not known how fast they shrink.
-const LOOSE: f64 = 1e-3;
-const LOOSE_AT_FIRST: f64 = 1e-9;
-/// An iteration may be the last one if the correction that is expected of it is within so many times of what is wanted.
-const NEAR: f64 = 30.0;
 
 /// How the iterations of one body go within a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,7 +41,8 @@ impl BodyProgress {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Convergence {
     safety: f64,
-    patience: usize,
+    /// Whether bodies become others in the step.
+    is_changing: bool,
     max_iterations: usize,
     /// Relative to the motion in the step, or to `reached`.
     tolerance: f64,
@@ -98,10 +64,14 @@ impl Convergence {
         let Given { assembly, method, state, interval } = *given;
         let map = &interval.map;
         let is_static = map.is_static();
-        let changed = is_static || state.history.iter().any(|history| !history.is_empty());
+        let is_changing = is_static || state.history.iter().any(|history| !history.is_empty());
         Self {
-            safety: if is_static || map.stress == StressRule::Weighted { LESS_SAFETY } else { SAFETY },
-            patience: if changed { CHANGED_PATIENCE } else { PATIENCE },
+            safety: if is_static || map.stress == StressRule::Weighted {
+                CONTROL.less_safety
+            } else {
+                CONTROL.safety
+            },
+            is_changing,
             max_iterations: method.newton.max_iterations,
             tolerance: method.newton.tolerance,
             reached: if is_static {
@@ -156,18 +126,22 @@ impl Convergence {
     /// How wrong the motion of so many `contacts` may be after the next iteration [m]: not at all, but for the tolerance of their
     /// problem, where that may be the last one.
     pub fn contact_error(&self, contacts: usize, bodies: &[usize], progress: &[BodyProgress]) -> f64 {
-        if self.is_static || contacts < MANY_CONTACTS {
+        if self.is_static || contacts < CONTROL.many_contacts {
             return 0.0;
         }
         let largest =
             |of: fn(&BodyProgress) -> f64| bodies.iter().map(|&i| of(&progress[i])).fold(0.0, f64::max);
         let motion = largest(|p| p.motion);
         let expected = largest(|p| p.correction * p.contraction);
-        if expected <= NEAR * self.wanted(motion) {
+        if expected <= CONTROL.near * self.wanted(motion) {
             return 0.0;
         }
         let known = largest(|p| p.contraction) < 1.0;
-        if known { LOOSE * expected } else { LOOSE_AT_FIRST * largest(|p| p.correction).min(motion) }
+        if known {
+            CONTROL.loose * expected
+        } else {
+            CONTROL.loose_at_first * largest(|p| p.correction).min(motion)
+        }
     }
 
     /// Takes note of a correction [m]; whether it has been long since one was much smaller than those before.
@@ -177,17 +151,17 @@ impl Convergence {
         } else {
             self.stalled += 1;
         }
-        self.stalled >= STALLED
+        self.stalled >= CONTROL.stalled
     }
 
     /// Whether a correction [m] where iterations stall is due to round-off.
     fn is_unavoidable(&self, correction: f64) -> bool {
-        correction <= UNAVOIDABLE * self.round_off
+        correction <= CONTROL.unavoidable * self.round_off
     }
 
     /// A correction this small, or one after which the next will surely be.
     fn has_converged(&self, p: &BodyProgress, motion: f64) -> bool {
-        let left = (self.safety * p.contraction.max(LEAST_CONTRACTION)).min(1.0);
+        let left = (self.safety * p.contraction.max(CONTROL.least_contraction)).min(1.0);
         p.correction * left <= self.wanted(motion)
     }
 
@@ -201,7 +175,7 @@ impl Convergence {
         if iteration == 1 {
             self.reach = motion.max(correction).max(self.round_off);
         }
-        if correction > ASTRAY * self.reach && !self.is_static {
+        if correction > CONTROL.astray * self.reach && !self.is_static {
             return Err(StepError::Astray { iterations: iteration, correction, reach: self.reach });
         }
         Ok(())
@@ -218,9 +192,10 @@ impl Convergence {
         bodies: &[usize],
         progress: &[BodyProgress],
     ) -> bool {
-        let waited = if self.patience == CHANGED_PATIENCE { iteration } else { since };
-        waited >= self.patience
-            && bodies.iter().map(|&i| progress[i].contraction).fold(0.0, f64::max) > SLOW_CONTRACTION
+        let is_patient =
+            if self.is_changing { iteration < CONTROL.changed_patience } else { since < CONTROL.patience };
+        !is_patient
+            && bodies.iter().map(|&i| progress[i].contraction).fold(0.0, f64::max) > CONTROL.slow_contraction
     }
 }
 
@@ -230,7 +205,7 @@ fn not_held<const D: usize>(
     progress: &[BodyProgress],
     assembly: &Assembly<D>,
 ) -> Option<StepError> {
-    let lost = |i: &&usize| progress[**i].is_loose && progress[**i].contraction > NO_CONTRACTION;
+    let lost = |i: &&usize| progress[**i].is_loose && progress[**i].contraction > CONTROL.no_contraction;
     let worst = bodies
         .iter()
         .filter(lost)
@@ -243,8 +218,8 @@ mod tests {
     use super::*;
 
     const DYNAMIC: Convergence = Convergence {
-        safety: SAFETY,
-        patience: PATIENCE,
+        safety: CONTROL.safety,
+        is_changing: false,
         max_iterations: 100,
         tolerance: 1e-10,
         reached: 0.0,
@@ -264,7 +239,7 @@ mod tests {
     #[test]
     fn iterations_that_wander_are_hopeless_and_those_that_are_slow_are_not() {
         let wander = (0..50).map(|k| 1.0 + 0.4 * f64::from(k).sin());
-        assert_eq!(hopeless_after(wander), Some(STALLED + 1));
+        assert_eq!(hopeless_after(wander), Some(CONTROL.stalled + 1));
         assert_eq!(hopeless_after((0..90).map(|k| 0.9_f64.powi(k))), None);
         let late = (0..40).map(|k| if k < 14 { 1.0 } else { 0.1_f64.powi(k - 13) });
         assert_eq!(hopeless_after(late), None);
@@ -303,7 +278,7 @@ mod tests {
     #[test]
     fn a_renewed_factor_is_given_time_where_bodies_stay_what_they_are() {
         assert_eq!(renewals(DYNAMIC), [12, 24]);
-        assert!(renewals(Convergence { patience: CHANGED_PATIENCE, ..DYNAMIC }).into_iter().eq(3..=30));
+        assert!(renewals(Convergence { is_changing: true, ..DYNAMIC }).into_iter().eq(3..=30));
     }
 
     /// Loosely where much is still to come, to the end where this may be the end, and where it costs little.
@@ -315,9 +290,9 @@ mod tests {
             corrections.iter().for_each(|&c| progress.note(c, 1.0));
             convergence.contact_error(contacts, &[0], &[progress])
         };
-        assert_eq!(error(MANY_CONTACTS, &[]), LOOSE_AT_FIRST);
-        assert_eq!(error(MANY_CONTACTS, &[0.5, 0.125]), LOOSE * 0.125 / 4.0);
-        assert_eq!(error(MANY_CONTACTS, &[1e-6, 1e-8]), 0.0);
-        assert_eq!(error(MANY_CONTACTS - 1, &[0.5, 0.1]), 0.0);
+        assert_eq!(error(CONTROL.many_contacts, &[]), CONTROL.loose_at_first);
+        assert_eq!(error(CONTROL.many_contacts, &[0.5, 0.125]), CONTROL.loose * 0.125 / 4.0);
+        assert_eq!(error(CONTROL.many_contacts, &[1e-6, 1e-8]), 0.0);
+        assert_eq!(error(CONTROL.many_contacts - 1, &[0.5, 0.1]), 0.0);
     }
 }

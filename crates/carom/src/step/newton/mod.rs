@@ -1,6 +1,7 @@
 //! How Newton's iterations go on and end.
 
 pub(super) mod acceleration;
+mod control;
 pub(super) mod convergence;
 
 use carom_mesh::Vector;

@@ -1,0 +1,71 @@
+//! Every threshold of Newton's iterations, with what it was measured by.
+
+/// When iterations of a step have ended, are slow, lead astray or get nowhere, and how well the contacts are solved on the way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Control {
+    /// A correction is the last one where this times its contraction would leave less than what is wanted. The contraction is that of
+    /// accelerated iterations, and the last correction stands as it is. Measured: with 10 the energy of conserving runs drifts three times as
+    /// far.
+    pub safety: f64,
+    /// The same where errors do not count so much: every load step of a static analysis is a solution of its own, and beside the error of the
+    /// weighted stresses of a long step that of its iterations is nothing.
+    pub less_safety: f64,
+    /// No contraction is trusted to be better than this: after a wild guess a correction may look small that is not.
+    pub least_contraction: f64,
+    /// K̄ is renewed within a step when corrections shrink more slowly than this from one to the next, `patience` iterations after the
+    /// last one. Elastic bodies get over what makes them slow, and a factor made there would be a worse one afterwards.
+    pub slow_contraction: f64,
+    /// See `slow_contraction`.
+    pub patience: usize,
+    /// As `patience`, counted from the start of the step, where bodies become others: in a static analysis, whose steps are long and few, and
+    /// where plastic flow makes another body of one.
+    pub changed_patience: usize,
+    /// A loose body whose corrections shrink no faster than this is driven away by forces that nothing resists.
+    pub no_contraction: f64,
+    /// A correction larger than this times the first one, or the motion that the step set out with, leads away from the solution next to
+    /// the start. Iterations may well converge from there, to another one: a body buckled or turned inside out.
+    pub astray: f64,
+    /// Iterations that have not halved the smallest correction for so long get nowhere, and a shorter step is the better chance. Measured on
+    /// impacts at up to twenty times the speed of waves: of 568 steps that did not converge 480 had such a spell, of 1640 that converged
+    /// after more than 12 iterations 3. Load steps go on, as plastic flow takes its time to settle.
+    pub stalled: usize,
+    /// Iterations that got so far down, in units of round-off, before they got nowhere have converged: nothing better can be had. A clamped
+    /// block on a shaking floor stalls at 3.5; where steps do not converge, stalls at less than 200 have not been seen.
+    pub unavoidable: f64,
+    /// Contacts from which their problem costs so much that it is solved no better than an iteration needs that is not the last one.
+    pub many_contacts: usize,
+    /// What its solution may then be wrong by, in corrections that are expected.
+    pub loose: f64,
+    /// The same in last corrections, as long as it is not known how fast they shrink.
+    pub loose_at_first: f64,
+    /// An iteration may be the last one if the correction that is expected of it is within so many times of what is wanted.
+    pub near: f64,
+    /// A free body whose corrections shrink faster than this is not accelerated: it would cost more than it saves.
+    pub fast: f64,
+    /// Differences of corrections that are parallel up to this, relative and squared, say nothing new to the acceleration.
+    pub parallel: f64,
+    /// Largest weight of a difference: beyond it the combination is an extrapolation that nothing supports. Still too large for steps ten
+    /// times as long as those of the two cylinders, where weights of at most 0.3 hold: see docs/speed.md.
+    pub largest_weight: f64,
+}
+
+/// The thresholds of every run.
+pub(crate) const CONTROL: Control = Control {
+    safety: 30.0,
+    less_safety: 10.0,
+    least_contraction: 1e-3,
+    slow_contraction: 0.3,
+    patience: 12,
+    changed_patience: 3,
+    no_contraction: 0.95,
+    astray: 3.0,
+    stalled: 15,
+    unavoidable: 100.0,
+    many_contacts: 100,
+    loose: 1e-3,
+    loose_at_first: 1e-9,
+    near: 30.0,
+    fast: 0.05,
+    parallel: 1e-12,
+    largest_weight: 2.0,
+};
