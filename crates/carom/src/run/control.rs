@@ -22,67 +22,97 @@ const EASY: usize = 12;
 /// step may leave as much as a long one.
 const LARGEST_DEBT: f64 = 1e-3;
 
-/// Takes `state` over one nominal step of length `dt` that ends at time `end` [s], in substeps where it must be.
-///
-/// After each substep that succeeds `observe` is told; `spare` is scratch of the same size as `state`. On an error `state` is
-/// where the last good substep left it.
-/// `energy` is the largest of the model so far [J],
-/// `failed` counts the substeps that failed, and `halvings` is how often the steps of a static analysis are halved at present.
-pub(crate) fn advance_nominal_step<const D: usize>(
-    model: &Model<D>,
-    method: &Method<D>,
-    state: &mut State<D>,
-    spare: &mut State<D>,
-    end: f64,
-    dt: f64,
-    energy: f64,
-    work: &mut Workspace<D>,
-    failed: &mut u64,
-    halvings: &mut u32,
-    mut observe: impl FnMut(&State<D>, &StepReport, &Workspace<D>),
-) -> Result<(), RunError> {
-    // Progress is counted in the smallest substep allowed, so that halves always meet the grid.
-    let whole = 1_u64 << method.max_halvings;
-    let mut done = 0;
-    let load_steps = method.scheme == Scheme::Static;
-    let mut size = if load_steps { whole >> *halvings } else { whole };
-    while done < whole {
-        let length = dt * (size as f64 / whole as f64);
-        let taken =
-            among_threads(model.node_count(), || step(&model.assembly, method, state, spare, length, work))
-                .and_then(|report| check_debt(state, spare, energy, &report).map(|()| report));
-        match taken {
-            Ok(report) => {
-                done += size;
-                spare.time = end - dt * ((whole - done) as f64 / whole as f64);
-                std::mem::swap(state, spare);
-                observe(state, &report, work);
-                // Grow again where the coarser grid allows.
-                let easy = report.newton_iterations <= EASY;
-                while size < whole && done % (2 * size) == 0 && (easy || !load_steps) {
-                    size *= 2;
-                    if load_steps {
-                        break;
+/// A nominal step: one of the time grid.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Nominal {
+    /// When it ends [s].
+    pub end: f64,
+    /// Its length [s].
+    pub dt: f64,
+    /// The largest energy of the model so far [J].
+    pub energy: f64,
+}
+
+/// A state on its way through time.
+pub(crate) struct Stepper<'a, const D: usize> {
+    pub model: &'a Model<D>,
+    pub method: &'a Method<D>,
+    pub state: &'a mut State<D>,
+    /// Scratch of the same size.
+    pub spare: &'a mut State<D>,
+    pub work: &'a mut Workspace<D>,
+    /// How often the steps of a static analysis are halved at present.
+    pub halvings: &'a mut u32,
+    /// Substeps that failed.
+    pub failed: u64,
+}
+
+impl<const D: usize> Stepper<'_, D> {
+    /// Takes the state over a nominal step, in substeps where it must be; `observe` is told of each that succeeds.
+    ///
+    /// # Errors
+    /// If the shortest substep fails; the state is where the last good one left it.
+    pub fn advance(
+        &mut self,
+        nominal: Nominal,
+        mut observe: impl FnMut(&State<D>, &StepReport, &Workspace<D>),
+    ) -> Result<(), RunError> {
+        let Nominal { end, dt, energy } = nominal;
+        // Progress is counted in the smallest substep allowed, so that halves always meet the grid.
+        let whole = 1_u64 << self.method.max_halvings;
+        let mut done = 0;
+        let load_steps = self.method.scheme == Scheme::Static;
+        let mut size = if load_steps { whole >> *self.halvings } else { whole };
+        while done < whole {
+            let length = dt * (size as f64 / whole as f64);
+            match self.substep(length, energy) {
+                Ok(report) => {
+                    done += size;
+                    self.spare.time = end - dt * ((whole - done) as f64 / whole as f64);
+                    std::mem::swap(self.state, self.spare);
+                    observe(self.state, &report, self.work);
+                    // Grow again where the coarser grid allows.
+                    let easy = report.newton_iterations <= EASY;
+                    while size < whole && done % (2 * size) == 0 && (easy || !load_steps) {
+                        size *= 2;
+                        if load_steps {
+                            break;
+                        }
                     }
                 }
-            }
-            Err(reason) => {
-                *failed += 1;
-                if size == 1 {
-                    return Err(RunError {
-                        time: state.time,
-                        time_step: length,
-                        halvings: method.max_halvings,
-                        reason,
-                        crushed: Crushed::find(model, state).map(Box::new),
-                    });
+                Err(reason) => {
+                    self.failed += 1;
+                    if size == 1 {
+                        return Err(self.error(length, reason));
+                    }
+                    size /= 2;
                 }
-                size /= 2;
             }
         }
+        *self.halvings = (whole / size).trailing_zeros();
+        Ok(())
     }
-    *halvings = (whole / size).trailing_zeros();
-    Ok(())
+
+    /// Writes the state after `length` [s] to `spare`.
+    fn substep(&mut self, length: f64, energy: f64) -> Result<StepReport, StepError> {
+        let Self { model, method, state, spare, work, .. } = self;
+        let assembly = &model.assembly;
+        let report =
+            among_threads(model.node_count(), || step(assembly, method, state, spare, length, work))?;
+        check_debt(state, spare, energy, &report)?;
+        Ok(report)
+    }
+
+    /// Why the run ends here.
+    fn error(&self, length: f64, reason: StepError) -> RunError {
+        RunError {
+            time: self.state.time,
+            time_step: length,
+            halvings: self.method.max_halvings,
+            reason,
+            crushed: Crushed::find(self.model, self.state).map(Box::new),
+        }
+    }
 }
 
 /// Refuses a step to `next` whose blends left more over than a share of the largest `energy` [J], be it too much or too little of a body. A run

@@ -10,5 +10,6 @@ pub(crate) mod nominal_step;
 pub(crate) mod simulation;
 pub(crate) mod summary;
 pub(crate) mod surface_fields;
+pub(crate) mod time_grid;
 pub(crate) mod totals;
 pub(crate) mod tracked;

@@ -10,7 +10,8 @@ use crate::contact::PosedProblem;
 use crate::contact::cross_check::CrossCheckSummary;
 use crate::error::InputError;
 use crate::ledger::table::LedgerTable;
-use crate::run::control::advance_nominal_step;
+use crate::run::control::{Nominal, Stepper};
+use crate::run::time_grid::TimeGrid;
 use crate::run::describe::{Description, describe};
 use crate::run::events::EventLog;
 use crate::run::history::History;
@@ -42,10 +43,7 @@ pub struct Simulation<const D: usize> {
     pub(crate) spare: State<D>,
     pub(crate) work: Workspace<D>,
     pub(crate) description: Description,
-    pub(crate) time_step: f64,
-    pub(crate) end_time: f64,
-    pub(crate) steps: u64,
-    pub(crate) step: u64,
+    pub(crate) grid: TimeGrid,
     /// How often the steps of a static analysis are halved at present.
     pub(crate) halvings: u32,
     pub(crate) history_every: f64,
@@ -139,18 +137,14 @@ impl<const D: usize> Simulation<D> {
                 format!("{dt}: the run would have {:.1e} steps, more than {MAX_STEPS:.0e}", end / dt);
             return Err(InputError::new("analysis.time_step", message));
         }
-        // A last step shorter than this fraction of the others would only be round-off of end_time/time_step.
-        let steps = (end / dt - 1e-6).ceil().max(1.0) as u64;
+        let grid = TimeGrid::new(dt, end);
         let work = Workspace::new(&model);
         let mut simulation = Self {
-            description: describe(&scenario.title, &model, &state, steps),
+            description: describe(&scenario.title, &model, &state, grid.steps),
             events: EventLog::new(&model, method.scheme, dt, scenario.output.merge_contacts),
             history: History::new(&model, &state, tracks),
             spare: state.clone(),
-            time_step: dt,
-            end_time: end,
-            steps,
-            step: 0,
+            grid,
             halvings: 0,
             history_every: scenario.output.history_every,
             history_rows: 0,
@@ -209,7 +203,7 @@ impl<const D: usize> Simulation<D> {
     /// # Panics
     /// If steps were made already or the number of nodes is not that of the model.
     pub fn set_initial_velocity(&mut self, velocity: Vec<Vector<D>>) {
-        assert_eq!(self.step, 0, "initial velocities belong before the first step");
+        assert_eq!(self.grid.step, 0, "initial velocities belong before the first step");
         self.state = self.model.initial_state(velocity);
         self.initial_energies.clone_from(&self.state.body_energies);
         self.description.energy = self.state.energies.total();
@@ -230,13 +224,13 @@ impl<const D: usize> Simulation<D> {
     /// Nominal steps done.
     #[must_use]
     pub fn step(&self) -> u64 {
-        self.step
+        self.grid.step
     }
 
     /// Nominal steps of the whole run.
     #[must_use]
     pub fn steps(&self) -> u64 {
-        self.steps
+        self.grid.steps
     }
 
     /// The last contact problem that a step posed; after [`crate::StepError::Friction`] the one that failed, at the shortest
@@ -275,7 +269,7 @@ impl<const D: usize> Simulation<D> {
     /// # Errors
     /// If a step fails after all retries; the state is then that after the last good step.
     pub fn advance(&mut self, until: f64, mut pause: impl FnMut() -> bool) -> Result<Outcome, RunError> {
-        while self.step < self.steps && self.state.time < until - 1e-6 * self.time_step {
+        while self.grid.goes_on(self.state.time, until) {
             self.one_step()?;
             if pause() {
                 return Ok(Outcome::Paused);
@@ -285,63 +279,33 @@ impl<const D: usize> Simulation<D> {
     }
 
     fn one_step(&mut self) -> Result<(), RunError> {
-        // Times are multiples of the step, not sums, so that they do not drift; all steps but a shorter last one have the very
-        // same length, so that they share their factors.
-        let start = self.step as f64 * self.time_step;
-        let rest = self.end_time - start;
-        let length = if rest < (1.0 - 1e-6) * self.time_step { rest } else { self.time_step };
-        let last = self.step + 1 == self.steps;
-        let end = if last { self.end_time } else { (self.step + 1) as f64 * self.time_step };
-        let Self {
-            model,
-            method,
-            state,
-            spare,
-            work,
-            events,
-            history,
-            books,
-            totals,
-            cross_checks,
-            initial_energies,
-            last_step,
-            nominal_step,
-            halvings,
-            ..
-        } = self;
+        let (dt, end) = self.grid.next_step();
+        let nominal = Nominal { end, dt, energy: self.totals.max_energy };
+        let Self { model, method, state, spare, work, halvings, .. } = self;
+        let Self { events, history, books, totals, cross_checks, initial_energies, .. } = self;
+        let Self { last_step, nominal_step, .. } = self;
         let mut previous_time = state.time;
         let initial = initial_energies.iter().map(Energies::total).sum::<f64>();
-        let mut failed = 0;
         *nominal_step = NominalStep::default();
-        let outcome = advance_nominal_step(
-            model,
-            method,
-            state,
-            spare,
-            end,
-            length,
-            totals.max_energy,
-            work,
-            &mut failed,
-            halvings,
-            |state, report, work| {
-                books.add(report.ledger, &work.body_ledgers, work.groups.iter().map(|g| g.ledger));
-                books.set_changes(initial_energies, &state.body_energies);
-                *last_step = Some(report.ledger);
-                nominal_step.note(report);
-                events.record(&model.assembly.groups, &work.groups, previous_time, state.time);
-                history.observe(report, state, state.time - previous_time);
-                report.cross_check.iter().for_each(|check| cross_checks.note(check, state.time));
-                previous_time = state.time;
-                totals.note(report, &state.energies, books, initial);
-            },
-        );
+        let mut stepper = Stepper { model, method, state, spare, work, halvings, failed: 0 };
+        let outcome = stepper.advance(nominal, |state, report, work| {
+            books.add(report.ledger, &work.body_ledgers, work.groups.iter().map(|g| g.ledger));
+            books.set_changes(initial_energies, &state.body_energies);
+            *last_step = Some(report.ledger);
+            nominal_step.note(report);
+            events.record(&model.assembly.groups, &work.groups, previous_time, state.time);
+            history.observe(report, state, state.time - previous_time);
+            report.cross_check.iter().for_each(|check| cross_checks.note(check, state.time));
+            previous_time = state.time;
+            totals.note(report, &state.energies, books, initial);
+        });
+        let failed = stepper.failed;
         self.totals.retried += failed;
         self.history.since.retried += failed;
         outcome?;
-        self.step += 1;
+        self.grid.step += 1;
         let due = (self.history_rows as f64) * self.history_every;
-        if self.state.time >= due - 1e-6 * self.time_step {
+        if !self.grid.is_before(self.state.time, due) {
             self.record();
         }
         Ok(())
@@ -360,8 +324,7 @@ impl<const D: usize> Simulation<D> {
         self.totals.min_gap = self.totals.min_gap.min(min_gap);
         self.last_recorded = Some(self.state.time);
         // The next multiple of the interval after now.
-        self.history_rows =
-            ((self.state.time + 1e-6 * self.time_step) / self.history_every).floor() as u64 + 1;
+        self.history_rows = self.grid.intervals(self.state.time, self.history_every);
     }
 
     /// Names of the columns of the history.
@@ -391,7 +354,7 @@ impl<const D: usize> Simulation<D> {
     pub fn progress(&self) -> Progress {
         let e = self.state.energies;
         Progress {
-            step: self.step,
+            step: self.grid.step,
             time: self.state.time,
             contacts: self.totals.contacts,
             retried: self.totals.retried,

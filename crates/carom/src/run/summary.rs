@@ -138,11 +138,11 @@ impl<const D: usize> Simulation<D> {
     pub fn summary(&self) -> Summary {
         let (e, t, l) = (self.state.energies, &self.totals, &self.books.total);
         Summary {
-            steps: self.step,
+            steps: self.grid.step,
             dofs: self.model.dofs(),
             size: self.model.assembly.size,
             end_time: self.state.time,
-            time_step: self.time_step,
+            time_step: self.grid.time_step,
             newton_iterations: t.newton_iterations,
             factorisations: self.work.factorisations,
             retried_steps: t.retried,
