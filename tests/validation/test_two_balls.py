@@ -29,10 +29,10 @@ def test_the_balls_meet_one_another_and_the_walls(balls_run, friction):
 
 
 def test_frictionless_impacts_conserve_energy(balls_run):
-    assert balls_run(0.0).energy("max_drift") <= 1e-10
+    assert balls_run(0.0).energy("max_drift") <= 2e-12
 
 
 def test_books_close_with_friction(balls_run):
     run = balls_run(0.2)
     assert run.energy("friction") >= 0.05
-    assert run.energy("max_defect") <= 1e-9
+    assert run.energy("max_defect") <= 1e-12
