@@ -24,7 +24,7 @@ extensions = [
 html_theme = "furo"
 html_show_copyright = False
 html_title = f"carom {release}"
-exclude_patterns = ["gallery", "gallery-pages/**/*.ipynb", "images"]
+exclude_patterns = ["decisions", "gallery", "gallery-pages/**/*.ipynb", "images"]
 
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4

@@ -103,10 +103,10 @@ def test_paths_and_identifiers_that_the_document_names_exist(words):
 
 
 def test_identifiers_are_in_the_files_where_they_are_said_to_be():
-    """Symptom guarded against: `missed_a_contact` in step.rs, which search.rs has."""
+    """Symptom guarded against: `missed_one` in the step, which the contacts have."""
     assert len(PLACED.findall(TEXT)) > 20
     assert misplaced(TEXT) == []
-    assert misplaced("`missed_a_contact` in `carom/src/step/mod.rs`") != []
+    assert misplaced("`missed_one` in `carom/src/step/mod.rs`") != []
 
 
 @pytest.mark.parametrize("title", ["One step", "Core types"])
@@ -134,3 +134,19 @@ def test_crates_know_what_the_document_lets_them_know():
             told |= set(list(rows)[: list(rows).index(crate)])
         assert uses <= told, crate
         assert told - uses <= {"carom-fem"} if crate == "carom-python" else told == uses, crate
+
+
+def test_decisions_are_numbered_and_dated():
+    records = sorted((ROOT / "docs" / "decisions").glob("[0-9]*.md"))
+    assert [int(record.name[:3]) for record in records] == list(range(1, len(records) + 1))
+    for record in records:
+        title, _, place, *_ = record.read_text(encoding="utf-8").splitlines()
+        assert re.match(rf"# {int(record.name[:3])}\. \w", title), record
+        assert re.match(r"\d{4}-\d{2}-\d{2}", place), record
+
+
+def test_links_of_decisions_lead_somewhere():
+    for page in (ROOT / "docs" / "decisions").glob("*.md"):
+        links = [path for _, path in LINK.findall(page.read_text(encoding="utf-8"))]
+        lost = [p for p in links if "://" not in p and not (page.parent / p).exists()]
+        assert lost == [], page
