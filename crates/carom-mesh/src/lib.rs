@@ -6,6 +6,7 @@ pub mod cell;
 mod error;
 pub mod generate;
 mod mesh;
+mod naming;
 pub mod nodal;
 pub mod parallel;
 pub mod sets;
