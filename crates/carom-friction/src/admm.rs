@@ -4,7 +4,7 @@ use crate::sparse_factor::NoFactor;
 use crate::splitting::{self, LinearLaw};
 use crate::stopping::Monitor;
 use crate::{
-    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, units,
+    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, scaled,
 };
 
 /// The alternating direction method of multipliers: the solution of a linear system with one factor, and projections on the
@@ -14,7 +14,7 @@ pub struct Admm;
 
 impl<const D: usize> FrictionSolver<D> for Admm {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
-        units::solve(problem, r, rule, |monitor, r| {
+        scaled::solve(problem, r, rule, |monitor, r| {
             (SolverKind::Admm, run(monitor, r, usize::MAX).unwrap_or(SolveStatus::Stalled))
         })
     }

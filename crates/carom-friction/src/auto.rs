@@ -5,7 +5,7 @@ use crate::proximal::Strategy;
 use crate::stopping::Monitor;
 use crate::{
     ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, admm,
-    gauss_seidel, units, uzawa,
+    gauss_seidel, scaled, uzawa,
 };
 
 /// Starts cheaply and escalates where that does not converge; the default.
@@ -38,7 +38,7 @@ const TURN: (usize, usize) = (1000, 500);
 
 impl<const D: usize> FrictionSolver<D> for Auto {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
-        units::solve(problem, r, rule, run)
+        scaled::solve(problem, r, rule, run)
     }
 }
 

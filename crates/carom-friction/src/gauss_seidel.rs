@@ -3,7 +3,7 @@ use crate::local::{AlartCurnier, Bipotential, Enumerative, LocalContact, LocalSo
 use crate::schedule::Schedule;
 use crate::stopping::Monitor;
 use crate::{
-    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone, units,
+    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone, scaled,
 };
 
 /// Block Gauss–Seidel: contact after contact, each with the present reactions of the others
@@ -28,7 +28,7 @@ pub enum Local {
 
 impl<const D: usize> FrictionSolver<D> for GaussSeidel {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
-        units::solve(problem, r, rule, |monitor, r| {
+        scaled::solve(problem, r, rule, |monitor, r| {
             let (kind, status) = match self.local {
                 Local::Bipotential => {
                     (SolverKind::GaussSeidel, run::<D, Bipotential>(monitor, r, usize::MAX))

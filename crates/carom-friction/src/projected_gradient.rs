@@ -1,7 +1,7 @@
 use crate::schedule::Schedule;
 use crate::stopping::Monitor;
 use crate::{
-    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone, units,
+    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone, scaled,
 };
 
 /// Accelerated projected gradients on the convex problem min ½ r·W r + r·(q + s n) over K, whose slip s = μ|w_t| follows the
@@ -27,7 +27,7 @@ const SHORTER: f64 = 1.5;
 
 impl<const D: usize> FrictionSolver<D> for ProjectedGradient {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
-        units::solve(problem, r, rule, |monitor, r| {
+        scaled::solve(problem, r, rule, |monitor, r| {
             (SolverKind::ProjectedGradient, run(monitor, r, usize::MAX).unwrap_or(SolveStatus::Stalled))
         })
     }

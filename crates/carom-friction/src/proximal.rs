@@ -4,7 +4,7 @@ use crate::equation::Equation;
 use crate::newton::{Newton, Shifted};
 use crate::stopping::Monitor;
 use crate::{
-    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone, units,
+    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone, scaled,
 };
 
 /// The proximal point method: W + shift I instead of W, around the last answer, solved by Newton's iterations
@@ -80,7 +80,7 @@ impl Strategy {
         r: &mut [Vector<D>],
         rule: &StoppingRule,
     ) -> SolveReport {
-        units::solve(problem, r, rule, |monitor, r| {
+        scaled::solve(problem, r, rule, |monitor, r| {
             if let Some(status) = monitor.check(r) {
                 return (kind, status);
             }

@@ -1,5 +1,6 @@
-use crate::units::{Units, exponent, power_of_two};
-use crate::{ContactProblem, Criterion, Vector, cone};
+use crate::binary::{exponent, power_of_two};
+use crate::units::Units;
+use crate::{ContactProblem, Vector, cone};
 
 /// How far reactions are from the laws of Signorini and Coulomb.
 ///
@@ -15,6 +16,16 @@ pub struct Measure {
     pub natural_residual: f64,
     /// Σ of the bi-potential gaps [J]: the certificate.
     pub certificate: f64,
+}
+
+/// In which units the residual has to be below the tolerance (see [`Measure`]).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Criterion {
+    /// In the units of the problem, as published codes compare themselves, and in its natural ones.
+    #[default]
+    Both,
+    /// In the natural units of the problem alone, so that the answer does not depend on the choice of units.
+    Natural,
 }
 
 impl Measure {

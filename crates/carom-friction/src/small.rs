@@ -1,7 +1,7 @@
 //! Closed forms for blocks of 1 × 1, 2 × 2 and 3 × 3 numbers.
 
 use crate::Matrix;
-use crate::units::{exponent, power_of_two};
+use crate::binary::{exponent, power_of_two};
 
 /// The inverse, or None where the determinant is zero or not a number.
 #[inline]

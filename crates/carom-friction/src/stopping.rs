@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use crate::clock::Clock;
 use crate::residual::{Measured, Meter};
-use crate::{ContactProblem, Measure, SolverKind, Vector};
+use crate::{ContactProblem, Criterion, Measure, SolverKind, Vector};
 
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,16 +38,6 @@ impl StoppingRule {
     pub(crate) fn clock(&self) -> Clock {
         Clock::new(self.time_limit)
     }
-}
-
-/// In which units the residual has to be below the tolerance (see [`Measure`]).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Criterion {
-    /// In the units of the problem, as published codes compare themselves, and in its natural ones.
-    #[default]
-    Both,
-    /// In the natural units of the problem alone, so that the answer does not depend on the choice of units.
-    Natural,
 }
 
 /// How a solve ended.

@@ -1,9 +1,7 @@
 //! Units in which squares neither overflow nor vanish.
 
-use crate::stopping::Monitor;
-use crate::{
-    BlockMatrix, ContactProblem, Matrix, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector,
-};
+use crate::binary::{exponent, power_of_two, times_power};
+use crate::{BlockMatrix, ContactProblem, Matrix, Vector};
 
 /// Powers of two in which the motions and reactions of a problem are counted: w = 2^motion w′ and r = 2^force r′.
 ///
@@ -18,7 +16,8 @@ pub(crate) struct Units {
 /// Largest exponent of the largest number of W and of that of q up to which a problem is solved in its own units: fourth powers of
 /// all that is computed of them are numbers still.
 const COMFORTABLE: i32 = 100;
-/// Largest exponent of the stiffness that counts as 1 (see [`StoppingRule::unit`]): beyond, one of the two is lost beside the other.
+/// Largest exponent of the stiffness that counts as 1 (see [`unit`](crate::StoppingRule::unit)): beyond, one of the two is lost beside the
+/// other.
 const LARGEST_UNIT: i32 = 300;
 
 impl Units {
@@ -78,81 +77,9 @@ impl Units {
     }
 }
 
-/// Solves `problem` by `run` in units in which that is safe. What is reported is measured of the reactions as they are handed back.
-pub(crate) fn solve<const D: usize>(
-    problem: &ContactProblem<D>,
-    r: &mut [Vector<D>],
-    rule: &StoppingRule,
-    run: impl FnOnce(&mut Monitor<'_, D>, &mut [Vector<D>]) -> (SolverKind, SolveStatus),
-) -> SolveReport {
-    let clock = rule.clock();
-    let units = Units::of(problem);
-    if units.are_own() {
-        let mut monitor = Monitor::new(problem, rule, clock);
-        drop_idle_reactions(&mut monitor, r);
-        let (kind, status) = run(&mut monitor, r);
-        return monitor.report(kind, status, r);
-    }
-    let scaled = units.enter(problem);
-    units.enter_reactions(r);
-    let rule = StoppingRule { unit: units.stiffness(rule.unit), ..*rule };
-    let mut monitor = Monitor::new(&scaled, &rule, clock);
-    drop_idle_reactions(&mut monitor, r);
-    let (kind, status) = run(&mut monitor, r);
-    // There and back again: the answer is judged as the caller gets it.
-    units.leave_reactions(r);
-    let mut returned = r.to_vec();
-    units.enter_reactions(&mut returned);
-    let mut report = monitor.report(kind, status, &returned);
-    report.measure.certificate = units.leave_energy(report.measure.certificate);
-    report
-}
-
-/// Where no motions call for reactions none are an answer, and the residual of any others has nothing to be small beside.
-fn drop_idle_reactions<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) {
-    let is_idle = monitor.problem().q.iter().all(|q| q.iter().all(|x| *x == 0.0));
-    if is_idle && !monitor.is_solved_by(r) {
-        r.fill(Vector::zeros());
-    }
-}
-
-/// The exponent e of a finite x ≠ 0 with 2^e ≤ |x| < 2^(e+1).
-pub(crate) fn exponent(x: f64) -> i32 {
-    let biased = |x: f64| ((x.to_bits() >> 52) & 0x7ff) as i32 - 1023;
-    if x.is_normal() { biased(x) } else { biased(x * power_of_two(100)) - 100 }
-}
-
-/// 2^k, for k from −1022 to 1023.
-pub(crate) fn power_of_two(k: i32) -> f64 {
-    debug_assert!((-1022..=1023).contains(&k));
-    f64::from_bits(((k + 1023) as u64) << 52)
-}
-
-/// x 2^k for any k.
-pub(crate) fn times_power(mut x: f64, mut k: i32) -> f64 {
-    while k.abs() > 1000 {
-        x *= power_of_two(1000 * k.signum());
-        k -= 1000 * k.signum();
-    }
-    x * power_of_two(k)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn exponents_are_those_of_the_binary_point() {
-        for (x, e) in [(1.0, 0), (1.99, 0), (2.0, 1), (0.5, -1), (-3.0, 1), (f64::MAX, 1023)] {
-            assert_eq!(exponent(x), e);
-        }
-        assert_eq!(exponent(f64::MIN_POSITIVE / 4.0), -1024);
-        assert_eq!(exponent(5e-324), -1074);
-        assert_eq!(times_power(5e-324, 1074), 1.0);
-        assert_eq!(times_power(1.5, -2000), 0.0);
-        assert_eq!(times_power(-3.0, 2), -12.0);
-        assert_eq!(times_power(times_power(3.0, -1021), 2000), 3.0 * power_of_two(979));
-    }
 
     #[test]
     fn units_are_left_alone_unless_out_of_proportion() {

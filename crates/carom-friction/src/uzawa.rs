@@ -1,7 +1,7 @@
 use crate::schedule::Schedule;
 use crate::stopping::Monitor;
 use crate::{
-    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone, units,
+    ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone, scaled,
 };
 
 /// The bi-potential iteration of de Saxcé and Feng on all contacts at once, r_i ← proj_K(r_i − θ ρ_i (w_i + μ|w_t| n)) with
@@ -26,7 +26,7 @@ const SHORT: f64 = 0.4;
 
 impl<const D: usize> FrictionSolver<D> for Uzawa {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
-        units::solve(problem, r, rule, |monitor, r| {
+        scaled::solve(problem, r, rule, |monitor, r| {
             (SolverKind::Uzawa, run(monitor, r, usize::MAX).unwrap_or(SolveStatus::Stalled))
         })
     }

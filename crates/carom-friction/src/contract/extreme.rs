@@ -1,7 +1,7 @@
 //! Numbers at the ends of what numbers can be, and units of any size.
 
 use super::{assert_law, problem};
-use crate::units::power_of_two;
+use crate::binary::power_of_two;
 use crate::{
     BlockMatrix, ContactProblem, Criterion, GlobalMethod, GlobalProblem, Matrix, SolveReport, SolveStatus,
     SolverKind, SparseColMat, StoppingRule, Triplet, Vector, measure,

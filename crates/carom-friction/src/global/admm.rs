@@ -1,7 +1,8 @@
 use faer::dyn_stack::MemBuffer;
 use faer::sparse::SymbolicSparseColMat;
 
-use super::compliance::{Compliance, Measurable};
+use super::compliance::Compliance;
+use super::measurable::Measurable;
 use crate::clock::Clock;
 use crate::sparse_factor::{NoFactor, Size, SparseFactor};
 use crate::splitting::{self, LinearLaw};

@@ -3,7 +3,21 @@ use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 
 use super::factor::Factor;
 use super::parts::Parts;
-use crate::SingularMatrix;
+
+/// M has no inverse, or none with a correct digit, at this unknown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SingularMatrix {
+    /// Index of the unknown.
+    pub dof: usize,
+}
+
+impl std::fmt::Display for SingularMatrix {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "M is singular, or too close to it to be inverted, at unknown {}", self.dof)
+    }
+}
+
+impl std::error::Error for SingularMatrix {}
 
 /// M⁻¹, part by part.
 pub(super) struct Inverse {

@@ -1,7 +1,8 @@
-use super::GlobalMethod;
 use super::admm::Velocities;
 use super::choice::cost_of_admm;
-use super::compliance::{Compliance, Measurable};
+use super::compliance::Compliance;
+use super::measurable::Measurable;
+use super::method::GlobalMethod;
 use crate::clock::{Clock, TimeIsUp};
 use crate::sparse_factor::NoFactor;
 use crate::stopping::Monitor;

@@ -1,7 +1,9 @@
 use faer::sparse::SparseColMat;
 
-use crate::units::{Units, exponent, times_power};
-use crate::{GlobalProblem, Vector};
+use super::problem::GlobalProblem;
+use crate::Vector;
+use crate::binary::{exponent, times_power};
+use crate::units::Units;
 
 /// Powers of two in which a global problem is counted: M = 2^m M′, H = 2^h H′, and motions and reactions in [`Units`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
