@@ -1,74 +1,17 @@
 use std::sync::Arc;
 
 use carom_mesh::{Facet, Matrix, Mesh, Surface, Vector};
-use serde::{Deserialize, Serialize};
 
-use crate::elements::{
-    CellState, Dashpots, Elements, StepForces, add_mass, add_scaled_diagonal_mass, dashpots, elements,
-};
+use crate::elements::{Dashpots, Elements, add_mass, add_scaled_diagonal_mass, dashpots, elements};
 use crate::held::{Held, HeldDof};
-use crate::loose::is_loose;
 use crate::massless::{followers, redistributed};
-use crate::material::{LawSpec, PlasticState, Viscosity};
+use crate::material::PlasticState;
 use crate::shape_table::{Cells, Depth, facet_area};
 use crate::sparse::{NodalMatrix, NodeGraph};
-use crate::worked::Worked;
-use crate::{FemError, Formulation, Hypothesis};
+use crate::{BodySpec, FemError, Hypothesis, MassKind, RayleighDamping};
 
 /// A node whose radius is below this, relative to the size of the body, is on the axis.
 const ON_THE_AXIS: f64 = 1e-9;
-
-/// How the mass of a body is shared among its nodes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum MassKind {
-    /// ∫ρ N_a N_b dV.
-    #[default]
-    Consistent,
-    /// Row sums of the consistent mass; on quadratic cells, where these may be negative, its diagonal, scaled so that every
-    /// cell keeps its mass.
-    Lumped,
-}
-
-/// Rayleigh damping C = α M + β K₀, with K₀ the stiffness of the reference configuration turning with the body.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct RayleighDamping {
-    /// α [1/s].
-    pub mass: f64,
-    /// β [s].
-    pub stiffness: f64,
-}
-
-impl RayleighDamping {
-    /// Whether there is any damping.
-    #[must_use]
-    pub fn is_active(&self) -> bool {
-        self.mass != 0.0 || self.stiffness != 0.0
-    }
-}
-
-/// What a body is made of.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BodySpec {
-    /// Material law.
-    pub law: LawSpec,
-    /// Density ρ [kg/m³].
-    pub density: f64,
-    /// Damping.
-    pub damping: RayleighDamping,
-    /// Viscosity.
-    pub viscosity: Viscosity,
-    /// Mass matrix.
-    pub mass: MassKind,
-    /// What a 2D body is in space.
-    pub hypothesis: Hypothesis,
-    /// How the deformation follows from the displacements.
-    pub formulation: Formulation,
-    /// Thickness in 2D [m], but of a body of revolution; 1 in 3D.
-    pub thickness: f64,
-    /// Whether the mass of the nodes that may touch others moves inside; total mass, centre and inertia stay.
-    pub massless_contact: bool,
-}
 
 /// A deformable body: mesh, elements, mass and damping. It is never written after it is built.
 ///
@@ -233,12 +176,6 @@ impl<const D: usize> Body<D> {
         &self.held
     }
 
-    /// Whether what is held leaves the body a rigid motion.
-    #[must_use]
-    pub fn is_loose(&self) -> bool {
-        is_loose(self)
-    }
-
     /// Mass matrix [kg], one number per pair of nodes (mass is isotropic).
     #[must_use]
     pub fn mass(&self) -> &NodalMatrix<f64> {
@@ -316,10 +253,17 @@ impl<const D: usize> Body<D> {
         &self.elements
     }
 
-    /// The body with what its material remembers, quadrature point by quadrature point.
-    #[must_use]
-    pub fn after<'a>(&'a self, history: &'a [PlasticState]) -> Worked<'a, D> {
-        Worked::new(self, history)
+    /// The blocks of elements, each with its part of the `history`.
+    pub(crate) fn blocks<'a>(
+        &'a self,
+        history: &'a [PlasticState],
+    ) -> impl Iterator<Item = (&'a dyn Elements<D>, &'a [PlasticState])> {
+        let mut rest = history;
+        self.elements.iter().map(move |e| {
+            let (own, others) = rest.split_at(e.point_count().min(rest.len()));
+            rest = others;
+            (&**e, own)
+        })
     }
 
     /// What the material of a virgin body remembers: nothing in an elastic one, otherwise an entry per quadrature point.
@@ -328,43 +272,27 @@ impl<const D: usize> Body<D> {
         vec![PlasticState::default(); self.memory]
     }
 
-    /// Stored energy of the virgin body [J].
-    #[must_use]
-    pub fn strain_energy(&self, u: &[Vector<D>]) -> f64 {
-        self.after(&[]).strain_energy(u)
-    }
-
-    /// Writes the internal force ∂E/∂u [N] of the virgin body to `f`.
-    pub fn internal_force(&self, u: &[Vector<D>], f: &mut [Vector<D>]) {
-        self.after(&[]).internal_force(u, f);
-    }
-
-    /// Writes the force [N] of a step of the virgin body from `u0` to `u1` whose work is the change of the strain energy to `f`.
-    pub fn conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]) {
-        self.after(&[]).conserving_force(u0, u1, f);
-    }
-
-    /// Writes the forces [N] of a step of the virgin body from `u0` to `u1` that a blend of its stresses is made of.
-    pub fn step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut StepForces<'_, D>) {
-        self.after(&[]).step_forces(u0, u1, f);
-    }
-
     /// The stiffness ∂²E/∂u² [N/m] of the virgin body at `u`.
     #[must_use]
     pub fn stiffness(&self, u: &[Vector<D>]) -> NodalMatrix<Matrix<D>> {
-        self.after(&[]).stiffness(u)
+        self.stiffness_after(&[], u)
+    }
+
+    /// The stiffness [N/m] at `u` where the material remembers this `history`.
+    pub(crate) fn stiffness_after(
+        &self,
+        history: &[PlasticState],
+        u: &[Vector<D>],
+    ) -> NodalMatrix<Matrix<D>> {
+        let mut k = NodalMatrix::filled(&self.graph, Matrix::zeros());
+        self.blocks(history).for_each(|(e, history)| e.add_stiffness(u, history, &mut k));
+        k
     }
 
     /// The stiffness K₀ that damping is made of, if there is any.
     #[must_use]
     pub fn damping_stiffness(&self) -> Option<&NodalMatrix<Matrix<D>>> {
         self.damping_stiffness.as_ref()
-    }
-
-    /// Mean state of every cell of the virgin body, in the order of the mesh.
-    #[must_use]
-    pub fn cell_states(&self, u: &[Vector<D>]) -> Vec<CellState> {
-        self.after(&[]).cell_states(u)
     }
 
     /// The viscous force C v [N], written to `f`; `frame` is the rotation of the body and `scratch` as long as `v`.

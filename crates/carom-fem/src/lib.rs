@@ -4,6 +4,7 @@
 //! to forces [N], energies [J] and matrices. Nothing here knows of contact.
 
 mod body;
+mod body_spec;
 mod elements;
 mod error;
 mod facets;
@@ -18,7 +19,8 @@ mod shape_table;
 pub mod sparse;
 mod worked;
 
-pub use body::{Body, BodySpec, MassKind, RayleighDamping};
+pub use body::Body;
+pub use body_spec::{BodySpec, MassKind, RayleighDamping};
 pub use elements::{CellState, Elements, StepForces};
 pub use error::FemError;
 pub use facets::FacetPatch;

@@ -8,36 +8,39 @@ use crate::Body;
 /// Rigid motions that move what is held by less than this, relative to the body, are free.
 const FREE: f64 = 1e-6;
 
-/// Whether the supports of a body leave it a rigid motion.
-pub(crate) fn is_loose<const D: usize>(body: &Body<D>) -> bool {
-    // A body that repeats itself cannot turn, and one of revolution moves along its axis only.
-    let turns = if body.mesh().ties().is_empty() { D * (D - 1) / 2 } else { 0 };
-    let (first, last) = if body.is_axisymmetric() { (1, D) } else { (0, D + turns) };
-    let modes = last - first;
-    let centre = body.mean(body.mesh().nodes());
-    let size = body.mesh().diameter();
-    let mode = |k: usize, arm: &Vector<D>| -> Vector<D> {
-        if k < D {
-            Vector::from_fn(|i, _| if i == k { 1.0 } else { 0.0 })
-        } else {
-            // About z in the plane, about each axis in space.
-            let axis = if D == 2 { 2 } else { k - D };
-            let spin: [f64; 3] = std::array::from_fn(|i| if i == axis { 1.0 / size } else { 0.0 });
-            tensor::rotation_velocity(&spin, arm)
-        }
-    };
-    let mut gram = DMatrix::<f64>::zeros(modes, modes);
-    for dof in body.held().dofs() {
-        let arm = body.mesh().nodes()[dof.node as usize] - centre;
-        let at: Vec<f64> = (first..last).map(|k| mode(k, &arm)[dof.component as usize]).collect();
-        for i in 0..modes {
-            for j in 0..modes {
-                gram[(i, j)] += at[i] * at[j];
+impl<const D: usize> Body<D> {
+    /// Whether what is held leaves the body a rigid motion.
+    #[must_use]
+    pub fn is_loose(&self) -> bool {
+        // A body that repeats itself cannot turn, and one of revolution moves along its axis only.
+        let turns = if self.mesh().ties().is_empty() { D * (D - 1) / 2 } else { 0 };
+        let (first, last) = if self.is_axisymmetric() { (1, D) } else { (0, D + turns) };
+        let modes = last - first;
+        let centre = self.mean(self.mesh().nodes());
+        let size = self.mesh().diameter();
+        let mode = |k: usize, arm: &Vector<D>| -> Vector<D> {
+            if k < D {
+                Vector::from_fn(|i, _| if i == k { 1.0 } else { 0.0 })
+            } else {
+                // About z in the plane, about each axis in space.
+                let axis = if D == 2 { 2 } else { k - D };
+                let spin: [f64; 3] = std::array::from_fn(|i| if i == axis { 1.0 / size } else { 0.0 });
+                tensor::rotation_velocity(&spin, arm)
+            }
+        };
+        let mut gram = DMatrix::<f64>::zeros(modes, modes);
+        for dof in self.held().dofs() {
+            let arm = self.mesh().nodes()[dof.node as usize] - centre;
+            let at: Vec<f64> = (first..last).map(|k| mode(k, &arm)[dof.component as usize]).collect();
+            for i in 0..modes {
+                for j in 0..modes {
+                    gram[(i, j)] += at[i] * at[j];
+                }
             }
         }
+        let held = gram.symmetric_eigenvalues().min();
+        held <= FREE * FREE * self.held().dofs().len().max(1) as f64
     }
-    let held = gram.symmetric_eigenvalues().min();
-    held <= FREE * FREE * body.held().dofs().len().max(1) as f64
 }
 
 #[cfg(test)]
@@ -62,7 +65,7 @@ mod tests {
         let mesh = generate::grid([0.0; 3], [1.0; 3], [1, 1, 1]).expect("valid");
         let mut body = Body::new(mesh, &spec).expect("valid");
         body.hold(held.iter().map(|&(node, component)| HeldDof { node, component }));
-        is_loose(&body)
+        body.is_loose()
     }
 
     /// Three nodes held in 3, 2 and 1 components hold a solid; less does not, nor do 6 components along one line.

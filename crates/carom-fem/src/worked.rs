@@ -1,7 +1,7 @@
 use carom_mesh::{Matrix, Vector};
 
 use crate::Body;
-use crate::elements::{CellState, StepForces};
+use crate::elements::{CellState, Elements, StepForces};
 use crate::material::PlasticState;
 use crate::sparse::NodalMatrix;
 
@@ -17,10 +17,6 @@ pub struct Worked<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Worked<'a, D> {
-    pub(crate) fn new(body: &'a Body<D>, history: &'a [PlasticState]) -> Self {
-        Self { body, history }
-    }
-
     /// What the material remembers, quadrature point by quadrature point.
     #[must_use]
     pub fn history(&self) -> &'a [PlasticState] {
@@ -28,13 +24,8 @@ impl<'a, const D: usize> Worked<'a, D> {
     }
 
     /// The blocks of elements, each with its part of the history.
-    fn blocks(&self) -> impl Iterator<Item = (&'a dyn crate::elements::Elements<D>, &'a [PlasticState])> {
-        let mut rest = self.history;
-        self.body.elements().iter().map(move |e| {
-            let (own, others) = rest.split_at(e.point_count().min(rest.len()));
-            rest = others;
-            (&**e, own)
-        })
+    fn blocks(&self) -> impl Iterator<Item = (&'a dyn Elements<D>, &'a [PlasticState])> {
+        self.body.blocks(self.history)
     }
 
     /// Stored energy and plastic work of the step so far [J]. At the start of a step it is the stored energy alone.
@@ -71,9 +62,7 @@ impl<'a, const D: usize> Worked<'a, D> {
     /// The stiffness ∂²E/∂u² [N/m] at `u`.
     #[must_use]
     pub fn stiffness(&self, u: &[Vector<D>]) -> NodalMatrix<Matrix<D>> {
-        let mut k = NodalMatrix::filled(self.body.graph(), Matrix::zeros());
-        self.blocks().for_each(|(e, history)| e.add_stiffness(u, history, &mut k));
-        k
+        self.body.stiffness_after(self.history, u)
     }
 
     /// Mean stress, energy density and plastic strain of every cell, in the order of the mesh.
@@ -102,5 +91,40 @@ impl<'a, const D: usize> Worked<'a, D> {
             rest = others;
         }
         work
+    }
+}
+
+impl<const D: usize> Body<D> {
+    /// The body with what its material remembers, quadrature point by quadrature point.
+    #[must_use]
+    pub fn after<'a>(&'a self, history: &'a [PlasticState]) -> Worked<'a, D> {
+        Worked { body: self, history }
+    }
+
+    /// Stored energy of the virgin body [J].
+    #[must_use]
+    pub fn strain_energy(&self, u: &[Vector<D>]) -> f64 {
+        self.after(&[]).strain_energy(u)
+    }
+
+    /// Writes the internal force ∂E/∂u [N] of the virgin body to `f`.
+    pub fn internal_force(&self, u: &[Vector<D>], f: &mut [Vector<D>]) {
+        self.after(&[]).internal_force(u, f);
+    }
+
+    /// Writes the force [N] of a step of the virgin body from `u0` to `u1` whose work is the change of the strain energy to `f`.
+    pub fn conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]) {
+        self.after(&[]).conserving_force(u0, u1, f);
+    }
+
+    /// Writes the forces [N] of a step of the virgin body from `u0` to `u1` that a blend of its stresses is made of.
+    pub fn step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut StepForces<'_, D>) {
+        self.after(&[]).step_forces(u0, u1, f);
+    }
+
+    /// Mean state of every cell of the virgin body, in the order of the mesh.
+    #[must_use]
+    pub fn cell_states(&self, u: &[Vector<D>]) -> Vec<CellState> {
+        self.after(&[]).cell_states(u)
     }
 }

@@ -5,7 +5,7 @@ use carom_mesh::{Matrix, Vector};
 use pulp::{Arch, Simd, WithSimd};
 
 use super::kinematics::Kinematics;
-use super::staging::Staging;
+use super::staging::{Local, Staging};
 use crate::FemError;
 use crate::material::{Batch, LANES, MAX_POINTS, PlasticState, Tangent};
 use crate::quadrature::Integrand;
@@ -33,9 +33,6 @@ pub(crate) struct Grid<const D: usize, const S: usize, const N: usize, K> {
     arch: Arch,
     kinematics: PhantomData<K>,
 }
-
-/// Nodal vectors of the cells of a pack.
-pub(crate) type Local<const D: usize, const N: usize> = [[[f64; LANES]; D]; N];
 
 impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D, S, N, K> {
     /// Zero forces at the nodes of a pack.

@@ -3,13 +3,15 @@ use std::sync::{Mutex, TryLockError};
 use carom_mesh::Vector;
 use carom_mesh::parallel::{each_chunk, share};
 
-use super::grid::Local;
 use crate::material::LANES;
 
 /// Packs of cells from which threads share them.
 const MANY: usize = 1024;
 /// Packs that a thread takes at a time.
 const CHUNK: usize = 64;
+
+/// Nodal vectors of the cells of a pack.
+pub(crate) type Local<const D: usize, const N: usize> = [[[f64; LANES]; D]; N];
 
 /// Where threads lay down the nodal forces of their cells before these are added up, node by node: what one thread adds in the order of
 /// the cells, many add in the same order.

@@ -3,18 +3,8 @@
 use faer::{MatMut, MatRef};
 
 use super::real::Real;
+use super::row::{ABREAST, Row};
 use super::substitution::{Panel, Substitution};
-
-/// Right-hand sides taken together. Always as many, of which some may be zero: how a sum is rounded must not depend on the others.
-pub(super) const ABREAST: usize = 32;
-
-/// One number of every right-hand side.
-pub(super) type Row<T> = [T; ABREAST];
-
-/// Adds `other` to `row`.
-pub(super) fn add<T: Real>(row: &mut Row<T>, other: &Row<T>) {
-    row.iter_mut().zip(other).for_each(|(row, other)| *row += *other);
-}
 
 impl<T: Real> Substitution<T> {
     /// [`Self::forward`] where the right-hand sides are zero outside of a [`Self::reach`], and stay so.

@@ -12,9 +12,9 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Par, Side, Spec};
 
 use super::NodeGraph;
-use super::abreast::ABREAST;
 use super::folding::Folding;
 use super::ordering::nested_dissection;
+use super::row::ABREAST;
 use super::triangular::{Precision, Triangular};
 use crate::FemError;
 

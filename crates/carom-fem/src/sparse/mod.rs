@@ -11,6 +11,7 @@ mod ordering;
 mod pieces;
 mod real;
 mod region;
+mod row;
 mod scaled;
 mod semi_iteration;
 mod spectrum;

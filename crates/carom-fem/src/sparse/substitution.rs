@@ -6,8 +6,8 @@ use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::{MatMut, MatRef, Par};
 use pulp::{Arch, Simd, WithSimd};
 
-use super::abreast::Row;
 use super::real::Real;
+use super::row::Row;
 
 /// Columns taken together, so that what is loaded once serves them all.
 const COLUMNS: usize = 4;

@@ -4,9 +4,9 @@ use std::ops::Range;
 use carom_mesh::parallel::{each_chunk, has_threads};
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 
-use super::abreast::{self, ABREAST, Row};
 use super::pieces::pieces;
 use super::real::Real;
+use super::row::{self, ABREAST, Row};
 use super::substitution::Substitution;
 
 /// Numbers that a factor is kept in.
@@ -316,7 +316,7 @@ impl<T: Real> Triangular for Halves<T> {
         for piece in pieces.iter_mut().filter(|piece| !piece.path.is_empty()) {
             let values = &mut of_pieces[piece.range.clone()];
             piece.substitution.forward_abreast(&piece.path, values);
-            piece.hand_up(values, of_top, abreast::add);
+            piece.hand_up(values, of_top, row::add);
         }
         top.substitution.forward_abreast(&top.path, of_top);
         top.substitution.backward_abreast(&top.reach, of_top);

@@ -1,0 +1,56 @@
+use serde::{Deserialize, Serialize};
+
+use crate::material::{LawSpec, Viscosity};
+use crate::{Formulation, Hypothesis};
+
+/// How the mass of a body is shared among its nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MassKind {
+    /// ∫ρ N_a N_b dV.
+    #[default]
+    Consistent,
+    /// Row sums of the consistent mass; on quadratic cells, where these may be negative, its diagonal, scaled so that every
+    /// cell keeps its mass.
+    Lumped,
+}
+
+/// Rayleigh damping C = α M + β K₀, with K₀ the stiffness of the reference configuration turning with the body.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct RayleighDamping {
+    /// α [1/s].
+    pub mass: f64,
+    /// β [s].
+    pub stiffness: f64,
+}
+
+impl RayleighDamping {
+    /// Whether there is any damping.
+    #[must_use]
+    pub fn is_active(&self) -> bool {
+        self.mass != 0.0 || self.stiffness != 0.0
+    }
+}
+
+/// What a body is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodySpec {
+    /// Material law.
+    pub law: LawSpec,
+    /// Density ρ [kg/m³].
+    pub density: f64,
+    /// Damping.
+    pub damping: RayleighDamping,
+    /// Viscosity.
+    pub viscosity: Viscosity,
+    /// Mass matrix.
+    pub mass: MassKind,
+    /// What a 2D body is in space.
+    pub hypothesis: Hypothesis,
+    /// How the deformation follows from the displacements.
+    pub formulation: Formulation,
+    /// Thickness in 2D [m], but of a body of revolution; 1 in 3D.
+    pub thickness: f64,
+    /// Whether the mass of the nodes that may touch others moves inside; total mass, centre and inertia stay.
+    pub massless_contact: bool,
+}
