@@ -1,9 +1,11 @@
-use carom_mesh::Vector;
 use carom_mesh::cell::MAX_FACET_NODES;
+use carom_mesh::{Facet, Vector};
 
-use crate::ContactSurface;
 use crate::project::{BEYOND, Projection, Reach, normal};
-use crate::surface::CORNER;
+
+/// Cosine of the turning angle in the reference configuration from which on a surface has a corner: 40°. The slack keeps the nonagon,
+/// whose angles are 40° up to round-off, alike at all nodes.
+pub(crate) const CORNER: f64 = 0.766_044_443_118_978 - 1e-9;
 
 /// A curve through the nodes of a boundary line with a continuous tangent, except at corners.
 ///
@@ -34,10 +36,14 @@ const MAX_STEPS: usize = 100;
 const ENDS: [f64; 2] = [0.0, 1.0];
 
 impl Curve {
-    /// The curve through the nodes of a surface of lines, one segment per facet.
-    pub fn through<const D: usize>(surface: &ContactSurface, reference: &impl Fn(u32) -> Vector<D>) -> Self {
-        let facets = 0..surface.facets.len() as u32;
-        Self { segments: facets.map(|f| Segment::new(surface, f, reference)).collect() }
+    /// The curve through the nodes of `facets`, which are lines, one segment per facet; `around` are the facets around a node.
+    pub fn through<'a, const D: usize>(
+        facets: &[Facet],
+        around: &impl Fn(u32) -> &'a [u32],
+        reference: &impl Fn(u32) -> Vector<D>,
+    ) -> Self {
+        let segment = |f: u32| Segment::new(facets, f, around, reference);
+        Self { segments: (0..facets.len() as u32).map(segment).collect() }
     }
 
     /// The point closest to `x`: of one segment or, if it may reach beyond, of the part of the curve between corners. Beyond a corner
@@ -86,9 +92,14 @@ impl Curve {
 }
 
 impl Segment {
-    fn new<const D: usize>(surface: &ContactSurface, f: u32, reference: &impl Fn(u32) -> Vector<D>) -> Self {
+    fn new<'a, const D: usize>(
+        facets: &[Facet],
+        f: u32,
+        around: &impl Fn(u32) -> &'a [u32],
+        reference: &impl Fn(u32) -> Vector<D>,
+    ) -> Self {
         let ends = |f: u32| {
-            let nodes = &surface.facets[f as usize].nodes;
+            let nodes = &facets[f as usize].nodes;
             [nodes[0], nodes[1]]
         };
         let chord = |f: u32| {
@@ -97,7 +108,7 @@ impl Segment {
         };
         let length = chord(f).norm();
         // More than two facets at a node: two parts of the boundary touch there, which is a corner.
-        let neighbour = |end: usize| match *surface.around(ends(f)[end]) {
+        let neighbour = |end: usize| match *around(ends(f)[end]) {
             [g, h] => Some(if g == f { h } else { g }).filter(|&g| {
                 let c = chord(g);
                 ends(g)[1 - end] == ends(f)[end] && c.dot(&chord(f)) >= CORNER * c.norm() * length

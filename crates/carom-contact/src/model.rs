@@ -1,6 +1,8 @@
 use std::ops::Range;
 
-use crate::{ContactSurface, Discretisation, Obstacle};
+use serde::{Deserialize, Serialize};
+
+use crate::{ContactSurface, Obstacle};
 
 /// What a source surface is checked against.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,6 +11,18 @@ pub enum Target {
     Surface(usize),
     /// A rigid obstacle.
     Obstacle(usize),
+}
+
+/// How contact between two surfaces is written for finitely many nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Discretisation {
+    /// The gap of every source node: a force at a node.
+    #[default]
+    NodeToSegment,
+    /// The mean gap under the shape function of every source node: a pressure on the surface. Rigid obstacles have no facets
+    /// to integrate over and are always checked node by node.
+    Mortar,
 }
 
 /// Nodes of a source surface against a target.

@@ -8,10 +8,6 @@ use crate::edge::Edge;
 use crate::patch::Patch;
 use crate::project::{Projection, Reach, area_normal, project};
 
-/// Cosine of the turning angle in the reference configuration from which on a surface has a corner: 40°. The slack keeps the nonagon,
-/// whose angles are 40° up to round-off, alike at all nodes.
-pub(crate) const CORNER: f64 = 0.766_044_443_118_978 - 1e-9;
-
 /// The boundary of a body, its nodes numbered over all bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactSurface {
@@ -111,7 +107,7 @@ impl ContactSurface {
     #[must_use]
     pub fn smoothed<const D: usize>(mut self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
         if self.facets.iter().all(|f| f.kind == CellKind::Line2) {
-            self.shape = Shape::Curved(Curve::through(&self, reference));
+            self.shape = Shape::Curved(Curve::through(&self.facets, &|node| self.around(node), reference));
         }
         self
     }

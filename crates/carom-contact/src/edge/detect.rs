@@ -1,7 +1,7 @@
 use carom_mesh::Vector;
 
 use super::crossing::is_foremost;
-use super::{Crossing, DENT, Edge};
+use super::{Crossing, DENT, Edge, Found};
 use crate::aabb::Aabb;
 use crate::project::BEYOND;
 use crate::search::DEPTH;
@@ -65,35 +65,6 @@ impl<const D: usize> ContactModel<D> {
             let [source, target] = c.edges;
             Candidate { pair, site: Site::Crossing(source, target), facet: None, mirrored: false }
         }));
-    }
-}
-
-/// Edges that cross.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Found {
-    /// Of the source, and of the target so that their vector product points to the source.
-    edges: [[u32; 2]; 2],
-    /// The same with the nodes that these follow.
-    masters: [[u32; 2]; 2],
-    /// Of each the node at which it ends a little before the other crosses it, if another edge goes on there: what has come into a
-    /// dent in the line of the two crosses neither.
-    beyond: [Option<u32>; 2],
-}
-
-impl Found {
-    fn is_beyond(&self) -> bool {
-        self.beyond.iter().any(Option::is_some)
-    }
-
-    /// Whether what would cross `before` beyond the end of an edge crosses here, on the edge that goes on there.
-    fn takes_over(&self, before: &Self) -> bool {
-        let ends = |c: &Self| c.beyond.iter().flatten().count();
-        let fits = |side: usize| {
-            let (here, [a, b]) = (self.masters[side], before.masters[side]);
-            let goes_on = before.beyond[side].is_some_and(|node| here.contains(&node));
-            here == [a, b] || here == [b, a] || goes_on
-        };
-        ends(self) < ends(before) && fits(0) && fits(1)
     }
 }
 

@@ -2,29 +2,18 @@
 
 mod crossing;
 mod detect;
+mod edging;
+mod found;
 
-use std::collections::BTreeMap;
+use carom_mesh::Vector;
 
-use carom_mesh::{CellKind, Vector};
-
-use crate::ContactSurface;
 use crate::aabb::Aabb;
-use crate::patch::Patch;
-use crate::project::normal;
-use crate::surface::CORNER;
 
 pub(crate) use crossing::{AT_NODE, Crossing};
-pub(crate) use detect::Found;
+pub(crate) use found::Found;
 
 /// How far an edge may end before another crosses it where a further one goes on and crosses no more, in its lengths.
 const DENT: f64 = 0.1;
-
-/// Cosine of the turning angle from which on a surface has an edge and is not flat there: 1°.
-const FLAT: f64 = 0.999_847_695_156_391;
-
-/// Length of an edge, in widths of the facets beside it, from which on it is a feature though the surface is round there: the nodes along it
-/// are far apart for how much it turns.
-const SLENDER: f64 = 2.0;
 
 /// A straight line along which a surface turns away from its outside, as it is without deformation.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,89 +58,4 @@ impl Edge {
     pub fn facets(&self) -> impl Iterator<Item = u32> {
         self.sides.iter().map(|side| side.facet)
     }
-}
-
-impl ContactSurface {
-    /// The same boundary with its convex edges, if it is one in space: those at which facets meet at an angle in the `reference`
-    /// configuration [m].
-    #[must_use]
-    pub fn edged<const D: usize>(mut self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
-        let mut open: BTreeMap<[u32; 2], ([u32; 2], Side)> = BTreeMap::new();
-        for (f, facet) in (0..).zip(&self.facets).filter(|(_, facet)| facet.kind.dimension() == 2) {
-            for ([a, b], middle) in lines(facet.kind) {
-                let nodes = [facet.nodes[a], facet.nodes[b]];
-                let [from, to] = nodes.map(|n| self.master(n));
-                let side = Side { facet: f, middle };
-                let Some((first, beside)) = open.remove(&[to, from]) else {
-                    open.insert([from, to], (nodes, side));
-                    continue;
-                };
-                let mut edge =
-                    Edge { nodes: first, sides: [beside, side], is_feature: false, goes_on: [false; 2] };
-                let [m0, m1] = self.normals(&edge, reference);
-                let along = reference(first[1]) - reference(first[0]);
-                if crossing::turns_outwards(&along, [m0, m1]) && m0.dot(&m1) < FLAT {
-                    let is_long = |width: f64| along.norm() > SLENDER * width;
-                    edge.is_feature =
-                        m0.dot(&m1) < CORNER || self.widths(&edge, reference).into_iter().all(is_long);
-                    self.edges.push(edge);
-                }
-            }
-        }
-        self.edges.sort_unstable_by_key(|e| e.nodes);
-        self.join_edges(reference);
-        self.has_features = self.edges.iter().any(|e| e.is_feature);
-        self
-    }
-
-    /// Finds the ends at which edges go on, by less of a turn than at a corner.
-    fn join_edges<const D: usize>(&mut self, reference: &impl Fn(u32) -> Vector<D>) {
-        let mut at: BTreeMap<u32, Vec<(usize, usize, Vector<D>)>> = BTreeMap::new();
-        for (k, edge) in self.edges.iter().enumerate() {
-            let along = (reference(edge.nodes[1]) - reference(edge.nodes[0])).normalize();
-            for (end, from) in [(0, along), (1, -along)] {
-                at.entry(self.master(edge.nodes[end])).or_default().push((k, end, from));
-            }
-        }
-        for ends in at.values() {
-            for (k, end, from) in ends {
-                let goes_on =
-                    |(other, _, on): &(usize, usize, Vector<D>)| other != k && -from.dot(on) > CORNER;
-                self.edges[*k].goes_on[*end] = ends.iter().any(goes_on);
-            }
-        }
-    }
-
-    /// How wide the two facets of an edge are across it [m].
-    fn widths<const D: usize>(&self, edge: &Edge, position: &impl Fn(u32) -> Vector<D>) -> [f64; 2] {
-        let along = position(edge.nodes[1]) - position(edge.nodes[0]);
-        let across = |x: Vector<D>| (x - along * (along.dot(&x) / along.norm_squared())).norm();
-        edge.sides.map(|side| {
-            let facet = &self.facets[side.facet as usize];
-            let corners = &facet.nodes[..facet.kind.corner_count()];
-            corners.iter().map(|&n| across(position(n) - position(edge.nodes[0]))).fold(0.0, f64::max)
-        })
-    }
-
-    /// Outward unit normals of the two facets of an edge, at its middle.
-    fn normals<const D: usize>(&self, edge: &Edge, position: &impl Fn(u32) -> Vector<D>) -> [Vector<D>; 2] {
-        edge.sides.map(|side| {
-            let patch = Patch::new(&self.facets[side.facet as usize], position);
-            normal(&patch.at(&side.middle).tangents)
-        })
-    }
-}
-
-/// The straight lines around a facet, from node to node, with the places of their middles; of a quadratic one two on each side.
-fn lines(kind: CellKind) -> impl Iterator<Item = ([usize; 2], [f64; 2])> {
-    let reference = kind.reference();
-    let around = reference.facets.iter().flat_map(|(side, nodes)| {
-        let middle = side.is_quadratic().then(|| nodes[2]);
-        let first = [nodes[0], middle.unwrap_or(nodes[1])];
-        std::iter::once(first).chain(middle.map(|node| [node, nodes[1]]))
-    });
-    around.map(|[a, b]| {
-        let [a_at, b_at] = [a, b].map(|k| reference.nodes[k]);
-        ([a, b], [0, 1].map(|i| 0.5 * (a_at[i] + b_at[i])))
-    })
 }

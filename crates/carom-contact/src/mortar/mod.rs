@@ -29,24 +29,11 @@ mod row;
 use std::ops::Range;
 
 use carom_mesh::Vector;
-use serde::{Deserialize, Serialize};
 
 use self::facing::Facing;
 use self::integrate::integrate;
 use self::row::Row;
-use crate::{Candidate, Contact, ContactModel, Site, Target};
-
-/// How contact between two surfaces is written for finitely many nodes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Discretisation {
-    /// The gap of every source node: a force at a node.
-    #[default]
-    NodeToSegment,
-    /// The mean gap under the shape function of every source node: a pressure on the surface. Rigid obstacles have no facets
-    /// to integrate over and are always checked node by node.
-    Mortar,
-}
+use crate::{Candidate, Contact, ContactModel, Discretisation, Site, Target};
 
 /// What the mortar pairs of a model have found in a step, and scratch. It may be dropped at any moment between two steps.
 #[derive(Debug, Clone, Default)]
