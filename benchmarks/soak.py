@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import carom
-from carom.building import build
+from carom.building.build import build
 
 STEP = 1e-3  # s
 HISTORY = 100

@@ -24,7 +24,7 @@ from unittest import mock
 import numpy as np
 
 import carom
-from carom.doubts import defect_share
+from carom.results.doubts import defect_share
 
 SPACING = 2.5
 """Distance of the places where bodies start [m]."""

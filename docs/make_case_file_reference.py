@@ -20,9 +20,9 @@ from generated import write_or_check
 from pydantic.fields import FieldInfo
 
 from carom import Scenario, Table
-from carom.description import PER_DIMENSION, Description, InPlane, InSpace, Name
-from carom.docstrings import documented, summary
-from carom.schema import case_file_schema
+from carom.case.description import PER_DIMENSION, Description, InPlane, InSpace, Name
+from carom.case.docstrings import documented, summary
+from carom.case.schema import case_file_schema
 
 PAGE = Path(__file__).with_name("case-file.md")
 SCHEMA = Path(__file__).with_name("carom.schema.json")

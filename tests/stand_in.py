@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 
-from carom.summary import EnergySummary
+from carom.io.summary_types import EnergySummary
 
 MESH = {
     "points": np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.0]]),

@@ -16,8 +16,9 @@ import typer
 from rich.console import Console
 
 import carom
-from carom import case_file
-from carom.building import build
+from carom.building.build import build
+from carom.case import case_file
+from carom.case.scenario import Scenario
 from carom.cli.case import load
 from carom.cli.failures import BAD_INPUT, NOT_CONVERGED, failures
 from carom.cli.friction.problem_file import warnings_named
@@ -27,8 +28,7 @@ from carom.io import layout
 from carom.io.frames import Frames
 from carom.plot import draw
 from carom.report import write_report
-from carom.result import Result, read_case
-from carom.scenario import Scenario
+from carom.results.result import Result, read_case
 from carom.view import View, shown
 
 LARGE = 3_000

@@ -8,9 +8,9 @@ import meshio
 import numpy as np
 
 import carom
-from carom import case_file
+from carom.case import case_file
 from carom.friction import Problem, write
-from carom.template import MESH_FILE, TEMPLATES, template
+from carom.new.template import MESH_FILE, TEMPLATES, template
 
 HERE = Path(__file__).resolve().parent
 EXAMPLES = HERE.parents[1] / "examples"

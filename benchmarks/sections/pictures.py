@@ -13,7 +13,8 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 from runs import Array, Run
 
-from carom.plot.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, figure, save
+from carom.display.colours import BLACK, BLUE, GREEN, ORANGE, PURPLE
+from carom.plot.style import figure, save
 
 CURVES = (
     ("E_c", r"$E_c$ kinetic", BLUE),

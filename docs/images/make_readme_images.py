@@ -15,8 +15,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import carom
+from carom.display.colours import ORANGE
 from carom.plot.energy import energy_figure
-from carom.plot.style import ORANGE
 
 HERE = Path(__file__).parent
 CASE = HERE.parents[1] / "examples" / "two_cylinders.toml"

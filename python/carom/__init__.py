@@ -5,25 +5,13 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from carom._carom import __version__
-    from carom.analysis import Conserving, Dynamic, Newton, Static, Theta
     from carom.auditing import Audit, audit
-    from carom.body import Body
-    from carom.books import Energy, Ledger
-    from carom.checking import Check, check
-    from carom.contact import Contact, FrictionSolver, Pair
-    from carom.errors import (
-        CaromError,
-        CaromWarning,
-        CertificateError,
-        ConvergenceError,
-        InputError,
-        MeshError,
-        StorageError,
-    )
-    from carom.fields import Field, Fields
-    from carom.io.history import read_history
-    from carom.load import Force, Pressure, Traction
-    from carom.material import (
+    from carom.building.checking import Check, check
+    from carom.case.analysis import Conserving, Dynamic, Newton, Static, Theta
+    from carom.case.body import Body
+    from carom.case.contact import Contact, FrictionSolver, Pair
+    from carom.case.load import Force, Pressure, Traction
+    from carom.case.material import (
         BlatzKo,
         Damping,
         J2Plasticity,
@@ -35,19 +23,32 @@ if TYPE_CHECKING:
         Viscosity,
         Yeoh,
     )
-    from carom.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring, Tube
-    from carom.motion import Displacement, Fixed, Prescribed
-    from carom.observer import Observer, Stop
-    from carom.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere, RigidSurface
-    from carom.output import Output, Track
-    from carom.progress import Progress
-    from carom.result import Result
-    from carom.running import run
-    from carom.scenario import Scenario
-    from carom.signal import Table
-    from carom.simulation import Simulation, Step
-    from carom.state import BodyState, Contacts, State
-    from carom.summary import Summary
+    from carom.case.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring, Tube
+    from carom.case.motion import Displacement, Fixed, Prescribed
+    from carom.case.obstacle import Plane, RigidBox, RigidCylinder, RigidSphere, RigidSurface
+    from carom.case.output import Output, Track
+    from carom.case.scenario import Scenario
+    from carom.case.signal import Table
+    from carom.errors import (
+        CaromError,
+        CaromWarning,
+        CertificateError,
+        ConvergenceError,
+        InputError,
+        MeshError,
+        StorageError,
+    )
+    from carom.io.history import read_history
+    from carom.io.summary_types import Summary
+    from carom.results.field import Field
+    from carom.results.fields import Fields
+    from carom.results.result import Result
+    from carom.running.books import Energy, Ledger
+    from carom.running.observer import Observer, Stop
+    from carom.running.run import run
+    from carom.running.simulation import Simulation, Step
+    from carom.running.state import BodyState, Contacts, State
+    from carom.system.progress import Progress
 
 __all__ = [
     "Audit",
@@ -124,12 +125,12 @@ __all__ = [
 
 _HOMES = {
     "_carom": ("__version__",),
-    "analysis": ("Conserving", "Dynamic", "Newton", "Static", "Theta"),
+    "case.analysis": ("Conserving", "Dynamic", "Newton", "Static", "Theta"),
     "auditing": ("Audit", "audit"),
-    "body": ("Body",),
-    "books": ("Energy", "Ledger"),
-    "checking": ("Check", "check"),
-    "contact": ("Contact", "FrictionSolver", "Pair"),
+    "case.body": ("Body",),
+    "running.books": ("Energy", "Ledger"),
+    "building.checking": ("Check", "check"),
+    "case.contact": ("Contact", "FrictionSolver", "Pair"),
     "errors": (
         "CaromError",
         "CaromWarning",
@@ -139,10 +140,11 @@ _HOMES = {
         "MeshError",
         "StorageError",
     ),
-    "fields": ("Field", "Fields"),
+    "results.field": ("Field",),
+    "results.fields": ("Fields",),
     "io.history": ("read_history",),
-    "load": ("Force", "Pressure", "Traction"),
-    "material": (
+    "case.load": ("Force", "Pressure", "Traction"),
+    "case.material": (
         "BlatzKo",
         "Damping",
         "J2Plasticity",
@@ -154,19 +156,19 @@ _HOMES = {
         "Viscosity",
         "Yeoh",
     ),
-    "mesh": ("Ball", "Box", "Cylinder", "Disc", "MeshFile", "Rectangle", "Ring", "Tube"),
-    "motion": ("Displacement", "Fixed", "Prescribed"),
-    "observer": ("Observer", "Stop"),
-    "obstacle": ("Plane", "RigidBox", "RigidCylinder", "RigidSphere", "RigidSurface"),
-    "output": ("Output", "Track"),
-    "progress": ("Progress",),
-    "result": ("Result",),
-    "running": ("run",),
-    "scenario": ("Scenario",),
-    "signal": ("Table",),
-    "simulation": ("Simulation", "Step"),
-    "state": ("BodyState", "Contacts", "State"),
-    "summary": ("Summary",),
+    "case.mesh": ("Ball", "Box", "Cylinder", "Disc", "MeshFile", "Rectangle", "Ring", "Tube"),
+    "case.motion": ("Displacement", "Fixed", "Prescribed"),
+    "running.observer": ("Observer", "Stop"),
+    "case.obstacle": ("Plane", "RigidBox", "RigidCylinder", "RigidSphere", "RigidSurface"),
+    "case.output": ("Output", "Track"),
+    "system.progress": ("Progress",),
+    "results.result": ("Result",),
+    "running.run": ("run",),
+    "case.scenario": ("Scenario",),
+    "case.signal": ("Table",),
+    "running.simulation": ("Simulation", "Step"),
+    "running.state": ("BodyState", "Contacts", "State"),
+    "io.summary_types": ("Summary",),
 }
 """The module of each name, imported when the name is first used: the command line starts sooner."""
 

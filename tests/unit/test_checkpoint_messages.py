@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from carom.building import build
+from carom.building.build import build
 from restarting import scenario
 
 

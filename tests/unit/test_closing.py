@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.building import build
+from carom.building.build import build
 from carom.errors import InputError
 from carom.mesh_file.precision import precision
 

@@ -8,8 +8,8 @@ import pytest
 
 import carom
 from carom import cli
-from carom.building import build
-from carom.contact import SolverName
+from carom.building.build import build
+from carom.case.contact import SolverName
 
 
 @pytest.fixture

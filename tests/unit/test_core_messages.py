@@ -4,7 +4,7 @@ import pytest
 
 import carom
 from carom import InputError
-from carom.building import build
+from carom.building.build import build
 
 MATERIAL = {"kind": "saint-venant-kirchhoff", "young": 1e5, "poisson": 0.3, "density": 1e3}
 BLOCK = {"kind": "rectangle", "corner": [0.0, 0.0], "size": [1.0, 1.0], "divisions": [2, 2]}

@@ -11,13 +11,13 @@ import pytest
 
 import carom
 from carom import cli
-from carom.building import build
+from carom.building.build import build
+from carom.building.simplices import Boundary
 from carom.doctor import contact_setup, cost, examine, meeting, mesh_quality, time_step, units
 from carom.doctor.flight import Flight, obstacle_gap
 from carom.doctor.mesh_quality import quality
 from carom.doctor.patient import Grid, Patient
 from carom.doctor.touch import first_touch
-from carom.simplices import Boundary
 
 STEEL = {"kind": "linear-elastic", "young": 210e9, "poisson": 0.3, "density": 7850.0}
 CASE = {
@@ -255,7 +255,7 @@ def test_two_discs_meet_when_their_boundaries_do(case):
 
 @pytest.mark.parametrize(
     ("shipped", "time"),
-    [("examples/two_bars.toml", 0.01), ("python/carom/templates/two-bodies.toml", 1.28e-3)],
+    [("examples/two_bars.toml", 0.01), ("python/carom/new/templates/two-bodies.toml", 1.28e-3)],
 )
 def test_bodies_of_shipped_cases_touch_when_they_do(shipped, time):
     """Symptom guarded against: "about 0 s", as half an edge of a cell counted as touching."""

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.building import build
+from carom.building.build import build
 from restarting import CASE
 
 SCHEMES = {

@@ -3,7 +3,7 @@ import signal
 
 import pytest
 
-from carom.interrupt import uninterrupted
+from carom.system.interrupt import uninterrupted
 
 
 def test_ctrl_c_waits_for_the_end_of_the_block():

@@ -48,9 +48,9 @@ test cone::fails ... FAILED
 def test_errors_that_survive_and_those_that_do_not_are_in_the_table(listed):
     verdicts = [
         listed.Verdict("a", "crates/carom/src/step/commit.rs", "carom", "ledger::fails", 1.0),
-        listed.Verdict("b", "python/carom/output.py", "nobody", "", 2.0),
+        listed.Verdict("b", "python/carom/case/output.py", "nobody", "", 2.0),
     ]
     assert listed.table(verdicts).splitlines()[2:] == [
         "| a | [commit.rs](../crates/carom/src/step/commit.rs) | carom | `ledger::fails` |",
-        "| b | [output.py](../python/carom/output.py) | nobody |  |",
+        "| b | [output.py](../python/carom/case/output.py) | nobody |  |",
     ]

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 import carom
-from carom import case_file, cli
-from carom.mesh_case import MATERIALS, UNITS
-from carom.schema import case_file_schema
-from carom.template import MESH_FILE, TEMPLATES, template
+from carom import cli
+from carom.case import case_file
+from carom.case.schema import case_file_schema
+from carom.new.mesh_case import MATERIALS, UNITS
+from carom.new.template import MESH_FILE, TEMPLATES, template
 
 
 @pytest.fixture

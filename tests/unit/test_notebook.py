@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.running import drive
+from carom.running.run import drive
 from stand_in import FallingSimulation
 
 EVIL = '<script>alert("1")</script> & "more"'

@@ -6,7 +6,7 @@ import pytest
 import carom
 import restarting
 from carom import Observer, Stop, cli
-from carom.running import drive
+from carom.running.run import drive
 from stand_in import FallingSimulation
 
 

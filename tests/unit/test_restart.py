@@ -130,9 +130,9 @@ def test_a_disk_that_is_full_leaves_a_run_that_goes_on(reference, tmp_path, shar
 
 
 def test_no_room_for_a_checkpoint_leaves_the_last_one(tmp_path, monkeypatch):
-    import carom.recorder
+    import carom.running.recorder
 
-    write, count = carom.recorder.write_checkpoint, 0
+    write, count = carom.running.recorder.write_checkpoint, 0
 
     def no_room(directory, checkpoint):
         nonlocal count
@@ -141,7 +141,7 @@ def test_no_room_for_a_checkpoint_leaves_the_last_one(tmp_path, monkeypatch):
             raise OSError(28, "No space left on device", str(directory / "checkpoint-fresh.h5"))
         write(directory, checkpoint)
 
-    monkeypatch.setattr(carom.recorder, "write_checkpoint", no_room)
+    monkeypatch.setattr(carom.running.recorder, "write_checkpoint", no_room)
     with pytest.raises(
         StorageError,
         match=r"checkpoint-fresh\.h5: No space left on device; the last checkpoint is whole: make "
@@ -167,7 +167,7 @@ def stopped(directory, when=0.05):
 
 
 def test_ctrl_c_makes_a_checkpoint_of_its_own(reference, tmp_path, monkeypatch):
-    monkeypatch.setattr("carom.running.SLICE", 0.0)  # back after every step
+    monkeypatch.setattr("carom.running.run.SLICE", 0.0)  # back after every step
     directory = stopped(tmp_path / "out", when=0.057)
     assert carom.Result.open(directory).summary["status"] == "interrupted"
     assert read_checkpoint(directory / "checkpoint.h5").time == pytest.approx(0.058)
@@ -209,9 +209,9 @@ def test_where_the_case_does_not_say_checkpoints_go_by_wall_time(
     tmp_path, monkeypatch, interval, least, most
 ):
     made = []
-    monkeypatch.setattr("carom.running.SLICE", 0.0)
-    monkeypatch.setattr("carom.schedule.WALL_INTERVAL", interval)
-    monkeypatch.setattr("carom.recorder.write_checkpoint", lambda *_: made.append(1))
+    monkeypatch.setattr("carom.running.run.SLICE", 0.0)
+    monkeypatch.setattr("carom.running.schedule.WALL_INTERVAL", interval)
+    monkeypatch.setattr("carom.running.recorder.write_checkpoint", lambda *_: made.append(1))
     case = copy.deepcopy(CASE)
     del case["output"]["checkpoint_every"]
     carom.run(carom.Scenario.from_dict(case), out=tmp_path)

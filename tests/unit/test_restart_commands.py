@@ -13,7 +13,7 @@ from test_cli import in_process
 
 import carom
 from carom.cli.progress import shown_progress
-from carom.progress import Progress
+from carom.system.progress import Progress
 from restarting import assert_same_results, scenario
 
 COMMAND = [sys.executable, "-c", "from carom.cli import main; main()"]

@@ -6,7 +6,7 @@ import pytest
 
 from carom import InputError
 from carom.io.frames import Frames
-from carom.running import drive
+from carom.running.run import drive
 from stand_in import MESH, FallingSimulation, made_up_fields
 
 NODES, CELLS = 2 * 57, 2 * 48

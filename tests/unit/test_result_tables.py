@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from carom import InputError
-from carom.running import drive
+from carom.running.run import drive
 from stand_in import FallingSimulation
 
 

@@ -8,7 +8,7 @@ import pytest
 
 import carom
 from carom import CertificateError, ConvergenceError, InputError, Result, StorageError
-from carom.running import drive
+from carom.running.run import drive
 from stand_in import FallingSimulation
 
 

@@ -8,8 +8,9 @@ import pytest
 import tomlkit
 
 import carom
-from carom import case_file, cli, overrides
-from carom.schema import case_file_schema
+from carom import cli
+from carom.case import case_file, overrides
+from carom.case.schema import case_file_schema
 
 ROOT = Path(__file__).parents[2]
 CASES = sorted((ROOT / "examples").glob("*.toml"))

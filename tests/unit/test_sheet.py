@@ -3,7 +3,7 @@ import io
 import pytest
 from rich.console import Console
 
-from carom.sheet import Sheet, print_whole
+from carom.display.sheet import Sheet, print_whole
 
 SHEET = Sheet(
     ["problem", "contacts", *(f"gauss-seidel-{n}" for n in range(12))],

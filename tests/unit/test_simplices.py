@@ -5,8 +5,8 @@ import pytest
 from scipy.optimize import minimize
 
 import carom
-from carom.building import build
-from carom.simplices import Boundary, behind, boundaries, distance, to_point
+from carom.building.build import build
+from carom.building.simplices import Boundary, behind, boundaries, distance, to_point
 
 
 def found(one, other):

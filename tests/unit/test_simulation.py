@@ -5,7 +5,7 @@ import pytest
 
 import carom
 from carom import cli
-from carom.building import build
+from carom.building.build import build
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import pytest
 
 import carom
 import restarting
-from carom.building import build
+from carom.building.build import build
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from typing_extensions import get_type_hints, is_typeddict
 
 import carom
 import restarting
-from carom.summary import Summary
+from carom.io.summary_types import Summary
 
 
 def check(value, kind, place="summary"):

@@ -3,7 +3,7 @@
 import pytest
 
 import carom
-from carom.building import build
+from carom.building.build import build
 
 CORNERS = [[x, y, z] for z in (0, 1000) for y in (0, 1000) for x in (0, 1000)]
 QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]

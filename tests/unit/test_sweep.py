@@ -11,8 +11,8 @@ import pytest
 import carom
 from carom import cli
 from carom.errors import InputError
-from carom.plot.sweep import sweep_figure
 from carom.sweep import axis, processes, sweep
+from carom.sweep.figure import sweep_figure
 from carom.sweep.study import folder, points
 from carom.sweep.table import row, shown_cells
 from carom.sweep.worker import Task, work

@@ -3,7 +3,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from carom.tables import summary_table
+from carom.results.outcome import summary_table
 
 
 def printed(*, cross_check=None, **more):

@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from carom.time_unit import LEAST, UNITS, time_unit
+from carom.display.time_unit import LEAST, UNITS, time_unit
 
 
 @pytest.mark.parametrize("unit", UNITS)

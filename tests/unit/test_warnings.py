@@ -11,12 +11,13 @@ import pytest
 from typer.testing import CliRunner
 
 import carom
-from carom import cli, doubts
+from carom import cli
 from carom.auditing import audit
 from carom.doctor import examine
 from carom.io import layout
-from carom.recorder import Recorder
 from carom.report import write_report
+from carom.results import doubts
+from carom.running.recorder import Recorder
 from carom.sweep import axis, sweep
 from restarting import scenario
 
@@ -182,7 +183,7 @@ def test_runs_that_do_not_complete_have_their_warnings_too(tmp_path, monkeypatch
         raise carom.Stop if status == "stopped" else KeyboardInterrupt
 
     if status == "uncertified":
-        monkeypatch.setattr("carom.running._violation", lambda _: "too far from the law")
+        monkeypatch.setattr("carom.running.run._violation", lambda _: "too far from the law")
     observers = [carom.Observer(end)] if status in ("stopped", "interrupted") else []
     hard = ["analysis.newton.max_iterations=1", "analysis.max_halvings=0"]
     case = scenario(SOFT, *(hard if status == "failed" else []))
@@ -217,8 +218,8 @@ class Doubting:
 
 
 def test_what_the_core_doubts_is_in_the_same_list(tmp_path):
-    from carom.building import build
-    from carom.running import drive
+    from carom.building.build import build
+    from carom.running.run import drive
 
     said = {
         "code": "crushed",
@@ -235,8 +236,8 @@ def test_what_the_core_doubts_is_in_the_same_list(tmp_path):
 
 
 def test_a_checkpoint_that_cannot_be_made_is_told_and_written_down(tmp_path, monkeypatch):
-    from carom.building import build
-    from carom.running import drive
+    from carom.building.build import build
+    from carom.running.run import drive
 
     class Forgetful(Doubting):
         def checkpoint(self):
@@ -344,7 +345,7 @@ def test_every_code_is_on_the_page_of_results():
 
 
 def test_the_recorder_says_everything_once(tmp_path):
-    from carom.building import build
+    from carom.building.build import build
 
     case, told = scenario(), []
     recorder = Recorder(tmp_path, case, build(case), case={}, notify=told.append)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom import Scenario
-from carom.building import build
+from carom.building.build import build
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 import carom
-from carom.building import build
+from carom.building.build import build
 from compare.abaqus import abaqus_mesh
 from compare.energy import Sampler
 from compare.outcome import Outcome

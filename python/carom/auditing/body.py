@@ -11,10 +11,10 @@ from carom.auditing.arrays import Array, Indices, cross, einsum
 from carom.auditing.cells import Cells, boundary
 from carom.auditing.laws import Law
 from carom.auditing.mass import Mass
-from carom.body import Body
+from carom.case.body import Body
+from carom.case.material import Material
+from carom.case.mesh import Rectangle
 from carom.errors import InputError
-from carom.material import Material
-from carom.mesh import Rectangle
 
 STEADYING = 0.1
 """Resistance of a node without mass to a change of its motion, in terms of what holds it."""

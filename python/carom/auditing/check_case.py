@@ -14,10 +14,10 @@ from carom.auditing.files import Frame
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.scales import ROUND_OFF, Scales
-from carom.body import Body
+from carom.case.body import Body
+from carom.case.mesh import Disc, Rectangle
 from carom.io import layout
 from carom.io.digest import digest
-from carom.mesh import Disc, Rectangle
 
 
 def check_files(path: Path, summary: Mapping[str, Any], findings: Findings) -> None:

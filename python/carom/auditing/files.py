@@ -12,6 +12,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.model import AuditModel
+from carom.case.scenario import Scenario
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.audit import read_steps
@@ -25,7 +26,6 @@ from carom.io.vtkhdf import (
     SURFACE_CELL_FIELDS,
     SURFACE_POINT_FIELDS,
 )
-from carom.scenario import Scenario
 
 _NEEDED = (
     layout.CASE,

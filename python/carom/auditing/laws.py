@@ -10,14 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.auditing.arrays import Array, einsum
-from carom.errors import InputError
-from carom.material import (
+from carom.case.material import (
     LinearElastic,
     Material,
     NeoHookean,
     SaintVenantKirchhoff,
     Viscosity,
 )
+from carom.errors import InputError
 
 IDENTITY = np.eye(2)
 

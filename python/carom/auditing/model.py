@@ -7,15 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.analysis import Conserving, Static, Theta
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
 from carom.auditing.target import Target
-from carom.contact import Pair
+from carom.case.analysis import Conserving, Static, Theta
+from carom.case.contact import Pair
+from carom.case.mesh import Disc, Rectangle
+from carom.case.obstacle import Obstacle, Plane
+from carom.case.scenario import Scenario
 from carom.errors import InputError
-from carom.mesh import Disc, Rectangle
-from carom.obstacle import Obstacle, Plane
-from carom.scenario import Scenario
 
 CONDITIONS = ("gap", "midpoint", "endpoint", "massless")
 

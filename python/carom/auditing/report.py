@@ -13,7 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from carom.auditing.catalogue import CHECKS
-from carom.tables import two_columns
+from carom.display.tables import two_columns
 
 Values = float | NDArray[np.float64] | Iterable[float]
 

@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
+from carom.case.scenario import Scenario
 from carom.cli import complete
 from carom.errors import naming
-from carom.scenario import Scenario
 
 CaseFile = Annotated[
     Path,

@@ -8,11 +8,11 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from carom import checking
+from carom.building import checking
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import failures
+from carom.display.tables import add, two_columns
 from carom.errors import naming
-from carom.tables import add, two_columns
 
 
 def check(*, case: CaseFile, overrides: Overrides = None) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import typer
 
 from carom.errors import CertificateError, ConvergenceError, InputError, StorageError
-from carom.interrupt import Terminated
+from carom.system.interrupt import Terminated
 
 SYSTEM_FAILURE = 1
 BAD_INPUT = 2

@@ -11,10 +11,10 @@ from rich.console import Console
 from carom.cli import complete
 from carom.cli.case import Force
 from carom.cli.failures import failures
+from carom.display.tables import add, two_columns
 from carom.errors import InputError
-from carom.mesh_case import MATERIALS, UNITS, mesh_case
-from carom.tables import add, two_columns
-from carom.template import MESH_FILE, TEMPLATES, place, template
+from carom.new.mesh_case import MATERIALS, UNITS, mesh_case
+from carom.new.template import MESH_FILE, TEMPLATES, place, template
 
 
 def new(

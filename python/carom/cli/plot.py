@@ -7,7 +7,7 @@ import typer
 from carom.cli.case import ResultsDirectory
 from carom.cli.failures import failures
 from carom.plot import draw
-from carom.result import Result
+from carom.results.result import Result
 
 
 def plot(

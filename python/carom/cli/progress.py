@@ -12,7 +12,7 @@ from rich.progress import BarColumn, TextColumn
 from rich.progress import Progress as Bar
 from rich.text import Text
 
-from carom.progress import Progress, ShowProgress
+from carom.system.progress import Progress, ShowProgress
 
 LINE_EVERY = 5.0
 """Wall time between two lines where no bar can be drawn [s]."""

@@ -10,6 +10,7 @@ import typer
 from carom.cli.case import Force, ResultsDirectory
 from carom.cli.failures import failures
 from carom.report import write_report
+from carom.sweep.page import is_study, write_study_page
 
 
 def report(
@@ -22,4 +23,5 @@ def report(
 ) -> None:
     """Write a page with the animated bodies, energies and all numbers of a run; or of a study."""
     with failures(directory):
-        typer.echo(write_report(directory, out=out, force=force))
+        write = write_study_page if is_study(directory) else write_report
+        typer.echo(write(directory, out=out, force=force))

@@ -8,20 +8,20 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from carom.building import build
+from carom.building.build import build
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import failures
 from carom.cli.progress import shown_progress
-from carom.doubts import Doubt
 from carom.errors import CertificateError, ConvergenceError, InputError, naming
-from carom.existing import entries
-from carom.interrupt import terminable
 from carom.io import layout
 from carom.mesh_file import Note
-from carom.restart import ended
-from carom.result import Result
-from carom.running import drive
-from carom.threads import take_threads
+from carom.results.doubts import Doubt
+from carom.results.result import Result
+from carom.running.restart import ended
+from carom.running.run import drive
+from carom.system.existing import entries
+from carom.system.interrupt import terminable
+from carom.system.threads import take_threads
 
 
 def run(

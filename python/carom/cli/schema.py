@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import typer
 
+from carom.case.schema import case_file_schema
 from carom.cli.plain import json_text
-from carom.schema import case_file_schema
 
 
 def schema() -> None:

@@ -10,16 +10,13 @@ from rich.console import Console
 
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import NOT_CONVERGED, failures
+from carom.display.sheet import Sheet, print_whole
 from carom.errors import naming
 from carom.plot.style import save
-from carom.plot.sweep import sweep_figure
-from carom.sheet import Sheet, print_whole
-from carom.sweep import TABLE, axis
+from carom.sweep import PICTURE, TABLE, axis
 from carom.sweep import sweep as run_all
+from carom.sweep.figure import sweep_figure
 from carom.sweep.table import shown_cells
-
-PICTURE = "sweep.png"
-"""Name of the picture beside the table."""
 
 
 def sweep(

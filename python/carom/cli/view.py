@@ -9,10 +9,10 @@ import typer
 
 from carom.cli.case import Force, ResultsDirectory
 from carom.cli.failures import failures
-from carom.existing import spare_existing
 from carom.io import layout
 from carom.io.frames import Frames
-from carom.result import read_case
+from carom.results.result import read_case
+from carom.system.existing import spare_existing
 from carom.view import View, animate, screenshot, show, shown
 
 

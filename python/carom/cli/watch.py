@@ -15,7 +15,7 @@ from carom.cli.progress import shown_progress
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.progress import Running, read_progress
-from carom.result import Result
+from carom.results.result import Result
 
 STATUSES = {
     "completed": 0,

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from carom.building import build
+from carom.building.build import build
+from carom.case.scenario import Scenario
 from carom.doctor.contact_setup import contact_setup
 from carom.doctor.cost import cost
 from carom.doctor.finding import LEVELS, Diagnosis, Finding, Level
@@ -15,7 +16,6 @@ from carom.doctor.time_step import time_step
 from carom.doctor.units import units
 from carom.errors import InputError
 from carom.mesh_file import Note
-from carom.scenario import Scenario
 
 __all__ = ["LEVELS", "Diagnosis", "Finding", "Level", "examine"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from carom.analysis import Dynamic
+from carom.case.analysis import Dynamic
 from carom.doctor.finding import Finding
 from carom.doctor.patient import Patient
 

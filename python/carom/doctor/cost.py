@@ -8,7 +8,7 @@ import sys
 import time
 from collections.abc import Iterator
 
-from carom.counting import count
+from carom.display.counting import count
 from carom.doctor.finding import Finding
 from carom.doctor.patient import Patient
 from carom.errors import ConvergenceError

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.building.simplices import Boundary, distance, to_point
+from carom.case.obstacle import Obstacle, Plane, RigidBox, RigidCylinder, RigidSphere
 from carom.mesh_file.cells import KINDS
-from carom.obstacle import Obstacle, Plane, RigidBox, RigidCylinder, RigidSphere
-from carom.simplices import Boundary, distance, to_point
 
 Array = NDArray[np.float64]
 

@@ -8,15 +8,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.building.simplices import distance
+from carom.case.motion import Fixed
+from carom.case.scenario import Scenario
+from carom.case.signal import Signal
+from carom.case.travel import travel, values
 from carom.doctor.finding import Finding
 from carom.doctor.flight import Flight, obstacle_gap
 from carom.doctor.patient import Patient
 from carom.doctor.touch import first_touch
-from carom.motion import Fixed
-from carom.scenario import Scenario
-from carom.signal import Signal
-from carom.simplices import distance
-from carom.travel import travel, values
 
 Led = Mapping[int, Callable[[float], float]]
 """By axis, the displacement that is prescribed [m] over time [s]."""

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom._carom import Simulation
-from carom.scenario import Scenario
-from carom.simplices import Boundary, boundaries
+from carom.building.simplices import Boundary, boundaries
+from carom.case.scenario import Scenario
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from carom.checking import COARSE_STEP, SPLIT
+from carom.building.checking import COARSE_STEP, SPLIT
 from carom.doctor.finding import Finding
 from carom.doctor.patient import Patient
 

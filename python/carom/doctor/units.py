@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from carom.checking import LARGE, WAVE_SPEEDS
+from carom.building.checking import LARGE, WAVE_SPEEDS
+from carom.case.material import BlatzKo, Material, MooneyRivlin, Ogden, Yeoh
+from carom.case.mesh import MeshFile
 from carom.doctor.finding import Finding
 from carom.doctor.patient import Patient
-from carom.material import BlatzKo, Material, MooneyRivlin, Ogden, Yeoh
-from carom.mesh import MeshFile
-from carom.unitless import has_no_units
+from carom.doctor.unitless import has_no_units
 
 DENSITIES = (10.0, 25e3)
 """Densities of solids, from foam to osmium [kg/m³]."""

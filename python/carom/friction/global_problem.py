@@ -11,7 +11,7 @@ import scipy.sparse.linalg as spla
 from numpy.typing import ArrayLike, NDArray
 
 from carom import _carom
-from carom.counting import count
+from carom.display.counting import count
 from carom.errors import InputError
 from carom.friction import arrays
 from carom.friction.measure import Measure, measure

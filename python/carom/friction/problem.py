@@ -10,7 +10,7 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self
 
-from carom.counting import count
+from carom.display.counting import count
 from carom.errors import InputError
 from carom.friction import arrays, symmetry
 from carom.friction.blocks import BlockRows, block_rows

@@ -23,7 +23,7 @@ from carom.errors import InputError
 from carom.io import layout
 from carom.io.atomic import write_whole
 from carom.io.form import misfit
-from carom.summary import WarningSummary
+from carom.io.summary_types import WarningSummary
 
 _BLOCK = 512
 """Size of the text in front of the HDF5 file: the smallest that HDF5 allows [bytes]."""
@@ -62,9 +62,9 @@ class Checkpoint:
     Parameters
     ----------
     case
-        What is run, see `carom.restart.identity`.
+        What is run, see `carom.running.restart.identity`.
     record
-        How far its files had come, see `carom.recorder.Recorder`.
+        How far its files had come, see `carom.running.recorder.Recorder`.
     arrays
         What the native simulation needs, by name.
     """

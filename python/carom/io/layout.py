@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from carom.existing import entries, refuse_foreign
+from carom.system.existing import entries, refuse_foreign
 
 CASE = "case.toml"
 SUMMARY = "summary.json"

@@ -13,7 +13,7 @@ from pathlib import Path
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.atomic import write_whole
-from carom.progress import Progress
+from carom.system.progress import Progress
 
 EVERY = 1.0
 """Wall time between two updates [s]."""

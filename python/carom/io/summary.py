@@ -11,7 +11,7 @@ from typing import Any
 from carom.errors import InputError
 from carom.io.atomic import write_whole
 from carom.io.form import misfit
-from carom.summary import Summary
+from carom.io.summary_types import Summary
 
 
 def write_summary(path: Path, summary: Mapping[str, Any]) -> None:

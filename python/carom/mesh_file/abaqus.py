@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from carom.counting import count
+from carom.display.counting import count
 from carom.mesh_file.arrays import FileMesh, Indices, Note, Refused
 from carom.mesh_file.cells import dimension
 from carom.mesh_file.deck import Row, sections

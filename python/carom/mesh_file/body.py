@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.counting import count
+from carom.display.counting import count
 from carom.mesh_file.arrays import FileMesh, Indices, MeshArrays, Note, Refused, first_few
 from carom.mesh_file.cells import KINDS, dimension
 from carom.mesh_file.formats import read_file

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.counting import count
+from carom.display.counting import count
 from carom.mesh_file.arrays import Indices, Refused
 from carom.mesh_file.formats import read_file
 

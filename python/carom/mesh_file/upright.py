@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.counting import count
+from carom.display.counting import count
 from carom.mesh_file.arrays import Indices, Refused, first_few
 from carom.mesh_file.cells import KINDS, smallest_corner
 

@@ -8,7 +8,7 @@ from carom.io import layout
 from carom.plot.energy import energy_figure
 from carom.plot.style import save
 from carom.plot.track import track_figure
-from carom.result import Result
+from carom.results.result import Result
 
 
 def draw(result: Result) -> list[Path]:

@@ -5,19 +5,10 @@ from __future__ import annotations
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from carom.plot.style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    ORANGE,
-    PALE_BLUE,
-    PALE_GREY,
-    PURPLE,
-    figure,
-    run_unit,
-)
-from carom.result import Result
-from carom.time_unit import TimeUnit
+from carom.display.colours import BLACK, BLUE, GREEN, ORANGE, PALE_BLUE, PALE_GREY, PURPLE
+from carom.display.time_unit import TimeUnit
+from carom.plot.style import figure, run_unit
+from carom.results.result import Result
 
 CURVES = (
     ("kinetic", r"$E_c$ kinetic", BLUE, "-"),

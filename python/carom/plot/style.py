@@ -1,4 +1,4 @@
-"""What all pictures share: size, fonts and colours."""
+"""What all pictures share: size, fonts and axes."""
 
 from __future__ import annotations
 
@@ -10,12 +10,8 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from carom.result import Result
-from carom.time_unit import TimeUnit, time_unit
-
-# Okabe & Ito's palette, told apart with any colour vision.
-BLUE, ORANGE, GREEN, BLACK, PURPLE = "#0072B2", "#D55E00", "#009E73", "#000000", "#CC79A7"
-PALE_GREY, PALE_BLUE = "#DDDDDD", "#E3EFF8"
+from carom.display.time_unit import TimeUnit, time_unit
+from carom.results.result import Result
 
 _STYLE: dict[Any, Any] = {
     "font.size": 10,

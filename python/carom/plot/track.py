@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from carom.plot.style import BLUE, ORANGE, figure, run_unit
-from carom.result import Result
+from carom.display.colours import BLUE, ORANGE
+from carom.plot.style import figure, run_unit
+from carom.results.result import Result
 
 COMPONENTS = (("x", BLUE), ("y", ORANGE))
 """Each component and its colour."""

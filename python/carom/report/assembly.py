@@ -7,7 +7,7 @@ import hashlib
 from collections.abc import Sequence
 from importlib import resources
 
-from carom.report.markup import Html
+from carom.display.markup import Html
 
 
 def asset(folder: str, name: str) -> str:

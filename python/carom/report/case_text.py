@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from carom.report.markup import Html, element, join
+from carom.display.markup import Html, element, join
 
 _PARTS = re.compile(
     r"""(?P<comment>\#.*$)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from carom.report.markup import Html, element, format_number, join, number
+from carom.display.markup import Html, element, format_number, join, number
 
 Summary = Mapping[str, Any]
 

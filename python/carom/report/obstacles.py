@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.case.obstacle import Obstacle, RigidSurface
+from carom.case.scenario import Scenario
+from carom.case.travel import travel
 from carom.errors import InputError
 from carom.mesh_file import read_surface
-from carom.obstacle import Obstacle, RigidSurface
 from carom.report.codec import pack
-from carom.scenario import Scenario
-from carom.travel import travel
 
 
 def obstacles(

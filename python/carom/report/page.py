@@ -10,13 +10,14 @@ import matplotlib as mpl
 import numpy as np
 
 from carom import __version__
+from carom.display.markup import Html, element, embedded, join
+from carom.display.time_unit import TimeUnit, time_unit
 from carom.errors import InputError
 from carom.report.assembly import asset, elements, policy
 from carom.report.case_text import coloured
 from carom.report.curves import curves
 from carom.report.fields import Bodies, bodies
 from carom.report.figures import key_figures
-from carom.report.markup import Html, element, embedded, join
 from carom.report.number_tables import (
     all_numbers,
     body_table,
@@ -26,7 +27,6 @@ from carom.report.number_tables import (
 )
 from carom.report.obstacles import obstacles
 from carom.report.source import UNFINISHED, Source
-from carom.time_unit import TimeUnit, time_unit
 
 LIBRARIES = ("three.min.js", "uPlot.iife.min.js")
 

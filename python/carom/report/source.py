@@ -11,14 +11,14 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.case.scenario import Scenario
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.frames import Frames
 from carom.io.history import read_history
 from carom.io.ledger import read_ledger
 from carom.io.summary import read_summary
-from carom.result import read_case
-from carom.scenario import Scenario
+from carom.results.result import read_case
 
 Columns = dict[str, NDArray[np.float64]]
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from carom.existing import spare_existing
 from carom.io import layout
 from carom.io.atomic import write_whole
 from carom.report.page import page
 from carom.report.source import read_source
-from carom.report.study import is_study, read_study, study_page
+from carom.system.existing import spare_existing
 
 GENERATOR = '<meta name="generator" content="carom report'
 """By which a report is recognised."""
@@ -23,8 +22,7 @@ def write_report(
     Parameters
     ----------
     directory
-        Results directory, also of a run that failed, was interrupted, or still goes on; or the
-        directory of a study of `carom sweep`.
+        Results directory, also of a run that failed, was interrupted, or still goes on.
     out
         File to write; by default ``report.html`` in the directory.
     force
@@ -36,9 +34,13 @@ def write_report(
         The directory holds no results, or the file would be overwritten.
     """
     directory = Path(directory)
-    text = (
-        study_page(read_study(directory)) if is_study(directory) else page(read_source(directory))
-    )
+    return write_page(page(read_source(directory)), directory, out=out, force=force)
+
+
+def write_page(
+    text: str, directory: Path, *, out: str | Path | None = None, force: bool = False
+) -> Path:
+    """Write a page about a directory and return its path; see `write_report`."""
     own = directory / layout.REPORT
     file = own if out is None else Path(out)
     spare_existing(file, force=force or (_is_same(file, own) and _is_report(file)))

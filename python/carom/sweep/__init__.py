@@ -7,18 +7,22 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from carom.existing import make
-from carom.scenario import Scenario
+from carom.case.scenario import Scenario
 from carom.sweep.axis import Axis, axis
 from carom.sweep.processes import here, on_cluster
 from carom.sweep.study import Point, points
-from carom.sweep.table import row, spare_files_of_others, spare_other_study, write_table
+from carom.sweep.table import (
+    PICTURE,
+    TABLE,
+    row,
+    spare_files_of_others,
+    spare_other_study,
+    write_table,
+)
 from carom.sweep.worker import Task
+from carom.system.existing import make
 
-__all__ = ["TABLE", "Axis", "Done", "axis", "points", "sweep"]
-
-TABLE = "sweep.csv"
-"""Name of the table beside the folders of the runs."""
+__all__ = ["PICTURE", "TABLE", "Axis", "Done", "axis", "points", "sweep"]
 
 Done = Callable[[int, int, dict[str, Any]], None]
 """Called with how many points are done, of how many, and the row of the last one."""

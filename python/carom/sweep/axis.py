@@ -9,8 +9,8 @@ import numpy as np
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
 
+from carom.case.overrides import value_of
 from carom.errors import InputError
-from carom.overrides import value_of
 
 MOST_VALUES = 100_000
 """Values of an axis, and points of a study, at the most."""

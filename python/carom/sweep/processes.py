@@ -13,7 +13,7 @@ from typing import Any
 
 from carom.errors import InputError
 from carom.sweep.worker import Task, refused, work
-from carom.threads import THREADS
+from carom.system.threads import THREADS
 
 Outcome = tuple[int, dict[str, Any]]
 """The index of a task, and its summary."""

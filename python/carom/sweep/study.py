@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from carom.case.scenario import Scenario
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.summary import read_summary
-from carom.scenario import Scenario
 from carom.sweep.axis import MOST_VALUES, Axis
 
 LONGEST_NAME = 100

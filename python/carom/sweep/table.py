@@ -9,8 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from carom.errors import InputError
-from carom.existing import entries, refuse_foreign
 from carom.io.layout import CASE
+from carom.system.existing import entries, refuse_foreign
+
+TABLE, PICTURE = "sweep.csv", "sweep.png"
+"""Files of a study beside the folders of its runs."""
 
 FIGURES = (
     "energy_initial",

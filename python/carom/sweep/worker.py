@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from carom.building import build
-from carom.doubts import Doubt
+from carom.building.build import build
+from carom.case.scenario import Scenario
 from carom.errors import CaromError, InputError
 from carom.io import layout
 from carom.io.summary import read_summary
 from carom.mesh_file import Note
-from carom.running import drive
-from carom.scenario import Scenario
+from carom.results.doubts import Doubt
+from carom.running.run import drive
 
 
 @dataclass(frozen=True)

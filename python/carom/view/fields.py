@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.errors import InputError
-from carom.fields import ABOUT
 from carom.io.frames import Frames
 from carom.messages import known
+from carom.results.field import ABOUT
 
 UNITS = {
     **{name: unit for name, (_, unit) in ABOUT.items() if name != "stress"},

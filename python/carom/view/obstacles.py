@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.case.obstacle import Obstacle, Plane, RigidBox, RigidCylinder, RigidSphere
+from carom.case.scenario import Scenario
+from carom.case.travel import travel
 from carom.mesh_file import read_surface
-from carom.obstacle import Obstacle, Plane, RigidBox, RigidCylinder, RigidSphere
-from carom.scenario import Scenario
-from carom.travel import travel
 
 FINE = 180
 """Edges around what is round: beside a large obstacle a small body shows how round it is."""

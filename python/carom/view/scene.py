@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from carom.case.scenario import Scenario
+from carom.display.time_unit import time_unit
 from carom.errors import InputError
 from carom.io.frames import Frames
-from carom.scenario import Scenario
-from carom.time_unit import time_unit
 from carom.view.camera import aim
 from carom.view.fields import Shown
 from carom.view.obstacles import draw_obstacles

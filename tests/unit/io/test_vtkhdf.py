@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.building import build
+from carom.building.build import build
 from carom.io.vtkhdf import FieldsWriter
 from stand_in import MESH, made_up_fields
 

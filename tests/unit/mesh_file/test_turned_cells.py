@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import carom
-from carom.building import build
+from carom.building.build import build
 from carom.errors import MeshError
 from carom.mesh_file import read_body_mesh
 from carom.mesh_file.cells import KINDS

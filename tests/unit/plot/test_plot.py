@@ -7,7 +7,7 @@ import pytest
 from carom.plot import draw
 from carom.plot.energy import energy_figure
 from carom.plot.track import track_figure
-from carom.running import drive
+from carom.running.run import drive
 from stand_in import FallingSimulation
 
 

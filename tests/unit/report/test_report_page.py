@@ -15,11 +15,11 @@ from typer.testing import CliRunner
 import carom
 from carom import ConvergenceError, InputError
 from carom.cli import app
+from carom.display.markup import element, format_number
 from carom.io import layout
 from carom.report import write_report
 from carom.report.codec import unpack
-from carom.report.markup import element, format_number
-from carom.running import drive
+from carom.running.run import drive
 from stand_in import FallingSimulation
 
 

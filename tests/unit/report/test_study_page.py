@@ -10,8 +10,8 @@ from typer.testing import CliRunner
 import carom
 from carom.cli import app
 from carom.io import layout
-from carom.report import write_report
 from carom.sweep import axis, sweep
+from carom.sweep.page import write_study_page
 from carom.sweep.worker import work
 from conftest import DISC
 
@@ -61,7 +61,7 @@ def test_runs_without_a_report_lead_to_what_they_have(study, tmp_path):
     first, *others = sorted(path for path in copy.iterdir() if path.is_dir())
     (first / layout.REPORT).unlink()
     shutil.rmtree(others[0])
-    text = write_report(copy, force=True).read_text(encoding="utf-8")
+    text = write_study_page(copy, force=True).read_text(encoding="utf-8")
     assert f"/{layout.ENERGY_PLOT}" in text
     assert "2 runs of 4 without a report" in text
     assert text.count("<a href=") == 3
@@ -94,7 +94,7 @@ def test_a_table_that_is_cut_is_refused(study, tmp_path):
 
 
 def test_the_page_of_a_study_opens_without_errors(study, opened, pages):
-    write_report(study, force=True)
+    write_study_page(study, force=True)
     for width in (360, 768, 1280):
         page = opened(study / layout.REPORT, viewport={"width": width, "height": 700})
         assert page.evaluate("document.documentElement.scrollWidth") <= width
@@ -117,5 +117,5 @@ def test_the_page_of_a_study_has_the_warnings_of_runs_and_does_without_their_col
             writer = csv.DictWriter(file, columns, extrasaction="ignore")
             writer.writeheader()
             writer.writerows(rows)
-        text = write_report(tmp_path).read_text(encoding="utf-8")
+        text = write_study_page(tmp_path).read_text(encoding="utf-8")
         assert text.count("penetration wave-speed") == (len(rows) if codes else 0)

@@ -11,10 +11,10 @@ from rich.console import Console
 import carom
 from carom.cli.case import Force
 from carom.cli.failures import failures
+from carom.display.sheet import Sheet, print_whole
 from carom.errors import InputError
-from carom.existing import entries, spare_existing
 from carom.messages import known
-from carom.sheet import Sheet, print_whole
+from carom.system.existing import entries, spare_existing
 
 if TYPE_CHECKING:
     from carom.friction.bench import Run

@@ -11,7 +11,7 @@ import carom
 from carom.cli.case import Force
 from carom.cli.failures import failures
 from carom.cli.friction.problem_file import ProblemFile, warnings_named
-from carom.existing import spare_existing
+from carom.system.existing import spare_existing
 
 
 def convert(

@@ -14,9 +14,9 @@ from carom.cli.case import Force
 from carom.cli.failures import NOT_CONVERGED, failures
 from carom.cli.friction.problem_file import ProblemFile, warnings_named
 from carom.cli.plain import json_text
+from carom.display.tables import add, two_columns
 from carom.errors import InputError
-from carom.existing import spare_existing
-from carom.tables import add, two_columns
+from carom.system.existing import spare_existing
 
 if TYPE_CHECKING:
     from carom.friction import Record

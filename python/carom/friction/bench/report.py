@@ -8,11 +8,11 @@ import math
 from dataclasses import asdict, fields
 from pathlib import Path
 
+from carom.display.sheet import Sheet
 from carom.friction.bench import siconos
 from carom.friction.bench.comparison import WORTH_TUNING, Comparison, geometric_mean
 from carom.friction.bench.profile import ratios, shares
 from carom.friction.bench.run import Run
-from carom.sheet import Sheet
 
 MARKDOWN, CSV, JSON = "table.md", "table.csv", "table.json"
 """Files of a report."""

@@ -11,7 +11,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from carom.counting import count
+from carom.display.counting import count
 from carom.errors import InputError, naming
 from carom.friction.global_problem import GlobalProblem
 from carom.friction.problem import Problem

@@ -1,0 +1,88 @@
+"""From a scenario to the native simulation."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+
+from carom._carom import Simulation
+from carom.building.closing import closed
+from carom.building.leaps import refuse_leaps
+from carom.building.magnitudes import refuse_unbounded
+from carom.case.mesh import MeshFile
+from carom.case.obstacle import RigidSurface
+from carom.case.scenario import Scenario
+from carom.errors import InputError
+from carom.mesh_file import MeshArrays, Note, read_body_mesh, read_surface
+from carom.results.doubts import of_mesh, warn
+
+
+def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
+    """Build meshes, matrices and the initial state.
+
+    Parameters
+    ----------
+    scenario
+        What to build.
+    notes
+        A list that gets what was done to meshes out of files, such as cells that were turned. None
+        warns of it.
+
+    Raises
+    ------
+    InputError
+        The scenario cannot be run, such as bodies that overlap at the start.
+    """
+    meshes = _meshes(scenario)
+    found = [note for arrays in meshes.values() for note in arrays.notes]
+    try:
+        simulation = _make(scenario, meshes)
+    except InputError as refusal:
+        try:
+            meshes, moves = closed(scenario, meshes, _make)
+            if not moves:
+                raise refusal from None
+            simulation = _make(scenario, meshes)
+        except InputError:  # what has been wrong before is told, not what is left of it
+            raise refusal from None
+        found += moves
+    description = simulation.describe()
+    refuse_unbounded(scenario, description)
+    refuse_leaps(scenario, description)
+    if notes is None:
+        for note in found:
+            warn(of_mesh(note))
+    else:
+        notes += found
+    return simulation
+
+
+def _make(scenario: Scenario, meshes: Mapping[str, MeshArrays]) -> Simulation:
+    return Simulation(_json(scenario), dict(meshes))
+
+
+def _json(scenario: Scenario) -> str:
+    """Return the scenario as the native core reads it, the triangles of obstacles included."""
+    data = json.loads(scenario.to_json())
+    for index, obstacle in enumerate(scenario.obstacles):
+        if isinstance(obstacle, RigidSurface):
+            key = f"obstacles.{index}"
+            surface = read_surface(obstacle.file, scale=obstacle.scale, key=key)
+            data["obstacles"][index]["vertices"] = surface.points.tolist()
+            data["obstacles"][index]["triangles"] = surface.triangles.tolist()
+    return json.dumps(data)
+
+
+def _meshes(scenario: Scenario) -> dict[str, MeshArrays]:
+    """Read the meshes of the bodies that have theirs in a file."""
+    return {
+        body.name: read_body_mesh(
+            body.mesh.file,
+            body=body.mesh.body,
+            scale=body.mesh.scale,
+            space=scenario.dimension,
+            key=f"bodies.{index}.mesh",
+        )
+        for index, body in enumerate(scenario.bodies)
+        if isinstance(body.mesh, MeshFile)
+    }

@@ -1,0 +1,227 @@
+"""Closing overlaps at the start that the numbers of a mesh file cannot tell from touching."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.case.obstacle import Obstacle, Plane, RigidBox, RigidCylinder, RigidSphere
+from carom.case.scenario import Scenario
+from carom.mesh_file import MeshArrays, Note
+
+if TYPE_CHECKING:
+    from carom._carom import Simulation
+    from carom.building.simplices import Boundary
+
+SHORT = 1e-3
+"""Overlap, relative to the shortest edge of the body that gives way, that is never closed."""
+
+ROUND_OFF = 1e-12
+"""Depth, relative to the size of a body, that is not worth a move."""
+
+Array = NDArray[np.float64]
+
+
+def closed(
+    scenario: Scenario,
+    meshes: Mapping[str, MeshArrays],
+    make: Callable[[Scenario, Mapping[str, MeshArrays]], Simulation],
+) -> tuple[dict[str, MeshArrays], list[Note]]:
+    """Return meshes whose overlaps below their own precision are closed, and what was moved.
+
+    Nodes go to the surface that they are behind, as if the file had said so: nothing is under
+    stress, and no energy comes out of an overlap that was not there.
+
+    Parameters
+    ----------
+    scenario
+        The case, which was refused for whatever reason.
+    meshes
+        The meshes that bodies take from files, by the names of the bodies.
+    make
+        Builds a simulation.
+
+    Raises
+    ------
+    InputError
+        The case cannot be built even where nothing can touch.
+    """
+    if not any(arrays.precision > 0.0 for arrays in meshes.values()):
+        return dict(meshes), []
+    work = _Closing(scenario, meshes, make(_apart(scenario), meshes))
+    for one, other in _pairs(scenario):
+        work.close(one, other)
+    return work.meshes, work.notes
+
+
+def _apart(scenario: Scenario) -> Scenario:
+    """Return the bodies of a scenario, of which none can touch anything."""
+    names = [body.name for body in scenario.bodies]
+    pairs = [
+        {"between": (one, other), "enabled": False}
+        for index, one in enumerate(names)
+        for other in names[index + 1 :]
+    ]
+    contact = scenario.contact.model_validate({"pairs": pairs})
+    bodies = tuple(body.model_copy(update={"self_contact": False}) for body in scenario.bodies)
+    return scenario.model_copy(update={"contact": contact, "bodies": bodies, "obstacles": ()})
+
+
+def _pairs(scenario: Scenario) -> Iterator[tuple[str, str]]:
+    """Yield the names of a body and of what it may touch."""
+    disabled = {frozenset(pair.between) for pair in scenario.contact.pairs if not pair.enabled}
+    bodies = [body.name for body in scenario.bodies]
+    for index, one in enumerate(bodies):
+        for other in (*bodies[index + 1 :], *(o.name for o in scenario.obstacles)):
+            if frozenset((one, other)) not in disabled:
+                yield one, other
+
+
+class _Closing:
+    """The meshes while they are moved."""
+
+    def __init__(
+        self, scenario: Scenario, meshes: Mapping[str, MeshArrays], native: Simulation
+    ) -> None:
+        from carom.building.simplices import boundaries  # noqa: PLC0415 (for refused cases only)
+
+        self.meshes, self.notes = dict(meshes), list[Note]()
+        self._index = {body.name: k for k, body in enumerate(scenario.bodies)}
+        self._obstacles = {obstacle.name: obstacle for obstacle in scenario.obstacles}
+        description: dict[str, Any] = native.describe()
+        self._bodies: list[Mapping[str, Any]] = description["bodies"]
+        points = native.mesh()["points"]
+        ends = np.cumsum([body["nodes"] for body in self._bodies])
+        found = boundaries(native.surface(), points, len(self._bodies))
+        self._boundaries = [boundary for boundary, _ in found]
+        self._nodes = [
+            nodes - (end - body["nodes"])
+            for (_, nodes), end, body in zip(found, ends, self._bodies, strict=True)
+        ]
+
+    def close(self, one: str, other: str) -> None:
+        """Move nodes of a body out of another one or an obstacle, and the other way round."""
+        if other in self._obstacles:
+            self._leave_obstacle(one, self._obstacles[other])
+            return
+        # The finer one first: a single node of the other one that gives way would bend its side.
+        order = sorted((one, other), key=lambda name: self._body(name)["smallest_edge"])
+        for name, target in (order, order[::-1]):
+            self._leave(name, target)
+
+    def _leave_obstacle(self, body: str, obstacle: Obstacle) -> None:
+        deepest = self._deepest(body, body)
+        if deepest <= 0.0:
+            return
+        points = self._boundary(body).points
+        gaps, normals = _gaps(obstacle, points)
+        which = np.flatnonzero((gaps < 0.0) & (gaps >= -deepest))
+        feet = points[which] - gaps[which, None] * normals[which]
+        self._move(body, obstacle.name, which, feet, deepest)
+
+    def _leave(self, body: str, other: str) -> None:
+        """Move the nodes of a body out of another one, or the sides of the other one back."""
+        from carom.building.simplices import behind  # noqa: PLC0415 (for refused cases only)
+
+        deepest = self._deepest(body, other)
+        if deepest <= 0.0:
+            return
+        mine, theirs = self._boundary(body), self._boundary(other)
+        which, feet = behind(mine.points, theirs, deepest)
+        if self._precision(body) > 0.0:
+            self._move(body, other, which, feet, deepest)
+        elif len(which):
+            depths = mine.points[which] - feet
+            nodes, moved = _sides_back(theirs, feet, depths)
+            self._move(other, body, nodes, theirs.points[nodes] + moved, deepest)
+
+    def _move(self, body: str, other: str, which: NDArray[Any], to: Array, deepest: float) -> None:
+        boundary, index = self._boundary(body), self._index[body]
+        depths = np.linalg.norm(to - boundary.points[which], axis=1)
+        real = depths > ROUND_OFF * self._bodies[index]["diameter"]
+        which, to, depths = which[real], to[real], depths[real]
+        if not len(which):
+            return
+        points = boundary.points.copy()
+        points[which] = to
+        self._boundaries[index] = boundary.at(points)
+        arrays = self.meshes[body]
+        moved = arrays.points.copy()
+        moved[self._nodes[index][which]] = to
+        self.meshes[body] = replace(arrays, points=moved)
+        self.notes.append(
+            Note(
+                "closed-overlap",
+                f"{len(which):,} nodes of {body} were moved out of {other} by {depths.max():.2g} m "
+                f"or less, which is no more than its numbers can tell ({deepest:.2g} m)",
+                where=f"bodies.{index}.mesh.file",
+                value=float(depths.max()),
+                allowed=0.0,
+                remedy="write the file with more digits",
+            )
+        )
+
+    def _body(self, name: str) -> Mapping[str, Any]:
+        return self._bodies[self._index[name]]
+
+    def _boundary(self, body: str) -> Boundary:
+        return self._boundaries[self._index[body]]
+
+    def _precision(self, body: str) -> float:
+        return self.meshes[body].precision if body in self.meshes else 0.0
+
+    def _deepest(self, one: str, other: str) -> float:
+        """Return the overlap of two that their numbers cannot tell from touching [m]."""
+        told = self._precision(one) + (self._precision(other) if other != one else 0.0)
+        edges = [
+            self._body(name)["smallest_edge"]
+            for name in (one, other)
+            if self._precision(name) > 0.0
+        ]
+        # Both ends of a digit, and round-off of what is written with it.
+        return min(2.0 * told, SHORT * min(edges, default=0.0))
+
+
+def _gaps(obstacle: Obstacle, points: Array) -> tuple[Array, Array]:
+    """Return distances from an obstacle [m], negative inside, and the normals there."""
+    if isinstance(obstacle, Plane):
+        normal = np.asarray(obstacle.normal) / np.linalg.norm(obstacle.normal)
+        return (points - obstacle.point) @ normal, np.broadcast_to(normal, points.shape)
+    if isinstance(obstacle, RigidBox):
+        half = 0.5 * np.asarray(obstacle.size)
+        arms = points - obstacle.corner - half
+        beyond = np.abs(arms) - half
+        axis = np.argmax(beyond, axis=1)
+        rows = np.arange(len(points))
+        normals = np.zeros_like(points)
+        normals[rows, axis] = np.sign(arms[rows, axis])
+        return beyond[rows, axis], normals
+    if isinstance(obstacle, RigidSphere | RigidCylinder):
+        if isinstance(obstacle, RigidSphere):
+            arms = points - obstacle.centre
+        else:
+            axis = np.asarray(obstacle.axis) / np.linalg.norm(obstacle.axis)
+            arms = points - obstacle.point
+            arms = arms - np.outer(arms @ axis, axis)
+        lengths = np.linalg.norm(arms, axis=1)
+        sign = -1.0 if obstacle.cavity else 1.0
+        normals = sign * arms / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+        return sign * (lengths - obstacle.radius), normals
+    return np.full(len(points), np.inf), np.zeros_like(points)
+
+
+def _sides_back(boundary: Boundary, feet: Array, depths: Array) -> tuple[NDArray[np.int64], Array]:
+    """Return the nodes of the pieces on which feet are, and how far these go back [m]."""
+    from carom.building.simplices import pieces_at  # noqa: PLC0415 (for refused cases only)
+
+    back = np.zeros_like(boundary.points)
+    for foot, depth in zip(feet, depths, strict=True):
+        for node in np.unique(boundary.pieces[pieces_at(boundary, foot)]):
+            if np.linalg.norm(depth) > np.linalg.norm(back[node]):
+                back[node] = depth
+    nodes = np.flatnonzero(np.any(back != 0.0, axis=1))
+    return nodes, back[nodes]

@@ -1,0 +1,73 @@
+"""Deformable bodies."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+from typing_extensions import Self
+
+from carom.case.description import Description, Name, Number, Positive, SpaceVector, Vector
+from carom.case.mesh import Mesh, Rectangle
+from carom.messages import known, problem
+
+
+class Body(Description):
+    """A deformable body.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    material
+        Name of one of the scenario's materials.
+    hypothesis
+        What a body of the plane is in space: a slice of a long body without strain across the
+        plane, a sheet without stress across it, or a body of revolution, of which x is the radius
+        and y runs along the axis. Masses, forces and energies of the last are those of the whole
+        body.
+    formulation
+        How the deformation follows from the displacements; mean-dilatation has one change of volume
+        per quad4 or hex8 cell, so that nearly incompressible bodies do not lock.
+    thickness
+        Thickness in the third direction [m]; not used of a body of revolution.
+    mass
+        Mass matrix: consistent, or lumped to the nodes.
+    mesh
+        Reference geometry and its cells.
+    contact_sets
+        Sets of facets that may touch others, such as the sides of a rectangle; None for all.
+    self_contact
+        Whether the body may touch itself: its nodes its own facets, but those close to them.
+    velocity
+        Initial velocity of the centre of mass [m/s], shape [D]; None is none.
+    spin
+        Initial angular velocity about the centre of mass [rad/s]: a number in 2D, a vector in 3D.
+    """
+
+    name: Name
+    material: str
+    hypothesis: Literal["plane-strain", "plane-stress", "axisymmetric"] = "plane-strain"
+    formulation: Literal["standard", "mean-dilatation"] = "standard"
+    thickness: Positive = 1.0
+    mass: Literal["consistent", "lumped"] = "consistent"
+    mesh: Mesh
+    contact_sets: tuple[str, ...] | None = None
+    self_contact: Annotated[bool, Field(strict=True)] = False
+    velocity: Vector | None = None
+    spin: Number | SpaceVector | None = None
+
+    @model_validator(mode="after")
+    def _what_repeats_itself_cannot_spin(self) -> Self:
+        if isinstance(self.mesh, Rectangle) and self.mesh.periodic and self.spin:
+            raise problem("a periodic body cannot spin; give 0", key="spin", value=self.spin)
+        return self
+
+    @model_validator(mode="after")
+    def _contact_sets_exist(self) -> Self:
+        sets = self.mesh.facet_sets
+        for name in self.contact_sets or ():
+            if sets is not None and name not in sets:
+                what = f"no such set of facets; {known(name, sets)}"
+                raise problem(what, key="contact_sets", value=name)
+        return self

@@ -1,0 +1,144 @@
+"""Contact and friction between bodies, and of bodies with obstacles."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+from typing_extensions import Self
+
+from carom.case.description import Count, Description, Number, Positive, Share
+from carom.messages import problem
+
+Sources = Literal["finer", "first", "second", "both"]
+"""Whose nodes are checked against the facets of the other body of a pair."""
+
+Discretisation = Literal["node-to-segment", "mortar"]
+"""How contact between two bodies is written: node by node, or in the mean over the surface."""
+
+Friction = Annotated[Number, Field(ge=0, le=1000)]
+"""Coulomb's coefficient."""
+
+
+SolverName = Literal[
+    "auto",
+    "gauss-seidel",
+    "gauss-seidel-enumerative",
+    "gauss-seidel-alart-curnier",
+    "uzawa",
+    "projected-gradient",
+    "admm",
+    "proximal",
+    "newton-alart-curnier",
+    "newton-natural-map",
+]
+"""Solvers of contact problems, as in `carom.friction.SOLVERS`."""
+
+
+class FrictionSolver(Description):
+    """How the reduced contact problem of a step is solved, and when that counts as done.
+
+    Parameters
+    ----------
+    kind
+        Solver; ``carom.friction.solve`` knows the same.
+    tolerance
+        Relative residual, in the natural units of the problem, at which it is solved.
+    max_iterations
+        Iterations before the step counts as failed: sweeps over all contacts, or linear systems of
+        Newton's method.
+    cross_check
+        Whether the last contact problem of every step is solved again, from the same start, by a
+        solver that goes another way. Differences are reported; the run does not change.
+    """
+
+    kind: SolverName = "auto"
+    tolerance: Positive = 1e-12
+    max_iterations: Count = 10_000
+    cross_check: Annotated[bool, Field(strict=True)] = False
+
+
+class Pair(Description):
+    """What one pair does differently.
+
+    Parameters
+    ----------
+    between
+        Names of two bodies, or of a body and an obstacle; twice that of a body with `self_contact`.
+    friction
+        Coulomb's coefficient; None takes the default of `Contact`.
+    sources
+        Whose nodes are checked, as seen from `between`; None takes the default of `Contact`.
+    discretisation
+        How contact between the two is written; None takes the default of `Contact`.
+    enabled
+        Whether the two can touch at all.
+    """
+
+    between: tuple[str, ...]
+    friction: Friction | None = None
+    sources: Sources | None = None
+    discretisation: Discretisation | None = None
+    enabled: Annotated[bool, Field(strict=True)] = True
+
+    @model_validator(mode="after")
+    def _of_two(self) -> Self:
+        if len(self.between) != 2:
+            raise problem("must be two names", key="between", value=self.between)
+        return self
+
+
+class Contact(Description):
+    """The law of contact.
+
+    Parameters
+    ----------
+    condition
+        Where in time the unilateral condition is written: on the gap at the end of the step (the
+        paper's, and that of every static analysis), on the increment over the step, on the velocity
+        at its end, or again on the gap at the end but between nodes without mass. With the scheme
+        ``conserving`` the second keeps the energy and lets nodes in by less than a step's travel;
+        the last keeps the energy, is quiet and never penetrates, but takes more time and does not
+        bear every case yet.
+    friction
+        Coulomb's coefficient of every pair that does not state its own.
+    solver
+        Solver of the reduced contact problem.
+    sources
+        Whose nodes are checked in a pair of bodies that does not state its own: those of the body
+        with the finer boundary (of the first-named one if they are alike), or of one side or both.
+    targets
+        What they are checked against: a smooth curve through the boundary nodes of the other body,
+        with a continuous tangent but for corners of more than 40°, or the facets of its mesh.
+    discretisation
+        How contact between two bodies is written that do not state their own: as gaps of the nodes
+        of the source, or (mortar) as their means under the shape functions of these nodes, which
+        carry a uniform pressure exactly between meshes that do not match. Mortar takes the facets
+        of the mesh as targets, whatever `targets` says, one side as the source, and every condition
+        but ``massless``. Obstacles are always checked node by node.
+    certificate_tolerance
+        Largest distance from Coulomb's law in a step, the sum of bi-potential gaps, relative to the
+        largest energy of the run, or to the largest work of the reactions of a step over the motion
+        that they prevent, where that is more. A run with a larger one is not completed.
+    pairs
+        What single pairs do differently.
+    """
+
+    condition: Literal["gap", "midpoint", "endpoint", "massless"] = "midpoint"
+    friction: Friction = 0.0
+    solver: FrictionSolver = FrictionSolver()
+    sources: Sources = "finer"
+    targets: Literal["smooth", "faceted"] = "smooth"
+    discretisation: Discretisation = "node-to-segment"
+    certificate_tolerance: Share = 1e-9
+    pairs: tuple[Pair, ...] = ()
+
+
+def for_load_steps(contact: object) -> object:
+    """Return the law of contact of a static analysis, whose condition is by default the gap."""
+    if isinstance(contact, Contact) and "condition" not in contact.model_fields_set:
+        return contact.model_copy(update={"condition": "gap"})
+    if isinstance(contact, Mapping) and "condition" not in contact:
+        return {**contact, "condition": "gap"}
+    return contact

@@ -1,0 +1,29 @@
+"""What notebooks show of a scenario, as HTML."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from carom.display.markup import Html, element
+from carom.display.tables import html_table
+
+if TYPE_CHECKING:
+    from carom.case.scenario import Scenario
+
+
+def scenario_html(scenario: Scenario) -> Html:
+    """Return what a scenario consists of, and its case file to unfold."""
+    analysis, contact = scenario.analysis, scenario.contact
+    rows = [
+        (
+            "analysis",
+            f"{analysis.kind}, {analysis.end_time:g} s in steps of {analysis.time_step:g} s",
+        ),
+        *(("body", f"{b.name}: {b.mesh.kind}, {b.material}") for b in scenario.bodies),
+        *(("obstacle", f"{obstacle.name}: {obstacle.kind}") for obstacle in scenario.obstacles),
+        *(("load", f"{load.kind} on {load.body}") for load in scenario.loads),
+        *(("motion", f"{motion.kind}: {motion.body}") for motion in scenario.motions),
+        ("contact", f"{contact.condition}, friction {contact.friction:g}"),
+    ]
+    case = element("details", element("summary", "case file"), element("pre", scenario.to_toml()))
+    return element("div", element("strong", scenario.title or "Scenario"), html_table(rows), case)

@@ -1,0 +1,83 @@
+"""What a run records, and how often."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+from typing_extensions import Self
+
+from carom.case.analysis import Analysis
+from carom.case.description import Description, Name, NonNegative, Positive, Vector
+
+FRAMES = 200
+"""Frames of fields in a run that does not say how often."""
+
+ROWS = 1000
+"""Rows of history in a run that does not say how often."""
+
+
+class Track(Description):
+    """A point whose motion is recorded in the history.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    body
+        Name of the body.
+    point
+        Reference position [m], shape [D]; the nearest node of the body is taken.
+    """
+
+    name: Name
+    body: str
+    point: Vector
+
+
+class Output(Description):
+    """What a run records.
+
+    Parameters
+    ----------
+    fields_every
+        Time between two frames of fields [s]; None takes a 200th of the run.
+    history_every
+        Time between two rows of history [s]; None takes a 1000th of the run.
+    checkpoint_every
+        Time between two checkpoints, from which a run that was stopped goes on [s]; None takes ten
+        minutes of wall time.
+    merge_contacts
+        Contact events of one pair that are closer than this count as one [s]; None takes the time
+        that a pressure wave needs along the longest side of a body of the pair, of the body where
+        that is shortest, and at least three time steps; in a static analysis 0.
+    track
+        Points to follow.
+    audit
+        Whether the last step before each frame of fields is kept as its two states, so that
+        the audit can check every equation of the step and not only its outcome.
+    report
+        Whether the run ends with ``report.html``, a page with the animated bodies, the energies
+        and all numbers, as `carom report` writes it.
+    """
+
+    fields_every: Positive | None = None
+    history_every: Positive | None = None
+    checkpoint_every: Positive | None = None
+    merge_contacts: NonNegative | None = None
+    track: tuple[Track, ...] = ()
+    audit: Annotated[bool, Field(strict=True)] = False
+    report: Annotated[bool, Field(strict=True)] = False
+
+    def resolved(self, analysis: Analysis) -> Self:
+        """Return the same with both intervals as numbers, never less than a time step."""
+
+        def every(parts: int) -> float:
+            return max(analysis.end_time / parts, analysis.time_step)
+
+        return self.model_copy(
+            update={
+                "fields_every": self.fields_every or every(FRAMES),
+                "history_every": self.history_every or every(ROWS),
+            }
+        )

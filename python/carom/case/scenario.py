@@ -1,0 +1,260 @@
+"""A scenario: all that a run needs to know."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from typing_extensions import Self
+
+from carom.case import case_file, overrides
+from carom.case.analysis import Analysis
+from carom.case.body import Body
+from carom.case.contact import Contact, for_load_steps
+from carom.case.description import Description, Name
+from carom.case.load import Load
+from carom.case.material import Material
+from carom.case.motion import Motion
+from carom.case.obstacle import Obstacle
+from carom.case.output import Output, Track
+from carom.errors import naming
+from carom.messages import known, problem
+
+
+class Scenario(Description):
+    """All that a run needs to know, in SI units.
+
+    The same object is a TOML file (`from_toml`, `to_toml`), a dictionary (`from_dict`) and, for
+    the native core, JSON (`to_json`).
+
+    Parameters
+    ----------
+    title
+        What the plots and the results are headed with.
+    dimension
+        Dimension of space, 2 or 3. Vectors have as many components.
+    analysis
+        How the motion is computed.
+    output
+        What is recorded.
+    materials
+        Materials by name.
+    bodies
+        Deformable bodies, at least one.
+    obstacles
+        Rigid obstacles.
+    loads
+        Forces on bodies.
+    motions
+        Prescribed motion of parts of bodies.
+    contact
+        Contact and friction.
+    """
+
+    title: str = ""
+    dimension: Literal[2, 3] = 2
+    analysis: Analysis
+    output: Output = Output()
+    materials: dict[Name, Material]
+    bodies: Annotated[tuple[Body, ...], Field(min_length=1)]
+    obstacles: tuple[Obstacle, ...] = ()
+    loads: tuple[Load, ...] = ()
+    motions: tuple[Motion, ...] = ()
+    contact: Contact = Contact()
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Self:
+        """Read a case file.
+
+        Raises
+        ------
+        InputError
+            The file cannot be read or describes no scenario that can be run; the message names
+            the file, the key and the value.
+        """
+        with naming(path):
+            data = case_file.read(Path(path))
+            return cls.from_dict(case_file.with_paths_from(Path(path).parent, data))
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """Make a scenario of nested dictionaries and lists, laid out as the case file is."""
+        return cls(**data)
+
+    def to_toml(self, *, complete: bool = False) -> str:
+        """Return the case file of this scenario.
+
+        Parameters
+        ----------
+        complete
+            Whether values equal to their defaults are written too, so that the file means the same
+            to every version.
+        """
+        return case_file.write(self, complete=complete)
+
+    def to_json(self) -> str:
+        """Return the JSON that the native core reads, with every default written out."""
+        output = self.output.resolved(self.analysis)
+        return self.model_copy(update={"output": output}).model_dump_json()
+
+    def with_overrides(self, assignments: Iterable[str]) -> Self:
+        """Return the scenario with some of its values replaced.
+
+        Parameters
+        ----------
+        assignments
+            Each ``KEY=VALUE``: a dotted path with list indices from 0, and a TOML value; a bare
+            word counts as a string. Examples: ``analysis.end_time=3``,
+            ``bodies.0.mesh.divisions=12``, ``contact.condition=midpoint``.
+        """
+        return self.from_dict(overrides.apply(self.model_dump(mode="json"), assignments))
+
+    def with_values(self, values: Mapping[str, Any]) -> Self:
+        """Return the scenario with some of its values replaced, given by their dotted keys."""
+        return self.from_dict(overrides.with_values(self.model_dump(mode="json"), values))
+
+    def _repr_html_(self) -> str:
+        from carom.case.notebook import scenario_html  # noqa: PLC0415 (for notebooks only)
+
+        return scenario_html(self)
+
+    @model_validator(mode="after")
+    def _names_are_unique(self) -> Self:
+        first_use: dict[str, str] = {}
+        for key, name in self._names():
+            if name in first_use:
+                raise problem(
+                    f"name already used by {first_use[name]}; "
+                    "names are unique over bodies, obstacles and tracked points",
+                    key=key,
+                    value=name,
+                )
+            first_use[name] = key
+        return self
+
+    @model_validator(mode="after")
+    def _shapes_and_vectors_are_of_the_dimension(self) -> Self:
+        for index, body in enumerate(self.bodies):
+            path, shape = f"bodies.{index}", body.mesh.dimension
+            if shape not in (None, self.dimension):
+                raise problem(
+                    f"a {body.mesh.kind} is a body in {shape}D; set dimension = {shape} at the "
+                    "top, or choose another shape",
+                    key=f"{path}.mesh.kind",
+                    value=body.mesh.kind,
+                )
+            if self.dimension == 3 and body.hypothesis != "plane-strain":
+                raise problem(
+                    "is of 2D bodies; leave it out in 3D",
+                    key=f"{path}.hypothesis",
+                    value=body.hypothesis,
+                )
+            if body.spin is not None and isinstance(body.spin, tuple) != (self.dimension == 3):
+                form = "three components" if self.dimension == 3 else "a number"
+                raise problem(
+                    f"a spin in {self.dimension}D is {form}", key=f"{path}.spin", value=body.spin
+                )
+        for key, vector in self.vectors():
+            if len(vector) != self.dimension:
+                raise problem(
+                    f"must have {self.dimension} components, not {len(vector)}",
+                    key=key,
+                    value=vector,
+                )
+        return self
+
+    @model_validator(mode="after")
+    def _materials_exist(self) -> Self:
+        for index, body in enumerate(self.bodies):
+            _require(body.material, self.materials, what="material", key=f"bodies.{index}.material")
+        return self
+
+    @model_validator(mode="before")
+    @classmethod
+    def _kind_of_analysis(cls, data: object) -> object:
+        """Take an analysis that names no kind for dynamic; load steps rule the gap."""
+        if not isinstance(data, Mapping):
+            return data
+        analysis = data.get("analysis")
+        if isinstance(analysis, Mapping) and "kind" not in analysis:
+            analysis = {"kind": "dynamic", **analysis}
+            data = {**data, "analysis": analysis}
+        kind = analysis["kind"] if isinstance(analysis, Mapping) else getattr(analysis, "kind", "")
+        if kind != "static":
+            return data
+        return {**data, "contact": for_load_steps(data.get("contact", {}))}
+
+    @model_validator(mode="after")
+    def _driven_bodies_exist(self) -> Self:
+        bodies = [body.name for body in self.bodies]
+        for index, load in enumerate(self.loads):
+            _require(load.body, bodies, what="body", key=f"loads.{index}.body")
+        for index, motion in enumerate(self.motions):
+            _require(motion.body, bodies, what="body", key=f"motions.{index}.body")
+        return self
+
+    @model_validator(mode="after")
+    def _tracked_bodies_exist(self) -> Self:
+        bodies = [body.name for body in self.bodies]
+        for index, track in enumerate(self.output.track):
+            _require(track.body, bodies, what="body", key=f"output.track.{index}.body")
+        return self
+
+    @model_validator(mode="after")
+    def _pairs_exist_once(self) -> Self:
+        obstacles = {obstacle.name for obstacle in self.obstacles}
+        touch_themselves = {body.name for body in self.bodies if body.self_contact}
+        names = [body.name for body in self.bodies] + sorted(obstacles)
+        first_use: dict[frozenset[str], str] = {}
+        for index, pair in enumerate(self.contact.pairs):
+            key = f"contact.pairs.{index}.between"
+            for name in pair.between:
+                _require(name, names, what="body or obstacle", key=key)
+            if obstacles.issuperset(pair.between):
+                raise problem("two obstacles never touch; name a body", key=key, value=pair.between)
+            two = frozenset(pair.between)
+            if len(two) == 1 and two.isdisjoint(touch_themselves):
+                raise problem(
+                    "must be two different names, unless the body has self_contact = true",
+                    key=key,
+                    value=pair.between,
+                )
+            if two in first_use:
+                raise problem(
+                    f"pair already given by {first_use[two]}", key=key, value=pair.between
+                )
+            first_use[two] = key
+        return self
+
+    @model_validator(mode="after")
+    def _records_no_finer_than_steps(self) -> Self:
+        step = self.analysis.time_step
+        for key in ("fields_every", "history_every", "checkpoint_every"):
+            every = getattr(self.output, key)
+            if every is not None and every < step:
+                raise problem(
+                    f"must be at least one analysis.time_step ({step:g} s)",
+                    key=f"output.{key}",
+                    value=every,
+                )
+        return self
+
+    def _names(self) -> Iterator[tuple[str, str]]:
+        """Yield every name with the dotted path of where it is given."""
+        groups: dict[str, tuple[Body | Obstacle | Track, ...]] = {
+            "bodies": self.bodies,
+            "obstacles": self.obstacles,
+            "output.track": self.output.track,
+        }
+        for group, members in groups.items():
+            for index, member in enumerate(members):
+                yield f"{group}.{index}.name", member.name
+
+
+def _require(name: str, names: Iterable[str], *, what: str, key: str) -> None:
+    """Refuse a name that refers to nothing."""
+    names = list(names)
+    if name not in names:
+        raise problem(f"no such {what}; {known(name, names)}", key=key, value=name)

@@ -1,0 +1,50 @@
+"""The tables of a run as pandas data frames."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from carom.errors import InputError
+from carom.messages import known
+from carom.system.extras import needed
+
+if TYPE_CHECKING:
+    import pandas
+
+    from carom.results.result import Result
+
+Table = Literal["history", "ledger", "contacts", "bodies", "pairs"]
+"""What there is, see `Result.to_pandas`."""
+
+
+def data_frame(result: Result, table: Table) -> pandas.DataFrame:
+    """Return a table of a run; see `Result.to_pandas`."""
+    pd = needed("pandas", of="to_pandas", extra="data")
+    summary = result.summary
+    frame: pandas.DataFrame
+    if table == "history":
+        frame = pd.DataFrame(result.history).set_index("time")
+    elif table == "ledger":
+        entries = {entry: pd.DataFrame(columns) for entry, columns in result.ledger.items()}
+        frame = pd.concat(entries, names=["entry", None]).reset_index(level=1, drop=True)
+        frame = frame.set_index("time", append=True)
+    elif table == "contacts":
+        numbers = dict.fromkeys(("onset", "release", "peak_force", "friction_work"), float)
+        rows = [
+            {**event, "first": event["pair"][0], "second": event["pair"][1]}
+            for event in summary["contacts"]
+        ]
+        frame = pd.DataFrame(rows, columns=["first", "second", *numbers]).astype(numbers)
+    elif table == "bodies":
+        frame = pd.DataFrame(summary["bodies"]).set_index("name")
+    elif table == "pairs":
+        books = [
+            {"first": pair["between"][0], "second": pair["between"][1], **pair}
+            for pair in summary["pairs"]
+        ]
+        columns = ["first", "second", "friction", "normal_contact", "prescribed", "has_touched"]
+        frame = pd.DataFrame(books, columns=columns).set_index(["first", "second"])
+    else:
+        names = ["history", "ledger", "contacts", "bodies", "pairs"]
+        raise InputError(f"{table}: no such table; {known(table, names)}")
+    return frame

@@ -1,0 +1,152 @@
+"""What speaks against the results of a run, or against its case: the warnings of ``summary.json``.
+
+Every doubt has a code, which stays the same from version to version;
+docs/how-to/results-in-python.md lists them.
+"""
+
+from __future__ import annotations
+
+import inspect
+import math
+import warnings
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+from carom.errors import CaromWarning
+from carom.io.summary_types import WarningSummary
+
+if TYPE_CHECKING:
+    from carom.mesh_file import Note
+
+LARGE_DEFECT = 0.02
+"""Defect of the ledger, relative to the energy that the run had or was given, to be warned of."""
+
+DEEP = 0.01
+"""Penetration, relative to the diameter of the largest body, to be warned of."""
+
+_NOT_THE_CALLER = ("carom", "contextlib")
+"""Packages in which nobody looks for what a warning is about."""
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """One thing that a user should know of.
+
+    Parameters
+    ----------
+    code
+        What it is, in a word.
+    message
+        What it is, in a line, with its remedy.
+    where
+        What it is about: a dotted key of the case file or of ``summary.json``, or a file.
+    value
+        The number that gave rise to it, in the unit that the message names; None if none did.
+    allowed
+        What the number may be at most, or at least, without a word.
+    """
+
+    code: str
+    message: str
+    where: str
+    value: float | None = None
+    allowed: float | None = None
+
+    def as_summary(self) -> WarningSummary:
+        """Return what ``summary.json`` has of it."""
+        return {
+            "code": self.code,
+            "message": self.message,
+            "where": self.where,
+            "value": self.value,
+            "allowed": self.allowed,
+        }
+
+    def as_warning(self) -> CaromWarning:
+        """Return what Python's `warnings` are given."""
+        return CaromWarning(**asdict(self))
+
+
+def written_doubts(data: Mapping[str, Any]) -> list[Doubt]:
+    """Return the doubts of ``summary.json``; none of versions that did not write them down."""
+    return [Doubt(**one) for one in data.get("warnings", ())]
+
+
+def of_mesh(note: Note) -> Doubt:
+    """Return the doubt that something was done to a mesh out of a file."""
+    return Doubt(note.code, note.message, note.where, note.value, note.allowed)
+
+
+def warn(doubt: Doubt) -> None:
+    """Tell Python of a doubt, as one about the line outside of carom that led here."""
+    level, frame = 1, inspect.currentframe()
+    while frame is not None:
+        if frame.f_globals.get("__name__", "").partition(".")[0] not in _NOT_THE_CALLER:
+            break
+        level, frame = level + 1, frame.f_back
+    warnings.warn(doubt.as_warning(), stacklevel=level)
+
+
+def doubts(summary: Mapping[str, Any]) -> Iterator[Doubt]:
+    """Yield what a user should know of the results of a run, by what its summary has else."""
+    share = defect_share(summary["energy"])
+    if not share <= LARGE_DEFECT:
+        yield Doubt(
+            "ledger-defect",
+            f"the ledger misses {share:.2g} of the energy: the time step is too long for this "
+            "deformation; take a smaller analysis.time_step",
+            "energy.max_defect",
+            share,
+            LARGE_DEFECT,
+        )
+    gap, deepest = summary["min_gap"], DEEP * summary["size"]
+    if gap is not None and gap < -deepest:
+        yield Doubt(
+            "penetration",
+            f"nodes were up to {-gap:.2g} m inside what they touch, having slid past its edges or "
+            "come too fast: mesh more finely, take a smaller analysis.time_step, or have the nodes "
+            'of both bodies checked, contact.sources = "both"',
+            "min_gap",
+            -gap,
+            deepest,
+        )
+    if (check := summary["cross_check"]) is not None:
+        yield from _unconfirmed(check)
+
+
+def defect_share(energy: Mapping[str, float]) -> float:
+    """Return the largest defect of the ledger relative to the energy that the run had.
+
+    That is what came in, from the start on, by loads and by what is moved, or the largest change of
+    the energy, whichever is more: a load that is taken off again leaves nothing at the end. Of no
+    energy at all, any defect is infinitely much, and none is nothing.
+    """
+    supplied = abs(energy["initial"]) + abs(energy["external"]) + abs(energy["prescribed"])
+    reference, defect = max(supplied, energy["max_drift"]), energy["max_defect"]
+    if reference > 0.0:
+        return defect / reference
+    return math.inf if defect > 0.0 else 0.0
+
+
+def _unconfirmed(check: Mapping[str, Any]) -> Iterator[Doubt]:
+    problems, differing = check["problems"], check["disagreements"]
+    if differing:
+        yield Doubt(
+            "contact-not-unique",
+            f"{differing} of {problems} contact problems have a second answer with other motions, "
+            f"the most different at t = {check['time_of_max']:g} s: Coulomb's law does not decide "
+            "between them",
+            "cross_check.disagreements",
+            float(differing),
+            0.0,
+        )
+    if check["unsolved"]:
+        yield Doubt(
+            "contact-unchecked",
+            f"{check['unsolved']} of {problems} contact problems were not solved by the second "
+            "solver and remain unchecked",
+            "cross_check.unsolved",
+            float(check["unsolved"]),
+            0.0,
+        )

@@ -1,0 +1,316 @@
+"""Running a scenario."""
+
+from __future__ import annotations
+
+import errno
+import math
+import re
+import shlex
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from time import perf_counter
+
+from carom._carom import Simulation
+from carom.building.build import build
+from carom.building.checking import first_doubts
+from carom.case.contact import FrictionSolver
+from carom.case.scenario import Scenario
+from carom.errors import CertificateError, ConvergenceError, InputError, StorageError
+from carom.io import layout
+from carom.io.progress import refuse_running
+from carom.mesh_file import Note
+from carom.results.doubts import Doubt, warn, written_doubts
+from carom.results.result import Result
+from carom.running.observer import Observer, ObserverError, Observing, Stop
+from carom.running.recorder import Recorder
+from carom.running.restart import Notify, ended, identity, latest, refuse_other_results
+from carom.running.schedule import Schedule
+from carom.running.state import State
+from carom.system.interrupt import Terminated
+from carom.system.progress import Pace, Progress, ShowProgress
+
+SLICE = 0.1
+"""Wall time after which native stepping returns to show its progress [s]."""
+
+
+def run(
+    scenario: Scenario,
+    *,
+    out: str | Path | None = None,
+    observers: Sequence[Observer] = (),
+    progress: ShowProgress | None = None,
+    resume: bool = False,
+    force: bool = False,
+) -> Result:
+    """Run a scenario and write its results.
+
+    Parameters
+    ----------
+    scenario
+        What to run.
+    out
+        Results directory; by default one in ``results/`` that is named after the title.
+    observers
+        What looks at the run as it goes, and may raise `Stop`: the results up to there are written,
+        with the status ``"stopped"``, and a checkpoint.
+    progress
+        Called with the `Progress` of the run every tenth of a second or so.
+    resume
+        Whether to go on from the last checkpoint in the directory; every number is then that of a
+        run that never stopped. Without one the run starts from the beginning, and where it has
+        ended already its results are returned.
+    force
+        Whether results of an earlier run in the directory are replaced; otherwise they are refused.
+
+    Raises
+    ------
+    InputError
+        The scenario cannot be run, or not there; nothing is written.
+    ConvergenceError
+        A step failed; the results up to it are written, with the status ``"failed"``. If it was
+        the contact problem, that is written too, and the message names the command that solves it
+        again on its own.
+    CertificateError
+        A step was further from Coulomb's law than `Contact.certificate_tolerance` allows; the
+        results are written, with the status ``"uncertified"``.
+    StorageError
+        The results cannot be written, as on a full disk; the last checkpoint stays.
+    KeyboardInterrupt
+        Ctrl-C; the results up to it are written, with the status ``"interrupted"``, and a
+        checkpoint.
+    """
+    notes: list[Note] = []
+    simulation = build(scenario, notes)
+    directory = Path("results") / _slug(scenario.title) if out is None else Path(out)
+    return drive(
+        simulation,
+        scenario,
+        directory,
+        observers=observers,
+        progress=progress,
+        resume=resume,
+        force=force,
+        notes=notes,
+    )
+
+
+def drive(
+    simulation: Simulation,
+    scenario: Scenario,
+    directory: Path,
+    *,
+    observers: Sequence[Observer] = (),
+    progress: ShowProgress | None = None,
+    resume: bool = False,
+    force: bool = False,
+    notes: Sequence[Note] = (),
+    notify: Notify = warn,
+) -> Result:
+    """Take a simulation to its end, recording as it goes; see `run`.
+
+    Parameters
+    ----------
+    simulation
+        What `build` made of the scenario.
+    notes
+        What `build` did to meshes.
+    notify
+        Told of every doubt as it arises, see `carom.results.doubts`; of those that the results give
+        rise to after they are written.
+    """
+    refuse_running(directory)
+    has_results = layout.has_results(directory)
+    case = identity(scenario, simulation)
+    checkpoint = None
+    noted: list[Doubt] = []
+    if resume:
+        if (result := ended(directory, scenario)) is not None:
+            for doubt in written_doubts(result.summary):
+                notify(doubt)
+            return result
+        checkpoint = latest(directory, case, simulation, noted.append)
+        if checkpoint is None:
+            refuse_other_results(directory, scenario)
+    elif has_results and not force:
+        raise InputError(
+            f"{directory}: has results of a run; --force replaces them, --resume goes on with a "
+            "run that was stopped (force=True, resume=True in Python), or choose another --out"
+        )
+    frames = 0 if checkpoint is None else checkpoint.record["frames_due"]
+    schedule = Schedule(scenario, time=simulation.time, frames=frames)
+    observing = Observing(observers, State(scenario, simulation)) if observers else None
+    with (
+        _storing(directory),
+        Recorder(
+            directory, scenario, simulation, case=case, checkpoint=checkpoint, notify=notify
+        ) as recorder,
+    ):
+        before = [] if checkpoint is None else written_doubts(checkpoint.record)
+        first = first_doubts(scenario, simulation.describe(), notes)
+        for doubt in (*before, *first, *noted):
+            recorder.doubt(doubt)
+        wish = _take(
+            simulation, scenario, recorder, schedule, observing=observing, progress=progress
+        )
+        if (reason := _violation(simulation)) is not None:
+            recorder.close(status="uncertified", reason=reason)
+            raise CertificateError(reason)
+        if wish is not None and not schedule.has_ended:
+            return recorder.close(status="stopped", reason=f"{wish} at t = {simulation.time:g} s")
+        return recorder.close(status="completed")
+
+
+class _Reporter:
+    """Tells of a run how far it is: in its history, to other processes, to whoever asked."""
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        recorder: Recorder,
+        *,
+        end_time: float,
+        progress: ShowProgress | None,
+    ) -> None:
+        self._simulation, self._recorder = simulation, recorder
+        self._end_time, self._progress = end_time, progress
+        self._pace = Pace(simulation.step, simulation.steps)
+        self._last = -math.inf
+
+    @property
+    def is_due(self) -> bool:
+        """Whether nothing was told for a while."""
+        return perf_counter() - self._last >= SLICE
+
+    def report(self) -> None:
+        simulation = self._simulation
+        self._recorder.history()
+        now = Progress(
+            steps=simulation.steps,
+            end_time=self._end_time,
+            wall=self._recorder.wall,
+            eta=self._pace.eta(simulation.step),
+            **simulation.progress(),
+        )
+        self._recorder.progress(now)
+        if self._progress is not None:
+            self._progress(now)
+        self._last = perf_counter()
+
+
+def _take(
+    simulation: Simulation,
+    scenario: Scenario,
+    recorder: Recorder,
+    schedule: Schedule,
+    *,
+    observing: Observing | None,
+    progress: ShowProgress | None,
+) -> Stop | None:
+    """Go to the end or until an observer wants to stop, and keep what there is if that fails."""
+
+    def keep() -> None:
+        """Write all that it takes to go on from here."""
+        if schedule.frame_is_due(simulation.time):
+            recorder.frame()
+        recorder.checkpoint(frames_due=schedule.frames)
+
+    end_time = scenario.analysis.end_time
+    reporter = _Reporter(simulation, recorder, end_time=end_time, progress=progress)
+    try:
+        _go(simulation, recorder, schedule, reporter, observing)
+    except ConvergenceError as error:
+        if error.problem is not None:
+            file = recorder.failed_problem(error.problem, guess=error.guess, reason=str(error))
+            error.args = (f"{error}; {_replay(file, scenario.contact.solver)}",)
+        recorder.close(status="failed", reason=str(error))
+        raise
+    except KeyboardInterrupt as interrupt:
+        keep()
+        what = "SIGTERM" if isinstance(interrupt, Terminated) else "Ctrl-C"
+        recorder.close(status="interrupted", reason=f"{what} at t = {simulation.time:g} s")
+        raise
+    except ObserverError as failure:
+        keep()
+        raised = failure.error
+        what = f"an observer raised {type(raised).__name__} at t = {simulation.time:g} s: {raised}"
+        recorder.close(status="interrupted", reason=what)
+        raise raised from raised.__cause__
+    except Stop as stop:
+        keep()
+        return stop
+    return None
+
+
+def _go(
+    simulation: Simulation,
+    recorder: Recorder,
+    schedule: Schedule,
+    reporter: _Reporter,
+    observing: Observing | None,
+) -> None:
+    """Go from frame to frame, from checkpoint to checkpoint and from look to look to the end."""
+    if simulation.step == 0:
+        recorder.frame()
+        if observing is not None:
+            observing.look(starts=True)
+    reporter.report()
+    while not schedule.has_ended:
+        until = schedule.next if observing is None else min(schedule.next, observing.next)
+        is_reached = simulation.advance(until, SLICE)
+        has_frame = schedule.frame_is_due(simulation.time)
+        if has_frame:
+            recorder.frame()
+        if observing is not None:
+            observing.look()
+        if has_frame or not is_reached or reporter.is_due:
+            reporter.report()
+        if schedule.checkpoint_is_due(simulation.time) or schedule.wall_checkpoint_is_due():
+            recorder.checkpoint(frames_due=schedule.frames)
+
+
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""Numbers of errors of a file for which there is no room."""
+
+
+@contextmanager
+def _storing(directory: Path) -> Iterator[None]:
+    """Say of a file that could not be written how to go on."""
+    try:
+        yield
+    except OSError as error:
+        what = f"{error.filename or directory}: {error.strerror or error}"
+        # HDF5 gives no number with some of its errors: the disk is full, most often.
+        mend = "make room" if error.errno in (None, *_FULL) else "see to it"
+        remedy = f"{mend} and start again"
+        if (directory / layout.CHECKPOINT).exists():
+            remedy = f"the last checkpoint is whole: {mend} and go on with --resume"
+        raise StorageError(f"{what}; {remedy}") from error
+
+
+def _replay(file: Path, solver: FrictionSolver) -> str:
+    """Return where a contact problem is and how to solve it again."""
+    return (
+        f"the problem is in {file}, solve it again with: carom friction solve "
+        f"{shlex.quote(str(file))} --warm --solver {solver.kind} "
+        f"--tolerance {solver.tolerance!r} --max-iterations {solver.max_iterations}"
+    )
+
+
+def _violation(simulation: Simulation) -> str | None:
+    """Return why a run is not certified, if it is not."""
+    certificate = simulation.summary()["certificate"]
+    worst, allowed = certificate["max_joule"], certificate["tolerance_joule"]
+    if worst <= allowed:
+        return None
+    by_solver = certificate["solver_joule"] >= 0.5 * worst
+    remedy = "contact.solver.tolerance" if by_solver else "analysis.newton.tolerance"
+    return (
+        f"a step was {worst:.3g} J from Coulomb's law, more than the {allowed:.3g} J of "
+        f"contact.certificate_tolerance; take a smaller {remedy}"
+    )
+
+
+def _slug(title: str) -> str:
+    """Return a title as a directory name."""
+    return re.sub(r"\W+", "-", title.lower()).strip("-") or "run"
