@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from importlib import import_module
+from pathlib import Path
 
 import pytest
 
@@ -40,10 +41,12 @@ def test_a_run_imports_no_more_than_it_needs(examples):
 
 
 def test_every_public_name_is_found():
+    stub = Path(carom.__file__).with_suffix(".pyi").read_text(encoding="utf-8")
+    assert len(carom.__all__) == stub.count(" import ")
     assert sorted(carom._HOME_OF) == carom.__all__
     assert set(carom.__all__) <= set(dir(carom))
     for name, home in carom._HOME_OF.items():
-        assert getattr(carom, name) is getattr(import_module(f"carom.{home}"), name)
+        assert getattr(carom, name) is getattr(import_module(home), name)
     with pytest.raises(AttributeError, match="no attribute 'Disk'"):
         carom.Disk  # noqa: B018 (looking is what is tested)
 
