@@ -35,7 +35,7 @@ class House:
 
     def room(self, file: str) -> str:
         """Return the room that a file stands in."""
-        return file.split("/")[0].removesuffix(".rs").removesuffix(".py")
+        return file.split("/", maxsplit=1)[0].removesuffix(".rs").removesuffix(".py")
 
     def circles(self) -> list[list[str]]:
         """Return the sets of files that import one another in a loop."""
@@ -217,10 +217,12 @@ def python_house(folder: Path) -> House:
     for file, path in files.items():
         for module, names in _imports(path, package):
             for target in _python_targets(module, names, files):
-                if target != file and target != "__init__.py":
+                if target not in (file, "__init__.py"):
                     arrows[file].add(target)
-    arrows.pop("__init__.py", None)
-    return House("python", [f for f in files if f not in ("__init__.py", "__main__.py")], arrows)
+    doors = ("__init__.py", "__main__.py")  # of the house, which lead to any room
+    for door in doors:
+        arrows.pop(door, None)
+    return House("python", [f for f in files if f not in doors], arrows)
 
 
 def _imports(path: Path, package: str) -> Iterator[tuple[tuple[str, ...], list[str]]]:
