@@ -1,8 +1,6 @@
-use std::fmt;
-
 use super::dual::Dual;
-use super::function::Function;
-use super::parser::parse;
+use super::formula::Node;
+use super::parser::{ExpressionError, parse};
 
 /// A formula of the time t [s], such as `0.1*(1 - cos(pi*t))`, read once and evaluated with its exact rate.
 ///
@@ -13,58 +11,6 @@ use super::parser::parse;
 pub struct Expression {
     root: Node,
 }
-
-/// A part of a formula.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Node {
-    Number(f64),
-    Time,
-    Negative(Box<Node>),
-    Binary(Operator, Box<Node>, Box<Node>),
-    Call(Function, Vec<Node>),
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Operator {
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Power,
-    Less,
-    LessOrEqual,
-    Greater,
-    GreaterOrEqual,
-}
-
-/// Why a text is no formula, and where.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ExpressionError {
-    /// The text.
-    pub text: String,
-    /// Where in it, in characters from 0; its length for the end.
-    pub position: usize,
-    /// What is wrong there.
-    pub reason: String,
-}
-
-impl fmt::Display for ExpressionError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // One line, whatever the text holds.
-        let (reason, text) = (shortened(&self.reason, 100), shortened(&self.text, 60));
-        write!(f, "{reason} at column {} of {text:?}", self.position + 1)
-    }
-}
-
-/// The beginning of a text that is longer than `most` characters.
-fn shortened(text: &str, most: usize) -> String {
-    if text.chars().count() <= most {
-        return text.to_string();
-    }
-    text.chars().take(most - 1).chain(['…']).collect()
-}
-
-impl std::error::Error for ExpressionError {}
 
 impl Expression {
     /// Reads a formula.
@@ -79,38 +25,6 @@ impl Expression {
     #[must_use]
     pub fn at(&self, t: f64) -> Dual {
         self.root.at(Dual::time(t))
-    }
-}
-
-impl Node {
-    fn at(&self, t: Dual) -> Dual {
-        match self {
-            Node::Number(value) => Dual::constant(*value),
-            Node::Time => t,
-            Node::Negative(x) => -x.at(t),
-            Node::Binary(operator, a, b) => operator.apply(a.at(t), b.at(t)),
-            Node::Call(function, arguments) => {
-                let values: Vec<Dual> = arguments.iter().map(|a| a.at(t)).collect();
-                function.apply(&values)
-            }
-        }
-    }
-}
-
-impl Operator {
-    fn apply(self, a: Dual, b: Dual) -> Dual {
-        let truth = |holds: bool| Dual::constant(if holds { 1.0 } else { 0.0 });
-        match self {
-            Operator::Add => a + b,
-            Operator::Subtract => a - b,
-            Operator::Multiply => a * b,
-            Operator::Divide => a / b,
-            Operator::Power => a.power(b),
-            Operator::Less => truth(a.value < b.value),
-            Operator::LessOrEqual => truth(a.value <= b.value),
-            Operator::Greater => truth(a.value > b.value),
-            Operator::GreaterOrEqual => truth(a.value >= b.value),
-        }
     }
 }
 

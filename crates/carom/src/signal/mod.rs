@@ -2,6 +2,7 @@
 
 mod dual;
 mod expression;
+mod formula;
 mod function;
 mod parser;
 mod table;
@@ -10,7 +11,8 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 pub use dual::Dual;
-pub use expression::{Expression, ExpressionError};
+pub use expression::Expression;
+pub use parser::ExpressionError;
 pub use table::Table;
 
 /// A function of time as the case file gives it: a number, a formula of `t`, or a table.

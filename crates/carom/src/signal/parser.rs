@@ -1,10 +1,41 @@
 //! From text to formula, by recursive descent: one function per level of precedence.
 
-use super::expression::{ExpressionError, Node, Operator};
+use std::fmt;
+
+use super::formula::{Node, Operator};
 use super::function::Function;
 
 /// Formulas nested deeper than this are refused, so that no text can exhaust the stack.
 const MAX_DEPTH: usize = 64;
+
+/// Why a text is no formula, and where.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExpressionError {
+    /// The text.
+    pub text: String,
+    /// Where in it, in characters from 0; its length for the end.
+    pub position: usize,
+    /// What is wrong there.
+    pub reason: String,
+}
+
+impl fmt::Display for ExpressionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // One line, whatever the text holds.
+        let (reason, text) = (shortened(&self.reason, 100), shortened(&self.text, 60));
+        write!(f, "{reason} at column {} of {text:?}", self.position + 1)
+    }
+}
+
+/// The beginning of a text that is longer than `most` characters.
+fn shortened(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        return text.to_string();
+    }
+    text.chars().take(most - 1).chain(['…']).collect()
+}
+
+impl std::error::Error for ExpressionError {}
 
 /// Reads a whole text as a formula.
 pub(super) fn parse(text: &str) -> Result<Node, ExpressionError> {
