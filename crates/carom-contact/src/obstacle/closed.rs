@@ -8,7 +8,7 @@ use crate::bvh::Bvh;
 use crate::patch::Patch;
 use crate::project::{area_normal, normal};
 
-use super::{TOUCHING, along};
+use super::direction::{TOUCHING, along};
 
 /// Weights below this are zero: the closest point is on an edge or a corner.
 const ON_EDGE: f64 = 1e-12;

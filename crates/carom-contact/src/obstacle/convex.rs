@@ -1,6 +1,6 @@
 use carom_mesh::Vector;
 
-use super::{TOUCHING, along};
+use super::direction::{TOUCHING, along};
 
 /// Signed distance and normal at `offset` [m] from the centre or the axis of a sphere or cylinder.
 pub(super) fn round<const D: usize>(offset: &Vector<D>, radius: f64, cavity: bool) -> (f64, Vector<D>) {

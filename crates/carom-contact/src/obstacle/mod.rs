@@ -2,20 +2,13 @@
 
 mod closed;
 mod convex;
+mod direction;
 
 use std::sync::Arc;
 
 use carom_mesh::Vector;
 
 pub use closed::{ClosedSurface, SurfaceDefect};
-
-/// Distances below this, relative to the size of an obstacle, have a direction of round-off.
-const TOUCHING: f64 = 1e-9;
-
-/// A vector along an axis.
-fn along<const D: usize>(axis: usize, length: f64) -> Vector<D> {
-    Vector::from_fn(|i, _| if i == axis { length } else { 0.0 })
-}
 
 /// A rigid body that moves as prescribed, without turning.
 #[derive(Debug, Clone, PartialEq)]
