@@ -114,7 +114,7 @@ def rust_house(name: str, folder: Path) -> House:
     for file, text in texts.items():
         if file == "lib.rs":
             continue
-        for path in _paths(text):
+        for path in _paths(text, file, modules):
             target = _resolve(path, file, modules, handed)
             if target is not None and target not in (file, "lib.rs"):
                 arrows[file].add(target)
@@ -158,12 +158,19 @@ def _flat(tree: str, prefix: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
             start = k + 1
 
 
-def _paths(text: str) -> Iterator[tuple[str, ...]]:
-    """Return all paths that begin in the crate."""
-    for _, tree in USE.findall(text):
+def _paths(
+    text: str, file: str, modules: Mapping[tuple[str, ...], str]
+) -> Iterator[tuple[str, ...]]:
+    """Return all paths that begin in the crate; a module's ``use`` of its own folder is one, too.
+
+    What a module hands on from its folder it need not know itself.
+    """
+    for public, tree in USE.findall(text):
         for path in _flat(tree):
             if path and path[0] in ("crate", "super", "self"):
                 yield path
+            elif path and not public and (*_module(file), path[0]) in modules:
+                yield ("self", *path)
     for root, rest in PATH.findall(USE.sub("", text)):
         yield (root, *rest.strip(":").split("::"))
 
@@ -201,8 +208,8 @@ def _resolve(
     while path and (*place, path[0]) in modules:
         place, path = [*place, path[0]], path[1:]
     target = modules.get(tuple(place))
-    if target is not None and path:
-        return handed.get(target, {}).get(path[0], target)
+    while target is not None and path and path[0] in handed.get(target, {}):
+        target = handed[target][path[0]]
     return target
 
 

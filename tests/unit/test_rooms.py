@@ -105,6 +105,23 @@ def test_a_crate_has_an_arrow_upward_and_a_circle(check_rooms, tmp_path):
     assert upward == ["house: cellar.rs imports attic/roof.rs above it"]
 
 
+def test_a_module_knows_what_it_uses_of_its_folder(check_rooms, tmp_path):
+    """What it only hands on it does not know; who takes that, by however many hands, does."""
+    files = {
+        "lib.rs": "mod hall;\npub use hall::Door;\n",
+        "hall/mod.rs": "mod door;\nmod wall;\npub use door::Door;\nuse wall::Wall;\n",
+        "hall/door.rs": "pub struct Door;\n",
+        "hall/wall.rs": "use crate::Door;\n",
+    }
+    crate = check_rooms.rust_house("house", written(tmp_path / "src", files))
+    assert crate.arrows == {"hall/mod.rs": {"hall/wall.rs"}, "hall/wall.rs": {"hall/door.rs"}}
+    files["hall/wall.rs"] = "use super::Lamp;\n"
+    crate = check_rooms.rust_house("house", written(tmp_path / "src", files))
+    assert check_rooms.complaints(crate, None) == [
+        "house: files in a circle: hall/mod.rs, hall/wall.rs"
+    ]
+
+
 def test_the_rooms_of_carom_know_nothing_above_them(check_rooms, monkeypatch, capsys):
     monkeypatch.setattr("sys.argv", ["check_rooms"])
     status = check_rooms.main()
