@@ -99,6 +99,7 @@ COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
 STRING = re.compile(r'"(?:\\.|[^"\\])*"', re.S)
 TESTS = re.compile(r"#\[cfg\(test\)\]\s*mod\s+\w+\s*\{")
 USE = re.compile(r"\b(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);")
+CHILD = re.compile(r"(?<![\w:])([a-z_]\w*)::(\w+)")
 PATH = re.compile(r"\b(crate|super|self)((?:::\w+)+)")
 
 
@@ -171,8 +172,12 @@ def _paths(
                 yield path
             elif path and not public and (*_module(file), path[0]) in modules:
                 yield ("self", *path)
-    for root, rest in PATH.findall(USE.sub("", text)):
-        yield (root, *rest.strip(":").split("::"))
+    rest = USE.sub("", text)
+    for root, names in PATH.findall(rest):
+        yield (root, *names.strip(":").split("::"))
+    for child, name in CHILD.findall(rest):
+        if (*_module(file), child) in modules:
+            yield ("self", child, name)
 
 
 def _handed_on(
@@ -195,10 +200,9 @@ def _resolve(
     handed: Mapping[str, Mapping[str, str]],
 ) -> str | None:
     """Return the file that a path of another leads to; None if it leads out of the crate."""
-    place = list(_module(file))
-    path = list(path)
+    place = _module(file)
     if path[0] == "crate":
-        place, path = [], path[1:]
+        place, path = (), path[1:]
     elif path[0] == "self":
         path = path[1:]
     elif path[0] != "super":
@@ -206,8 +210,8 @@ def _resolve(
     while path and path[0] == "super":
         place, path = place[:-1], path[1:]
     while path and (*place, path[0]) in modules:
-        place, path = [*place, path[0]], path[1:]
-    target = modules.get(tuple(place))
+        place, path = (*place, path[0]), path[1:]
+    target = modules.get(place)
     while target is not None and path and path[0] in handed.get(target, {}):
         target = handed[target][path[0]]
     return target

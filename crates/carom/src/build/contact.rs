@@ -5,7 +5,7 @@ use carom_mesh::{Facet, Vector};
 use super::body::may_touch;
 use super::mortar::discretisation;
 use super::obstacle::obstacle;
-use super::{number, place};
+use super::values::{number, place};
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::assembly::Group;

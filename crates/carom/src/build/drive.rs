@@ -2,7 +2,7 @@
 
 use carom_mesh::{Facet, Surface};
 
-use super::vector;
+use super::values::vector;
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::Model;

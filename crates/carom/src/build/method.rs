@@ -1,6 +1,6 @@
 use carom_friction::{Criterion, StoppingRule};
 
-use super::number;
+use super::values::number;
 use crate::error::InputError;
 use crate::model::method::{Method, NewtonRule};
 use crate::scenario::{AnalysisKind, Scenario, Spin};

@@ -8,12 +8,14 @@ mod method;
 mod mortar;
 mod obstacle;
 mod overlaps;
+pub(crate) mod values;
 mod velocity;
 
 use std::collections::BTreeMap;
 
 use carom_mesh::{Mesh, Vector};
 
+use self::values::vector;
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::Model;
@@ -72,25 +74,4 @@ pub fn build<const D: usize>(
         ));
     }
     Ok((model, method, state))
-}
-
-/// Checks that a number is finite and satisfies `valid`.
-pub(crate) fn number(key: &str, value: f64, valid: bool, remedy: &str) -> Result<(), InputError> {
-    if valid && value.is_finite() { Ok(()) } else { Err(InputError::new(key, format!("{value}: {remedy}"))) }
-}
-
-pub(crate) fn vector<const D: usize>(key: &str, values: &[f64]) -> Result<Vector<D>, InputError> {
-    if values.len() != D {
-        return Err(InputError::new(key, format!("{values:?} must have {D} components")));
-    }
-    if !values.iter().all(|v| v.is_finite()) {
-        return Err(InputError::new(key, format!("{values:?} must be finite numbers")));
-    }
-    Ok(Vector::from_column_slice(values))
-}
-
-/// A place as messages show it.
-fn place<const D: usize>(x: &Vector<D>) -> String {
-    let components: Vec<String> = x.iter().map(|x| format!("{x:.6}")).collect();
-    format!("({})", components.join(", "))
 }

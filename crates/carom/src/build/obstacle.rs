@@ -3,7 +3,7 @@ use std::sync::Arc;
 use carom_contact::{ClosedSurface, Obstacle, RigidShape};
 use carom_mesh::Vector;
 
-use super::{number, vector};
+use super::values::{number, vector};
 use crate::error::InputError;
 use crate::scenario::ObstacleShape;
 

@@ -1,7 +1,7 @@
 use carom_contact::{Candidate, Pair, RigidShape, Search, Target};
 use carom_mesh::Vector;
 
-use super::place;
+use super::values::place;
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::Model;

@@ -1,6 +1,6 @@
 use carom_mesh::{Vector, tensor};
 
-use super::{number, vector};
+use super::values::{number, vector};
 use crate::error::InputError;
 use crate::model::Model;
 use crate::scenario::{Scenario, Spin};

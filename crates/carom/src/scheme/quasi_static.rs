@@ -1,4 +1,4 @@
-use super::{StepMap, StressRule};
+use super::step_map::{StepMap, StressRule};
 
 /// No inertia: the forces balance at the end of the step (ξ = 1), and time only says how far loads and supports have come.
 ///

@@ -1,4 +1,4 @@
-use super::{StepMap, StressRule};
+use super::step_map::{StepMap, StressRule};
 
 /// The paper's scheme: d = Δt[(1 − θ)v + θ v₊], hence v₊ = (1 − 1/θ)v + d/(θΔt) (4), forces weighted by 1 − ξ and ξ (3).
 ///

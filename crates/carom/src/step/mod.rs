@@ -99,10 +99,11 @@ fn search_margin<const D: usize>(
     let mut margin = SEARCH_MARGIN * free.max(driven);
     let largest = LARGEST_MARGIN * assembly.size;
     if margin > largest {
-        let speed = |(i, body): (usize, &Box<dyn Body<D>>)| {
-            body.mean_velocity(&state.velocity[assembly.nodes(i)]).norm()
-        };
-        let drift = bodies.iter().enumerate().map(speed).fold(0.0, f64::max) * interval.map.dt;
+        let means = bodies.iter().enumerate().map(|(i, body)| {
+            let velocity = &state.velocity[assembly.nodes(i)];
+            body.mean_velocity(velocity).norm()
+        });
+        let drift = means.fold(0.0, f64::max) * interval.map.dt;
         margin = margin.min(largest.max(SEARCH_MARGIN * driven.max(drift)));
     }
     if interval.map.is_static() { margin.max(STATIC_MARGIN * assembly.size) } else { margin }

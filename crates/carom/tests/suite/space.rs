@@ -1,11 +1,16 @@
 //! The same step in 3D: a cube of hexahedra dropped on a plane and on another cube.
 
-use carom::{ContactCondition, Group, Method, Model, ModelBody, NewtonRule, Scheme, State, Workspace, step};
+use carom::{
+    ContactCondition, Group, Method, Model, ModelBody, NewtonRule, Scheme, Simulation, State, Workspace, step,
+};
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
 use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
 use carom_mesh::{CellKind, Vector, generate};
+use serde_json::json;
+
+use crate::common::{parse, scenario};
 
 fn cube(name: &str, corner: [f64; 3], first_node: usize) -> ModelBody<3> {
     block(name, corner, first_node, 3, false)
@@ -238,5 +243,44 @@ fn boxes_of_wedges_fall_and_slide_with_their_books_closed() {
         assert!(defect < 1e-9 * initial, "{kind:?} along {axis}: defect {defect:e} J of {initial} J");
         let mean = model.bodies[0].body.mean(&state.velocity[..nodes]);
         assert!(mean[axis] > speed[axis] + 0.5, "{kind:?} along {axis}: the floor has stopped it: {mean}");
+    }
+}
+
+/// Symptom guarded against: where the normal of a flat contact trembles about the vertical, the tangents of its frame jumped by a right angle,
+/// and the reactions known in these with them: 10 to 99 iterations in a step where carried tangents take 5.
+#[test]
+fn reactions_of_flat_contact_are_known_in_frames_that_are_carried_along() {
+    const CELLS: usize = 10;
+    let speed = (1.346e7_f64 / 1000.0).sqrt();
+    let dt = 1.0 / CELLS as f64 / speed;
+    let mut case = scenario(3.0 * dt, dt, &[], &[]);
+    case["dimension"] = json!(3);
+    case["analysis"]["gravity"] = json!([0.0, 0.0, -9.81]);
+    let law = json!({"kind": "saint-venant-kirchhoff", "young": 1e7, "poisson": 0.3, "density": 1000.0});
+    case["materials"]["elastic"]
+        .as_object_mut()
+        .expect("a table")
+        .extend(law.as_object().expect("a table").clone());
+    let block = |name: &str, corner: [f64; 3], size: [f64; 3], cells: usize, velocity: [f64; 3]| {
+        json!({
+            "name": name, "material": "elastic", "hypothesis": "plane-strain", "thickness": 1.0, "mass": "consistent",
+            "mesh": {"kind": "box", "corner": corner, "size": size, "divisions": [cells, cells, 3], "cell": "hex8"},
+            "velocity": velocity, "spin": [0.0, 0.0, 0.0],
+        })
+    };
+    case["bodies"] = json!([
+        block("lower", [-0.1, -0.1, 0.0], [1.2, 1.2, 0.15], 12, [0.0; 3]),
+        block("upper", [0.0, 0.0, 0.15], [1.0, 1.0, 0.15], CELLS, [1.0, 0.3, -0.05]),
+    ]);
+    case["contact"]["friction"] = json!(0.3);
+    case["contact"]["solver"] = json!({"kind": "auto", "tolerance": 1e-12, "max_iterations": 10000});
+    for condition in ["gap", "midpoint"] {
+        case["contact"]["condition"] = json!(condition);
+        let mut simulation = Simulation::<3>::new(&parse(&case)).expect("valid");
+        while simulation.step() < simulation.steps() {
+            simulation.advance(f64::INFINITY, || true).expect("runs");
+            let step = simulation.nominal_step();
+            assert!(step.contacts > 200 && step.newton_iterations <= 6, "{condition}: {step:?}");
+        }
     }
 }
