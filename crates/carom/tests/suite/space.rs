@@ -272,6 +272,8 @@ fn reactions_of_flat_contact_are_known_in_frames_that_are_carried_along() {
         block("lower", [-0.1, -0.1, 0.0], [1.2, 1.2, 0.15], 12, [0.0; 3]),
         block("upper", [0.0, 0.0, 0.15], [1.0, 1.0, 0.15], CELLS, [1.0, 0.3, -0.05]),
     ]);
+    case["obstacles"] =
+        json!([{"name": "floor", "kind": "plane", "point": [0.0, 0.0, 0.0], "normal": [0.0, 0.0, 1.0]}]);
     case["contact"]["friction"] = json!(0.3);
     case["contact"]["solver"] = json!({"kind": "auto", "tolerance": 1e-12, "max_iterations": 10000});
     for condition in ["gap", "midpoint"] {
