@@ -26,7 +26,22 @@ def first(value):
     return change
 
 
+def more(*counts):
+    """Add to the counts."""
+    return lambda array: array + np.array(counts, dtype=array.dtype)
+
+
 BAD = [
+    (
+        "cross_checks/counts",
+        more(0, 0, 1),
+        "cross_checks/counts: has more answers than problems",
+    ),
+    (
+        "cross_checks/counts",
+        more(1, 0, 1),
+        "cross_checks/time_of_max: is missing where answers differ",
+    ),
     ("schema", first(99), "schema: is 99, this version reads 4"),
     ("schema", lambda a: a.astype(np.float32), "schema: neither float64 nor uint64 in one dimens"),
     ("run/step", first(10**9), "run/step: is beyond the end of the run"),
