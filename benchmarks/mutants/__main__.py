@@ -124,8 +124,12 @@ def _judge(mutant: Mutant, tree: Path, target: Path) -> tuple[str, str]:
     code, said = _run(tests, tree, environment)
     if code == 0:
         return "nobody", ""
+    if code is None:
+        return "Python", "does not end"
     failed = re.findall(r"(?m)^FAILED (\S+)", said)
-    return "Python", failed[0] if failed else "does not end"
+    if not failed:
+        sys.exit(f"{mutant.name}: the tests do not run:\n{said[-3000:]}")
+    return "Python", failed[0]
 
 
 def _failed(said: str) -> list[tuple[str, str]]:
@@ -156,6 +160,12 @@ def _run(command: Sequence[str], tree: Path, environment: dict[str, str]) -> tup
     except subprocess.TimeoutExpired:
         return None, ""
     return done.returncode, done.stdout
+
+
+def _built(folder: str, names: list[str]) -> set[str]:
+    """Return what of a folder is no source."""
+    at_top = {".git", ".venv", "target", "results", "site"} if Path(folder) == ROOT else set()
+    return {name for name in names if name in at_top or name.endswith(".so")}
 
 
 def table(verdicts: Sequence[Verdict]) -> str:
@@ -192,9 +202,7 @@ def main() -> int:
     listed = mutants()
     with tempfile.TemporaryDirectory(prefix="carom-mutants-") as place:
         tree = Path(place) / "tree"
-        shutil.copytree(
-            ROOT, tree, ignore=shutil.ignore_patterns(".git", ".venv", "target", "results", "*.so")
-        )
+        shutil.copytree(ROOT, tree, ignore=_built)
         target = ROOT / "target" / "mutants"
         for mutant in listed:
             if options.only.lower() not in f"{mutant.name} {mutant.file}".lower():

@@ -131,3 +131,35 @@ fn massless_contact_under_theta_closes_the_books_of_linear_bodies() {
         assert!(summary.energy.max_defect < 1e-10 * fallen, "{what}: {:e}", summary.energy.max_defect);
     }
 }
+
+/// Symptom guarded against: terms of a body that were taken off instead of added, and a defect of bodies that was always zero, went unnoticed.
+#[test]
+fn books_of_a_body_that_flows_and_is_driven_close_term_by_term() {
+    let mesh = json!({"kind": "rectangle", "corner": [0.0, 0.0], "size": [3.0, 6.0], "divisions": [3, 6]});
+    let floor = plane("floor", [0.0, 0.0], [0.0, 1.0]);
+    let mut case = scenario(4.0, 0.05, &[body("bar", mesh, [0.0, 0.0])], &[floor]);
+    case["materials"]["elastic"] = json!({
+        "kind": "j2-plasticity", "young": 117.0, "poisson": 0.35, "density": 8.93,
+        "yield_stress": 0.4, "hardening": 0.1,
+    });
+    case["motions"] = json!([{"kind": "prescribed", "body": "bar", "on": "top", "y": "-0.05*t"}]);
+    case["output"] = json!({"fields_every": 4.0, "history_every": 0.5, "merge_contacts": 0.5});
+    case["contact"]["friction"] = json!(0.2);
+    for (scheme, closes) in
+        [(json!({"kind": "conserving"}), true), (json!({"kind": "theta", "theta": 0.5, "xi": 0.5}), false)]
+    {
+        case["analysis"]["scheme"] = scheme;
+        let mut simulation = Simulation::<2>::new(&parse(&case)).expect("a valid case");
+        simulation.advance(f64::INFINITY, || false).expect("converges");
+        let books = simulation.books();
+        let (bar, pair) = (&books.bodies[0], &books.pairs[0]);
+        assert!(bar.plastic > 0.01 && bar.prescribed > 0.01, "{bar:?}");
+        let gained = bar.kinetic + bar.strain + bar.viscous + bar.plastic + bar.scheme;
+        let left = gained - bar.external - bar.prescribed - bar.contact;
+        let scale = bar.prescribed;
+        assert!((bar.defect() - left).abs() < 1e-14 * scale, "{bar:?}");
+        assert_eq!(left.abs() < 1e-9 * scale, closes, "{left:e} of {scale:e}: {bar:?}");
+        assert!((books.total.plastic - bar.plastic).abs() < 1e-14 * scale);
+        assert!((books.total.prescribed - bar.prescribed - pair.prescribed).abs() < 1e-14 * scale);
+    }
+}
