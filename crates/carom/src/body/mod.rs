@@ -105,9 +105,6 @@ pub struct BodyEnd<'a, const D: usize> {
 /// between: [`Self::begin_solve`] with what is known, [`Self::partial_solve`] at the contacts, [`Self::add_forces`] once these are solved, and
 /// [`Self::end_solve`].
 pub trait Body<const D: usize>: Send + Sync {
-    /// Number of its nodes.
-    fn node_count(&self) -> usize;
-
     /// What its material remembers at the start of a run.
     fn initial_history(&self) -> Vec<PlasticState> {
         Vec::new()

@@ -147,6 +147,8 @@ impl<const D: usize> Reduced<D> {
 
     /// Gives the bodies the change of the reactions.
     fn give(&mut self, assembly: &Assembly<D>, active: &ActiveSet<D>, bodies: &mut [Box<dyn Body<D>>]) {
+        // Obstacles do not respond, but their places take what contacts leave there.
+        self.change[assembly.node_count()..].fill(Vector::zeros());
         for (i, nodes) in self.nodes.iter().enumerate() {
             let first = assembly.nodes(i).start;
             nodes.iter().for_each(|&node| self.change[first + node as usize] = Vector::zeros());

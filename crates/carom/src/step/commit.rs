@@ -2,6 +2,7 @@
 
 use carom_contact::{Candidate, Contact, shares};
 use carom_friction::cone;
+use carom_mesh::Vector;
 
 use super::report::{GroupReport, StepReport};
 use super::workspace::Workspace;
@@ -31,7 +32,7 @@ pub(super) fn commit<const D: usize>(
     for (v, motion) in obstacles.iter_mut().zip(&assembly.obstacle_motions) {
         *v = motion.velocity(next.time);
     }
-    next.support.fill(carom_mesh::Vector::zeros());
+    next.support.fill(Vector::zeros());
     close_bodies(given, next, work);
     next.energies = next.body_energies.iter().copied().sum();
     close_contacts(given, next, work, &mut report);
@@ -57,7 +58,7 @@ fn keep_contacts<const D: usize>(
     report: &mut StepReport,
 ) {
     next.reactions.clear();
-    next.contact_force.fill(carom_mesh::Vector::zeros());
+    next.contact_force.fill(Vector::zeros());
     let Workspace { contacts: Contacts { active, reduced, at_end, .. }, motion, .. } = work;
     if active.contacts.is_empty() {
         return;

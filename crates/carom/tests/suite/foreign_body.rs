@@ -41,10 +41,6 @@ impl PointMass {
 }
 
 impl Body<2> for PointMass {
-    fn node_count(&self) -> usize {
-        1
-    }
-
     fn measure(&self, state: &BodyState<'_, 2>, internal_force: &mut [Vector<2>]) -> Energies {
         let u = &state.displacement[0];
         internal_force[0] = self.force(u);

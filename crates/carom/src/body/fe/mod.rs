@@ -8,7 +8,7 @@ pub(crate) mod load;
 pub(crate) mod part;
 pub(crate) mod supports;
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use carom_fem::material::PlasticState;
 use carom_fem::sparse::Precision;
@@ -37,8 +37,6 @@ pub(crate) struct FeBody<const D: usize> {
     drive: Drive<D>,
     scratch: ResidualScratch<D>,
     blended: BlendedForces<D>,
-    /// Whether a node is on the surface; empty until somebody asks.
-    is_on_surface: OnceLock<Vec<bool>>,
     /// The configuration half way through the step.
     middle: Vec<Vector<D>>,
     /// The residual at the end of a step [N]; empty where nothing is held.
@@ -59,7 +57,6 @@ impl<const D: usize> FeBody<D> {
             drive: Drive::new(&part),
             scratch: ResidualScratch::new(part.body.node_count()),
             blended: BlendedForces::default(),
-            is_on_surface: OnceLock::new(),
             residual: held,
             middle: zeros.clone(),
             jump: zeros.clone(),
@@ -77,16 +74,6 @@ impl<const D: usize> FeBody<D> {
     ) -> Result<(), StepError> {
         let worked = self.part.body.after(history);
         self.matrix.factorize(&worked, &interval.map, &self.middle, &self.pose.frame, precision)
-    }
-
-    /// The nodes of the surface.
-    fn is_on_surface(&self) -> &[bool] {
-        self.is_on_surface.get_or_init(|| {
-            let body = &self.part.body;
-            let mut surface = vec![false; body.node_count()];
-            body.surface().nodes().iter().for_each(|&node| surface[node as usize] = true);
-            surface
-        })
     }
 
     /// The work of supports [J], whose forces are added to `support` [N], at the final motion of a step.
@@ -116,10 +103,6 @@ impl<const D: usize> FeBody<D> {
 }
 
 impl<const D: usize> Body<D> for FeBody<D> {
-    fn node_count(&self) -> usize {
-        self.part.body.node_count()
-    }
-
     fn initial_history(&self) -> Vec<PlasticState> {
         self.part.body.virgin()
     }
@@ -156,10 +139,9 @@ impl<const D: usize> Body<D> for FeBody<D> {
         start: &BodyState<'_, D>,
         motion: &mut [Vector<D>],
     ) -> Result<Forecast, StepError> {
-        let part = Arc::clone(&self.part);
-        let body = &part.body;
+        let body = &self.part.body;
         let dt = interval.map.dt;
-        let driven = self.drive.prescribe(&part, interval, start.displacement, motion);
+        let driven = self.drive.prescribe(&self.part, interval, start.displacement, motion);
         let driven = driven.ok_or(StepError::NotFinite("prescribed motion"))?;
         nodal::each(&mut self.middle, [start.displacement, motion], |m, [u, d]| *m = u + d * 0.5);
         self.pose = Pose { frame: body.frame(&self.middle), ..Pose::default() };
@@ -176,7 +158,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
             self.factorise(interval, start.history, interval.precision)?;
         }
         self.matrix.turn_to(&self.pose.frame);
-        Ok(Forecast { speed, acceleration: part.gravity.norm(), driven, is_factorised })
+        Ok(Forecast { speed, acceleration: self.part.gravity.norm(), driven, is_factorised })
     }
 
     fn balance(&mut self, guess: &Guess<'_, D>) -> Balance {
@@ -242,7 +224,10 @@ impl<const D: usize> Body<D> for FeBody<D> {
         let Self { part, pose, drive, scratch, blended, jump, .. } = self;
         let equation = Equation::new(part, guess, pose, drive);
         equation.end_velocity(end.velocity);
-        nodal::each(jump, [&*end.velocity, start.velocity], |jump, [v1, v0]| *jump = v1 - v0);
+        let is_held = !part.body.held().is_empty();
+        if is_held || map.kinetic_dissipation != 0.0 {
+            nodal::each(jump, [&*end.velocity, start.velocity], |jump, [v1, v0]| *jump = v1 - v0);
+        }
         let mut elastic = None;
         let exchanged = blend.map(|weight| {
             let Balance { missing, available, .. } = blended.measure(&equation, scratch);
@@ -255,7 +240,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
             elastic = equation.worked.is_virgin().then_some(energy);
         }
         let mut prescribed = 0.0;
-        if !self.part.body.held().is_empty() {
+        if is_held {
             prescribed = self.close_supports(guess, blend, end.contact_force, end.support);
         }
         let Self { part, pose, drive, scratch, jump, momentum, .. } = self;
@@ -312,14 +297,14 @@ impl<const D: usize> Body<D> for FeBody<D> {
     /// Ring by ring those that share a cell with others found so far, also by ways that lead through the inside.
     fn near(&self, node: u32) -> Option<Vec<u32>> {
         let graph = self.part.body.graph();
-        let surface = self.is_on_surface();
+        let surface = self.part.body.surface().nodes();
         let mut found = vec![node];
         for _ in 0..RINGS {
             found = found.iter().flat_map(|&n| graph.row(n as usize).map(|(_, m)| m as u32)).collect();
             found.sort_unstable();
             found.dedup();
         }
-        found.retain(|&n| n == node || surface[n as usize]);
+        found.retain(|&n| n == node || surface.binary_search(&n).is_ok());
         Some(found)
     }
 
