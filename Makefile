@@ -36,6 +36,7 @@ check: $(VENV)/installed-docs
 	$(BIN)/python docs/make_messages.py --check
 	$(BIN)/python tools/renew_vendored.py --check
 	$(BIN)/python tools/make_notices.py --check
+	$(BIN)/python tools/make_ledger.py --check
 	$(BIN)/python tools/check_rooms.py
 	$(BIN)/typos
 	if [ -x $(BIN)/sphinx-build ]; then $(BIN)/sphinx-build -W --keep-going -q -t unexecuted -b html docs target/site; fi

@@ -101,8 +101,8 @@ class FallingSimulation:
         return ["left", "left|floor"]
 
     def take_ledger(self):
-        body = [self.time, 0, 1, 2, 3, 4, 0, 5, 6, np.nan, np.nan, np.nan, 7]
-        pair = [self.time, 1, *[np.nan] * 7, 8, 9, 10, np.nan]
+        body = [self.time, 0, 1, 2, 3, 10, 6, np.nan, 4, 0, 5, np.nan, 7]
+        pair = [self.time, 1, *[np.nan] * 3, 10, np.nan, 8, *[np.nan] * 3, 9, np.nan]
         return np.array([body, pair], dtype=float)
 
     def history_columns(self):

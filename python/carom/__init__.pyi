@@ -56,11 +56,11 @@ from carom.errors import MeshError as MeshError
 from carom.errors import StorageError as StorageError
 from carom.io.history import read_history as read_history
 from carom.io.summary_types import Summary as Summary
+from carom.ledger_terms import Ledger as Ledger
 from carom.results.field import Field as Field
 from carom.results.fields import Fields as Fields
 from carom.results.result import Result as Result
-from carom.running.books import Energy as Energy
-from carom.running.books import Ledger as Ledger
+from carom.running.energy import Energy as Energy
 from carom.running.observer import Observer as Observer
 from carom.running.observer import Stop as Stop
 from carom.running.run import run as run

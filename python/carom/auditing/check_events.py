@@ -15,8 +15,9 @@ from carom.auditing.pressing import PRESSED, Pressing
 from carom.auditing.report import Findings
 from carom.auditing.rows import GRID, Rows
 from carom.auditing.scales import ROUND_OFF, SAFETY, Scales
+from carom.ledger_terms import names
 
-TERMS = ("friction", "normal_contact", "prescribed")
+TERMS = names("pair")
 """What a pair does to the energy; any of it shows that it pressed."""
 
 PINNED = 5e-3

@@ -12,10 +12,11 @@ from carom.auditing.files import Frame
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.scales import ROUND_OFF, Scales
-from carom.auditing.step import BODY_ENERGIES, Step
+from carom.auditing.step import Step
+from carom.ledger_terms import TERMS, names
 
-BODY_COLUMNS = (*BODY_ENERGIES, "plastic", "contact", "prescribed", "defect")
-PAIR_COLUMNS = ("friction", "normal_contact", "prescribed")
+BODY_COLUMNS = (*names("body"), "defect")
+PAIR_COLUMNS = names("pair")
 
 Entry = Mapping[str, Array]
 
@@ -85,7 +86,7 @@ class LedgerChecks:
 
     def _sums(self) -> None:
         h = self._history
-        for name in (*BODY_ENERGIES, "plastic"):
+        for name in sorted(set(names("body")) & set(names("run")) - set(PAIR_COLUMNS)):
             parts = [entry[name] for entry in self._bodies.values()]
             whole = h[name] - (h[name][0] if name in ("kinetic", "strain") else 0.0)
             self._sum(name, parts, whole)
@@ -106,12 +107,10 @@ class LedgerChecks:
         model, h = self._model, self._history
         for body in model.bodies:
             entry = self._bodies[body.name]
-            given = entry["external"] + entry["contact"]
-            given = given - entry["viscous"] - entry["plastic"] - entry["scheme"]
+            known = sum(term.sign * entry[term.name] for term in TERMS if "body" in term.books)
             size = sum(np.abs(entry[name]) for name in BODY_COLUMNS)
             off = ROUND_OFF * (self._scales.energy + size)
-            defect = entry["kinetic"] + entry["strain"] - given
-            self._check("books: defect", entry["defect"] - defect, off, body.name)
+            self._check("books: defect", entry["defect"] - known, off, body.name)
             centre = np.stack([h[f"{body.name}.x"], h[f"{body.name}.y"]], axis=1)
             weight = body.mass.total * model.gravity
             reach = float(np.linalg.norm(weight)) * (self._scales.reach + model.size)
@@ -189,9 +188,7 @@ class LedgerChecks:
             for k, key in enumerate(zip(part.found.source, part.found.target, strict=True)):
                 pair = names.get(frozenset(model.name(int(index)) for index in key))
                 if pair is not None:
-                    for column, values in zip(
-                        PAIR_COLUMNS, (part.friction, part.normal, part.prescribed), strict=True
-                    ):
+                    for column, values in part.terms.items():
                         terms_of[pair][column] += float(values[k])
         for name, terms in terms_of.items():
             for column, term in terms.items():

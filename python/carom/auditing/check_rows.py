@@ -14,6 +14,7 @@ from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.rows import GRID, Rows
 from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
+from carom.ledger_terms import terms
 
 OF_STEPS = (
     *("contacts", "normal_force", "newton_iterations", "retried_steps", "shortest_step"),
@@ -94,12 +95,13 @@ class RowChecks:
         h = self._history
         off = ROUND_OFF * self._scales.energy
         self._check("row: total", h["total"] - h["kinetic"] - h["strain"], off)
-        change = h["kinetic"] - h["kinetic"][0] + h["strain"] - h["strain"][0]
-        taken = h["friction"] + h["viscous"] + h["plastic"] + h["scheme"]
-        taken = taken + h["normal_contact"]
-        taken = taken - h["external"] - h["prescribed"]
-        scale = sum((np.abs(h[name]) for name in SUMMED), np.zeros(len(change)))
-        self._check("row: defect", h["defect"] - change - taken, off + ROUND_OFF * scale)
+        # Energies are those of the state, all others sums since the start.
+        known = sum(
+            term.sign * (h[term.name] - (h[term.name][0] if term.side == "stored" else 0.0))
+            for term in terms("run")
+        )
+        scale = sum((np.abs(h[name]) for name in SUMMED), np.zeros(len(h["time"])))
+        self._check("row: defect", h["defect"] - known, off + ROUND_OFF * scale)
         # The defect is the sum of those of the steps, of which the row has the largest.
         change, largest = np.abs(np.diff(h["defect"])), h["step_defect"][1:]
         steps = self._rows.steps[1:]

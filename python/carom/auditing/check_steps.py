@@ -14,6 +14,7 @@ from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
 from carom.auditing.step import BODY_ENERGIES, BodyForces, Step
+from carom.ledger_terms import TERMS, names
 
 Row = Mapping[str, float]
 
@@ -23,7 +24,7 @@ LARGEST_BLEND = 0.5
 NEGLIGIBLE = 1e-14
 """What is missing below this part of the energy may wait."""
 
-ENERGIES = (*BODY_ENERGIES, "friction", "normal_contact", "prescribed")
+ENERGIES = (*BODY_ENERGIES, *names("pair"))
 
 
 class StepChecks:
@@ -323,6 +324,4 @@ class StepChecks:
 
 def _defect(terms: Mapping[str, float]) -> float:
     """Return the change of energy that the other terms of a step do not explain [J]."""
-    taken = terms["friction"] + terms["viscous"] + terms["scheme"] + terms["normal_contact"]
-    given = terms["external"] + terms["prescribed"]
-    return terms["kinetic"] + terms["strain"] - given + taken
+    return sum(term.sign * terms[term.name] for term in TERMS if term.name in terms)

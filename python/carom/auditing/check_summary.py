@@ -11,8 +11,9 @@ from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.rows import GRID, Rows
 from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
+from carom.ledger_terms import terms
 
-SUMMED = ("friction", "viscous", "plastic", "scheme", "normal_contact", "external", "prescribed")
+SUMMED = tuple(term.name for term in terms("run") if term.side != "stored")
 """Terms of the ledger that are sums since the start."""
 
 

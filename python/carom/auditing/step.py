@@ -14,6 +14,7 @@ from carom.auditing.arrays import Array, Indices, cross, rotation, turned
 from carom.auditing.body import STEADYING, AuditBody
 from carom.auditing.contacts import Contacts
 from carom.auditing.model import AuditModel
+from carom.ledger_terms import names
 
 BODY_ENERGIES = ("kinetic", "strain", "external", "viscous", "scheme")
 """Terms of the ledger that are sums over the bodies."""
@@ -64,12 +65,8 @@ class ContactWork:
     ----------
     found
         The contacts.
-    friction
-        Dissipated by friction.
-    normal
-        Taken by normal reactions.
-    prescribed
-        Done by obstacles that move.
+    terms
+        Those of the ledger of pairs.
     whole
         With a blend of stresses: friction less prescribed, had the reactions the whole weight.
     doubt
@@ -77,9 +74,7 @@ class ContactWork:
     """
 
     found: Contacts
-    friction: Array
-    normal: Array
-    prescribed: Array
+    terms: Mapping[str, Array]
     whole: Array
     doubt: Array
 
@@ -244,12 +239,10 @@ class Step:
     def energy_terms(self) -> dict[str, float]:
         """Return the terms of the ledger of the step, each from its own definition [J]."""
         terms = {name: sum(body[name] for body in self.body_terms) for name in BODY_ENERGIES}
-        for name in ("friction", "normal_contact", "prescribed"):
-            terms[name] = 0.0
+        terms.update(dict.fromkeys(names("pair"), 0.0))
         for work in self.contact_work:
-            terms["friction"] += float(work.friction.sum())
-            terms["normal_contact"] += float(work.normal.sum())
-            terms["prescribed"] += float(work.prescribed.sum())
+            for name, values in work.terms.items():
+                terms[name] += float(values.sum())
         return terms
 
     @cached_property
@@ -301,9 +294,11 @@ class Step:
             work.append(
                 ContactWork(
                     found=found,
-                    friction=-share * found.friction_force * w_t,
-                    normal=-share * found.normal_force * w_n,
-                    prescribed=share * found.prescribed_work(self.dt),
+                    terms={
+                        "friction": -share * found.friction_force * w_t,
+                        "normal_contact": -share * found.normal_force * w_n,
+                        "prescribed": share * found.prescribed_work(self.dt),
+                    },
                     whole=np.zeros(len(found)),
                     doubt=np.zeros(len(found)),
                 )
@@ -351,7 +346,8 @@ class Step:
         for work in self.contact_work:
             known = work.found.source < len(self.groups)
             leader = self.groups[work.found.source[known]]
-            np.add.at(left, leader, (work.friction - work.prescribed)[known])
+            taken = work.terms["friction"] - work.terms["prescribed"]
+            np.add.at(left, leader, taken[known])
         return left
 
     def _start_excess(self) -> Array:
@@ -384,9 +380,11 @@ class Step:
             work.append(
                 ContactWork(
                     found=found,
-                    friction=share * force * slip,
-                    normal=np.zeros(len(found)),
-                    prescribed=share * driven,
+                    terms={
+                        "friction": share * force * slip,
+                        "normal_contact": np.zeros(len(found)),
+                        "prescribed": share * driven,
+                    },
                     whole=force * slip - driven,
                     doubt=np.maximum(share, 0.5) * np.abs(force) * off,
                 )

@@ -12,28 +12,12 @@ from numpy.typing import NDArray
 
 from carom.errors import InputError
 from carom.io.history import cut
+from carom.ledger_terms import TERMS
 
-COLUMNS = (
-    "time",
-    "entry",
-    "kinetic",
-    "strain",
-    "external",
-    "viscous",
-    "plastic",
-    "scheme",
-    "contact",
-    "friction",
-    "normal_contact",
-    "prescribed",
-    "defect",
-)
-"""Time [s], the body or the pair ``a|b``, and what happened since the start [J].
+COLUMNS = ("time", "entry", *(term.name for term in TERMS), "defect")
+"""Time [s], the body or the pair ``a|b``, what happened since the start [J], and its defect.
 
-A body has: change of kinetic and strain energy, work of gravity and loads, what damping, plastic
-flow and the scheme took, what it received through contact, and what these do not explain. A pair,
-from its first touch on, has what friction dissipated, what normal reactions took, and the work of
-the motion of its obstacle.
+A body or a pair has the terms of its books, the others are empty; a pair from its first touch on.
 """
 
 

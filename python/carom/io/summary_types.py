@@ -7,24 +7,17 @@ from typing import Literal
 
 from typing_extensions import NotRequired, TypedDict
 
+from carom.ledger_terms import BodyTerms, PairTerms, RunTerms
+
 Status = Literal["completed", "uncertified", "stopped", "failed", "interrupted"]
 """How a run ended."""
 
 
-class EnergySummary(TypedDict):
-    """The energy at the start and the end, and what became of it."""
+class EnergySummary(RunTerms):
+    """The energy at the start and the end, kinetic and strain energy now, and its terms."""
 
     initial: float
     final: float
-    kinetic: float
-    strain: float
-    friction: float
-    viscous: float
-    plastic: float
-    scheme: float
-    normal_contact: float
-    prescribed: float
-    external: float
     max_drift: float
     max_defect: float
     max_step_defect: float
@@ -46,29 +39,18 @@ class CertificateSummary(TypedDict):
     tolerance_joule: float
 
 
-class BodySummary(TypedDict):
+class BodySummary(BodyTerms):
     """The books of a body."""
 
     name: str
-    kinetic: float
-    strain: float
-    external: float
-    prescribed: float
-    viscous: float
-    plastic: float
-    scheme: float
-    contact: float
     defect: float
 
 
-class PairSummary(TypedDict):
+class PairSummary(PairTerms):
     """The books of a pair that may touch, and how close contacts are that count as one [s]."""
 
     between: list[str]
     merge_contacts: NotRequired[float]
-    friction: float
-    normal_contact: float
-    prescribed: float
     has_touched: bool
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from carom.io.ledger import COLUMNS
+from carom.ledger_terms import terms
 from carom.report.codec import pack
 from carom.report.source import Columns, Source
 
@@ -17,16 +18,8 @@ ROWS = 8_000
 """Rows of history that the page takes; of more, evenly spaced ones."""
 
 _TERMS = (
-    ("total", "total", "ink"),
-    ("kinetic", "kinetic", "blue"),
-    ("strain", "strain", "orange"),
-    ("friction", "friction, dissipated", "green"),
-    ("viscous", "viscous, dissipated", "purple"),
-    ("plastic", "plastic, dissipated", "red"),
-    ("scheme", "scheme, dissipated", "yellow"),
-    ("normal_contact", "normal reactions, taken", "sky"),
-    ("external", "external work", "grey"),
-    ("prescribed", "work of supports", "brown"),
+    ("total", "kinetic + strain", "ink"),
+    *((term.name, term.label, term.colour) for term in terms("run")),
 )
 """Terms of the ledger: column, label and colour."""
 

@@ -6,20 +6,15 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from carom.display.markup import Html, element, format_number, join, number
+from carom.ledger_terms import terms
 
 Summary = Mapping[str, Any]
 
 _ENERGY = (
     ("initial", "at the start"),
-    ("external", "work of gravity and loads"),
-    ("prescribed", "work of supports and moving obstacles"),
-    ("kinetic", "kinetic at the end"),
-    ("strain", "strain at the end"),
-    ("friction", "dissipated by friction"),
-    ("viscous", "dissipated by damping"),
-    ("plastic", "dissipated by plastic flow"),
-    ("scheme", "dissipated by the time scheme"),
-    ("normal_contact", "taken by normal reactions"),
+    *((term.name, term.label) for term in terms("run") if term.side == "given"),
+    *((term.name, f"{term.label} at the end") for term in terms("run") if term.side == "stored"),
+    *((term.name, term.label) for term in terms("run") if term.side == "taken"),
     ("max_drift", "largest drift of the total"),
     ("max_defect", "largest defect of the ledger"),
     ("max_step_defect", "largest defect of one step"),

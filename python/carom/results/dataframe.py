@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+from carom import ledger_terms
 from carom.errors import InputError
 from carom.messages import known
 from carom.system.extras import needed
@@ -42,7 +43,7 @@ def data_frame(result: Result, table: Table) -> pandas.DataFrame:
             {"first": pair["between"][0], "second": pair["between"][1], **pair}
             for pair in summary["pairs"]
         ]
-        columns = ["first", "second", "friction", "normal_contact", "prescribed", "has_touched"]
+        columns = ["first", "second", *ledger_terms.names("pair"), "has_touched"]
         frame = pd.DataFrame(books, columns=columns).set_index(["first", "second"])
     else:
         names = ["history", "ledger", "contacts", "bodies", "pairs"]

@@ -11,8 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from carom.building.build import build
 from carom.case.scenario import Scenario
 from carom.errors import ConvergenceError, InputError
+from carom.ledger_terms import Ledger
 from carom.messages import known
-from carom.running.books import Energy, Ledger
+from carom.running.energy import Energy
 from carom.running.state import State
 
 

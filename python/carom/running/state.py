@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from carom import _carom
 from carom.case.scenario import Scenario
-from carom.running.books import Energy, Ledger
+from carom.ledger_terms import Ledger
+from carom.running.energy import Energy
 
 
 @dataclass(frozen=True)

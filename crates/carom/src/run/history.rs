@@ -52,22 +52,8 @@ impl<const D: usize> History<D> {
     /// A history of a run that starts from `state`.
     pub fn new(model: &Model<D>, state: &State<D>, tracks: Vec<Track>) -> Self {
         let axes = &AXES[..D];
-        let mut columns: Vec<String> = [
-            "time",
-            "kinetic",
-            "strain",
-            "total",
-            "friction",
-            "viscous",
-            "plastic",
-            "scheme",
-            "normal_contact",
-            "external",
-            "prescribed",
-            "defect",
-        ]
-        .map(String::from)
-        .to_vec();
+        let mut columns = vec!["time".to_string()];
+        columns.extend(Ledger::NAMES.iter().chain(&["total", "defect"]).map(|name| name.to_string()));
         columns.extend(axes.iter().map(|a| format!("momentum_{a}")));
         if D == 2 {
             columns.push("angular_momentum".to_string());
@@ -157,20 +143,9 @@ impl<const D: usize> History<D> {
     /// Writes a row; returns the smallest gap of all pairs [m].
     pub fn record(&mut self, model: &Model<D>, state: &State<D>, ledger: &Ledger) -> f64 {
         let e = &state.energies;
-        self.rows.extend([
-            state.time,
-            e.kinetic,
-            e.strain,
-            e.total(),
-            ledger.friction,
-            ledger.viscous,
-            ledger.plastic,
-            ledger.scheme,
-            ledger.normal_contact,
-            ledger.external,
-            ledger.prescribed,
-            ledger.defect(),
-        ]);
+        self.rows.push(state.time);
+        self.rows.extend(ledger.with_energies(e).terms_mut().map(|term| *term));
+        self.rows.extend([e.total(), ledger.defect()]);
         let mut momentum = Vector::<D>::zeros();
         let mut moment = [0.0; 3];
         for b in &model.bodies {

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::contact::cross_check::CrossCheckSummary;
 use crate::model::assembly::Group;
 use crate::run::events::ContactEvent;
-use crate::{BodyLedger, Energies, PairLedger, Simulation};
+use crate::{BodyLedger, Energies, Ledger, PairLedger, Simulation};
 
 /// Energies of a run [J].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -15,24 +15,9 @@ pub struct EnergySummary {
     /// Total now.
     #[serde(rename = "final")]
     pub last: f64,
-    /// Kinetic energy now.
-    pub kinetic: f64,
-    /// Strain energy now.
-    pub strain: f64,
-    /// Dissipated by friction.
-    pub friction: f64,
-    /// Dissipated by damping and viscosity.
-    pub viscous: f64,
-    /// Plastic work.
-    pub plastic: f64,
-    /// Dissipated by the time scheme.
-    pub scheme: f64,
-    /// Taken by normal reactions.
-    pub normal_contact: f64,
-    /// Work of obstacles that move.
-    pub prescribed: f64,
-    /// Work of gravity and loads.
-    pub external: f64,
+    /// The energies now, and the terms of the ledger since the start.
+    #[serde(flatten)]
+    pub terms: Ledger,
     /// Largest |E(t) − E(0)|.
     pub max_drift: f64,
     /// Largest |defect| of the ledger.
@@ -149,15 +134,7 @@ impl<const D: usize> Simulation<D> {
             energy: EnergySummary {
                 initial: self.initial_energies.iter().map(Energies::total).sum(),
                 last: e.total(),
-                kinetic: e.kinetic,
-                strain: e.strain,
-                friction: l.friction,
-                viscous: l.viscous,
-                plastic: l.plastic,
-                scheme: l.scheme,
-                normal_contact: l.normal_contact,
-                prescribed: l.prescribed,
-                external: l.external,
+                terms: l.with_energies(&e),
                 max_drift: t.max_drift,
                 max_defect: t.max_defect,
                 max_step_defect: t.max_step_defect,

@@ -118,7 +118,7 @@ fn metal_that_flows() {
     case["analysis"]["scheme"] = json!({"kind": "conserving"});
     case["contact"]["condition"] = json!("midpoint");
     let whole = goes_on_identically::<2>(&case, 5);
-    assert!(whole.summary().energy.plastic > 0.0);
+    assert!(whole.summary().energy.terms.plastic > 0.0);
 }
 
 /// More nodes of one body in contact than have blocks of compliance with all others.
@@ -147,7 +147,7 @@ fn a_strip_that_lies_on_the_floor_with_many_nodes() {
 #[test]
 fn a_large_block_that_lands_flat() {
     let whole = goes_on_identically::<3>(&large_bodies::block([0.0; 3]), 2);
-    assert!(whole.summary().energy.friction > 0.0);
+    assert!(whole.summary().energy.terms.friction > 0.0);
 }
 
 /// A block that is pressed on a floor and pulled aside in load steps, some of which must be halved.
@@ -167,7 +167,7 @@ fn load_steps_that_were_halved() {
         json!([{"kind": "prescribed", "body": "block", "on": "top", "x": "0.3*t*t", "y": "-0.1*t"}]);
     let whole = goes_on_identically::<2>(&case, 7);
     assert!(whole.summary().retried_steps > 0, "{:?}", whole.summary());
-    assert!(whole.summary().energy.friction > 0.0);
+    assert!(whole.summary().energy.terms.friction > 0.0);
 }
 
 #[test]
@@ -186,7 +186,7 @@ fn a_ball_in_space_on_an_obstacle_that_moves() {
     case["contact"]["condition"] = json!("midpoint");
     case["contact"]["friction"] = json!(0.3);
     let whole = goes_on_identically::<3>(&case, 4);
-    assert!(whole.summary().energy.prescribed != 0.0);
+    assert!(whole.summary().energy.terms.prescribed != 0.0);
 }
 
 /// Whatever is wrong with an array is found, and named.

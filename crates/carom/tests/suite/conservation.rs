@@ -75,13 +75,13 @@ fn with_friction_all_that_is_lost_is_booked_as_friction() {
         let mut simulation = impact(law, condition, 0.3);
         simulation.advance(f64::INFINITY, || false).expect("runs");
         let energy = simulation.summary().energy;
-        assert!(energy.friction > 0.01 * energy.initial, "{law}, {condition}: {energy:?}");
+        assert!(energy.terms.friction > 0.01 * energy.initial, "{law}, {condition}: {energy:?}");
         assert!(
             energy.max_defect < 1e-10 * energy.initial,
             "{law}, {condition}: defect {:e}",
             energy.max_defect
         );
-        assert!((energy.initial - energy.last - energy.friction).abs() < 1e-10 * energy.initial);
+        assert!((energy.initial - energy.last - energy.terms.friction).abs() < 1e-10 * energy.initial);
     }
 }
 
@@ -93,7 +93,7 @@ fn events_book_all_friction_of_the_ledger() {
         simulation.advance(f64::INFINITY, || false).expect("runs");
         let summary = simulation.summary();
         let booked: f64 = summary.contacts.iter().map(|c| c.friction_work).sum();
-        let all = summary.energy.friction;
+        let all = summary.energy.terms.friction;
         assert!((booked - all).abs() < 1e-12 * all, "{law}, {condition}: {booked} of {all} J");
     }
 }

@@ -45,7 +45,7 @@ fn check<const D: usize>(simulation: &Simulation<D>, friction: f64, speed: f64) 
     if friction == 0.0 {
         assert!(energy.max_drift < 1e-10 * energy.initial, "{:e} of {}", energy.max_drift, energy.initial);
     } else {
-        assert!(energy.friction > 1e-3 * energy.initial, "{}", energy.friction);
+        assert!(energy.terms.friction > 1e-3 * energy.initial, "{}", energy.terms.friction);
         assert!(energy.max_defect < 1e-9 * energy.initial, "{:e} of {}", energy.max_defect, energy.initial);
     }
 }

@@ -84,14 +84,19 @@ fn crossed_edges_keep_momenta_and_energy_and_let_nothing_through() {
             "{name}: drift {:.1e}, defect {:.1e}, friction {:.3} of the energy; angular momentum {:.0e}; smallest gap {:.1e} m",
             energy.max_drift / energy.initial,
             energy.max_defect / energy.initial,
-            energy.friction / energy.initial,
+            energy.terms.friction / energy.initial,
             (angular_after - angular).norm() / angular.norm(),
             summary.min_gap
         );
         assert_eq!((summary.contacts.len(), summary.retried_steps), (1, 0), "{name}");
         assert!((linear_after - linear).norm() < 1e-12 * linear.norm(), "{name}");
         assert!(energy.max_defect < 1e-11 * energy.initial, "{name}: {:e}", energy.max_defect);
-        assert_eq!(energy.friction > 1e-3 * energy.initial, friction > 0.0, "{name}: {:e}", energy.friction);
+        assert_eq!(
+            energy.terms.friction > 1e-3 * energy.initial,
+            friction > 0.0,
+            "{name}: {:e}",
+            energy.terms.friction
+        );
         if condition == "midpoint" {
             // It chooses its contacts at the start of a step.
             assert!(summary.min_gap > -6e-3, "{name}: {:e}", summary.min_gap);

@@ -54,7 +54,7 @@ fn energy_and_momentum_of_an_impact_are_kept_under_every_hypothesis() {
         let summary = simulation.summary();
         let (name, energy) = (format!("{hypothesis}, {formulation}, {condition}"), summary.energy);
         assert!(summary.contacts[0].peak_force > 1.0, "{name}: {:?}", summary.contacts);
-        assert!(energy.friction > 0.0, "{name}: the blocks rub as they widen");
+        assert!(energy.terms.friction > 0.0, "{name}: the blocks rub as they widen");
         assert!(energy.max_defect < 1e-10 * energy.initial, "{name}: {:e}", energy.max_defect);
         let change = (momentum(&simulation) - before).norm();
         assert!(change < 1e-11 * before.norm(), "{name}: {change}");
@@ -79,8 +79,8 @@ fn a_cylinder_falls_as_one_and_its_axis_touches_nothing() {
     simulation.advance(f64::INFINITY, || false).expect("runs");
     let (summary, fall) = (simulation.summary(), 0.5 * 9.81 * 0.2_f64.powi(2));
     assert!(summary.contacts.is_empty(), "{:?}", summary.contacts);
-    assert!((summary.energy.external - mass * 9.81 * fall).abs() < 1e-12, "{:?}", summary.energy);
-    assert!((summary.energy.last - summary.energy.external).abs() < 1e-12);
+    assert!((summary.energy.terms.external - mass * 9.81 * fall).abs() < 1e-12, "{:?}", summary.energy);
+    assert!((summary.energy.last - summary.energy.terms.external).abs() < 1e-12);
 }
 
 /// What makes a case one that is refused.

@@ -46,9 +46,9 @@ fn scene(angle: f64, shift: [f64; 2], length: f64, time: f64, mass: f64) -> Valu
 fn assert_same(a: &Summary, b: &Summary, energy: f64, time: f64, tolerance: f64) {
     for (x, y) in [
         (a.energy.last, b.energy.last),
-        (a.energy.strain, b.energy.strain),
-        (a.energy.friction, b.energy.friction),
-        (a.energy.normal_contact, b.energy.normal_contact),
+        (a.energy.terms.strain, b.energy.terms.strain),
+        (a.energy.terms.friction, b.energy.terms.friction),
+        (a.energy.terms.normal_contact, b.energy.terms.normal_contact),
     ] {
         assert!((x - y / energy).abs() < tolerance * a.energy.initial, "{x} J became {} J", y / energy);
     }
@@ -63,7 +63,7 @@ fn assert_same(a: &Summary, b: &Summary, energy: f64, time: f64, tolerance: f64)
 fn scene_is_eventful_and_lawful() {
     let (simulation, summary) = run(&scene(0.0, [0.0; 2], 1.0, 1.0, 1.0));
     assert_eq!(summary.contacts.len(), 2, "{:?}", summary.contacts);
-    assert!(summary.energy.friction > 0.01);
+    assert!(summary.energy.terms.friction > 0.01);
     assert!(summary.min_gap > -1e-12, "no penetration at the ends of steps: {}", summary.min_gap);
     assert!(summary.certificate.max_joule < 1e-10 && summary.certificate.max_residual < 1e-11);
     assert!(summary.energy.max_defect < 1e-3 * summary.energy.initial);
@@ -171,8 +171,10 @@ fn a_body_elsewhere_does_not_touch_the_books_of_an_impact() {
     alone["bodies"][1]["velocity"] = json!([0.0, 0.0]);
     let ((_, a), (_, b)) = (run(&alone), run(&spinning));
     assert_eq!((a.contacts.len(), b.contacts.len()), (1, 1));
-    for (x, y) in [(a.energy.friction, b.energy.friction), (a.energy.normal_contact, b.energy.normal_contact)]
-    {
+    for (x, y) in [
+        (a.energy.terms.friction, b.energy.terms.friction),
+        (a.energy.terms.normal_contact, b.energy.terms.normal_contact),
+    ] {
         assert!((x - y).abs() < 1e-9, "{x} J alone, {y} J in company");
     }
 }

@@ -58,7 +58,7 @@ fn a_block_that_lands_flat_loses_what_friction_takes() {
     let summary = simulation.summary();
     assert_eq!(most, (CELLS + 1) * (CELLS + 1));
     assert_made_without_a_factor(&simulation);
-    assert!(summary.energy.friction > 1e-3 * summary.energy.initial, "{summary:?}");
+    assert!(summary.energy.terms.friction > 1e-3 * summary.energy.initial, "{summary:?}");
     assert!(summary.energy.max_defect < 1e-11 * summary.energy.initial, "{summary:?}");
     assert!(summary.certificate.max_residual < 1e-9, "{summary:?}");
     // It acts against the sliding, but for the base that spreads as it lands, and by Coulomb's law at most.

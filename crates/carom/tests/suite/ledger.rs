@@ -127,7 +127,7 @@ fn massless_contact_under_theta_closes_the_books_of_linear_bodies() {
         let fallen = 100.0 * 9.81 * scale * 0.1;
         let what = format!("ξ = {weight}, {scale} g, damping {damping}");
         assert!(summary.contacts.len() > 1, "{what}: it bounces");
-        assert!(summary.energy.scheme > 1e-2 * fallen, "{what}: {}", summary.energy.scheme);
+        assert!(summary.energy.terms.scheme > 1e-2 * fallen, "{what}: {}", summary.energy.terms.scheme);
         assert!(summary.energy.max_defect < 1e-10 * fallen, "{what}: {:e}", summary.energy.max_defect);
     }
 }

@@ -63,7 +63,7 @@ fn viscosity_takes_energy_but_no_angular_momentum() {
     for mut material in rubbers() {
         material["viscosity"] = json!({"shear": 4.0, "bulk": 2.0});
         let energy = impact(&material, 0.0).summary().energy;
-        assert!(energy.viscous > 0.01 * energy.initial, "{material}: {energy:?}");
+        assert!(energy.terms.viscous > 0.01 * energy.initial, "{material}: {energy:?}");
         assert!(energy.max_defect < 1e-10 * energy.initial, "{material}: defect {:e}", energy.max_defect);
     }
 }
@@ -73,7 +73,7 @@ fn viscosity_and_friction_share_what_is_lost() {
     let mut material = rubbers()[0].clone();
     material["viscosity"] = json!({"shear": 4.0, "bulk": 2.0});
     let energy = impact(&material, 0.3).summary().energy;
-    assert!(energy.viscous > 0.0 && energy.friction > 0.0, "{energy:?}");
+    assert!(energy.terms.viscous > 0.0 && energy.terms.friction > 0.0, "{energy:?}");
     assert!(energy.max_defect < 1e-10 * energy.initial, "defect {:e}", energy.max_defect);
 }
 
@@ -118,7 +118,7 @@ fn a_viscous_bar_decays_at_the_rate_of_its_relaxation_time() {
         let errors = [2e-3, 1e-3, 5e-4, 2.5e-4].map(|dt| {
             let (u, summary) = bar("linear-elastic", &scheme, dt, 1.0);
             assert!(summary.energy.max_defect < 1e-12 * summary.energy.initial);
-            assert!(summary.energy.viscous > 0.1 * summary.energy.initial);
+            assert!(summary.energy.terms.viscous > 0.1 * summary.energy.initial);
             (u - exact(0.1)).abs() / 0.02
         });
         let rate = (errors[2] / errors[3]).log2();

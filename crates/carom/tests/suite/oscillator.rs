@@ -60,9 +60,9 @@ fn books_of_a_damped_linear_body_close_to_round_off_for_every_theta_and_xi() {
     for (theta, xi) in [(0.5, 0.5), (0.55, 0.55), (1.0, 1.0), (0.8, 0.3), (0.5, 1.0)] {
         let (_, defect, summary) = error(theta, xi, 1e-3);
         assert!(defect < 1e-12, "θ = {theta}, ξ = {xi}: defect {defect:e}");
-        assert!(summary.energy.viscous > 0.0);
+        assert!(summary.energy.terms.viscous > 0.0);
         if theta > 0.5 || xi > 0.5 {
-            assert!(summary.energy.scheme != 0.0, "θ = {theta}, ξ = {xi} dissipates by its algebra");
+            assert!(summary.energy.terms.scheme != 0.0, "θ = {theta}, ξ = {xi} dissipates by its algebra");
         }
     }
 }

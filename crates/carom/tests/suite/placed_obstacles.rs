@@ -184,9 +184,10 @@ fn in_space(p: Place) -> Vec<(&'static str, Summary)> {
 /// What no place changes: strain and friction, and when the contact was.
 fn assert_same(here: &[(&str, Summary)], there: &[(&str, Summary)], what: &str) {
     for ((kind, a), (_, b)) in here.iter().zip(there) {
-        assert!(!a.contacts.is_empty() && a.energy.friction > 1e-4, "{kind}: {:?}", a.contacts);
-        let of =
-            |s: &Summary| [s.energy.strain, s.energy.friction, s.contacts[0].onset, s.contacts[0].peak_force];
+        assert!(!a.contacts.is_empty() && a.energy.terms.friction > 1e-4, "{kind}: {:?}", a.contacts);
+        let of = |s: &Summary| {
+            [s.energy.terms.strain, s.energy.terms.friction, s.contacts[0].onset, s.contacts[0].peak_force]
+        };
         for (x, y) in of(a).into_iter().zip(of(b)) {
             assert!((x - y).abs() < 1e-8 * x.abs().max(1e-2), "{kind}, {what}: {x} became {y}");
         }

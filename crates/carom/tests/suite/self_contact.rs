@@ -70,7 +70,7 @@ fn a_ring_closes_on_itself<const D: usize>(around: usize, radial: usize) {
                 energy.initial
             );
         } else {
-            assert!(energy.friction > 1e-5 * energy.initial, "{}", energy.friction);
+            assert!(energy.terms.friction > 1e-5 * energy.initial, "{}", energy.terms.friction);
             assert!(energy.max_defect < 1e-9 * energy.initial, "{:e}", energy.max_defect);
         }
         let start = closing_ring(slit_ring::<D>(slit_half, 0.3, around, radial), 2.0, friction, 1e-3);

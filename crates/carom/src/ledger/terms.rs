@@ -1,0 +1,240 @@
+//! The terms of the books. Written by tools/make_ledger.py from ledger/terms.toml of the core.
+
+use std::ops::AddAssign;
+
+use serde::Serialize;
+
+/// Terms of all books, in the order of their columns.
+pub const TERMS: [&str; 10] = [
+    "kinetic",
+    "strain",
+    "external",
+    "prescribed",
+    "contact",
+    "friction",
+    "viscous",
+    "plastic",
+    "scheme",
+    "normal_contact",
+];
+
+/// What happened to the energy in a step, or since the start [J]. Every term is computed from its own definition:
+///
+/// ΔE_kinetic + ΔE_strain = external + prescribed − friction − viscous − plastic − scheme − normal_contact + defect.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Ledger {
+    /// Change of kinetic energy.
+    pub kinetic: f64,
+    /// Change of strain energy.
+    pub strain: f64,
+    /// Work of gravity and loads.
+    pub external: f64,
+    /// Work of prescribed motion: of supports and of obstacles that move.
+    pub prescribed: f64,
+    /// Dissipated by friction: −Σ r_t·Δu_t ≥ 0.
+    pub friction: f64,
+    /// Dissipated by damping and viscosity.
+    pub viscous: f64,
+    /// Plastic work ∫ σ_y dα ≥ 0.
+    pub plastic: f64,
+    /// Dissipated by the time scheme's own algebra (θ, ξ > ½).
+    pub scheme: f64,
+    /// Taken by normal reactions: −Σ r_n Δu_n.
+    pub normal_contact: f64,
+}
+
+impl Ledger {
+    /// The names of its terms.
+    pub(crate) const NAMES: [&str; 9] = [
+        "kinetic",
+        "strain",
+        "external",
+        "prescribed",
+        "friction",
+        "viscous",
+        "plastic",
+        "scheme",
+        "normal_contact",
+    ];
+
+    /// Its terms in the order of the columns.
+    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 9] {
+        [
+            &mut self.kinetic,
+            &mut self.strain,
+            &mut self.external,
+            &mut self.prescribed,
+            &mut self.friction,
+            &mut self.viscous,
+            &mut self.plastic,
+            &mut self.scheme,
+            &mut self.normal_contact,
+        ]
+    }
+
+    /// What the other terms do not explain [J].
+    #[must_use]
+    pub fn defect(&self) -> f64 {
+        self.kinetic + self.strain - self.external - self.prescribed
+            + self.friction
+            + self.viscous
+            + self.plastic
+            + self.scheme
+            + self.normal_contact
+    }
+
+    /// Adds what happened to a body, but for what it received through contact:
+    /// pairs say where that comes from.
+    pub(crate) fn add_body(&mut self, body: &BodyLedger) {
+        self.kinetic += body.kinetic;
+        self.strain += body.strain;
+        self.external += body.external;
+        self.prescribed += body.prescribed;
+        self.viscous += body.viscous;
+        self.plastic += body.plastic;
+        self.scheme += body.scheme;
+    }
+
+    /// Adds what a pair did.
+    pub(crate) fn add_pair(&mut self, pair: &PairLedger) {
+        self.prescribed += pair.prescribed;
+        self.friction += pair.friction;
+        self.normal_contact += pair.normal_contact;
+    }
+}
+
+impl AddAssign for Ledger {
+    fn add_assign(&mut self, step: Self) {
+        self.kinetic += step.kinetic;
+        self.strain += step.strain;
+        self.external += step.external;
+        self.prescribed += step.prescribed;
+        self.friction += step.friction;
+        self.viscous += step.viscous;
+        self.plastic += step.plastic;
+        self.scheme += step.scheme;
+        self.normal_contact += step.normal_contact;
+    }
+}
+
+/// What happened to the energy of a body in a step, or since the start [J]:
+///
+/// ΔE_kinetic + ΔE_strain = external + prescribed + contact − viscous − plastic − scheme + defect.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct BodyLedger {
+    /// Change of kinetic energy.
+    pub kinetic: f64,
+    /// Change of strain energy.
+    pub strain: f64,
+    /// Work of gravity and loads.
+    pub external: f64,
+    /// Work of its supports, less that of the contacts that press on them.
+    pub prescribed: f64,
+    /// Received through contact: the work of the contact forces on what of the body is free.
+    pub contact: f64,
+    /// Dissipated by damping and viscosity.
+    pub viscous: f64,
+    /// Plastic work ∫ σ_y dα ≥ 0.
+    pub plastic: f64,
+    /// Dissipated by the time scheme's own algebra (θ, ξ > ½).
+    pub scheme: f64,
+}
+
+impl BodyLedger {
+    /// Its terms in the order of the columns.
+    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 8] {
+        [
+            &mut self.kinetic,
+            &mut self.strain,
+            &mut self.external,
+            &mut self.prescribed,
+            &mut self.contact,
+            &mut self.viscous,
+            &mut self.plastic,
+            &mut self.scheme,
+        ]
+    }
+
+    /// Its terms in the columns `TERMS`; NaN where it has none.
+    pub(crate) fn columns(&self) -> [f64; 10] {
+        [
+            self.kinetic,
+            self.strain,
+            self.external,
+            self.prescribed,
+            self.contact,
+            f64::NAN,
+            self.viscous,
+            self.plastic,
+            self.scheme,
+            f64::NAN,
+        ]
+    }
+
+    /// What the other terms do not explain [J].
+    #[must_use]
+    pub fn defect(&self) -> f64 {
+        self.kinetic + self.strain - self.external - self.prescribed - self.contact
+            + self.viscous
+            + self.plastic
+            + self.scheme
+    }
+}
+
+impl AddAssign for BodyLedger {
+    fn add_assign(&mut self, step: Self) {
+        self.kinetic += step.kinetic;
+        self.strain += step.strain;
+        self.external += step.external;
+        self.prescribed += step.prescribed;
+        self.contact += step.contact;
+        self.viscous += step.viscous;
+        self.plastic += step.plastic;
+        self.scheme += step.scheme;
+    }
+}
+
+/// What a pair did to the energy in a step, or since the start [J].
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct PairLedger {
+    /// Work of prescribed motion through its contacts: of its obstacle, or of supports that are pressed on.
+    pub prescribed: f64,
+    /// Dissipated by friction: −Σ r_t·Δu_t ≥ 0.
+    pub friction: f64,
+    /// Taken by normal reactions: −Σ r_n Δu_n.
+    pub normal_contact: f64,
+    /// Whether there was a reaction.
+    pub has_touched: bool,
+}
+
+impl PairLedger {
+    /// Its terms in the order of the columns.
+    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 3] {
+        [&mut self.prescribed, &mut self.friction, &mut self.normal_contact]
+    }
+
+    /// Its terms in the columns `TERMS`; NaN where it has none.
+    pub(crate) fn columns(&self) -> [f64; 10] {
+        [
+            f64::NAN,
+            f64::NAN,
+            f64::NAN,
+            self.prescribed,
+            f64::NAN,
+            self.friction,
+            f64::NAN,
+            f64::NAN,
+            f64::NAN,
+            self.normal_contact,
+        ]
+    }
+}
+
+impl AddAssign for PairLedger {
+    fn add_assign(&mut self, step: Self) {
+        self.prescribed += step.prescribed;
+        self.friction += step.friction;
+        self.normal_contact += step.normal_contact;
+        self.has_touched |= step.has_touched;
+    }
+}

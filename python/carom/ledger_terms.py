@@ -1,0 +1,154 @@
+"""The terms of the energy books [J].
+
+Written by tools/make_ledger.py from ledger/terms.toml of the core.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+from typing_extensions import TypedDict
+
+Book = Literal["run", "body", "pair"]
+"""Whose energy is accounted for: that of the run as a whole, a body's, what a pair did."""
+
+
+class Term(NamedTuple):
+    """A term: its name, whose books have it, on which side of them it stands.
+
+    ``stored = given − taken + defect``; reports show it by its label and in its colour.
+    """
+
+    name: str
+    books: tuple[Book, ...]
+    side: Literal["stored", "given", "taken"]
+    label: str
+    colour: str
+
+    @property
+    def sign(self) -> float:
+        """Its sign in the defect."""
+        return -1.0 if self.side == "given" else 1.0
+
+
+TERMS = (
+    Term("kinetic", ("run", "body"), "stored", "kinetic energy", "blue"),
+    Term("strain", ("run", "body"), "stored", "strain energy", "orange"),
+    Term("external", ("run", "body"), "given", "work of gravity and loads", "grey"),
+    Term(
+        "prescribed",
+        ("run", "body", "pair"),
+        "given",
+        "work of supports and moving obstacles",
+        "brown",
+    ),
+    Term("contact", ("body",), "given", "received through contact", "sky"),
+    Term("friction", ("run", "pair"), "taken", "dissipated by friction", "green"),
+    Term("viscous", ("run", "body"), "taken", "dissipated by damping and viscosity", "purple"),
+    Term("plastic", ("run", "body"), "taken", "dissipated by plastic flow", "red"),
+    Term("scheme", ("run", "body"), "taken", "dissipated by the time scheme", "yellow"),
+    Term("normal_contact", ("run", "pair"), "taken", "taken by normal reactions", "sky"),
+)
+"""All terms, in the order of their columns."""
+
+
+def terms(book: Book) -> tuple[Term, ...]:
+    """Return the terms of a book."""
+    return tuple(term for term in TERMS if book in term.books)
+
+
+def names(book: Book) -> tuple[str, ...]:
+    """Return the names of the terms of a book."""
+    return tuple(term.name for term in terms(book))
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """What happened to the energy in a step, or since the start [J].
+
+    Every term is computed from its own definition:
+    ΔE_kinetic + ΔE_strain = external + prescribed − friction − viscous − plastic − scheme −
+    normal_contact + defect.
+
+    Parameters
+    ----------
+    kinetic
+        Change of kinetic energy.
+    strain
+        Change of strain energy.
+    external
+        Work of gravity and loads.
+    prescribed
+        Work of prescribed motion: of supports and of obstacles that move.
+    friction
+        Dissipated by friction: −Σ r_t·Δu_t ≥ 0.
+    viscous
+        Dissipated by damping and viscosity.
+    plastic
+        Plastic work ∫ σ_y dα ≥ 0.
+    scheme
+        Dissipated by the time scheme's own algebra (θ, ξ > ½).
+    normal_contact
+        Taken by normal reactions: −Σ r_n Δu_n.
+    """
+
+    kinetic: float
+    strain: float
+    external: float
+    prescribed: float
+    friction: float
+    viscous: float
+    plastic: float
+    scheme: float
+    normal_contact: float
+
+    @property
+    def defect(self) -> float:
+        """What the other terms do not explain [J]."""
+        return (
+            self.kinetic
+            + self.strain
+            - self.external
+            - self.prescribed
+            + self.friction
+            + self.viscous
+            + self.plastic
+            + self.scheme
+            + self.normal_contact
+        )
+
+
+class RunTerms(TypedDict):
+    """The terms of a run in a file [J]."""
+
+    kinetic: float
+    strain: float
+    external: float
+    prescribed: float
+    friction: float
+    viscous: float
+    plastic: float
+    scheme: float
+    normal_contact: float
+
+
+class BodyTerms(TypedDict):
+    """The terms of a body in a file [J]."""
+
+    kinetic: float
+    strain: float
+    external: float
+    prescribed: float
+    contact: float
+    viscous: float
+    plastic: float
+    scheme: float
+
+
+class PairTerms(TypedDict):
+    """The terms of a pair in a file [J]."""
+
+    prescribed: float
+    friction: float
+    normal_contact: float
