@@ -51,7 +51,7 @@ bench:
 validate: $(VENV)/installed-dev
 	$(BIN)/python benchmarks/validate.py
 	$(BIN)/python benchmarks/fuzz
-	CAROM_KILLS=500 $(BIN)/pytest tests/unit/test_restart.py -k killed
+	CAROM_KILLS=500 $(BIN)/pytest tests/unit/running/test_restart.py -k killed
 	$(BIN)/python benchmarks/claims
 
 $(BIN)/python:

@@ -21,7 +21,7 @@ from carom.running.recorder import Recorder
 from carom.sweep import axis, sweep
 from restarting import scenario
 
-DOCS = Path(__file__).parents[2] / "docs"
+DOCS = Path(__file__).parents[3] / "docs"
 
 FLOOR = {"name": "floor", "kind": "plane", "point": [0, 0], "normal": [0, 1]}
 

@@ -13,8 +13,8 @@ import carom
 import heard
 from carom.messages import DATA_MESSAGES
 
-DOCS = Path(__file__).parents[2] / "docs"
-UNMET_FILE = Path(__file__).parents[1] / "unmet-messages.toml"
+DOCS = Path(__file__).parents[3] / "docs"
+UNMET_FILE = Path(__file__).parents[2] / "unmet-messages.toml"
 UNMET = tomlkit.parse(UNMET_FILE.read_text(encoding="utf-8")).unwrap()
 """Messages that no test provokes, and why not. The file may only become shorter."""
 

@@ -259,7 +259,7 @@ def test_two_discs_meet_when_their_boundaries_do(case):
 )
 def test_bodies_of_shipped_cases_touch_when_they_do(shipped, time):
     """Symptom guarded against: "about 0 s", as half an edge of a cell counted as touching."""
-    scenario = carom.Scenario.from_toml(Path(__file__).parents[2] / shipped)
+    scenario = carom.Scenario.from_toml(Path(__file__).parents[3] / shipped)
     said = [f.what for f in meeting(Patient(scenario, build(scenario)))]
     (told,) = [what for what in said if what.startswith("the first to touch are left and right")]
     assert float(told.split("about ")[1].split(" s ")[0]) == pytest.approx(time, rel=1e-2)

@@ -4,8 +4,9 @@ import importlib
 from pathlib import Path
 
 import pytest
+import tomlkit
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture
@@ -126,3 +127,10 @@ def test_the_rooms_of_carom_know_nothing_above_them(check_rooms, monkeypatch, ca
     monkeypatch.setattr("sys.argv", ["check_rooms"])
     status = check_rooms.main()
     assert (status, capsys.readouterr().err) == (0, "")
+
+
+def test_unit_tests_are_in_rooms_of_the_package(check_rooms):
+    listed = tomlkit.parse(check_rooms.ROOMS.read_text(encoding="utf-8")).unwrap()["python"]
+    rooms = {*listed, "benchmarks", "tools"}
+    unit = ROOT / "tests" / "unit"
+    assert {path.relative_to(unit).parts[0] for path in unit.rglob("test_*.py")} <= rooms

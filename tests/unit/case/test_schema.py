@@ -12,7 +12,7 @@ from carom import cli
 from carom.case import case_file, overrides
 from carom.case.schema import case_file_schema
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 CASES = sorted((ROOT / "examples").glob("*.toml"))
 
 
@@ -86,7 +86,7 @@ def test_the_command_prints_it_and_the_committed_copy_is_the_same(capsys):
 
 def test_the_page_of_the_case_file_has_the_types_of_the_schema():
     """Symptoms guarded against: `dimension` a "string", and "a number in 2D in 3D"."""
-    page = (Path(__file__).parents[2] / "docs/case-file.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[3] / "docs/case-file.md").read_text(encoding="utf-8")
     rows = {row.split("|")[1].strip(): row for row in page.splitlines() if row.startswith("| `")}
     assert "| integer |  | `2` | `2`, `3` |" in rows["`dimension`"]
     assert "a number in 2D, a vector in 3D" in rows["`spin`"]

@@ -97,7 +97,7 @@ def test_a_film_has_a_picture_of_every_frame(results, tmp_path):
 
 def test_the_extra_brings_what_films_are_written_with():
     """Symptom guarded against: --animation asked for imageio after pip install carom[view]."""
-    project = Path(__file__).parents[2] / "pyproject.toml"
+    project = Path(__file__).parents[3] / "pyproject.toml"
     extra = tomlkit.parse(project.read_text())["project"]["optional-dependencies"]["view"]
     assert {"imageio", "pyvista"} <= {re.split(r"[\[>=<]", line)[0] for line in extra}
     (imageio,) = [line for line in extra if line.startswith("imageio")]
