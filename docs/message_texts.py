@@ -1,4 +1,12 @@
-"""Finds the texts of errors and warnings in the sources, with ``{…}`` where values are put in."""
+"""Finds the texts of errors and warnings in the sources, with ``{…}`` where values are put in.
+
+Python is read by its syntax tree: a text counts by the call that it is given to. Rust is read by
+patterns. Python cannot parse it without one more dependency, and to go through it token by token
+(strings with their escapes and continued lines, comments, attributes, macros) would take more lines
+than the patterns and find the same texts: what the core has to say are strings of several words,
+and those that are no messages stand in the few places that `_NO_MESSAGE` names. What a pattern got
+wrong would be seen, for it changes docs/messages.md, or is a message that no test has met.
+"""
 
 from __future__ import annotations
 
