@@ -1,15 +1,17 @@
-//! Meshes from NumPy arrays.
+//! Meshes and surfaces from NumPy arrays.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use carom::{InputError, Meshes};
 use carom_mesh::sets::facet_key;
 use carom_mesh::{CellBlock, CellKind, Mesh, Sets, Vector};
+use numpy::ndarray::ArrayView1;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::arrays;
 use crate::error::input_error;
 
 /// A mesh as `carom.mesh_file.MeshArrays` holds it.
@@ -25,6 +27,18 @@ struct MeshArrays<'py> {
     cell_sets: BTreeMap<String, PyReadonlyArray1<'py, i64>>,
 }
 
+/// A surface as `carom.mesh_file.SurfaceArrays` holds it.
+#[derive(FromPyObject)]
+struct SurfaceArrays<'py> {
+    /// Vertices [m], shape [vertices, 3].
+    points: PyReadonlyArray2<'py, f64>,
+    /// Vertices of the triangles, shape [triangles, 3].
+    triangles: PyReadonlyArray2<'py, i64>,
+}
+
+/// Vertices and triangles by the names of obstacles.
+type Surfaces = BTreeMap<String, (Vec<Vector<3>>, Vec<[u32; 3]>)>;
+
 /// The meshes of a dictionary with the names of bodies as keys.
 pub fn meshes<const D: usize>(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Meshes<D>> {
     let mut meshes = Meshes::new();
@@ -38,6 +52,24 @@ pub fn meshes<const D: usize>(py: Python<'_>, given: Option<&Bound<'_, PyDict>>)
         meshes.insert(name, mesh);
     }
     Ok(meshes)
+}
+
+/// The surfaces of a dictionary with the names of obstacles as keys.
+pub fn surfaces(given: Option<&Bound<'_, PyDict>>) -> PyResult<Surfaces> {
+    let mut surfaces = Surfaces::new();
+    for (name, arrays) in given.into_iter().flatten() {
+        let arrays: SurfaceArrays<'_> = arrays.extract()?;
+        let vertices = arrays::from_rows(&arrays.points, arrays.points.as_array().nrows())?;
+        let triangles = arrays.triangles.as_array();
+        let (shape, wanted) = (triangles.dim(), (triangles.nrows(), 3));
+        if shape != wanted {
+            return Err(PyValueError::new_err(format!("shape {shape:?} instead of {wanted:?}")));
+        }
+        let triangle = |t: ArrayView1<'_, i64>| Ok([index(t[0])?, index(t[1])?, index(t[2])?]);
+        let triangles = triangles.rows().into_iter().map(triangle).collect::<PyResult<_>>()?;
+        surfaces.insert(name.extract()?, (vertices, triangles));
+    }
+    Ok(surfaces)
 }
 
 fn mesh<const D: usize>(arrays: &MeshArrays<'_>) -> PyResult<Result<Mesh<D>, String>> {

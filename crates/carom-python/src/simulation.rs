@@ -1,8 +1,9 @@
 use std::time::Instant;
 
 use carom::{Outcome, Scenario};
+use carom_mesh::Vector;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::Serialize;
@@ -25,6 +26,9 @@ enum Inner {
     Space(carom::Simulation<3>),
 }
 
+/// Signed distances [m] and normals of points.
+type Gaps<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>);
+
 /// Evaluates an expression of the run, whatever its dimension.
 macro_rules! with {
     ($simulation:expr, $run:ident => $value:expr) => {
@@ -44,15 +48,21 @@ fn to_python<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py
 #[pymethods]
 impl Simulation {
     #[new]
-    #[pyo3(signature = (scenario, meshes=None))]
-    fn new(py: Python<'_>, scenario: &str, meshes: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+    #[pyo3(signature = (scenario, meshes=None, surfaces=None))]
+    fn new(
+        py: Python<'_>,
+        scenario: &str,
+        meshes: Option<&Bound<'_, PyDict>>,
+        surfaces: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
         let scenario: Scenario = serde_json::from_str(scenario)
             .map_err(|e| input_error(py, &carom::InputError::new("", format!("not a scenario: {e}"))))?;
         let inner = match scenario.dimension {
             3 => {
-                let meshes = mesh::meshes(py, meshes)?;
-                py.detach(|| carom::Simulation::with_meshes(&scenario, meshes)).map(Inner::Space)
+                let (meshes, surfaces) = (mesh::meshes(py, meshes)?, mesh::surfaces(surfaces)?);
+                py.detach(|| carom::Simulation::with_files(&scenario, meshes, surfaces)).map(Inner::Space)
             }
+            // No surface is an obstacle of the plane: the build refuses what says so.
             _ => {
                 let meshes = mesh::meshes(py, meshes)?;
                 py.detach(|| carom::Simulation::with_meshes(&scenario, meshes)).map(Inner::Plane)
@@ -85,6 +95,32 @@ impl Simulation {
             let model = run.model();
             let meshes = model.bodies.iter().map(|b| (b.first_node, b.body.mesh()));
             arrays::grid(py, &model.assembly.reference[..model.node_count()], meshes)
+        })
+    }
+
+    /// The centre of mass of every body where nothing has moved [m].
+    fn centres_of_mass<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        with!(&self.inner, run => {
+            let centres: Vec<_> =
+                run.model().bodies.iter().map(|b| b.body.mean(b.body.mesh().nodes())).collect();
+            arrays::vectors(py, &centres)
+        })
+    }
+
+    /// Distances of points [m] from an obstacle where it has not moved, negative inside, and the normals there.
+    fn obstacle_gaps<'py>(
+        &self,
+        py: Python<'py>,
+        obstacle: usize,
+        points: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Gaps<'py>> {
+        with!(&self.inner, run => {
+            let obstacles = &run.model().assembly.contact.obstacles;
+            let obstacle = obstacles.get(obstacle).ok_or_else(|| PyIndexError::new_err(obstacle))?;
+            let points = arrays::from_rows(&points, points.as_array().nrows())?;
+            let unmoved = |_| Vector::zeros();
+            let (gaps, normals): (Vec<_>, Vec<_>) = points.iter().map(|x| obstacle.gap(x, &unmoved)).unzip();
+            Ok((PyArray1::from_vec(py, gaps), arrays::vectors(py, &normals)?))
         })
     }
 

@@ -13,7 +13,7 @@ from carom.case.mesh import MeshFile
 from carom.case.obstacle import RigidSurface
 from carom.case.scenario import Scenario
 from carom.errors import InputError
-from carom.mesh_file import MeshArrays, Note, read_body_mesh, read_surface
+from carom.mesh_file import MeshArrays, Note, SurfaceArrays, read_body_mesh, read_surface
 from carom.results.doubts import of_mesh, warn
 
 
@@ -33,16 +33,20 @@ def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
     InputError
         The scenario cannot be run, such as bodies that overlap at the start.
     """
-    meshes = _meshes(scenario)
+    meshes, surfaces = _meshes(scenario), _surfaces(scenario)
+
+    def make(scenario: Scenario, meshes: Mapping[str, MeshArrays]) -> Simulation:
+        return Simulation(_json(scenario), dict(meshes), surfaces)
+
     found = [note for arrays in meshes.values() for note in arrays.notes]
     try:
-        simulation = _make(scenario, meshes)
+        simulation = make(scenario, meshes)
     except InputError as refusal:
         try:
-            meshes, moves = closed(scenario, meshes, _make)
+            meshes, moves = closed(scenario, meshes, make)
             if not moves:
                 raise refusal from None
-            simulation = _make(scenario, meshes)
+            simulation = make(scenario, meshes)
         except InputError:  # what has been wrong before is told, not what is left of it
             raise refusal from None
         found += moves
@@ -57,19 +61,12 @@ def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
     return simulation
 
 
-def _make(scenario: Scenario, meshes: Mapping[str, MeshArrays]) -> Simulation:
-    return Simulation(_json(scenario), dict(meshes))
-
-
 def _json(scenario: Scenario) -> str:
-    """Return the scenario as the native core reads it, the triangles of obstacles included."""
+    """Return the scenario as the native core reads it, but for what goes to it as arrays."""
     data = json.loads(scenario.to_json())
     for index, obstacle in enumerate(scenario.obstacles):
         if isinstance(obstacle, RigidSurface):
-            key = f"obstacles.{index}"
-            surface = read_surface(obstacle.file, scale=obstacle.scale, key=key)
-            data["obstacles"][index]["vertices"] = surface.points.tolist()
-            data["obstacles"][index]["triangles"] = surface.triangles.tolist()
+            data["obstacles"][index] |= {"vertices": [], "triangles": []}
     return json.dumps(data)
 
 
@@ -85,4 +82,13 @@ def _meshes(scenario: Scenario) -> dict[str, MeshArrays]:
         )
         for index, body in enumerate(scenario.bodies)
         if isinstance(body.mesh, MeshFile)
+    }
+
+
+def _surfaces(scenario: Scenario) -> dict[str, SurfaceArrays]:
+    """Read the surfaces of the obstacles that have theirs in a file."""
+    return {
+        obstacle.name: read_surface(obstacle.file, scale=obstacle.scale, key=f"obstacles.{index}")
+        for index, obstacle in enumerate(scenario.obstacles)
+        if isinstance(obstacle, RigidSurface)
     }

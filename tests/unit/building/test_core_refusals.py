@@ -531,6 +531,22 @@ def test_triangles_that_enclose_nothing_are_no_obstacle(change, message):
         Simulation(spoiled({**SPACE, **mesh(**BALL), **obstacle(**{**TETRAHEDRON, **change})}))
 
 
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"points": np.zeros((4, 2))}, r"shape \(4, 2\) instead of \(4, 3\)"),
+        ({"triangles": np.zeros((5, 4), dtype=np.int64)}, r"shape \(5, 4\) instead of \(5, 3\)"),
+        ({"triangles": np.array([[0, 1, -1]])}, "-1 is no index"),
+    ],
+)
+def test_arrays_that_are_no_triangles_are_refused(change, message):
+    points, triangles = (np.array(TETRAHEDRON[name]) for name in ("vertices", "triangles"))
+    arrays = {"points": points.astype(float), "triangles": triangles, **change}
+    case = spoiled({**SPACE, **mesh(**BALL), **obstacle(**TETRAHEDRON)})
+    with pytest.raises(ValueError, match=f"^{message}$"):
+        Simulation(case, None, {"floor": SimpleNamespace(**arrays)})
+
+
 def test_cubes_that_share_an_edge_alone_have_no_contact_surface():
     cube = np.array([[x, y, z] for z in (0, 1) for x, y in SQUARE])
     second = cube + np.array([1, 1, 0])

@@ -1,5 +1,6 @@
 """A closed surface from an STL file as a rigid obstacle."""
 
+import numpy as np
 import pytest
 
 import carom
@@ -69,6 +70,16 @@ def test_a_block_lands_on_the_cube_of_a_file(case):
     assert contact["pair"] == ["block", "cube"]
     assert contact["onset"] == pytest.approx(0.005, abs=1.5e-3)
     assert -2e-3 < summary["min_gap"] < 0.0  # two steps at 1 m/s
+
+
+def test_the_core_knows_how_far_points_are_from_the_cube_of_a_file(case):
+    simulation = build(case(TRIANGLES))
+    points = np.array([[0.4, 0.3, 1.5], [0.2, 0.5, 0.6], [1.3, 1.4, 0.5]])
+    gaps, normals = simulation.obstacle_gaps(0, points)
+    assert gaps == pytest.approx([0.5, -0.2, 0.5])
+    assert normals == pytest.approx(np.array([[0, 0, 1], [-1, 0, 0], [0.6, 0.8, 0]]))
+    with pytest.raises(IndexError, match=r"^1$"):
+        simulation.obstacle_gaps(1, points)
 
 
 def test_triangles_that_do_not_close_are_refused(case):

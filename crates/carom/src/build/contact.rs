@@ -4,7 +4,7 @@ use carom_mesh::{Facet, Vector};
 
 use super::body::may_touch;
 use super::mortar::discretisation;
-use super::obstacle::obstacle;
+use super::obstacle::{Surfaces, obstacle};
 use super::values::{number, place};
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
@@ -23,6 +23,7 @@ fn check_friction(key: &str, friction: f64) -> Result<(), InputError> {
 pub(super) fn contact<const D: usize>(
     scenario: &Scenario,
     bodies: &[ModelBody<D>],
+    mut surfaces: Surfaces<D>,
 ) -> Result<(ContactModel<D>, Vec<Group>), InputError> {
     let mut model = ContactModel::default();
     for (i, (b, entry)) in bodies.iter().zip(&scenario.bodies).enumerate() {
@@ -41,7 +42,8 @@ pub(super) fn contact<const D: usize>(
         model.surfaces.push(if entry.self_contact { surface.touching_itself(&reference) } else { surface });
     }
     for (i, entry) in scenario.obstacles.iter().enumerate() {
-        model.obstacles.push(obstacle(&format!("obstacles.{i}"), &entry.shape)?);
+        let key = format!("obstacles.{i}");
+        model.obstacles.push(obstacle(&key, &entry.shape, surfaces.remove(&entry.name))?);
     }
     let default = scenario.contact.friction;
     check_friction("contact.friction", default)?;

@@ -15,6 +15,7 @@ use std::collections::BTreeMap;
 
 use carom_mesh::{Mesh, Vector};
 
+pub use self::obstacle::Surfaces;
 use self::values::vector;
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
@@ -32,7 +33,16 @@ pub type Meshes<const D: usize> = BTreeMap<String, Mesh<D>>;
 /// If a value is out of range, a mesh has an inverted cell, or bodies overlap or are outside their obstacles at the start.
 pub fn build<const D: usize>(
     scenario: &Scenario,
+    meshes: Meshes<D>,
+) -> Result<(Model<D>, Method<D>, State<D>), InputError> {
+    build_with_surfaces(scenario, meshes, Surfaces::new())
+}
+
+/// [`build`] with obstacles whose triangles are not in the scenario itself.
+pub(crate) fn build_with_surfaces<const D: usize>(
+    scenario: &Scenario,
     mut meshes: Meshes<D>,
+    surfaces: Surfaces<D>,
 ) -> Result<(Model<D>, Method<D>, State<D>), InputError> {
     if scenario.dimension != D {
         return Err(InputError::new(
@@ -50,7 +60,7 @@ pub fn build<const D: usize>(
     if bodies.is_empty() {
         return Err(InputError::new("bodies", "there is no body; add one [[bodies]] table at least"));
     }
-    let (contact, groups) = contact::contact(scenario, &bodies)?;
+    let (contact, groups) = contact::contact(scenario, &bodies, surfaces)?;
     let gravity: Vector<D> = match &scenario.analysis.gravity {
         Some(g) => vector("analysis.gravity", g)?,
         None => Vector::<D>::zeros(),

@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use carom_contact::{ClosedSurface, Obstacle, RigidShape};
@@ -7,8 +8,18 @@ use super::values::{number, vector};
 use crate::error::InputError;
 use crate::scenario::ObstacleShape;
 
-/// The obstacle under `key` in the case file.
-pub(super) fn obstacle<const D: usize>(key: &str, shape: &ObstacleShape) -> Result<Obstacle<D>, InputError> {
+/// Vertices [m] of a surface, and those of every triangle, counter-clockwise as seen from outside.
+pub type Triangles<const D: usize> = (Vec<Vector<D>>, Vec<[u32; 3]>);
+
+/// Surfaces that a scenario takes from files, by the names of their obstacles.
+pub type Surfaces<const D: usize> = BTreeMap<String, Triangles<D>>;
+
+/// The obstacle under `key` in the case file; a surface `from_file` stands for the triangles that its shape does not say.
+pub(super) fn obstacle<const D: usize>(
+    key: &str,
+    shape: &ObstacleShape,
+    from_file: Option<Triangles<D>>,
+) -> Result<Obstacle<D>, InputError> {
     let of = |name: &str| format!("{key}.{name}");
     let radius =
         |radius: f64| number(&of("radius"), radius, radius > 0.0, "the radius must be greater than 0 m");
@@ -41,8 +52,14 @@ pub(super) fn obstacle<const D: usize>(key: &str, shape: &ObstacleShape) -> Resu
         }
         ObstacleShape::Surface { vertices, triangles } => {
             in_space("a surface")?;
-            let vertices = vertices.iter().map(|x| vector(&of("vertices"), x)).collect::<Result<_, _>>()?;
-            let surface = ClosedSurface::new(vertices, triangles);
+            let (vertices, triangles) = match from_file {
+                Some(surface) => surface,
+                None => {
+                    let vertex = |x: &Vec<f64>| vector(&of("vertices"), x);
+                    (vertices.iter().map(vertex).collect::<Result<_, _>>()?, triangles.clone())
+                }
+            };
+            let surface = ClosedSurface::new(vertices, &triangles);
             RigidShape::Surface(Arc::new(surface.map_err(|e| InputError::mesh(key, e.to_string()))?))
         }
     };

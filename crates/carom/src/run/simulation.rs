@@ -5,7 +5,7 @@ use carom_mesh::Vector;
 use serde::Serialize;
 
 use super::error::RunError;
-use crate::build::{Meshes, build};
+use crate::build::{Meshes, Surfaces, build_with_surfaces};
 use crate::contact::PosedProblem;
 use crate::contact::cross_check::CrossCheckSummary;
 use crate::error::InputError;
@@ -111,7 +111,7 @@ impl<const D: usize> Simulation<D> {
     /// Builds a run from its scenario, which generates all its meshes.
     ///
     /// # Errors
-    /// If the scenario cannot be run; see [`build`].
+    /// If the scenario cannot be run; see [`build`](crate::build).
     pub fn new(scenario: &Scenario) -> Result<Self, InputError> {
         Self::with_meshes(scenario, Meshes::new())
     }
@@ -119,9 +119,21 @@ impl<const D: usize> Simulation<D> {
     /// Builds a run from its scenario and the `meshes` that it takes from files.
     ///
     /// # Errors
-    /// If the scenario cannot be run; see [`build`].
+    /// If the scenario cannot be run; see [`build`](crate::build).
     pub fn with_meshes(scenario: &Scenario, meshes: Meshes<D>) -> Result<Self, InputError> {
-        let (model, method, state) = build(scenario, meshes)?;
+        Self::with_files(scenario, meshes, Surfaces::new())
+    }
+
+    /// Builds a run from its scenario and all that it takes from files: the `meshes` of bodies and the `surfaces` of obstacles.
+    ///
+    /// # Errors
+    /// If the scenario cannot be run; see [`build`](crate::build).
+    pub fn with_files(
+        scenario: &Scenario,
+        meshes: Meshes<D>,
+        surfaces: Surfaces<D>,
+    ) -> Result<Self, InputError> {
+        let (model, method, state) = build_with_surfaces(scenario, meshes, surfaces)?;
         let tracks = tracks(&model, &scenario.output.track)?;
         let (dt, end) = (scenario.analysis.time_step, scenario.analysis.end_time);
         for (key, every) in [
