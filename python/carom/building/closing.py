@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.case.obstacle import Obstacle, Plane, RigidBox, RigidCylinder, RigidSphere
 from carom.case.scenario import Scenario
 from carom.mesh_file import MeshArrays, Note
 
@@ -60,15 +59,10 @@ def closed(
 
 def _apart(scenario: Scenario) -> Scenario:
     """Return the bodies of a scenario, of which none can touch anything."""
-    names = [body.name for body in scenario.bodies]
-    pairs = [
-        {"between": (one, other), "enabled": False}
-        for index, one in enumerate(names)
-        for other in names[index + 1 :]
-    ]
+    pairs = [{"between": pair, "enabled": False} for pair in _pairs(scenario)]
     contact = scenario.contact.model_validate({"pairs": pairs})
     bodies = tuple(body.model_copy(update={"self_contact": False}) for body in scenario.bodies)
-    return scenario.model_copy(update={"contact": contact, "bodies": bodies, "obstacles": ()})
+    return scenario.model_copy(update={"contact": contact, "bodies": bodies})
 
 
 def _pairs(scenario: Scenario) -> Iterator[tuple[str, str]]:
@@ -91,7 +85,8 @@ class _Closing:
 
         self.meshes, self.notes = dict(meshes), list[Note]()
         self._index = {body.name: k for k, body in enumerate(scenario.bodies)}
-        self._obstacles = {obstacle.name: obstacle for obstacle in scenario.obstacles}
+        self._obstacles = {obstacle.name: k for k, obstacle in enumerate(scenario.obstacles)}
+        self._native = native
         description: dict[str, Any] = native.describe()
         self._bodies: list[Mapping[str, Any]] = description["bodies"]
         points = native.mesh()["points"]
@@ -106,22 +101,22 @@ class _Closing:
     def close(self, one: str, other: str) -> None:
         """Move nodes of a body out of another one or an obstacle, and the other way round."""
         if other in self._obstacles:
-            self._leave_obstacle(one, self._obstacles[other])
+            self._leave_obstacle(one, other)
             return
         # The finer one first: a single node of the other one that gives way would bend its side.
         order = sorted((one, other), key=lambda name: self._body(name)["smallest_edge"])
         for name, target in (order, order[::-1]):
             self._leave(name, target)
 
-    def _leave_obstacle(self, body: str, obstacle: Obstacle) -> None:
+    def _leave_obstacle(self, body: str, obstacle: str) -> None:
         deepest = self._deepest(body, body)
         if deepest <= 0.0:
             return
         points = self._boundary(body).points
-        gaps, normals = _gaps(obstacle, points)
+        gaps, normals = self._native.obstacle_gaps(self._obstacles[obstacle], points)
         which = np.flatnonzero((gaps < 0.0) & (gaps >= -deepest))
         feet = points[which] - gaps[which, None] * normals[which]
-        self._move(body, obstacle.name, which, feet, deepest)
+        self._move(body, obstacle, which, feet, deepest)
 
     def _leave(self, body: str, other: str) -> None:
         """Move the nodes of a body out of another one, or the sides of the other one back."""
@@ -184,34 +179,6 @@ class _Closing:
         ]
         # Both ends of a digit, and round-off of what is written with it.
         return min(2.0 * told, SHORT * min(edges, default=0.0))
-
-
-def _gaps(obstacle: Obstacle, points: Array) -> tuple[Array, Array]:
-    """Return distances from an obstacle [m], negative inside, and the normals there."""
-    if isinstance(obstacle, Plane):
-        normal = np.asarray(obstacle.normal) / np.linalg.norm(obstacle.normal)
-        return (points - obstacle.point) @ normal, np.broadcast_to(normal, points.shape)
-    if isinstance(obstacle, RigidBox):
-        half = 0.5 * np.asarray(obstacle.size)
-        arms = points - obstacle.corner - half
-        beyond = np.abs(arms) - half
-        axis = np.argmax(beyond, axis=1)
-        rows = np.arange(len(points))
-        normals = np.zeros_like(points)
-        normals[rows, axis] = np.sign(arms[rows, axis])
-        return beyond[rows, axis], normals
-    if isinstance(obstacle, RigidSphere | RigidCylinder):
-        if isinstance(obstacle, RigidSphere):
-            arms = points - obstacle.centre
-        else:
-            axis = np.asarray(obstacle.axis) / np.linalg.norm(obstacle.axis)
-            arms = points - obstacle.point
-            arms = arms - np.outer(arms @ axis, axis)
-        lengths = np.linalg.norm(arms, axis=1)
-        sign = -1.0 if obstacle.cavity else 1.0
-        normals = sign * arms / np.where(lengths > 0.0, lengths, 1.0)[:, None]
-        return sign * (lengths - obstacle.radius), normals
-    return np.full(len(points), np.inf), np.zeros_like(points)
 
 
 def _sides_back(boundary: Boundary, feet: Array, depths: Array) -> tuple[NDArray[np.int64], Array]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.building.simplices import Boundary, distance, to_point
-from carom.case.obstacle import Obstacle, Plane, RigidBox, RigidCylinder, RigidSphere
+from carom.case.obstacle import Obstacle, Plane, RigidBox, RigidSphere, RigidSurface
 from carom.mesh_file.cells import KINDS
 
 Array = NDArray[np.float64]
@@ -64,32 +64,37 @@ def _rotation(angle: Array) -> Array:
     return np.asarray(np.eye(3) + np.sin(size) * cross + (1 - np.cos(size)) * cross @ cross)
 
 
-def obstacle_gap(obstacle: Obstacle, boundary: Boundary) -> float | None:
-    """Return the distance of a boundary from an obstacle at rest [m]; None if it is not known."""
-    points = boundary.points
-    if isinstance(obstacle, Plane):
-        normal = np.asarray(obstacle.normal) / np.linalg.norm(obstacle.normal)
-        return float(np.min((points - obstacle.point) @ normal))
-    if isinstance(obstacle, RigidSphere):
-        return _round(obstacle, points - obstacle.centre, boundary)
-    if isinstance(obstacle, RigidCylinder):
-        axis = np.asarray(obstacle.axis) / np.linalg.norm(obstacle.axis)
-        arms = points - obstacle.point
-        return _round(obstacle, arms - np.outer(arms @ axis, axis), boundary)
+def obstacle_gap(
+    obstacle: Obstacle, boundary: Boundary, at: Callable[[Array], Array]
+) -> float | None:
+    """Return the distance of a boundary from an obstacle at rest [m]; None if it is not known.
+
+    Parameters
+    ----------
+    obstacle
+        The obstacle.
+    boundary
+        The boundary.
+    at
+        What the native core says of the distances of points from the obstacle [m].
+    """
+    if isinstance(obstacle, RigidSurface):
+        return None
+    of_nodes = float(at(boundary.points).min())
+    # Nothing is nearer to a plane or the wall of a cavity than a node. What bulges may be between.
+    if of_nodes <= 0.0 or isinstance(obstacle, Plane):
+        return of_nodes
     if isinstance(obstacle, RigidBox):
         low = np.asarray(obstacle.corner, dtype=float)
-        high = low + obstacle.size
-        if np.any(np.all((points >= low) & (points <= high), axis=1)):
-            return 0.0
-        return distance(boundary, _box(low, high))[0]
-    return None
-
-
-def _round(obstacle: RigidSphere | RigidCylinder, arms: Array, boundary: Boundary) -> float:
-    """Return the distance from what is round about the origin, to which these arms are taken."""
+        return distance(boundary, _box(low, low + obstacle.size))[0]
     if obstacle.cavity:
-        return float(obstacle.radius - np.linalg.norm(arms, axis=1).max())
-    return to_point(boundary.at(arms), np.zeros(arms.shape[1])) - obstacle.radius
+        return of_nodes
+    if isinstance(obstacle, RigidSphere):
+        return to_point(boundary, np.asarray(obstacle.centre)) - obstacle.radius
+    axis = np.asarray(obstacle.axis) / np.linalg.norm(obstacle.axis)
+    arms = boundary.points - obstacle.point
+    across = boundary.at(arms - np.outer(arms @ axis, axis))
+    return to_point(across, np.zeros(3)) - obstacle.radius
 
 
 def _box(low: Array, high: Array) -> Boundary:

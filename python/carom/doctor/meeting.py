@@ -124,13 +124,12 @@ def _first_touch(
 def _flights(patient: Patient, led: Mapping[str, Led | None]) -> Iterator[Flight]:
     scenario, dimension = patient.scenario, patient.scenario.dimension
     gravity = np.asarray(scenario.analysis.gravity or [0.0] * dimension, dtype=float)
-    for body, boundary, grid in zip(
-        scenario.bodies, patient.boundaries, patient.grids, strict=True
-    ):
+    centres = patient.simulation.centres_of_mass()
+    for body, boundary, centre in zip(scenario.bodies, patient.boundaries, centres, strict=True):
         spin: Any = (0.0 if dimension == 2 else [0.0] * 3) if body.spin is None else body.spin
         yield Flight(
             boundary,
-            centre=grid.points.mean(axis=0),
+            centre=centre,
             velocity=np.asarray(body.velocity or [0.0] * dimension, dtype=float),
             gravity=gravity,
             spin=np.asarray(spin, dtype=float),
@@ -141,21 +140,25 @@ def _flights(patient: Patient, led: Mapping[str, Led | None]) -> Iterator[Flight
 def _gap_over_time(
     patient: Patient, pair: Mapping[str, Any], flights: Mapping[str, Flight]
 ) -> Callable[[float], float] | None:
-    obstacles = {obstacle.name: obstacle for obstacle in patient.scenario.obstacles}
+    obstacles = {obstacle.name: k for k, obstacle in enumerate(patient.scenario.obstacles)}
     one, other = pair["between"]
     if one in obstacles:
         one, other = other, one
     flight = flights[one]
     if other not in obstacles:
         return lambda time: distance(flight.at(time), flights[other].at(time))[0]
-    obstacle, dimension = obstacles[other], patient.scenario.dimension
-    if obstacle_gap(obstacle, flight.boundary) is None:
+    obstacle, dimension = patient.scenario.obstacles[obstacles[other]], patient.scenario.dimension
+
+    def at(points: NDArray[np.float64]) -> NDArray[np.float64]:
+        return patient.simulation.obstacle_gaps(obstacles[other], points)[0]
+
+    if obstacle_gap(obstacle, flight.boundary, at) is None:
         return None
 
     def gap(time: float) -> float:
         moved = travel(obstacle, np.array([time]), dimension=dimension)[0]
         there = flight.at(time)
-        return obstacle_gap(obstacle, there.at(there.points - moved)) or 0.0
+        return obstacle_gap(obstacle, there.at(there.points - moved), at) or 0.0
 
     return gap
 

@@ -114,6 +114,24 @@ def test_a_body_is_moved_out_of_an_obstacle(tmp_path, kind):
     assert abs(pair["initial_gap"]) < 2e-10
 
 
+def test_a_body_is_moved_out_of_a_surface_of_triangles(tmp_path):
+    """Symptom guarded against: what a file's digits did was refused in front of such obstacles."""
+    corners, quads = block([19.0, 19.0, 8.0], [1.0] * 3, [1] * 3)
+    sides = [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+    triangles = [quads[0][list(t)] for a, b, c, d in sides for t in ((a, b, c), (a, c, d))]
+    meshio.write(tmp_path / "floor.stl", meshio.Mesh(corners, [("triangle", np.array(triangles))]))
+    points, cells = block([19.1, 19.1, 9.0], [0.7] * 3, [3] * 3)
+    points[:, 2] -= 1e-6
+    mesh = write(tmp_path / "part.inp", points, cells, "%.7g")
+    floor = {"name": "floor", "kind": "surface", "file": str(tmp_path / "floor.stl")}
+    notes = []
+    native = build(scenario(3, {"part": mesh}, obstacles=[floor]), notes)
+    (note,) = notes
+    assert "16 nodes of part were moved out of floor by 1e-06 m" in note.message
+    (pair,) = native.describe()["pairs"]
+    assert abs(pair["initial_gap"]) < 1e-12
+
+
 def test_a_generated_body_makes_the_sides_of_a_file_give_way(tmp_path):
     below = block([19.0, 8.0], [1.0, 1.0], [1, 1])
     below[0][:, 1] += 1e-6

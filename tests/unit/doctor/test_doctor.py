@@ -202,6 +202,20 @@ def test_an_obstacle_that_moves_is_met_where_it_is(case, moving):
     assert said == "the first to touch are block and floor, at about 0.001 s of 0.002 s"
 
 
+def test_a_spinning_body_turns_about_its_centre_of_mass(case, tmp_path):
+    """Symptom guarded against: it was turned about the mean of its nodes, wherever these are."""
+    points = [[x, y] for y in (0.0, 1.0) for x in (0.0, 0.1, 0.2, 1.0)]
+    quads = [[k, k + 1, k + 5, k + 4] for k in range(3)]
+    meshio.write(tmp_path / "p.vtu", meshio.Mesh(np.array(points), [("quad", quads)]))
+    case["bodies"][0] |= {"mesh": {"file": str(tmp_path / "p.vtu")}, "velocity": None, "spin": 10.0}
+    case["analysis"] |= {"gravity": None, "end_time": 0.1}
+    case["obstacles"][0]["point"] = [0.0, -0.2]
+    # A corner, which is √½ from the centre and starts at 45°, is 0.7 below it.
+    time = (np.arcsin(0.7 / np.sqrt(0.5)) - np.pi / 4) / 10.0
+    said = fact(meeting, case, "analysis.end_time")
+    assert said == f"the first to touch are block and floor, at about {time:.3g} s of 0.1 s"
+
+
 @pytest.mark.parametrize("x", [None, "0"])
 def test_a_body_that_supports_lead_arrives_with_them(case, x):
     """Symptom guarded against: what supports drive was not foreseen, and free flight went on."""
@@ -304,16 +318,26 @@ def test_what_passes_by_does_not_touch():
 
 def test_gaps_of_obstacles():
     points = np.array([[3.0, 4.0, 0.0], [6.0, 8.0, 5.0]])
-    shapes = {
+    gaps = {
         carom.Plane(name="p", point=[0, 0, -1], normal=[0, 0, 2]): 1.0,
         carom.RigidSphere(name="s", centre=[0, 0, 0], radius=2.0): 3.0,
         carom.RigidSphere(name="c", centre=[0, 0, 0], radius=20.0, cavity=True): 20 - np.sqrt(125),
         carom.RigidCylinder(name="z", point=[0, 0, 9], axis=[0, 0, 1], radius=1.0): 4.0,
         carom.RigidBox(name="b", corner=[-2, 0, -1], size=[2, 1, 2]): np.sqrt(18.0),
     }
-    for shape, gap in shapes.items():
-        boundary = Boundary(points, np.array([[0, 1, 1]]))
-        assert obstacle_gap(shape, boundary) == pytest.approx(gap)
+    block = carom.Box(corner=[5, 6, 3], size=[1, 1, 1], divisions=[1, 1, 1], cell="hex8")
+    scenario = carom.Scenario(
+        dimension=3,
+        analysis=carom.Dynamic(end_time=1.0, time_step=1.0),
+        materials={"m": carom.LinearElastic(young=1.0, poisson=0.3, density=1.0)},
+        bodies=[carom.Body(name="block", material="m", mesh=block)],
+        obstacles=list(gaps),
+    )
+    native = build(scenario)
+    boundary = Boundary(points, np.array([[0, 1, 1]]))
+    for index, (shape, gap) in enumerate(gaps.items()):
+        found = obstacle_gap(shape, boundary, lambda x, k=index: native.obstacle_gaps(k, x)[0])
+        assert found == pytest.approx(gap)
 
 
 def test_a_thrown_body_falls_and_turns():
