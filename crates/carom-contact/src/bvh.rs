@@ -47,6 +47,11 @@ impl<const D: usize> Bvh<D> {
         Self { branches: vec![root], items }
     }
 
+    /// A box around all items.
+    pub fn bounds(&self) -> Aabb<D> {
+        self.branches.first().map_or(Aabb::of([]), |root| root.bounds)
+    }
+
     /// Number of items.
     pub fn len(&self) -> usize {
         self.items.len()

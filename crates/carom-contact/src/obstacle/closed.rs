@@ -173,6 +173,16 @@ impl<const D: usize> ClosedSurface<D> {
         &self.bounds
     }
 
+    pub(crate) fn vertices(&self) -> &[Vector<D>] {
+        &self.vertices
+    }
+
+    /// The ends of its edges [m], every edge once.
+    pub(crate) fn edges(&self) -> impl Iterator<Item = [Vector<D>; 2]> {
+        let around = self.facets.iter().flat_map(|f| (0..3).map(|k| [f.nodes[k], f.nodes[(k + 1) % 3]]));
+        around.filter(|[a, b]| a < b).map(|ends| ends.map(|n| self.vertices[n as usize]))
+    }
+
     /// Signed distance of `x` [m], negative inside, and the unit normal.
     pub(super) fn gap(&self, x: &Vector<D>) -> (f64, Vector<D>) {
         let at = |n: u32| self.vertices[n as usize];

@@ -92,7 +92,7 @@ impl<const D: usize> Obstacle<D> {
 }
 
 impl<const D: usize> RigidShape<D> {
-    fn gap(&self, x: &Vector<D>) -> (f64, Vector<D>) {
+    pub(crate) fn gap(&self, x: &Vector<D>) -> (f64, Vector<D>) {
         match self {
             Self::Plane { point, normal } => (normal.dot(&(x - point)), *normal),
             Self::Sphere { centre, radius, cavity } => convex::round(&(x - centre), *radius, *cavity),

@@ -1,0 +1,69 @@
+//! Boundaries of bodies inside obstacles.
+
+use carom_mesh::Vector;
+
+use super::Deep;
+use super::shell::Shell;
+use crate::RigidShape;
+use crate::patch::Patch;
+
+/// Halvings of a segment in search of its deepest place; each leaves two thirds of it.
+const HALVINGS: usize = 40;
+
+impl<const D: usize> Shell<D> {
+    /// What of this boundary is deepest inside an obstacle that has moved by `shift` [m].
+    pub fn inside_of_obstacle(&self, shape: &RigidShape<D>, shift: &Vector<D>) -> Deep<D> {
+        let gap = |x: &Vector<D>| shape.gap(&(x - shift)).0;
+        let mut deepest = Deep::none();
+        let mut look = |x: Vector<D>, f: u32| {
+            let depth = -gap(&x);
+            if depth > deepest.depth {
+                deepest = Deep { depth, at: x, cell: self.diameter(f) };
+            }
+        };
+        self.nodes.iter().for_each(|&(node, f)| look(self.at(node), f));
+        // Of a half space and of a cavity no point between nodes is deeper than these.
+        let bulges = match shape {
+            RigidShape::Plane { .. } => false,
+            RigidShape::Sphere { cavity, .. } | RigidShape::Cylinder { cavity, .. } => !cavity,
+            RigidShape::Box { .. } | RigidShape::Surface(_) => true,
+        };
+        if !bulges {
+            return deepest;
+        }
+        for &(nodes, f) in &self.edges {
+            let ends = nodes.map(|n| self.at(n));
+            let length = (ends[1] - ends[0]).norm();
+            // The distance from an obstacle changes by no more than the way.
+            if ends.iter().map(gap).sum::<f64>() < length {
+                look(lowest(&ends, &gap), f);
+            }
+        }
+        if D == 3 {
+            for (f, facet) in (0..).zip(&self.facets) {
+                let patch = Patch::new(facet, &|n| self.at(n));
+                let x = match shape {
+                    RigidShape::Sphere { centre, .. } => patch.at(&patch.closest(&(centre + shift))).point,
+                    _ => patch.middle().point,
+                };
+                look(x, f);
+            }
+        }
+        deepest
+    }
+}
+
+/// Where on a segment a function that has one minimum is lowest.
+fn lowest<const D: usize>(ends: &[Vector<D>; 2], value: &impl Fn(&Vector<D>) -> f64) -> Vector<D> {
+    let at = |t: f64| ends[0] + (ends[1] - ends[0]) * t;
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..HALVINGS {
+        let third = (high - low) / 3.0;
+        if value(&at(low + third)) <= value(&at(high - third)) {
+            high -= third;
+        } else {
+            low += third;
+        }
+    }
+    at(0.5 * (low + high))
+}

@@ -1,0 +1,115 @@
+//! A body inside itself.
+
+use std::collections::BTreeSet;
+
+use carom_mesh::Vector;
+
+use super::Deep;
+use super::shell::Shell;
+use crate::aabb::Aabb;
+use crate::patch::Patch;
+use crate::project::normal;
+
+/// How far before a node it is asked whether something else is there, in diameters of its facet: farther than round-off reaches, and
+/// nearer than anything that is told.
+const BEFORE: f64 = 1e-6;
+
+/// Where rays go: nearly along an axis, so that few boxes are in their way, and along no edge that anybody drew.
+const RAY: [f64; 3] = [1.0, 0.013_717_421, 0.007_316_239];
+
+impl<const D: usize> Shell<D> {
+    /// What of this boundary is deepest inside another part of the same body.
+    ///
+    /// A boundary that crosses itself does so at an edge that goes through a facet. From there on its nodes are followed as long as the
+    /// boundary winds around them once more. How deep they are is told no larger than the wall is thick that they are on.
+    pub fn in_itself(&self) -> Deep<D> {
+        let mut deepest = Deep::none();
+        let mut seeds = BTreeSet::new();
+        for &(nodes, _) in &self.edges {
+            let ends = nodes.map(|n| self.at(n));
+            self.tree.overlapping(&Aabb::of(ends), |f, _| {
+                if self.facets[f as usize].nodes.iter().any(|n| nodes.contains(n)) {
+                    return;
+                }
+                self.crossings(f, &ends, &mut |t, _| {
+                    seeds.extend(nodes);
+                    let at = ends[0] + (ends[1] - ends[0]) * t;
+                    let depth =
+                        ends.iter().map(|x| self.distance_from_plane(f, x)).fold(f64::INFINITY, f64::min);
+                    deepest = deepest.deeper(Deep { depth, at, cell: self.diameter(f) });
+                });
+            });
+        }
+        if seeds.is_empty() {
+            return deepest;
+        }
+        let inside = self.inside_from(seeds);
+        let of_nodes = inside.into_iter().map(|(node, facet)| self.behind_others(node, facet));
+        // Nodes say how deep it is; without any there is but an edge through a facet.
+        of_nodes.reduce(Deep::deeper).filter(|deep| deep.depth > 0.0).unwrap_or(deepest)
+    }
+
+    /// The nodes that are inside another part of the body and can be reached from the seeds by others that are, each with a facet.
+    fn inside_from(&self, seeds: BTreeSet<u32>) -> Vec<(u32, u32)> {
+        let mut next_to: BTreeSet<(u32, u32)> = BTreeSet::new();
+        for &([a, b], _) in &self.edges {
+            next_to.extend([(a, b), (b, a)]);
+        }
+        let (mut open, mut seen, mut inside) = (Vec::from_iter(seeds.iter().copied()), seeds, Vec::new());
+        while let Some(node) = open.pop() {
+            let facet = self.nodes.binary_search_by_key(&node, |(n, _)| *n).map_or(0, |k| self.nodes[k].1);
+            if self.winds_around(node, facet) {
+                inside.push((node, facet));
+                let others = next_to.range((node, 0)..=(node, u32::MAX)).map(|(_, other)| *other);
+                open.extend(others.filter(|other| seen.insert(*other)));
+            }
+        }
+        inside
+    }
+
+    /// Whether the boundary winds around what is just before a node.
+    fn winds_around(&self, node: u32, facet: u32) -> bool {
+        let mut outwards = Vector::zeros();
+        self.tree.overlapping(&Aabb::of([self.at(node)]), |f, _| {
+            if self.facets[f as usize].nodes.contains(&node) {
+                outwards += self.normal(f);
+            }
+        });
+        let from = self.at(node) + outwards.normalize() * (BEFORE * self.diameter(facet));
+        let far = 2.0 * self.bounds().diameter();
+        let ray = [from, from + Vector::from_fn(|i, _| RAY[i]) * far];
+        let mut winding = 0;
+        self.tree.overlapping(&Aabb::of(ray), |f, _| {
+            self.crossings(f, &ray, &mut |_, leaves| winding += if leaves { 1 } else { -1 });
+        });
+        winding > 0
+    }
+
+    /// How far a node is behind the nearest facet that it is no part of.
+    fn behind_others(&self, node: u32, facet: u32) -> Deep<D> {
+        let x = self.at(node);
+        let position = |n: u32| self.at(n);
+        let mut depth = f64::INFINITY;
+        self.tree.nearest(&x, |f, _| {
+            let facet = &self.facets[f as usize];
+            if !facet.nodes.contains(&node) {
+                let patch = Patch::new(facet, &position);
+                let p = patch.at(&patch.closest(&x));
+                let offset = x - p.point;
+                if normal(&p.tangents).dot(&offset) < 0.0 {
+                    depth = depth.min(offset.norm());
+                }
+            }
+            depth
+        });
+        if depth.is_finite() { Deep { depth, at: x, cell: self.diameter(facet) } } else { Deep::none() }
+    }
+
+    fn normal(&self, f: u32) -> Vector<D> {
+        normal(&Patch::new(&self.facets[f as usize], &|n| self.at(n)).middle().tangents)
+    }
+
+    fn distance_from_plane(&self, f: u32, x: &Vector<D>) -> f64 {
+        (x - self.at(self.facets[f as usize].nodes[0])).dot(&self.normal(f)).abs()
+    }
+}

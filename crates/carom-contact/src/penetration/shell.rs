@@ -1,0 +1,279 @@
+//! The boundary of a body in its present place.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use carom_mesh::{CellKind, Facet, Surface, Vector};
+
+use super::Deep;
+use super::skin::Skin;
+use crate::aabb::Aabb;
+use crate::bvh::Bvh;
+use crate::patch::Patch;
+use crate::project::normal;
+
+/// Points this close to one another, relative to the diameter of the facet that they are on, are one.
+const SAME: f64 = 1e-9;
+
+/// The facets, nodes and edges of the boundary of a body.
+#[derive(Debug, Clone)]
+pub(super) struct Shell<const D: usize> {
+    pub facets: Vec<Facet>,
+    /// Its nodes, ascending, and a facet of each.
+    pub nodes: Vec<(u32, u32)>,
+    /// Its edges from node to node, and a facet of each; in the plane the facets themselves.
+    pub edges: Vec<([u32; 2], u32)>,
+    /// Nodes at which the boundary ends: where a tied side begins.
+    ends: BTreeSet<u32>,
+    first: u32,
+    /// Where its nodes are [m], from that with the number `first` on.
+    x: Vec<Vector<D>>,
+    pub tree: Bvh<D>,
+    bounds: Aabb<D>,
+}
+
+impl<const D: usize> Shell<D> {
+    pub fn new(surface: &Surface, first: u32) -> Self {
+        let facets: Vec<Facet> = surface
+            .facets()
+            .iter()
+            .map(|f| Facet { kind: f.kind, nodes: f.nodes.iter().map(|n| n + first).collect() })
+            .collect();
+        let mut nodes = BTreeMap::new();
+        let mut edges: BTreeMap<[u32; 2], (u32, usize)> = BTreeMap::new();
+        for (f, facet) in (0..).zip(&facets) {
+            facet.nodes.iter().for_each(|&n| _ = nodes.entry(n).or_insert(f));
+            for [a, b] in rim(facet.kind) {
+                let [a, b] = [facet.nodes[a], facet.nodes[b]];
+                edges.entry([a.min(b), a.max(b)]).or_insert((f, 0)).1 += 1;
+            }
+        }
+        let ends = if D == 2 {
+            let mut count: BTreeMap<u32, usize> = BTreeMap::new();
+            edges.keys().flatten().for_each(|&n| *count.entry(n).or_default() += 1);
+            count.into_iter().filter(|&(_, count)| count == 1).map(|(n, _)| n).collect()
+        } else {
+            edges.iter().filter(|(_, (_, count))| *count == 1).flat_map(|(nodes, _)| *nodes).collect()
+        };
+        Self {
+            x: vec![Vector::zeros(); nodes.keys().next_back().map_or(0, |last| (last - first) as usize + 1)],
+            nodes: nodes.into_iter().collect(),
+            edges: edges.into_iter().map(|(nodes, (f, _))| (nodes, f)).collect(),
+            facets,
+            ends,
+            first,
+            tree: Bvh::new(std::iter::empty()),
+            bounds: Aabb::of([]),
+        }
+    }
+
+    /// Takes note of where its nodes are.
+    pub fn place(&mut self, position: &impl Fn(u32) -> Vector<D>) {
+        for &(node, _) in &self.nodes {
+            self.x[(node - self.first) as usize] = position(node);
+        }
+        let (facets, x, first) = (&self.facets, &self.x, self.first);
+        let room = |f: u32| {
+            let facet = &facets[f as usize];
+            let nodes = Aabb::of(facet.nodes.iter().map(|n| x[(n - first) as usize]));
+            if facet.kind.is_quadratic() { nodes.scaled(2.0) } else { nodes }
+        };
+        if self.tree.len() == facets.len() {
+            self.tree.refit(room);
+        } else {
+            self.tree = Bvh::new((0..facets.len() as u32).map(room));
+        }
+        self.bounds = self.tree.bounds();
+    }
+
+    pub fn bounds(&self) -> &Aabb<D> {
+        &self.bounds
+    }
+
+    /// Where a node is [m].
+    pub fn at(&self, node: u32) -> Vector<D> {
+        self.x[(node - self.first) as usize]
+    }
+
+    /// Diameter of a facet [m].
+    pub fn diameter(&self, facet: u32) -> f64 {
+        Aabb::of(self.facets[facet as usize].nodes.iter().map(|&n| self.at(n))).diameter()
+    }
+
+    /// How deep `x` is inside, or zero, and the facet that it is closest to.
+    ///
+    /// The side is that of the normals around the closest point, weighted by the angles of their facets there (Bærentzen & Aanæs 2005).
+    fn depth(&self, x: &Vector<D>) -> (f64, u32) {
+        let (mut distance, mut side, mut nearest, mut is_end) = (f64::INFINITY, 0.0, 0, false);
+        let position = |n: u32| self.at(n);
+        self.tree.nearest(x, |f, facet_box| {
+            let facet = &self.facets[f as usize];
+            let patch = Patch::new(facet, &position);
+            let xi = patch.closest(x);
+            let p = patch.at(&xi);
+            let offset = x - p.point;
+            let d = offset.norm();
+            let tie = SAME * facet_box.diameter();
+            if d <= distance + tie {
+                let front = normal(&p.tangents).dot(&offset) * angle(facet.kind, &xi, &p.tangents);
+                if d < distance - tie {
+                    (side, is_end, nearest) = (0.0, false, f);
+                }
+                distance = distance.min(d);
+                side += front;
+                let closest = facet.nodes.iter().zip(&p.weights).find(|(_, w)| **w > 1.0 - SAME);
+                is_end |= closest.is_some_and(|(n, _)| self.ends.contains(n));
+            }
+            distance + tie
+        });
+        (if side < 0.0 && !is_end { distance } else { 0.0 }, nearest)
+    }
+
+    /// What of this boundary is deepest inside another.
+    pub fn inside_of(&self, other: &Self) -> Deep<D> {
+        let mut deepest = Deep::none();
+        for &(node, f) in &self.nodes {
+            let x = self.at(node);
+            if other.bounds.contains(&x) {
+                deepest = deepest.deeper(other.deep(&x, || self.diameter(f)));
+            }
+        }
+        for &(nodes, f) in &self.edges {
+            let ends = nodes.map(|n| self.at(n));
+            deepest = deepest.deeper(other.deepest_of_segment(&ends, || self.diameter(f)));
+        }
+        deepest
+    }
+
+    /// What of the corners and edges of an obstacle that has moved by `shift` [m] is deepest inside.
+    pub fn deepest_of(&self, skin: &Skin<D>, shift: &Vector<D>) -> Deep<D> {
+        let mut deepest = Deep::none();
+        for x in &skin.corners {
+            let x = x + shift;
+            if self.bounds.contains(&x) {
+                deepest = deepest.deeper(self.deep(&x, || f64::INFINITY));
+            }
+        }
+        for ends in &skin.edges {
+            let ends = ends.map(|x| x + shift);
+            deepest = deepest.deeper(self.deepest_of_segment(&ends, || f64::INFINITY));
+        }
+        deepest
+    }
+
+    fn deep(&self, x: &Vector<D>, cell: impl Fn() -> f64) -> Deep<D> {
+        let (depth, f) = self.depth(x);
+        if depth == 0.0 {
+            return Deep::none();
+        }
+        Deep { depth, at: *x, cell: self.diameter(f).min(cell()) }
+    }
+
+    /// What of the segment between two points is deepest inside, if it goes through the boundary.
+    fn deepest_of_segment(&self, ends: &[Vector<D>; 2], cell: impl Fn() -> f64) -> Deep<D> {
+        let path = Aabb::of(*ends);
+        if !self.bounds.overlaps(&path) {
+            return Deep::none();
+        }
+        let (mut first, mut last) = (1.0_f64, 0.0_f64);
+        let mut crossings = 0;
+        let mut note = |t: f64, _: bool| {
+            (first, last) = (first.min(t), last.max(t));
+            crossings += 1;
+        };
+        self.tree.overlapping(&path, |f, _| self.crossings(f, ends, &mut note));
+        if crossings == 0 {
+            return Deep::none();
+        }
+        // Through a body that is not convex a segment may go in and out several times: then some places between are outside.
+        let places = if crossings <= 2 { 3 } else { 4 * crossings };
+        let (from, to) = if crossings == 1 { (0.0, 1.0) } else { (first, last) };
+        let along = |k: usize| {
+            ends[0] + (ends[1] - ends[0]) * (from + (to - from) * (k as f64 + 0.5) / places as f64)
+        };
+        (0..places).fold(Deep::none(), |deepest, k| deepest.deeper(self.deep(&along(k), &cell)))
+    }
+
+    /// Calls `found` with the places at which a segment goes through a facet, as parts of its length, and whether it leaves the body there.
+    pub fn crossings(&self, f: u32, ends: &[Vector<D>; 2], found: &mut impl FnMut(f64, bool)) {
+        let facet = &self.facets[f as usize];
+        let position = |n: u32| self.at(n);
+        if D == 2 {
+            for [a, b] in rim(facet.kind) {
+                through(ends, &[position(facet.nodes[a]), position(facet.nodes[b])], found);
+            }
+            return;
+        }
+        if facet.kind == CellKind::Tri3 {
+            through(ends, &[0, 1, 2].map(|k| position(facet.nodes[k])), found);
+            return;
+        }
+        let middle = Patch::new(facet, &position).middle().point;
+        for [a, b] in rim(facet.kind) {
+            through(ends, &[position(facet.nodes[a]), position(facet.nodes[b]), middle], found);
+        }
+    }
+}
+
+/// Calls `found` with where on a segment it goes through a simplex of `D` corners, if it does, and whether it comes from behind.
+fn through<const D: usize>(ends: &[Vector<D>; 2], corners: &[Vector<D>], found: &mut impl FnMut(f64, bool)) {
+    let tangents = [corners[1] - corners[0], if D == 2 { Vector::zeros() } else { corners[2] - corners[0] }];
+    let n = normal(&tangents);
+    let [before, after] = ends.map(|x| n.dot(&(x - corners[0])));
+    if before * after > 0.0 || before == after {
+        return;
+    }
+    let t = before / (before - after);
+    let x = ends[0] + (ends[1] - ends[0]) * t - corners[0];
+    let (a, b, c) = (tangents[0].norm_squared(), tangents[0].dot(&tangents[1]), tangents[1].norm_squared());
+    let (p, q) = (x.dot(&tangents[0]), x.dot(&tangents[1]));
+    let (s, r) = if D == 2 {
+        (p / a, 0.0)
+    } else {
+        let det = a * c - b * b;
+        ((c * p - b * q) / det, (a * q - b * p) / det)
+    };
+    if s >= -SAME && r >= -SAME && s + r <= 1.0 + SAME {
+        found(t, before < 0.0);
+    }
+}
+
+/// The straight lines around a facet from node to node; of a line itself, from end to end.
+fn rim(kind: CellKind) -> impl Iterator<Item = [usize; 2]> {
+    let reference = kind.reference();
+    let around = reference.facets.iter().filter(move |_| kind.dimension() == 2).flat_map(|(side, nodes)| {
+        let middle = side.is_quadratic().then(|| nodes[2]);
+        std::iter::once([nodes[0], middle.unwrap_or(nodes[1])]).chain(middle.map(|m| [m, nodes[1]]))
+    });
+    let line: &[[usize; 2]] = match (kind.dimension(), kind.is_quadratic()) {
+        (1, false) => &[[0, 1]],
+        (1, true) => &[[0, 2], [2, 1]],
+        _ => &[],
+    };
+    line.iter().copied().chain(around)
+}
+
+/// The angle of a facet at ξ, by which its normal counts there.
+fn angle<const D: usize>(kind: CellKind, xi: &[f64; 2], tangents: &[Vector<D>; 2]) -> f64 {
+    use std::f64::consts::PI;
+    if D == 2 {
+        return 1.0;
+    }
+    let [t0, t1] = tangents;
+    let is_at = |x: f64, end: f64| (x - end).abs() <= SAME;
+    if kind.corner_count() == 3 {
+        let sides = [is_at(xi[0], 0.0), is_at(xi[1], 0.0), is_at(xi[0] + xi[1], 1.0)];
+        return match sides {
+            [false, false, false] => 2.0 * PI,
+            [true, true, _] => t0.angle(t1),
+            [false, true, true] => t0.angle(&(t0 - t1)),
+            [true, false, true] => t1.angle(&(t1 - t0)),
+            _ => PI,
+        };
+    }
+    match xi.map(|x| is_at(x.abs(), 1.0)) {
+        [false, false] => 2.0 * PI,
+        [true, true] if xi[0] * xi[1] > 0.0 => t0.angle(t1),
+        [true, true] => PI - t0.angle(t1),
+        _ => PI,
+    }
+}

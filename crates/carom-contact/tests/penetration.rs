@@ -1,0 +1,171 @@
+//! The measure of penetration against depths that are known.
+
+use carom_contact::{Boundaries, Obstacle, Penetration, RigidShape, Solid};
+use carom_mesh::{CellBlock, CellKind, Mesh, Surface, Vector, generate};
+
+fn block<const D: usize>(corner: [f64; D], size: [f64; D], divisions: [usize; D]) -> Mesh<D> {
+    generate::grid(corner, size, divisions).expect("valid")
+}
+
+/// A fixed rotation, so that nothing lies along an axis.
+fn turned<const D: usize>(x: &Vector<D>) -> Vector<D> {
+    let mut y = *x;
+    for (i, j, angle) in [(0, 1, 0.7_f64), (1, D - 1, 0.4), (0, D - 1, -1.1)] {
+        if i != j {
+            let (c, s) = (angle.cos(), angle.sin());
+            (y[i], y[j]) = (c * y[i] - s * y[j], s * y[i] + c * y[j]);
+        }
+    }
+    y
+}
+
+/// All that is found among these bodies, whose nodes are moved to their `place`, and obstacles.
+fn measured<const D: usize>(
+    meshes: &[Mesh<D>],
+    obstacles: Vec<RigidShape<D>>,
+    place: impl Fn(&Vector<D>) -> Vector<D>,
+) -> Vec<Penetration<D>> {
+    let mut firsts = Vec::new();
+    let mut nodes = Vec::new();
+    for mesh in meshes {
+        firsts.push(nodes.len() as u32);
+        nodes.extend(mesh.nodes().iter().map(&place));
+    }
+    let node = nodes.len() as u32;
+    let obstacles: Vec<Obstacle<D>> =
+        obstacles.into_iter().map(|shape| Obstacle { node, ..Obstacle::new(shape) }).collect();
+    nodes.push(Vector::zeros());
+    let surfaces: Vec<Surface> = meshes.iter().map(Surface::of).collect();
+    let mut boundaries = Boundaries::new(surfaces.iter().zip(firsts), &obstacles);
+    let mut all = Vec::new();
+    boundaries.measure(&obstacles, |_| true, &|n| nodes[n as usize], |found| all.push(found));
+    all
+}
+
+fn deepest<const D: usize>(found: &[Penetration<D>]) -> f64 {
+    found.iter().map(|p| p.depth).fold(0.0, f64::max)
+}
+
+fn depth<const D: usize>(meshes: &[Mesh<D>], obstacles: Vec<RigidShape<D>>) -> f64 {
+    deepest(&measured(meshes, obstacles, |x| *x))
+}
+
+#[track_caller]
+fn close(a: f64, b: f64) {
+    assert!((a - b).abs() < 1e-12, "{a} {b}");
+}
+
+#[test]
+fn blocks_that_overlap_are_as_deep_in_one_another_as_drawn() {
+    for (other, overlap) in [(2, 0.05), (3, 0.05), (3, 0.2), (7, 1e-9)] {
+        let flat = [block([0.0; 2], [1.0; 2], [2; 2]), block([0.0, 1.0 - overlap], [1.0; 2], [other; 2])];
+        let solid =
+            [block([0.0; 3], [1.0; 3], [2; 3]), block([0.0, 0.0, 1.0 - overlap], [1.0; 3], [other; 3])];
+        // Their sides are flush: only what is within is deep, here the middle of the end faces.
+        let inset = [block([0.0; 2], [1.0; 2], [2; 2]), block([0.2, 1.0 - overlap], [0.6; 2], [other; 2])];
+        close(deepest(&measured(&inset, vec![], turned)), overlap);
+        close(depth(&flat, vec![]), overlap);
+        close(deepest(&measured(&flat, vec![], turned)), overlap);
+        close(depth(&solid, vec![]), overlap);
+        close(deepest(&measured(&solid, vec![], turned)), overlap);
+    }
+}
+
+#[test]
+fn blocks_that_touch_are_not_in_one_another() {
+    let inset = [block([0.0; 2], [1.0; 2], [2; 2]), block([0.3, 1.0], [0.5; 2], [3; 2])];
+    let solid = [block([0.0; 3], [1.0; 3], [2; 3]), block([0.0, 0.0, 1.0], [1.0; 3], [3; 3])];
+    let beside = [block([0.0; 2], [1.0; 2], [2; 2]), block([1.0 + 1e-6, -3.0], [1.0, 9.0], [1; 2])];
+    assert!(depth(&inset, vec![]) < 1e-15 && depth(&solid, vec![]) < 1e-15);
+    assert!(deepest(&measured(&inset, vec![], turned)) < 1e-15);
+    assert!(deepest(&measured(&solid, vec![], turned)) < 1e-15);
+    assert!(measured(&beside, vec![], |x| *x).is_empty());
+}
+
+/// Symptom guarded against: a plate impaled on a post, of which no node is inside the other.
+#[test]
+fn bars_that_cross_without_a_node_inside_are_found() {
+    let flat = [block([-2.0, -0.1], [4.0, 0.2], [1; 2]), block([-0.2, -2.0], [0.4, 4.0], [1; 2])];
+    close(depth(&flat, vec![]), 0.2);
+    let solid = [
+        block([-2.0, -0.1, -0.1], [4.0, 0.2, 0.2], [1; 3]),
+        block([-0.2, -2.0, 0.0], [0.4, 4.0, 0.4], [1; 3]),
+    ];
+    // The upper edges of the first run 0.1 above the lower side of the second.
+    close(depth(&solid, vec![]), 0.1);
+    let post = RigidShape::Box { corner: Vector::<2>::new(-0.2, -2.0), size: Vector::<2>::new(0.4, 2.05) };
+    close(depth(&flat[..1], vec![post]), 0.15);
+    let post = RigidShape::Box {
+        corner: Vector::<3>::new(-0.2, -0.05, -2.0),
+        size: Vector::<3>::new(0.4, 0.1, 2.05),
+    };
+    close(depth(&solid[..1], vec![post]), 0.05);
+}
+
+#[test]
+fn a_ball_is_found_between_the_nodes_that_it_presses_into() {
+    let plate = [block([-1.0, -1.0, 0.0], [2.0, 2.0, 0.5], [1; 3])];
+    let ball = RigidShape::Sphere { centre: Vector::<3>::new(0.1, 0.2, 0.97), radius: 0.5, cavity: false };
+    close(depth(&plate, vec![ball]), 0.03);
+    let rod = [block([-1.0, 0.0], [2.0, 0.5], [1; 2])];
+    let disc = RigidShape::Sphere { centre: Vector::<2>::new(0.1, 0.97), radius: 0.5, cavity: false };
+    close(depth(&rod, vec![disc]), 0.03);
+    let floor = RigidShape::Plane { point: Vector::<2>::new(0.0, 0.02), normal: Vector::<2>::new(0.0, 1.0) };
+    close(depth(&rod, vec![floor]), 0.02);
+}
+
+/// A strip of unit length along a curve.
+fn strip(cells: usize, width: f64, curve: impl Fn(f64) -> [f64; 2]) -> Mesh<2> {
+    let flat = block([0.0, -0.5], [1.0, 1.0], [cells, 1]);
+    let nodes = flat.nodes().iter().map(|x| {
+        let [p, q] = [curve(x[0] - 1e-4), curve(x[0] + 1e-4)];
+        let along = Vector::<2>::new(q[0] - p[0], q[1] - p[1]).normalize();
+        let middle = curve(x[0]);
+        Vector::<2>::new(middle[0] - along[1] * width * x[1], middle[1] + along[0] * width * x[1])
+    });
+    let blocks =
+        flat.blocks().iter().map(|b| CellBlock { kind: b.kind, connectivity: b.connectivity.clone() });
+    Mesh::new(nodes.collect(), blocks.collect()).expect("valid")
+}
+
+#[test]
+fn a_strip_that_goes_through_itself_is_told_and_one_that_does_not_is_not() {
+    use std::f64::consts::TAU;
+    // One turn and a fifth of a spiral, whose turns are less apart than the strip is wide by `overlap`.
+    let spiral = |overlap: f64| {
+        move |s: f64| {
+            let (angle, radius) = (1.2 * TAU * s, 1.0 + (0.1 - overlap) * 1.2 * s);
+            [radius * angle.cos(), radius * angle.sin()]
+        }
+    };
+    for (cells, overlap) in [(60, 0.02), (75, 0.02), (200, 0.05)] {
+        let found = measured(&[strip(cells, 0.1, spiral(overlap))], vec![], |x| *x);
+        assert_eq!(found.len(), 1);
+        assert_eq!(found[0].between, [Solid::Body(0); 2]);
+        assert!((found[0].depth / overlap - 1.0).abs() < 0.1, "{cells} {overlap}: {:?}", found[0]);
+        assert!(measured(&[strip(cells, 0.1, spiral(-0.02))], vec![], |x| *x).is_empty());
+    }
+}
+
+#[test]
+fn second_order_boundaries_are_measured_by_their_curves() {
+    // The upper side of the cell is the parabola y = 1.1 − 0.1 x².
+    let x = [
+        [-1.0, -1.0],
+        [1.0, -1.0],
+        [1.0, 1.0],
+        [-1.0, 1.0],
+        [0.0, -1.0],
+        [1.0, 0.0],
+        [0.0, 1.1],
+        [-1.0, 0.0],
+    ];
+    let cell = CellBlock { kind: CellKind::Quad8, connectivity: (0..8).collect() };
+    let curved = Mesh::new(x.map(|x| Vector::<2>::new(x[0], x[1])).to_vec(), vec![cell]).expect("valid");
+    let parabola = |x: f64| 1.1 - 0.1 * x * x;
+    let corner = [0.2, parabola(0.2) - 0.01];
+    let found = depth(&[curved, block(corner, [0.1, 1.0], [1; 2])], vec![]);
+    let way = |s: f64| (s - corner[0]).hypot(parabola(s) - corner[1]);
+    let closest = (0..=100_000).map(|k| way(0.15 + 1e-6 * f64::from(k))).fold(f64::INFINITY, f64::min);
+    assert!((found - closest).abs() < 1e-9, "{found} {closest}");
+}
