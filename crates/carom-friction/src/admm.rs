@@ -64,7 +64,9 @@ impl<'a, const D: usize> Reactions<'a, D> {
 
 impl<const D: usize> LinearLaw<D> for Reactions<'_, D> {
     /// Between rigid bodies a contact moves with many others: penalties mostly end between 5 and 50.
-    const FIRST_SCALE: f64 = 20.0;
+    fn first_scale(&self) -> f64 {
+        20.0
+    }
 
     fn stiffness(&self) -> &[f64] {
         &self.stiffness

@@ -11,7 +11,7 @@ pub(crate) struct Anderson<const D: usize> {
     changes: Vec<Vec<Vector<D>>>,
     images: Vec<Vec<Vector<D>>>,
     /// Inner products of the changes.
-    products: [[f64; MEMORY]; MEMORY],
+    products: [[f64; CONTROL.memory]; CONTROL.memory],
     recorded: usize,
     /// Weights of the contacts, with which the changes of all count alike.
     weights: Vec<f64>,
@@ -20,25 +20,33 @@ pub(crate) struct Anderson<const D: usize> {
     failures: usize,
 }
 
-/// Images combined.
-const MEMORY: usize = 6;
-/// Failures after which acceleration is given up.
-const FAILURES: usize = 3;
-/// Squared growth of the change, over the smallest one, that counts as a failure.
-const GROWTH: f64 = 2.0;
-/// Largest share: where reactions are free to grow changes are parallel, and any combination is as good.
-const LARGEST_SHARE: f64 = 1e4;
-/// Added to the products of the normalised changes, lest round-off of nearly parallel ones be amplified.
-const REGULARISATION: f64 = 1e-10;
+/// What is combined, and when it is given up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Control {
+    /// Images combined.
+    memory: usize,
+    /// Failures after which acceleration is given up.
+    failures: usize,
+    /// Squared growth of the change, over the smallest one, that counts as a failure.
+    growth: f64,
+    /// Largest share: where reactions are free to grow changes are parallel, and any combination is as good.
+    largest_share: f64,
+    /// Added to the products of the normalised changes, lest round-off of nearly parallel ones be amplified.
+    regularisation: f64,
+}
+
+/// The thresholds of every run.
+const CONTROL: Control =
+    Control { memory: 6, failures: 3, growth: 2.0, largest_share: 1e4, regularisation: 1e-10 };
 
 impl<const D: usize> Anderson<D> {
     /// For as many contacts as there are `weights`.
     pub fn new(weights: Vec<f64>) -> Self {
         let n = weights.len();
         Self {
-            changes: vec![vec![Vector::zeros(); n]; MEMORY],
-            images: vec![vec![Vector::zeros(); n]; MEMORY],
-            products: [[0.0; MEMORY]; MEMORY],
+            changes: vec![vec![Vector::zeros(); n]; CONTROL.memory],
+            images: vec![vec![Vector::zeros(); n]; CONTROL.memory],
+            products: [[0.0; CONTROL.memory]; CONTROL.memory],
             recorded: 0,
             weights,
             best: vec![Vector::zeros(); n],
@@ -49,7 +57,7 @@ impl<const D: usize> Anderson<D> {
 
     /// Whether it has not been given up.
     pub fn is_active(&self) -> bool {
-        self.failures < FAILURES
+        self.failures < CONTROL.failures
     }
 
     /// Forgets the images, because the iteration has become another.
@@ -61,14 +69,14 @@ impl<const D: usize> Anderson<D> {
     /// Replaces `r`, the image of `before`, by a point from which the iteration is hoped to converge faster. It may be outside
     /// of a cone that all images are in.
     pub fn accelerate(&mut self, before: &[Vector<D>], r: &mut [Vector<D>]) {
-        let slot = self.recorded % MEMORY;
+        let slot = self.recorded % CONTROL.memory;
         let mut change = 0.0;
         for i in 0..r.len() {
             let weighted = (r[i] - before[i]) * self.weights[i];
             change += weighted.norm_squared();
             self.changes[slot][i] = weighted;
         }
-        if change > GROWTH * self.best_change {
+        if change > CONTROL.growth * self.best_change {
             r.copy_from_slice(&self.best);
             self.restart();
             self.failures += 1;
@@ -80,7 +88,7 @@ impl<const D: usize> Anderson<D> {
         }
         self.images[slot].copy_from_slice(r);
         self.recorded += 1;
-        let count = self.recorded.min(MEMORY);
+        let count = self.recorded.min(CONTROL.memory);
         for j in 0..count {
             let pairs = self.changes[j].iter().zip(&self.changes[slot]);
             let product = pairs.map(|(a, b)| a.dot(b)).sum();
@@ -97,18 +105,19 @@ impl<const D: usize> Anderson<D> {
     }
 
     /// The shares, of sum 1, of the changes in their shortest combination: those of the solution of `products` x = 1.
-    fn shares(&self, count: usize) -> Option<[f64; MEMORY]> {
-        let mut scale = [0.0; MEMORY];
+    fn shares(&self, count: usize) -> Option<[f64; CONTROL.memory]> {
+        let mut scale = [0.0; CONTROL.memory];
         for j in 0..count {
             scale[j] = 1.0 / self.products[j][j].sqrt();
         }
-        let (mut factor, mut x) = ([[0.0; MEMORY]; MEMORY], scale);
+        let (mut factor, mut x) = ([[0.0; CONTROL.memory]; CONTROL.memory], scale);
         // Cholesky's factorisation of the normalised products and both substitutions.
         for i in 0..count {
             for j in 0..=i {
                 let mut sum = self.products[i][j] * scale[i] * scale[j];
                 sum -= (0..j).map(|k| factor[i][k] * factor[j][k]).sum::<f64>();
-                factor[i][j] = if i == j { (sum + REGULARISATION).sqrt() } else { sum / factor[j][j] };
+                factor[i][j] =
+                    if i == j { (sum + CONTROL.regularisation).sqrt() } else { sum / factor[j][j] };
             }
             x[i] = (x[i] - (0..i).map(|k| factor[i][k] * x[k]).sum::<f64>()) / factor[i][i];
         }
@@ -120,7 +129,7 @@ impl<const D: usize> Anderson<D> {
         }
         let sum: f64 = x.iter().sum();
         x.iter_mut().for_each(|x| *x /= sum);
-        x.iter().all(|x| x.abs() <= LARGEST_SHARE).then_some(x)
+        x.iter().all(|x| x.abs() <= CONTROL.largest_share).then_some(x)
     }
 }
 

@@ -19,22 +19,38 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Auto;
 
-/// Sweeps before anything else is considered: about the cost of ordering the contacts for Newton's method.
-const FIRST_SWEEPS: usize = 10;
-/// Sweeps that those already made may promise to end within.
-const PROMISED_SWEEPS: f64 = 60.0;
-/// Blocks per contact from which contacts are thought to be redundant: many between few bodies.
-const DENSE: usize = 12;
-/// Coupling of a contact to all others, relative to its own compliance, up to which it is local.
-const LOCAL: f64 = 4.0;
-/// Iterations of ADMM, with one factor or two, that are tried before Newton's method renews its factors again and again.
-const DIRECTIONS: usize = 60;
-/// Cost of the sweeps that are tried before Newton's method, in iterations of it.
-const SWEEPS_WORTH: usize = 5;
-/// Blocks of the factors per block of W above which they are thought to outgrow the problem.
-const FILL: usize = 8;
-/// A share of iterations for each method when they take turns: of Newton's, and sweeps.
-const TURN: (usize, usize) = (1000, 500);
+/// What is tried for how long.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Control {
+    /// Sweeps before anything else is considered: about the cost of ordering the contacts for Newton's method.
+    first_sweeps: usize,
+    /// Sweeps that those already made may promise to end within.
+    promised_sweeps: f64,
+    /// Blocks per contact from which contacts are thought to be redundant: many between few bodies.
+    dense: usize,
+    /// Coupling of a contact to all others, relative to its own compliance, up to which it is local.
+    local: f64,
+    /// Iterations of ADMM, with one factor or two, that are tried before Newton's method renews its factors again and again.
+    directions: usize,
+    /// Cost of the sweeps that are tried before Newton's method, in iterations of it.
+    sweeps_worth: usize,
+    /// Blocks of the factors per block of W above which they are thought to outgrow the problem.
+    fill: usize,
+    /// A share of iterations for each method when they take turns: of Newton's, and sweeps.
+    turn: (usize, usize),
+}
+
+/// The thresholds of every run.
+const CONTROL: Control = Control {
+    first_sweeps: 10,
+    promised_sweeps: 60.0,
+    dense: 12,
+    local: 4.0,
+    directions: 60,
+    sweeps_worth: 5,
+    fill: 8,
+    turn: (1000, 500),
+};
 
 impl<const D: usize> FrictionSolver<D> for Auto {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
@@ -47,7 +63,7 @@ impl<const D: usize> FrictionSolver<D> for Auto {
 fn is_local<const D: usize>(problem: &ContactProblem<D>) -> bool {
     (0..problem.len()).all(|i| {
         let sum: f64 = problem.w.row(i).map(|(_, block)| block.norm()).sum();
-        sum <= (1.0 + LOCAL) * problem.w.diagonal(i).norm()
+        sum <= (1.0 + CONTROL.local) * problem.w.diagonal(i).norm()
     })
 }
 
@@ -59,21 +75,21 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
     };
     let blocks = problem.w.block_count();
     let local = is_local(problem);
-    let dense = blocks > DENSE * problem.len() && !local;
+    let dense = blocks > CONTROL.dense * problem.len() && !local;
     let first = if dense {
         monitor.check(r).map(|status| (SolverKind::Admm, status))
     } else {
-        sweep(monitor, r, FIRST_SWEEPS)
+        sweep(monitor, r, CONTROL.first_sweeps)
     };
     if let Some(end) = first {
         return end;
     }
-    while local && monitor.expected_iterations() < PROMISED_SWEEPS {
-        if let Some(end) = sweep(monitor, r, FIRST_SWEEPS) {
+    while local && monitor.expected_iterations() < CONTROL.promised_sweeps {
+        if let Some(end) = sweep(monitor, r, CONTROL.first_sweeps) {
             return end;
         }
     }
-    let mut newton = match Newton::new(problem, FILL * (blocks + problem.len()), monitor.clock()) {
+    let mut newton = match Newton::new(problem, CONTROL.fill * (blocks + problem.len()), monitor.clock()) {
         Ok(newton) => newton,
         Err(NoStructure::TimeIsUp) => return (SolverKind::Proximal, SolveStatus::TimeLimit),
         Err(NoStructure::TooLarge) => {
@@ -81,25 +97,25 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
             return (SolverKind::Uzawa, status.unwrap_or(SolveStatus::Stalled));
         }
     };
-    let sweeps = SWEEPS_WORTH * newton.cost(problem) / gauss_seidel::cost(problem);
-    if sweeps > 5 * FIRST_SWEEPS {
+    let sweeps = CONTROL.sweeps_worth * newton.cost(problem) / gauss_seidel::cost(problem);
+    if sweeps > 5 * CONTROL.first_sweeps {
         if dense {
-            match admm::run(monitor, r, DIRECTIONS) {
+            match admm::run(monitor, r, CONTROL.directions) {
                 // A factor that would take longer than what is left of the time: others may use it.
                 Some(SolveStatus::TimeLimit) if !monitor.clock().is_over() => {}
                 Some(status) => return (SolverKind::Admm, status),
                 None => {}
             }
-        } else if let Some(end) = sweep(monitor, r, sweeps - FIRST_SWEEPS) {
+        } else if let Some(end) = sweep(monitor, r, sweeps - CONTROL.first_sweeps) {
             return end;
         }
     }
     loop {
-        let status = Strategy::PROXIMAL.run(monitor, &mut newton, r, TURN.0);
+        let status = Strategy::PROXIMAL.run(monitor, &mut newton, r, CONTROL.turn.0);
         if status != SolveStatus::IterationLimit || monitor.exhausted().is_some() {
             return (SolverKind::Proximal, status);
         }
-        if let Some(end) = sweep(monitor, r, TURN.1) {
+        if let Some(end) = sweep(monitor, r, CONTROL.turn.1) {
             return end;
         }
     }

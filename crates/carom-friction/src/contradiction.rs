@@ -26,21 +26,35 @@ pub(crate) fn contradicts<const D: usize>(
         return false;
     }
     let refuted = |z: &[Vector<D>]| rows.are_contradicted_by(z);
-    refuted(&z) || (0..REFINEMENTS).any(|_| rows.sharpen(&mut z, lu, clock) && refuted(&z))
+    refuted(&z) || (0..CONTROL.refinements).any(|_| rows.sharpen(&mut z, lu, clock) && refuted(&z))
 }
 
-/// Size of reactions, relative to those that the motions call for, that nothing physical needs.
-const OUT_OF_PROPORTION: f64 = 1e8;
-/// Share of q along z, of both their lengths, below which contacts only touch.
-const CLOSING: f64 = 1e-9;
-/// |Wᵀz| over |z| that the rounding of W explains, where the mean of its diagonal blocks is one: this times the root of the number of
-/// rows, and at most so much. A W with a condition number below the inverse of the latter, 5.6e14, has no such z.
-const ROUND_OFF: f64 = 2.0 * f64::EPSILON;
-const MOST_ROUND_OFF: f64 = 8.0 * f64::EPSILON;
-/// Steps of inverse iteration, and their shift relative to the compliance of each contact: a component of z outside of the null
-/// space shrinks by as much.
-const REFINEMENTS: usize = 3;
-const SHIFT: f64 = 1e-13;
+/// What counts as a proof, and how z is sharpened until it is one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Control {
+    /// Size of reactions, relative to those that the motions call for, that nothing physical needs.
+    out_of_proportion: f64,
+    /// Share of q along z, of both their lengths, below which contacts only touch.
+    closing: f64,
+    /// |Wᵀz| over |z| that the rounding of W explains, over the root of the number of rows, where the mean of its diagonal blocks is one.
+    round_off: f64,
+    /// The most that it explains of any W. One with a condition number below the inverse of this, 5.6e14, has no such z.
+    most_round_off: f64,
+    /// Steps of inverse iteration.
+    refinements: usize,
+    /// Their shift, relative to the compliance of each contact: a component of z outside of the null space shrinks by as much.
+    shift: f64,
+}
+
+/// The thresholds of every problem.
+const CONTROL: Control = Control {
+    out_of_proportion: 1e8,
+    closing: 1e-9,
+    round_off: 2.0 * f64::EPSILON,
+    most_round_off: 8.0 * f64::EPSILON,
+    refinements: 3,
+    shift: 1e-13,
+};
 
 /// The rows of a problem, counted in the compliance of their own contact: soft contacts must not hide stiff ones.
 struct Rows<'a, const D: usize> {
@@ -72,16 +86,16 @@ impl<'a, const D: usize> Rows<'a, D> {
     /// Whether it is worth sharpening `z`.
     fn look_contradicted_by(&self, z: &[Vector<D>]) -> bool {
         let [size, along, response, q] = self.lengths(z);
-        -along > CLOSING * size * q && -along > OUT_OF_PROPORTION.sqrt() * q * response
+        -along > CONTROL.closing * size * q && -along > CONTROL.out_of_proportion.sqrt() * q * response
     }
 
     /// Whether `z` proves that there are no reactions, but for the rounding of W.
     fn are_contradicted_by(&self, z: &[Vector<D>]) -> bool {
         let [size, along, response, q] = self.lengths(z);
         let rows = (self.problem.len() * D) as f64;
-        let explained = (ROUND_OFF * rows.sqrt()).min(MOST_ROUND_OFF);
-        -along > CLOSING * size * q
-            && -along > OUT_OF_PROPORTION * q * response
+        let explained = (CONTROL.round_off * rows.sqrt()).min(CONTROL.most_round_off);
+        -along > CONTROL.closing * size * q
+            && -along > CONTROL.out_of_proportion * q * response
             && response <= explained * size
     }
 
@@ -93,7 +107,7 @@ impl<'a, const D: usize> Rows<'a, D> {
             if z[i][0] > 0.0 {
                 a[i][(0, 0)] = 1.0;
                 b[i] = Matrix::identity() * self.compliance[i];
-                b[i][(0, 0)] *= SHIFT;
+                b[i][(0, 0)] *= CONTROL.shift;
             }
             z[i][0] *= self.compliance[i];
         }

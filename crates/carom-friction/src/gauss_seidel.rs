@@ -45,11 +45,19 @@ impl<const D: usize> FrictionSolver<D> for GaussSeidel {
     }
 }
 
-/// Checks without a new smallest residual after which the sweeps are damped: exact local answers may chase one another in circles.
-const PATIENCE: usize = 10;
-/// What remains of the relaxation then, and the least of it.
-const DAMPING: f64 = 0.7;
-const LEAST_RELAXATION: f64 = 0.5;
+/// When sweeps are damped.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Control {
+    /// Checks without a new smallest residual after which the sweeps are damped: exact local answers may chase one another in circles.
+    patience: usize,
+    /// What remains of the relaxation then.
+    damping: f64,
+    /// The least of it.
+    least_relaxation: f64,
+}
+
+/// The thresholds of every run.
+const CONTROL: Control = Control { patience: 10, damping: 0.7, least_relaxation: 0.5 };
 
 /// Sweeps until it is time to stop, or `max_sweeps` times: then None.
 pub(crate) fn run<const D: usize, L: LocalSolver<D>>(
@@ -100,8 +108,8 @@ pub(crate) fn run<const D: usize, L: LocalSolver<D>>(
             schedule.checked(monitor.iterations, change.sqrt(), monitor.residual());
             stale = if monitor.residual() < smallest { 0 } else { stale + 1 };
             smallest = smallest.min(monitor.residual());
-            if stale == PATIENCE {
-                relaxation = LEAST_RELAXATION.max(DAMPING * relaxation);
+            if stale == CONTROL.patience {
+                relaxation = CONTROL.least_relaxation.max(CONTROL.damping * relaxation);
                 stale = 0;
             }
         }

@@ -13,17 +13,32 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ProjectedGradient;
 
-/// Share of its change by which s follows the motions, at first and at least; a faster one takes fewer iterations, but may
-/// never come to rest.
-const SLIP_RATE: f64 = 0.5;
-const LEAST_SLIP_RATE: f64 = 0.01;
-/// Iterations without progress after which s follows half as fast.
-const PATIENCE: usize = 1000;
-/// Least Lipschitz constant: that of the scaled W is 1 or more, but where reactions are free to grow none is seen.
-const LEAST_LIPSCHITZ: f64 = 1e-3;
-/// Growth of the step length per iteration, and its least reduction where it was too long.
-const LONGER: f64 = 1.02;
-const SHORTER: f64 = 1.5;
+/// How long steps are, and how fast the slip follows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Control {
+    /// Share of its change by which s follows the motions at first; a faster one takes fewer iterations, but may never come to rest.
+    slip_rate: f64,
+    /// The least of it.
+    least_slip_rate: f64,
+    /// Iterations without progress after which s follows half as fast.
+    patience: usize,
+    /// Least Lipschitz constant: that of the scaled W is 1 or more, but where reactions are free to grow none is seen.
+    least_lipschitz: f64,
+    /// Growth of the step length per iteration.
+    longer: f64,
+    /// Its least reduction where it was too long.
+    shorter: f64,
+}
+
+/// The thresholds of every run.
+const CONTROL: Control = Control {
+    slip_rate: 0.5,
+    least_slip_rate: 0.01,
+    patience: 1000,
+    least_lipschitz: 1e-3,
+    longer: 1.02,
+    shorter: 1.5,
+};
 
 impl<const D: usize> FrictionSolver<D> for ProjectedGradient {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
@@ -54,7 +69,7 @@ pub(crate) fn run<const D: usize>(
     let (mut next, mut next_motion) = (r.to_vec(), motion.clone());
     // Lipschitz constant of the scaled gradient, and Nesterov's sequence.
     let (mut lipschitz, mut t) = (1.0, 1.0_f64);
-    let (mut smallest, mut stale, mut slip_rate) = (f64::INFINITY, 0, SLIP_RATE);
+    let (mut smallest, mut stale, mut slip_rate) = (f64::INFINITY, 0, CONTROL.slip_rate);
     let mut schedule = Schedule::new(monitor.tolerance(), monitor.iterations);
     let last = monitor.iterations.saturating_add(max_iterations);
     while monitor.iterations < last {
@@ -75,7 +90,7 @@ pub(crate) fn run<const D: usize>(
         }
         monitor.iterations += 1;
         if curvature > lipschitz * squared_length && monitor.exhausted().is_none() {
-            lipschitz = (curvature / squared_length).max(SHORTER * lipschitz);
+            lipschitz = (curvature / squared_length).max(CONTROL.shorter * lipschitz);
             continue;
         }
         // Momentum that points back is dropped.
@@ -91,11 +106,11 @@ pub(crate) fn run<const D: usize>(
             s[i] += slip_rate * (slip(i, &motion[i]) - s[i]);
         }
         let error = squared_length.sqrt() * lipschitz.max(1.0);
-        lipschitz = LEAST_LIPSCHITZ.max(lipschitz / LONGER);
+        lipschitz = CONTROL.least_lipschitz.max(lipschitz / CONTROL.longer);
         stale = if error < smallest { 0 } else { stale + 1 };
         smallest = smallest.min(error);
-        if stale == PATIENCE {
-            slip_rate = LEAST_SLIP_RATE.max(0.5 * slip_rate);
+        if stale == CONTROL.patience {
+            slip_rate = CONTROL.least_slip_rate.max(0.5 * slip_rate);
             stale = 0;
         }
         if schedule.is_due(monitor.iterations, error) || monitor.exhausted().is_some() {

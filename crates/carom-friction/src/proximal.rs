@@ -2,6 +2,7 @@ use crate::block_lu::NoStructure;
 use crate::contradiction::contradicts;
 use crate::equation::Equation;
 use crate::newton::{Newton, Shifted};
+use crate::residual::LARGEST_REACTIONS;
 use crate::stopping::Monitor;
 use crate::{
     ContactProblem, FrictionSolver, SolveReport, SolveStatus, SolverKind, StoppingRule, Vector, cone, scaled,
@@ -32,33 +33,53 @@ impl<const D: usize> FrictionSolver<D> for Proximal {
 
 impl<const D: usize> FrictionSolver<D> for NewtonAlartCurnier {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
-        let strategy = Strategy { equations: &[Equation::AlartCurnier], first_shift: NEARLY_NONE };
+        let strategy = Strategy { equations: &[Equation::AlartCurnier], first_shift: CONTROL.nearly_none };
         strategy.solve(SolverKind::NewtonAlartCurnier, problem, r, rule)
     }
 }
 
 impl<const D: usize> FrictionSolver<D> for NewtonNaturalMap {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
-        let strategy = Strategy { equations: &[Equation::NaturalMap], first_shift: NEARLY_NONE };
+        let strategy = Strategy { equations: &[Equation::NaturalMap], first_shift: CONTROL.nearly_none };
         strategy.solve(SolverKind::NewtonNaturalMap, problem, r, rule)
     }
 }
 
-/// Shifts are relative to the mean compliance tr W/(n D). This one only keeps redundant contacts from a singular matrix.
-const NEARLY_NONE: f64 = 1e-10;
-/// With this one Newton's method converges from almost any start.
-const SAFE: f64 = 0.1;
-/// With this one the contacts hardly feel one another: larger ones are of no use.
-const LARGEST: f64 = 1.0;
-const SMALLEST: f64 = 1e-14;
-/// Iterations after which Newton's method is thought to be trapped: where it converges it takes four to eight.
-const TRAPPED: usize = 10;
-/// Growth of the shift when it is.
-const GROWTH: f64 = 5.0;
-/// Cautious decreases after that.
-const CAUTION: u32 = 2;
-/// ‖φ‖ that is small enough in a step, relative to the residual before it.
-const INNER: f64 = 1e-2;
+/// How the shift, relative to the mean compliance tr W/(n D), follows Newton's method.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Control {
+    /// A first shift that only keeps redundant contacts from a singular matrix.
+    nearly_none: f64,
+    /// With this one Newton's method converges from almost any start.
+    safe: f64,
+    /// With this one the contacts hardly feel one another: larger ones are of no use.
+    largest: f64,
+    /// The smallest shift.
+    smallest: f64,
+    /// Iterations after which Newton's method is thought to be trapped: where it converges it takes four to eight.
+    trapped: usize,
+    /// Growth of the shift when it is.
+    growth: f64,
+    /// Cautious decreases after that.
+    caution: u32,
+    /// Factor of the shift where Newton's method only just follows.
+    slow: f64,
+    /// ‖φ‖ that is small enough in a step, relative to the residual before it.
+    inner: f64,
+}
+
+/// The thresholds of every run.
+const CONTROL: Control = Control {
+    nearly_none: 1e-10,
+    safe: 0.1,
+    largest: 1.0,
+    smallest: 1e-14,
+    trapped: 10,
+    growth: 5.0,
+    caution: 2,
+    slow: 0.7,
+    inner: 1e-2,
+};
 
 /// How the method is run.
 #[derive(Debug, Clone, Copy)]
@@ -71,7 +92,7 @@ pub(crate) struct Strategy {
 
 impl Strategy {
     pub const PROXIMAL: Self =
-        Self { equations: &[Equation::NaturalMap, Equation::AlartCurnier], first_shift: SAFE };
+        Self { equations: &[Equation::NaturalMap, Equation::AlartCurnier], first_shift: CONTROL.safe };
 
     fn solve<const D: usize>(
         self,
@@ -113,11 +134,12 @@ impl Strategy {
         let mut trial = r.to_vec();
         loop {
             let size = motion_force.max(norm(r));
-            let wanted =
-                strictness * (0.1 * monitor.tolerance()).max(INNER * monitor.residual().min(0.1)) * size;
+            let wanted = strictness
+                * (0.1 * monitor.tolerance()).max(CONTROL.inner * monitor.residual().min(0.1))
+                * size;
             trial.copy_from_slice(r);
             let shifted = Shifted { problem, rho: &rho, shift: shift * mean_compliance, centre: &centre };
-            let goes_on = |made| made < TRAPPED && monitor.exhausted_after(made).is_none();
+            let goes_on = |made| made < CONTROL.trapped && monitor.exhausted_after(made).is_none();
             let newton_end = newton.solve(&shifted, self.equations[form], &mut trial, wanted, goes_on);
             monitor.iterations += newton_end.iterations;
             if newton_end.converged {
@@ -127,7 +149,8 @@ impl Strategy {
                 if let Some(status) = monitor.check(r) {
                     return status;
                 }
-                if norm(r) > FAR * motion_force
+                // Reactions out of proportion make one ask whether there are any that suffice.
+                if norm(r) > LARGEST_REACTIONS * motion_force
                     && contradicts(problem, r, &centre, monitor.stiffness(), &mut newton.lu, monitor.clock())
                 {
                     return SolveStatus::Inconsistent;
@@ -142,18 +165,19 @@ impl Strategy {
                 let decrease = match newton_end.iterations {
                     0..=3 => 0.1,
                     4..=8 => 0.4,
-                    _ => SLOW,
+                    _ => CONTROL.slow,
                 };
-                shift = (shift * if caution > 0 { decrease.max(SLOW) } else { decrease }).max(SMALLEST);
+                shift = (shift * if caution > 0 { decrease.max(CONTROL.slow) } else { decrease })
+                    .max(CONTROL.smallest);
                 caution = caution.saturating_sub(1);
             } else {
                 shift = match shift {
-                    _ if shift <= NEARLY_NONE => SAFE,
-                    _ if shift < LARGEST => shift * GROWTH,
-                    _ => SAFE,
+                    _ if shift <= CONTROL.nearly_none => CONTROL.safe,
+                    _ if shift < CONTROL.largest => shift * CONTROL.growth,
+                    _ => CONTROL.safe,
                 };
                 form = (form + 1) % self.equations.len();
-                caution = CAUTION;
+                caution = CONTROL.caution;
             }
             if let Some(status) = monitor.exhausted() {
                 return status;
@@ -164,11 +188,6 @@ impl Strategy {
         }
     }
 }
-
-/// Decrease of the shift where Newton's method only just follows.
-const SLOW: f64 = 0.7;
-/// Reactions, relative to what the motions without them call for, that make one ask whether there are any that suffice.
-const FAR: f64 = 1e3;
 
 fn norm<const D: usize>(x: &[Vector<D>]) -> f64 {
     x.iter().map(Vector::norm_squared).sum::<f64>().sqrt()

@@ -76,7 +76,7 @@ impl<const D: usize> Measured<D> for ContactProblem<D> {
 }
 
 /// ‖r‖ over ρ‖q‖ above which reactions are out of proportion; in piles of many contacts it is 10 to 100.
-const LARGEST_REACTIONS: f64 = 1e3;
+pub(crate) const LARGEST_REACTIONS: f64 = 1e3;
 /// Sums of squares between these have lost nothing.
 const SAFE: std::ops::Range<f64> = 1e-150..1e300;
 

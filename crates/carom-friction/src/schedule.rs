@@ -11,8 +11,7 @@ pub(crate) struct Schedule {
 }
 
 /// Iterations between two checks: a share of those made, within these bounds.
-const SHORTEST: usize = 5;
-const LONGEST: usize = 50;
+const BOUNDS: [usize; 2] = [5, 50];
 
 impl Schedule {
     pub fn new(tolerance: f64, iteration: usize) -> Self {
@@ -27,7 +26,8 @@ impl Schedule {
     /// Takes note of a check.
     pub fn checked(&mut self, iteration: usize, length: f64, residual: f64) {
         self.per_length = residual / length;
-        self.next = iteration + iteration.clamp(SHORTEST, LONGEST);
+        let [shortest, longest] = BOUNDS;
+        self.next = iteration + iteration.clamp(shortest, longest);
     }
 }
 

@@ -10,7 +10,7 @@ use crate::{SolveStatus, Vector, cone};
 /// The linear half of a problem: the pairs (a, u) of reactions and motions with u = W a + q, in whatever form W is known.
 pub(crate) trait LinearLaw<const D: usize> {
     /// The first scale of the penalties.
-    const FIRST_SCALE: f64;
+    fn first_scale(&self) -> f64;
 
     /// The stiffness k_i > 0 of each contact on its own [N/m], about D/tr W_ii.
     fn stiffness(&self) -> &[f64];
@@ -22,20 +22,38 @@ pub(crate) trait LinearLaw<const D: usize> {
     fn motion(&mut self, sum: &[Vector<D>], motion: &mut [Vector<D>]);
 }
 
-/// Over-relaxation, between 1 and 2.
-const RELAXATION: f64 = 1.6;
-/// Iterations without progress after which it is given up, and then the slip follows half as fast.
-const PATIENCE: usize = 200;
-const LEAST_SLIP_RATE: f64 = 0.01;
-/// Change of the penalties that is worth another factor, iterations before the first, and their growth from one to the next:
-/// the method converges for fixed penalties.
-const BAND: f64 = 2.0;
-const PERIOD: f64 = 20.0;
-const GROWTH: f64 = 1.2;
-/// Largest change of the penalties at once.
-const LEAP: f64 = 20.0;
-/// Smallest penalties, relative to the stiffness, that are tried where larger ones have no factor.
-const SMALLEST: f64 = 1e-6;
+/// How the steps are taken, and when the penalties change.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Control {
+    /// Over-relaxation, between 1 and 2.
+    relaxation: f64,
+    /// Steps none of which was the shortest so far, after which over-relaxation is given up, and then the slip follows half as fast.
+    patience: usize,
+    /// Least share of its change by which the slip follows the motion.
+    least_slip_rate: f64,
+    /// Factor between the changes of r and ρ z from which on other penalties are worth another factor.
+    band: f64,
+    /// Iterations before the first change of the penalties.
+    period: f64,
+    /// Growth of that period from one change to the next: the method converges for fixed penalties.
+    growth: f64,
+    /// Largest factor by which the penalties change at once.
+    leap: f64,
+    /// Smallest penalties, relative to the stiffness, that are tried where larger ones have no factor.
+    smallest: f64,
+}
+
+/// The thresholds of every run.
+const CONTROL: Control = Control {
+    relaxation: 1.6,
+    patience: 200,
+    least_slip_rate: 0.01,
+    band: 2.0,
+    period: 20.0,
+    growth: 1.2,
+    leap: 20.0,
+    smallest: 1e-6,
+};
 
 /// Runs ADMM from `r` until it is time to stop [S. Boyd et al., Found. Trends Mach. Learn. 3 (2011) 1–122], or until
 /// `max_iterations` are made or there is no factor: then None.
@@ -56,14 +74,14 @@ pub(crate) fn run<const D: usize, P: Measured<D>, L: LinearLaw<D>>(
         return Some(status);
     }
     let mut state = Splitting::new(mu, law.stiffness(), r);
-    match state.prepare(law, L::FIRST_SCALE) {
+    match state.prepare(law, law.first_scale()) {
         Ok(()) => {}
         Err(NoFactor::Singular) => return None,
         Err(NoFactor::TimeIsUp) => return Some(SolveStatus::TimeLimit),
     }
     let mut wanted = monitor.tolerance();
     let mut schedule = Schedule::new(monitor.tolerance(), monitor.iterations);
-    let (mut trial, mut tried) = (PERIOD, 0.0);
+    let (mut trial, mut tried) = (CONTROL.period, 0.0);
     let last = monitor.iterations.saturating_add(max_iterations);
     while monitor.iterations < last {
         let change = state.step(law);
@@ -86,14 +104,17 @@ pub(crate) fn run<const D: usize, P: Measured<D>, L: LinearLaw<D>>(
         state.watch(change.point);
         tried += 1.0;
         let imbalance = change.imbalance();
-        if tried >= trial && imbalance.is_finite() && !(1.0 / BAND..=BAND).contains(&imbalance) {
-            let scale = state.scale * imbalance.clamp(1.0 / LEAP, LEAP);
+        if tried >= trial
+            && imbalance.is_finite()
+            && !(1.0 / CONTROL.band..=CONTROL.band).contains(&imbalance)
+        {
+            let scale = state.scale * imbalance.clamp(1.0 / CONTROL.leap, CONTROL.leap);
             match state.prepare(law, scale) {
                 Ok(()) => {}
                 Err(NoFactor::Singular) => return None,
                 Err(NoFactor::TimeIsUp) => return Some(SolveStatus::TimeLimit),
             }
-            (trial, tried) = (GROWTH * trial, 0.0);
+            (trial, tried) = (CONTROL.growth * trial, 0.0);
         }
     }
     None
@@ -150,7 +171,7 @@ impl<'a, const D: usize> Splitting<'a, D> {
             stiffness: stiffness.to_vec(),
             scale: 1.0,
             rho: stiffness.to_vec(),
-            relaxation: RELAXATION,
+            relaxation: CONTROL.relaxation,
             slip_rate: 1.0,
             r: r.to_vec(),
             z: zeros(),
@@ -170,7 +191,7 @@ impl<'a, const D: usize> Splitting<'a, D> {
     fn prepare(&mut self, law: &mut impl LinearLaw<D>, mut scale: f64) -> Result<(), NoFactor> {
         while let Err(error) = law.prepare(scale) {
             scale *= 0.1;
-            if error == NoFactor::TimeIsUp || scale < SMALLEST || scale.is_nan() {
+            if error == NoFactor::TimeIsUp || scale < CONTROL.smallest || scale.is_nan() {
                 return Err(error);
             }
         }
@@ -219,13 +240,13 @@ impl<'a, const D: usize> Splitting<'a, D> {
     fn watch(&mut self, length: f64) {
         self.stale = if length < self.shortest { 0 } else { self.stale + 1 };
         self.shortest = self.shortest.min(length);
-        if self.stale < PATIENCE {
+        if self.stale < CONTROL.patience {
             return;
         }
         if self.relaxation > 1.0 {
             self.relaxation = 1.0;
         } else {
-            self.slip_rate = LEAST_SLIP_RATE.max(0.5 * self.slip_rate);
+            self.slip_rate = CONTROL.least_slip_rate.max(0.5 * self.slip_rate);
         }
         self.anderson.restart();
         self.stale = 0;

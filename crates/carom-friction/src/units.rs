@@ -13,12 +13,21 @@ pub(crate) struct Units {
     pub force: i32,
 }
 
-/// Largest exponent of the largest number of W and of that of q up to which a problem is solved in its own units: fourth powers of
-/// all that is computed of them are numbers still.
-const COMFORTABLE: i32 = 100;
-/// Largest exponent of the stiffness that counts as 1 (see [`unit`](crate::StoppingRule::unit)): beyond, one of the two is lost beside the
-/// other.
-const LARGEST_UNIT: i32 = 300;
+/// Powers of two beyond which numbers are counted in other units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Exponents {
+    /// Largest exponent of the largest number of W and of that of q up to which a problem is solved in its own units: fourth powers of all
+    /// that is computed of them are numbers still.
+    pub condensed: i32,
+    /// The same of the largest numbers of M, H, f and b of a global problem.
+    pub global: i32,
+    /// Largest exponent of the stiffness that counts as 1 (see [`unit`](crate::StoppingRule::unit)): beyond, one of the two is lost beside
+    /// the other.
+    pub unit: i32,
+}
+
+/// Of every problem.
+pub(crate) const LARGEST: Exponents = Exponents { condensed: 100, global: 50, unit: 300 };
 
 impl Units {
     /// The units of `problem`: its own, unless they are out of all proportion.
@@ -33,7 +42,7 @@ impl Units {
     pub fn from_largest(w: f64, q: f64) -> Self {
         let exponent = |x: f64| if x > 0.0 && x.is_finite() { exponent(x) } else { 0 };
         let (compliance, motion) = (exponent(w), exponent(q));
-        if compliance.abs() <= COMFORTABLE && motion.abs() <= COMFORTABLE {
+        if compliance.abs() <= LARGEST.condensed && motion.abs() <= LARGEST.condensed {
             return Self::default();
         }
         Self { motion, force: motion - (compliance - compliance.rem_euclid(2)) }
@@ -67,7 +76,7 @@ impl Units {
 
     /// In these units the stiffness that is `unit` in the problem's own.
     pub fn stiffness(self, unit: f64) -> f64 {
-        let largest = power_of_two(LARGEST_UNIT);
+        let largest = power_of_two(LARGEST.unit);
         times_power(unit, self.motion - self.force).clamp(1.0 / largest, largest)
     }
 

@@ -14,15 +14,23 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Uzawa;
 
-/// Iterations without progress that are borne, at first.
-const PATIENCE: usize = 800;
-/// Growth of the error, over the smallest, that is not borne at all.
-const BLOW_UP: f64 = 1e6;
-/// Longest step: where reactions are free to grow no motion bounds it.
-const LARGEST: f64 = 1e4;
-/// Lipschitz ratio θ ‖ΔF‖/‖Δr‖ above which a cautious step is taken again, and below which the next is longer.
-const LONGEST: f64 = 0.9;
-const SHORT: f64 = 0.4;
+/// How long steps are, and when they become cautious.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Control {
+    /// Iterations without progress that are borne, at first.
+    patience: usize,
+    /// Growth of the error, over the smallest, that is not borne at all.
+    blow_up: f64,
+    /// Largest θ: where reactions are free to grow no motion bounds it.
+    largest: f64,
+    /// Lipschitz ratio θ ‖ΔF‖/‖Δr‖ above which a cautious step is taken again.
+    long: f64,
+    /// The same ratio below which the next cautious step is longer.
+    short: f64,
+}
+
+/// The thresholds of every run.
+const CONTROL: Control = Control { patience: 800, blow_up: 1e6, largest: 1e4, long: 0.9, short: 0.4 };
 
 impl<const D: usize> FrictionSolver<D> for Uzawa {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
@@ -48,7 +56,7 @@ pub(crate) fn run<const D: usize>(
     let (mut next, mut next_force) = (r.to_vec(), force.clone());
     motions(problem, r, &mut force);
     let (mut best, mut best_error) = (r.to_vec(), f64::INFINITY);
-    let (mut theta, mut cautious, mut patience, mut stale) = (1.0, 0, PATIENCE, 0);
+    let (mut theta, mut cautious, mut patience, mut stale) = (1.0, 0, CONTROL.patience, 0);
     let mut schedule = Schedule::new(monitor.tolerance(), monitor.iterations);
     let last = monitor.iterations.saturating_add(max_iterations);
     while monitor.iterations < last {
@@ -59,7 +67,7 @@ pub(crate) fn run<const D: usize>(
         monitor.iterations += 1;
         let step = Step::between(&rho, (r, &next), (&force, &next_force));
         let ratio = theta * (step.squared_change / step.squared_length).sqrt();
-        if cautious > 0 && ratio > LONGEST && monitor.exhausted().is_none() {
+        if cautious > 0 && ratio > CONTROL.long && monitor.exhausted().is_none() {
             theta *= 2.0 / 3.0 / ratio.max(1.0);
             continue;
         }
@@ -71,11 +79,11 @@ pub(crate) fn run<const D: usize>(
         }
         if cautious > 0 {
             cautious -= 1;
-            if ratio < SHORT {
+            if ratio < CONTROL.short {
                 theta *= 1.5;
             }
         } else {
-            theta = step.spectral(monitor.iterations % 2 == 0).unwrap_or(theta).min(LARGEST);
+            theta = step.spectral(monitor.iterations % 2 == 0).unwrap_or(theta).min(CONTROL.largest);
         }
         if error < best_error {
             (best_error, stale) = (error, 0);
@@ -85,7 +93,7 @@ pub(crate) fn run<const D: usize>(
         }
         r.copy_from_slice(&next);
         std::mem::swap(&mut force, &mut next_force);
-        if cautious == 0 && (stale > patience || error > BLOW_UP * best_error) {
+        if cautious == 0 && (stale > patience || error > CONTROL.blow_up * best_error) {
             r.copy_from_slice(&best);
             motions(problem, r, &mut force);
             theta = 1.0;

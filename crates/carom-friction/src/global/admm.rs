@@ -83,7 +83,9 @@ fn relative_stiffness<const D: usize>(compliance: &Compliance<'_, D>) -> Vec<f64
 
 impl<const D: usize> LinearLaw<D> for Velocities<'_, D> {
     /// On elastic bodies a contact feels itself more than its neighbours.
-    const FIRST_SCALE: f64 = 1.0;
+    fn first_scale(&self) -> f64 {
+        1.0
+    }
 
     fn stiffness(&self) -> &[f64] {
         &self.stiffness

@@ -1,17 +1,15 @@
+use super::control::CONTROL;
 use faer::dyn_stack::MemBuffer;
 
 use super::compliance::Compliance;
 use crate::clock::{Clock, TimeIsUp};
 use crate::{BlockMatrix, ContactProblem, Matrix, Vector};
 
-/// Right-hand sides solved for at once, so that the factor is read once for all of them.
-const BATCH: usize = 48;
-
 impl<const D: usize> Compliance<'_, D> {
     /// The same problem with W and q written out. Only contacts on a common part of M are coupled.
     pub fn condense(&self, clock: Clock) -> Result<ContactProblem<D>, TimeIsUp> {
         let mut w = self.pattern();
-        let (mut x, mut memory) = (Vec::new(), self.inverse.memory(BATCH));
+        let (mut x, mut memory) = (Vec::new(), self.inverse.memory(CONTROL.at_once));
         for part in 0..self.inverse.parts.len() {
             self.add_part(part, &mut w, &mut x, &mut memory, clock)?;
         }
@@ -59,7 +57,7 @@ impl<const D: usize> Compliance<'_, D> {
     ) -> Result<(), TimeIsUp> {
         let n = self.inverse.parts.dofs(part).len();
         let links: Vec<_> = self.incidence.of_part(part).collect();
-        for (batch, rows) in links.chunks(BATCH / D).enumerate() {
+        for (batch, rows) in links.chunks(CONTROL.at_once / D).enumerate() {
             clock.check()?;
             x.clear();
             x.resize(rows.len() * D * n, 0.0);
@@ -74,7 +72,7 @@ impl<const D: usize> Compliance<'_, D> {
             self.inverse.solve_part_transposed(part, x, memory);
             for (k, (link, x)) in rows.iter().zip(x.chunks_exact(D * n)).enumerate() {
                 let (columns, blocks) = w.row_mut(link.contact as usize);
-                let first = if self.inverse.symmetric { batch * (BATCH / D) + k } else { 0 };
+                let first = if self.inverse.symmetric { batch * (CONTROL.at_once / D) + k } else { 0 };
                 let mut place_in_row = 0;
                 for other in &links[first..] {
                     while columns[place_in_row] != other.contact {

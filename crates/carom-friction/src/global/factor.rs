@@ -1,3 +1,4 @@
+use super::control::CONTROL;
 use faer::dyn_stack::{MemBuffer, StackReq};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use nalgebra::DMatrix;
@@ -13,12 +14,6 @@ pub(super) enum Factor {
     Sparse(Box<SparseFactor>),
 }
 
-/// Unknowns up to which the inverse is written out.
-const SMALL: usize = 12;
-
-/// Error of a known solution, relative to it, from which on no digit of the inverse is trusted.
-const LOST: f64 = 1e-2;
-
 impl Factor {
     /// Factorises `m`; in case of failure gives the row where it is singular, or where its inverse has no correct digit.
     pub fn new(m: &SparseColMat<usize, f64>, symmetric: bool) -> Result<Self, usize> {
@@ -28,7 +23,7 @@ impl Factor {
         if let Some(row) = empty {
             return Err(row);
         }
-        if m.ncols() <= SMALL {
+        if m.ncols() <= CONTROL.small {
             return Factor::Small(dense(m).try_inverse().ok_or(m.ncols() - 1)?).checked(m);
         }
         if symmetric {
@@ -97,7 +92,7 @@ impl Factor {
         let worst = (0..n)
             .map(|j| (j, (x[j] - known[j]).abs() / unit[j]))
             .fold((0, 0.0), |worst, e| if e.1 > worst.1 || e.1.is_nan() { e } else { worst });
-        if worst.1 <= LOST { Ok(self) } else { Err(worst.0) }
+        if worst.1 <= CONTROL.lost { Ok(self) } else { Err(worst.0) }
     }
 }
 
@@ -127,7 +122,7 @@ fn dense(m: &SparseColMat<usize, f64>) -> DMatrix<f64> {
 /// Overwrites each column of `n` numbers in `x` with a matrix times it.
 fn multiply(x: &mut [f64], n: usize, entry: impl Fn(usize, usize) -> f64) {
     for x in x.chunks_exact_mut(n) {
-        let mut product = [0.0; SMALL];
+        let mut product = [0.0; CONTROL.small];
         for (i, p) in product[..n].iter_mut().enumerate() {
             *p = (0..n).map(|j| entry(i, j) * x[j]).sum();
         }

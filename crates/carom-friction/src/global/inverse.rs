@@ -1,3 +1,4 @@
+use super::control::CONTROL;
 use faer::dyn_stack::{MemBuffer, StackReq};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 
@@ -26,9 +27,6 @@ pub(super) struct Inverse {
     /// Whether M is symmetric up to round-off.
     pub symmetric: bool,
 }
-
-/// Difference of two opposite entries of M, relative to the diagonal ones, up to which it is round-off.
-const ROUND_OFF: f64 = 32.0 * f64::EPSILON;
 
 impl Inverse {
     /// Factorises M.
@@ -86,7 +84,7 @@ fn is_symmetric(m: &SparseColMat<usize, f64>) -> bool {
     let diagonal: Vec<f64> = (0..m.ncols()).map(|j| entry(j, j).abs()).collect();
     (0..m.ncols()).all(|j| {
         m.symbolic().row_idx_of_col(j).zip(m.val_of_col(j)).all(|(i, &value)| {
-            i == j || (value - entry(j, i)).abs() <= ROUND_OFF * (diagonal[i] * diagonal[j]).sqrt()
+            i == j || (value - entry(j, i)).abs() <= CONTROL.round_off * (diagonal[i] * diagonal[j]).sqrt()
         })
     })
 }

@@ -4,6 +4,7 @@ mod admm;
 mod choice;
 mod compliance;
 mod condense;
+mod control;
 mod factor;
 mod incidence;
 mod inverse;

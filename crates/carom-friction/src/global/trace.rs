@@ -1,7 +1,5 @@
 use super::compliance::Compliance;
-
-/// Probes per part, from which on the trace is estimated rather than computed.
-const PROBES: usize = 48;
+use super::control::CONTROL;
 
 /// A trace and how sure it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,20 +10,20 @@ pub(super) struct Trace {
 }
 
 impl<const D: usize> Compliance<'_, D> {
-    /// tr W. A part with at most [`PROBES`] columns of H gives its share column by column, a larger one the mean of xᵀ W x over
-    /// vectors x of random signs [M. F. Hutchinson, Commun. Stat. Simul. Comput. 18 (1989) 1059–1076].
+    /// tr W. A part with no more columns of H than are solved for at once gives its share column by column. A larger one gives the
+    /// mean of xᵀ W x over as many vectors x of random signs [M. F. Hutchinson, Commun. Stat. Simul. Comput. 18 (1989) 1059–1076].
     pub fn trace(&self) -> Trace {
-        let mut memory = self.inverse.memory(PROBES);
+        let mut memory = self.inverse.memory(CONTROL.at_once);
         let (mut forces, mut x) = (Vec::new(), Vec::new());
         let (mut value, mut variance) = (0.0, 0.0);
         let mut signs = Signs::default();
         for part in 0..self.inverse.parts.len() {
             let links = self.incidence.of_part(part);
             let columns = links.len() * D;
-            let exact = columns <= PROBES;
+            let exact = columns <= CONTROL.at_once;
             let n = self.inverse.parts.dofs(part).len();
             forces.clear();
-            forces.resize(n * columns.min(PROBES), 0.0);
+            forces.resize(n * columns.min(CONTROL.at_once), 0.0);
             for (k, link) in links.enumerate() {
                 for d in 0..D {
                     for (probe, force) in forces.chunks_exact_mut(n).enumerate() {
@@ -46,7 +44,7 @@ impl<const D: usize> Compliance<'_, D> {
             if exact {
                 value += shares.sum::<f64>();
             } else {
-                let count = PROBES as f64;
+                let count = CONTROL.at_once as f64;
                 let mean = shares.clone().sum::<f64>() / count;
                 value += mean;
                 variance += shares.map(|s| (s - mean).powi(2)).sum::<f64>() / (count * (count - 1.0));

@@ -3,7 +3,7 @@ use faer::sparse::SparseColMat;
 use super::problem::GlobalProblem;
 use crate::Vector;
 use crate::binary::{exponent, times_power};
-use crate::units::Units;
+use crate::units::{LARGEST, Units};
 
 /// Powers of two in which a global problem is counted: M = 2^m M′, H = 2^h H′, and motions and reactions in [`Units`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -13,9 +13,6 @@ pub(super) struct GlobalUnits {
     pub contacts: Units,
 }
 
-/// Largest exponent of the largest numbers of M, H, f and b up to which a problem is solved in its own units.
-const COMFORTABLE: i32 = 50;
-
 impl GlobalUnits {
     /// The units of `problem`: its own, unless they are out of all proportion.
     pub fn of<const D: usize>(problem: &GlobalProblem<D>) -> Self {
@@ -23,7 +20,7 @@ impl GlobalUnits {
         let b = problem.b.iter().map(Vector::amax).fold(0.0, f64::max);
         let sizes = [largest(problem.m.val()), largest(problem.h.val()), largest(&problem.f), b];
         let [m, h, f, b] = sizes.map(|x| (x > 0.0 && x.is_finite()).then(|| exponent(x)));
-        if [m, h, f, b].into_iter().flatten().all(|e| e.abs() <= COMFORTABLE) {
+        if [m, h, f, b].into_iter().flatten().all(|e| e.abs() <= LARGEST.global) {
             return Self::default();
         }
         // A power of four, so that the roots of compliances are exact.

@@ -1,3 +1,4 @@
+use super::control::CONTROL;
 use super::{Bipotential, LocalContact, LocalSolver};
 use crate::equation::Equation;
 use crate::{Vector, cone, small};
@@ -5,9 +6,6 @@ use crate::{Vector, cone, small};
 /// Semismooth Newton on Alart and Curnier's equation with a line search; the fixed point where it gets stuck.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct AlartCurnier;
-
-const ITERATIONS: usize = 10;
-const HALVINGS: usize = 5;
 
 impl<const D: usize> LocalSolver<D> for AlartCurnier {
     #[inline]
@@ -17,7 +15,7 @@ impl<const D: usize> LocalSolver<D> for AlartCurnier {
         let mut r = *r;
         let mut w = free + block * r;
         let mut merit = value(&r, &w).norm();
-        for _ in 0..ITERATIONS {
+        for _ in 0..CONTROL.iterations {
             if merit <= accuracy * r.norm() {
                 return cone::project(&r, *mu);
             }
@@ -26,7 +24,7 @@ impl<const D: usize> LocalSolver<D> for AlartCurnier {
             let step = -(inverse * at.value);
             let motion_step = block * step;
             let mut length = 1.0;
-            let found = (0..HALVINGS).find_map(|_| {
+            let found = (0..CONTROL.halvings).find_map(|_| {
                 let (r, w) = (r + step * length, w + motion_step * length);
                 let trial = value(&r, &w).norm();
                 length *= 0.5;

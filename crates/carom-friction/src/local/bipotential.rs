@@ -1,3 +1,4 @@
+use super::control::CONTROL;
 use super::{LocalContact, LocalSolver};
 use crate::Vector;
 
@@ -5,14 +6,11 @@ use crate::Vector;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bipotential;
 
-/// Steps on one contact before the sweep goes on; neighbours change its data anyway.
-const STEPS: usize = 20;
-
 impl<const D: usize> LocalSolver<D> for Bipotential {
     #[inline]
     fn solve(contact: &LocalContact<D>, free: &Vector<D>, r: &Vector<D>, accuracy: f64) -> Vector<D> {
         let mut r = *r;
-        for _ in 0..STEPS {
+        for _ in 0..CONTROL.steps {
             let next = contact.fixed_point(free, &r);
             let moved = (next - r).norm_squared();
             r = next;

@@ -1,3 +1,4 @@
+use super::control::CONTROL;
 use super::{Bipotential, LocalContact, LocalSolver, polynomial};
 use crate::{Vector, cone};
 
@@ -9,9 +10,6 @@ use crate::{Vector, cone};
 /// with the tangent of half the angle a quartic [O. Bonnefon, G. Daviet, INRIA Technical Report RT-0406 (2011)].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Enumerative;
-
-/// Error of a case, relative to r and ρ b, that round-off explains.
-const ROUND_OFF: f64 = 1e-13;
 
 impl<const D: usize> LocalSolver<D> for Enumerative {
     #[inline]
@@ -40,7 +38,7 @@ impl<const D: usize> LocalSolver<D> for Enumerative {
             _ => offer_slips_in_space(&mut best, r),
         }
         let scale = best.r.norm() + contact.rho * free.norm();
-        if best.error <= ROUND_OFF * scale {
+        if best.error <= CONTROL.round_off * scale {
             best.r
         } else {
             Bipotential::solve(contact, free, &best.r, accuracy)
@@ -95,7 +93,7 @@ fn offer_slips_in_space<const D: usize>(best: &mut Best<'_, D>, r: &Vector<D>) {
     let scale = contact.rho * free.norm();
     if let Some((c, s)) = near_root(&k, r[1], r[2]) {
         offer(best, c, s);
-        if best.error <= ROUND_OFF * (scale + best.r.norm()) {
+        if best.error <= CONTROL.round_off * (scale + best.r.norm()) {
             return;
         }
     }

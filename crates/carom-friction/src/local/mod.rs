@@ -2,6 +2,7 @@
 
 mod alart_curnier;
 mod bipotential;
+mod control;
 mod enumerative;
 mod polynomial;
 
@@ -10,6 +11,7 @@ pub(crate) use bipotential::Bipotential;
 pub(crate) use enumerative::Enumerative;
 
 use crate::{ContactProblem, Matrix, Vector, cone, small};
+use control::CONTROL;
 
 /// What does not change of a contact while its neighbours do.
 #[derive(Debug, Clone, Copy)]
@@ -23,13 +25,11 @@ pub(crate) struct LocalContact<const D: usize> {
     pub rho: f64,
 }
 
-/// Condition number from which on a block counts as singular.
-const SINGULAR: f64 = 1e12;
-
 impl<const D: usize> LocalContact<D> {
     pub fn new(problem: &ContactProblem<D>, i: usize) -> Self {
         let block = *problem.w.diagonal(i);
-        let inverse = small::inverse(&block).filter(|inverse| inverse.amax() * block.amax() < SINGULAR);
+        let inverse =
+            small::inverse(&block).filter(|inverse| inverse.amax() * block.amax() < CONTROL.singular);
         Self { block, inverse, mu: problem.mu[i], rho: problem.step_length(i) }
     }
 
