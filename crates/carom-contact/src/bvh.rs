@@ -26,9 +26,6 @@ struct Branch<const D: usize> {
 /// Items per leaf, at most.
 const LEAF: usize = 4;
 
-/// More than the depth of any tree: splits are at the median.
-const MAX_DEPTH: usize = 64;
-
 impl<const D: usize> Bvh<D> {
     /// A tree over the items 0, 1, … with these boxes.
     pub fn new(boxes: impl Iterator<Item = Aabb<D>>) -> Self {
@@ -119,7 +116,8 @@ impl<const D: usize> Bvh<D> {
     /// beyond which nothing is of interest any more [m].
     pub fn nearest(&self, x: &Vector<D>, mut visit: impl FnMut(u32, &Aabb<D>) -> f64) {
         let mut reach = f64::INFINITY;
-        let mut stack = [(0, 0.0); MAX_DEPTH];
+        // Splits are at the median: no tree is deeper than the number of items has bits.
+        let mut stack = [(0, 0.0); usize::BITS as usize];
         let mut depth = usize::from(!self.branches.is_empty());
         while depth > 0 {
             depth -= 1;

@@ -1,11 +1,9 @@
+use carom_mesh::cell::MAX_FACET_NODES;
 use carom_mesh::{Matrix, Vector};
 use smallvec::SmallVec;
 
 use crate::edge::Crossing;
 use crate::frame::{carried, frame};
-
-/// Nodes of a stencil that are kept without an allocation: a source node and a facet of nine.
-const INLINE: usize = 10;
 
 /// What may touch at one place: gap, frame, and the stencil that maps nodal to relative motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,7 +15,8 @@ pub struct Contact<const D: usize> {
     /// The area that a reaction is spread over, so that the pressure is r_n over it: of a body in the plane a length [m], to be
     /// multiplied by the thickness, else [m²]. 0 where a node stands for it.
     pub area: f64,
-    stencil: SmallVec<[(u32, f64); INLINE]>,
+    /// Without an allocation for a source node and the facet of a target.
+    stencil: SmallVec<[(u32, f64); 1 + MAX_FACET_NODES]>,
     /// How many entries of the stencil are source nodes; they come first.
     sources: usize,
 }

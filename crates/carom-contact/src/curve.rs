@@ -1,11 +1,8 @@
 use carom_mesh::cell::MAX_FACET_NODES;
 use carom_mesh::{Facet, Vector};
 
-use crate::project::{BEYOND, Projection, Reach, normal};
-
-/// Cosine of the turning angle in the reference configuration from which on a surface has a corner: 40°. The slack keeps the nonagon,
-/// whose angles are 40° up to round-off, alike at all nodes.
-pub(crate) const CORNER: f64 = 0.766_044_443_118_978 - 1e-9;
+use crate::project::{Projection, Reach, normal};
+use crate::tolerances::SEARCH;
 
 /// A curve through the nodes of a boundary line with a continuous tangent, except at corners.
 ///
@@ -70,7 +67,7 @@ impl Curve {
                 return segment.foot(&offset, x, ENDS[end], 0.0);
             }
             let Some(next) = segment.neighbours[end] else {
-                let beyond = offset.beyond(ENDS[end]).clamp(-BEYOND, BEYOND);
+                let beyond = offset.beyond(ENDS[end]).clamp(-SEARCH.beyond, SEARCH.beyond);
                 return segment.foot(&offset, x, ENDS[end], beyond);
             };
             segment = &self.segments[next as usize];
@@ -111,7 +108,7 @@ impl Segment {
         let neighbour = |end: usize| match *around(ends(f)[end]) {
             [g, h] => Some(if g == f { h } else { g }).filter(|&g| {
                 let c = chord(g);
-                ends(g)[1 - end] == ends(f)[end] && c.dot(&chord(f)) >= CORNER * c.norm() * length
+                ends(g)[1 - end] == ends(f)[end] && c.dot(&chord(f)) >= SEARCH.corner * c.norm() * length
             }),
             _ => None,
         };

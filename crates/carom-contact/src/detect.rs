@@ -2,9 +2,10 @@ use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
 use crate::edge::Crossing;
-use crate::facing::{Projected, TIE, faced};
+use crate::facing::{Projected, faced};
 use crate::frame::frame;
 use crate::project::Reach;
+use crate::tolerances::SEARCH;
 use crate::{Candidate, Contact, ContactModel, Search, Site, Target};
 
 impl<const D: usize> ContactModel<D> {
@@ -114,7 +115,7 @@ impl<const D: usize> ContactModel<D> {
             let mut reach = f64::INFINITY;
             for &(at_least, facet, size) in near.iter() {
                 // Nothing farther away than a facet that the node faces squarely has a say.
-                if at_least > reach + TIE * size {
+                if at_least > reach + SEARCH.tie * size {
                     break;
                 }
                 let p = Projected::new(facet, size, &x, &target.project(facet, &x, Reach::Facet, &middle));

@@ -3,12 +3,7 @@
 use carom_mesh::Vector;
 
 use crate::project::Projection;
-
-/// A node this close to lying on a facet, relative to its size, is not beside it.
-const ALIGNED: f64 = 1e-6;
-
-/// Distances are equal to this fraction of the size.
-pub(crate) const TIE: f64 = 1e-12;
+use crate::tolerances::SEARCH;
 
 /// A facet near a node, in the eyes of the node.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,14 +41,14 @@ impl<const D: usize> Projected<D> {
     /// next to the body.
     pub fn is_square(&self) -> bool {
         let beside = (self.offset - self.normal * self.gap).norm();
-        beside <= self.gap.max(0.0) + ALIGNED * self.size
+        beside <= self.gap.max(0.0) + SEARCH.aligned * self.size
     }
 
     /// Whether the node is before an edge or corner, farther in front of this facet than of the others there, although still farther
     /// beside it; so that before corners in space, and before sharp edges, there is no hole between the facets. Likewise behind concave
     /// edges. All such places lie in the cone of the normals there.
     fn is_foremost(&self, facets: &[Self]) -> bool {
-        let aligned = ALIGNED * self.size;
+        let aligned = SEARCH.aligned * self.size;
         let around = || facets.iter().filter(|o| (o.point - self.point).norm() <= aligned);
         let mean = around().fold(Vector::zeros(), |sum, o| sum + o.normal).try_normalize(0.0);
         let limit = if self.gap > 0.0 { self.gap } else { 0.0 };
@@ -80,7 +75,7 @@ pub(crate) fn faced<const D: usize>(
         }
         // Facets that share the closest point: before a convex edge the one that the node is farthest in front of, behind a concave
         // one, where both sides have to hold, the one that it is deepest behind.
-        let tie = TIE * p.size;
+        let tie = SEARCH.tie * p.size;
         let decides = |gap: f64, other: f64| if gap.max(other) > 0.0 { gap > other } else { gap < other };
         let better = |b: &Projected<D>| {
             p.distance < b.distance - tie || (p.distance <= b.distance + tie && decides(p.gap, b.gap))

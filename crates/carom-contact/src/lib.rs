@@ -28,6 +28,7 @@ mod project;
 mod search;
 mod self_contact;
 mod surface;
+mod tolerances;
 
 pub use candidate::{Candidate, Site};
 pub use contact::{Contact, shares};

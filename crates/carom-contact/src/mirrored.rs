@@ -2,15 +2,10 @@
 
 use carom_mesh::Vector;
 
-use crate::edge::{AT_NODE, Crossing};
+use crate::edge::Crossing;
 use crate::project::{Reach, project};
+use crate::tolerances::{EDGES, SEARCH};
 use crate::{Candidate, ContactModel, Site, Target};
-
-/// A node is checked once where it faces another that faces it, to this fraction of the facet.
-const MIRRORED: f64 = 0.02;
-
-/// Cosine of the angle between normals that are those of one contact.
-const ALIKE: f64 = 0.9;
 
 impl<const D: usize> ContactModel<D> {
     /// Marks what other candidates say where nodes are at `position`.
@@ -61,7 +56,7 @@ impl<const D: usize> ContactModel<D> {
         let Target::Surface(t) = self.pairs[candidate.pair as usize].target else { return None };
         let facet = &self.surfaces[t].facets[candidate.facet? as usize];
         let p = project(&position(node), facet, Reach::Facet, position);
-        p.nodes.iter().zip(&p.weights).find(|&(_, &weight)| weight >= 1.0 - MIRRORED).map(|(&n, _)| n)
+        p.nodes.iter().zip(&p.weights).find(|&(_, &weight)| weight >= 1.0 - SEARCH.mirrored).map(|(&n, _)| n)
     }
 
     /// Of candidate `k`, two `edges` that cross at a node of one of them, and the node, if it is a candidate, marks one: the edges, if the
@@ -79,7 +74,7 @@ impl<const D: usize> ContactModel<D> {
     ) {
         let crossing = Crossing::new(edges[0].map(position), edges[1].map(position));
         let pair = candidates[k].pair as usize;
-        for side in (0..2).filter(|&side| crossing.reach()[side] < AT_NODE) {
+        for side in (0..2).filter(|&side| crossing.reach()[side] < EDGES.at_node) {
             let node = edges[side][crossing.nearer()[side]];
             for p in self.directions(pair) {
                 let node = self.surfaces[self.pairs[p].source].master(node);
@@ -89,7 +84,7 @@ impl<const D: usize> ContactModel<D> {
                     continue;
                 }
                 let normal = self.evaluate(&other, position).frame.row(0).transpose();
-                if normal.dot(&crossing.normal).abs() > ALIKE {
+                if normal.dot(&crossing.normal).abs() > SEARCH.alike {
                     candidates[k].mirrored |= !nodes;
                 } else if nodes && self.faces_beside(&other, &edges[1 - side]) {
                     candidates[j].mirrored = true;

@@ -1,11 +1,10 @@
 use carom_mesh::cell::MAX_FACET_NODES;
 use carom_mesh::{CellKind, Facet, Vector};
 
+use crate::tolerances::SEARCH;
+
 /// Newton steps; on facets of moderate curvature four are enough, on straight ones one.
 const MAX_STEPS: usize = 50;
-
-/// See `Patch::is_clearly_curved`.
-const CLEARLY_CURVED: f64 = 0.1;
 
 /// Intervals of the grid of starting points.
 const GRID: u32 = 6;
@@ -29,10 +28,6 @@ pub struct Point<const D: usize> {
     pub tangents: [Vector<D>; 2],
 }
 
-const SEGMENT: &[[f64; 2]] = &[[-1.0, 0.0], [1.0, 0.0]];
-const TRIANGLE: &[[f64; 2]] = &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-const SQUARE: &[[f64; 2]] = &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-
 impl<const D: usize> Patch<D> {
     /// A facet whose nodes are at `position`.
     pub fn new(facet: &Facet, position: &impl Fn(u32) -> Vector<D>) -> Self {
@@ -43,11 +38,12 @@ impl<const D: usize> Patch<D> {
         Self { kind: facet.kind, count: facet.nodes.len(), nodes }
     }
 
+    /// The corners in ξ of a segment, a triangle or a square.
     fn corners(&self) -> &'static [[f64; 2]] {
         match self.kind.corner_count() {
-            2 => SEGMENT,
-            3 => TRIANGLE,
-            _ => SQUARE,
+            2 => &[[-1.0, 0.0], [1.0, 0.0]],
+            3 => &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
+            _ => &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]],
         }
     }
 
@@ -143,7 +139,7 @@ impl<const D: usize> Patch<D> {
         let size = m.tangents[0].norm_squared() + m.tangents[1].norm_squared();
         self.nodes[..self.count].iter().zip(self.kind.reference().nodes).any(|(x, xi)| {
             let flat = m.point + m.tangents[0] * (xi[0] - middle[0]) + m.tangents[1] * (xi[1] - middle[1]);
-            (x - flat).norm_squared() > CLEARLY_CURVED * CLEARLY_CURVED * size
+            (x - flat).norm_squared() > SEARCH.curved * SEARCH.curved * size
         })
     }
 

@@ -2,6 +2,7 @@ use carom_mesh::cell::MAX_FACET_NODES;
 use carom_mesh::{CellKind, Facet, Vector};
 
 use crate::patch::Patch;
+use crate::tolerances::SEARCH;
 
 /// The point of a facet, or of the curve over it, closest to a given one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,15 +17,12 @@ pub struct Projection<'a, const D: usize> {
     pub normal: Vector<D>,
 }
 
-/// How far a facet reaches beyond its edges with `Reach::Beyond`, in widths.
-pub const BEYOND: f64 = 0.5;
-
 /// Whether a facet reaches beyond its edges when a point is projected on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reach {
     /// Not at all: the closest point of the facet itself.
     Facet,
-    /// On every side, by `BEYOND`, straight on along its tangents at the edge. A node that slides past the edge of its facet within
+    /// On every side, by half its width, straight on along its tangents at the edge. A node that slides past the edge of its facet within
     /// a step is so still at right angles to the point it presses on, and the pair of forces has no moment.
     Beyond,
 }
@@ -51,14 +49,14 @@ pub fn project<'a, const D: usize>(
 /// The closest point of what a facet with `Reach::Beyond` covers, component by component.
 fn clamp(kind: CellKind, xi: [f64; 2]) -> [f64; 2] {
     if kind.corner_count() != 3 {
-        let end = 1.0 + 2.0 * BEYOND;
+        let end = 1.0 + 2.0 * SEARCH.beyond;
         return xi.map(|x| x.clamp(-end, end));
     }
-    let mut xi = xi.map(|x| x.max(-BEYOND));
-    let sum = 1.0 + BEYOND;
+    let mut xi = xi.map(|x| x.max(-SEARCH.beyond));
+    let sum = 1.0 + SEARCH.beyond;
     let excess = xi[0] + xi[1] - sum;
     if excess > 0.0 {
-        xi[0] = (xi[0] - 0.5 * excess).clamp(-BEYOND, sum + BEYOND);
+        xi[0] = (xi[0] - 0.5 * excess).clamp(-SEARCH.beyond, sum + SEARCH.beyond);
         xi[1] = sum - xi[0];
     }
     xi

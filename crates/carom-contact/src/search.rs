@@ -4,10 +4,8 @@ use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::edge::Found;
 use crate::facing::Projected;
+use crate::tolerances::SEARCH;
 use crate::{ContactModel, ContactSurface, Target};
-
-/// How deep inside a target surface a node is still found, in diameters of the facet it faces.
-pub(crate) const DEPTH: f64 = 0.5;
 
 /// What the search for contacts keeps from one call to the next: room for boxes, and the trees over them.
 ///
@@ -101,7 +99,7 @@ impl<const D: usize> Swept<D> {
         }
         let room = |f: u32| {
             let facet = self.facets[f as usize];
-            facet.inflated(margin + DEPTH * facet.diameter())
+            facet.inflated(margin + SEARCH.depth * facet.diameter())
         };
         fit(&mut self.tree, self.facets.len(), room);
         self.is_fitted = true;
@@ -120,7 +118,7 @@ impl<const D: usize> Swept<D> {
         }
         let room = |e: u32| {
             let path = surface.edges[e as usize].path(start, end);
-            path.inflated(margin + DEPTH * path.diameter())
+            path.inflated(margin + SEARCH.depth * path.diameter())
         };
         fit(&mut self.edges, surface.edges.len(), room);
         self.edges_are_fitted = true;

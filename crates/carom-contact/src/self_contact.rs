@@ -6,10 +6,8 @@ use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::edge::Edge;
 use crate::project::Reach;
+use crate::tolerances::SEARCH;
 use crate::{ContactModel, ContactSurface, Target};
-
-/// How far behind a facet a node still belongs to the other side of the same wall, in diameters of the facet.
-const WALL: f64 = 2.0;
 
 impl ContactSurface {
     /// The same boundary as one whose nodes may touch its own facets.
@@ -21,7 +19,7 @@ impl ContactSurface {
         let facets = 0..self.facets.len() as u32;
         let room = |f: u32| {
             let facet = self.bounds(f, reference);
-            facet.inflated(WALL * facet.diameter())
+            facet.inflated(SEARCH.wall * facet.diameter())
         };
         let tree = Bvh::new(facets.map(room));
         let never = |&node: &u32| {

@@ -17,14 +17,21 @@ use crate::sparse::{NodalMatrix, NodeGraph};
 /// How a massless node follows massive ones: nodes and weights.
 pub(crate) type Follower = Vec<(u32, f64)>;
 
-/// Layers of nodes that share the mass of a boundary node: with fewer the nearest get so much of it that contact rings.
-const LAYERS: usize = 5;
-/// Most nodes per layer.
-const NODES_PER_LAYER: usize = 4;
-/// Weights whose magnitudes sum to more amplify noise: more nodes per layer are tried first.
-const AMPLIFICATION: f64 = 2.5;
-/// How well affine fields must be reproduced.
-const REPRODUCED: f64 = 1e-9;
+/// Among which nodes the mass of one of the boundary is shared out, and how well.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Control {
+    /// Layers of nodes that share the mass of a boundary node: with fewer the nearest get so much of it that contact rings.
+    layers: usize,
+    /// Most nodes per layer.
+    nodes_per_layer: usize,
+    /// Weights whose magnitudes sum to more amplify noise: more nodes per layer are tried first.
+    amplification: f64,
+    /// How well affine fields must be reproduced.
+    reproduced: f64,
+}
+
+/// The thresholds of every mesh.
+const CONTROL: Control = Control { layers: 5, nodes_per_layer: 4, amplification: 2.5, reproduced: 1e-9 };
 
 /// For every node of `surface`, the massive nodes that it follows.
 ///
@@ -65,7 +72,7 @@ fn follower<const D: usize>(
         layer.sort_by(|&a, &b| aside(a).total_cmp(&aside(b)));
     }
     let mut best: Option<(f64, Follower)> = None;
-    for count in 1..=NODES_PER_LAYER {
+    for count in 1..=CONTROL.nodes_per_layer {
         let nodes: Vec<u32> = layers.iter().flat_map(|layer| layer.iter().take(count).copied()).collect();
         let arms: Vec<Vector<D>> = nodes.iter().map(|&n| arm(n)).collect();
         let Some(weights) = affine_weights(&arms) else { continue };
@@ -73,7 +80,7 @@ fn follower<const D: usize>(
         if best.as_ref().is_none_or(|(least, _)| amplification < *least) {
             best = Some((amplification, nodes.into_iter().zip(weights).collect()));
         }
-        if amplification <= AMPLIFICATION {
+        if amplification <= CONTROL.amplification {
             break;
         }
     }
@@ -85,7 +92,7 @@ fn massive_layers(graph: &NodeGraph, massless: &[u32], node: u32) -> Vec<Vec<u32
     let mut seen = BTreeSet::from([node]);
     let mut front = vec![node];
     let mut layers = Vec::new();
-    while !front.is_empty() && layers.len() < LAYERS {
+    while !front.is_empty() && layers.len() < CONTROL.layers {
         let around: BTreeSet<u32> =
             front.iter().flat_map(|&n| graph.row(n as usize).map(|(_, k)| k as u32)).collect();
         front = around.into_iter().filter(|n| seen.insert(*n)).collect();
@@ -114,8 +121,8 @@ fn affine_weights<const D: usize>(arms: &[Vector<D>]) -> Option<Vec<f64>> {
     let weights: Vec<f64> = scaled.iter().map(|x| (1.0 + gradient.dot(x)) / sum).collect();
     let moment = scaled.iter().zip(&weights).fold(Vector::zeros(), |s, (x, &w)| s + x * w);
     let reproduced = weights.iter().all(|w| w.is_finite())
-        && (weights.iter().sum::<f64>() - 1.0).abs() < REPRODUCED
-        && moment.norm() < REPRODUCED;
+        && (weights.iter().sum::<f64>() - 1.0).abs() < CONTROL.reproduced
+        && moment.norm() < CONTROL.reproduced;
     reproduced.then_some(weights)
 }
 

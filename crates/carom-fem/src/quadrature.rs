@@ -54,16 +54,16 @@ fn swept(triangle: Vec<QuadraturePoint>, segment: &[QuadraturePoint]) -> Vec<Qua
 
 /// Two Gauss points per direction, in the order of the `corners`: exact for cubics.
 fn gauss_2(corners: &[[f64; 3]]) -> Vec<QuadraturePoint> {
-    const AT: f64 = 0.577_350_269_189_625_8;
-    corners.iter().map(|corner| QuadraturePoint { xi: corner.map(|x| x * AT), weight: 1.0 }).collect()
+    let at = 1.0 / 3.0_f64.sqrt();
+    corners.iter().map(|corner| QuadraturePoint { xi: corner.map(|x| x * at), weight: 1.0 }).collect()
 }
 
 /// Three Gauss points per direction, in the order of the nodes of `kind`: exact for quintics.
 fn gauss_3(kind: CellKind) -> Vec<QuadraturePoint> {
-    const AT: f64 = 0.774_596_669_241_483_4;
+    let at = 0.6_f64.sqrt();
     let weight = |x: &f64| if *x == 0.0 { 8.0 / 9.0 } else { 5.0 / 9.0 };
     let point = |node: &[f64; 3]| QuadraturePoint {
-        xi: node.map(|x| x * AT),
+        xi: node.map(|x| x * at),
         weight: node[..kind.dimension()].iter().map(weight).product(),
     };
     kind.reference().nodes.iter().map(point).collect()
@@ -103,17 +103,17 @@ fn tetrahedron_orbit(a: f64, weight: f64) -> impl Iterator<Item = QuadraturePoin
 
 /// The least rule with positive weights of degree 1, 2 or 5 that is exact for polynomials of `degree` ≤ 5 (Walkington 2000).
 fn tetrahedron(degree: usize) -> Vec<QuadraturePoint> {
-    const VOLUME: f64 = 1.0 / 6.0;
+    let volume = 1.0 / 6.0;
     match degree {
-        0 | 1 => vec![QuadraturePoint { xi: [0.25; 3], weight: VOLUME }],
+        0 | 1 => vec![QuadraturePoint { xi: [0.25; 3], weight: volume }],
         // (5 − √5)/20.
-        2 => tetrahedron_orbit(0.138_196_601_125_010_5, VOLUME / 4.0).collect(),
+        2 => tetrahedron_orbit(0.138_196_601_125_010_5, volume / 4.0).collect(),
         _ => {
-            let (a, weight) = (0.045_503_704_125_649_65, VOLUME * 0.042_546_020_777_081_47);
+            let (a, weight) = (0.045_503_704_125_649_65, volume * 0.042_546_020_777_081_47);
             let b = 0.5 - a;
             let edges = [[a, a, b], [a, b, a], [b, a, a], [a, b, b], [b, a, b], [b, b, a]];
-            tetrahedron_orbit(0.310_885_919_263_300_6, VOLUME * 0.112_687_925_718_015_85)
-                .chain(tetrahedron_orbit(0.092_735_250_310_891_23, VOLUME * 0.073_493_043_116_361_95))
+            tetrahedron_orbit(0.310_885_919_263_300_6, volume * 0.112_687_925_718_015_85)
+                .chain(tetrahedron_orbit(0.092_735_250_310_891_23, volume * 0.073_493_043_116_361_95))
                 .chain(edges.into_iter().map(|xi| QuadraturePoint { xi, weight }))
                 .collect()
         }

@@ -8,9 +8,11 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 /// Nodes that a thread takes at a time.
-const CHUNK: usize = 1024;
-/// Items from which waking another thread is worth its time.
-const MANY: usize = 16 * CHUNK;
+pub const CHUNK: usize = 1024;
+/// Nodes from which waking another thread is worth its time.
+pub const MANY: usize = 16 * CHUNK;
+/// Nodes that are as much work as one cell.
+pub const NODES_PER_CELL: usize = 2;
 
 /// Whether more than one thread may work.
 #[must_use]
@@ -19,9 +21,9 @@ pub fn has_threads() -> bool {
 }
 
 /// Does `work` on so many nodes in one of the threads that share them, if there are any: from another thread every sharing would
-/// have to wake one and wait for it. Cells are shared where there are half as many nodes as it takes to share these.
+/// have to wake one and wait for it. Cells are shared already where there are [`NODES_PER_CELL`] times fewer nodes than it takes to share these.
 pub fn among_threads<R: Send>(nodes: usize, work: impl FnOnce() -> R + Send) -> R {
-    if nodes < MANY / 2 || !has_threads() { work() } else { rayon::scope(|_| work()) }
+    if nodes < MANY / NODES_PER_CELL || !has_threads() { work() } else { rayon::scope(|_| work()) }
 }
 
 /// Calls `work` with consecutive parts of `items` that together are all of them, and the index where each begins.

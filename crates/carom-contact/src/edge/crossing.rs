@@ -1,9 +1,7 @@
 use carom_mesh::Vector;
 
-use crate::project::{BEYOND, area_normal};
-
-/// A crossing this close to the end of an edge, in its lengths, is at its node.
-pub(crate) const AT_NODE: f64 = 0.01;
+use crate::project::area_normal;
+use crate::tolerances::{EDGES, SEARCH};
 
 /// Two edges where they are closest to one another.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,10 +15,6 @@ pub(crate) struct Crossing<const D: usize> {
     /// The sine of the angle between them.
     pub sine: f64,
 }
-
-/// The angle by which an edge of two facets may look beyond either of them and still be what is in front [rad]: deformed facets are
-/// neither flat nor exactly where their edges say.
-const TURN: f64 = 0.05;
 
 impl<const D: usize> Crossing<D> {
     /// Where edges with these ends [m] cross, if their lines did not end.
@@ -42,7 +36,7 @@ impl<const D: usize> Crossing<D> {
 
     /// The same for edges that end half their length beyond their nodes.
     pub fn clamped(self) -> Self {
-        Self { along: self.along.map(|s| s.clamp(-BEYOND, 1.0 + BEYOND)), ..self }
+        Self { along: self.along.map(|s| s.clamp(-SEARCH.beyond, 1.0 + SEARCH.beyond)), ..self }
     }
 
     /// How far each of the edges reaches beyond where they cross, in its length; negative if it ends before.
@@ -71,7 +65,7 @@ pub(super) fn is_foremost<const D: usize>(
 ) -> bool {
     let along = along.normalize();
     let [first, second] = normals;
-    area_normal(&[*first, *n]).dot(&along) >= -TURN
-        && area_normal(&[*n, *second]).dot(&along) >= -TURN
+    area_normal(&[*first, *n]).dot(&along) >= -EDGES.turn
+        && area_normal(&[*n, *second]).dot(&along) >= -EDGES.turn
         && n.dot(&(first + second)) > 0.0
 }

@@ -1,23 +1,10 @@
 use carom_mesh::Vector;
 
 use super::crossing::is_foremost;
-use super::{Crossing, DENT, Edge, Found};
+use super::{Crossing, Edge, Found};
 use crate::aabb::Aabb;
-use crate::project::BEYOND;
-use crate::search::DEPTH;
+use crate::tolerances::{EDGES, SEARCH};
 use crate::{Candidate, ContactModel, ContactSurface, Search, Site};
-
-/// The least sine of the angle between edges that cross: where they are closer to parallel, nodes face facets.
-const PARALLEL: f64 = 0.05;
-
-/// Edges that end this little before they cross do cross, in their lengths.
-const ROUND_OFF: f64 = 1e-6;
-
-/// A facet is what keeps two bodies apart if its plane does so by more than the edges do, less this fraction.
-const DECIDED: f64 = 0.1;
-
-/// The same where edges touch, and distances are round-off, of the largest depth.
-const TOUCHING: f64 = 1e-9;
 
 impl<const D: usize> ContactModel<D> {
     /// Adds to `out` the edges of a pair that, in the `room` around its target, cross within `margin` [m] of one another, or a little way through one another.
@@ -83,8 +70,8 @@ fn crossing<const D: usize>(
     let mut beyond = [None; 2];
     for (side, (surface, edge)) in [(source, s), (target, t)].into_iter().enumerate() {
         let (reach, end) = (there.reach()[side], there.nearer()[side]);
-        if reach < -ROUND_OFF {
-            if !edge.goes_on[end] || reach < -DENT {
+        if reach < -EDGES.round_off {
+            if !edge.goes_on[end] || reach < -EDGES.dent {
                 return None;
             }
             beyond[side] = Some(surface.master(edge.nodes[end]));
@@ -97,9 +84,9 @@ fn crossing<const D: usize>(
     // So that the normal points out of the target.
     let sign = if at_start.normal.dot(&(normals[0] + normals[1])) > 0.0 { 1.0 } else { -1.0 };
     let (n, gap) = (at_start.normal * sign, at_start.gap * sign);
-    let deepest = -DEPTH * e.norm().min(f.norm());
+    let deepest = -SEARCH.depth * e.norm().min(f.norm());
     let is_turned = there.normal.dot(&at_start.normal) <= 0.0;
-    if there.sine.min(at_start.sine) < PARALLEL
+    if there.sine.min(at_start.sine) < EDGES.parallel
         || is_turned
         || there.gap * sign > margin
         || gap < deepest
@@ -113,11 +100,11 @@ fn crossing<const D: usize>(
     }
     let before =
         |m: &Vector<D>, x: &[Vector<D>; 2], of: &Vector<D>| m.dot(&(x[0] - of)).min(m.dot(&(x[1] - of)));
-    let (whole_a, whole_b) = (s.gone_on(&a, BEYOND), t.gone_on(&b, BEYOND));
+    let (whole_a, whole_b) = (s.gone_on(&a, SEARCH.beyond), t.gone_on(&b, SEARCH.beyond));
     let by_target = normals.iter().map(|m| before(m, &whole_a, &b[0]));
     let by_source = opposite.iter().map(|m| before(m, &whole_b, &a[0]));
     let by_plane = by_target.chain(by_source).fold(f64::NEG_INFINITY, f64::max);
-    if by_plane > gap + DECIDED * gap.abs() - TOUCHING * deepest {
+    if by_plane > gap + EDGES.decided * gap.abs() - SEARCH.touching * deepest {
         return None;
     }
     let [from, to] = t.nodes;

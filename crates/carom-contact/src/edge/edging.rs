@@ -7,16 +7,9 @@ use carom_mesh::{CellKind, Vector};
 use super::crossing::turns_outwards;
 use super::{Edge, Side};
 use crate::ContactSurface;
-use crate::curve::CORNER;
 use crate::patch::Patch;
 use crate::project::normal;
-
-/// Cosine of the turning angle from which on a surface has an edge and is not flat there: 1°.
-const FLAT: f64 = 0.999_847_695_156_391;
-
-/// Length of an edge, in widths of the facets beside it, from which on it is a feature though the surface is round there: the nodes along it
-/// are far apart for how much it turns.
-const SLENDER: f64 = 2.0;
+use crate::tolerances::{EDGES, SEARCH};
 
 impl ContactSurface {
     /// The same boundary with its convex edges, if it is one in space: those at which facets meet at an angle in the `reference`
@@ -37,10 +30,10 @@ impl ContactSurface {
                     Edge { nodes: first, sides: [beside, side], is_feature: false, goes_on: [false; 2] };
                 let [m0, m1] = self.normals(&edge, reference);
                 let along = reference(first[1]) - reference(first[0]);
-                if turns_outwards(&along, [m0, m1]) && m0.dot(&m1) < FLAT {
-                    let is_long = |width: f64| along.norm() > SLENDER * width;
+                if turns_outwards(&along, [m0, m1]) && m0.dot(&m1) < EDGES.flat {
+                    let is_long = |width: f64| along.norm() > EDGES.slender * width;
                     edge.is_feature =
-                        m0.dot(&m1) < CORNER || self.widths(&edge, reference).into_iter().all(is_long);
+                        m0.dot(&m1) < SEARCH.corner || self.widths(&edge, reference).into_iter().all(is_long);
                     self.edges.push(edge);
                 }
             }
@@ -63,7 +56,7 @@ impl ContactSurface {
         for ends in at.values() {
             for (k, end, from) in ends {
                 let goes_on =
-                    |(other, _, on): &(usize, usize, Vector<D>)| other != k && -from.dot(on) > CORNER;
+                    |(other, _, on): &(usize, usize, Vector<D>)| other != k && -from.dot(on) > SEARCH.corner;
                 self.edges[*k].goes_on[*end] = ends.iter().any(goes_on);
             }
         }

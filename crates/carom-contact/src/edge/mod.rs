@@ -8,12 +8,10 @@ mod found;
 use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
+use crate::tolerances::EDGES;
 
-pub(crate) use crossing::{AT_NODE, Crossing};
+pub(crate) use crossing::Crossing;
 pub(crate) use found::Found;
-
-/// How far an edge may end before another crosses it where a further one goes on and crosses no more, in its lengths.
-const DENT: f64 = 0.1;
 
 /// A straight line along which a surface turns away from its outside, as it is without deformation.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,7 +48,7 @@ impl Edge {
         start: &impl Fn(u32) -> Vector<D>,
         end: &impl Fn(u32) -> Vector<D>,
     ) -> Aabb<D> {
-        let ends = |x: [Vector<D>; 2]| self.gone_on(&x, DENT);
+        let ends = |x: [Vector<D>; 2]| self.gone_on(&x, EDGES.dent);
         Aabb::of([ends(self.nodes.map(start)), ends(self.nodes.map(end))].into_iter().flatten())
     }
 

@@ -6,6 +6,7 @@ use smallvec::SmallVec;
 use super::plane::Plane;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
+use crate::tolerances::MORTAR;
 use crate::{ContactModel, ContactSurface, Target};
 
 /// A facet of the source and one of the target that may touch. Ordered by pair, source and target.
@@ -18,16 +19,6 @@ pub(super) struct Facing {
     /// Index of the facet of the target.
     pub target: u32,
 }
-
-/// Cosine of the largest angle, 60°, between a normal and the opposite one for facets to face one another. Those at the sides of
-/// bodies that stand on one another do not.
-const OPPOSED: f64 = 0.5;
-
-/// How far apart the boxes of facets may be so that a multiplier sees all of the target that covers it, in diameters.
-const REACH: f64 = 1.0;
-
-/// How deep a facet may be behind another, in diameters of the smaller: the far sides of thin bodies that touch are deeper.
-const DEPTH: f64 = 0.25;
 
 impl<const D: usize> ContactModel<D> {
     /// Adds the facing facets of a pair that come within `margin` [m] of one another between `start` and `end`.
@@ -45,7 +36,7 @@ impl<const D: usize> ContactModel<D> {
         let swept = |surface: &ContactSurface, f: usize| {
             let nodes = surface.facets[f].nodes.iter();
             let facet_box = Aabb::of(nodes.flat_map(|&n| [start(n), end(n)]));
-            facet_box.inflated(margin + REACH * facet_box.diameter())
+            facet_box.inflated(margin + MORTAR.reach * facet_box.diameter())
         };
         let whole = |surface: &ContactSurface| {
             Aabb::of(surface.nodes.iter().flat_map(|&n| [start(n), end(n)])).inflated(margin)
@@ -97,7 +88,7 @@ impl<const D: usize> Near<D> {
     /// Whether a facet is opposite and not far behind.
     fn faces(&self, other: &Self, margin: f64) -> bool {
         let depth = -self.plane.normal().dot(&(other.plane.centre() - self.plane.centre()));
-        self.plane.normal().dot(&other.plane.normal()) < -OPPOSED
-            && depth < margin + DEPTH * self.size.min(other.size)
+        self.plane.normal().dot(&other.plane.normal()) < -MORTAR.opposed
+            && depth < margin + MORTAR.depth * self.size.min(other.size)
     }
 }

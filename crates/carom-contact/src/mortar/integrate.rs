@@ -10,9 +10,7 @@ use super::parts::{MAX_FACET_NODES, parts};
 use super::plane::{Image, Plane};
 use super::quadrature::rule;
 use super::row::Row;
-
-/// Overlaps of two parts smaller than this fraction of the one on the source are round-off.
-const NEGLIGIBLE: f64 = 1e-14;
+use crate::tolerances::MORTAR;
 
 /// The integrals of two corners' multipliers and the shape functions of a facet.
 type Products = [[f64; MAX_FACET_NODES]; 4];
@@ -51,7 +49,7 @@ pub(super) fn integrate<'a, const D: usize>(
                 let common = intersection(dimension, &outline, &other.polygon(target_corners));
                 for simplex in simplices(dimension, &common) {
                     let simplex_size = size(dimension, &simplex);
-                    if simplex_size <= NEGLIGIBLE * whole {
+                    if simplex_size <= MORTAR.negligible * whole {
                         continue;
                     }
                     overlap += simplex_size;

@@ -3,59 +3,40 @@
 /// A point in barycentric coordinates and its share of the whole.
 pub(super) type Point = ([f64; 3], f64);
 
-/// Gauss's rule of 3 points on a segment, exact to degree 5.
-const SEGMENT: [Point; 3] = [
-    ([0.887_298_334_620_741_7, 0.112_701_665_379_258_31, 0.0], 5.0 / 18.0),
-    ([0.5, 0.5, 0.0], 4.0 / 9.0),
-    ([0.112_701_665_379_258_31, 0.887_298_334_620_741_7, 0.0], 5.0 / 18.0),
-];
+/// The rule for the product of a multiplier and a shape function on a simplex of this `dimension`: of Gauss on a segment, exact to degree
+/// 5, and of Dunavant on a triangle, exact to degree 4 or 6 (Int. J. Numer. Methods Eng. 21, 1985).
+pub(super) fn rule(dimension: usize, is_quadratic: bool) -> &'static [Point] {
+    match (dimension, is_quadratic) {
+        (1, _) => &[
+            ([0.887_298_334_620_741_7, 0.112_701_665_379_258_31, 0.0], 5.0 / 18.0),
+            ([0.5, 0.5, 0.0], 4.0 / 9.0),
+            ([0.112_701_665_379_258_31, 0.887_298_334_620_741_7, 0.0], 5.0 / 18.0),
+        ],
+        (_, false) => const { &six_points() },
+        (_, true) => const { &twelve_points() },
+    }
+}
 
-/// Two equal barycentric coordinates `a` and what remains of 1.
+const fn six_points() -> [Point; 6] {
+    let [a, b, c] = median(0.445_948_490_915_964_9, 0.223_381_589_678_011_47);
+    let [d, e, f] = median(0.091_576_213_509_770_74, 0.109_951_743_655_321_87);
+    [a, b, c, d, e, f]
+}
+
+const fn twelve_points() -> [Point; 12] {
+    let [a, b, c] = median(0.249_286_745_170_910_42, 0.116_786_275_726_379_37);
+    let [d, e, f] = median(0.063_089_014_491_502_23, 0.050_844_906_370_206_82);
+    let (x, y, weight) = (0.053_145_049_844_816_95, 0.310_352_451_033_784_4, 0.082_851_075_618_373_57);
+    let z = 1.0 - x - y;
+    let [g, h, i] = [([x, y, z], weight), ([y, z, x], weight), ([z, x, y], weight)];
+    let [j, k, l] = [([x, z, y], weight), ([z, y, x], weight), ([y, x, z], weight)];
+    [a, b, c, d, e, f, g, h, i, j, k, l]
+}
+
+/// The three points with two equal barycentric coordinates `a`.
 const fn median(a: f64, weight: f64) -> [Point; 3] {
     let b = 1.0 - 2.0 * a;
     [([b, a, a], weight), ([a, b, a], weight), ([a, a, b], weight)]
-}
-
-const M4: [[Point; 3]; 2] = [
-    median(0.445_948_490_915_964_9, 0.223_381_589_678_011_47),
-    median(0.091_576_213_509_770_74, 0.109_951_743_655_321_87),
-];
-
-/// Dunavant's rule of 6 points on a triangle, exact to degree 4 (Int. J. Numer. Methods Eng. 21, 1985).
-const TRIANGLE: [Point; 6] = [M4[0][0], M4[0][1], M4[0][2], M4[1][0], M4[1][1], M4[1][2]];
-
-const M6: [[Point; 3]; 2] = [
-    median(0.249_286_745_170_910_42, 0.116_786_275_726_379_37),
-    median(0.063_089_014_491_502_23, 0.050_844_906_370_206_82),
-];
-const A: f64 = 0.053_145_049_844_816_95;
-const B: f64 = 0.310_352_451_033_784_4;
-const C: f64 = 1.0 - A - B;
-const W: f64 = 0.082_851_075_618_373_57;
-
-/// Dunavant's rule of 12 points on a triangle, exact to degree 6.
-const TRIANGLE_OF_QUADRATIC: [Point; 12] = [
-    M6[0][0],
-    M6[0][1],
-    M6[0][2],
-    M6[1][0],
-    M6[1][1],
-    M6[1][2],
-    ([A, B, C], W),
-    ([B, C, A], W),
-    ([C, A, B], W),
-    ([A, C, B], W),
-    ([C, B, A], W),
-    ([B, A, C], W),
-];
-
-/// The rule for the product of a multiplier and a shape function on a simplex of this `dimension`.
-pub(super) fn rule(dimension: usize, is_quadratic: bool) -> &'static [Point] {
-    match (dimension, is_quadratic) {
-        (1, _) => &SEGMENT,
-        (_, false) => &TRIANGLE,
-        (_, true) => &TRIANGLE_OF_QUADRATIC,
-    }
 }
 
 #[cfg(test)]

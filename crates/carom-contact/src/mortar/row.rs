@@ -4,9 +4,7 @@ use carom_mesh::Vector;
 
 use crate::Contact;
 use crate::frame::frame;
-
-/// A multiplier that covers less than this fraction of its whole has no contact.
-const COVERED: f64 = 1e-12;
+use crate::tolerances::MORTAR;
 
 /// The integrals of a multiplier Φ over the part of the source that faces the target.
 #[derive(Debug, Clone)]
@@ -60,7 +58,7 @@ impl<const D: usize> Row<D> {
 
     /// The contact that the multiplier stands for where nodes are at `position`; none if the target does not cover it.
     pub fn contact(&self, position: &impl Fn(u32) -> Vector<D>) -> Option<Contact<D>> {
-        if self.area <= COVERED * self.whole {
+        if self.area <= MORTAR.covered * self.whole {
             return None;
         }
         let normal = (-self.normal).try_normalize(0.0)?;

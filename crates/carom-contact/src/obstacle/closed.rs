@@ -7,11 +7,9 @@ use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::patch::Patch;
 use crate::project::{area_normal, normal};
+use crate::tolerances::SEARCH;
 
-use super::direction::{TOUCHING, along};
-
-/// Weights below this are zero: the closest point is on an edge or a corner.
-const ON_EDGE: f64 = 1e-12;
+use super::direction::along;
 
 /// A closed surface of straight facets, triangles in space and segments in the plane, with the body inside.
 ///
@@ -199,7 +197,7 @@ impl<const D: usize> ClosedSurface<D> {
         });
         let Some((f, point)) = best else { return (f64::INFINITY, along(0, 1.0)) };
         let offset = x - point.point;
-        let is_zero = |k: usize| point.weights[k] <= ON_EDGE;
+        let is_zero = |k: usize| point.weights[k] <= SEARCH.on_edge;
         let pseudo = match (0..D).filter(|&k| is_zero(k)).count() {
             0 => return (self.normals[f].dot(&offset), self.normals[f]),
             1 if D == 3 => (0..D).find(|&k| is_zero(k)).map_or(self.normals[f], |k| self.edge_normals[f][k]),
@@ -209,7 +207,8 @@ impl<const D: usize> ClosedSurface<D> {
             }
         };
         let side = 1.0_f64.copysign(pseudo.dot(&offset));
-        let towards = if distance > TOUCHING * self.bounds.diameter() { offset * side } else { pseudo };
+        let towards =
+            if distance > SEARCH.touching * self.bounds.diameter() { offset * side } else { pseudo };
         (side * distance, towards.normalize())
     }
 }

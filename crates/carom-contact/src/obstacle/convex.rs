@@ -1,6 +1,7 @@
 use carom_mesh::Vector;
 
-use super::direction::{TOUCHING, along};
+use super::direction::along;
+use crate::tolerances::SEARCH;
 
 /// Signed distance and normal at `offset` [m] from the centre or the axis of a sphere or cylinder.
 pub(super) fn round<const D: usize>(offset: &Vector<D>, radius: f64, cavity: bool) -> (f64, Vector<D>) {
@@ -18,7 +19,7 @@ pub(super) fn cuboid<const D: usize>(offset: &Vector<D>, half: &Vector<D>) -> (f
     let distance = outside.norm();
     let sign = |i: usize| 1.0_f64.copysign(offset[i]);
     // On an edge or corner the direction of the offset is round-off.
-    if distance > TOUCHING * half.amax() {
+    if distance > SEARCH.touching * half.amax() {
         return (distance, Vector::from_fn(|i, _| sign(i) * outside[i] / distance));
     }
     let face = beyond.imax();

@@ -6,7 +6,8 @@ use super::dilatation::Cell;
 use super::grid::Grid;
 use super::kinematics::Kinematics;
 use super::{CellState, Elements, StepForces};
-use crate::material::discrete_gradient::{SMALL_STRAIN, deformation, second_piola, stress_difference};
+use crate::material::control::CONTROL;
+use crate::material::discrete_gradient::{deformation, second_piola, stress_difference};
 use crate::material::{
     BATCH, Batch, LANES, MAX_POINTS, Mat3, PlasticState, PointLaw, Tangent, embed, green_lagrange,
 };
@@ -23,7 +24,9 @@ pub(crate) struct MeanDilatation<const D: usize, const N: usize, K> {
 /// One value per point of a cell.
 type Points = [Mat3; MAX_POINTS];
 
-const ZEROS: Points = [Mat3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0); MAX_POINTS];
+fn zeros() -> Points {
+    [Mat3::zeros(); MAX_POINTS]
+}
 
 /// A cell of a pack, taken out of its batches.
 struct Lane {
@@ -40,7 +43,7 @@ impl Lane {
 
     /// The part of this cell in a batch.
     fn take(&self, batch: &Batch<3>) -> Points {
-        let mut points = ZEROS;
+        let mut points = zeros();
         points.iter_mut().take(self.count).enumerate().for_each(|(q, p)| *p = batch.get(self.at(q)));
         points
     }
@@ -60,7 +63,7 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> MeanDilatation<D, N, K
     fn lanes<'a>(&'a self, pack: usize, f: &'a Batch<3>) -> impl Iterator<Item = Lane> + 'a {
         let (weights, count) = (self.grid.weights(pack), self.grid.batch() / LANES);
         (0..LANES).map(move |lane| {
-            let mut cell = Lane { count, lane, weights: [0.0; MAX_POINTS], f: ZEROS };
+            let mut cell = Lane { count, lane, weights: [0.0; MAX_POINTS], f: zeros() };
             (0..count).for_each(|q| cell.weights[q] = weights[cell.at(q)]);
             cell.f = cell.take(f);
             cell
@@ -69,7 +72,7 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> MeanDilatation<D, N, K
 
     fn modify(&self, pack: usize, f: &Batch<3>, modified: &mut Batch<3>) {
         for lane in self.lanes(pack, f) {
-            let mut points = ZEROS;
+            let mut points = zeros();
             lane.cell().modify(&mut points[..lane.count]);
             lane.put(&points, modified);
         }
@@ -127,7 +130,11 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> MeanDilatation<D, N, K
                 size += weight * strain.norm_squared();
             }
             let volume: f64 = cell.weights.iter().sum();
-            let kappa = if size > volume * SMALL_STRAIN * SMALL_STRAIN { missing / size } else { 0.0 };
+            let kappa = if size > volume * CONTROL.small_strain * CONTROL.small_strain {
+                missing / size
+            } else {
+                0.0
+            };
             for q in 0..lane.count {
                 stresses[q] = (f0[q] + f1[q]) * 0.5 * (stresses[q] + strain(q) * kappa);
             }
@@ -213,7 +220,7 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
                 .lanes(pack, &f)
                 .map(|lane| {
                     let (modified, stresses) = (lane.take(&modified), lane.take(&stresses));
-                    let (mut swells, mut presses) = (ZEROS, ZEROS);
+                    let (mut swells, mut presses) = (zeros(), zeros());
                     let mut own: Vec<_> = (0..lane.count).map(|q| tangents[lane.at(q)]).collect();
                     let coupling = lane.cell().tangents(
                         &modified[..lane.count],

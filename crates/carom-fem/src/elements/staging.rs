@@ -1,14 +1,9 @@
 use std::sync::{Mutex, TryLockError};
 
 use carom_mesh::Vector;
-use carom_mesh::parallel::{each_chunk, share};
+use carom_mesh::parallel::{CHUNK, MANY, NODES_PER_CELL, each_chunk, share};
 
 use crate::material::LANES;
-
-/// Packs of cells from which threads share them.
-const MANY: usize = 1024;
-/// Packs that a thread takes at a time.
-const CHUNK: usize = 64;
 
 /// Nodal vectors of the cells of a pack.
 pub(crate) type Local<const D: usize, const N: usize> = [[[f64; LANES]; D]; N];
@@ -28,7 +23,7 @@ pub(super) struct Staging<const D: usize, const N: usize> {
 impl<const D: usize, const N: usize> Staging<D, N> {
     /// For a body with so many nodes; `packs` has those of the cells, the first `cells` of which count. None for few packs.
     pub fn new(nodes: usize, cells: usize, packs: &[[[u32; LANES]; N]]) -> Option<Self> {
-        if packs.len() < MANY || packs.len() * N * LANES > u32::MAX as usize {
+        if packs.len() * LANES < MANY / NODES_PER_CELL || packs.len() * N * LANES > u32::MAX as usize {
             return None;
         }
         let places = || {
@@ -65,7 +60,7 @@ impl<const D: usize, const N: usize> Staging<D, N> {
             Err(TryLockError::Poisoned(packs)) => packs.into_inner(),
             Err(TryLockError::WouldBlock) => return None,
         };
-        share(&mut packs, CHUNK, &|first, packs| {
+        share(&mut packs, CHUNK / NODES_PER_CELL / LANES, &|first, packs| {
             let mut work = scratch();
             for (pack, (local, sum)) in (first..).zip(packs) {
                 *sum = of_pack(pack, &mut work, local);

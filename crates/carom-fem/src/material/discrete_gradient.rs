@@ -2,8 +2,7 @@
 
 use carom_mesh::{Matrix, tensor};
 
-/// Below this change of strain the correction of the discrete gradient, of its third order, is smaller than round-off.
-pub(crate) const SMALL_STRAIN: f64 = 1e-6;
+use super::control::CONTROL;
 
 /// The symmetric stress S̄ [Pa] closest to `stress` with S̄:ΔE = `work`: S̄ = S + [W − S:ΔE] ΔE/|ΔE|² (Gonzalez 2000).
 ///
@@ -15,7 +14,7 @@ pub(crate) fn with_work<const S: usize>(
     work: impl FnOnce() -> f64,
 ) -> Matrix<S> {
     let size = change.norm_squared();
-    if size > SMALL_STRAIN * SMALL_STRAIN {
+    if size > CONTROL.small_strain * CONTROL.small_strain {
         stress + change * ((work() - stress.dot(change)) / size)
     } else {
         *stress

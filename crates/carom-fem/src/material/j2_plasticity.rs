@@ -1,5 +1,6 @@
 use serde::{Deserialize, Serialize};
 
+use super::control::CONTROL;
 use super::ranges::{check, not_negative, positive};
 use super::spectrum::{ByStretches, Spectrum, StretchEnergy};
 use super::strain_law::{Hyperelastic, StrainLaw, green_lagrange};
@@ -95,9 +96,6 @@ struct Return {
     trial: f64,
 }
 
-/// Increments below this are round-off of a point that has already flowed to its yield stress.
-const NO_FLOW: f64 = 1e-14;
-
 impl Flow {
     /// σ_y(α) [Pa].
     #[must_use]
@@ -173,7 +171,7 @@ impl Flow {
                 }
             }
         }
-        Return { increment: if increment > NO_FLOW { increment } else { 0.0 }, trial }
+        Return { increment: if increment > CONTROL.no_flow { increment } else { 0.0 }, trial }
     }
 }
 

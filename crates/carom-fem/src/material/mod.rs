@@ -5,6 +5,7 @@ mod batch;
 mod blatz_ko;
 #[cfg(test)]
 mod contract;
+pub(crate) mod control;
 pub(crate) mod discrete_gradient;
 mod elastic_constants;
 mod flowing;

@@ -1,5 +1,6 @@
 use carom_mesh::Matrix;
 
+use super::control::CONTROL;
 use super::discrete_gradient::{discrete_stress, stress_difference};
 use super::point_law::restrict;
 use super::{Mat3, Material, PointLaw, Tangent};
@@ -11,11 +12,6 @@ use super::{Mat3, Material, PointLaw, Tangent};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaneStress<M>(pub M);
 
-/// Newton steps in search of F₃₃; a handful are needed.
-const MAX_STEPS: usize = 60;
-/// The last correction, relative to F₃₃, after which there is none but round-off.
-const CONVERGED: f64 = 1e-9;
-
 impl<M: Material> PlaneStress<M> {
     /// F in space, with F₃₃ by Newton's iteration for the Kirchhoff stress F₃₃ P₃₃ as a function of ln F₃₃, which grows with it far
     /// beyond where P₃₃ does. A law of small displacements is linear: P₃₃ as a function of F₃₃ needs one step.
@@ -26,7 +22,7 @@ impl<M: Material> PlaneStress<M> {
                 full[(i, j)] = f[(i, j)];
             }
         }
-        for _ in 0..MAX_STEPS {
+        for _ in 0..CONTROL.steps {
             let stretch = full[(2, 2)];
             let (stress, tangent) = self.0.stress_and_tangent(&full);
             let (p, a) = (stress[(2, 2)], tangent[2][2][2][2]);
@@ -38,7 +34,7 @@ impl<M: Material> PlaneStress<M> {
                 full[(2, 2)] -= p / a;
                 p / a
             };
-            if change.abs() <= CONVERGED {
+            if change.abs() <= CONTROL.converged {
                 return full;
             }
         }

@@ -2,15 +2,9 @@
 
 use std::fmt::Debug;
 
+use super::control::CONTROL;
 use super::strain_law::StrainLaw;
 use super::{Mat3, Tangent};
-
-/// Principal values whose squares of stretch differ by less than this, relatively, are taken as equal: there the divided
-/// difference of their stresses is the mean of its limits, whose error is of second order.
-const COINCIDENT: f64 = 1e-5;
-
-/// Sweeps of Jacobi's rotations after which a tensor is taken as diagonal; a handful suffices for any that is finite.
-const SWEEPS: usize = 30;
 
 /// ψ(ε₁, ε₂, ε₃), symmetric in its arguments.
 pub trait StretchEnergy: Send + Sync + Debug {
@@ -37,7 +31,7 @@ impl Spectrum {
     #[must_use]
     pub fn of(e: &Mat3) -> Self {
         let (mut e, mut vectors) = (*e, Mat3::identity());
-        for _ in 0..SWEEPS {
+        for _ in 0..CONTROL.sweeps {
             let mut rotated = false;
             for (p, q) in [(0, 1), (0, 2), (1, 2)] {
                 let coupling = e[(p, q)];
@@ -102,7 +96,7 @@ impl Spectrum {
         for a in 0..3 {
             for b in 0..3 {
                 let difference = 2.0 * (self.strains[a] - self.strains[b]);
-                shear[a][b] = if difference.abs() > COINCIDENT * squares[a] {
+                shear[a][b] = if difference.abs() > CONTROL.coincident * squares[a] {
                     2.0 * (s[a] - s[b]) / difference
                 } else {
                     0.5 * (slope[a][a] - slope[a][b] + slope[b][b] - slope[b][a])

@@ -2,17 +2,12 @@ use carom_mesh::parallel::each_chunk;
 use carom_mesh::{Matrix, Vector};
 
 use super::NodalMatrix;
+use super::control::CONTROL;
 use super::region::Region;
 use super::scaled::Scaled;
 use super::semi_iteration::{Vectors, solve, solve_within, terms};
 use super::spectrum::spectrum;
 use crate::FemError;
-
-/// How far the ends of the spectrum are taken beyond what was measured of it. Beyond the upper end a polynomial explodes, and
-/// below the lower one it is merely less exact.
-const MARGINS: [f64; 2] = [0.9, 1.1];
-/// Eigenvalues below this share of the largest may be round-off of the [`Scaled`] matrix.
-const ROUND_OFF: f64 = 1e-3;
 
 /// An approximate inverse of a symmetric matrix A of D × D blocks over a node graph, without a factor: a polynomial of A.
 ///
@@ -72,10 +67,11 @@ impl<const D: usize> Chebyshev<D> {
         let matrix = Scaled::of(matrix).ok_or(FemError::NotPositiveDefinite)?;
         let nodes = matrix.node_count();
         let [least, largest] = spectrum(&matrix);
-        if least.is_nan() || least < -ROUND_OFF * largest {
+        if least.is_nan() || least < -CONTROL.round_off * largest {
             return Err(FemError::NotPositiveDefinite);
         }
-        let bounds = [(least * MARGINS[0]).max(ROUND_OFF * largest), largest * MARGINS[1]];
+        let bounds =
+            [(least * CONTROL.margins[0]).max(CONTROL.round_off * largest), largest * CONTROL.margins[1]];
         Ok(terms(bounds, most_terms::<D>(nodes)).map(|(middle, weights)| Self {
             matrix,
             weights,
@@ -221,7 +217,6 @@ mod tests {
 
     use super::*;
     use crate::sparse::NodeGraph;
-    use crate::sparse::semi_iteration::LEFT;
     use carom_mesh::generate;
 
     /// A mass and a stiffness: springs along all pairs of neighbours, as stiff across them as `ratio` times the mass.
@@ -276,7 +271,7 @@ mod tests {
                 x.iter_mut().zip(&correction).for_each(|(x, c)| *x += c);
                 let error: Vec<Vector<3>> = x.iter().zip(&exact).map(|(x, e)| x - e).collect();
                 let left = (energy(&a, &error) / energy(&a, &exact)).sqrt();
-                assert!(left <= LEFT.powi(round), "{ratio}: {left} after {round}");
+                assert!(left <= CONTROL.left.powi(round), "{ratio}: {left} after {round}");
             }
         }
     }

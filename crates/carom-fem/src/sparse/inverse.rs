@@ -1,11 +1,9 @@
 use carom_mesh::{Matrix, Tie, Vector};
 
 use super::chebyshev::Chebyshev;
+use super::control::CONTROL;
 use super::{Factor, NodalMatrix, Precision};
 use crate::FemError;
-
-/// Entries of a graph from which a polynomial may serve better than a factor, which fits in fast memory below.
-const MANY: usize = 1 << 14;
 
 /// The inverse of a symmetric positive definite matrix of D × D blocks over a node graph, exact or good enough to iterate with.
 ///
@@ -39,7 +37,7 @@ impl<const D: usize> Inverse<D> {
     pub fn make(&mut self, precision: Precision, matrix: &NodalMatrix<Matrix<D>>) -> Result<(), FemError> {
         self.precision = precision;
         let suits = precision == Precision::Single && self.ties.is_empty();
-        if suits && matrix.values.len() >= MANY {
+        if suits && matrix.values.len() >= CONTROL.many {
             if let Some(polynomial) = Chebyshev::of(matrix)? {
                 self.kind = Kind::Polynomial(Box::new(polynomial));
                 return Ok(());

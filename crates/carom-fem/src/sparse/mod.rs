@@ -2,6 +2,7 @@
 
 mod abreast;
 mod chebyshev;
+mod control;
 mod factor;
 mod folding;
 mod graph;

@@ -1,9 +1,7 @@
 use feral_metis::{CscPattern, metis_order};
 
 use super::NodeGraph;
-
-/// Nodes from which nested dissection is worth its time: below it, minimum degree makes factors as sparse.
-const LARGE: usize = 4000;
+use super::control::CONTROL;
 
 /// An order in which the nodes of a large graph are eliminated with little fill, position by position; `None` for a small one.
 ///
@@ -12,7 +10,7 @@ const LARGE: usize = 4000;
 /// postorder of the elimination tree, so that columns of like structure are neighbours and make large supernodes.
 pub fn nested_dissection(graph: &NodeGraph) -> Option<Vec<usize>> {
     let n = graph.node_count();
-    if n < LARGE {
+    if n < CONTROL.dissected {
         return None;
     }
     let mut starts = vec![0_i32];

@@ -2,12 +2,7 @@
 
 use std::ops::Range;
 
-/// Values of a factor from which it is taken apart.
-const LARGE: usize = 1 << 21;
-/// A subtree with less than this share of the values is a piece.
-const SHARE: usize = 10;
-/// Values of the factor below which a subtree is not worth a piece of its own, as a share of all.
-const SMALL_SHARE: usize = 200;
+use super::control::CONTROL;
 
 /// Ranges of supernodes, ascending and apart, that are whole subtrees of the elimination tree, each with a share of the values of the
 /// factor; what is in none is above them. They depend on the factor alone, not on how many threads there are. A small factor
@@ -17,7 +12,7 @@ const SMALL_SHARE: usize = 200;
 pub(super) fn pieces(parent: &[usize], values: &[usize]) -> Vec<Range<usize>> {
     let n = parent.len();
     let total: usize = values.iter().sum();
-    if total < LARGE {
+    if total < CONTROL.apart {
         return Vec::new();
     }
     // Of every subtree: its values, its supernodes and the first of them.
@@ -29,8 +24,11 @@ pub(super) fn pieces(parent: &[usize], values: &[usize]) -> Vec<Range<usize>> {
             first[above] = first[above].min(first[s]);
         }
     }
-    let is_piece =
-        |s: usize| size[s] * SHARE <= total && size[s] * SMALL_SHARE >= total && first[s] + count[s] == s + 1;
+    let is_piece = |s: usize| {
+        size[s] * CONTROL.share <= total
+            && size[s] * CONTROL.small_share >= total
+            && first[s] + count[s] == s + 1
+    };
     // The largest such subtrees: from the roots down.
     let mut covered = vec![false; n];
     let mut pieces = Vec::new();

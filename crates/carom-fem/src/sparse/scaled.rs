@@ -3,12 +3,11 @@ use std::sync::Arc;
 use carom_mesh::Matrix;
 use nalgebra::SMatrix;
 
+use super::control::CONTROL;
 use super::{NodalMatrix, NodeGraph};
 
 /// Numbers that are read at once: a column of a block, and what follows it.
 const LANES: usize = 4;
-/// Entries beyond this a positive definite matrix with a diagonal of 1 cannot have, but for round-off.
-const LARGEST: f64 = 1.0 + 1e-6;
 /// What stands for 1.
 const ONE: f32 = i16::MAX as f32;
 
@@ -41,7 +40,7 @@ impl<const D: usize> Scaled<D> {
         for node in 0..graph.node_count() {
             for (entry, neighbour) in graph.row(node) {
                 let block = scales[node] * matrix.values[entry] * scales[neighbour].transpose();
-                if !block.iter().all(|x| x.abs() <= LARGEST) {
+                if !block.iter().all(|x| x.abs() <= CONTROL.largest) {
                     return None;
                 }
                 values.extend(block.iter().map(|&x| (x * f64::from(ONE)).round() as i16));

@@ -3,11 +3,9 @@
 use carom_mesh::parallel::each_chunk;
 use pulp::{Arch, Simd, WithSimd};
 
+use super::control::CONTROL;
 use super::region::Region;
 use super::scaled::{Columns, Scaled};
-
-/// Part of a right-hand side that the approximate solution may leave over: what an iteration with a kept factor leaves, too.
-pub(super) const LEFT: f64 = 0.02;
 
 /// The vectors of the semi-iteration: the right-hand side, the solution, and the one before it.
 #[derive(Debug)]
@@ -124,7 +122,7 @@ pub(super) fn terms([least, largest]: [f64; 2], most: usize) -> Option<(f64, Vec
     let (mut before, mut chebyshev) = (1.0, 1.0 / mu);
     while weights.len() < most {
         weights.push(omega as f32);
-        if 1.0 / chebyshev <= LEFT {
+        if 1.0 / chebyshev <= CONTROL.left {
             return Some((middle, weights));
         }
         (before, chebyshev) = (chebyshev, 2.0 / mu * chebyshev - before);

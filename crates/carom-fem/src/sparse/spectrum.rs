@@ -2,12 +2,8 @@
 
 use nalgebra::DMatrix;
 
+use super::control::CONTROL;
 use super::scaled::{Columns, Scaled};
-
-/// Steps of Lanczos's iteration: both ends are then known to some per cent.
-const STEPS: usize = 16;
-/// Below this share of the one before, a vector is round-off: the iteration has found all there is.
-const NOTHING: f64 = 1e-6;
 
 /// Estimates of the least and the largest eigenvalue, by Lanczos's iteration: the true ones are a little beyond. Not numbers if the matrix
 /// has none.
@@ -20,7 +16,7 @@ pub(super) fn spectrum<const D: usize>(matrix: &Scaled<D>) -> [f64; 2] {
     let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
     let mut norm = dot(&v, &v).sqrt();
     scale(&mut v, 1.0 / norm);
-    for step in 0..STEPS.min(n * D) {
+    for step in 0..CONTROL.steps.min(n * D) {
         // before ← (A v − before·β), then without its part along v.
         let beta = beside.last().copied().unwrap_or(0.0) as f32;
         for (node, before) in before.iter_mut().enumerate() {
@@ -40,7 +36,7 @@ pub(super) fn spectrum<const D: usize>(matrix: &Scaled<D>) -> [f64; 2] {
         if !norm.is_finite() {
             return [f64::NAN; 2];
         }
-        if norm < NOTHING * along.abs() || step + 1 == STEPS.min(n * D) {
+        if norm < CONTROL.nothing * along.abs() || step + 1 == CONTROL.steps.min(n * D) {
             break;
         }
         scale(&mut before, 1.0 / norm);

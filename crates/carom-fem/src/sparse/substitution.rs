@@ -6,16 +6,12 @@ use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::{MatMut, MatRef, Par};
 use pulp::{Arch, Simd, WithSimd};
 
+use super::control::CONTROL;
 use super::real::Real;
 use super::row::Row;
 
 /// Columns taken together, so that what is loaded once serves them all.
 const COLUMNS: usize = 4;
-/// Columns from which a panel is inverted in blocks, by faer: the large ones of bodies in space.
-const BLOCKED: usize = 96;
-
-/// Values of a panel from which threads share its products: it takes several times as long as waking them.
-const LARGE_PANEL: usize = 1 << 16;
 
 /// Forward and backward substitution with some of the supernodes of a Cholesky factor, for one right-hand side.
 ///
@@ -95,7 +91,7 @@ impl<T: Real> Substitution<T> {
             }
             largest = largest.max(padded);
             self.panel_of.resize(panel.start + columns, self.panels.len() as u32);
-            if padded * columns >= LARGE_PANEL {
+            if padded * columns >= CONTROL.large_panel {
                 self.large.push(self.panels.len() as u32);
             }
             self.panels.push(panel);
@@ -224,7 +220,7 @@ impl<T: Real> Substitution<T> {
 /// Solves Z L₁₁ = [I; L₂₁] for the panel `z` of so many `rows`, which is zero, `padded` numbers from column to column.
 fn invert(l: MatRef<'_, f64>, z: &mut [f64], padded: usize, rows: usize) {
     let columns = l.ncols();
-    if columns > BLOCKED {
+    if columns > CONTROL.blocked {
         for j in 0..columns {
             z[j * padded + j] = 1.0;
             (columns..rows).for_each(|i| z[j * padded + i] = l[(i, j)]);

@@ -1,7 +1,7 @@
-use super::control::CONTROL;
 use faer::dyn_stack::MemBuffer;
 
 use super::compliance::Compliance;
+use super::control::CONTROL;
 use crate::clock::{Clock, TimeIsUp};
 use crate::{BlockMatrix, ContactProblem, Matrix, Vector};
 

@@ -1,8 +1,8 @@
-use super::control::CONTROL;
 use faer::dyn_stack::{MemBuffer, StackReq};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use nalgebra::DMatrix;
 
+use super::control::CONTROL;
 use crate::clock::Clock;
 use crate::sparse_factor::{NoFactor, SparseFactor};
 

@@ -1,7 +1,7 @@
-use super::control::CONTROL;
 use faer::dyn_stack::{MemBuffer, StackReq};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 
+use super::control::CONTROL;
 use super::factor::Factor;
 use super::parts::Parts;
 

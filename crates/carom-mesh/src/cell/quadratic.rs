@@ -1,5 +1,8 @@
 //! Shape functions of the quadratic cells, from the reference coordinates of their nodes: one formula per family.
 
+/// The ends of the edges of a tetrahedron, in the order of their middles; the first three are those of a triangle.
+pub(super) const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
+
 /// The quadratic polynomial of a segment that is 1 at `p` ∈ {−1, 0, 1} and 0 at the other two, and its derivative.
 #[inline]
 fn segment(p: f64, x: f64) -> (f64, f64) {

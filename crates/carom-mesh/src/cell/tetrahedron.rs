@@ -1,6 +1,5 @@
-use super::{CellKind, Reference, quadratic};
-
-const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
+use super::quadratic::{self, EDGES};
+use super::{CellKind, Reference};
 
 /// Tetrahedron 0 ≤ ξ, η, ζ, ξ + η + ζ ≤ 1.
 pub(super) static TET4: Reference = Reference {

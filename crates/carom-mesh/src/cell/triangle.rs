@@ -1,6 +1,5 @@
-use super::{CellKind, Reference, quadratic};
-
-const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+use super::quadratic::{self, EDGES};
+use super::{CellKind, Reference};
 
 /// Triangle 0 ≤ ξ, η, ξ + η ≤ 1.
 pub(super) static TRI3: Reference = Reference {
@@ -36,7 +35,7 @@ pub(super) static TRI6: Reference = Reference {
         [0.0, 0.5, 0.0],
     ],
     facets: &[(CellKind::Line3, &[0, 1, 3]), (CellKind::Line3, &[1, 2, 4]), (CellKind::Line3, &[2, 0, 5])],
-    shape: |xi, n| quadratic::simplex(&EDGES, 2, xi, n),
-    gradient: |xi, g| quadratic::simplex_gradient(&EDGES, 2, xi, g),
+    shape: |xi, n| quadratic::simplex(&EDGES[..3], 2, xi, n),
+    gradient: |xi, g| quadratic::simplex_gradient(&EDGES[..3], 2, xi, g),
     vtk_type: 22,
 };

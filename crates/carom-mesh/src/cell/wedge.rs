@@ -1,3 +1,4 @@
+use super::quadratic::EDGES;
 use super::{CellKind, Reference};
 
 /// The triangle below and that above, the middles of the edges of both, then those of the upright edges.
@@ -18,9 +19,6 @@ const NODES: [[f64; 3]; 15] = [
     [1.0, 0.0, 0.0],
     [0.0, 1.0, 0.0],
 ];
-
-/// The ends of the edges of the triangle, in the order of their middles.
-const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
 /// Gradients of the area coordinates of the triangle.
 const SLOPES: [[f64; 2]; 3] = [[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]];

@@ -1,6 +1,7 @@
 use std::f64::consts::FRAC_PI_4;
 
 use super::check::{check, check_size, is_length};
+use super::core_block::CoreBlock;
 use super::disc::is_near;
 use super::lattice::{Block, Lattice, span, unravel};
 use crate::{CellKind, Mesh, MeshError, Vector};
@@ -19,11 +20,9 @@ pub struct Ball {
 }
 
 impl Ball {
-    /// Distance of the middle of a side of the core from the centre, relative to the radius.
-    const CORE: f64 = 0.45;
-    /// How much sides and edges of the core bulge towards the sphere, relative to half its edge. With these two, the least of the
-    /// scaled Jacobians at corners is 0.68 at 2 divisions and 0.76 at 16; the shortest edge is 0.7 radius / divisions.
-    const BULGE: f64 = 0.1;
+    /// With these two numbers the least of the scaled Jacobians at corners is 0.68 at 2 divisions and 0.76 at 16; the shortest edge
+    /// is 0.7 radius / divisions.
+    const CORE: CoreBlock = CoreBlock { half_side: 0.45, bulge: 0.1 };
 
     /// The ball in these cells, with the set surface.
     ///
@@ -60,7 +59,7 @@ impl Ball {
         let mut sides = Vec::new();
         for index in 0..on_sides.len() {
             let place = unravel(index, counts);
-            points.push(centre + Self::core(parameter(place)) * (Self::CORE * self.radius));
+            points.push(centre + Self::core(parameter(place)) * (Self::CORE.half_side * self.radius));
             if place.iter().any(|&i| i == 0 || i == n) {
                 on_sides[index] = sides.len();
                 sides.push(index);
@@ -96,7 +95,7 @@ impl Ball {
 
     /// The place in the core of a point of the cube −1 … 1.
     fn core(u: Vector<3>) -> Vector<3> {
-        let bulge = |w: f64| (1.0 + Self::BULGE * (1.0 - w * w)) / (1.0 + Self::BULGE);
+        let bulge = |w: f64| Self::CORE.bulged(w);
         Vector::from_fn(|k, _| u[k] * bulge(u[(k + 1) % 3]) * bulge(u[(k + 2) % 3]))
     }
 

@@ -1,6 +1,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::check::{check, check_size, is_length};
+use super::core_block::CoreBlock;
 use super::lattice::{Block, Lattice, span};
 use crate::{CellKind, Mesh, MeshError, Vector};
 
@@ -18,10 +19,7 @@ pub struct Disc {
 }
 
 impl Disc {
-    /// Half the side of the core, relative to the radius.
-    const CORE: f64 = 0.5;
-    /// How much the sides of the core bulge towards the circle, relative to half its side.
-    const BULGE: f64 = 0.15;
+    const CORE: CoreBlock = CoreBlock { half_side: 0.5, bulge: 0.15 };
 
     /// The disc in these cells, with the set surface.
     ///
@@ -61,8 +59,8 @@ impl Disc {
         let parameter = |i: usize| 2.0 * i as f64 / n as f64 - 1.0;
         let core = |i: usize, j: usize| {
             let (u, v) = (parameter(i), parameter(j));
-            let bulge = |w: f64| (1.0 + Self::BULGE * (1.0 - w * w)) / (1.0 + Self::BULGE);
-            Vector::from([u * bulge(v), v * bulge(u)]) * (Self::CORE * self.radius)
+            let bulge = |w: f64| Self::CORE.bulged(w);
+            Vector::from([u * bulge(v), v * bulge(u)]) * (Self::CORE.half_side * self.radius)
         };
         let mut points: Vec<Vector<2>> = Vec::new();
         for j in 0..=n {

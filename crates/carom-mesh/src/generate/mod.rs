@@ -2,6 +2,7 @@
 
 mod ball;
 mod check;
+mod core_block;
 mod cylinder;
 mod disc;
 mod grid;

@@ -1,0 +1,100 @@
+//! Every geometric threshold of contact, and what it is relative to.
+
+/// Which node faces which point of a target.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SearchTolerances {
+    /// How deep inside a target surface a node is still found, in diameters of the facet it faces.
+    pub depth: f64,
+    /// How far behind a facet a node still belongs to the other side of the same wall, in diameters of the facet.
+    pub wall: f64,
+    /// How far a facet reaches beyond its edges with `Reach::Beyond`, in widths.
+    pub beyond: f64,
+    /// A node this close to lying on a facet, relative to its size, is not beside it.
+    pub aligned: f64,
+    /// Distances that differ by no more than this fraction of the size of the facet are equal.
+    pub tie: f64,
+    /// A node is checked once where it faces another that faces it, to this fraction of the facet.
+    pub mirrored: f64,
+    /// Cosine of the angle between two normals up to which they are those of one contact.
+    pub alike: f64,
+    /// Cosine of the turning angle in the reference configuration from which on a surface has a corner: 40°. The slack keeps the nonagon,
+    /// whose angles are 40° up to round-off, alike at all nodes.
+    pub corner: f64,
+    /// How far a node of a facet is off the plane, or line, through its middle, relative to its tangents, from which on it is clearly
+    /// curved.
+    pub curved: f64,
+    /// Distances below this, relative to the size of an obstacle or the largest depth of edges, are round-off.
+    pub touching: f64,
+    /// Weights of corners below this are zero: the closest point is on an edge or a corner.
+    pub on_edge: f64,
+}
+
+/// The tolerances of every search.
+pub(crate) const SEARCH: SearchTolerances = SearchTolerances {
+    depth: 0.5,
+    wall: 2.0,
+    beyond: 0.5,
+    aligned: 1e-6,
+    tie: 1e-12,
+    mirrored: 0.02,
+    alike: 0.9,
+    corner: 0.766_044_443_118_978 - 1e-9,
+    curved: 0.1,
+    touching: 1e-9,
+    on_edge: 1e-12,
+};
+
+/// Which edges of a surface count, and which of them cross.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct EdgeTolerances {
+    /// A crossing this close to the end of an edge, in its lengths, is at its node.
+    pub at_node: f64,
+    /// The angle by which an edge of two facets may look beyond either of them and still be what is in front [rad]: deformed facets are
+    /// neither flat nor exactly where their edges say.
+    pub turn: f64,
+    /// How far an edge may end before another crosses it where a further one goes on and crosses no more, in its lengths.
+    pub dent: f64,
+    /// Cosine of the turning angle from which on a surface has an edge and is not flat there: 1°.
+    pub flat: f64,
+    /// Length of an edge, in widths of the facets beside it, from which on it is a feature though the surface is round there: the nodes
+    /// along it are far apart for how much it turns.
+    pub slender: f64,
+    /// The least sine of the angle between edges that cross: where they are closer to parallel, nodes face facets.
+    pub parallel: f64,
+    /// Edges that end this little before they cross do cross, in their lengths.
+    pub round_off: f64,
+    /// A facet is what keeps two bodies apart if its plane does so by more than the edges do, less this fraction.
+    pub decided: f64,
+}
+
+/// The tolerances of all edges.
+pub(crate) const EDGES: EdgeTolerances = EdgeTolerances {
+    at_node: 0.01,
+    turn: 0.05,
+    dent: 0.1,
+    flat: 0.999_847_695_156_391,
+    slender: 2.0,
+    parallel: 0.05,
+    round_off: 1e-6,
+    decided: 0.1,
+};
+
+/// Which facets face one another, and how much of one the other covers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct MortarTolerances {
+    /// Cosine of the largest angle, 60°, between a normal and the opposite one for facets to face one another. Those at the sides of bodies
+    /// that stand on one another do not.
+    pub opposed: f64,
+    /// How far apart the boxes of facets may be so that a multiplier sees all of the target that covers it, in diameters.
+    pub reach: f64,
+    /// How deep a facet may be behind another, in diameters of the smaller: the far sides of thin bodies that touch are deeper.
+    pub depth: f64,
+    /// Overlaps of two parts smaller than this fraction of the one on the source are round-off.
+    pub negligible: f64,
+    /// A multiplier that covers less than this fraction of its whole has no contact.
+    pub covered: f64,
+}
+
+/// The tolerances of all mortar pairs.
+pub(crate) const MORTAR: MortarTolerances =
+    MortarTolerances { opposed: 0.5, reach: 1.0, depth: 0.25, negligible: 1e-14, covered: 1e-12 };
