@@ -3,14 +3,10 @@
 use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Target};
 use carom_mesh::{Matrix, Vector};
 
+use super::control::CONTROL;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
 use crate::model::state::Reaction;
-
-/// A contact of which less than this fraction of the normal is free has nothing to move.
-const UNRESPONSIVE: f64 = 1e-6;
-/// A node this deep inside its target, in sizes of the smaller body, is more than touching it.
-const INSIDE: f64 = 1e-6;
 
 /// The contacts that take part in a step, in the order of their candidates.
 #[derive(Debug, Default)]
@@ -51,7 +47,7 @@ impl<const D: usize> ActiveSet<D> {
         self.start_gaps.clear();
         contact.evaluate_all(&self.candidates, &start, &mut self.mortar, &mut self.contacts);
         let round_off = assembly.round_off();
-        let inside = |c: &Candidate| INSIDE * assembly.pair_size(&contact.pairs[c.pair as usize]);
+        let inside = |c: &Candidate| CONTROL.inside * assembly.pair_size(&contact.pairs[c.pair as usize]);
         let is_stuck = |c: &Candidate, at_start: &Contact<D>| {
             let inside = inside(c);
             let was_stuck = |k: usize| state.reactions[k].contact.gap < -inside;
@@ -137,7 +133,9 @@ impl<const D: usize> ActiveSet<D> {
 /// Whether a normal reaction could move anything: not where both sides are prescribed, as where a support stands on an obstacle.
 fn answers<const D: usize>(assembly: &Assembly<D>, contact: &Contact<D>) -> bool {
     let normal = contact.frame.row(0).transpose();
-    contact.stencil().any(|(n, weight)| (assembly.free_part(n, &normal) * weight).norm() > UNRESPONSIVE)
+    contact
+        .stencil()
+        .any(|(n, weight)| (assembly.free_part(n, &normal) * weight).norm() > CONTROL.unresponsive)
 }
 
 fn touch(touched: &mut [bool], pair: &Pair) {

@@ -4,11 +4,9 @@ use carom_contact::{Candidate, Contact, Mortar, Search};
 use carom_mesh::Vector;
 
 use super::active::ActiveSet;
+use super::control::CONTROL;
 use crate::model::given::Given;
 use crate::model::state::State;
-
-/// By how much the margin grows for mortar pairs with every repetition of a search.
-const WIDENING: f64 = 4.0;
 
 /// Finds candidates, and sees afterwards whether one was missed.
 #[derive(Debug, Default)]
@@ -42,7 +40,7 @@ impl<const D: usize> Finder<D> {
         if repetition > 0 {
             contact.recall(&self.found, &start, &end, candidates);
         }
-        let wide = margin * WIDENING.powi(repetition as i32);
+        let wide = margin * CONTROL.widening.powi(repetition as i32);
         contact.detect_mortar(&start, &end, wide, &mut active.mortar, candidates);
         self.found.clone_from(candidates);
     }

@@ -2,12 +2,9 @@
 
 use carom_mesh::Matrix;
 
+use super::control::CONTROL;
 use crate::archive::{Archive, CheckpointError};
 use crate::body::Body;
-
-/// Contact nodes of a body up to which every pair of them has its block. Beyond these, a node has blocks with those that are [near](Body::near):
-/// what W lacks costs iterations, not accuracy.
-const FEW: usize = 100;
 
 /// The blocks of K̄⁻¹ of one body between the nodes that have been in contact, computed when a node first is and kept with the
 /// factor.
@@ -97,7 +94,7 @@ impl<const D: usize> Compliance<D> {
         if new == 0 {
             return;
         }
-        let many = self.nodes.len() + new > FEW && !everywhere;
+        let many = self.nodes.len() + new > CONTROL.few && !everywhere;
         if many && matches!(self.table, Table::All(_)) {
             // A body that feels everything everywhere keeps all blocks.
             let feels_nearby = nodes.first().is_some_and(|&node| body.near(node).is_some());

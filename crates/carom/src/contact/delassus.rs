@@ -6,16 +6,9 @@ use carom_mesh::{Matrix, Vector};
 
 use super::active::ActiveSet;
 use super::compliance::Compliance;
+use super::control::CONTROL;
 use super::coupling::Coupling;
 use crate::model::assembly::Assembly;
-
-/// A direction along a facet that yields less than this where the normal is held, relative to the normal, is held itself.
-const RIGID: f64 = 1e-6;
-/// What a held direction yields in W, relative to the normal, where nothing is driven along it, and where something is: any
-/// number serves, as no force moves it, so long as it is the prescribed sliding that decides the friction.
-const HELD_COMPLIANCE: [f64; 2] = [1.0, 1e-3];
-/// Sliding below this, relative to the motion of the contact, is round-off.
-const NO_SLIDING: f64 = 1e-9;
 
 /// The blocks of K̄⁻¹ at the contact nodes of every body, and what makes W of them.
 #[derive(Debug)]
@@ -105,14 +98,16 @@ fn support<const D: usize>(
         for component in (0..D).filter(|&i| held[i]) {
             let mut along: Vector<D> = contact.frame.column(component).into();
             along[0] = 0.0;
-            let Some(along) = along.try_normalize(RIGID) else { continue };
+            let Some(along) = along.try_normalize(CONTROL.rigid) else { continue };
             let block = block + support;
             let response = block * along;
             // A tilted facet couples both directions: what counts is how far the pair of them is from singular.
-            if along.dot(&response) - response[0] * response[0] / block[(0, 0)] < RIGID * block[(0, 0)] {
+            if along.dot(&response) - response[0] * response[0] / block[(0, 0)]
+                < CONTROL.rigid * block[(0, 0)]
+            {
                 let driven = contact.relative(|n| assembly.prescribed_part(n, &motion[n]));
-                let slides = along.dot(&driven).abs() > NO_SLIDING * q.amax();
-                let compliance = HELD_COMPLIANCE[usize::from(slides)] * block[(0, 0)];
+                let slides = along.dot(&driven).abs() > CONTROL.no_sliding * q.amax();
+                let compliance = CONTROL.held_compliance[usize::from(slides)] * block[(0, 0)];
                 support += along * along.transpose() * compliance;
             }
         }

@@ -4,6 +4,7 @@ pub(crate) mod active;
 pub(crate) mod candidates;
 pub(crate) mod compliance;
 pub(crate) mod contact_work;
+mod control;
 mod coupling;
 pub(crate) mod cross_check;
 mod delassus;

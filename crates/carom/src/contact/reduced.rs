@@ -6,14 +6,12 @@ use carom_friction::{ContactProblem, SolverKind, StoppingRule};
 use carom_mesh::Vector;
 
 use super::active::ActiveSet;
+use super::control::CONTROL;
 use super::delassus::Delassus;
 use crate::body::Body;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
-
-/// No contact problem is solved more loosely than this.
-const LOOSEST: f64 = 1e-4;
 
 /// The tolerance of a contact problem whose motions may be wrong by `error` [m], which is what natural residuals are of the larger of q
 /// and, by the natural stiffness, r; at least that which is asked for.
@@ -28,7 +26,7 @@ fn tolerance<const D: usize>(
     }
     let squares = |vectors: &[Vector<D>]| vectors.iter().map(Vector::norm_squared).sum::<f64>();
     let size = squares(&problem.q).max(squares(reactions) / problem.natural_stiffness().powi(2));
-    (error * (problem.q.len() as f64 / size).sqrt()).min(LOOSEST).max(least)
+    (error * (problem.q.len() as f64 / size).sqrt()).min(CONTROL.loosest).max(least)
 }
 
 /// The reduced problem of a step and what leads to it.

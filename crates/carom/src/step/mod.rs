@@ -21,15 +21,22 @@ use crate::model::given::Given;
 use crate::model::method::Method;
 use crate::model::state::State;
 
-/// Margin of the contact search, in largest predicted motions of a node in the step.
-const SEARCH_MARGIN: f64 = 2.0;
-/// The largest margin, in sizes of the model, where no body moves as a whole by half of that. More would make contacts of all that there are
-/// where one node is very fast: two bodies whose 60 contacts a step was about had a dense problem of 1245.
-const LARGEST_MARGIN: f64 = 0.1;
-/// How often a step is repeated from where it led to, if a node came into contact unforeseen.
-const MAX_SEARCHES: usize = 4;
-/// The least margin of the contact search in a static analysis, where no velocity foretells the motion, in sizes of the model.
-const STATIC_MARGIN: f64 = 1e-3;
+/// How far around the bodies contacts are looked for, and how often.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Search {
+    /// Margin of the contact search, in largest predicted motions of a node in the step.
+    margin: f64,
+    /// The largest margin, in sizes of the model, where no body moves as a whole by half of that. More would make contacts of all that
+    /// there are where one node is very fast: two bodies whose 60 contacts a step was about had a dense problem of 1245.
+    largest_margin: f64,
+    /// The least margin in a static analysis, where no velocity foretells the motion, in sizes of the model.
+    static_margin: f64,
+    /// How often a step is repeated from where it led to, if a node came into contact unforeseen.
+    repetitions: usize,
+}
+
+/// The thresholds of every run.
+const SEARCH: Search = Search { margin: 2.0, largest_margin: 0.1, static_margin: 1e-3, repetitions: 4 };
 
 /// Takes `state` one step of length `dt` [s] further and writes the result to `next`.
 ///
@@ -48,7 +55,7 @@ pub fn step<const D: usize>(
     let given = Given { assembly, method, state, interval: &interval };
     let margin = predict(&given, work)?;
     let mut iterations = 0;
-    for repetition in 0..MAX_SEARCHES {
+    for repetition in 0..SEARCH.repetitions {
         let Workspace { contacts, motion, .. } = work;
         contacts.finder.find(&given, motion, margin, repetition, &mut contacts.active);
         let made = iterate(&given, next, work);
@@ -96,15 +103,15 @@ fn search_margin<const D: usize>(
     bodies: &[Box<dyn Body<D>>],
 ) -> f64 {
     let Given { assembly, state, interval, .. } = *given;
-    let mut margin = SEARCH_MARGIN * free.max(driven);
-    let largest = LARGEST_MARGIN * assembly.size;
+    let mut margin = SEARCH.margin * free.max(driven);
+    let largest = SEARCH.largest_margin * assembly.size;
     if margin > largest {
         let means = bodies.iter().enumerate().map(|(i, body)| {
             let velocity = &state.velocity[assembly.nodes(i)];
             body.mean_velocity(velocity).norm()
         });
         let drift = means.fold(0.0, f64::max) * interval.map.dt;
-        margin = margin.min(largest.max(SEARCH_MARGIN * driven.max(drift)));
+        margin = margin.min(largest.max(SEARCH.margin * driven.max(drift)));
     }
-    if interval.map.is_static() { margin.max(STATIC_MARGIN * assembly.size) } else { margin }
+    if interval.map.is_static() { margin.max(SEARCH.static_margin * assembly.size) } else { margin }
 }

@@ -317,10 +317,7 @@ impl<const D: usize> IterationMatrix<D> {
         }));
     }
 
-    /// Nodes that [`Self::respond`] takes at once.
-    pub const AT_ONCE: usize = Inverse::<D>::AT_ONCE;
-
-    /// Solves for unit forces at so many nodes of the reach at most: see [`Self::response`]. Nodes near each other in the [`Self::order`]
+    /// Solves for unit forces at no more nodes of the reach than [`Inverse::AT_ONCE`]: see [`Self::response`]. Nodes near each other in the [`Self::order`]
     /// cost least.
     pub fn respond(&mut self, nodes: impl Iterator<Item = usize>) {
         self.inverse.respond(nodes);

@@ -11,7 +11,7 @@ pub(crate) mod supports;
 use std::sync::Arc;
 
 use carom_fem::material::PlasticState;
-use carom_fem::sparse::Precision;
+use carom_fem::sparse::{Inverse, Precision};
 use carom_mesh::{Matrix, Vector, nodal, tensor};
 
 use self::blended::BlendedForces;
@@ -313,7 +313,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
     }
 
     fn responses_at_once(&self) -> usize {
-        IterationMatrix::<D>::AT_ONCE
+        Inverse::<D>::AT_ONCE
     }
 
     fn respond(&mut self, nodes: &[u32]) {

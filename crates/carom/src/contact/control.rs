@@ -1,0 +1,36 @@
+//! Every threshold of contact problems.
+
+/// Which candidates become contacts, which of their directions are held, and how well their problem is solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Control {
+    /// By how much the margin grows for mortar pairs with every repetition of a search.
+    pub widening: f64,
+    /// A contact of which less than this fraction of the normal is free has nothing to move.
+    pub unresponsive: f64,
+    /// A node this deep inside its target, in sizes of the smaller body, is more than touching it.
+    pub inside: f64,
+    /// Contact nodes of a body up to which every pair of them has its block. Beyond these, a node has blocks with those that are
+    /// [near](crate::body::Body::near): what W lacks costs iterations, not accuracy.
+    pub few: usize,
+    /// A direction along a facet that yields less than this where the normal is held, relative to the normal, is held itself.
+    pub rigid: f64,
+    /// What a held direction yields in W, relative to the normal, where nothing is driven along it, and where something is: any number
+    /// serves, as no force moves it, so long as it is the prescribed sliding that decides the friction.
+    pub held_compliance: [f64; 2],
+    /// Sliding below this, relative to the motion of the contact, is round-off.
+    pub no_sliding: f64,
+    /// No contact problem is solved more loosely than this.
+    pub loosest: f64,
+}
+
+/// The thresholds of every run.
+pub(super) const CONTROL: Control = Control {
+    widening: 4.0,
+    unresponsive: 1e-6,
+    inside: 1e-6,
+    few: 100,
+    rigid: 1e-6,
+    held_compliance: [1.0, 1e-3],
+    no_sliding: 1e-9,
+    loosest: 1e-4,
+};
