@@ -18,7 +18,7 @@ smooth targets, the first one 0.3 mm higher, 15 s. Bounds: drift 5e-10, defect 1
 total variation of the normal force in the first two impacts {quiet:.0f} N, momenta between two
 touches of a wall 1e-9 of their largest value, least friction 0; asserted in `test_prize.py` at Δt =
 1e-3 s, at 5e-4 s until 3.4 s, and at four times the speed. α reaches its limit of ½ in some steps
-at other Δt, and the carried excess makes up for it.
+at other Δt, and the carried energy debt makes up for it.
 
 {runs}
 

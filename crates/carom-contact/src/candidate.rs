@@ -19,14 +19,14 @@ pub struct Candidate {
     pub facet: Option<u32>,
     /// Whether it says what another candidate says, and is to be left out: a node that faces one that faces it, or of edges that cross at
     /// a node and this node either.
-    pub mirrored: bool,
+    pub redundant: bool,
 }
 
 impl Candidate {
     /// The source `node` of a pair, facing a facet if its target has some.
     #[must_use]
     pub fn at_node(pair: u32, node: u32, facet: Option<u32>) -> Self {
-        Self { pair, site: Site::Node(node), facet, mirrored: false }
+        Self { pair, site: Site::Node(node), facet, redundant: false }
     }
 
     /// The node, if it is at one.

@@ -68,7 +68,7 @@ impl<const D: usize> ContactModel<D> {
         let found = out.len();
         for candidate in known.iter().filter(|c| !self.is_mortar(c.pair as usize)) {
             if out[..found].binary_search_by_key(&candidate.key(), Candidate::key).is_err() {
-                out.push(Candidate { mirrored: false, ..*candidate });
+                out.push(Candidate { redundant: false, ..*candidate });
             }
         }
         out.sort_unstable();

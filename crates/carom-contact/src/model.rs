@@ -35,7 +35,7 @@ pub struct Pair {
     /// Friction coefficient.
     pub friction: f64,
     /// The named pair that this belongs to; both directions of a two-sided check share it and follow one another.
-    pub group: usize,
+    pub named_pair: usize,
     /// Whether the source is checked node by node or in the mean.
     pub discretisation: Discretisation,
 }
@@ -58,11 +58,11 @@ impl<const D: usize> ContactModel<D> {
         self.is_self_contact(pair) || self.directions(pair).len() > 1
     }
 
-    /// The pairs of the group of a `pair`.
+    /// The pairs of the same named pair as `pair`.
     pub(crate) fn directions(&self, pair: usize) -> Range<usize> {
-        let is_of_group = |p: &Pair| p.group == self.pairs[pair].group;
-        let before = self.pairs[..pair].iter().rev().take_while(|p| is_of_group(p)).count();
-        let after = self.pairs[pair..].iter().take_while(|p| is_of_group(p)).count();
+        let is_of_same = |p: &Pair| p.named_pair == self.pairs[pair].named_pair;
+        let before = self.pairs[..pair].iter().rev().take_while(|p| is_of_same(p)).count();
+        let after = self.pairs[pair..].iter().take_while(|p| is_of_same(p)).count();
         pair - before..pair + after
     }
 }

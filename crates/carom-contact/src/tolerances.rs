@@ -14,7 +14,7 @@ pub(crate) struct SearchTolerances {
     /// Distances that differ by no more than this fraction of the size of the facet are equal.
     pub tie: f64,
     /// A node is checked once where it faces another that faces it, to this fraction of the facet.
-    pub mirrored: f64,
+    pub redundant: f64,
     /// Cosine of the angle between two normals up to which they are those of one contact.
     pub alike: f64,
     /// Cosine of the turning angle in the reference configuration from which on a surface has a corner: 40°. The slack keeps the nonagon,
@@ -36,7 +36,7 @@ pub(crate) const SEARCH: SearchTolerances = SearchTolerances {
     beyond: 0.5,
     aligned: 1e-6,
     tie: 1e-12,
-    mirrored: 0.02,
+    redundant: 0.02,
     alike: 0.9,
     corner: 0.766_044_443_118_978 - 1e-9,
     curved: 0.1,

@@ -39,7 +39,7 @@ fn contact(target: &Mesh<3>, surface: &Surface, x: &Vector3, back: &Vector3) -> 
             source: 0,
             target: Target::Surface(1),
             friction: 0.0,
-            group: 0,
+            named_pair: 0,
             discretisation: Discretisation::default(),
         }],
     };

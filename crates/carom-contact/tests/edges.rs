@@ -54,7 +54,7 @@ impl Scene {
             source,
             target: Target::Surface(target),
             friction: 0.0,
-            group: 0,
+            named_pair: 0,
             discretisation: Discretisation::default(),
         };
         let surfaces = vec![surface(a, 0), surface(b, first_of_second)];
@@ -79,7 +79,7 @@ impl Scene {
 
     fn crossings(&self, margin: f64, by: &Vector3) -> Vec<(Candidate, Contact<3>)> {
         let mut found = self.found(margin, by);
-        found.retain(|(c, _)| c.node().is_none() && !c.mirrored);
+        found.retain(|(c, _)| c.node().is_none() && !c.redundant);
         found
     }
 }
@@ -150,7 +150,7 @@ fn the_smallest_gap_is_the_distance_of_the_bodies() {
         let found = scene.found(0.05, &origin);
         let smallest = found.iter().map(|(c, at)| (c, at.gap)).min_by(|a, b| a.1.total_cmp(&b.1));
         let inside = scene.found(0.05, &(along * -0.02));
-        assert!(inside.iter().any(|(c, at)| !c.mirrored && at.gap < -0.1 * (0.02 - d)), "no hold");
+        assert!(inside.iter().any(|(c, at)| !c.redundant && at.gap < -0.1 * (0.02 - d)), "no hold");
         let crossings = || inside.iter().filter(|(c, _)| c.node().is_none());
         for (c, at) in crossings() {
             assert!(at.gap > 1.1 * (d - 0.02), "{c:?} is {} deep", at.gap);
@@ -160,7 +160,7 @@ fn the_smallest_gap_is_the_distance_of_the_bodies() {
                 edges += 1;
                 assert!(gap > d - 1e-9, "{gap} {d}");
                 let stays = crossings().any(|(o, at)| o.site == c.site && (at.gap - d + 0.02).abs() < 1e-9);
-                assert!(c.mirrored || stays);
+                assert!(c.redundant || stays);
             }
             // A node before a corner or an edge is not as far in front of a facet as it is away.
             Some((_, gap)) if gap < d + 1e-9 => nodes += 1,
@@ -237,10 +237,10 @@ fn a_bar_slides_across_a_rim_without_a_hole() {
             let found = scene.found(0.01, &Vector3::new(along, 0.3 * along, -depth));
             let upright = |c: &Contact<3>| c.frame[(0, 2)].abs() > 0.6;
             assert!(
-                found.iter().any(|(c, at)| !c.mirrored && upright(at)),
+                found.iter().any(|(c, at)| !c.redundant && upright(at)),
                 "nothing at {along}, {depth} deep"
             );
-            let crossings = found.iter().filter(|(c, _)| c.node().is_none() && !c.mirrored);
+            let crossings = found.iter().filter(|(c, _)| c.node().is_none() && !c.redundant);
             assert!(
                 crossings.clone().all(|(_, at)| (at.gap + depth).abs() < 1e-12) && crossings.count() <= 1
             );
@@ -311,7 +311,7 @@ fn a_block_in_a_corner_keeps_the_floor() {
         let found = scene.found(0.01, &Vector3::zeros());
         for corner in (0..8).filter(|&n| block.nodes()[n][2] == 1.0) {
             let holds = |(c, at): &(Candidate, Contact<3>)| {
-                !c.mirrored
+                !c.redundant
                     && at.frame[(0, 2)].abs() > 0.9
                     && at.stencil().any(|(n, w)| n == corner && w.abs() > 0.9)
             };

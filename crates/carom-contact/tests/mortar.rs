@@ -22,7 +22,7 @@ impl<const D: usize> Scene<D> {
             source: 0,
             target: Target::Surface(1),
             friction: 0.3,
-            group: 0,
+            named_pair: 0,
             discretisation: Discretisation::Mortar,
         };
         let model = ContactModel { surfaces, obstacles: vec![], pairs: vec![pair] };

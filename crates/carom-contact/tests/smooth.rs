@@ -30,7 +30,7 @@ impl Scene {
                 source: 1,
                 target: Target::Surface(0),
                 friction: 0.3,
-                group: 0,
+                named_pair: 0,
                 discretisation: Discretisation::NodeToSegment,
             }],
         };

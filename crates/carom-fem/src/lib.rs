@@ -17,7 +17,7 @@ mod quadrature;
 mod rigid;
 mod shape_table;
 pub mod sparse;
-mod worked;
+mod with_history;
 
 pub use body::Body;
 pub use body_spec::{BodySpec, MassKind, RayleighDamping};
@@ -27,4 +27,4 @@ pub use facets::FacetPatch;
 pub use held::{Held, HeldDof};
 pub use hypothesis::{Formulation, Hypothesis};
 pub use rigid::RigidMass;
-pub use worked::Worked;
+pub use with_history::BodyWithHistory;

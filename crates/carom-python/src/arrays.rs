@@ -45,7 +45,7 @@ pub fn state<'py, const D: usize>(
     let nodes = model.node_count();
     out.set_item("displacement", vectors(py, &state.displacement[..nodes])?)?;
     out.set_item("velocity", vectors(py, &state.velocity[..nodes])?)?;
-    out.set_item("excess", PyArray1::from_slice(py, &state.excess))?;
+    out.set_item("energy_debt", PyArray1::from_slice(py, &state.energy_debt))?;
     out.set_item("contact_force", vectors(py, &state.contact_force[..nodes])?)?;
     let target = |pair: u32| match model.assembly.contact.pairs[pair as usize].target {
         Target::Surface(body) => body as i64,

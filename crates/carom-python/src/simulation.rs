@@ -171,7 +171,7 @@ impl Simulation {
     fn ledger_entries(&self) -> Vec<String> {
         with!(&self.inner, run => {
             let bodies = run.model().bodies.iter().map(|b| b.name.clone());
-            bodies.chain(run.model().assembly.groups.iter().map(|g| g.between.join("|"))).collect()
+            bodies.chain(run.model().assembly.named_pairs.iter().map(|g| g.between.join("|"))).collect()
         })
     }
 

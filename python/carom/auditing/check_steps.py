@@ -103,7 +103,7 @@ class StepChecks:
         if model.blended:
             # What the groups have yet to give back is what the ledger of the run does not explain.
             off = ROUND_OFF * (self._scales.energy + sum(abs(after[name]) for name in ENERGIES))
-            self._check("waiting energy", step.end["excess"].sum() - after["defect"], off, where)
+            self._check("waiting energy", step.end["energy_debt"].sum() - after["defect"], off, where)
 
     def _note_forces(self, step: Step) -> None:
         found = step.contacts
@@ -258,12 +258,12 @@ class StepChecks:
         wanted = np.clip(missing, -limit, limit)
         allowed = work + NEGLIGIBLE * self._scales.energy
         self._check("blend", (alpha * available - wanted)[leaders], allowed, where)
-        stored, left = step.end["excess"], step.left_over()
+        stored, left = step.end["energy_debt"], step.left_over()
         followers = np.setdiff1d(np.arange(len(alpha)), leaders)
         self._check("waiting energy", stored[followers], 0.0, where)
         self._check("waiting energy", (stored - left)[leaders], sums, where)
         # Its own books have no more than round-off.
-        error = (stored - step.start["excess"]).sum() - _defect(step.ledger)
+        error = (stored - step.start["energy_debt"]).sum() - _defect(step.ledger)
         sums = ROUND_OFF * (self._scales.energy + sum(abs(e) for e in step.ledger.values()))
         self._check("waiting energy", error, sums, where)
         full = (np.abs(missing) > limit - work)[leaders]

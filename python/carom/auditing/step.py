@@ -326,7 +326,7 @@ class Step:
 
         Both are of shape [body_count], at the first body of every group.
         """
-        missing, available = self._start_excess(), np.zeros(len(self.model.bodies))
+        missing, available = self._start_debt(), np.zeros(len(self.model.bodies))
         for f, leader in zip(self.forces, self.groups, strict=True):
             missing[leader] += f.missing
             available[leader] += f.available
@@ -339,7 +339,7 @@ class Step:
 
     def left_over(self) -> Array:
         """Return what the groups have yet to give back after the step, [body_count] [J]."""
-        left = self._start_excess()
+        left = self._start_debt()
         for terms, leader in zip(self.body_terms, self.groups, strict=True):
             left[leader] += terms["kinetic"] + terms["strain"] + terms["viscous"]
             left[leader] -= terms["external"]
@@ -350,11 +350,11 @@ class Step:
             np.add.at(left, leader, taken[known])
         return left
 
-    def _start_excess(self) -> Array:
+    def _start_debt(self) -> Array:
         """Return what the groups had yet to give back before the step, [body_count] [J]."""
-        excess = np.zeros(len(self.model.bodies))
-        np.add.at(excess, self.groups, self.start["excess"])
-        return excess
+        debt = np.zeros(len(self.model.bodies))
+        np.add.at(debt, self.groups, self.start["energy_debt"])
+        return debt
 
     def _rubbing(self) -> list[ContactWork]:
         """Return what friction, μ r̄_n |w_t|, and obstacles do, r̄ = (½ − α) r₀ + (½ + α) r₁.

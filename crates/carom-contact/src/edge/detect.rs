@@ -50,7 +50,7 @@ impl<const D: usize> ContactModel<D> {
         let stays = |c: &Found| !(c.is_beyond() && found.iter().any(|other| other.takes_over(c)));
         out.extend(found.iter().filter(|c| stays(c)).map(|c| {
             let [source, target] = c.edges;
-            Candidate { pair, site: Site::Crossing(source, target), facet: None, mirrored: false }
+            Candidate { pair, site: Site::Crossing(source, target), facet: None, redundant: false }
         }));
     }
 }

@@ -26,7 +26,7 @@ fn gradient(size: f64, seed: usize) -> Mat3 {
 }
 
 /// A point that has flowed under several steps, and the deformation it stands at.
-fn worked(seed: usize) -> (PlasticState, Mat3) {
+fn with_history(seed: usize) -> (PlasticState, Mat3) {
     let law = law();
     let mut state = PlasticState::default();
     let mut f = Mat3::identity();
@@ -44,11 +44,11 @@ fn equivalent_stress(law: &impl Material, f: &Mat3) -> f64 {
     1.5_f64.sqrt() * deviator.norm()
 }
 
-/// Steps from a worked point: large flow, a small one, and elastic ones.
+/// Steps from a with_history point: large flow, a small one, and elastic ones.
 fn steps() -> Vec<(PlasticState, Mat3, Mat3)> {
     let mut all = Vec::new();
     for seed in 0..6 {
-        let (state, f0) = worked(seed);
+        let (state, f0) = with_history(seed);
         for size in [0.2, 1e-2, 1e-3, 1e-4] {
             all.push((state, f0, f0 + (gradient(size, seed + 11) - Mat3::identity())));
         }

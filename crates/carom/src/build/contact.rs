@@ -8,7 +8,7 @@ use super::obstacle::{Surfaces, obstacle};
 use super::values::{number, place};
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
-use crate::model::assembly::Group;
+use crate::model::assembly::NamedPair;
 use crate::scenario::{Scenario, Sources, Targets};
 
 /// The largest friction coefficient.
@@ -24,7 +24,7 @@ pub(super) fn contact<const D: usize>(
     scenario: &Scenario,
     bodies: &[ModelBody<D>],
     mut surfaces: Surfaces<D>,
-) -> Result<(ContactModel<D>, Vec<Group>), InputError> {
+) -> Result<(ContactModel<D>, Vec<NamedPair>), InputError> {
     let mut model = ContactModel::default();
     for (i, (b, entry)) in bodies.iter().zip(&scenario.bodies).enumerate() {
         let mut surface = ContactSurface::new(b.body.surface(), b.first_node as u32);
@@ -47,7 +47,7 @@ pub(super) fn contact<const D: usize>(
     }
     let default = scenario.contact.friction;
     check_friction("contact.friction", default)?;
-    let mut groups = Vec::new();
+    let mut named_pairs = Vec::new();
     let names: Vec<&str> = bodies.iter().map(|b| b.name.as_str()).collect();
     let obstacle_names: Vec<&str> = scenario.obstacles.iter().map(|o| o.name.as_str()).collect();
     for (a, &first) in names.iter().enumerate() {
@@ -76,9 +76,9 @@ pub(super) fn contact<const D: usize>(
                 Target::Surface(b) => discretisation(scenario, found, sources, [&bodies[a], &bodies[b]])?,
                 Target::Obstacle(_) => Discretisation::NodeToSegment,
             };
-            let group = groups.len();
-            groups.push(Group { between: [first.to_string(), second.to_string()], friction });
-            let forward = Pair { source: a, target, friction, group, discretisation };
+            let named_pair = named_pairs.len();
+            named_pairs.push(NamedPair { between: [first.to_string(), second.to_string()], friction });
+            let forward = Pair { source: a, target, friction, named_pair, discretisation };
             match target {
                 Target::Obstacle(_) => model.pairs.push(forward),
                 Target::Surface(b) if b == a => model.pairs.push(forward),
@@ -95,7 +95,7 @@ pub(super) fn contact<const D: usize>(
             }
         }
     }
-    Ok((model, groups))
+    Ok((model, named_pairs))
 }
 
 /// Refuses a surface that has no two sides everywhere.

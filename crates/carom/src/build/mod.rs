@@ -60,7 +60,7 @@ pub(crate) fn build_with_surfaces<const D: usize>(
     if bodies.is_empty() {
         return Err(InputError::new("bodies", "there is no body; add one [[bodies]] table at least"));
     }
-    let (contact, groups) = contact::contact(scenario, &bodies, surfaces)?;
+    let (contact, named_pairs) = contact::contact(scenario, &bodies, surfaces)?;
     let gravity: Vector<D> = match &scenario.analysis.gravity {
         Some(g) => vector("analysis.gravity", g)?,
         None => Vector::<D>::zeros(),
@@ -70,7 +70,7 @@ pub(crate) fn build_with_surfaces<const D: usize>(
         let message = format!("{:?} has a part across the axis of body {name:?}", gravity.as_slice());
         return Err(InputError::new("analysis.gravity", message + "; let it point along y"));
     }
-    let model = drive::drive(scenario, Model::new(bodies, contact, groups, gravity))?;
+    let model = drive::drive(scenario, Model::new(bodies, contact, named_pairs, gravity))?;
     overlaps::check_overlaps(scenario, &model)?;
     let velocity = velocity::initial_velocity(scenario, &model)?;
     let state = match method.scheme {

@@ -32,7 +32,7 @@ pub(super) fn check_overlaps<const D: usize>(
             if closest.gap >= -TOUCHING * source.body.mesh().smallest_edge() {
                 continue;
             }
-            let [a, b] = &model.assembly.groups[pair.group].between;
+            let [a, b] = &model.assembly.named_pairs[pair.named_pair].between;
             let place = place(&closest.at);
             let index = direction.source;
             return Err(match direction.target {
@@ -86,7 +86,7 @@ fn check_crossings<const D: usize>(model: &Model<D>) -> Result<(), InputError> {
         {
             continue;
         }
-        let [a, b] = &model.assembly.groups[pair.group].between;
+        let [a, b] = &model.assembly.named_pairs[pair.named_pair].between;
         return Err(InputError::new(
             format!("bodies.{}.mesh", pair.source),
             format!(

@@ -7,7 +7,7 @@ use crate::contact::cross_check::CrossCheckSummary;
 use crate::run::events::{ContactEvent, EventLog};
 use crate::run::history::History;
 use crate::run::totals::Totals;
-use crate::{Books, Group, Simulation};
+use crate::{Books, NamedPair, Simulation};
 
 type Done = Result<(), CheckpointError>;
 
@@ -24,7 +24,7 @@ pub(super) fn exchange<const D: usize>(archive: &mut Archive<'_>, run: &mut Simu
     books(archive, &mut run.books)?;
     totals(archive, &mut run.totals)?;
     cross_checks(archive, &mut run.cross_checks)?;
-    events(archive, &run.model.assembly.groups, &mut run.events)?;
+    events(archive, &run.model.assembly.named_pairs, &mut run.events)?;
     history(archive, &mut run.history)?;
     archive.pending("ledger/rows", &mut run.ledger_table.rows)
 }
@@ -76,29 +76,30 @@ fn cross_checks(archive: &mut Archive<'_>, checks: &mut CrossCheckSummary) -> Do
     Ok(())
 }
 
-fn events(archive: &mut Archive<'_>, groups: &[Group], log: &mut EventLog) -> Done {
-    let count = archive.rows("events/group", log.events.len())?;
-    let group_of = |event: &ContactEvent| groups.iter().position(|g| g.between == event.pair).unwrap_or(0);
-    let mut group: Vec<usize> = log.events.iter().map(group_of).collect();
-    group.resize(count, 0);
-    archive.integers("events/group", &mut group)?;
-    if group.iter().any(|&g| g >= groups.len()) {
-        return Err(CheckpointError::new("events/group", "names a pair that is not there"));
+fn events(archive: &mut Archive<'_>, named_pairs: &[NamedPair], log: &mut EventLog) -> Done {
+    let count = archive.rows("events/pair", log.events.len())?;
+    let pair_of =
+        |event: &ContactEvent| named_pairs.iter().position(|g| g.between == event.pair).unwrap_or(0);
+    let mut pairs: Vec<usize> = log.events.iter().map(pair_of).collect();
+    pairs.resize(count, 0);
+    archive.integers("events/pair", &mut pairs)?;
+    if pairs.iter().any(|&g| g >= named_pairs.len()) {
+        return Err(CheckpointError::new("events/pair", "names a pair that is not there"));
     }
     if archive.replays() {
         let event = |&g: &usize| ContactEvent {
-            pair: groups[g].between.clone(),
+            pair: named_pairs[g].between.clone(),
             onset: 0.0,
             release: None,
             peak_force: 0.0,
             friction_work: 0.0,
         };
-        log.events = group.iter().map(event).collect();
+        log.events = pairs.iter().map(event).collect();
     }
     let sizes = log.events.iter_mut().flat_map(|e| [&mut e.onset, &mut e.peak_force, &mut e.friction_work]);
     archive.numbers("events/sizes", sizes)?;
     archive.optional("events/release", log.events.iter_mut().map(|e| &mut e.release))?;
-    // The last event of each group, and until when it lasts.
+    // The last event of each pair, and until when it lasts.
     let mut last: Vec<usize> = log.last.iter().map(|l| l.map_or(0, |(event, _)| event)).collect();
     let mut until: Vec<Option<f64>> = log.last.iter().map(|l| l.map(|(_, until)| until)).collect();
     archive.integers("events/last", &mut last)?;

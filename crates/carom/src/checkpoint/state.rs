@@ -22,7 +22,7 @@ pub(super) fn exchange<const D: usize>(
     archive.vectors("state/internal_force", &mut state.internal_force)?;
     archive.numbers("state/energies", state.energies.terms_mut())?;
     archive.numbers("state/body_energies", state.body_energies.iter_mut().flat_map(|e| e.terms_mut()))?;
-    archive.numbers("state/excess", &mut state.excess)?;
+    archive.numbers("state/energy_debt", &mut state.energy_debt)?;
     archive.plastic("state/plastic", state.history.iter_mut().flatten())?;
     let mut reactions = Reactions::of(&state.reactions);
     reactions.exchange(archive)?;

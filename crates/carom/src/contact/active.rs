@@ -63,7 +63,7 @@ impl<const D: usize> ActiveSet<D> {
                 let inside = inside(c);
                 gap < -inside && contact.is_beyond(c, at_start, inside, &start, search)
             };
-            let active = !c.mirrored
+            let active = !c.redundant
                 && method.condition.is_active(gap, round_off)
                 && answers(assembly, at_start)
                 && !is_beyond();

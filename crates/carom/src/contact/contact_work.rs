@@ -8,7 +8,7 @@ use crate::model::given::Given;
 /// A contact in the eyes of the balance: its bodies, μ, normal reactions at the start and the end of the step, and |w_t|.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactWork {
-    pub group: usize,
+    pub named_pair: usize,
     pub source: usize,
     pub target: Target,
     pub friction: f64,
@@ -58,7 +58,7 @@ pub(crate) fn measure<const D: usize>(
         let w = contact.relative(|n| motion[n]);
         let driven = [start, end].map(|r| driven(given.assembly, contact, &r, motion));
         ContactWork {
-            group: pair.group,
+            named_pair: pair.named_pair,
             source: pair.source,
             target: pair.target,
             friction: pair.friction,

@@ -7,7 +7,7 @@ use crate::model::obstacle_motion::ObstacleMotion;
 
 /// A named pair of bodies, or of a body and an obstacle, that may touch.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Group {
+pub struct NamedPair {
     /// The two names.
     pub between: [String; 2],
     /// Friction coefficient.
@@ -33,7 +33,7 @@ pub struct Assembly<const D: usize> {
     /// Who may touch whom; surface i is that of body i.
     pub contact: ContactModel<D>,
     /// The named pairs that the pairs of `contact` belong to.
-    pub groups: Vec<Group>,
+    pub named_pairs: Vec<NamedPair>,
     /// Reference positions of all nodes [m]; after those of the bodies, zero for every obstacle, whose displacement says how far
     /// it has moved.
     pub reference: Vec<Vector<D>>,
@@ -58,7 +58,7 @@ impl<const D: usize> Assembly<D> {
     /// The assembly of these bodies, whose nodes are numbered one body after the other, and of the contacts between their surfaces;
     /// obstacles stand still.
     #[must_use]
-    pub fn new(members: Vec<Member<D>>, mut contact: ContactModel<D>, groups: Vec<Group>) -> Self {
+    pub fn new(members: Vec<Member<D>>, mut contact: ContactModel<D>, named_pairs: Vec<NamedPair>) -> Self {
         let count: usize = members.iter().map(|m| m.reference.len()).sum();
         for (o, obstacle) in contact.obstacles.iter_mut().enumerate() {
             obstacle.node = (count + o) as u32;
@@ -76,7 +76,7 @@ impl<const D: usize> Assembly<D> {
             diameters: members.iter().map(|m| m.diameter).collect(),
             reference: Vec::with_capacity(count + obstacles),
             contact,
-            groups,
+            named_pairs,
         };
         for (i, member) in members.into_iter().enumerate() {
             let first = assembly.reference.len();

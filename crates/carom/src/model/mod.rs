@@ -12,7 +12,7 @@ use std::sync::Arc;
 use carom_contact::ContactModel;
 use carom_mesh::Vector;
 
-use self::assembly::{Assembly, Group, Member};
+use self::assembly::{Assembly, Member, NamedPair};
 use self::obstacle_motion::ObstacleMotion;
 use self::state::State;
 use crate::body::Body;
@@ -39,7 +39,7 @@ impl<const D: usize> Model<D> {
     pub fn new(
         bodies: Vec<ModelBody<D>>,
         contact: ContactModel<D>,
-        groups: Vec<Group>,
+        named_pairs: Vec<NamedPair>,
         gravity: Vector<D>,
     ) -> Self {
         let member = |b: &ModelBody<D>| Member {
@@ -48,7 +48,7 @@ impl<const D: usize> Model<D> {
             diameter: b.body.mesh().diameter(),
             held: b.held(),
         };
-        let assembly = Assembly::new(bodies.iter().map(member).collect(), contact, groups);
+        let assembly = Assembly::new(bodies.iter().map(member).collect(), contact, named_pairs);
         let bodies = bodies.into_iter().map(|b| Arc::new(ModelBody { gravity, ..b })).collect();
         Self { assembly, bodies, motions: Vec::new() }
     }

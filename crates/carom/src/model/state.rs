@@ -69,7 +69,7 @@ pub struct State<const D: usize> {
     /// Those of every body.
     pub body_energies: Vec<Energies>,
     /// Energy of every body [J] that the blend of start and end stresses has yet to take back; round-off as a rule.
-    pub excess: Vec<f64>,
+    pub energy_debt: Vec<f64>,
 }
 
 impl<const D: usize> State<D> {
@@ -100,7 +100,7 @@ impl<const D: usize> State<D> {
             internal_force: zeros,
             energies: Energies::default(),
             body_energies: vec![Energies::default(); bodies.len()],
-            excess: vec![0.0; bodies.len()],
+            energy_debt: vec![0.0; bodies.len()],
         };
         state.refresh(assembly, bodies);
         state
@@ -144,7 +144,7 @@ impl<const D: usize> State<D> {
     pub fn is_finite(&self) -> bool {
         let vectors =
             [&self.displacement, &self.velocity, &self.internal_force, &self.contact_force, &self.support];
-        let numbers = [&self.friction_energy, &self.slip, &self.excess];
+        let numbers = [&self.friction_energy, &self.slip, &self.energy_debt];
         vectors.into_iter().all(|vectors| nodal::is_finite(vectors))
             && numbers.into_iter().flatten().all(|x| x.is_finite())
             && self.energies.kinetic.is_finite()

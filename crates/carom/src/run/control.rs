@@ -123,7 +123,7 @@ fn check_debt<const D: usize>(
     energy: f64,
     report: &StepReport,
 ) -> Result<(), StepError> {
-    let debt = |state: &State<D>| state.excess.iter().map(|e| e.abs()).sum::<f64>();
+    let debt = |state: &State<D>| state.energy_debt.iter().map(|e| e.abs()).sum::<f64>();
     let missing = debt(next) - debt(state);
     let given = report.ledger.external.abs() + report.ledger.prescribed.abs();
     let allowed = LARGEST_DEBT * energy.max(next.energies.total()).max(given);

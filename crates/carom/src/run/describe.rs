@@ -87,19 +87,19 @@ pub(crate) fn describe<const D: usize>(
         .collect();
     let at = |n: u32| model.assembly.reference[n as usize] + state.displacement[n as usize];
     let mut pairs: Vec<PairDescription> = Vec::new();
-    for (g, group) in model.assembly.groups.iter().enumerate() {
+    for (g, pair) in model.assembly.named_pairs.iter().enumerate() {
         let closest = model
             .assembly
             .contact
             .pairs
             .iter()
-            .filter(|p| p.group == g)
+            .filter(|p| p.named_pair == g)
             .filter_map(|p| model.assembly.contact.proximity(p, &at))
             .min_by(|a, b| a.gap.total_cmp(&b.gap));
         if let Some(closest) = closest {
             pairs.push(PairDescription {
-                between: group.between.clone(),
-                friction: group.friction,
+                between: pair.between.clone(),
+                friction: pair.friction,
                 initial_gap: closest.gap,
                 at: closest.at.iter().copied().collect(),
             });

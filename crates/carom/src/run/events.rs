@@ -2,8 +2,8 @@ use serde::Serialize;
 
 use carom_contact::Target;
 
-use crate::step::report::GroupReport;
-use crate::{Group, Model, Scheme};
+use crate::step::report::PairReport;
+use crate::{Model, NamedPair, Scheme};
 
 /// Steps of a dynamic analysis for which a pair that stays in contact may be without a reaction: one that rests under `midpoint` has none in
 /// every second step.
@@ -24,13 +24,13 @@ pub struct ContactEvent {
     pub friction_work: f64,
 }
 
-/// Follows the contacts of all groups.
+/// Follows the contacts of all named pairs.
 #[derive(Debug)]
 pub(crate) struct EventLog {
-    /// For each group: contacts less than this apart are one [s].
+    /// For each named pair: contacts less than this apart are one [s].
     merge: Vec<f64>,
     pub events: Vec<ContactEvent>,
-    /// For each group: its last event and the end of the last step with a reaction.
+    /// For each named pair: its last event and the end of the last step with a reaction.
     pub last: Vec<Option<(usize, f64)>>,
 }
 
@@ -38,25 +38,25 @@ impl EventLog {
     /// A log that takes contacts less than `merge` [s] apart for one. Without it a dynamic analysis in steps of `dt` [s] takes the time of
     /// the bodies themselves, see [`crossing_time`]; the time of a static one does not say how long anything lasts, and nothing is merged there.
     pub fn new<const D: usize>(model: &Model<D>, scheme: Scheme, dt: f64, merge: Option<f64>) -> Self {
-        let own = |group| match scheme {
+        let own = |pair| match scheme {
             Scheme::Static => 0.0,
-            _ => crossing_time(model, group).max(FLICKER * dt),
+            _ => crossing_time(model, pair).max(FLICKER * dt),
         };
-        let groups = 0..model.assembly.groups.len();
+        let named_pairs = 0..model.assembly.named_pairs.len();
         Self {
-            merge: groups.map(|group| merge.unwrap_or_else(|| own(group))).collect(),
+            merge: named_pairs.map(|pair| merge.unwrap_or_else(|| own(pair))).collect(),
             events: Vec::new(),
-            last: vec![None; model.assembly.groups.len()],
+            last: vec![None; model.assembly.named_pairs.len()],
         }
     }
 
-    /// How close contacts of a group are that count as one [s].
-    pub fn merge(&self, group: usize) -> f64 {
-        self.merge[group]
+    /// How close contacts of a pair are that count as one [s].
+    pub fn merge(&self, named_pair: usize) -> f64 {
+        self.merge[named_pair]
     }
 
-    /// Records what the groups did in a step from `start` to `end` [s].
-    pub fn record(&mut self, groups: &[Group], reports: &[GroupReport], start: f64, end: f64) {
+    /// Records what the named pairs did in a step from `start` to `end` [s].
+    pub fn record(&mut self, named_pairs: &[NamedPair], reports: &[PairReport], start: f64, end: f64) {
         for (g, report) in reports.iter().enumerate() {
             if report.normal_force <= 0.0 {
                 // A reaction that is gone by the end of the step may still have rubbed in it.
@@ -69,7 +69,7 @@ impl EventLog {
                 Some((event, until)) if start <= until || start - until < self.merge[g] => event,
                 _ => {
                     self.events.push(ContactEvent {
-                        pair: groups[g].between.clone(),
+                        pair: named_pairs[g].between.clone(),
                         onset: end,
                         release: None,
                         peak_force: 0.0,
@@ -98,15 +98,15 @@ impl EventLog {
     }
 }
 
-/// How long a pressure wave takes along the longest side of a body of the group [s], of the body where that is shortest. While waves are on
+/// How long a pressure wave takes along the longest side of a body of the pair [s], of the body where that is shortest. While waves are on
 /// their way a contact may open and close again; who is out of it for longer has parted.
-fn crossing_time<const D: usize>(model: &Model<D>, group: usize) -> f64 {
+fn crossing_time<const D: usize>(model: &Model<D>, named_pair: usize) -> f64 {
     let of_body = |index: usize| {
         let body = &model.bodies[index].body;
         let (low, high) = body.mesh().bounds();
         (high - low).max() / body.wave_speed()
     };
-    let pairs = model.assembly.contact.pairs.iter().filter(|pair| pair.group == group);
+    let pairs = model.assembly.contact.pairs.iter().filter(|pair| pair.named_pair == named_pair);
     let bodies = pairs.flat_map(|pair| {
         let target = match pair.target {
             Target::Surface(target) => Some(target),
@@ -123,10 +123,10 @@ mod tests {
     use super::*;
     use crate::PairLedger;
 
-    fn record(log: &mut EventLog, groups: &[Group], force: f64, start: f64, end: f64) {
+    fn record(log: &mut EventLog, named_pairs: &[NamedPair], force: f64, start: f64, end: f64) {
         log.record(
-            groups,
-            &[GroupReport {
+            named_pairs,
+            &[PairReport {
                 normal_force: force,
                 ledger: PairLedger { friction: 0.5, ..PairLedger::default() },
             }],
@@ -137,12 +137,12 @@ mod tests {
 
     #[test]
     fn flickers_are_one_event_and_a_later_impact_is_another() {
-        let groups = vec![Group { between: ["a".into(), "b".into()], friction: 0.0 }];
+        let named_pairs = vec![NamedPair { between: ["a".into(), "b".into()], friction: 0.0 }];
         let mut log = EventLog { merge: vec![0.03], events: vec![], last: vec![None] };
-        record(&mut log, &groups, 3.0, 0.99, 1.00);
-        record(&mut log, &groups, 0.0, 1.00, 1.01);
-        record(&mut log, &groups, 5.0, 1.01, 1.02);
-        record(&mut log, &groups, 4.0, 2.00, 2.01);
+        record(&mut log, &named_pairs, 3.0, 0.99, 1.00);
+        record(&mut log, &named_pairs, 0.0, 1.00, 1.01);
+        record(&mut log, &named_pairs, 5.0, 1.01, 1.02);
+        record(&mut log, &named_pairs, 4.0, 2.00, 2.01);
         let events = log.events(2.01);
         assert_eq!(events.len(), 2);
         assert_eq!((events[0].onset, events[0].release), (1.00, Some(1.02)));

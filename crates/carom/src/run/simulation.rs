@@ -162,7 +162,7 @@ impl<const D: usize> Simulation<D> {
             history_rows: 0,
             last_recorded: None,
             initial_energies: state.body_energies.clone(),
-            books: Books::new(model.bodies.len(), model.assembly.groups.len()),
+            books: Books::new(model.bodies.len(), model.assembly.named_pairs.len()),
             ledger_table: LedgerTable::default(),
             totals: Totals::new(&state.energies),
             cross_checks: CrossCheckSummary::default(),
@@ -301,11 +301,11 @@ impl<const D: usize> Simulation<D> {
         *nominal_step = NominalStep::default();
         let mut stepper = Stepper { model, method, state, spare, work, halvings, failed: 0 };
         let outcome = stepper.advance(nominal, |state, report, work| {
-            books.add(report.ledger, &work.body_ledgers, work.groups.iter().map(|g| g.ledger));
+            books.add(report.ledger, &work.body_ledgers, work.pair_reports.iter().map(|g| g.ledger));
             books.set_changes(initial_energies, &state.body_energies);
             *last_step = Some(report.ledger);
             nominal_step.note(report);
-            events.record(&model.assembly.groups, &work.groups, previous_time, state.time);
+            events.record(&model.assembly.named_pairs, &work.pair_reports, previous_time, state.time);
             history.observe(report, state, state.time - previous_time);
             report.cross_check.iter().for_each(|check| cross_checks.note(check, state.time));
             previous_time = state.time;

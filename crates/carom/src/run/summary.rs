@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::contact::cross_check::CrossCheckSummary;
-use crate::model::assembly::Group;
+use crate::model::assembly::NamedPair;
 use crate::run::events::ContactEvent;
 use crate::{BodyLedger, Energies, Ledger, PairLedger, Simulation};
 
@@ -73,8 +73,8 @@ pub struct PairSummary {
 }
 
 impl PairSummary {
-    fn new(group: &Group, merge_contacts: f64, ledger: &PairLedger) -> Self {
-        Self { between: group.between.clone(), merge_contacts, ledger: *ledger }
+    fn new(named_pair: &NamedPair, merge_contacts: f64, ledger: &PairLedger) -> Self {
+        Self { between: named_pair.between.clone(), merge_contacts, ledger: *ledger }
     }
 }
 
@@ -156,7 +156,7 @@ impl<const D: usize> Simulation<D> {
             pairs: self
                 .model
                 .assembly
-                .groups
+                .named_pairs
                 .iter()
                 .zip(&self.books.pairs)
                 .enumerate()

@@ -44,9 +44,9 @@ impl Blend {
         }
     }
 
-    /// α of every group of bodies in contact among `bodies`, which `contacts` are all of. `excess` is the energy of every body [J] that steps before left over and
+    /// α of every group of bodies in contact among `bodies`, which `contacts` are all of. `energy_debt` is the energy of every body [J] that steps before left over and
     /// `energy` that of the model: where little can be moved, as in nearly rigid flight, it waits for a step where there is more.
-    pub fn weigh(&mut self, bodies: &[usize], contacts: &[ContactWork], excess: &[f64], energy: f64) {
+    pub fn weigh(&mut self, bodies: &[usize], contacts: &[ContactWork], energy_debt: &[f64], energy: f64) {
         for &i in bodies {
             (self.leader[i], self.groups[i]) = (i, Balance::default());
         }
@@ -61,7 +61,7 @@ impl Blend {
         }
         for &i in bodies {
             let group = &mut self.groups[leader_of(&self.leader, i)];
-            group.missing += self.balances[i].missing + excess[i];
+            group.missing += self.balances[i].missing + energy_debt[i];
             group.available += self.balances[i].available;
         }
         for c in contacts {
@@ -78,23 +78,26 @@ impl Blend {
         }
     }
 
-    /// Adds what a step left over to `excess`: `surplus` of every body and what friction took, group by group.
+    /// Adds what a step left over to `energy_debt`: `surplus` of every body and what friction took, group by group.
     pub fn carry(
         &mut self,
         surplus: impl Iterator<Item = f64>,
         contacts: &[ContactWork],
-        excess: &mut [f64],
+        energy_debt: &mut [f64],
     ) {
         self.groups.fill(Balance::default());
         for (i, surplus) in surplus.enumerate() {
-            self.groups[leader_of(&self.leader, i)].missing += excess[i] + surplus;
+            self.groups[leader_of(&self.leader, i)].missing += energy_debt[i] + surplus;
         }
         for c in contacts {
             let weight = self.weight[c.source];
             let group = &mut self.groups[leader_of(&self.leader, c.source)];
             group.missing += c.dissipation(weight) - c.prescribed(weight);
         }
-        excess.iter_mut().zip(&self.groups).for_each(|(excess, group)| *excess = group.missing);
+        energy_debt
+            .iter_mut()
+            .zip(&self.groups)
+            .for_each(|(energy_debt, group)| *energy_debt = group.missing);
     }
 
     fn leader_of(&self, body: usize) -> usize {

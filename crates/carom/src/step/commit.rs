@@ -4,7 +4,7 @@ use carom_contact::{Candidate, Contact, shares};
 use carom_friction::cone;
 use carom_mesh::Vector;
 
-use super::report::{GroupReport, StepReport};
+use super::report::{PairReport, StepReport};
 use super::workspace::Workspace;
 use crate::body::BodyEnd;
 use crate::contact::Contacts;
@@ -39,9 +39,9 @@ pub(super) fn commit<const D: usize>(
     for body in &work.body_ledgers {
         report.ledger.add_body(body);
     }
-    for group in &work.groups {
-        report.ledger.add_pair(&group.ledger);
-        report.normal_force += group.normal_force;
+    for pair in &work.pair_reports {
+        report.ledger.add_pair(&pair.ledger);
+        report.normal_force += pair.normal_force;
     }
     if !next.is_finite() {
         return Err(StepError::NotFinite("state"));
@@ -106,7 +106,7 @@ fn close_bodies<const D: usize>(given: &Given<'_, D>, next: &mut State<D>, work:
     }
 }
 
-/// Books the work of the reactions of every group.
+/// Books the work of the reactions of every pair.
 fn close_contacts<const D: usize>(
     given: &Given<'_, D>,
     next: &mut State<D>,
@@ -114,19 +114,19 @@ fn close_contacts<const D: usize>(
     report: &mut StepReport,
 ) {
     let Given { assembly, state, interval, .. } = *given;
-    let Workspace { contacts, blend, motion, groups, body_ledgers, .. } = work;
-    groups.fill(GroupReport::default());
-    let group_of = |reaction: &Reaction<D>| assembly.contact.pairs[reaction.pair as usize].group;
+    let Workspace { contacts, blend, motion, pair_reports, body_ledgers, .. } = work;
+    pair_reports.fill(PairReport::default());
+    let pair_of = |reaction: &Reaction<D>| assembly.contact.pairs[reaction.pair as usize].named_pair;
     for reaction in &next.reactions {
-        let group = &mut groups[group_of(reaction)];
-        group.normal_force += reaction.force[0];
-        group.ledger.has_touched = true;
+        let report = &mut pair_reports[pair_of(reaction)];
+        report.normal_force += reaction.force[0];
+        report.ledger.has_touched = true;
     }
     next.slip.copy_from_slice(&state.slip);
     contacts.slip.add(&next.reactions, motion, &mut next.slip);
     next.friction_energy.copy_from_slice(&state.friction_energy);
-    let mut book = |group: &mut GroupReport, contact: &Contact<D>, dissipation: f64| {
-        group.ledger.friction += dissipation;
+    let mut book = |pair: &mut PairReport, contact: &Contact<D>, dissipation: f64| {
+        pair.ledger.friction += dissipation;
         report.least_friction = report.least_friction.min(dissipation);
         deposit(assembly, contact, dissipation, &mut next.friction_energy);
     };
@@ -136,14 +136,14 @@ fn close_contacts<const D: usize>(
         let lost = contacts.active.lost.iter().map(|&k| &state.reactions[k].contact);
         for (c, contact) in contacts.work.iter().zip(contacts.active.contacts.iter().chain(lost)) {
             let weight = blend.weight[c.source];
-            groups[c.group].ledger.prescribed += c.prescribed(weight);
-            book(&mut groups[c.group], contact, c.dissipation(weight));
+            pair_reports[c.named_pair].ledger.prescribed += c.prescribed(weight);
+            book(&mut pair_reports[c.named_pair], contact, c.dissipation(weight));
         }
-        next.excess.copy_from_slice(&state.excess);
+        next.energy_debt.copy_from_slice(&state.energy_debt);
         let surplus = body_ledgers
             .iter()
             .map(|b| b.kinetic + b.strain + b.viscous + b.plastic - b.external - b.prescribed);
-        blend.carry(surplus, &contacts.work, &mut next.excess);
+        blend.carry(surplus, &contacts.work, &mut next.energy_debt);
         return;
     }
     let [start, end] = interval.contact_weights;
@@ -153,11 +153,11 @@ fn close_contacts<const D: usize>(
         }
         for Reaction { contact, force, pair, .. } in reactions {
             let w = contact.relative(|n| motion[n]);
-            let group = &mut groups[assembly.contact.pairs[*pair as usize].group];
-            group.ledger.normal_contact -= share * force[0] * w[0];
-            group.ledger.prescribed += share * driven(assembly, contact, force, motion);
+            let report = &mut pair_reports[assembly.contact.pairs[*pair as usize].named_pair];
+            report.ledger.normal_contact -= share * force[0] * w[0];
+            report.ledger.prescribed += share * driven(assembly, contact, force, motion);
             let dissipation = -share * (1..D).map(|t| force[t] * w[t]).sum::<f64>();
-            book(group, contact, dissipation);
+            book(report, contact, dissipation);
         }
     }
 }

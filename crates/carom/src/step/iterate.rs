@@ -118,7 +118,7 @@ fn weigh_blend<const D: usize>(
     }
     let touched = bodies.iter().any(|&i| contacts.active.touched[i]);
     let contact_work = if touched { contacts.measure_work(given, motion) } else { &[] };
-    blend.weigh(bodies, contact_work, &given.state.excess, given.state.energies.total());
+    blend.weigh(bodies, contact_work, &given.state.energy_debt, given.state.energies.total());
 }
 
 /// Adds the reactions known so far to the residuals of the `bodies`, and starts to solve for their corrections.

@@ -1,9 +1,9 @@
 use crate::contact::cross_check::CrossCheck;
 use crate::ledger::{Ledger, PairLedger};
 
-/// What one group of contacts did in a step.
+/// What a pair did in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct GroupReport {
+pub struct PairReport {
     /// Sum of the normal reactions [N].
     pub normal_force: f64,
     /// What happened to the energy.

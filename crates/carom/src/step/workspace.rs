@@ -4,7 +4,7 @@ use carom_mesh::Vector;
 
 use super::blend::Blend;
 use super::newton::Newton;
-use super::report::GroupReport;
+use super::report::PairReport;
 use crate::body::Body;
 use crate::contact::{Contacts, PosedProblem};
 use crate::ledger::BodyLedger;
@@ -20,8 +20,8 @@ pub struct Workspace<const D: usize> {
     pub(crate) blend: Blend,
     /// d = u₊ − u [m] of all nodes and obstacles.
     pub(crate) motion: Vec<Vector<D>>,
-    /// What the groups did in the last step, in the order of the assembly.
-    pub groups: Vec<GroupReport>,
+    /// What the pair_reports did in the last step, in the order of the assembly.
+    pub pair_reports: Vec<PairReport>,
     /// What happened to the energy of each body in the last step.
     pub body_ledgers: Vec<BodyLedger>,
     /// Factorisations made so far.
@@ -43,7 +43,7 @@ impl<const D: usize> Workspace<D> {
             newton: Newton::new(assembly),
             blend: Blend::new(bodies.len()),
             motion: vec![Vector::zeros(); assembly.reference.len()],
-            groups: vec![GroupReport::default(); assembly.groups.len()],
+            pair_reports: vec![PairReport::default(); assembly.named_pairs.len()],
             body_ledgers: vec![BodyLedger::default(); bodies.len()],
             factorisations: 0,
             bodies,

@@ -67,7 +67,7 @@ impl<const D: usize> Blocks<D> {
         let first_node = [0, upper as u32];
         let surfaces = self.bodies.iter().zip(first_node).map(|(b, n)| ContactSurface::new(b.surface(), n));
         let target = Target::Surface(1 - source);
-        let pair = Pair { source, target, friction: 0.0, group: 0, discretisation };
+        let pair = Pair { source, target, friction: 0.0, named_pair: 0, discretisation };
         let model = ContactModel::<D> { surfaces: surfaces.collect(), obstacles: vec![], pairs: vec![pair] };
         let (stiffness, load, prescribed) = self.system();
         let factor = stiffness.lu();

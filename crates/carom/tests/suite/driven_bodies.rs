@@ -250,25 +250,25 @@ fn block_pressed_on_a_shaking_floor_keeps_the_books() {
                 source: 0,
                 target: Target::Obstacle(0),
                 friction: 0.4,
-                group: 0,
+                named_pair: 0,
                 discretisation: Discretisation::NodeToSegment,
             }],
         };
-        let groups = vec![carom::Group { between: ["part".into(), "floor".into()], friction: 0.4 }];
+        let named_pairs = vec![carom::NamedPair { between: ["part".into(), "floor".into()], friction: 0.4 }];
         let bodies = vec![ModelBody::new("part", body, 0)];
         let pressed = [Some(Signal::Constant(0.0)), Some(formula("-0.05*(1 - cos(2*pi*t))"))];
         // The left side slides along a wall: its lower corner is a contact that cannot answer along the floor.
         let guided = [Some(Signal::Constant(0.0)), None];
         let floor =
             ObstacleMotion::Displacement(Box::new([formula("0.05*sin(8*t)"), formula("-0.02*sin(9*t)")]));
-        let model = Model::new(bodies, contact, groups, Vector::zeros())
+        let model = Model::new(bodies, contact, named_pairs, Vector::zeros())
             .with_motions(vec![motion(top, pressed), motion(side, guided)])
             .with_obstacle_motions(vec![floor]);
         let mut friction = 0.0;
         let mut lowest: f64 = 0.0;
         let (state, defect, [_, prescribed]) =
             run(&model, &method(Scheme::Conserving, condition), 300, 2e-3, |state, work| {
-                friction += work.groups[0].ledger.friction;
+                friction += work.pair_reports[0].ledger.friction;
                 let floor = state.displacement[model.node_count()][1];
                 for n in 0..model.node_count() {
                     lowest = lowest.min(model.assembly.reference[n][1] + state.displacement[n][1] - floor);

@@ -1,8 +1,8 @@
 //! A body that is not of finite elements: a point mass on a spring. The step knows nothing of cells, and so takes it as any other.
 
 use carom::{
-    Assembly, Body, BodyEnd, BodyLedger, BodyState, ContactCondition, Energies, Forecast, Group, Guess,
-    Interval, Member, Method, NewtonRule, Scheme, State, StepError, StressRule, Workspace, step,
+    Assembly, Body, BodyEnd, BodyLedger, BodyState, ContactCondition, Energies, Forecast, Guess, Interval,
+    Member, Method, NamedPair, NewtonRule, Scheme, State, StepError, StressRule, Workspace, step,
 };
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
@@ -152,7 +152,7 @@ fn setting(stiffness: f64, gravity: f64, obstacle: Obstacle<2>, friction: f64) -
         source: 0,
         target: Target::Obstacle(0),
         friction,
-        group: 0,
+        named_pair: 0,
         discretisation: Discretisation::NodeToSegment,
     };
     let contact = ContactModel {
@@ -162,9 +162,9 @@ fn setting(stiffness: f64, gravity: f64, obstacle: Obstacle<2>, friction: f64) -
     };
     let member =
         Member { name: "mass".into(), reference: vec![Vector::zeros()], diameter: 1.0, held: Vec::new() };
-    let groups = vec![Group { between: ["mass".into(), "obstacle".into()], friction }];
+    let named_pairs = vec![NamedPair { between: ["mass".into(), "obstacle".into()], friction }];
     let body = PointMass { stiffness, gravity: Vector::<2>::new(0.0, -gravity), ..PointMass::default() };
-    Setting { assembly: Assembly::new(vec![member], contact, groups), bodies: vec![Box::new(body)] }
+    Setting { assembly: Assembly::new(vec![member], contact, named_pairs), bodies: vec![Box::new(body)] }
 }
 
 fn method(scheme: Scheme, condition: ContactCondition) -> Method<2> {

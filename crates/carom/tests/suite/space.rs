@@ -1,7 +1,8 @@
 //! The same step in 3D: a cube of hexahedra dropped on a plane and on another cube.
 
 use carom::{
-    ContactCondition, Group, Method, Model, ModelBody, NewtonRule, Scheme, Simulation, State, Workspace, step,
+    ContactCondition, Method, Model, ModelBody, NamedPair, NewtonRule, Scheme, Simulation, State, Workspace,
+    step,
 };
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
 use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
@@ -53,8 +54,8 @@ fn model(bodies: Vec<ModelBody<3>>, obstacles: Vec<Obstacle<3>>, pairs: Vec<Pair
         obstacles,
         pairs,
     };
-    let groups = vec![Group { between: ["a".into(), "b".into()], friction: 0.3 }];
-    Model::new(bodies, contact, groups, Vector::zeros())
+    let named_pairs = vec![NamedPair { between: ["a".into(), "b".into()], friction: 0.3 }];
+    Model::new(bodies, contact, named_pairs, Vector::zeros())
 }
 
 fn method(condition: ContactCondition) -> Method<3> {
@@ -103,7 +104,7 @@ fn cube_with_friction_on_a_plane_loses_what_friction_and_contact_take() {
         source: 0,
         target: Target::Obstacle(0),
         friction: 0.3,
-        group: 0,
+        named_pair: 0,
         discretisation: Discretisation::NodeToSegment,
     };
     let model = model(vec![cube("cube", [0.0, 0.0, 0.00513], 0)], vec![floor], vec![pair]);
@@ -131,7 +132,7 @@ fn cubes_with_facing_quadrilaterals_exchange_momentum() {
         source: 1,
         target: Target::Surface(0),
         friction: 0.0,
-        group: 0,
+        named_pair: 0,
         discretisation: Discretisation::NodeToSegment,
     };
     let model = model(vec![a, b], vec![], vec![pair]);
@@ -155,7 +156,7 @@ fn massless_cube_conserves_energy_and_momenta_and_does_not_penetrate() {
             source: 0,
             target: Target::Obstacle(0),
             friction,
-            group: 0,
+            named_pair: 0,
             discretisation: Discretisation::NodeToSegment,
         };
         let cube = massless_cube("cube", [0.0, 0.0, 0.00513], 0);
@@ -189,7 +190,7 @@ fn massless_cubes_conserve_energy_and_momenta() {
         source: 1,
         target: Target::Surface(0),
         friction: 0.0,
-        group: 0,
+        named_pair: 0,
         discretisation: Discretisation::NodeToSegment,
     };
     let model = model(vec![a, b], vec![], vec![pair]);
@@ -228,7 +229,7 @@ fn boxes_of_wedges_fall_and_slide_with_their_books_closed() {
         let nodes = a.body.node_count();
         let b = block_of(CellKind::Hex8, "b", above(1.0113, 0.13), nodes, 2, false);
         let discretisation = Discretisation::NodeToSegment;
-        let pair = |source, target| Pair { source, target, friction: 0.3, group: 0, discretisation };
+        let pair = |source, target| Pair { source, target, friction: 0.3, named_pair: 0, discretisation };
         let pairs = vec![pair(0, Target::Obstacle(0)), pair(1, Target::Surface(0))];
         let floor = Obstacle::plane(Vector::zeros(), normal, u32::MAX);
         let model = model(vec![a, b], vec![floor], pairs);

@@ -29,7 +29,7 @@ impl<const D: usize> BlendedForces<D> {
         }
         let body = equation.body;
         let Self { conserving, difference, end, middle, arms } = self;
-        equation.worked.step_forces(
+        equation.with_history.step_forces(
             equation.start,
             equation.displacement,
             &mut StepForces { conserving, difference, end },

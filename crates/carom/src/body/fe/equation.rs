@@ -1,6 +1,6 @@
 //! The equation of motion of one body over a step.
 
-use carom_fem::{Body, Worked};
+use carom_fem::{Body, BodyWithHistory};
 use carom_mesh::{Matrix, Vector, nodal};
 
 use super::drive::Drive;
@@ -15,7 +15,7 @@ pub(crate) const STEADYING: f64 = 0.1;
 pub(crate) struct Equation<'a, const D: usize> {
     pub body: &'a Body<D>,
     /// The body with the history of its material at the start.
-    pub worked: Worked<'a, D>,
+    pub with_history: BodyWithHistory<'a, D>,
     pub map: &'a StepMap,
     gravity: &'a Vector<D>,
     /// Loads and prescribed velocities.
@@ -84,7 +84,7 @@ impl<'a, const D: usize> Equation<'a, D> {
         let start = &guess.start;
         Self {
             body: &part.body,
-            worked: part.body.after(start.history),
+            with_history: part.body.after(start.history),
             map: &guess.interval.map,
             gravity: &part.gravity,
             drive,
@@ -108,13 +108,13 @@ impl<'a, const D: usize> Equation<'a, D> {
         let map = self.map;
         match map.stress {
             StressRule::Weighted => {
-                self.worked.internal_force(self.displacement, &mut scratch.force);
+                self.with_history.internal_force(self.displacement, &mut scratch.force);
                 nodal::each(out, [self.internal_force, &scratch.force], |out, [f0, f1]| {
                     *out -= f0 * (1.0 - map.xi) + f1 * map.xi;
                 });
             }
             StressRule::Conserving => {
-                self.worked.conserving_force(self.start, self.displacement, &mut scratch.force);
+                self.with_history.conserving_force(self.start, self.displacement, &mut scratch.force);
                 nodal::each(out, [&scratch.force], |out, [f]| *out -= f);
             }
         }

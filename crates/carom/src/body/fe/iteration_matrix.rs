@@ -2,7 +2,7 @@
 
 use carom_fem::material::PlasticState;
 use carom_fem::sparse::{Inverse, NodalMatrix, Precision};
-use carom_fem::{Body, Held, Worked};
+use carom_fem::{Body, BodyWithHistory, Held};
 use carom_mesh::{Matrix, Vector, nodal};
 
 use super::equation::STEADYING;
@@ -173,8 +173,8 @@ impl<const D: usize> IterationMatrix<D> {
             return Err(CheckpointError::new(&name("dt"), "is not positive"));
         }
         let precision = if is_double { Precision::Double } else { Precision::Single };
-        let worked = body.after(&origin.history);
-        self.factorize(&worked, &map(origin.dt), &origin.displacement, &origin.frame, precision)
+        let with_history = body.after(&origin.history);
+        self.factorize(&with_history, &map(origin.dt), &origin.displacement, &origin.frame, precision)
             .map_err(|e| CheckpointError::new(&name("displacement"), e.to_string()))?;
         Ok(true)
     }
@@ -192,15 +192,15 @@ impl<const D: usize> IterationMatrix<D> {
     /// reference configuration, turned, serves there: slower, but it never is.
     pub fn factorize(
         &mut self,
-        worked: &Worked<'_, D>,
+        with_history: &BodyWithHistory<'_, D>,
         map: &StepMap,
         u: &[Vector<D>],
         frame: &Matrix<D>,
         precision: Precision,
     ) -> Result<(), StepError> {
-        self.factorize_at(worked, map, u, frame, precision).or_else(|_| {
+        self.factorize_at(with_history, map, u, frame, precision).or_else(|_| {
             self.factorize_at(
-                &worked.body.after(&[]),
+                &with_history.body.after(&[]),
                 map,
                 &vec![Vector::zeros(); u.len()],
                 &Matrix::identity(),
@@ -211,21 +211,21 @@ impl<const D: usize> IterationMatrix<D> {
         })?;
         let Origin { displacement, history, .. } = &mut self.origin;
         displacement.copy_from_slice(u);
-        history.copy_from_slice(worked.history());
+        history.copy_from_slice(with_history.history());
         (self.origin.dt, self.origin.precision, self.origin.frame) = (map.dt, precision, *frame);
         Ok(())
     }
 
     fn factorize_at(
         &mut self,
-        worked: &Worked<'_, D>,
+        with_history: &BodyWithHistory<'_, D>,
         map: &StepMap,
         u: &[Vector<D>],
         frame: &Matrix<D>,
         precision: Precision,
     ) -> Result<(), StepError> {
-        let body = worked.body;
-        let mut stiffness = worked.stiffness(u);
+        let body = with_history.body;
+        let mut stiffness = with_history.stiffness(u);
         for (&n, k) in body.massless().iter().zip(body.massless_stiffness()) {
             stiffness.values[body.graph().entry(n, n)] += Matrix::from_diagonal_element(STEADYING * k);
         }

@@ -72,8 +72,8 @@ impl<const D: usize> FeBody<D> {
         history: &[PlasticState],
         precision: Precision,
     ) -> Result<(), StepError> {
-        let worked = self.part.body.after(history);
-        self.matrix.factorize(&worked, &interval.map, &self.middle, &self.pose.frame, precision)
+        let with_history = self.part.body.after(history);
+        self.matrix.factorize(&with_history, &interval.map, &self.middle, &self.pose.frame, precision)
     }
 
     /// The work of supports [J], whose forces are added to `support` [N], at the final motion of a step.
@@ -119,12 +119,12 @@ impl<const D: usize> Body<D> for FeBody<D> {
 
     fn measure(&self, state: &BodyState<'_, D>, internal_force: &mut [Vector<D>]) -> Energies {
         let body = &self.part.body;
-        let worked = body.after(state.history);
-        worked.internal_force(state.displacement, internal_force);
+        let with_history = body.after(state.history);
+        with_history.internal_force(state.displacement, internal_force);
         let mut momentum = vec![Vector::zeros(); body.node_count()];
         body.mass().multiply(state.velocity, &mut momentum);
         Energies {
-            strain: worked.strain_energy(state.displacement),
+            strain: with_history.strain_energy(state.displacement),
             kinetic: 0.5 * nodal::dot(state.velocity, &momentum),
         }
     }
@@ -236,8 +236,9 @@ impl<const D: usize> Body<D> for FeBody<D> {
         });
         if exchanged.is_none() {
             // After plastic flow the stored energy is another: that of the new history.
-            let energy = equation.worked.internal_force_and_energy(guess.displacement, end.internal_force);
-            elastic = equation.worked.is_virgin().then_some(energy);
+            let energy =
+                equation.with_history.internal_force_and_energy(guess.displacement, end.internal_force);
+            elastic = equation.with_history.is_virgin().then_some(energy);
         }
         let mut prescribed = 0.0;
         if is_held {
@@ -248,7 +249,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         let (body, held) = (&part.body, part.body.held());
         body.mass().multiply(end.velocity, momentum);
         let kinetic = 0.5 * nodal::dot(end.velocity, momentum);
-        let plastic = equation.worked.update(guess.displacement, end.history);
+        let plastic = equation.with_history.update(guess.displacement, end.history);
         let strain = elastic.unwrap_or_else(|| body.after(end.history).strain_energy(guess.displacement));
         let (external, viscous) = equation.external_and_viscous_work(scratch);
         let mut scheme = 0.0;

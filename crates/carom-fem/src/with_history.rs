@@ -10,13 +10,13 @@ use crate::sparse::NodalMatrix;
 /// All forces and energies are those of a step that starts from this history. Of an elastic body, and of one that is virgin, the
 /// history is empty.
 #[derive(Debug, Clone, Copy)]
-pub struct Worked<'a, const D: usize> {
+pub struct BodyWithHistory<'a, const D: usize> {
     /// The body.
     pub body: &'a Body<D>,
     history: &'a [PlasticState],
 }
 
-impl<'a, const D: usize> Worked<'a, D> {
+impl<'a, const D: usize> BodyWithHistory<'a, D> {
     /// What the material remembers, quadrature point by quadrature point.
     #[must_use]
     pub fn history(&self) -> &'a [PlasticState] {
@@ -97,8 +97,8 @@ impl<'a, const D: usize> Worked<'a, D> {
 impl<const D: usize> Body<D> {
     /// The body with what its material remembers, quadrature point by quadrature point.
     #[must_use]
-    pub fn after<'a>(&'a self, history: &'a [PlasticState]) -> Worked<'a, D> {
-        Worked { body: self, history }
+    pub fn after<'a>(&'a self, history: &'a [PlasticState]) -> BodyWithHistory<'a, D> {
+        BodyWithHistory { body: self, history }
     }
 
     /// Stored energy of the virgin body [J].

@@ -12,7 +12,7 @@ impl<const D: usize> ContactModel<D> {
     pub(crate) fn mark_mirrored(&self, position: &impl Fn(u32) -> Vector<D>, candidates: &mut [Candidate]) {
         for k in 0..candidates.len() {
             let c = candidates[k];
-            candidates[k].mirrored =
+            candidates[k].redundant =
                 c.node().is_some_and(|node| self.is_second_side(&c, node, position, candidates));
         }
         // Nodes first: one that gives way to some edges does not make others give way.
@@ -56,7 +56,7 @@ impl<const D: usize> ContactModel<D> {
         let Target::Surface(t) = self.pairs[candidate.pair as usize].target else { return None };
         let facet = &self.surfaces[t].facets[candidate.facet? as usize];
         let p = project(&position(node), facet, Reach::Facet, position);
-        p.nodes.iter().zip(&p.weights).find(|&(_, &weight)| weight >= 1.0 - SEARCH.mirrored).map(|(&n, _)| n)
+        p.nodes.iter().zip(&p.weights).find(|&(_, &weight)| weight >= 1.0 - SEARCH.redundant).map(|(&n, _)| n)
     }
 
     /// Of candidate `k`, two `edges` that cross at a node of one of them, and the node, if it is a candidate, marks one: the edges, if the
@@ -80,14 +80,14 @@ impl<const D: usize> ContactModel<D> {
                 let node = self.surfaces[self.pairs[p].source].master(node);
                 let Some(j) = find(candidates, p, node) else { continue };
                 let other = candidates[j];
-                if other.mirrored {
+                if other.redundant {
                     continue;
                 }
                 let normal = self.evaluate(&other, position).frame.row(0).transpose();
                 if normal.dot(&crossing.normal).abs() > SEARCH.alike {
-                    candidates[k].mirrored |= !nodes;
+                    candidates[k].redundant |= !nodes;
                 } else if nodes && self.faces_beside(&other, &edges[1 - side]) {
-                    candidates[j].mirrored = true;
+                    candidates[j].redundant = true;
                 }
             }
         }
