@@ -35,7 +35,7 @@ besides is true of all its messages. Messages that say too little by themselves 
 | 0 | success |
 | 1 | a file could not be read or written, as on a full disk; an audit refutes the results |
 | 2 | bad input: an `InputError` in Python |
-| 3 | a step did not converge (`ConvergenceError`), or a run is `uncertified` (`CertificateError`) |
+| 3 | `ConvergenceError`: a step failed; `CertificateError`, `PenetrationError`: status of the run |
 | 130, 143 | Ctrl-C, SIGTERM; `--resume` goes on |
 """
 

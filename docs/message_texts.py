@@ -25,6 +25,7 @@ RAISED = {
     "Finding",
     "InputError",
     "MeshError",
+    "PenetrationError",
     "Refused",
     "StorageError",
     "ValueError",

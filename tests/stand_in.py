@@ -172,6 +172,7 @@ class FallingSimulation:
             "max_blend": 0.0,
             "least_friction": 0.0,
             "min_gap": float("inf"),
+            "penetration": {"max_depth": 0.0, "worst": None},
             "cross_check": None,
             "contacts": [
                 {

@@ -53,6 +53,7 @@ from carom.errors import CertificateError as CertificateError
 from carom.errors import ConvergenceError as ConvergenceError
 from carom.errors import InputError as InputError
 from carom.errors import MeshError as MeshError
+from carom.errors import PenetrationError as PenetrationError
 from carom.errors import StorageError as StorageError
 from carom.io.history import read_history as read_history
 from carom.io.summary_types import Summary as Summary

@@ -82,6 +82,16 @@ class CertificateError(CaromError, RuntimeError):
     """
 
 
+class PenetrationError(CaromError, RuntimeError):
+    """A run came to its end, but something went into something else; its results are kept.
+
+    Parameters
+    ----------
+    message
+        One line: who was how deep in whom, when, what is allowed, the remedy.
+    """
+
+
 class StorageError(CaromError, OSError):
     """A file of the results could not be written, as on a full disk.
 

@@ -53,6 +53,11 @@ impl<const D: usize> Aabb<D> {
         (self.high - self.low).imax()
     }
 
+    /// Length of its shortest side.
+    pub fn shortest_side(&self) -> f64 {
+        (self.high - self.low).min()
+    }
+
     /// Length of the diagonal.
     pub fn diameter(&self) -> f64 {
         (self.high - self.low).norm()

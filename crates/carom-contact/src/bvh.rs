@@ -44,11 +44,6 @@ impl<const D: usize> Bvh<D> {
         Self { branches: vec![root], items }
     }
 
-    /// A box around all items.
-    pub fn bounds(&self) -> Aabb<D> {
-        self.branches.first().map_or(Aabb::of([]), |root| root.bounds)
-    }
-
     /// Number of items.
     pub fn len(&self) -> usize {
         self.items.len()
@@ -114,8 +109,12 @@ impl<const D: usize> Bvh<D> {
 
     /// Visits the items that may be nearest to `x`, near branches first. `visit` takes an item and its box and returns the distance
     /// beyond which nothing is of interest any more [m].
-    pub fn nearest(&self, x: &Vector<D>, mut visit: impl FnMut(u32, &Aabb<D>) -> f64) {
-        let mut reach = f64::INFINITY;
+    pub fn nearest(&self, x: &Vector<D>, visit: impl FnMut(u32, &Aabb<D>) -> f64) {
+        self.nearest_within(f64::INFINITY, x, visit);
+    }
+
+    /// The same among those within `reach` [m].
+    pub fn nearest_within(&self, mut reach: f64, x: &Vector<D>, mut visit: impl FnMut(u32, &Aabb<D>) -> f64) {
         // Splits are at the median: no tree is deeper than the number of items has bits.
         let mut stack = [(0, 0.0); usize::BITS as usize];
         let mut depth = usize::from(!self.branches.is_empty());

@@ -36,7 +36,7 @@ fn measured<const D: usize>(
         obstacles.into_iter().map(|shape| Obstacle { node, ..Obstacle::new(shape) }).collect();
     nodes.push(Vector::zeros());
     let surfaces: Vec<Surface> = meshes.iter().map(Surface::of).collect();
-    let mut boundaries = Boundaries::new(surfaces.iter().zip(firsts), &obstacles);
+    let mut boundaries = Boundaries::new(surfaces.iter().zip(firsts), &obstacles, &|n| nodes[n as usize]);
     let mut all = Vec::new();
     boundaries.measure(&obstacles, |_| true, &|n| nodes[n as usize], |found| all.push(found));
     all

@@ -53,7 +53,7 @@ impl Facet {
 }
 
 /// The boundary of a mesh: the facets that belong to one cell only, less those of sides that are tied to one another.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Surface {
     facets: Vec<Facet>,
     nodes: Vec<u32>,

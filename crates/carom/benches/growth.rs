@@ -42,7 +42,7 @@ fn scenario(dimension: usize, divisions: usize) -> Scenario {
         }],
         "obstacles": [{"name": "floor", "kind": "plane", "point": axis(0.0, 0.0), "normal": axis(0.0, 1.0)}],
         "contact": {
-            "condition": "midpoint", "friction": 0.2, "sources": "finer", "targets": "faceted", "certificate_tolerance": 1e-9,
+            "condition": "midpoint", "friction": 0.2, "sources": "finer", "targets": "faceted", "certificate_tolerance": 1e-9, "penetration_tolerance": 0.01,
             "solver": {"kind": "auto", "tolerance": 1e-12, "max_iterations": 10000},
         },
     }))

@@ -78,6 +78,16 @@ pub enum StepError {
         /// The margin [m].
         margin: f64,
     },
+    /// On its way through the step something went through something else.
+    #[error(
+        "{first:?} and {second:?} go through one another within the step, and no contact was found: take a shorter time step"
+    )]
+    PassedThrough {
+        /// One of them.
+        first: String,
+        /// The other, or the same body.
+        second: String,
+    },
     /// What the massless nodes took from the balance of energy could not be given back.
     #[error(
         "contact of massless nodes leaves {missing:.3e} J unaccounted for, where {allowed:.3e} J are allowed: shorten the time \

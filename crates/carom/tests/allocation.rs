@@ -26,7 +26,7 @@ fn sliding_disc(scheme: &serde_json::Value, condition: &str, height: f64) -> Sce
         }],
         "obstacles": [{"name": "floor", "kind": "plane", "point": [0.0, 0.0], "normal": [0.0, 1.0]}],
         "contact": {
-            "condition": condition, "friction": 0.2, "sources": "finer", "targets": "faceted", "certificate_tolerance": 1e-9,
+            "condition": condition, "friction": 0.2, "sources": "finer", "targets": "faceted", "certificate_tolerance": 1e-9, "penetration_tolerance": 0.01,
             "solver": {"kind": "auto", "tolerance": 1e-12, "max_iterations": 10000},
         },
     }))

@@ -84,6 +84,12 @@ def leave_rows(
     leave(unseen, "smallest gaps of rows between output times", "min_gap", store=EVERY_FRAME)
     leave(
         after,
+        "how deep edges were in one another, and nodes between output times",
+        "penetration",
+        store="",
+    )
+    leave(
+        after,
         "certificates and residuals of rows, round-off that those of the summary bound",
         "certificate",
         "residual",

@@ -66,6 +66,8 @@ class AuditBody:
         outer = boundary(nodes)
         if self.images.size:
             outer = outer[~_on_sides(entry, outer, points, ("left", "right"))]
+        self.outline: Indices = outer
+        """All facets of its boundary, whatever of it may touch others."""
         self.facets = _contact_facets(entry, outer, points)
         self.surface: Indices = np.unique(self.facets)
         self.sources = np.setdiff1d(self.surface, self.images)

@@ -25,6 +25,7 @@ CHECKS: dict[str, tuple[str, str]] = {
     "drifts": ("history: velocities of the centres", "m/s"),
     "spins": ("history: mean spins", "rad/s"),
     "smallest gap": ("history: no gap above that of the fields", "m"),
+    "penetration": ("history: no node is deeper in anything than it says", "m"),
     "contact count": ("history: contacts of the step, and none without reactions", ""),
     "normal force": ("history: sum of the normal reactions", "N"),
     "tracked points": ("history: motion of the tracked nodes", "m, m/s"),

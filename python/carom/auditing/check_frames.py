@@ -10,6 +10,7 @@ from carom.auditing.arrays import Array, cross
 from carom.auditing.body import AuditBody
 from carom.auditing.contacts import smallest_gaps
 from carom.auditing.files import Frame
+from carom.auditing.inside import deepest_node
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
@@ -63,6 +64,9 @@ class FrameChecks:
             above = max(row["min_gap"] - smallest, 0.0)
             off = self._round_off_of_places() + self._scales.travel
             self._check("smallest gap", above, off, where)
+        deepest = deepest_node(self._model, self._model.points + frame.displacement, frame.time)
+        off = self._round_off_of_places()
+        self._check("penetration", max(deepest - row["penetration"], 0.0), off, where)
         touching = bool(frame.reaction.any())
         self._check("contact count", float(touching != (row["contacts"] > 0)), 0.0, where)
         self._tracks(frame, row, where)

@@ -193,6 +193,7 @@ class RowChecks:
         self._check("row: signs", h["plastic"], 0.0)
         most = sum(len(self._model.bodies[side.source].sources) for side in self._model.sides)
         self._check("row: signs", np.maximum(h["contacts"] - most, 0.0), 0.0)
+        self._check("row: signs", np.maximum(-h["penetration"], 0.0), 0.0)
         solver = self._model.scenario.contact.solver.tolerance
         self._check("row: residual", h["residual"], solver)
         self._findings.report(

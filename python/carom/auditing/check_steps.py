@@ -103,7 +103,9 @@ class StepChecks:
         if model.blended:
             # What the groups have yet to give back is what the ledger of the run does not explain.
             off = ROUND_OFF * (self._scales.energy + sum(abs(after[name]) for name in ENERGIES))
-            self._check("waiting energy", step.end["energy_debt"].sum() - after["defect"], off, where)
+            self._check(
+                "waiting energy", step.end["energy_debt"].sum() - after["defect"], off, where
+            )
 
     def _note_forces(self, step: Step) -> None:
         found = step.contacts

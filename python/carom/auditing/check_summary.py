@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.rows import GRID, Rows
 from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
+from carom.io.summary_types import Status
 from carom.ledger_terms import terms
 
 SUMMED = tuple(term.name for term in terms("run") if term.side != "stored")
@@ -74,11 +75,19 @@ class SummaryChecks:
             ("certificate.max_joule", certificate["max_joule"], h["certificate"]),
             ("certificate.max_residual", certificate["max_residual"], h["residual"]),
             ("max_blend", summary["max_blend"], h["blend"]),
+            ("penetration.max_depth", summary["penetration"]["max_depth"], h["penetration"]),
             ("energy.max_step_defect", energy["max_step_defect"], h["step_defect"]),
         ):
             # A row has the largest since the row before.
             self._extreme(name, _number(stored) - rows.max(), 0.0, exact=True)
         self._tolerance(off)
+        worst = summary["penetration"]["worst"]
+        if worst is not None:
+            over = _number(worst["depth"]) - _number(summary["penetration"]["max_depth"])
+            self._findings.check("summary: extremes", max(over, 0.0), 0.0, "penetration.worst")
+        self._findings.leave(
+            "where and when solids were deepest in one another", "summary.json: penetration"
+        )
         if summary["min_gap"] is not None:
             excess = h["min_gap"].min() - _number(summary["min_gap"])
             self._extreme("min_gap", excess, 0.0, exact=every)
@@ -218,14 +227,18 @@ class SummaryChecks:
         summary, certificate = self._summary, self._summary["certificate"]
         status, end = summary["status"], float(self._rows.times[-1])
         kept = _number(certificate["max_joule"]) <= _number(certificate["tolerance_joule"])
-        known = ("completed", "uncertified", "stopped", "failed", "interrupted")
+        known = get_args(Status)
         check = self._findings.check
         check("summary: status", float(status not in known), 0.0, f"{status!r}")
         if status == "failed":
             check("summary: status", float(end >= self._end), 0.0, "failed at the end")
         if status == "completed":
             check("summary: status", end - self._end, 0.0, "end of the run")
-        if status in ("completed", "uncertified", "stopped"):
+        worst = summary["penetration"]["worst"]
+        apart = worst is None or _number(worst["depth"]) <= _number(worst["allowed"])
+        if status in ("completed", "intersecting", "stopped") and kept:
+            check("summary: status", float(apart == (status == "intersecting")), 0.0, "penetration")
+        if status in ("completed", "uncertified", "intersecting", "stopped"):
             check("summary: status", float(kept == (status == "uncertified")), 0.0, "certificate")
 
 

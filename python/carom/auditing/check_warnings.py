@@ -12,9 +12,6 @@ from carom.auditing.scales import EPS, ROUND_OFF, SAFETY
 LARGE_DEFECT = 0.02
 """Share of the energy that the ledger may miss without a word."""
 
-DEEP = 0.01
-"""Penetration, in sizes of the largest body, that is no word worth."""
-
 Figures = tuple[float, float]
 """What a number is, and what it may be."""
 
@@ -55,13 +52,13 @@ def check_warnings(model: AuditModel, summary: Mapping[str, Any], findings: Find
 
 def _due(summary: Mapping[str, Any]) -> Iterator[tuple[str, str, Figures]]:
     """Yield the codes of what other numbers of the summary decide, where, and the figures."""
-    energy, gap = summary["energy"], summary["min_gap"]
+    energy = summary["energy"]
     supplied = sum(abs(energy[name]) for name in ("initial", "external", "prescribed"))
     reference, defect = max(supplied, energy["max_drift"]), energy["max_defect"]
     share = defect / reference if reference > 0 else (float("inf") if defect > 0 else 0.0)
     yield "ledger-defect", "energy.max_defect", (share, LARGE_DEFECT)
-    depth = 0.0 if gap is None else -gap
-    yield "penetration", "min_gap", (depth, DEEP * summary["size"])
+    worst = summary["penetration"]["worst"] or {"depth": 0.0, "allowed": 0.0}
+    yield "penetration", "penetration.worst", (worst["depth"], worst["allowed"])
     second = summary["cross_check"] or {"disagreements": 0, "unsolved": 0}
     for code, key in (("contact-not-unique", "disagreements"), ("contact-unchecked", "unsolved")):
         yield code, f"cross_check.{key}", (float(second[key]), 0.0)

@@ -121,6 +121,12 @@ class Contact(Description):
         Largest distance from Coulomb's law in a step, the sum of bi-potential gaps, relative to the
         largest energy of the run, or to the largest work of the reactions of a step over the motion
         that they prevent, where that is more. A run with a larger one is not completed.
+    penetration_tolerance
+        How deep bodies and obstacles that may touch may be inside one another, or bodies inside
+        themselves, at the end of a step, in diameters of the facet that is there. Conditions that
+        rule motions and not gaps (``midpoint``, ``endpoint``) are allowed the farthest that a node
+        moved in a step of the run besides, up to half that diameter. A run that goes deeper is not
+        completed.
     pairs
         What single pairs do differently.
     """
@@ -132,6 +138,7 @@ class Contact(Description):
     targets: Literal["smooth", "faceted"] = "smooth"
     discretisation: Discretisation = "node-to-segment"
     certificate_tolerance: Share = 1e-9
+    penetration_tolerance: Positive = 0.01
     pairs: tuple[Pair, ...] = ()
 
 

@@ -8,7 +8,13 @@ from pathlib import Path
 
 import typer
 
-from carom.errors import CertificateError, ConvergenceError, InputError, StorageError
+from carom.errors import (
+    CertificateError,
+    ConvergenceError,
+    InputError,
+    PenetrationError,
+    StorageError,
+)
 from carom.system.interrupt import Terminated
 
 SYSTEM_FAILURE = 1
@@ -31,7 +37,7 @@ def failures(file: Path) -> Iterator[None]:
         yield
     except InputError as error:
         raise _ended(BAD_INPUT, f"error: {error}") from error
-    except (CertificateError, ConvergenceError) as error:
+    except (CertificateError, ConvergenceError, PenetrationError) as error:
         raise _ended(NOT_CONVERGED, f"error: {file}: {error}") from error
     except Terminated as error:
         raise _ended(TERMINATED, f"{file}: stopped by SIGTERM") from error

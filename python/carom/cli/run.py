@@ -12,7 +12,13 @@ from carom.building.build import build
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import failures
 from carom.cli.progress import shown_progress
-from carom.errors import CertificateError, ConvergenceError, InputError, naming
+from carom.errors import (
+    CertificateError,
+    ConvergenceError,
+    InputError,
+    PenetrationError,
+    naming,
+)
 from carom.io import layout
 from carom.mesh_file import Note
 from carom.results.doubts import Doubt
@@ -84,7 +90,7 @@ def run(
                     notes=notes,
                     notify=tell_of,
                 )
-        except (CertificateError, ConvergenceError, KeyboardInterrupt):
+        except (CertificateError, ConvergenceError, PenetrationError, KeyboardInterrupt):
             if (directory / layout.SUMMARY).exists():
                 console.print(Result.open(directory))
             raise

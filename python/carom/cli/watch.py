@@ -23,6 +23,7 @@ STATUSES = {
     "interrupted": status.INTERRUPTED,
     "failed": status.NOT_CONVERGED,
     "uncertified": status.NOT_CONVERGED,
+    "intersecting": status.NOT_CONVERGED,
 }
 """Exit statuses by how the run ended: those of `carom run`."""
 

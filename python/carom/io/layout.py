@@ -36,7 +36,7 @@ JOURNAL = ".journal"
 CHECKPOINTS = (CHECKPOINT, FRESH_CHECKPOINT, PREVIOUS_CHECKPOINT)
 """The latest first."""
 
-ENDED = ("completed", "uncertified", "failed")
+ENDED = ("completed", "uncertified", "intersecting", "failed")
 """Statuses of runs that came to an end of their own: there is nothing to go on with."""
 
 _NAMES = (

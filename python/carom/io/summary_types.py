@@ -9,7 +9,7 @@ from typing_extensions import NotRequired, TypedDict
 
 from carom.ledger_terms import BodyTerms, PairTerms, RunTerms
 
-Status = Literal["completed", "uncertified", "stopped", "failed", "interrupted"]
+Status = Literal["completed", "uncertified", "intersecting", "stopped", "failed", "interrupted"]
 """How a run ended."""
 
 
@@ -37,6 +37,24 @@ class CertificateSummary(TypedDict):
     max_residual: float
     reference_joule: NotRequired[float]
     tolerance_joule: float
+
+
+class WorstPenetration(TypedDict):
+    """Where two solids, or a body and itself, were deepest in terms of what is allowed [m, s]."""
+
+    between: list[str]
+    depth: float
+    allowed: float
+    cell: float
+    time: float
+    at: list[float]
+
+
+class PenetrationSummary(TypedDict):
+    """How deep solids that may touch were in one another at the end of a step [m]."""
+
+    max_depth: float
+    worst: WorstPenetration | None
 
 
 class BodySummary(BodyTerms):
@@ -109,6 +127,7 @@ class Summary(TypedDict):
     max_blend: float
     least_friction: float
     min_gap: float | None
+    penetration: NotRequired[PenetrationSummary]
     cross_check: CrossCheckSummary | None
     contacts: list[ContactEvent]
     files: NotRequired[dict[str, str]]

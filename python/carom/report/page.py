@@ -65,6 +65,7 @@ SIGNED = frozenset({"hydrostatic-pressure"})
 _STATUS = {
     "completed": "The run came to its end.",
     "uncertified": "The run came to its end, but a step was too far from Coulomb’s law.",
+    "intersecting": "The run came to its end, but something went into something else.",
     "failed": "The run failed. What follows is what it has left up to there.",
     "stopped": "An observer stopped the run. What follows is what it has left up to there.",
     "interrupted": "The run was interrupted. What follows is what it has left up to there.",

@@ -22,9 +22,6 @@ if TYPE_CHECKING:
 LARGE_DEFECT = 0.02
 """Defect of the ledger, relative to the energy that the run had or was given, to be warned of."""
 
-DEEP = 0.01
-"""Penetration, relative to the diameter of the largest body, to be warned of."""
-
 _NOT_THE_CALLER = ("carom", "contextlib")
 """Packages in which nobody looks for what a warning is about."""
 
@@ -100,19 +97,39 @@ def doubts(summary: Mapping[str, Any]) -> Iterator[Doubt]:
             share,
             LARGE_DEFECT,
         )
-    gap, deepest = summary["min_gap"], DEEP * summary["size"]
-    if gap is not None and gap < -deepest:
+    if (worst := too_deep(summary)) is not None:
         yield Doubt(
             "penetration",
-            f"nodes were up to {-gap:.2g} m inside what they touch, having slid past its edges or "
-            "come too fast: mesh more finely, take a smaller analysis.time_step, or have the nodes "
-            'of both bodies checked, contact.sources = "both"',
-            "min_gap",
-            -gap,
-            deepest,
+            depth_of(worst),
+            "penetration.worst",
+            worst["depth"],
+            worst["allowed"],
         )
     if (check := summary["cross_check"]) is not None:
         yield from _unconfirmed(check)
+
+
+def too_deep(summary: Mapping[str, Any]) -> Mapping[str, Any] | None:
+    """Return where something was deeper in something else than it may be; none in old results."""
+    worst: Mapping[str, Any] | None = summary.get("penetration", {}).get("worst")
+    return None if worst is None or worst["depth"] <= worst["allowed"] else worst
+
+
+def depth_of(worst: Mapping[str, Any]) -> str:
+    """Return who was how deep in whom, and what to do."""
+    first, second = worst["between"]
+    who = f"{first} was" if first == second else f"{first} and {second} were"
+    whom = "itself" if first == second else "one another"
+    remedy = (
+        "give it self_contact"
+        if first == second
+        else 'have the nodes of both bodies checked, contact.sources = "both"'
+    )
+    return (
+        f"{who} up to {worst['depth']:.2g} m inside {whom} at t = {worst['time']:.3g} s, more than "
+        f"the {worst['allowed']:.2g} m of contact.penetration_tolerance: mesh more finely, take a "
+        f"smaller analysis.time_step, or {remedy}"
+    )
 
 
 def defect_share(energy: Mapping[str, float]) -> float:

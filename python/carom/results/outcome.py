@@ -12,6 +12,7 @@ from rich.table import Table
 from carom.display.counting import count
 from carom.display.tables import Rows, add, two_columns
 from carom.io import layout
+from carom.results.doubts import too_deep
 
 SHOWN_CONTACTS = 12
 """Contact events that fit a screen; `summary.json` has them all."""
@@ -52,6 +53,8 @@ def outcome(summary: Mapping[str, Any]) -> Rows:
         f"{certificate['max_joule']:.3g} J from Coulomb's law in any step "
         f"({certificate['tolerance_joule']:.3g} J allowed)",
     )
+    if (worst := too_deep(summary)) is not None:
+        yield "penetration", f"{worst['depth']:.3g} m ({worst['allowed']:.3g} m allowed)"
     if (check := summary.get("cross_check")) is not None:
         yield _cross_check(check)
     for warning in summary.get("warnings", ()):

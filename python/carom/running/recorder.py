@@ -233,7 +233,8 @@ class Recorder:
         Parameters
         ----------
         status
-            ``"completed"``, ``"uncertified"``, ``"stopped"``, ``"failed"`` or ``"interrupted"``.
+            ``"completed"``, ``"uncertified"``, ``"intersecting"``, ``"stopped"``, ``"failed"`` or
+            ``"interrupted"``.
         reason
             Why the run stopped before its end.
         """

@@ -16,11 +16,17 @@ from carom.building.build import build
 from carom.building.checking import first_doubts
 from carom.case.contact import FrictionSolver
 from carom.case.scenario import Scenario
-from carom.errors import CertificateError, ConvergenceError, InputError, StorageError
+from carom.errors import (
+    CertificateError,
+    ConvergenceError,
+    InputError,
+    PenetrationError,
+    StorageError,
+)
 from carom.io import layout
 from carom.io.progress import refuse_running
 from carom.mesh_file import Note
-from carom.results.doubts import Doubt, warn, written_doubts
+from carom.results.doubts import Doubt, depth_of, too_deep, warn, written_doubts
 from carom.results.result import Result
 from carom.running.observer import Observer, ObserverError, Observing, Stop
 from carom.running.recorder import Recorder
@@ -74,6 +80,9 @@ def run(
     CertificateError
         A step was further from Coulomb's law than `Contact.certificate_tolerance` allows; the
         results are written, with the status ``"uncertified"``.
+    PenetrationError
+        Something was deeper in something else than `Contact.penetration_tolerance` allows; the
+        results are written, with the status ``"intersecting"``.
     StorageError
         The results cannot be written, as on a full disk; the last checkpoint stays.
     KeyboardInterrupt
@@ -156,6 +165,9 @@ def drive(
         if (reason := _violation(simulation)) is not None:
             recorder.close(status="uncertified", reason=reason)
             raise CertificateError(reason)
+        if (reason := _intersection(simulation)) is not None:
+            recorder.close(status="intersecting", reason=reason)
+            raise PenetrationError(reason)
         if wish is not None and not schedule.has_ended:
             return recorder.close(status="stopped", reason=f"{wish} at t = {simulation.time:g} s")
         return recorder.close(status="completed")
@@ -309,6 +321,12 @@ def _violation(simulation: Simulation) -> str | None:
         f"a step was {worst:.3g} J from Coulomb's law, more than the {allowed:.3g} J of "
         f"contact.certificate_tolerance; take a smaller {remedy}"
     )
+
+
+def _intersection(simulation: Simulation) -> str | None:
+    """Return who went into whom, if somebody went deeper than is allowed."""
+    worst = too_deep(simulation.summary())
+    return None if worst is None else depth_of(worst)
 
 
 def _slug(title: str) -> str:

@@ -192,7 +192,15 @@ COLUMNS = [
     *("time", "kinetic", "strain", "total", "friction", "viscous", "plastic", "scheme"),
     *("normal_contact", "external", "defect", "momentum_x", "angular_momentum"),
     *("a.x", "b.v_y", "a.spin"),
-    *("contacts", "min_gap", "normal_force", "certificate", "residual", "newton_iterations"),
+    *(
+        "contacts",
+        "min_gap",
+        "penetration",
+        "normal_force",
+        "certificate",
+        "residual",
+        "newton_iterations",
+    ),
     *("prescribed", "blend", "step_defect", "retried_steps", "shortest_step"),
     *("tip.u_x", "tip.v_y", "tip.vmid_x"),
 ]
@@ -295,8 +303,8 @@ def test_a_changed_number_is_found(results, tmp_path, what):
     "tamper",
     [
         in_h5(f"{STEP}/blend", lambda a: a + 1e-3),
-        in_h5(f"{STEP}/start/excess", little_more),
-        in_h5(f"{STEP}/end/excess", little_more),
+        in_h5(f"{STEP}/start/energy_debt", little_more),
+        in_h5(f"{STEP}/end/energy_debt", little_more),
         in_history("blend"),
         in_history("prescribed"),
         in_ledger("a", "contact"),

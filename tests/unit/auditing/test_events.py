@@ -238,17 +238,16 @@ def warned(files, *warnings, **changes):
 
 def test_warnings_are_those_that_the_numbers_give_rise_to(read):
     files = read("two pairs")
-    gap = files.summary["min_gap"]
-    said = {"code": "penetration", "message": "nodes were inside", "where": "min_gap"}
-    size = files.summary["size"]
+    said = {"code": "penetration", "message": "too deep", "where": "penetration.worst"}
     assert "summary: warnings" not in warned(files)
-    assert "summary: warnings" in warned(files, {**said, "value": -gap, "allowed": 0.01 * size})
-    # With a deep gap there must be one, with that figure and that limit.
-    deep = {**said, "value": 0.1, "allowed": 0.01 * size}
-    assert "summary: warnings" not in warned(files, deep, min_gap=-0.1)
-    for changes in ({"value": 0.101}, {"allowed": 0.02 * size}, {"where": "energy"}):
-        assert "summary: warnings" in warned(files, {**deep, **changes}, min_gap=-0.1)
-    assert "summary: warnings" in warned(files, min_gap=-0.1)
+    assert "summary: warnings" in warned(files, {**said, "value": 0.1, "allowed": 0.2})
+    # Where it was too deep there must be one, with that figure and that limit.
+    deep = {**said, "value": 0.1, "allowed": 0.01}
+    inside = {"penetration": {"max_depth": 0.1, "worst": {"depth": 0.1, "allowed": 0.01}}}
+    assert "summary: warnings" not in warned(files, deep, **inside)
+    for changes in ({"value": 0.101}, {"allowed": 0.02}, {"where": "energy"}):
+        assert "summary: warnings" in warned(files, {**deep, **changes}, **inside)
+    assert "summary: warnings" in warned(files, **inside)
 
 
 def test_warnings_of_the_case_have_its_figures(read):

@@ -162,6 +162,6 @@ def test_what_cannot_be_checked_is_little_where_all_is_stored(read):
     # With a row and a frame of every step nothing but round-off and what is no mechanics is left.
     assert unchecked(read("everything")) == {
         *("summary.json: version", "summary.json: factorisations", "summary.json: least_friction"),
-        *("history.csv: certificate", "history.csv: residual"),
-        "summary.json: certificate.solver_joule",
+        *("history.csv: certificate", "history.csv: residual", "history.csv: penetration"),
+        *("summary.json: certificate.solver_joule", "summary.json: penetration"),
     }

@@ -140,7 +140,7 @@ def test_the_defect_is_relative_to_the_energy_that_came_or_was_there(changed, sh
 def summary(**changed):
     energy = dict.fromkeys(("external", "prescribed", "max_drift", "max_defect"), 0.0)
     energy["initial"] = 1.0
-    return {"energy": energy, "min_gap": None, "size": 2.0, "cross_check": None, **changed}
+    return {"energy": energy, "penetration": {"worst": None}, "cross_check": None, **changed}
 
 
 def found(**changed):
@@ -153,11 +153,17 @@ def said(doubt):
     return str(caught[0].message)
 
 
-def test_depth_is_measured_by_the_size_of_the_bodies():
-    assert found(min_gap=-0.019) == []
-    (deep,) = found(min_gap=-0.021)
+def test_depth_is_measured_by_what_is_allowed_there():
+    def inside(depth, *between):
+        worst = {"between": between, "depth": depth, "allowed": 0.02, "time": 0.5}
+        return found(penetration={"worst": worst})
+
+    assert inside(0.019, "a", "b") == []
+    (deep,) = inside(0.021, "a", "b")
     assert (deep.code, deep.value, deep.allowed) == ("penetration", 0.021, 0.02)
-    assert "nodes were up to 0.021 m inside what they touch" in said(deep)
+    assert "a and b were up to 0.021 m inside one another at t = 0.5 s" in said(deep)
+    (deep,) = inside(0.021, "a", "a")
+    assert "a was up to 0.021 m inside itself" in said(deep) and "self_contact" in said(deep)
 
 
 def test_what_a_second_solver_does_not_confirm_is_a_doubt():
@@ -177,19 +183,24 @@ def test_a_step_too_long_for_waves_is_a_doubt_of_the_results_too(tmp_path):
     assert warning.allowed < 2.5e-2
 
 
-@pytest.mark.parametrize("status", ["failed", "uncertified", "stopped", "interrupted"])
+@pytest.mark.parametrize(
+    "status", ["failed", "uncertified", "intersecting", "stopped", "interrupted"]
+)
 def test_runs_that_do_not_complete_have_their_warnings_too(tmp_path, monkeypatch, status):
     def end(state):
         raise carom.Stop if status == "stopped" else KeyboardInterrupt
 
     if status == "uncertified":
         monkeypatch.setattr("carom.running.run._violation", lambda _: "too far from the law")
+    if status == "intersecting":
+        monkeypatch.setattr("carom.running.run._intersection", lambda _: "too deep")
     observers = [carom.Observer(end)] if status in ("stopped", "interrupted") else []
     hard = ["analysis.newton.max_iterations=1", "analysis.max_halvings=0"]
     case = scenario(SOFT, *(hard if status == "failed" else []))
     expected = {
         "failed": carom.ConvergenceError,
         "uncertified": carom.CertificateError,
+        "intersecting": carom.PenetrationError,
         "interrupted": KeyboardInterrupt,
     }
     with pytest.warns(carom.CaromWarning) as caught:

@@ -48,7 +48,7 @@ BAD = [
     ("run/halvings", first(2**40), "run/halvings: is too large a number"),
     ("state/time", lambda a: np.repeat(a, 2), "state/time: has 2 entries, not 1"),
     ("state/velocity", first(np.nan), "state/velocity: "),
-    ("events/group", first(99), "events/group: names a pair that is not there"),
+    ("events/pair", first(99), "events/pair: names a pair that is not there"),
     ("events/last", lambda a: a + 99, "events/last: names an event that is not there"),
     ("factors/0/dt", first(0.0), "factors/0/dt: is not positive"),
     ("factors/0/nodes", first(10**6), "factors/0/nodes: names a node that is not there"),

@@ -2,7 +2,7 @@
 
 use carom_mesh::Vector;
 
-use super::Deep;
+use super::deep::Deep;
 use super::shell::Shell;
 use crate::RigidShape;
 use crate::patch::Patch;
@@ -18,10 +18,10 @@ impl<const D: usize> Shell<D> {
         let mut look = |x: Vector<D>, f: u32| {
             let depth = -gap(&x);
             if depth > deepest.depth {
-                deepest = Deep { depth, at: x, cell: self.diameter(f) };
+                deepest = Deep { depth, at: x, facet: Some(f), other: None };
             }
         };
-        self.nodes.iter().for_each(|&(node, f)| look(self.at(node), f));
+        self.nodes.iter().for_each(|(node, around)| look(self.at(*node), around[0]));
         // Of a half space and of a cavity no point between nodes is deeper than these.
         let bulges = match shape {
             RigidShape::Plane { .. } => false,

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use carom_mesh::Vector;
 
-use super::Deep;
+use super::deep::Deep;
 use super::shell::Shell;
 use crate::aabb::Aabb;
 use crate::patch::Patch;
@@ -25,7 +25,7 @@ impl<const D: usize> Shell<D> {
     pub fn in_itself(&self) -> Deep<D> {
         let mut deepest = Deep::none();
         let mut seeds = BTreeSet::new();
-        for &(nodes, _) in &self.edges {
+        for &(nodes, own) in &self.edges {
             let ends = nodes.map(|n| self.at(n));
             self.tree.overlapping(&Aabb::of(ends), |f, _| {
                 if self.facets[f as usize].nodes.iter().any(|n| nodes.contains(n)) {
@@ -36,7 +36,7 @@ impl<const D: usize> Shell<D> {
                     let at = ends[0] + (ends[1] - ends[0]) * t;
                     let depth =
                         ends.iter().map(|x| self.distance_from_plane(f, x)).fold(f64::INFINITY, f64::min);
-                    deepest = deepest.deeper(Deep { depth, at, cell: self.diameter(f) });
+                    deepest = deepest.deeper(Deep { depth, at, facet: Some(own), other: Some(f) });
                 });
             });
         }
@@ -57,7 +57,7 @@ impl<const D: usize> Shell<D> {
         }
         let (mut open, mut seen, mut inside) = (Vec::from_iter(seeds.iter().copied()), seeds, Vec::new());
         while let Some(node) = open.pop() {
-            let facet = self.nodes.binary_search_by_key(&node, |(n, _)| *n).map_or(0, |k| self.nodes[k].1);
+            let facet = self.around(node)[0];
             if self.winds_around(node, facet) {
                 inside.push((node, facet));
                 let others = next_to.range((node, 0)..=(node, u32::MAX)).map(|(_, other)| *other);
@@ -69,12 +69,7 @@ impl<const D: usize> Shell<D> {
 
     /// Whether the boundary winds around what is just before a node.
     fn winds_around(&self, node: u32, facet: u32) -> bool {
-        let mut outwards = Vector::zeros();
-        self.tree.overlapping(&Aabb::of([self.at(node)]), |f, _| {
-            if self.facets[f as usize].nodes.contains(&node) {
-                outwards += self.normal(f);
-            }
-        });
+        let outwards: Vector<D> = self.around(node).iter().map(|&f| self.normal(f)).sum();
         let from = self.at(node) + outwards.normalize() * (BEFORE * self.diameter(facet));
         let far = 2.0 * self.bounds().diameter();
         let ray = [from, from + Vector::from_fn(|i, _| RAY[i]) * far];
@@ -89,24 +84,20 @@ impl<const D: usize> Shell<D> {
     fn behind_others(&self, node: u32, facet: u32) -> Deep<D> {
         let x = self.at(node);
         let position = |n: u32| self.at(n);
-        let mut depth = f64::INFINITY;
+        let (mut depth, mut other) = (f64::INFINITY, None);
         self.tree.nearest(&x, |f, _| {
             let facet = &self.facets[f as usize];
             if !facet.nodes.contains(&node) {
                 let patch = Patch::new(facet, &position);
                 let p = patch.at(&patch.closest(&x));
                 let offset = x - p.point;
-                if normal(&p.tangents).dot(&offset) < 0.0 {
-                    depth = depth.min(offset.norm());
+                if normal(&p.tangents).dot(&offset) < 0.0 && offset.norm() < depth {
+                    (depth, other) = (offset.norm(), Some(f));
                 }
             }
             depth
         });
-        if depth.is_finite() { Deep { depth, at: x, cell: self.diameter(facet) } } else { Deep::none() }
-    }
-
-    fn normal(&self, f: u32) -> Vector<D> {
-        normal(&Patch::new(&self.facets[f as usize], &|n| self.at(n)).middle().tangents)
+        if other.is_some() { Deep { depth, at: x, facet: Some(facet), other } } else { Deep::none() }
     }
 
     fn distance_from_plane(&self, f: u32, x: &Vector<D>) -> f64 {

@@ -4,14 +4,18 @@
 //! by. The depth of a point is its distance from the boundary of what it is inside of. Looked at are the nodes of every boundary, the
 //! corners of obstacles, and of every edge the parts that run through the inside of another, though its ends are outside.
 
+mod deep;
 mod in_obstacle;
 mod itself;
 mod shell;
 mod skin;
+mod way;
 
 use carom_mesh::{Surface, Vector};
 
 use crate::Obstacle;
+use crate::aabb::Aabb;
+use deep::Deep;
 use shell::Shell;
 use skin::Skin;
 
@@ -35,42 +39,37 @@ pub struct Penetration<const D: usize> {
     pub between: [Solid; 2],
     /// Diameter of the smaller facet that is there [m].
     pub cell: f64,
-}
-
-/// A place inside a solid: its depth [m], where it is, and the diameter of the facet that is there [m].
-#[derive(Debug, Clone, Copy)]
-struct Deep<const D: usize> {
-    depth: f64,
-    at: Vector<D>,
-    cell: f64,
-}
-
-impl<const D: usize> Deep<D> {
-    /// Nowhere inside.
-    fn none() -> Self {
-        Self { depth: 0.0, at: Vector::zeros(), cell: f64::INFINITY }
-    }
-
-    fn deeper(self, other: Self) -> Self {
-        if other.depth > self.depth { other } else { self }
-    }
+    /// How far the arcs that the facets there stand for are in front of them [m], those of both sides together.
+    pub arcs: f64,
 }
 
 /// The boundaries of all bodies and obstacles, and what the measure keeps from one call to the next.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Boundaries<const D: usize> {
     shells: Vec<Shell<D>>,
     skins: Vec<Skin<D>>,
 }
 
 impl<const D: usize> Boundaries<D> {
-    /// The boundaries of these bodies, each with the number of its first node, and of these obstacles.
+    /// The boundaries of these bodies, each with the number of its first node, and of these obstacles, where the nodes are at `position`.
     #[must_use]
-    pub fn new<'a>(bodies: impl Iterator<Item = (&'a Surface, u32)>, obstacles: &[Obstacle<D>]) -> Self {
-        Self {
-            shells: bodies.map(|(surface, first)| Shell::new(surface, first)).collect(),
-            skins: obstacles.iter().map(|o| Skin::of(&o.shape)).collect(),
+    pub fn new<'a>(
+        bodies: impl Iterator<Item = (&'a Surface, u32)>,
+        obstacles: &[Obstacle<D>],
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Self {
+        let mut shells: Vec<_> = bodies.map(|(surface, first)| Shell::new(surface, first)).collect();
+        for shell in &mut shells {
+            shell.place(position);
+            shell.size_up();
         }
+        Self { shells, skins: obstacles.iter().map(|o| Skin::of(&o.shape)).collect() }
+    }
+
+    /// Diameter of the smallest facet of a body where it was first [m]; infinite without facets.
+    #[must_use]
+    pub fn least_cell(&self, body: usize) -> f64 {
+        self.shells[body].least_cell
     }
 
     /// Tells `found` the deepest place of every pair that `counts`, a body with itself among them, where the nodes are at `position`.
@@ -82,19 +81,30 @@ impl<const D: usize> Boundaries<D> {
         mut found: impl FnMut(Penetration<D>),
     ) {
         self.shells.iter_mut().for_each(|shell| shell.place(position));
+        self.fit_those_that_meet(obstacles, &counts, position);
+        let shells = &self.shells;
         let mut tell = |between: [Solid; 2], deep: Deep<D>| {
-            if deep.depth > 0.0 {
-                found(Penetration { depth: deep.depth, at: deep.at, between, cell: deep.cell });
+            let Deep { depth, at, facet, other } = deep;
+            if depth == 0.0 {
+                return;
             }
+            let facets =
+                between.iter().zip([facet, other]).filter_map(|(solid, facet)| match (solid, facet) {
+                    (Solid::Body(i), Some(facet)) => Some((&shells[*i], facet)),
+                    _ => None,
+                });
+            let cell = facets.clone().map(|(shell, f)| shell.diameter(f)).fold(f64::INFINITY, f64::min);
+            let arcs = facets.map(|(shell, f)| shell.arc(f)).sum();
+            found(Penetration { depth, at, between, cell, arcs });
         };
-        for (i, shell) in self.shells.iter().enumerate() {
+        for (i, shell) in shells.iter().enumerate() {
             let me = Solid::Body(i);
             if counts([me, me]) {
                 tell([me, me], shell.in_itself());
             }
-            for (j, other) in self.shells.iter().enumerate() {
+            for (j, other) in shells.iter().enumerate() {
                 let between = [me, Solid::Body(j)];
-                if i != j && counts(between) && shell.bounds().overlaps(other.bounds()) {
+                if i != j && shell.bounds().overlaps(other.bounds()) && counts(between) {
                     tell(between, shell.inside_of(other));
                 }
             }
@@ -105,6 +115,31 @@ impl<const D: usize> Boundaries<D> {
                     tell([me, other], shell.inside_of_obstacle(&obstacle.shape, &shift));
                     tell([other, me], shell.deepest_of(skin, &shift));
                 }
+            }
+        }
+    }
+
+    /// Fits the boxes of the facets that somebody will ask for.
+    fn fit_those_that_meet(
+        &mut self,
+        obstacles: &[Obstacle<D>],
+        counts: &impl Fn([Solid; 2]) -> bool,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) {
+        for i in 0..self.shells.len() {
+            let (me, bounds) = (Solid::Body(i), *self.shells[i].bounds());
+            let others = self.shells.iter().enumerate().filter(|(j, _)| *j != i);
+            let meets = others.filter(|(_, other)| bounds.overlaps(other.bounds()));
+            let is_asked = counts([me, me])
+                || meets.into_iter().any(|(j, _)| counts([me, Solid::Body(j)]))
+                || self.skins.iter().zip(obstacles).enumerate().any(|(o, (skin, obstacle))| {
+                    let shift = position(obstacle.node);
+                    let comes_near = skin.corners.iter().any(|x| bounds.contains(&(x + shift)))
+                        || skin.edges.iter().any(|ends| bounds.overlaps(&Aabb::of(ends.map(|x| x + shift))));
+                    comes_near && counts([me, Solid::Obstacle(o)])
+                });
+            if is_asked {
+                self.shells[i].fit();
             }
         }
     }

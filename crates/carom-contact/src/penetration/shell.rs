@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use carom_mesh::{CellKind, Facet, Surface, Vector};
 
-use super::Deep;
+use super::deep::Deep;
 use super::skin::Skin;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
@@ -14,14 +14,20 @@ use crate::project::normal;
 /// Points this close to one another, relative to the diameter of the facet that they are on, are one.
 const SAME: f64 = 1e-9;
 
+/// A boundary that turns by more than this from facet to facet has a corner there and stands for no arc [rad]: 40°.
+const CORNER: f64 = 0.698;
+
 /// The facets, nodes and edges of the boundary of a body.
 #[derive(Debug, Clone)]
 pub(super) struct Shell<const D: usize> {
     pub facets: Vec<Facet>,
-    /// Its nodes, ascending, and a facet of each.
-    pub nodes: Vec<(u32, u32)>,
+    /// Its nodes, ascending, and the facets around each.
+    pub nodes: Vec<(u32, Vec<u32>)>,
     /// Its edges from node to node, and a facet of each; in the plane the facets themselves.
     pub edges: Vec<([u32; 2], u32)>,
+    /// Diameters of its smallest and of its largest facet [m].
+    pub least_cell: f64,
+    largest_cell: f64,
     /// Nodes at which the boundary ends: where a tied side begins.
     ends: BTreeSet<u32>,
     first: u32,
@@ -29,6 +35,8 @@ pub(super) struct Shell<const D: usize> {
     x: Vec<Vector<D>>,
     pub tree: Bvh<D>,
     bounds: Aabb<D>,
+    is_fitted: bool,
+    is_quadratic: bool,
 }
 
 impl<const D: usize> Shell<D> {
@@ -41,7 +49,7 @@ impl<const D: usize> Shell<D> {
         let mut nodes = BTreeMap::new();
         let mut edges: BTreeMap<[u32; 2], (u32, usize)> = BTreeMap::new();
         for (f, facet) in (0..).zip(&facets) {
-            facet.nodes.iter().for_each(|&n| _ = nodes.entry(n).or_insert(f));
+            facet.nodes.iter().for_each(|&n| nodes.entry(n).or_insert_with(Vec::new).push(f));
             for [a, b] in rim(facet.kind) {
                 let [a, b] = [facet.nodes[a], facet.nodes[b]];
                 edges.entry([a.min(b), a.max(b)]).or_insert((f, 0)).1 += 1;
@@ -58,7 +66,11 @@ impl<const D: usize> Shell<D> {
             x: vec![Vector::zeros(); nodes.keys().next_back().map_or(0, |last| (last - first) as usize + 1)],
             nodes: nodes.into_iter().collect(),
             edges: edges.into_iter().map(|(nodes, (f, _))| (nodes, f)).collect(),
+            is_quadratic: facets.iter().any(|f| f.kind.is_quadratic()),
+            is_fitted: false,
             facets,
+            least_cell: f64::INFINITY,
+            largest_cell: 0.0,
             ends,
             first,
             tree: Bvh::new(std::iter::empty()),
@@ -68,8 +80,18 @@ impl<const D: usize> Shell<D> {
 
     /// Takes note of where its nodes are.
     pub fn place(&mut self, position: &impl Fn(u32) -> Vector<D>) {
-        for &(node, _) in &self.nodes {
-            self.x[(node - self.first) as usize] = position(node);
+        self.is_fitted = false;
+        for (node, _) in &self.nodes {
+            self.x[(*node - self.first) as usize] = position(*node);
+        }
+        let nodes = Aabb::of(self.nodes.iter().map(|(n, _)| self.at(*n)));
+        self.bounds = if self.is_quadratic { nodes.scaled(2.0) } else { nodes };
+    }
+
+    /// Brings the boxes of its facets to where they are, once per place.
+    pub fn fit(&mut self) {
+        if self.is_fitted {
+            return;
         }
         let (facets, x, first) = (&self.facets, &self.x, self.first);
         let room = |f: u32| {
@@ -82,7 +104,15 @@ impl<const D: usize> Shell<D> {
         } else {
             self.tree = Bvh::new((0..facets.len() as u32).map(room));
         }
-        self.bounds = self.tree.bounds();
+        self.is_fitted = true;
+    }
+
+    /// Takes note of how large its facets are.
+    pub fn size_up(&mut self) {
+        let facets = 0..self.facets.len() as u32;
+        (self.least_cell, self.largest_cell) = facets
+            .map(|f| self.diameter(f))
+            .fold((f64::INFINITY, 0.0), |(least, largest), d| (d.min(least), d.max(largest)));
     }
 
     pub fn bounds(&self) -> &Aabb<D> {
@@ -99,13 +129,31 @@ impl<const D: usize> Shell<D> {
         Aabb::of(self.facets[facet as usize].nodes.iter().map(|&n| self.at(n))).diameter()
     }
 
-    /// How deep `x` is inside, or zero, and the facet that it is closest to.
+    /// How far the arc through a facet, whose neighbours are turned against it, is in front of its middle [m]; not at corners.
+    pub fn arc(&self, facet: u32) -> f64 {
+        let own = self.normal(facet);
+        let around = self.facets[facet as usize].nodes.iter().flat_map(|n| self.around(*n));
+        let turns = around.map(|&f| own.angle(&self.normal(f))).filter(|turn| *turn < CORNER);
+        self.diameter(facet) * turns.fold(0.0, f64::max) / 8.0
+    }
+
+    /// The facets around a node.
+    pub fn around(&self, node: u32) -> &[u32] {
+        self.nodes.binary_search_by_key(&node, |(n, _)| *n).map_or(&[], |k| &self.nodes[k].1)
+    }
+
+    /// The normal in the middle of a facet.
+    pub fn normal(&self, f: u32) -> Vector<D> {
+        normal(&Patch::new(&self.facets[f as usize], &|n| self.at(n)).middle().tangents)
+    }
+
+    /// How deep `x` is inside, or zero, and the facet that it is closest to; zero too where nothing is within `reach` [m].
     ///
     /// The side is that of the normals around the closest point, weighted by the angles of their facets there (Bærentzen & Aanæs 2005).
-    fn depth(&self, x: &Vector<D>) -> (f64, u32) {
+    fn depth(&self, x: &Vector<D>, reach: f64) -> (f64, u32) {
         let (mut distance, mut side, mut nearest, mut is_end) = (f64::INFINITY, 0.0, 0, false);
         let position = |n: u32| self.at(n);
-        self.tree.nearest(x, |f, facet_box| {
+        self.tree.nearest_within(reach, x, |f, facet_box| {
             let facet = &self.facets[f as usize];
             let patch = Patch::new(facet, &position);
             let xi = patch.closest(x);
@@ -123,53 +171,58 @@ impl<const D: usize> Shell<D> {
                 let closest = facet.nodes.iter().zip(&p.weights).find(|(_, w)| **w > 1.0 - SAME);
                 is_end |= closest.is_some_and(|(n, _)| self.ends.contains(n));
             }
-            distance + tie
+            reach.min(distance + tie)
         });
         (if side < 0.0 && !is_end { distance } else { 0.0 }, nearest)
     }
 
     /// What of this boundary is deepest inside another.
+    ///
+    /// What is inside at all has a part that is not deep: only if that is farther in than a facet is large, all are looked at.
     pub fn inside_of(&self, other: &Self) -> Deep<D> {
+        let near = self.inside_within(2.0 * other.largest_cell, other);
+        if near.depth > other.largest_cell { self.inside_within(f64::INFINITY, other) } else { near }
+    }
+
+    fn inside_within(&self, reach: f64, other: &Self) -> Deep<D> {
         let mut deepest = Deep::none();
-        for &(node, f) in &self.nodes {
-            let x = self.at(node);
+        for (node, around) in &self.nodes {
+            let x = self.at(*node);
             if other.bounds.contains(&x) {
-                deepest = deepest.deeper(other.deep(&x, || self.diameter(f)));
+                deepest = deepest.deeper(other.deep(&x, reach, around.first().copied()));
             }
         }
         for &(nodes, f) in &self.edges {
             let ends = nodes.map(|n| self.at(n));
-            deepest = deepest.deeper(other.deepest_of_segment(&ends, || self.diameter(f)));
+            deepest = deepest.deeper(other.deepest_of_segment(&ends, Some(f)));
         }
         deepest
     }
 
     /// What of the corners and edges of an obstacle that has moved by `shift` [m] is deepest inside.
     pub fn deepest_of(&self, skin: &Skin<D>, shift: &Vector<D>) -> Deep<D> {
-        let mut deepest = Deep::none();
+        let (mut deepest, reach) = (Deep::none(), f64::INFINITY);
         for x in &skin.corners {
             let x = x + shift;
             if self.bounds.contains(&x) {
-                deepest = deepest.deeper(self.deep(&x, || f64::INFINITY));
+                deepest = deepest.deeper(self.deep(&x, reach, None));
             }
         }
         for ends in &skin.edges {
             let ends = ends.map(|x| x + shift);
-            deepest = deepest.deeper(self.deepest_of_segment(&ends, || f64::INFINITY));
+            deepest = deepest.deeper(self.deepest_of_segment(&ends, None));
         }
         deepest
     }
 
-    fn deep(&self, x: &Vector<D>, cell: impl Fn() -> f64) -> Deep<D> {
-        let (depth, f) = self.depth(x);
-        if depth == 0.0 {
-            return Deep::none();
-        }
-        Deep { depth, at: *x, cell: self.diameter(f).min(cell()) }
+    /// How deep `x` is inside, a point of a `facet` of another boundary.
+    fn deep(&self, x: &Vector<D>, reach: f64, facet: Option<u32>) -> Deep<D> {
+        let (depth, other) = self.depth(x, reach);
+        Deep { depth, at: *x, facet, other: Some(other) }
     }
 
     /// What of the segment between two points is deepest inside, if it goes through the boundary.
-    fn deepest_of_segment(&self, ends: &[Vector<D>; 2], cell: impl Fn() -> f64) -> Deep<D> {
+    fn deepest_of_segment(&self, ends: &[Vector<D>; 2], facet: Option<u32>) -> Deep<D> {
         let path = Aabb::of(*ends);
         if !self.bounds.overlaps(&path) {
             return Deep::none();
@@ -190,7 +243,8 @@ impl<const D: usize> Shell<D> {
         let along = |k: usize| {
             ends[0] + (ends[1] - ends[0]) * (from + (to - from) * (k as f64 + 0.5) / places as f64)
         };
-        (0..places).fold(Deep::none(), |deepest, k| deepest.deeper(self.deep(&along(k), &cell)))
+        (0..places)
+            .fold(Deep::none(), |deepest, k| deepest.deeper(self.deep(&along(k), f64::INFINITY, facet)))
     }
 
     /// Calls `found` with the places at which a segment goes through a facet, as parts of its length, and whether it leaves the body there.

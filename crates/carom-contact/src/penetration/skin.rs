@@ -3,12 +3,15 @@
 use carom_mesh::Vector;
 
 use crate::RigidShape;
+use crate::aabb::Aabb;
 
 /// Where an obstacle has corners and edges, before it has moved [m].
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Skin<const D: usize> {
     pub corners: Vec<Vector<D>>,
     pub edges: Vec<[Vector<D>; 2]>,
+    /// How thin it is [m]: its shortest side, or that of the box around it; none if it has no end.
+    pub thickness: f64,
 }
 
 impl<const D: usize> Skin<D> {
@@ -16,12 +19,21 @@ impl<const D: usize> Skin<D> {
         match shape {
             RigidShape::Box { corner, size } => Self::of_box(corner, size),
             RigidShape::Surface(surface) => {
-                Self { corners: surface.vertices().to_vec(), edges: surface.edges().collect() }
+                let corners = surface.vertices().to_vec();
+                let thickness = Aabb::of(corners.iter().copied()).shortest_side();
+                Self { corners, edges: surface.edges().collect(), thickness }
             }
+            RigidShape::Sphere { radius, cavity: false, .. }
+            | RigidShape::Cylinder { radius, cavity: false, .. } => Self::round(2.0 * radius),
+            // Nobody comes out on the other side of these.
             RigidShape::Plane { .. } | RigidShape::Sphere { .. } | RigidShape::Cylinder { .. } => {
-                Self { corners: Vec::new(), edges: Vec::new() }
+                Self::round(f64::INFINITY)
             }
         }
+    }
+
+    fn round(thickness: f64) -> Self {
+        Self { corners: Vec::new(), edges: Vec::new(), thickness }
     }
 
     /// Corner k has the far end of axis i if bit i of k is set.
@@ -32,6 +44,7 @@ impl<const D: usize> Skin<D> {
         Self {
             corners: (0..count).map(at).collect(),
             edges: (0..D).flat_map(along).map(|ends| ends.map(at)).collect(),
+            thickness: size.min(),
         }
     }
 }

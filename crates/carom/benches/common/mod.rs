@@ -73,7 +73,7 @@ fn discs(
             plane("ceiling", [0.0, room[1]], [0.0, -1.0]), plane("west", [0.0, 0.0], [1.0, 0.0]),
         ],
         "contact": {
-            "condition": condition, "friction": friction, "sources": "first", "certificate_tolerance": 1e-9, "targets": "faceted",
+            "condition": condition, "friction": friction, "sources": "first", "certificate_tolerance": 1e-9, "penetration_tolerance": 0.01, "targets": "faceted",
             "solver": {"kind": solver, "tolerance": 1e-12, "max_iterations": 10000},
         },
     }))

@@ -44,6 +44,8 @@ pub(super) fn method<const D: usize>(scenario: &Scenario) -> Result<Method<D>, I
     number(key, solver.tolerance, solver.tolerance > 0.0, "the tolerance must be greater than 0")?;
     let (key, tolerance) = ("contact.certificate_tolerance", scenario.contact.certificate_tolerance);
     number(key, tolerance, tolerance > 0.0, "the tolerance must be greater than 0")?;
+    let (key, tolerance) = ("contact.penetration_tolerance", scenario.contact.penetration_tolerance);
+    number(key, tolerance, tolerance > 0.0, "the tolerance must be greater than 0")?;
     for (key, count) in [
         ("analysis.newton.max_iterations", newton.max_iterations),
         ("contact.solver.max_iterations", solver.max_iterations),
@@ -71,6 +73,7 @@ pub(super) fn method<const D: usize>(scenario: &Scenario) -> Result<Method<D>, I
         newton: NewtonRule { tolerance: newton.tolerance, max_iterations: newton.max_iterations },
         max_halvings: analysis.max_halvings,
         certificate_tolerance: scenario.contact.certificate_tolerance,
+        penetration_tolerance: scenario.contact.penetration_tolerance,
     })
 }
 

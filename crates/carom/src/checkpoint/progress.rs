@@ -1,12 +1,14 @@
 //! The books, the event log, the history and the totals of a run.
 
+use carom_contact::Solid;
 use carom_friction::SolverKind;
 
 use crate::archive::{Archive, CheckpointError};
 use crate::contact::cross_check::CrossCheckSummary;
 use crate::run::events::{ContactEvent, EventLog};
 use crate::run::history::History;
-use crate::run::totals::Totals;
+use crate::run::totals::{Totals, Worst};
+use crate::step::report::Inside;
 use crate::{Books, NamedPair, Simulation};
 
 type Done = Result<(), CheckpointError>;
@@ -16,6 +18,7 @@ pub(super) fn exchange<const D: usize>(archive: &mut Archive<'_>, run: &mut Simu
     archive
         .integers("run/step", [&mut run.grid.step, &mut run.history_rows, &mut run.work.factorisations])?;
     archive.integers("run/halvings", [&mut run.halvings])?;
+    archive.numbers("run/since_look", run.work.since_look.iter_mut().map(|l| &mut l.wandered))?;
     archive.optional("run/last_recorded", [&mut run.last_recorded])?;
     archive.numbers("run/initial_energies", run.initial_energies.iter_mut().flat_map(|e| e.terms_mut()))?;
     if run.grid.step > run.grid.steps || run.halvings > run.method.max_halvings {
@@ -52,7 +55,25 @@ fn totals(archive: &mut Archive<'_>, t: &mut Totals) -> Done {
         &mut t.least_friction,
     ];
     archive.numbers("totals/sizes", sizes)?;
+    penetration(archive, t)?;
     archive.extremes("totals/min_gap", [&mut t.min_gap])
+}
+
+fn penetration(archive: &mut Archive<'_>, t: &mut Totals) -> Done {
+    archive.numbers("totals/penetration", [&mut t.max_travel, &mut t.max_penetration])?;
+    // Without depth there is none.
+    let nowhere = Inside { between: [Solid::Body(0); 2], depth: 0.0, cell: 0.0, arcs: 0.0, at: [0.0; 3] };
+    let mut worst = t.worst_penetration.unwrap_or(Worst { inside: nowhere, allowed: 0.0, time: 0.0 });
+    let Worst { inside: Inside { between, depth, cell, arcs, at }, allowed, time } = &mut worst;
+    let mut who = between.map(|solid| match solid {
+        Solid::Body(i) => [0, i],
+        Solid::Obstacle(i) => [1, i],
+    });
+    archive.integers("totals/worst_penetration", who.iter_mut().flatten())?;
+    *between = who.map(|[kind, i]| if kind == 0 { Solid::Body(i) } else { Solid::Obstacle(i) });
+    archive.numbers("totals/worst_place", [depth, cell, arcs, allowed, time].into_iter().chain(at))?;
+    t.worst_penetration = (worst.inside.depth > 0.0).then_some(worst);
+    Ok(())
 }
 
 fn cross_checks(archive: &mut Archive<'_>, checks: &mut CrossCheckSummary) -> Done {
@@ -121,6 +142,7 @@ fn history<const D: usize>(archive: &mut Archive<'_>, history: &mut History<D>) 
         &mut since.residual,
         &mut since.blend,
         &mut since.step_defect,
+        &mut since.penetration,
         &mut since.normal_force,
     ];
     archive.numbers("history/sizes", sizes)?;

@@ -1,7 +1,8 @@
+use std::collections::BTreeSet;
 use std::ops::Range;
 
-use carom_contact::{ContactModel, Pair, Target};
-use carom_mesh::Vector;
+use carom_contact::{Boundaries, ContactModel, Pair, Solid, Target};
+use carom_mesh::{Surface, Vector};
 
 use crate::model::obstacle_motion::ObstacleMotion;
 
@@ -23,6 +24,8 @@ pub struct Member<const D: usize> {
     pub reference: Vec<Vector<D>>,
     /// Its diameter [m].
     pub diameter: f64,
+    /// Its whole boundary, by its own nodes, whatever of it may touch others; empty for points.
+    pub boundary: Surface,
     /// Which components of the displacement of every node are prescribed; empty where none is.
     pub held: Vec<[bool; D]>,
 }
@@ -43,6 +46,9 @@ pub struct Assembly<const D: usize> {
     pub supports: usize,
     /// Diameter of the largest body [m].
     pub size: f64,
+    /// The boundaries of all bodies and obstacles.
+    pub(crate) boundaries: Boundaries<D>,
+    may_meet: BTreeSet<[Solid; 2]>,
     names: Vec<String>,
     /// The numbers of the nodes of every body.
     nodes: Vec<Range<usize>>,
@@ -52,6 +58,16 @@ pub struct Assembly<const D: usize> {
     diameters: Vec<f64>,
     /// The largest coordinate of a node where nothing has moved [m].
     farthest: f64,
+}
+
+/// Who a pair is between, in ascending order.
+fn between(pair: &Pair) -> [Solid; 2] {
+    let source = Solid::Body(pair.source);
+    let target = match pair.target {
+        Target::Surface(body) => Solid::Body(body),
+        Target::Obstacle(obstacle) => Solid::Obstacle(obstacle),
+    };
+    [source.min(target), source.max(target)]
 }
 
 impl<const D: usize> Assembly<D> {
@@ -64,6 +80,8 @@ impl<const D: usize> Assembly<D> {
             obstacle.node = (count + o) as u32;
         }
         let obstacles = contact.obstacles.len();
+        let boundaries: Vec<Surface> = members.iter().map(|m| m.boundary.clone()).collect();
+        let may_meet = contact.pairs.iter().map(between).collect();
         let mut assembly = Self {
             obstacle_motions: vec![ObstacleMotion::Velocity(Vector::zeros()); obstacles],
             supports: 0,
@@ -77,6 +95,8 @@ impl<const D: usize> Assembly<D> {
             reference: Vec::with_capacity(count + obstacles),
             contact,
             named_pairs,
+            boundaries: Boundaries::default(),
+            may_meet,
         };
         for (i, member) in members.into_iter().enumerate() {
             let first = assembly.reference.len();
@@ -89,6 +109,9 @@ impl<const D: usize> Assembly<D> {
             assembly.hold(i, &member.held);
         }
         assembly.reference.resize(count + obstacles, Vector::zeros());
+        let bodies = boundaries.iter().zip(assembly.nodes.iter().map(|nodes| nodes.start as u32));
+        let position = |n: u32| assembly.reference[n as usize];
+        assembly.boundaries = Boundaries::new(bodies, &assembly.contact.obstacles, &position);
         assembly.held.resize(count + obstacles, [true; D]);
         assembly
     }
@@ -97,6 +120,11 @@ impl<const D: usize> Assembly<D> {
     pub(crate) fn hold(&mut self, index: usize, held: &[[bool; D]]) {
         let own = &mut self.held[self.nodes[index].clone()];
         if held.is_empty() { own.fill([false; D]) } else { own.copy_from_slice(held) }
+    }
+
+    /// Whether two solids may touch, and so must not be inside one another; of a body with itself that is never meant.
+    pub(crate) fn must_not_overlap(&self, [a, b]: [Solid; 2]) -> bool {
+        a == b || self.may_meet.contains(&[a.min(b), a.max(b)])
     }
 
     /// Number of bodies.
@@ -122,6 +150,17 @@ impl<const D: usize> Assembly<D> {
     #[must_use]
     pub fn name(&self, index: usize) -> &str {
         &self.names[index]
+    }
+
+    /// The name of a body, or of an obstacle that may be touched.
+    pub(crate) fn solid_name(&self, solid: Solid) -> &str {
+        match solid {
+            Solid::Body(i) => self.name(i),
+            Solid::Obstacle(o) => {
+                let pair = self.contact.pairs.iter().find(|pair| pair.target == Target::Obstacle(o));
+                pair.map_or("", |pair| &self.named_pairs[pair.named_pair].between[1])
+            }
+        }
     }
 
     /// The body that a node belongs to; none if it is the position of an obstacle.

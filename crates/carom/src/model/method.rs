@@ -34,6 +34,9 @@ pub struct Method<const D: usize> {
     /// The bi-potential gap of a step that a certified run may have, relative to the largest energy of the run or, if that is more, to the
     /// largest work of the reactions of a step over the motion that they prevent.
     pub certificate_tolerance: f64,
+    /// How deep solids may be in one another in a completed run, relative to the diameter of the smaller facet that is there; beside what the
+    /// condition lets them by its nature.
+    pub penetration_tolerance: f64,
 }
 
 impl<const D: usize> Method<D> {
@@ -48,6 +51,14 @@ impl<const D: usize> Method<D> {
             contact_weights: self.condition.weights_of_ends(&map),
             is_blended: self.is_blended(),
         }
+    }
+
+    /// How deep solids may be in one another [m] where the smaller facet has the diameter `cell` and facets stand for these `arcs` [m], if no node has moved farther than `travel` [m] in a step. Nodes of one side go behind
+    /// the facets of the other by the arcs that these stand for. Conditions that rule motions and not gaps let nodes in by a travel, once; more
+    /// than half a cell is a way through.
+    pub(crate) fn allowed_penetration(&self, cell: f64, arcs: f64, travel: f64) -> f64 {
+        let let_in = if self.condition.rules_the_end() { 0.0 } else { travel.min(0.5 * cell) };
+        self.penetration_tolerance * cell + arcs + let_in
     }
 
     /// The numbers that factors are kept in: double precision in a static analysis, where no mass keeps K̄ well-conditioned, and with

@@ -10,7 +10,7 @@ pub(crate) mod state;
 use std::sync::Arc;
 
 use carom_contact::ContactModel;
-use carom_mesh::Vector;
+use carom_mesh::{Surface, Vector};
 
 use self::assembly::{Assembly, Member, NamedPair};
 use self::obstacle_motion::ObstacleMotion;
@@ -46,6 +46,7 @@ impl<const D: usize> Model<D> {
             name: b.name.clone(),
             reference: b.body.mesh().nodes().to_vec(),
             diameter: b.body.mesh().diameter(),
+            boundary: Surface::of(b.body.mesh()),
             held: b.held(),
         };
         let assembly = Assembly::new(bodies.iter().map(member).collect(), contact, named_pairs);

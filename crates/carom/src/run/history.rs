@@ -45,6 +45,8 @@ pub(crate) struct Since {
     /// Of the last step alone, like the next two.
     pub contacts: usize,
     pub min_gap: f64,
+    /// Largest of the steps.
+    pub penetration: f64,
     pub normal_force: f64,
 }
 
@@ -73,6 +75,7 @@ impl<const D: usize> History<D> {
             [
                 "contacts",
                 "min_gap",
+                "penetration",
                 "normal_force",
                 "newton_iterations",
                 "retried_steps",
@@ -133,6 +136,7 @@ impl<const D: usize> History<D> {
         since.step_defect = since.step_defect.max(report.ledger.defect().abs());
         since.contacts = report.contacts;
         since.min_gap = report.min_gap;
+        since.penetration = since.penetration.max(report.penetration.depth);
         since.normal_force = report.normal_force;
         for (trail, t) in self.trails.iter_mut().zip(&self.tracks) {
             let u = state.displacement[t.node];
@@ -178,6 +182,7 @@ impl<const D: usize> History<D> {
         self.rows.extend([
             since.contacts as f64,
             min_gap,
+            since.penetration,
             since.normal_force,
             if since.steps > 0 { since.iterations as f64 / since.steps as f64 } else { 0.0 },
             since.retried as f64,

@@ -5,6 +5,8 @@ use serde::Serialize;
 use crate::contact::cross_check::CrossCheckSummary;
 use crate::model::assembly::NamedPair;
 use crate::run::events::ContactEvent;
+use crate::run::totals::Worst;
+use crate::step::report::Inside;
 use crate::{BodyLedger, Energies, Ledger, PairLedger, Simulation};
 
 /// Energies of a run [J].
@@ -40,6 +42,33 @@ pub struct CertificateSummary {
     pub reference_joule: f64,
     /// The largest Σ that a completed run may have [J]: the tolerance of the method times this reference.
     pub tolerance_joule: f64,
+}
+
+/// How deep solids that may touch were in one another, or bodies in themselves.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct PenetrationSummary {
+    /// The largest depth at the end of a step [m].
+    pub max_depth: f64,
+    /// Where it was worst in terms of what is allowed; none if nothing was ever inside anything.
+    pub worst: Option<WorstPenetration>,
+}
+
+/// A place where two solids were inside one another.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WorstPenetration {
+    /// The two names; twice the same of a body in itself.
+    pub between: [String; 2],
+    /// How deep [m].
+    pub depth: f64,
+    /// How deep a completed run may have it there [m]: the tolerance of the method times the cell, the height of the
+    /// arcs that the facets there stand for, and what the contact condition lets in.
+    pub allowed: f64,
+    /// Diameter of the smaller facet there [m].
+    pub cell: f64,
+    /// When [s].
+    pub time: f64,
+    /// Where [m]; the third coordinate is zero in the plane.
+    pub at: [f64; 3],
 }
 
 /// The books of a body at the end.
@@ -111,6 +140,8 @@ pub struct Summary {
     pub least_friction: f64,
     /// Smallest gap seen [m].
     pub min_gap: f64,
+    /// How deep solids were in one another.
+    pub penetration: PenetrationSummary,
     /// What a second solver said of the contact problems, if it was asked.
     pub cross_check: Option<CrossCheckSummary>,
     /// Contact events.
@@ -118,6 +149,15 @@ pub struct Summary {
 }
 
 impl<const D: usize> Simulation<D> {
+    fn penetration(&self) -> PenetrationSummary {
+        let worst = self.totals.worst_penetration.map(|Worst { inside, allowed, time }| {
+            let Inside { between, depth, cell, at, .. } = inside;
+            let between = between.map(|solid| self.model.assembly.solid_name(solid).to_string());
+            WorstPenetration { between, depth, allowed, cell, time, at }
+        });
+        PenetrationSummary { max_depth: self.totals.max_penetration, worst }
+    }
+
     /// The summary so far.
     #[must_use]
     pub fn summary(&self) -> Summary {
@@ -165,6 +205,7 @@ impl<const D: usize> Simulation<D> {
             max_blend: t.max_blend,
             least_friction: t.least_friction,
             min_gap: t.min_gap,
+            penetration: self.penetration(),
             cross_check: self.method.cross_check.then(|| self.cross_checks.clone()),
             contacts: self.events.events(self.state.time),
         }

@@ -1,5 +1,5 @@
-use crate::step::report::StepReport;
-use crate::{Books, Energies};
+use crate::step::report::{Inside, StepReport};
+use crate::{Books, Energies, Method};
 
 /// Extremes and counts over the run.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +22,29 @@ pub(crate) struct Totals {
     pub max_blend: f64,
     pub least_friction: f64,
     pub min_gap: f64,
+    /// Largest motion of a node in a step [m].
+    pub max_travel: f64,
+    /// Largest depth of solids in one another at the end of a step [m].
+    pub max_penetration: f64,
+    /// Where they were deepest in terms of what is allowed.
+    pub worst_penetration: Option<Worst>,
+}
+
+/// The worst penetration of a run.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Worst {
+    pub inside: Inside,
+    /// How deep they might have been [m].
+    pub allowed: f64,
+    /// When [s].
+    pub time: f64,
+}
+
+impl Worst {
+    /// How deep they were in terms of what is allowed.
+    pub fn excess(&self) -> f64 {
+        self.inside.depth / self.allowed
+    }
 }
 
 impl Totals {
@@ -42,6 +65,9 @@ impl Totals {
             max_blend: 0.0,
             least_friction: 0.0,
             min_gap: f64::INFINITY,
+            max_travel: 0.0,
+            max_penetration: 0.0,
+            worst_penetration: None,
         }
     }
 
@@ -66,5 +92,17 @@ impl Totals {
         self.max_blend = self.max_blend.max(report.blend);
         self.least_friction = self.least_friction.min(report.least_friction);
         self.min_gap = self.min_gap.min(report.min_gap);
+        self.max_travel = self.max_travel.max(report.travel);
+        self.max_penetration = self.max_penetration.max(report.penetration.depth);
+    }
+
+    /// Takes note of how deep solids were in one another at a `time` [s], by what the `method` allows.
+    pub fn note_penetration<const D: usize>(&mut self, report: &StepReport, time: f64, method: &Method<D>) {
+        let Some(inside) = report.penetration.worst else { return };
+        let allowed = method.allowed_penetration(inside.cell, inside.arcs, self.max_travel);
+        let worst = Worst { inside, allowed, time };
+        if self.worst_penetration.is_none_or(|known| worst.excess() > known.excess()) {
+            self.worst_penetration = Some(worst);
+        }
     }
 }

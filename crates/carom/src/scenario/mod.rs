@@ -258,6 +258,8 @@ pub struct ContactSpec {
     pub discretisation: Discretisation,
     /// The bi-potential gap of a step that a certified run may have, relative to the largest energy of the run.
     pub certificate_tolerance: f64,
+    /// How deep solids may be in one another in a completed run, in diameters of the facet that is there.
+    pub penetration_tolerance: f64,
     /// Exceptions for pairs.
     #[serde(default)]
     pub pairs: Vec<PairEntry>,

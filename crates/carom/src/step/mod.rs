@@ -3,14 +3,17 @@
 pub(crate) mod blend;
 mod commit;
 mod iterate;
+mod measure;
 mod newton;
 pub(crate) mod report;
+mod since_look;
 pub(crate) mod workspace;
 
 use carom_mesh::{Vector, nodal};
 
 use self::commit::commit;
 use self::iterate::iterate;
+use self::measure::measure;
 use self::report::StepReport;
 use self::workspace::Workspace;
 use crate::body::Body;
@@ -66,7 +69,10 @@ pub fn step<const D: usize>(
         iterations += made?;
         if !work.contacts.finder.missed_one(&given, next) {
             let report = commit(&given, next, work, iterations)?;
-            return Ok(StepReport { cross_check: cross_check(&given, &work.contacts), ..report });
+            let penetration = measure(&given, next, work)?;
+            let cross_check = cross_check(&given, &work.contacts);
+            let travel = nodal::largest(&work.motion[..assembly.node_count()]);
+            return Ok(StepReport { penetration, travel, cross_check, ..report });
         }
     }
     Err(StepError::MissedContact { margin })

@@ -1,3 +1,5 @@
+use carom_contact::Solid;
+
 use crate::contact::cross_check::CrossCheck;
 use crate::ledger::{Ledger, PairLedger};
 
@@ -10,6 +12,30 @@ pub struct PairReport {
     pub ledger: PairLedger,
 }
 
+/// How deep solids that may touch are inside one another, or bodies inside themselves, at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PenetrationReport {
+    /// The largest depth [m].
+    pub depth: f64,
+    /// Where it is largest in terms of what the cells there allow, if anywhere.
+    pub worst: Option<Inside>,
+}
+
+/// A place where two solids are inside one another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inside {
+    /// The two, bodies before obstacles.
+    pub between: [Solid; 2],
+    /// How deep [m].
+    pub depth: f64,
+    /// Diameter of the smaller facet that is there [m].
+    pub cell: f64,
+    /// How far the arcs that the facets there stand for are in front of them [m].
+    pub arcs: f64,
+    /// Where [m]; the third coordinate is zero in the plane.
+    pub at: [f64; 3],
+}
+
 /// What a step says about itself.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StepReport {
@@ -19,6 +45,10 @@ pub struct StepReport {
     pub contacts: usize,
     /// Smallest gap of a contact candidate at the end of the step [m]; infinite without candidates.
     pub min_gap: f64,
+    /// How deep solids are inside one another at its end.
+    pub penetration: PenetrationReport,
+    /// Largest motion of a node in the step [m].
+    pub travel: f64,
     /// Sum of the normal reactions [N].
     pub normal_force: f64,
     /// Largest blend |α| of start and end stresses: see the scheme `conserving` with `massless` contact.
@@ -44,7 +74,8 @@ impl StepReport {
     pub(crate) fn is_finite(&self) -> bool {
         let Self { normal_force, blend, least_friction, residual, .. } = *self;
         let Self { certificate, solver_certificate, reaction_work, mut ledger, .. } = *self;
-        let numbers = [normal_force, blend, least_friction, residual];
+        let Self { penetration, travel, .. } = *self;
+        let numbers = [normal_force, blend, least_friction, residual, penetration.depth, travel];
         let laws = [certificate, solver_certificate, reaction_work];
         let terms = ledger.terms_mut().map(|term| *term);
         numbers.iter().chain(&laws).chain(&terms).all(|x| x.is_finite()) && !self.min_gap.is_nan()

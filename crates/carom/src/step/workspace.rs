@@ -1,10 +1,12 @@
 use std::time::Duration;
 
+use carom_contact::Boundaries;
 use carom_mesh::Vector;
 
 use super::blend::Blend;
 use super::newton::Newton;
 use super::report::PairReport;
+use super::since_look::SinceLook;
 use crate::body::Body;
 use crate::contact::{Contacts, PosedProblem};
 use crate::ledger::BodyLedger;
@@ -18,6 +20,9 @@ pub struct Workspace<const D: usize> {
     pub(crate) contacts: Contacts<D>,
     pub(crate) newton: Newton<D>,
     pub(crate) blend: Blend,
+    pub(crate) boundaries: Boundaries<D>,
+    /// Since every body was looked at for going through itself.
+    pub(crate) since_look: Vec<SinceLook>,
     /// d = u₊ − u [m] of all nodes and obstacles.
     pub(crate) motion: Vec<Vector<D>>,
     /// What the pair_reports did in the last step, in the order of the assembly.
@@ -42,6 +47,8 @@ impl<const D: usize> Workspace<D> {
             contacts: Contacts::new(assembly),
             newton: Newton::new(assembly),
             blend: Blend::new(bodies.len()),
+            boundaries: assembly.boundaries.clone(),
+            since_look: vec![SinceLook::default(); bodies.len()],
             motion: vec![Vector::zeros(); assembly.reference.len()],
             pair_reports: vec![PairReport::default(); assembly.named_pairs.len()],
             body_ledgers: vec![BodyLedger::default(); bodies.len()],

@@ -6,7 +6,7 @@ use carom::{
 };
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
-use carom_mesh::{Matrix, Vector};
+use carom_mesh::{Matrix, Surface, Vector};
 
 const MASS: f64 = 2.0;
 const GRAVITY: f64 = 10.0;
@@ -160,8 +160,13 @@ fn setting(stiffness: f64, gravity: f64, obstacle: Obstacle<2>, friction: f64) -
         obstacles: vec![obstacle],
         pairs: vec![pair],
     };
-    let member =
-        Member { name: "mass".into(), reference: vec![Vector::zeros()], diameter: 1.0, held: Vec::new() };
+    let member = Member {
+        name: "mass".into(),
+        reference: vec![Vector::zeros()],
+        diameter: 1.0,
+        boundary: Surface::default(),
+        held: Vec::new(),
+    };
     let named_pairs = vec![NamedPair { between: ["mass".into(), "obstacle".into()], friction }];
     let body = PointMass { stiffness, gravity: Vector::<2>::new(0.0, -gravity), ..PointMass::default() };
     Setting { assembly: Assembly::new(vec![member], contact, named_pairs), bodies: vec![Box::new(body)] }
@@ -177,6 +182,7 @@ fn method(scheme: Scheme, condition: ContactCondition) -> Method<2> {
         newton: NewtonRule { tolerance: 1e-12, max_iterations: 50 },
         max_halvings: 0,
         certificate_tolerance: 1e-9,
+        penetration_tolerance: 0.01,
     }
 }
 

@@ -20,6 +20,7 @@ mod materials;
 mod mortar;
 mod moving_obstacles;
 mod oscillator;
+mod passages;
 mod periodic;
 mod placed_obstacles;
 mod plasticity;

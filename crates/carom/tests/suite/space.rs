@@ -68,6 +68,7 @@ fn method(condition: ContactCondition) -> Method<3> {
         newton: NewtonRule { tolerance: 1e-9, max_iterations: 50 },
         max_halvings: 8,
         certificate_tolerance: 1e-9,
+        penetration_tolerance: 0.01,
     }
 }
 

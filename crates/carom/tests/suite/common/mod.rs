@@ -40,7 +40,7 @@ pub fn scenario(end_time: f64, time_step: f64, bodies: &[Value], obstacles: &[Va
         "bodies": bodies,
         "obstacles": obstacles,
         "contact": {
-            "condition": "gap", "friction": 0.0, "sources": "first", "certificate_tolerance": 1e-9, "targets": "faceted",
+            "condition": "gap", "friction": 0.0, "sources": "first", "certificate_tolerance": 1e-9, "penetration_tolerance": 0.01, "targets": "faceted",
             "solver": {"kind": "gauss-seidel", "tolerance": 1e-12, "max_iterations": 10000},
         },
     })

@@ -1,0 +1,81 @@
+//! What a step leaves of solids inside one another, and what goes through others on its way.
+
+use carom_contact::{Penetration, Solid};
+use carom_mesh::nodal;
+
+use super::report::{Inside, PenetrationReport};
+use super::workspace::Workspace;
+use crate::error::StepError;
+use crate::model::given::Given;
+use crate::model::state::State;
+
+/// How far the nodes of a body may move against one another before it is looked for itself, in diameters of its smallest facet.
+const UNSEEN: f64 = 0.05;
+
+/// Measures all boundaries at the end of the step and, where nodes move by more than half a cell past what they may touch, on the way there.
+///
+/// # Errors
+/// If something is in the way. A shorter step finds the contact; one short enough is its own way.
+pub(super) fn measure<const D: usize>(
+    given: &Given<'_, D>,
+    next: &State<D>,
+    work: &mut Workspace<D>,
+) -> Result<PenetrationReport, StepError> {
+    let Given { assembly, method, state, .. } = *given;
+    let at = |state: &State<D>, n: u32| assembly.reference[n as usize] + state.displacement[n as usize];
+    let (start, end) = (|n: u32| at(state, n), |n: u32| at(next, n));
+    let counts = |between: [Solid; 2]| between[0] != between[1] && assembly.must_not_overlap(between);
+    let obstacles = &assembly.contact.obstacles;
+    let parts = work.boundaries.parts(nodal::largest(&work.motion), obstacles, counts, &start, &end);
+    for part in 1..parts {
+        let share = part as f64 / parts as f64;
+        let between = |n: u32| start(n) * (1.0 - share) + end(n) * share;
+        let mut in_the_way = None;
+        work.boundaries.measure(obstacles, counts, &between, |found| {
+            if found.depth > method.allowed_penetration(found.cell, found.arcs, 0.0) {
+                let [a, b] = found.between;
+                in_the_way = Some([a.min(b), a.max(b)]);
+            }
+        });
+        if let Some(between) = in_the_way {
+            let [first, second] = between.map(|solid| assembly.solid_name(solid).to_string());
+            return Err(StepError::PassedThrough { first, second });
+        }
+    }
+    let mut report = PenetrationReport::default();
+    let mut largest = 0.0;
+    wander(given, work);
+    let Workspace { boundaries, since_look, .. } = work;
+    let counts = |between: [Solid; 2]| match between {
+        [Solid::Body(a), Solid::Body(b)] if a == b => since_look[a].is_due,
+        between => counts(between),
+    };
+    boundaries.measure(obstacles, counts, &end, |found| {
+        let Penetration { depth, cell, arcs, between, at } = found;
+        report.depth = report.depth.max(depth);
+        let excess = depth / method.allowed_penetration(cell, arcs, 0.0);
+        if excess > largest {
+            largest = excess;
+            let mut place = [0.0; 3];
+            place[..D].copy_from_slice(at.as_slice());
+            let [a, b] = between;
+            let between = [a.min(b), a.max(b)];
+            report.worst = Some(Inside { between, depth, cell, arcs, at: place });
+        }
+    });
+    Ok(report)
+}
+
+/// Takes note of how far nodes have wandered, and which bodies may have gone through themselves since they were looked at.
+fn wander<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) {
+    let Workspace { motion, since_look, boundaries, .. } = work;
+    for (i, look) in since_look.iter_mut().enumerate() {
+        let motion = &motion[given.assembly.nodes(i)];
+        let mean = nodal::total(motion) / motion.len().max(1) as f64;
+        look.wandered += motion.iter().map(|d| (d - mean).norm_squared()).fold(0.0, f64::max).sqrt();
+        look.is_due = look.wandered > UNSEEN * boundaries.least_cell(i);
+        if look.is_due {
+            look.wandered = 0.0;
+        }
+    }
+}
