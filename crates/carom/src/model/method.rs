@@ -8,8 +8,8 @@ use crate::scheme::Scheme;
 /// When Newton's iterations stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NewtonRule {
-    /// Largest correction of a displacement, relative to the largest motion of a node in the step; in a static analysis to the largest
-    /// displacement since the start, if that is more.
+    /// Largest correction of a displacement, relative to the largest motion of a node in the step. In a static analysis it is relative
+    /// to the largest displacement since the start, if that is more.
     pub tolerance: f64,
     /// Iterations after which the step fails.
     pub max_iterations: usize,
@@ -31,8 +31,8 @@ pub struct Method<const D: usize> {
     pub newton: NewtonRule,
     /// How often a step that fails is halved.
     pub max_halvings: u32,
-    /// The bi-potential gap of a step that a certified run may have, relative to the largest energy of the run or, if that is more, to the
-    /// largest work of the reactions of a step over the motion that they prevent.
+    /// The bi-potential gap of a step that a certified run may have, relative to the largest energy of the run. If that is more, it is
+    /// relative to the largest work of the reactions of a step over the motion that they prevent.
     pub certificate_tolerance: f64,
 }
 
@@ -50,8 +50,8 @@ impl<const D: usize> Method<D> {
         }
     }
 
-    /// The numbers that factors are kept in: double precision in a static analysis, where no mass keeps K̄ well-conditioned, and with
-    /// massless contact, whose balance of energy sees the last correction itself and not its square.
+    /// The numbers that factors are kept in. They have double precision in a static analysis, where no mass keeps K̄
+    /// well-conditioned, and with massless contact, whose balance of energy sees the last correction itself and not its square.
     fn precision(&self) -> Precision {
         if self.scheme == Scheme::Static || self.condition.is_massless() {
             Precision::Double
