@@ -80,7 +80,7 @@ impl<const D: usize> Patch<D> {
 
     /// ξ of the point closest to `x`.
     ///
-    /// Newton's method from the best of a few points: each step minimises the quadratic model of ½|x − s|² over the reference domain,
+    /// Newton's method from the best of a few points. Each step minimises the quadratic model of ½|x − s|² over the reference domain,
     /// exactly, and is shortened until the distance falls. So edges and corners need no cases of their own.
     pub fn closest(&self, x: &Vector<D>) -> [f64; 2] {
         let mut xi = self.start(x);

@@ -22,7 +22,7 @@ use crate::FemError;
 ///
 /// The ordering and the symbolic factorisation are made once; [`Factor::factorize`] renews the values in place.
 ///
-/// Where nodes are tied the inverse of a matrix A stands for T (Tᵀ A T)⁻¹ Tᵀ, with T the map from the motions of the free nodes
+/// Where nodes are tied, the inverse of a matrix A stands for T (Tᵀ A T)⁻¹ Tᵀ. T is the map from the motions of the free nodes
 /// to those of all. Forces on an image act on its master, and the two move alike to the last bit.
 pub struct Factor<const D: usize> {
     lower: SymbolicSparseColMat<usize>,

@@ -15,7 +15,7 @@ const COLUMNS: usize = 4;
 
 /// Forward and backward substitution with some of the supernodes of a Cholesky factor, for one right-hand side.
 ///
-/// Its vectors hold a value for each of its own columns, in the order of elimination, and behind them one for every row below these that
+/// Its vectors hold a value for each of its own columns, in the order of elimination. Behind them is one for every row below these that
 /// belongs to columns of others. To these, forward substitution adds what the other columns must take over; backward substitution
 /// expects their solution there.
 ///

@@ -93,8 +93,8 @@ fn difference_of_motions<const D: usize>(
 /// With e = r − proj_K(r − ρ w̃) and w̃ = w + μ|w_t| n the variational inequality of each answer, tested with the other, gives ρ
 /// Δw̃·Δr ≤ Δe·(ρ Δw̃ + Δr).
 ///
-/// Where |w_t| is the same in both, as always without friction, Δw̃ = Δw = W Δr, the left side is at least ρ|Δw|²/λ_max(W), and
-/// ρ λ_max ≤ N. For answers of size S, |Δe| ≤ 2εS while |Δr| and ρ|Δw| are at most 2S, so that (ρ|Δw|/S)² ≤ 8 N ε. A larger
+/// Where |w_t| is the same in both, as always without friction, Δw̃ = Δw = W Δr. The left side is at least ρ|Δw|²/λ_max(W), and
+/// ρ λ_max ≤ N. For answers of size S, |Δe| ≤ 2εS while |Δr| and ρ|Δw| are at most 2S. So (ρ|Δw|/S)² ≤ 8 N ε. A larger
 /// difference is no error of either solver: the problem has more than one solution, or nearly so.
 fn explained_difference(unknowns: usize, tolerance: f64) -> f64 {
     (8.0 * unknowns as f64 * tolerance).sqrt()

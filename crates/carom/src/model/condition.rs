@@ -71,9 +71,9 @@ impl ContactCondition {
 
     /// What the normal motion (H d)_n lacks of the variable w_n of the condition [m].
     ///
-    /// `kept` is a penetration, negative, that the step may keep but not deepen. It is that of a node that came past an edge or, in pairs
-    /// checked from both sides, of a contact that starts inside its target where another has stood for it. To push it out at once would
-    /// create energy. `d` is the current motion of the step and `v` the velocity at its start.
+    /// `kept` is a penetration, negative, that the step may keep but not deepen. It is that of a node that came past an edge. In pairs
+    /// checked from both sides, it is that of a contact that starts inside its target where another has stood for it. To push it out at
+    /// once would create energy. `d` is the current motion of the step and `v` the velocity at its start.
     pub fn normal_offset<const D: usize>(
         self,
         contact: &Contact<D>,

@@ -51,7 +51,8 @@ impl<const D: usize> Method<D> {
     }
 
     /// The numbers that factors are kept in. They have double precision in a static analysis, where no mass keeps K̄
-    /// well-conditioned, and with massless contact, whose balance of energy sees the last correction itself and not its square.
+    /// well-conditioned. So they do with massless contact, whose balance of energy sees the last correction itself and not its
+    /// square.
     fn precision(&self) -> Precision {
         if self.scheme == Scheme::Static || self.condition.is_massless() {
             Precision::Double

@@ -10,8 +10,8 @@
 //!
 //! α = [Σ (f_a + C v̄)_b·d_b − d_a·d_i + D_a] / [Σ (f_d)_i·d_i + d_d·d_i − D_d]
 //!
-//! with i and b the nodes with and without mass. D_a + α D_d = Σ μ r̄_n |w_t| less the work of obstacles that move, then makes the change of
-//! kinetic and strain energy what loads do, less what damping and friction take.
+//! with i and b the nodes with and without mass. D_a + α D_d = Σ μ r̄_n |w_t| less the work of obstacles that move. The change of kinetic
+//! and strain energy is then the work of the loads, less what damping and friction take.
 
 use carom_contact::Target;
 

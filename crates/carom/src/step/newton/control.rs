@@ -26,8 +26,8 @@ pub(crate) struct Control {
     /// the start. Iterations may well converge from there, to another one: a body buckled or turned inside out.
     pub astray: f64,
     /// Iterations that have not halved the smallest correction for so long get nowhere, and a shorter step is the better chance. Measured on
-    /// impacts at up to twenty times the speed of waves: 480 of 568 steps that did not converge had such a spell, but only 3 of 1640 that
-    /// converged after more than 12 iterations. Load steps go on, as plastic flow takes its time to settle.
+    /// impacts at up to twenty times the speed of waves: of 568 steps that did not converge, 480 had such a spell. Of 1640 that converged
+    /// after more than 12 iterations, 3 had one. Load steps go on, as plastic flow takes its time to settle.
     pub stalled: usize,
     /// Iterations that got so far down, in units of round-off, before they got nowhere have converged: nothing better can be had. A clamped
     /// block on a shaking floor stalls at 3.5; where steps do not converge, stalls at less than 200 have not been seen.
