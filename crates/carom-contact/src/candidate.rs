@@ -17,8 +17,8 @@ pub struct Candidate {
     pub site: Site,
     /// The facet of a target surface that a node faces; `None` for an obstacle, a multiplier or edges.
     pub facet: Option<u32>,
-    /// Whether it says what another candidate says, and is to be left out: a node that faces one that faces it, or of edges that cross at
-    /// a node and this node either.
+    /// Whether it says what another candidate says, and is to be left out. Of two nodes that face one another one is left out, and so is
+    /// one of a node and the edges that cross at it.
     pub redundant: bool,
 }
 

@@ -12,8 +12,8 @@ pub struct Contact<const D: usize> {
     pub gap: f64,
     /// Rows n, t₁, t₂; n points from the target to the source.
     pub frame: Matrix<D>,
-    /// The area that a reaction is spread over, so that the pressure is r_n over it: of a body in the plane a length [m], to be
-    /// multiplied by the thickness, else [m²]. 0 where a node stands for it.
+    /// The area that a reaction is spread over, so that the pressure is r_n over it. For a body in the plane it is a length
+    /// [m], to be multiplied by the thickness, otherwise [m²]. 0 where a node stands for it.
     pub area: f64,
     /// Without an allocation for a source node and the facet of a target.
     stencil: SmallVec<[(u32, f64); 1 + MAX_FACET_NODES]>,

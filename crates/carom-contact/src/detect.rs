@@ -9,8 +9,8 @@ use crate::tolerances::SEARCH;
 use crate::{Candidate, Contact, ContactModel, Search, Site, Target};
 
 impl<const D: usize> ContactModel<D> {
-    /// Finds the nodes that come within `margin` [m] of their target or are inside it, and the facets they face; in space also the
-    /// edges that cross those of the target.
+    /// Finds the nodes that come within `margin` [m] of their target or are inside it, and the facets they face. In space it also
+    /// finds the edges that cross those of the target.
     ///
     /// `start` and `end` are the positions at the start of the step and those predicted for its end. A node keeps its facet for
     /// the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
@@ -133,8 +133,8 @@ impl<const D: usize> ContactModel<D> {
 
     /// Gap, frame and stencil of a candidate where the nodes are at `position`.
     ///
-    /// The normal row of the map from nodal to relative motion is the gradient of the gap, except half a facet and more beyond
-    /// the edge of a facet, or beyond a corner of a smooth target.
+    /// The normal row of the map from nodal to relative motion is the gradient of the gap. It is not half a facet or more
+    /// beyond the edge of a facet, or beyond a corner of a smooth target.
     #[must_use]
     pub fn evaluate(&self, candidate: &Candidate, position: &impl Fn(u32) -> Vector<D>) -> Contact<D> {
         let node = match candidate.site {

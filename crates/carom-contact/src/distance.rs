@@ -64,9 +64,9 @@ impl<const D: usize> ContactModel<D> {
         closest
     }
 
-    /// Whether a candidate of the last [`ContactModel::detect`] that is behind its facet is outside of the target all the same, by more than
-    /// `distance` [m], when the nodes are at `position`, the start of that search, where it is this `contact`: it is on the far side of a
-    /// thin body.
+    /// Whether a candidate of the last [`ContactModel::detect`] that is behind its facet is outside the target all the same, by more than
+    /// `distance` [m]. It is then on the far side of a thin body. The nodes are at `position`, the start of that search, where the candidate
+    /// is this `contact`.
     ///
     /// A node that is a little inside at the very edge of its target may be outside by round-off.
     #[must_use]

@@ -37,15 +37,15 @@ impl<const D: usize> Projected<D> {
 
     /// Whether the node is in front of the facet, rather than beside it, or straight behind it.
     ///
-    /// In front of a convex edge a node may stand as far beside either facet as before it, but one behind and beside a facet is
-    /// next to the body.
+    /// In front of a convex edge a node may stand as far beside either facet as before it. But a node behind and beside a facet
+    /// is next to the body.
     pub fn is_square(&self) -> bool {
         let beside = (self.offset - self.normal * self.gap).norm();
         beside <= self.gap.max(0.0) + SEARCH.aligned * self.size
     }
 
     /// Whether the node is before an edge or corner, farther in front of this facet than of the others there, although still farther
-    /// beside it; so that before corners in space, and before sharp edges, there is no hole between the facets. Likewise behind concave
+    /// beside it. So there is no hole between the facets before corners in space, and before sharp edges. Likewise behind concave
     /// edges. All such places lie in the cone of the normals there.
     fn is_foremost(&self, facets: &[Self]) -> bool {
         let aligned = SEARCH.aligned * self.size;

@@ -80,8 +80,8 @@ impl<const D: usize> Patch<D> {
 
     /// ξ of the point closest to `x`.
     ///
-    /// Newton's method from the best of a few points: each step minimises the quadratic model of ½|x − s|² over the reference domain,
-    /// exactly, so that edges and corners need no cases of their own, and is shortened until the distance falls.
+    /// Newton's method from the best of a few points. Each step minimises the quadratic model of ½|x − s|² over the reference domain,
+    /// exactly, and is shortened until the distance falls. So edges and corners need no cases of their own.
     pub fn closest(&self, x: &Vector<D>) -> [f64; 2] {
         let mut xi = self.start(x);
         let mut at = self.at(&xi);
@@ -108,8 +108,8 @@ impl<const D: usize> Patch<D> {
         xi
     }
 
-    /// Where to start from: the middle or, on a facet that is clearly curved and may have several points where the distance is least,
-    /// the closest point of a grid.
+    /// Where to start from: the middle or, on a facet that is clearly curved, the closest point of a grid. Such a facet may have
+    /// several points where the distance is least.
     fn start(&self, x: &Vector<D>) -> [f64; 2] {
         let corners = self.corners();
         let middle = [0, 1].map(|i| corners.iter().map(|c| c[i]).sum::<f64>() / corners.len() as f64);
@@ -200,7 +200,7 @@ impl<const D: usize> Patch<D> {
         }
     }
 
-    /// ∂²s/∂ξ², ∂²s/∂ξ∂η and ∂²s/∂η² [m], but on a quad4 by central differences, which are exact: no shape function of a facet is of
+    /// ∂²s/∂ξ², ∂²s/∂ξ∂η and ∂²s/∂η² [m], but on a quad4 by central differences. These are exact: no shape function of a facet is of
     /// higher than second degree in ξ or in η.
     fn bends(&self, xi: &[f64; 2]) -> [Vector<D>; 3] {
         let mut bends = [Vector::zeros(); 3];

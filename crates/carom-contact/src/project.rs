@@ -22,8 +22,8 @@ pub struct Projection<'a, const D: usize> {
 pub enum Reach {
     /// Not at all: the closest point of the facet itself.
     Facet,
-    /// On every side, by half its width, straight on along its tangents at the edge. A node that slides past the edge of its facet within
-    /// a step is so still at right angles to the point it presses on, and the pair of forces has no moment.
+    /// On every side, by half its width, straight on along its tangents at the edge. So a node that slides past the edge of its facet
+    /// within a step is still at right angles to the point it presses on. The pair of forces then has no moment.
     Beyond,
 }
 

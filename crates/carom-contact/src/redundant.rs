@@ -59,9 +59,9 @@ impl<const D: usize> ContactModel<D> {
         p.nodes.iter().zip(&p.weights).find(|&(_, &weight)| weight >= 1.0 - SEARCH.redundant).map(|(&n, _)| n)
     }
 
-    /// Of candidate `k`, two `edges` that cross at a node of one of them, and the node, if it is a candidate, marks one: the edges, if the
-    /// facet of the node looks where they do; and if it is the turn of the `nodes`, a node whose facet is beside the other edge and looks
-    /// elsewhere, for which the second facet there would be as good.
+    /// Candidate `k` is two `edges` that cross at a node of one of them. If that node is a candidate too, this marks one of the two. It
+    /// marks the edges, if the facet of the node looks where they do. If it is the turn of the `nodes`, it marks a node whose facet is
+    /// beside the other edge and looks elsewhere. The second facet there would be as good for that node.
     ///
     /// Of a line of edges both at a node stay: where the line is dented, what crosses it there touches both.
     fn mark_at_node(

@@ -12,8 +12,9 @@ use crate::{ContactModel, ContactSurface, Target};
 impl ContactSurface {
     /// The same boundary as one whose nodes may touch its own facets.
     ///
-    /// A node never touches the facets around it and those next to these, nor, through the body, facets that it is close behind in
-    /// the `reference` configuration [m]: those of the other side of a thin wall. All others it may touch if it faces them.
+    /// A node never touches the facets around it and those next to these. Nor does it touch, through the body, facets that it is
+    /// close behind in the `reference` configuration [m]: those of the other side of a thin wall. All others it may touch if it
+    /// faces them.
     #[must_use]
     pub fn touching_itself<const D: usize>(mut self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
         let facets = 0..self.facets.len() as u32;

@@ -99,8 +99,8 @@ impl ContactSurface {
         Self { is_meridian: true, ..self }
     }
 
-    /// The same boundary with a normal that turns continuously from facet to facet: as a target, a line is a cubic curve through
-    /// its nodes, so that the gap of a node is a C¹ function of all positions.
+    /// The same boundary with a normal that turns continuously from facet to facet. As a target, a line is a cubic curve through
+    /// its nodes, so the gap of a node is a C¹ function of all positions.
     ///
     /// `reference` are the positions [m] without deformation. Their distances weigh the tangents, and where the line turns by
     /// more than 40° there it keeps its corner. Surfaces in space stay faceted.
@@ -160,8 +160,8 @@ impl ContactSurface {
     }
 }
 
-/// How far a facet of this kind may bulge out of the box around its nodes, in half sides of the box: the largest sum of the absolute
-/// values of its shape functions, less 1.
+/// How far a facet of this kind may bulge out of the box around its nodes, in half sides of the box. It is the largest sum of the
+/// absolute values of its shape functions, less 1.
 fn overshoot(kind: CellKind) -> f64 {
     match kind.node_count() {
         // Three nodes on a line: 5/4; on a triangle they are its corners.

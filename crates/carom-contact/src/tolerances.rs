@@ -49,14 +49,14 @@ pub(crate) const SEARCH: SearchTolerances = SearchTolerances {
 pub(crate) struct EdgeTolerances {
     /// A crossing this close to the end of an edge, in its lengths, is at its node.
     pub at_node: f64,
-    /// The angle by which an edge of two facets may look beyond either of them and still be what is in front [rad]: deformed facets are
+    /// The angle by which an edge of two facets may look beyond either of them and still be what is in front [rad]. Deformed facets are
     /// neither flat nor exactly where their edges say.
     pub turn: f64,
     /// How far an edge may end before another crosses it where a further one goes on and crosses no more, in its lengths.
     pub dent: f64,
     /// Cosine of the turning angle from which on a surface has an edge and is not flat there: 1°.
     pub flat: f64,
-    /// Length of an edge, in widths of the facets beside it, from which on it is a feature though the surface is round there: the nodes
+    /// Length of an edge, in widths of the facets beside it, from which on it is a feature though the surface is round there. The nodes
     /// along it are far apart for how much it turns.
     pub slender: f64,
     /// The least sine of the angle between edges that cross: where they are closer to parallel, nodes face facets.

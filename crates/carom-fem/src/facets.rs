@@ -31,8 +31,8 @@ impl FacetPatch {
         Self { facets, rules }
     }
 
-    /// Calls `add(node, N_a n dA)` with the share [m²] of every node in the outward area of the patch, where the nodes of `body`
-    /// are displaced by `u` [m]: Σ over quadrature points of N_a times the area vector. A 2D body has a depth.
+    /// Calls `add(node, N_a n dA)` with the share [m²] of every node in the outward area of the patch. The nodes of `body` are
+    /// displaced by `u` [m]. The share is Σ over quadrature points of N_a times the area vector. A 2D body has a depth.
     pub fn area_vectors<const D: usize>(
         &self,
         body: &Body<D>,

@@ -1,9 +1,11 @@
 //! Nodes without mass: what they carried moves inside, with total mass, centre and inertia kept.
 //!
 //! The velocity of a massless node is taken to follow those of massive nodes near it by weights that reproduce affine fields,
-//! v_b = Σ e_bk v_k. With P the map from massive to all nodes, the mass PᵀMP has the kinetic energy of that field: it is as
-//! positive definite as M, and as rigid motions are affine, no mass, centre or inertia is lost. (Khenous, Laborde & Renard 2008
-//! asked for the same invariants by the least change of M; that mass may be indefinite where few layers of cells are left.)
+//! v_b = Σ e_bk v_k. With P the map from massive to all nodes, the mass PᵀMP has the kinetic energy of that field. It is as
+//! positive definite as M and, as rigid motions are affine, no mass, centre or inertia is lost.
+//!
+//! (Khenous, Laborde & Renard 2008 asked for the same invariants by the least change of M; that mass may be indefinite where
+//! few layers of cells are left.)
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -105,8 +107,8 @@ fn massive_layers(graph: &NodeGraph, massless: &[u32], node: u32) -> Vec<Vec<u32
     layers
 }
 
-/// The weights e of least norm with Σe = 1 and Σ e x = 0 for nodes at `arms` from the origin, if there are any: e = c + g·x,
-/// where c and g solve a small symmetric system.
+/// The weights e of least norm with Σe = 1 and Σ e x = 0 for nodes at `arms` from the origin, if there are any. They are e =
+/// c + g·x, where c and g solve a small symmetric system.
 ///
 /// Directions in which all arms are zero are left alone, so that nodes on one line serve a node of that line.
 fn affine_weights<const D: usize>(arms: &[Vector<D>]) -> Option<Vec<f64>> {

@@ -29,8 +29,8 @@ impl<const D: usize> Body<D> {
 
     /// The mean rotation R of the body: the polar factor of Σ m (x − c) ⊗ (X − C).
     ///
-    /// It is the identity for a law of small displacements, whose forces do not turn with the body, for a body that repeats
-    /// itself, and where the body is so deformed that there is no rotation to find.
+    /// It is the identity for a law of small displacements, whose forces do not turn with the body, and for a body that
+    /// repeats itself. So it is where the body is so deformed that there is no rotation to find.
     #[must_use]
     pub fn frame(&self, u: &[Vector<D>]) -> Matrix<D> {
         if !self.turns() {
@@ -86,8 +86,8 @@ impl<const D: usize> Body<D> {
         [spin[0], spin[1], spin[2]]
     }
 
-    /// Angular momentum [kg m²/s] about the origin of a body with momentum density `mv` = M v [kg m/s] per node; none of a body
-    /// of revolution, in which it cancels.
+    /// Angular momentum [kg m²/s] about the origin of a body with momentum density `mv` = M v [kg m/s] per node. A body of
+    /// revolution has none, as it cancels.
     #[must_use]
     pub fn angular_momentum(&self, u: &[Vector<D>], mv: &[Vector<D>]) -> [f64; 3] {
         let mut sum = [0.0; 3];
@@ -104,7 +104,7 @@ impl<const D: usize> Body<D> {
 
 /// Mass, centre and inertia of a body in some configuration.
 ///
-/// With them a force of given resultant and moment is spread over the body as M(a + ω × y), y from the centre: the force that
+/// With them a force of given resultant and moment is spread over the body as M(a + ω × y), y from the centre. This force
 /// accelerates it rigidly and does the least to its deformation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidMass<const D: usize> {

@@ -3,8 +3,8 @@ use crate::Vector;
 /// Anderson's acceleration of a fixed-point iteration r ← G(r): the combination of the last images G(r_j) whose changes
 /// G(r_j) − r_j cancel best [H. F. Walker, P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715–1735].
 ///
-/// The law has kinks, so that it is no more than a guess: where the iteration moves farther from it than it did from the best
-/// point so far, it goes back there, and after a few such failures it is given up for good.
+/// The law has kinks, so this is no more than a guess. Where the iteration moves farther from it than it did from the best
+/// point so far, it goes back there. After a few such failures acceleration is given up for good.
 #[derive(Debug)]
 pub(crate) struct Anderson<const D: usize> {
     /// Changes G(r_j) − r_j, weighted, and images G(r_j): a ring over j.

@@ -10,12 +10,14 @@ use crate::{
 
 /// Starts cheaply and escalates where that does not converge; the default.
 ///
-/// A few accelerated Gauss–Seidel sweeps solve well-conditioned problems and improve the start of others. They go on while they
-/// promise to end soon, and then while they are a small part of what Newton's method would cost. Contacts that are densely coupled
-/// have full factors and make sweeps slow: there ADMM, which needs one factor, is tried instead, unless the contacts answer mostly to
-/// their own reactions. Then comes the proximal point method with Newton's iterations, and where that is trapped, sweeps again: in
-/// turn, until the problem is solved or the limits are reached. Where the factors would outgrow the problem, as those of large piles do,
-/// Uzawa's iteration takes over.
+/// A few accelerated Gauss–Seidel sweeps solve well-conditioned problems and improve the start of others. They go on while they promise
+/// to end soon, and then while they are a small part of what Newton's method would cost. Contacts that are densely coupled have full
+/// factors and make sweeps slow. There ADMM, which needs one factor, is tried instead, unless the contacts answer mostly to their own
+/// reactions.
+///
+/// Then comes the proximal point method with Newton's iterations, and where that is trapped, sweeps again: in turn, until the problem is
+/// solved or the limits are reached. Where the factors would outgrow the problem, as those of large piles do, Uzawa's iteration takes
+/// over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Auto;
 
@@ -58,7 +60,7 @@ impl<const D: usize> FrictionSolver<D> for Auto {
     }
 }
 
-/// Whether contacts answer mostly to their own reactions, however many others they feel: sweeps then converge fast, and what they
+/// Whether contacts answer mostly to their own reactions, however many others they feel. Sweeps then converge fast, and what they
 /// leave in the residual is as small in the reactions.
 fn is_local<const D: usize>(problem: &ContactProblem<D>) -> bool {
     (0..problem.len()).all(|i| {

@@ -7,10 +7,10 @@ use crate::{BlockMatrix, Matrix, Vector, small};
 
 /// LU factor of a sparse matrix of D × D blocks with a symmetric pattern, whose pivots are its diagonal blocks.
 ///
-/// Newton's method on contacts renews such a factor in every iteration, always with the pattern of W and always with a
-/// shift that makes the diagonal strong, so that ordering (AMD) and structure are found once and no rows are exchanged. That
-/// makes it several times faster than a general sparse LU (see ARCHITECTURE.md), and a pivot that is too small is an error,
-/// after which the caller shifts more.
+/// Newton's method on contacts renews such a factor in every iteration, always with the pattern of W and always with a shift
+/// that makes the diagonal strong. So ordering (AMD) and structure are found once, and no rows are exchanged. That makes it
+/// several times faster than a general sparse LU (see ARCHITECTURE.md), and a pivot that is too small is an error, after
+/// which the caller shifts more.
 #[derive(Debug)]
 pub(crate) struct BlockLu<const D: usize> {
     /// The row eliminated k-th, and its inverse.

@@ -184,7 +184,7 @@ mod tests {
         assert_eq!(Sum::of(products.into_iter()), -0.875);
     }
 
-    /// Three contacts that hold a body in a plane from all sides, too tightly: z = (1, 1, 1) is the proof, z with an error of
+    /// Three contacts that hold a body in a plane from all sides, too tightly. z = (1, 1, 1) is the proof, z with an error of
     /// 1e-4 is none, and one step of inverse iteration makes it one.
     #[test]
     fn a_direction_with_an_error_is_no_proof_until_it_is_sharpened() {

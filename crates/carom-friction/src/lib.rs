@@ -1,9 +1,9 @@
 //! Exact Signorini–Coulomb contact on a reduced system, without penalty or regularisation.
 //!
-//! Find reactions r and relative motions w = W r + q of n contacts such that, contact by contact,
-//! w_n ≥ 0, r_n ≥ 0, w_n r_n = 0, |r_t| ≤ μ r_n, and r_t = −μ r_n w_t/|w_t| where w_t ≠ 0.
-//! W is the Delassus operator, component 0 of a contact vector is normal and the rest tangential, so that one implementation
-//! serves D = 1, 2, 3. With w in m and r in N everything called an energy is in J.
+//! Find reactions r and relative motions w = W r + q of n contacts that obey the laws, contact by contact. Signorini: w_n ≥
+//! 0, r_n ≥ 0, w_n r_n = 0. Coulomb: |r_t| ≤ μ r_n, and r_t = −μ r_n w_t/|w_t| where w_t ≠ 0. W is the Delassus operator,
+//! component 0 of a contact vector is normal and the rest tangential, so that one implementation serves D = 1, 2, 3. With w
+//! in m and r in N everything called an energy is in J.
 //!
 //! ```
 //! use carom_friction::{BlockMatrix, ContactProblem, SolverKind, StoppingRule, Vector};

@@ -48,8 +48,8 @@ pub(crate) struct NewtonEnd {
 }
 
 /// A full step is taken unless ‖φ‖ becomes larger than in each of the last iterations, and half of it else. More care costs
-/// more than it saves: the steps that follow a kink of the equations have to go uphill, and where Newton's method fails all
-/// the same a larger shift helps, not a shorter step.
+/// more than it saves, as the steps that follow a kink of the equations have to go uphill. Where Newton's method fails all
+/// the same, a larger shift helps, not a shorter step.
 const MEMORY: usize = 3;
 
 impl<const D: usize> Newton<D> {

@@ -11,13 +11,13 @@ use crate::{
 /// The proximal point method: W + shift I instead of W, around the last answer, solved by Newton's iterations
 /// [R. T. Rockafellar, SIAM J. Control Optim. 14 (1976) 877–898].
 ///
-/// The shift falls as quickly as Newton's method can follow and rises where it cannot; there the other form of the contact
+/// The shift falls as quickly as Newton's method can follow and rises where it cannot. There the other form of the contact
 /// laws is tried too, since what traps one seldom traps both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Proximal;
 
-/// Semismooth Newton on the contact laws themselves, in the form of Alart and Curnier; where that fails its globalisation is the
-/// proximal point method, from small shifts to larger ones.
+/// Semismooth Newton on the contact laws themselves, in the form of Alart and Curnier. Where that fails, its globalisation is
+/// the proximal point method, from small shifts to larger ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct NewtonAlartCurnier;
 

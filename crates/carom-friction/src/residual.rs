@@ -5,9 +5,9 @@ use crate::{ContactProblem, Vector, cone};
 /// How far reactions are from the laws of Signorini and Coulomb.
 ///
 /// Both residuals are ‖r − proj_K(r − ρ(w + μ|w_t| n))‖ / max(ρ‖q‖, ‖r‖, ρ‖w‖), the distance from a fixed point of the
-/// bi-potential. Published codes take ρ = 1 in whatever units the problem has; where W is small or large in these units, that
-/// sees reactions only or motions only. The natural ρ = n D / tr W weighs the two alike, whatever the units, and there ‖r‖ counts
-/// as no more than 10³ ρ‖q‖: or else reactions without bound would solve problems that contradict themselves.
+/// bi-potential. Published codes take ρ = 1 in whatever units the problem has. Where W is small or large in these units, that
+/// sees reactions only or motions only. The natural ρ = n D / tr W weighs the two alike, whatever the units. There ‖r‖ counts as
+/// no more than 10³ ρ‖q‖; otherwise unbounded reactions would solve problems that contradict themselves.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Measure {
     /// With ρ = 1.

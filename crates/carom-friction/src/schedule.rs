@@ -1,7 +1,7 @@
 /// When a first-order method has its residual measured: a check costs as much as an iteration.
 ///
-/// The length of a step costs nothing and falls as the residual does: a check is due when it promises that the residual is below the
-/// tolerance, and now and then anyhow.
+/// The length of a step costs nothing and falls as the residual does. A check is due when it promises that the residual is below the
+/// tolerance, and now and then anyway.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Schedule {
     tolerance: f64,

@@ -58,11 +58,13 @@ const CONTROL: Control = Control {
 /// Runs ADMM from `r` until it is time to stop [S. Boyd et al., Found. Trends Mach. Learn. 3 (2011) 1–122], or until
 /// `max_iterations` are made or there is no factor: then None.
 ///
-/// With the slip s = μ|u_t| n of the last motions, r in K and z in its dual cone are found so that the pair (a, u) has a = r
-/// and u + s = z. A step is one of Douglas and Rachford's on the point r − ρ z, whose projection on K is r [J. Eckstein,
-/// D. P. Bertsekas, Math. Program. 55 (1992) 293–318]; it is over-relaxed and Anderson-accelerated. Now and then the penalties
-/// are set so that r and ρ z move alike. The pair (a, u) obeys the linear law in every step, so that its residual tells how
-/// far the answer is without another product with W.
+/// The slip s = μ|u_t| n is that of the last motions. Then r in K and z in its dual cone are found so that the pair (a, u) has
+/// a = r and u + s = z.
+///
+/// A step is one of Douglas and Rachford's on the point r − ρ z, whose projection on K is r [J. Eckstein, D. P. Bertsekas,
+/// Math. Program. 55 (1992) 293–318]; it is over-relaxed and Anderson-accelerated. Now and then the penalties are set so that
+/// r and ρ z move alike. The pair (a, u) obeys the linear law in every step, so that its residual tells how far the answer is
+/// without another product with W.
 pub(crate) fn run<const D: usize, P: Measured<D>, L: LinearLaw<D>>(
     monitor: &mut Monitor<'_, D, P>,
     law: &mut L,

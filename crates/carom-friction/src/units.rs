@@ -5,8 +5,8 @@ use crate::{BlockMatrix, ContactProblem, Matrix, Vector};
 
 /// Powers of two in which the motions and reactions of a problem are counted: w = 2^motion w′ and r = 2^force r′.
 ///
-/// Whatever is computed of w′ and r′ is, but for these powers, the same to the last bit: also the square roots, since the
-/// unit of compliance is a power of four.
+/// But for these powers, whatever is computed of w′ and r′ is the same to the last bit. That includes square roots, since
+/// the unit of compliance is a power of four.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Units {
     pub motion: i32,
@@ -16,8 +16,8 @@ pub(crate) struct Units {
 /// Powers of two beyond which numbers are counted in other units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Exponents {
-    /// Largest exponent of the largest number of W and of that of q up to which a problem is solved in its own units: fourth powers of all
-    /// that is computed of them are numbers still.
+    /// Largest exponent of the largest number of W and of that of q up to which a problem is solved in its own units. Fourth powers of
+    /// everything computed from them are still finite numbers.
     pub condensed: i32,
     /// The same of the largest numbers of M, H, f and b of a global problem.
     pub global: i32,

@@ -7,10 +7,10 @@ use crate::{
 /// The bi-potential iteration of de Saxcé and Feng on all contacts at once, r_i ← proj_K(r_i − θ ρ_i (w_i + μ|w_t| n)) with
 /// ρ_i = 1/λ_max(W_ii), whose factor θ adapts itself.
 ///
-/// θ is in turn the longer and the shorter step of J. Barzilai and J. M. Borwein [IMA J. Numer. Anal. 8 (1988) 141–148;
-/// Y.-H. Dai, R. Fletcher, Numer. Math. 100 (2005) 21–47 for projected steps], which follow the spectrum of W. No function needs to
-/// fall on the way: where nothing is gained for long, the iteration goes back to its best point and takes cautious steps for
-/// a while, none longer than the motions' change allows [B. He, L.-Z. Liao, J. Optim. Theory Appl. 112 (2002) 111–128].
+/// θ is in turn the longer and the shorter step of J. Barzilai and J. M. Borwein [IMA J. Numer. Anal. 8 (1988) 141–148; Y.-H. Dai,
+/// R. Fletcher, Numer. Math. 100 (2005) 21–47 for projected steps], which follow the spectrum of W. No function needs to fall on
+/// the way. Where nothing is gained for long, the iteration goes back to its best point and takes cautious steps for a while. None
+/// is longer than the motions' change allows [B. He, L.-Z. Liao, J. Optim. Theory Appl. 112 (2002) 111–128].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Uzawa;
 

@@ -38,8 +38,8 @@ impl<const D: usize> Mesh<D> {
     /// A mesh of these nodes [m] and blocks of cells.
     ///
     /// # Errors
-    /// If there are no cells, a cell is not of dimension `D` or refers to an unknown node, a coordinate is not finite, or
-    /// a node belongs to no cell.
+    /// If there are no cells, or a cell is not of dimension `D` or refers to an unknown node. Also if a coordinate is not
+    /// finite, or a node belongs to no cell.
     pub fn new(nodes: Vec<Vector<D>>, blocks: Vec<CellBlock>) -> Result<Self, MeshError> {
         if let Some(node) = nodes.iter().position(|x| !x.iter().all(|c| c.is_finite())) {
             return Err(MeshError::NonFiniteNode { node });

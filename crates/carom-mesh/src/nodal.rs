@@ -1,7 +1,7 @@
 //! What is done with vectors of all nodes: changes node by node, and sums over the nodes.
 //!
 //! Threads share vectors of many nodes. A thread takes each of its sums in four parts, so that an addition need not wait for the one
-//! before: a sum in one part takes three times as long as it takes to read the vectors.
+//! before. A sum in one part takes three times as long as it takes to read the vectors.
 
 use std::ops::Add;
 

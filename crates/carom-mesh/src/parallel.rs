@@ -20,8 +20,8 @@ pub fn has_threads() -> bool {
     rayon::current_num_threads() > 1
 }
 
-/// Does `work` on so many nodes in one of the threads that share them, if there are any: from another thread every sharing would
-/// have to wake one and wait for it. Cells are shared already where there are [`NODES_PER_CELL`] times fewer nodes than it takes to share these.
+/// Does `work` on so many nodes in one of the threads that share them, if there are any. From another thread, each sharing would have to wake
+/// one and wait for it. Cells are shared already where there are [`NODES_PER_CELL`] times fewer nodes than it takes to share these.
 pub fn among_threads<R: Send>(nodes: usize, work: impl FnOnce() -> R + Send) -> R {
     if nodes < MANY / NODES_PER_CELL || !has_threads() { work() } else { rayon::scope(|_| work()) }
 }

@@ -32,8 +32,9 @@ pub fn table(py: Python<'_>, values: Vec<f64>, width: usize) -> PyResult<Bound<'
     PyArray1::from_vec(py, values).reshape([rows, width])
 }
 
-/// A state with the energy that each body has yet to give back [J] and its contacts: of each the source node (of edges that cross the one that takes more), the target (the index of a body, or −1 − that of an obstacle), the gap where
-/// the condition was written, the normal, and the force on the source node.
+/// A state with the energy that each body has yet to give back [J] and its contacts. Of each contact it has the source node (of edges that cross, the
+/// one that takes more). The target is the index of a body, or −1 − that of an obstacle. Then follow the gap where the condition was written, the
+/// normal, and the force on the source node.
 pub fn state<'py, const D: usize>(
     py: Python<'py>,
     model: &Model<D>,

@@ -1,8 +1,8 @@
 //! Frictional impact of deformable bodies by the bi-potential method and a first-order time scheme.
 //!
 //! Continuum (`carom-fem`), touch (`carom-contact`) and friction (`carom-friction`) do not know one another; they meet in
-//! [`step`]. A [`Scenario`] is plain data; from it a [`Model`] is built once; a step maps one [`State`] to the next; the
-//! [`Workspace`] may be dropped at any moment; the [`Simulation`] walks through time and keeps the books.
+//! [`step`]. A [`Scenario`] is plain data, and from it a [`Model`] is built once. A step maps one [`State`] to the next.
+//! The [`Workspace`] may be dropped at any moment. The [`Simulation`] walks through time and keeps the books.
 //!
 //! ```text
 //! State ─ scheme ─► StepMap ─ predict ─► detect ─► candidates
@@ -13,7 +13,7 @@
 //! ```
 //!
 //! Source of the method: B. Magnain, Z.-Q. Feng, J.-M. Cros, *Modélisation des problèmes d'impact avec dissipation d'énergie par
-//! frottement*, C. R. Mécanique 333 (2005) 419–424; its equations are cited as (1)–(4).
+//! frottement*, C. R. Mécanique 333 (2005) 419–424. Its equations are cited as (1)–(4).
 
 mod archive;
 mod body;

@@ -2,8 +2,8 @@
 
 There are two reasons for differences. Sums of floating-point numbers in another order differ by
 round-off of their largest terms. And the run stops its iterations: the displacements of a step are
-known up to Newton's tolerance times the largest motion in the step, and what must vanish in the
-step is up to that error times what it depends on.
+known up to Newton's tolerance times the largest motion in the step. What must vanish in the step
+may be as large as that error times what it depends on.
 """
 
 from __future__ import annotations

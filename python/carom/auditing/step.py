@@ -226,7 +226,7 @@ class Step:
     def residual(self, index: int) -> Array:
         """Return what the equation of motion lacks, node by node [N], shape [node_count, 2].
 
-        M (v₁ − v₀)/Δt = M g − f̄ − C v̄ + contact forces; nodes without mass are in static balance
+        M (v₁ − v₀)/Δt = M g − f̄ − C v̄ + contact forces. Nodes without mass are in static balance
         at the end of the step, but for the force that steadies them.
         """
         body, f = self.model.bodies[index], self.forces[index]

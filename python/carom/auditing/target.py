@@ -1,7 +1,7 @@
 """Where points are closest to a target: to its facets, or to the smooth curve through its nodes.
 
-Both are handled as segments of cubics in ξ from 0 to 1 whose coefficients are fixed combinations of
-up to four nodes; a facet is one whose quadratic and cubic parts are zero.
+Both are handled as segments of cubics in ξ from 0 to 1 whose coefficients are fixed combinations
+of up to four nodes. A facet is one whose quadratic and cubic parts are zero.
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ def closed(
 ) -> tuple[dict[str, MeshArrays], list[Note]]:
     """Return meshes whose overlaps below their own precision are closed, and what was moved.
 
-    Nodes go to the surface that they are behind, as if the file had said so: nothing is under
+    Nodes go to the surface that they are behind, as if the file had said so. Nothing is under
     stress, and no energy comes out of an overlap that was not there.
 
     Parameters

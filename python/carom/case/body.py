@@ -22,10 +22,9 @@ class Body(Description):
     material
         Name of one of the scenario's materials.
     hypothesis
-        What a body of the plane is in space: a slice of a long body without strain across the
-        plane, a sheet without stress across it, or a body of revolution, of which x is the radius
-        and y runs along the axis. Masses, forces and energies of the last are those of the whole
-        body.
+        What a body of the plane is in space: a slice of a long body (no strain across the plane),
+        a sheet (no stress across it) or a body of revolution. In the last, x is the radius and y
+        runs along the axis; masses, forces and energies are those of the whole body.
     formulation
         How the deformation follows from the displacements; mean-dilatation has one change of volume
         per quad4 or hex8 cell, so that nearly incompressible bodies do not lock.

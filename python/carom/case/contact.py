@@ -95,38 +95,41 @@ class Contact(Description):
     Parameters
     ----------
     condition
-        Where in time the unilateral condition is written: on the gap at the end of the step (the
-        paper's, and that of every static analysis), on the increment over the step, on the velocity
-        at its end, or again on the gap at the end but between nodes without mass. With the scheme
-        ``conserving`` the second keeps the energy and lets nodes in by less than a step's travel;
-        the last keeps the energy, is quiet and never penetrates, but takes more time and does not
-        bear every case yet.
+        Where in time the unilateral condition is written. ``gap`` writes it on the gap at the end
+        of the step, as in the paper and in every static analysis. ``midpoint`` writes it on the
+        increment over the step, ``endpoint`` on the velocity at its end. ``massless`` again uses
+        the gap at the end, but between nodes without mass. With the scheme ``conserving``,
+        ``midpoint`` keeps the energy and lets nodes in by less than a step's travel. ``massless``
+        keeps the energy, is quiet and never penetrates, but takes more time and does not work in
+        every case yet.
     friction
         Coulomb's coefficient of every pair that does not state its own.
     solver
         Solver of the reduced contact problem.
     sources
         Whose nodes are checked in a pair of bodies that does not state its own: those of the body
-        with the finer boundary (of the first-named one if they are alike), or of one side or both.
+        with the finer boundary, of one side or of both. If the boundaries are alike, the finer is
+        the first-named one.
     targets
         What they are checked against: a smooth curve through the boundary nodes of the other body,
-        with a continuous tangent but for corners of more than 40°, or the facets of its mesh.
+        or the facets of its mesh. The curve has a continuous tangent but for corners of more than
+        40°.
     discretisation
-        How contact between two bodies is written that do not state their own: as gaps of the nodes
-        of the source, or (mortar) as their means under the shape functions of these nodes, which
-        carry a uniform pressure exactly between meshes that do not match. Mortar takes the facets
-        of the mesh as targets, whatever `targets` says, one side as the source, and every condition
-        but ``massless``. Obstacles are always checked node by node.
+        How contact is written between two bodies that do not state their own: as gaps of the nodes
+        of the source, or (mortar) as means under their shape functions. Mortar carries a uniform
+        pressure exactly between meshes that do not match. It takes the facets of the mesh as
+        targets, whatever `targets` says, one side as the source, and every condition but
+        ``massless``. Obstacles are always checked node by node.
     certificate_tolerance
-        Largest distance from Coulomb's law in a step, the sum of bi-potential gaps, relative to the
-        largest energy of the run, or to the largest work of the reactions of a step over the motion
-        that they prevent, where that is more. A run with a larger one is not completed.
+        Largest distance from Coulomb's law in a step, the sum of bi-potential gaps. It is relative
+        to the largest energy of the run or, where that is more, to the largest work of a step's
+        reactions over the motion that they prevent. A run with a larger one is not completed.
     penetration_tolerance
         How deep bodies and obstacles that may touch may be inside one another, or bodies inside
-        themselves, at the end of a step, in diameters of the facet that is there. Conditions that
-        rule motions and not gaps (``midpoint``, ``endpoint``) are allowed the farthest that a node
-        moved in a step of the run besides, up to half that diameter. A run that goes deeper is not
-        completed.
+        themselves, at the end of a step. It is relative to the diameter of the facet that is there.
+        Conditions that rule motions and not gaps (``midpoint``, ``endpoint``) are allowed the
+        farthest motion of a node in a step besides, up to half that diameter. A run that goes
+        deeper is not completed.
     pairs
         What single pairs do differently.
     """

@@ -48,14 +48,14 @@ class Output(Description):
         Time between two checkpoints, from which a run that was stopped goes on [s]; None takes ten
         minutes of wall time.
     merge_contacts
-        Contact events of one pair that are closer than this count as one [s]; None takes the time
+        Contact events of one pair that are closer than this count as one [s]. None takes the time
         that a pressure wave needs along the longest side of a body of the pair, of the body where
-        that is shortest, and at least three time steps; in a static analysis 0.
+        that is shortest. It is at least three time steps, and 0 in a static analysis.
     track
         Points to follow.
     audit
-        Whether the last step before each frame of fields is kept as its two states, so that
-        the audit can check every equation of the step and not only its outcome.
+        Whether the last step before each frame of fields is kept as its two states. The
+        audit can then check every equation of the step and not only its outcome.
     report
         Whether the run ends with ``report.html``, a page with the animated bodies, the energies
         and all numbers, as `carom report` writes it.

@@ -44,7 +44,7 @@ def print_whole(console: Console, sheet: Sheet, *, title: str | None = None) -> 
     """Print all cells of a sheet.
 
     What is no terminal takes lines of any length: there a row is a line. On a terminal that is too
-    narrow the columns come in several tables, each of which begins with the keys; where not even
+    narrow the columns come in several tables, each of which begins with the keys. Where not even
     one column fits beside them, words are folded.
     """
     if title:

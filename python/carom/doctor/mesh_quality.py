@@ -56,7 +56,7 @@ def quality(grid: Grid) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the ratio of the longest to the shortest edge and the scaled Jacobian of each cell.
 
     The scaled Jacobian is the least determinant of the unit vectors along the edges at a corner,
-    over that of the regular cell; edges of second order count by their ends.
+    over that of the regular cell. Edges of second order count by their ends.
     """
     aspects, jacobians = [], []
     for vtk, cells in grid.cells.items():

@@ -26,8 +26,8 @@ class Measure:
         published codes have it.
     natural_residual
         The same with ρ(w + μ|w_t| n) and ρ‖q‖, ρ‖w‖, where ρ = n D / tr W [N/m] makes motions and
-        reactions comparable, and ‖r‖ counts as no more than 10³ ρ‖q‖: or else reactions without
-        bound would solve problems that contradict themselves.
+        reactions comparable. ‖r‖ counts as no more than 10³ ρ‖q‖; otherwise unbounded reactions
+        would solve problems that contradict themselves.
     certificate
         Sum of the bi-potential gaps Σ |w_n r_n| + |μ r_n |w_t| + w_t·r_t| [J].
     """

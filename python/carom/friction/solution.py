@@ -21,9 +21,9 @@ class Solution:
     velocities
         v with M v = H r + f, shape [dof_count]; None for a problem in local form.
     status
-        ``solved`` where both residuals are at or below the tolerance; else why the solver stopped:
-        ``iteration-limit``, ``time-limit``, ``stalled`` (no step improved the answer any more),
-        ``inconsistent`` (no reactions can keep the contacts apart) or ``diverged``.
+        ``solved`` where both residuals are at or below the tolerance. Otherwise why the solver
+        stopped: ``iteration-limit``, ``time-limit``, ``stalled`` (no step improved the answer any
+        more), ``inconsistent`` (no reactions can keep the contacts apart) or ``diverged``.
     solver
         The solver that gave the answer; with ``auto`` the one it ended with.
     iterations

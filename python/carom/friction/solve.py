@@ -56,16 +56,16 @@ def solve(
     solver
         One of `SOLVERS`.
     method
-        Of a `GlobalProblem`: ``condense`` it to its local form for the solver, iterate by ``admm``
-        on M and H without forming W, or ``auto``, which takes what needs less memory and time.
+        Of a `GlobalProblem`: ``condense`` it to its local form for the solver, or iterate by
+        ``admm`` on M and H without forming W. ``auto`` takes what needs less memory and time.
     tolerance
         Residual at which the problem counts as solved.
     max_iterations
         Iterations after which the solver gives up.
     time_limit
-        Time after which `solve` gives up [s], from its call on. It ends within one iteration of the
-        solver; what a problem cannot do without, the checks of W and the factor of M, is not cut
-        short, and a factor that would not be ready in time is not begun.
+        Time after which `solve` gives up [s], from its call on. It ends within one iteration of
+        the solver. The checks of W and the factor of M, which every problem needs, are not cut
+        short. A factor that would not be ready in time is not begun.
     guess
         Reactions to start from [N], shape [n, D] or [n D]; without it zero.
 

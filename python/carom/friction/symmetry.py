@@ -81,12 +81,14 @@ def refuse_indefinite(
 ) -> None:
     """Raise if W, symmetric but for an asymmetry removed, is clearly indefinite.
 
-    W is looked at in units in which its diagonal is one, so that stiff contacts count as much as
-    soft ones: S W S with S_ii = W_ii^(−1/2) has as many negative eigenvalues as W (Sylvester), and
-    their mean is one. Up to `DENSE` rows a Cholesky factor decides. Of larger matrices the
-    diagonal, the minors of two rows and the least Ritz value of some Lanczos steps are looked at.
-    That is never below the least eigenvalue: a matrix that is refused is indefinite, one that is
-    not may still be. After so many `seconds` the Lanczos process ends with what it has.
+    W is taken in units in which its diagonal is one, so that stiff contacts count as much as soft
+    ones. S W S with S_ii = W_ii^(−1/2) has as many negative eigenvalues as W (Sylvester), and
+    their mean is one.
+
+    Up to `DENSE` rows a Cholesky factor decides. Of larger matrices the diagonal, the minors of
+    two rows and the least Ritz value of some Lanczos steps are checked. That value is never below
+    the least eigenvalue. So a matrix that is refused is indefinite; one that is not refused may
+    still be. After so many `seconds` the Lanczos process ends with what it has.
     """
     if not W.data.any():
         return

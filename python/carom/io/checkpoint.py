@@ -1,6 +1,6 @@
 """``checkpoint.h5``: all that it takes to go on with a run, and the one before it.
 
-The file is HDF5 behind a block of text that has its schema, its length and its SHA-256: what is
+The file is HDF5 behind a block of text that has its schema, its length and its SHA-256. What is
 truncated or has a flipped bit is found before the HDF5 library looks at it.
 """
 

@@ -30,7 +30,7 @@ class Running:
     ----------
     pid, host, birth
         Its process: the number, the machine, and when it started, which tells it from a later
-        process of the same number; empty where that is not known.
+        process of the same number. They are empty where that is not known.
     updated
         When it said so [s since 1970].
     progress

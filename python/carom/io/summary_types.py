@@ -26,10 +26,10 @@ class EnergySummary(RunTerms):
 class CertificateSummary(TypedDict):
     """How far the worst step was from Coulomb's law, and what a completed run may have.
 
-    The tolerance is relative to ``reference_joule``, the largest energy of the run or the largest
-    work of the reactions of a step over the motion that they prevent, whichever is more. Of the
-    worst step ``solver_joule`` is what the solver of the contact problem left; the rest is of
-    Newton's iterations.
+    The tolerance is relative to ``reference_joule``: the largest energy of the run or, if that is
+    more, the largest work of a step's reactions over the motion they prevent. Of the worst step
+    ``solver_joule`` is what the solver of the contact problem left; the rest is of Newton's
+    iterations.
     """
 
     max_joule: float

@@ -1,6 +1,6 @@
 """``fields.vtkhdf``: a temporal VTKHDF unstructured grid, for ParaView and PyVista.
 
-The layout is that of the VTKHDF file format 2.0 [1]_: mesh and body index are stored once, each
+The layout is that of the VTKHDF file format 2.0 [1]_. Mesh and body index are stored once, each
 frame appends its fields, and ``Steps`` says where the fields of each frame begin.
 
 References
@@ -33,7 +33,7 @@ SURFACE_POINT_FIELDS = ("displacement",)
 
 SURFACE_CELL_FIELDS = {"friction_energy": 1, "slip": 1, "pressure": 1, "area": 1}
 """On facets: energy dissipated by friction [J/m²], distance slid [m], contact pressure [Pa], area
-[m²]; energy and pressure per area of the reference configuration, so that energy times area sums
+[m²]. Energy and pressure are per area of the reference configuration, so energy times area sums
 to the ledger's friction."""
 
 _CHUNK_ROWS = 16_384

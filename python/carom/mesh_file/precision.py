@@ -14,9 +14,9 @@ _ROUND_OFF = 4.0 * np.finfo(np.float64).eps
 def precision(points: NDArray[np.float64]) -> float:
     """Return how far a point may be from where it is meant to be, in the unit of the points.
 
-    That is half of the last digit that the largest coordinate has, if all are written with `MOST`
-    significant digits or fewer, or half of its last bit in single precision, if all are such
-    numbers. It is 0 if they are neither, or all of them 0.
+    That is half of the last digit of the largest coordinate, if all are written with `MOST`
+    significant digits or fewer. If all are numbers in single precision, it is half of its last
+    bit there. It is 0 if they are neither, or all of them 0.
     """
     values = np.abs(points[points != 0.0]).ravel()
     values = values[np.isfinite(values)]

@@ -135,8 +135,8 @@ def depth_of(worst: Mapping[str, Any]) -> str:
 def defect_share(energy: Mapping[str, float]) -> float:
     """Return the largest defect of the ledger relative to the energy that the run had.
 
-    That is what came in, from the start on, by loads and by what is moved, or the largest change of
-    the energy, whichever is more: a load that is taken off again leaves nothing at the end. Of no
+    That is what came in, from the start on, by loads and by what is moved, or the largest change
+    of the energy, if that is more. A load that is taken off again leaves nothing at the end. Of no
     energy at all, any defect is infinitely much, and none is nothing.
     """
     supplied = abs(energy["initial"]) + abs(energy["external"]) + abs(energy["prescribed"])

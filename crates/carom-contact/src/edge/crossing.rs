@@ -56,7 +56,7 @@ pub(super) fn turns_outwards<const D: usize>(along: &Vector<D>, normals: [Vector
     area_normal(&normals).dot(along) > 0.0
 }
 
-/// Whether the direction `n`, at right angles to an edge, is between the normals of its facets, so that the edge is what a plane with that
+/// Whether the direction `n`, at right angles to an edge, is between the normals of its facets. The edge is then what a plane with that
 /// normal would meet first (the edge's arc in the Gauss map; Gregorius, Game Developers Conference 2013).
 pub(super) fn is_foremost<const D: usize>(
     n: &Vector<D>,

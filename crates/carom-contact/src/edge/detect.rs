@@ -10,9 +10,9 @@ impl<const D: usize> ContactModel<D> {
     /// Adds to `out` the edges of a pair that, in the `room` around its target, cross within `margin` [m] of one another, or a little way through one another.
     ///
     /// Of two edges one has to be a feature: where both are of something round, nodes and facets are as good. An edge counts if
-    /// the line from the one to the other is between the normals of its facets, and if no plane of these facets keeps the two
-    /// edges apart any better. As the bodies may be inside one another at the predicted middle of the step, this is decided
-    /// at its start; where they cross, at the middle.
+    /// the line from the one to the other is between the normals of its facets. Also, no plane of these facets may keep the two
+    /// edges apart any better. As the bodies may be inside one another at the predicted middle of the step, this is decided at
+    /// its start; where they cross, at the middle.
     pub(crate) fn detect_crossings(
         &self,
         pair: u32,

@@ -5,8 +5,8 @@ pub(crate) struct Found {
     pub edges: [[u32; 2]; 2],
     /// The same with the nodes that these follow.
     pub masters: [[u32; 2]; 2],
-    /// Of each the node at which it ends a little before the other crosses it, if another edge goes on there: what has come into a
-    /// dent in the line of the two crosses neither.
+    /// For each edge, the node at which it ends a little before the other crosses it, if another edge goes on there. What has come
+    /// into a dent in the line of the two crosses neither.
     pub beyond: [Option<u32>; 2],
 }
 

@@ -7,16 +7,18 @@
 //! w_A = frame_A · [Σ_B ∫Φ_A N_B dΓ d_B − Σ_C ∫Φ_A N_C dΓ d_C] / ∫Φ_A dΓ,     n_A ∥ −∫Φ_A n dΓ,
 //! ```
 //!
-//! over the part of the source that the target covers, with n the outward normal of the source; its gap is the same sum of
+//! over the part of the source that the target covers, with n the outward normal of the source. Its gap is the same sum of
 //! positions, along n_A. The rows have the form of those of nodes, so the reduced problem and its solvers know no difference. A
 //! reaction is a force [N], spread by the same weights, and r_n/∫Φ_A (and the thickness) is the pressure at the node.
 //!
-//! **Standard, not dual multipliers.** Φ_A is the linear shape function of the node, on quadratic facets that of their parts. It
-//! is nowhere negative: the gap is a mean, p ≥ 0 holds everywhere and not at nodes only. Dual functions (Popp, Gitterle, Gee & Wall,
-//! Int. J. Numer. Meth. Engng 83, 2010) make ∫Φ_A N_B diagonal, which pays where multipliers are condensed out of the global matrix.
-//! Here they never enter one, and where the target covers a facet in part, dual functions would have to be made anew from a
-//! mass matrix that degenerates with the part (Cichosz & Bischoff 2011). Standard functions are simply integrated over what is
-//! covered, so that a uniform pressure is exact whichever side reaches beyond the other.
+//! **Standard, not dual multipliers.** Φ_A is the linear shape function of the node, on quadratic facets that of their parts. It is
+//! nowhere negative: the gap is a mean, p ≥ 0 holds everywhere and not at nodes only.
+//!
+//! Dual functions (Popp, Gitterle, Gee & Wall, Int. J. Numer. Meth. Engng 83, 2010) make ∫Φ_A N_B diagonal, which pays where
+//! multipliers are condensed out of the global matrix. Here they never enter one. Where the target covers a facet only in part,
+//! dual functions would have to be made anew from a mass matrix that degenerates with the part (Cichosz & Bischoff 2011). Standard
+//! functions are simply integrated over what is covered, so that a uniform pressure is exact whichever side reaches beyond the
+//! other.
 
 mod clip;
 mod facing;

@@ -3,8 +3,8 @@
 /// A point in barycentric coordinates and its share of the whole.
 pub(super) type Point = ([f64; 3], f64);
 
-/// The rule for the product of a multiplier and a shape function on a simplex of this `dimension`: of Gauss on a segment, exact to degree
-/// 5, and of Dunavant on a triangle, exact to degree 4 or 6 (Int. J. Numer. Methods Eng. 21, 1985).
+/// The rule for the product of a multiplier and a shape function on a simplex of this `dimension`. On a segment it is that of Gauss,
+/// exact to degree 5; on a triangle that of Dunavant, exact to degree 4 or 6 (Int. J. Numer. Methods Eng. 21, 1985).
 pub(super) fn rule(dimension: usize, is_quadratic: bool) -> &'static [Point] {
     match (dimension, is_quadratic) {
         (1, _) => &[

@@ -13,8 +13,8 @@ use super::direction::along;
 
 /// A closed surface of straight facets, triangles in space and segments in the plane, with the body inside.
 ///
-/// Its signed distance takes the sign from pseudo-normals: that of a facet is its normal, that of an edge the sum over its two
-/// facets, that of a vertex the sum over the facets around, weighted by their angles there (Bærentzen & Aanæs 2005).
+/// Its signed distance takes the sign from pseudo-normals. That of a facet is its normal, and that of an edge the sum over its
+/// two facets. That of a vertex is the sum over the facets around it, weighted by their angles there (Bærentzen & Aanæs 2005).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClosedSurface<const D: usize> {
     vertices: Vec<Vector<D>>,
@@ -308,7 +308,7 @@ mod tests {
     }
 
     /// Symptom guarded against: the sign from the nearest facet alone is wrong in front of an edge that is nearer to its back
-    /// than to its front, as before the tip of a spike.
+    /// than to its front. That is so before the tip of a spike.
     #[test]
     fn before_a_spike_one_is_outside() {
         let vertices =

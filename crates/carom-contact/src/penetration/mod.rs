@@ -1,8 +1,8 @@
 //! How deep bodies and obstacles are inside one another, and bodies inside themselves.
 //!
 //! Nothing here knows of candidates, contacts or conditions: it looks at whole boundaries, from both sides, and is what these are judged
-//! by. The depth of a point is its distance from the boundary of what it is inside of. Looked at are the nodes of every boundary, the
-//! corners of obstacles, and of every edge the parts that run through the inside of another, though its ends are outside.
+//! by. The depth of a point is its distance from the boundary of what it is inside of. The nodes of every boundary and the corners of
+//! obstacles are checked. So are the parts of every edge that run through the inside of another body, though its ends are outside.
 
 mod deep;
 mod in_obstacle;

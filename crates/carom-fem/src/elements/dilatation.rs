@@ -1,5 +1,5 @@
-//! One change of volume per cell (Simo, Taylor & Pister 1985): the law sees F̂ = (J̄/J)^⅓ F, with J̄ = Σ w J / Σ w the mean of
-//! J = det F over the points of the cell, so that det F̂ = J̄. The energy of a cell is Σ w ψ(F̂).
+//! One change of volume per cell (Simo, Taylor & Pister 1985). The law sees F̂ = (J̄/J)^⅓ F, with J̄ = Σ w J / Σ w the mean of
+//! J = det F over the points of the cell. So det F̂ = J̄. The energy of a cell is Σ w ψ(F̂).
 
 use carom_mesh::tensor;
 
@@ -53,12 +53,12 @@ impl Cell<'_> {
         }
     }
 
-    /// Turns the tangents Â at F̂ into ∂P/∂F at fixed J̄ and p̄, and writes the two stresses that couple the points,
-    /// J F⁻ᵀ = ∂J/∂F and G = ∂p/∂F, to `swelling` and `pressing`.
+    /// Turns the tangents Â at F̂ into ∂P/∂F at fixed J̄ and p̄. The two stresses that couple the points, J F⁻ᵀ =
+    /// ∂J/∂F and G = ∂p/∂F, are written to `swelling` and `pressing`.
     ///
-    /// With Q = Â:F̂ and α = (J̄/J)^⅓: c = (Q + P̂):F̂/9, G = ⅓ α (Q + P̂) − c F⁻ᵀ,
-    /// ∂P/∂F = α² Â − ⅓ α (Q + P̂) ⊗ F⁻ᵀ + F⁻ᵀ ⊗ (p̄ J F⁻ᵀ − G) + (p̄ J − p) ∂F⁻ᵀ/∂F. The whole stiffness is that of ∂P/∂F and,
-    /// with n = Σ w (J F⁻ᵀ) and g = Σ w G as nodal forces, (g ⊗ n + n ⊗ g)/v + (Σ w c/v − p̄)/v n ⊗ n.
+    /// Let Q = Â:F̂ and α = (J̄/J)^⅓. Then c = (Q + P̂):F̂/9 and G = ⅓ α (Q + P̂) − c F⁻ᵀ. ∂P/∂F = α² Â − ⅓ α (Q + P̂) ⊗ F⁻ᵀ +
+    /// F⁻ᵀ ⊗ (p̄ J F⁻ᵀ − G) + (p̄ J − p) ∂F⁻ᵀ/∂F. The whole stiffness is that of ∂P/∂F and, with n = Σ w (J F⁻ᵀ) and g = Σ w G
+    /// as nodal forces, (g ⊗ n + n ⊗ g)/v + (Σ w c/v − p̄)/v n ⊗ n.
     pub fn tangents(
         &self,
         modified: &[Mat3],

@@ -5,8 +5,8 @@ use pulp::Simd;
 
 use crate::material::Tangent;
 
-/// How the deformation gradient F, S × S, follows from nodal displacements in D dimensions, F = I + Σ L(u_a, g_a), with one
-/// gradient g_a of every node at every quadrature point.
+/// How the deformation gradient F, S × S, follows from nodal displacements in D dimensions: F = I + Σ L(u_a, g_a). Every
+/// node has one gradient g_a at every quadrature point.
 pub(crate) trait Kinematics<const D: usize, const S: usize>: Send + Sync + Debug + 'static {
     /// The gradient g of a node from that of its shape function ∂N/∂X [1/m] and its `hoop` N/R, which is zero but in a body of
     /// revolution.
@@ -77,7 +77,7 @@ impl<const D: usize> Kinematics<D, D> for Solid {
 }
 
 /// F is 3 × 3 in any dimension. Of a body of revolution, F₃₃ = 1 + Σ N_a/R u_r is the stretch of the hoops, with N_a/R the third
-/// entry of the gradient of a node; in plane strain that entry is zero.
+/// entry of the gradient of a node. In plane strain that entry is zero.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Embedded;
 

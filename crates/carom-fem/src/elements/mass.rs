@@ -18,8 +18,8 @@ pub fn add_mass<const D: usize>(
     with_node_count!(cells.block.kind, N => add_mass_of::<D, N>(cells, density, m))
 }
 
-/// Adds a lumped mass [kg] of `cells` to the diagonal of `m`: that of the consistent mass, scaled cell by cell so that no mass
-/// is lost (Hinton, Rock & Zienkiewicz 1976).
+/// Adds a lumped mass [kg] of `cells` to the diagonal of `m`. It is that of the consistent mass, scaled cell by cell so that
+/// no mass is lost (Hinton, Rock & Zienkiewicz 1976).
 ///
 /// Row sums, which lump linear cells, would give corners of quadratic cells no mass or a negative one.
 ///

@@ -98,9 +98,9 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> MeanDilatation<D, N, K
         }
     }
 
-    /// Writes the stresses of a step whose work is ΔE, cell by cell, to `out`: a discrete gradient (Gonzalez 2000) in the space of
-    /// the Green–Lagrange strains E of all points of a cell, ½(F₀ + F₁)(S + κ ΔE), where S is the stress at the mean strains
-    /// and κ one number per cell.
+    /// Writes the stresses of a step whose work is ΔE, cell by cell, to `out`. They are a discrete gradient (Gonzalez 2000) in the
+    /// space of the Green–Lagrange strains E of all points of a cell. It is ½(F₀ + F₁)(S + κ ΔE), where S is the stress at the
+    /// mean strains and κ one number per cell.
     fn discrete_stresses(
         &self,
         pack: usize,

@@ -62,8 +62,8 @@ impl<const D: usize> StepForces<'_, D> {
 
 /// The elements of one block of cells. Chosen once per block; what is inside runs without dispatch.
 ///
-/// `u` and `f` hold one vector per node of the body; `history` what the quadrature points of the block remember at the start of the step,
-/// nothing if they are elastic or virgin.
+/// `u` and `f` hold one vector per node of the body. `history` is what the quadrature points of the block remember at the start of the
+/// step; it is empty if they are elastic or virgin.
 pub trait Elements<const D: usize>: Send + Sync + Debug {
     /// Number of quadrature points of all cells.
     fn point_count(&self) -> usize;

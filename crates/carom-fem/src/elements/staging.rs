@@ -8,7 +8,7 @@ use crate::material::LANES;
 /// Nodal vectors of the cells of a pack.
 pub(crate) type Local<const D: usize, const N: usize> = [[[f64; LANES]; D]; N];
 
-/// Where threads lay down the nodal forces of their cells before these are added up, node by node: what one thread adds in the order of
+/// Where threads lay down the nodal forces of their cells before these are added up, node by node. What one thread adds in the order of
 /// the cells, many add in the same order.
 #[derive(Debug)]
 pub(super) struct Staging<const D: usize, const N: usize> {
@@ -46,8 +46,8 @@ impl<const D: usize, const N: usize> Staging<D, N> {
         Some(Self { starts, cells: at_nodes, packs: Mutex::new(vec![empty; packs.len()]) })
     }
 
-    /// Adds the nodal forces that `of_pack` writes to `force`; returns the sum of the numbers that come with them, or None where it is in use:
-    /// by another step with the same body, which this thread may even have to finish.
+    /// Adds the nodal forces that `of_pack` writes to `force` and returns the sum of the numbers that come with them. It returns None where it
+    /// is in use by another step with the same body; this thread may even have to finish that step.
     pub fn assemble<W>(
         &self,
         force: &mut [Vector<D>],

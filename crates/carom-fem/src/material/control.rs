@@ -3,7 +3,7 @@
 /// What is round-off of a strain, and how long is iterated at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Control {
-    /// Principal values whose squares of stretch differ by less than this, relatively, are taken as equal: there the divided difference of
+    /// Principal values whose squares of stretch differ by less than this, relatively, are taken as equal. There the divided difference of
     /// their stresses is the mean of its limits, whose error is of second order.
     pub coincident: f64,
     /// Sweeps of Jacobi's rotations after which a tensor is taken as diagonal; a handful suffices for any that is finite.

@@ -19,8 +19,8 @@ pub struct Jet {
 
 /// ψ(I₁, I₂, J).
 pub trait InvariantEnergy: Send + Sync + Debug {
-    /// ψ [J/m³] and its derivatives by I₁, I₂ and J, where these have the `growths` I₁ − 3, I₂ − 3 and J² − 1: in them, as in E, a small
-    /// strain keeps its digits.
+    /// ψ [J/m³] and its derivatives by I₁, I₂ and J, where these have the `growths` I₁ − 3, I₂ − 3 and J² − 1. In these, as in E, a
+    /// small strain keeps its digits.
     fn jet(&self, growths: [f64; 3]) -> Jet;
 }
 
@@ -50,8 +50,8 @@ impl<L: InvariantEnergy> StrainLaw for ByInvariants<L> {
         (g1 * first[0] + g2 * first[1] + g3 * first[2]) * 2.0
     }
 
-    /// S = 2 Σ ψ_a ∂I_a, and ∂S/∂E = 4 Σ ψ_ab ∂I_a ⊗ ∂I_b + 4 Σ ψ_a ∂²I_a with ∂²I₂ = I ⊗ I − 𝕀 and
-    /// ∂²J = ¼ J C⁻¹ ⊗ C⁻¹ − ½ J 𝕀(C⁻¹), 𝕀(X)_IJKL = ½(X_IK X_JL + X_IL X_JK).
+    /// S = 2 Σ ψ_a ∂I_a, and ∂S/∂E = 4 Σ ψ_ab ∂I_a ⊗ ∂I_b + 4 Σ ψ_a ∂²I_a. Here ∂²I₂ = I ⊗ I − 𝕀
+    /// and ∂²J = ¼ J C⁻¹ ⊗ C⁻¹ − ½ J 𝕀(C⁻¹), 𝕀(X)_IJKL = ½(X_IK X_JL + X_IL X_JK).
     fn elasticity(&self, e: &Mat3) -> (Mat3, Tangent<3>) {
         let Jet { first, second, .. } = self.0.jet(growths(e));
         let (volume, inverse, gradients) = gradients(e);

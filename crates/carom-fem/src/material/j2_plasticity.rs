@@ -9,9 +9,9 @@ use crate::FemError;
 
 /// Elastoplasticity of metals at finite strain: isotropic hardening on von Mises' criterion, multiplicative, with Hencky's elasticity.
 ///
-/// F = Fᵉ Fᵖ with ψ(Fᵉ) = ½ κ (tr ε)² + μ |dev ε|², ε = ln Vᵉ the logarithmic elastic strain, and τ = ∂ψ/∂ε the Kirchhoff stress;
-/// √(3/2) |dev τ| ≤ σ_y(α) with σ_y(α) = σ₀ + H α + (σ_∞ − σ₀)(1 − e^(−δα)), α the equivalent plastic strain
-/// (Simo 1992; Voce 1948).
+/// F = Fᵉ Fᵖ with ψ(Fᵉ) = ½ κ (tr ε)² + μ |dev ε|², ε = ln Vᵉ the logarithmic elastic strain, and τ = ∂ψ/∂ε the Kirchhoff stress.
+/// √(3/2) |dev τ| ≤ σ_y(α) with σ_y(α) = σ₀ + H α + (σ_∞ − σ₀)(1 − e^(−δα)), α the equivalent plastic strain (Simo 1992; Voce
+/// 1948).
 ///
 /// Over a step the exponential map and the associated flow are the minimum of
 ///

@@ -74,15 +74,15 @@ pub trait Material: Send + Sync + Debug {
 
     /// The stress P̄ [Pa] of a step from F₀ to F₁ whose work is the change of energy: P̄:(F₁ − F₀) = ψ(F₁) − ψ(F₀).
     ///
-    /// P̄ = ½(F₀ + F₁) S̄ with a symmetric S̄, so that angular momentum is kept, by the discrete gradient of Gonzalez (2000) in the
-    /// Green–Lagrange strain E: S̄ = S(Ē) + [Δψ − S(Ē):ΔE] ΔE/|ΔE|², where Ē is the mean strain. Any objective law needs no more
-    /// than this.
+    /// P̄ = ½(F₀ + F₁) S̄ with a symmetric S̄, so that angular momentum is kept. It is the discrete gradient of Gonzalez (2000) in
+    /// the Green–Lagrange strain E: S̄ = S(Ē) + [Δψ − S(Ē):ΔE] ΔE/|ΔE|², where Ē is the mean strain. Any objective law needs no
+    /// more than this.
     fn discrete_stress(&self, f0: &Mat3, f1: &Mat3) -> Mat3 {
         discrete_gradient::discrete_stress(f0, f1, |f| self.energy(f), |f| self.stress(f))
     }
 
-    /// The stresses [Pa] of a step from F₀ to F₁ that a blend of its start and end is made of, with F̄ = ½(F₀ + F₁):
-    /// the discrete stress P̄; the difference F̄ (S₁ − S₀), whose moment vanishes too; and P₁.
+    /// The stresses [Pa] of a step from F₀ to F₁ that a blend of its start and end is made of, with F̄ = ½(F₀ + F₁).
+    /// They are the discrete stress P̄; the difference F̄ (S₁ − S₀), whose moment vanishes too; and P₁.
     fn step_stresses(&self, f0: &Mat3, f1: &Mat3) -> [Mat3; 3] {
         let (start, end) = (self.stress(f0), self.stress(f1));
         let difference = discrete_gradient::stress_difference(f0, &start, f1, &end);

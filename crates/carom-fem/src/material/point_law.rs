@@ -23,8 +23,8 @@ pub trait PointLaw<const D: usize>: Send + Sync + Debug {
     /// Whether the energy does not see a rotation, see [`Material::is_objective`].
     fn is_objective(&self) -> bool;
 
-    /// Whether the law depends on what a point has gone through. If so, the methods above are those of a virgin point, and those
-    /// below take what the points remember at the start of the step, nothing if they are virgin; if not, they ignore it.
+    /// Whether the law depends on what a point has gone through. If so, the methods above are those of a virgin point. Those
+    /// below take what the points remember at the start of the step, nothing if they are virgin. If not, they ignore it.
     fn remembers(&self) -> bool {
         false
     }

@@ -26,8 +26,8 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// The spectrum of a strain, by Jacobi's rotations: in 3 × 3 they take few sweeps and leave no more error than
-    /// round-off in eigenvalues and vectors, however close the eigenvalues are.
+    /// The spectrum of a strain, by Jacobi's rotations. In 3 × 3 they take few sweeps, and leave only round-off in
+    /// eigenvalues and vectors, however close the eigenvalues are.
     #[must_use]
     pub fn of(e: &Mat3) -> Self {
         let (mut e, mut vectors) = (*e, Mat3::identity());
@@ -88,7 +88,7 @@ impl Spectrum {
         self.vectors * Mat3::from_diagonal(&(*x).into()) * self.vectors.transpose()
     }
 
-    /// The derivative by E = ½(C − I) of S = Σ s_A(λ²) N_A ⊗ N_A, with `slope` = 2 ∂s_A/∂λ_B²: dS has the components Σ_B slope_AB dE_BB on the
+    /// The derivative by E = ½(C − I) of S = Σ s_A(λ²) N_A ⊗ N_A, with `slope` = 2 ∂s_A/∂λ_B². dS has the components Σ_B slope_AB dE_BB on the
     /// diagonal and 2 (s_A − s_B)/(λ_A² − λ_B²) dE_AB beside it, in the axes N.
     #[must_use]
     pub fn derivative(&self, s: &[f64; 3], slope: &[[f64; 3]; 3]) -> Tangent<3> {

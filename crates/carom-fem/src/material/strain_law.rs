@@ -1,7 +1,7 @@
 //! Hyperelastic laws as functions of the Green–Lagrange strain E = ½(FᵀF − I).
 //!
-//! Of E and not of C = I + 2E, so that the energy of a small strain keeps its digits: from C it would be known to ε μ only, and so would its
-//! change in a step, which the stress of a conserving step must do the work of.
+//! Of E and not of C = I + 2E, so that the energy of a small strain keeps its digits. From C it would be known to ε μ only, and so would its
+//! change in a step. The stress of a conserving step must do the work of that change.
 
 use std::fmt::Debug;
 

@@ -6,9 +6,9 @@ use crate::FemError;
 
 /// The viscous part of a Kelvin–Voigt material: the second Piola–Kirchhoff stress S_v = 2 η dev Ė + ζ tr(Ė) I beside that of the law.
 ///
-/// Over a step Ė = (E₁ − E₀)/Δt, exactly the rate of the Green–Lagrange strain that the mean ½(F₀ + F₁) of the deformation gradient
-/// works with: the dissipation S_v:ΔE is what the forces do, it is not negative, and no rotation is resisted. With a law of small displacements
-/// E is the small strain.
+/// Over a step Ė = (E₁ − E₀)/Δt, exactly the rate of the Green–Lagrange strain that the mean ½(F₀ + F₁) of the deformation gradient works with.
+/// The dissipation S_v:ΔE is the work of the forces, it is not negative, and no rotation is resisted. With a law of small displacements E is
+/// the small strain.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Viscosity {
     /// Shear viscosity η [Pa s].

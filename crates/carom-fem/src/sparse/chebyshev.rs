@@ -11,10 +11,12 @@ use crate::FemError;
 
 /// An approximate inverse of a symmetric matrix A of D × D blocks over a node graph, without a factor: a polynomial of A.
 ///
-/// With A = L (I + E) Lᵀ, where the lower triangles L of the blocks of the diagonal make theirs unity, the inverse L⁻ᵀ p(I + E) L⁻¹ has for p the
-/// polynomial of the Chebyshev semi-iteration (Golub & Varga 1961, *Numerische Mathematik* 3, 147), which leaves least over for
-/// all spectra between two bounds. It is linear, symmetric and positive definite like that of a factor, and a force at a node is felt as many
-/// rings of nodes away as it has terms, less one: responses to forces at some nodes cost little where bodies are large.
+/// Let A = L (I + E) Lᵀ, where the lower triangles L of the diagonal blocks turn these into unit blocks. The inverse is L⁻ᵀ p(I + E) L⁻¹. Its p
+/// is the polynomial of the Chebyshev semi-iteration (Golub & Varga 1961, *Numerische Mathematik* 3, 147), which leaves least over for all
+/// spectra between two bounds.
+///
+/// It is linear, symmetric and positive definite like that of a factor. A force at a node is felt as many rings of nodes away as it has
+/// terms, less one. So responses to forces at some nodes cost little where bodies are large.
 ///
 /// Single precision, as its error is larger anyway.
 #[derive(Debug)]

@@ -22,8 +22,8 @@ use crate::FemError;
 ///
 /// The ordering and the symbolic factorisation are made once; [`Factor::factorize`] renews the values in place.
 ///
-/// Where nodes are tied the inverse of a matrix A stands for T (Tᵀ A T)⁻¹ Tᵀ, with T the map from the motions of the free nodes
-/// to those of all: forces on an image act on its master, and the two move alike to the last bit.
+/// Where nodes are tied, the inverse of a matrix A stands for T (Tᵀ A T)⁻¹ Tᵀ. T is the map from the motions of the free nodes
+/// to those of all. Forces on an image act on its master, and the two move alike to the last bit.
 pub struct Factor<const D: usize> {
     lower: SymbolicSparseColMat<usize>,
     symbolic: SymbolicCholesky<usize>,
@@ -175,8 +175,8 @@ impl<const D: usize> Factor<D> {
     }
 
     /// Takes the right-hand side `x`, one vector per node, through the forward substitution. Before [`Self::end`] makes the
-    /// solution of it, [`Self::look`] sees a part of that, and [`Self::add`] adds to the right-hand side: both at some nodes only,
-    /// which costs a fraction of a solve.
+    /// solution of it, [`Self::look`] sees a part of that, and [`Self::add`] adds to the right-hand side. Both act at some nodes
+    /// only, which costs a fraction of a solve.
     ///
     /// # Panics
     /// If the length does not fit or nothing was factorised.

@@ -4,8 +4,9 @@ use carom_mesh::{Matrix, Tie, Vector};
 
 use super::NodeGraph;
 
-/// Tied nodes in a linear system. With T the map from the motions of the free nodes to those of all, a matrix A becomes Tᵀ A T,
-/// a right-hand side b becomes Tᵀ b, and the solution is T x. Images keep rows of their own, so that nodes keep their numbers.
+/// Tied nodes in a linear system. Let T be the map from the motions of the free nodes to those of all. A matrix A becomes Tᵀ A
+/// T, a right-hand side b becomes Tᵀ b, and the solution is T x. Images keep rows of their own, so that nodes keep their
+/// numbers.
 #[derive(Debug)]
 pub(super) struct Folding<const D: usize> {
     ties: Vec<Tie>,

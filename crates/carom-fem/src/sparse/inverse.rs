@@ -7,8 +7,9 @@ use crate::FemError;
 
 /// The inverse of a symmetric positive definite matrix of D × D blocks over a node graph, exact or good enough to iterate with.
 ///
-/// Exact it is a [`Factor`]. Where that would be large, single precision will do, and the matrix is so well-conditioned that a few
-/// products with it gain the digits that an iteration needs, a polynomial of the matrix stands for its inverse, and nothing is factorised.
+/// Exact it is a [`Factor`]. A polynomial of the matrix stands for its inverse, and nothing is factorised, where three things hold. The
+/// factor would be large, single precision will do, and the matrix is so well-conditioned that a few products with it gain the digits an
+/// iteration needs.
 #[derive(Debug)]
 pub struct Inverse<const D: usize> {
     ties: Vec<Tie>,

@@ -5,8 +5,8 @@ use std::ops::Range;
 use super::control::CONTROL;
 
 /// Ranges of supernodes, ascending and apart, that are whole subtrees of the elimination tree, each with a share of the values of the
-/// factor; what is in none is above them. They depend on the factor alone, not on how many threads there are. A small factor
-/// has none.
+/// factor. What is in none is above them. They depend on the factor alone, not on how many threads there are. A small factor has
+/// none.
 ///
 /// `parent` of a supernode stands behind it, `usize::MAX` for a root; `values` is its size.
 pub(super) fn pieces(parent: &[usize], values: &[usize]) -> Vec<Range<usize>> {

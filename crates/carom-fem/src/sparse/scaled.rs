@@ -16,8 +16,8 @@ pub(super) type Columns<const D: usize, const C: usize> = [[f32; C]; D];
 
 /// A symmetric positive definite matrix A as L S Lᵀ, with L the lower triangles of the blocks of its diagonal, A_nn = L_n L_nᵀ.
 ///
-/// No entry of S is larger than those of its diagonal, which are 1: sixteen bits with a fixed point hold them to 1.5·10⁻⁵, which is
-/// much less than an approximate inverse is wrong by. Products wait for memory, so half of single precision is half the time.
+/// No entry of S is larger than those of its diagonal, which are 1. Sixteen bits with a fixed point hold them to 1.5·10⁻⁵, much
+/// less than the error of an approximate inverse. Products wait for memory, so half of single precision is half the time.
 #[derive(Debug)]
 pub(super) struct Scaled<const D: usize> {
     graph: Arc<NodeGraph>,

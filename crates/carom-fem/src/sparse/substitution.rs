@@ -15,14 +15,14 @@ const COLUMNS: usize = 4;
 
 /// Forward and backward substitution with some of the supernodes of a Cholesky factor, for one right-hand side.
 ///
-/// Its vectors hold a value for each of its own columns, in the order of elimination, and behind them one for every row below these that
-/// belongs to columns of others: forward substitution adds to them what these must take over, and backward substitution expects
-/// their solution there.
+/// Its vectors hold a value for each of its own columns, in the order of elimination. Behind them is one for every row below these that
+/// belongs to columns of others. To these, forward substitution adds what the other columns must take over; backward substitution
+/// expects their solution there.
 ///
 /// For every supernode with diagonal block L₁₁ and rows L₂₁ below, the panel Z = [L₁₁⁻¹; L₂₁L₁₁⁻¹] is kept. The forward step is
 /// then [y₁; t] = Z x₁, x₂ ← x₂ − t, and the backward step x₁ = Zᵀ[y₁; −x₂]: one product each way, without divisions or
-/// dependent loops. A factor is made once and solved with thousands of times, so the set-up does not count, and small
-/// panels, where a general library spends most of its time on dispatch, are what 2D bodies consist of.
+/// dependent loops. A factor is made once and solved with thousands of times, so the set-up does not count. 2D bodies consist
+/// of small panels, on which a general library spends most of its time on dispatch.
 #[derive(Debug, Default)]
 pub(super) struct Substitution<T> {
     pub(super) panels: Vec<Panel>,
@@ -177,9 +177,9 @@ impl<T: Real> Substitution<T> {
         Arch::new().dispatch(Backward { substitution: self, panels, x });
     }
 
-    /// Writes the panels of `columns` and of all that are eliminated after them and depend on them to `reach`, ascending: what a
-    /// right-hand side in these columns touches, and what the solution there depends on (Gilbert 1994). Calls `leave` with the rows
-    /// of others by which the ways go on there.
+    /// Writes the panels of `columns` and of all that are eliminated after them and depend on them to `reach`, ascending. These are
+    /// what a right-hand side in these columns touches, and what the solution there depends on (Gilbert 1994). Calls `leave` with
+    /// the rows of others by which the ways go on there.
     pub fn reach(
         &self,
         columns: impl Iterator<Item = usize>,

@@ -11,8 +11,8 @@ pub(super) struct Control {
     pub lost: f64,
     /// Difference of two opposite entries of M, relative to the diagonal ones, up to which it is round-off.
     pub round_off: f64,
-    /// Cost of a multiplication in a solve with one right-hand side, which reads the factor from memory, compared with one in a
-    /// factorisation or in a solve with many right-hand sides (measured: 4 to 8).
+    /// Cost of a multiplication in a solve with one right-hand side, compared with one in a factorisation or in a solve with
+    /// many (measured: 4 to 8). The former reads the factor from memory.
     pub read: f64,
     /// Iterations of ADMM that are expected: between elastic bodies it takes 15 to 60.
     pub iterations: f64,

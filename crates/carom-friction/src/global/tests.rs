@@ -36,8 +36,8 @@ fn noise(k: usize) -> f64 {
     (12.9898 * k as f64 + 4.1).sin()
 }
 
-/// Bodies of `size` unknowns in a row, each held to the next by one contact and the last to the ground: symmetric positive
-/// definite blocks on the diagonal of M, with `skew` of an unsymmetric part.
+/// Bodies of `size` unknowns in a row, each held to the next by one contact and the last to the ground. M has symmetric
+/// positive definite blocks on the diagonal, with `skew` of an unsymmetric part.
 fn bodies<const D: usize>(count: usize, size: usize, skew: f64) -> GlobalProblem<D> {
     let n = count * size;
     let mut m = DMatrix::zeros(n, n);

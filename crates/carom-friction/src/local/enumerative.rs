@@ -2,12 +2,12 @@ use super::control::CONTROL;
 use super::{Bipotential, LocalContact, LocalSolver, polynomial};
 use crate::{Vector, cone};
 
-/// Every case by its closed form: separation, stick and slip, the last one a linear equation for each direction in 2D and a
-/// quartic for the direction in 3D; the fixed point where round-off lets no case fit.
+/// Every case by its closed form: separation, stick and slip. Slip is a linear equation for each direction in 2D and a
+/// quartic for the direction in 3D. Where round-off lets no case fit, the fixed point is used.
 ///
 /// In slip w_n = 0, r = r_n (1, μ d) and w_t = −s d with |d| = 1, r_n ≥ 0 and s ≥ 0, so that r_n = −b_n/(A_nn + μ A_nt·d).
-/// What remains in 3D is that w_t has no part across d: with the angle of d it is a trigonometric polynomial of degree two,
-/// with the tangent of half the angle a quartic [O. Bonnefon, G. Daviet, INRIA Technical Report RT-0406 (2011)].
+/// What remains in 3D is that w_t has no part across d. In the angle of d that is a trigonometric polynomial of degree two.
+/// In the tangent of half the angle it is a quartic [O. Bonnefon, G. Daviet, INRIA Technical Report RT-0406 (2011)].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Enumerative;
 

@@ -1,7 +1,7 @@
 //! Real roots of polynomials of degree 4 and less.
 
-/// Calls `visit` with every root in [−1, 1] of c₀ + c₁ t + … + c₄ t⁴ that is a change of sign, and with the minima of its absolute
-/// value in between, where a double root hides from round-off.
+/// Calls `visit` with every root in [−1, 1] of c₀ + c₁ t + … + c₄ t⁴ that is a change of sign. It is also called with the minima
+/// of the absolute value in between, where a double root hides from round-off.
 ///
 /// The roots of a derivative separate those of the polynomial, so that each is alone in a bracket, where Newton's method
 /// with bisection as a safeguard cannot miss it.

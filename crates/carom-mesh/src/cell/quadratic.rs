@@ -31,7 +31,7 @@ pub(super) fn product_gradient(nodes: &[[f64; 3]], dimension: usize, xi: &[f64; 
 }
 
 /// Factors of a serendipity function (Zienkiewicz & Taylor, *The Finite Element Method*, vol. 1): 1 + pξ per direction,
-/// 1 − ξ² along the edge of a mid-side node; each with its derivative.
+/// 1 − ξ² along the edge of a mid-side node. Each comes with its derivative.
 #[inline]
 fn factor(p: f64, x: f64) -> (f64, f64) {
     if p == 0.0 { (1.0 - x * x, -2.0 * x) } else { (0.5 * (1.0 + p * x), 0.5 * p) }

@@ -59,8 +59,8 @@ pub(super) static WEDGE6: Reference = Reference {
     vtk_type: 13,
 };
 
-/// Nodes at the corners and on the edges. With s = ±1 above and below, corners have ½ L ((2L − 1)(1 + sζ) − (1 − ζ²)), the edges
-/// of the triangles 2 L_i L_j (1 + sζ), and the upright ones L (1 − ζ²).
+/// Nodes at the corners and on the edges. With s = ±1 above and below, corners have ½ L ((2L − 1)(1 + sζ) − (1 − ζ²)). The edges
+/// of the triangles have 2 L_i L_j (1 + sζ), and the upright ones L (1 − ζ²).
 pub(super) static WEDGE15: Reference = Reference {
     name: "wedge15",
     dimension: 3,

@@ -27,8 +27,8 @@ impl Ball {
     /// The ball in these cells, with the set surface.
     ///
     /// # Errors
-    /// If the radius is not positive, the divisions are zero, or odd while `rings` is not given, or the cells are not of 3D, or wedges,
-    /// which would not meet at the sides of the core.
+    /// If the radius is not positive, the divisions are zero, or odd while `rings` is not given, or the cells are not of 3D. Also if
+    /// they are wedges, which would not meet at the sides of the core.
     pub fn mesh(&self, kind: CellKind) -> Result<Mesh<3>, MeshError> {
         let n = self.divisions;
         check(is_length(self.radius), "radius", &self.radius, "the radius must be greater than 0 m")?;

@@ -21,8 +21,8 @@ impl Tube {
     /// The tube in these cells, with the sets inner, outer, bottom and top.
     ///
     /// # Errors
-    /// If the lengths are not positive, the radii do not grow, the axis is zero, the divisions are too few or too many, or
-    /// the cells are not of 3D.
+    /// If the lengths are not positive, the radii do not grow or the axis is zero. Also if the divisions are too few or
+    /// too many, or the cells are not of 3D.
     pub fn mesh(&self, kind: CellKind) -> Result<Mesh<3>, MeshError> {
         let Self { axis, inner_radius, outer_radius, divisions } = *self;
         axis.check()?;

@@ -101,9 +101,9 @@ pub struct BodyEnd<'a, const D: usize> {
 /// A body in a step, with its factors and its scratch.
 ///
 /// Slices have an entry per node of the body unless it is said otherwise, and nodes are numbered within it. A body alone decides what K̄ is,
-/// the matrix with which it corrects its motion; the step asks for K̄⁻¹ by parts, so that reactions, which depend on all bodies, can join in
-/// between: [`Self::begin_solve`] with what is known, [`Self::partial_solve`] at the contacts, [`Self::add_forces`] once these are solved, and
-/// [`Self::end_solve`].
+/// the matrix with which it corrects its motion. The step asks for K̄⁻¹ by parts, so that reactions, which depend on all bodies, can join in
+/// between. The parts are [`Self::begin_solve`] with what is known, [`Self::partial_solve`] at the contacts, [`Self::add_forces`] once these
+/// are solved, and [`Self::end_solve`].
 pub trait Body<const D: usize>: Send + Sync {
     /// What its material remembers at the start of a run.
     fn initial_history(&self) -> Vec<PlasticState> {

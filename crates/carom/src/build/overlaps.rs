@@ -112,8 +112,8 @@ fn has_straight_edges<const D: usize>(model: &Model<D>, candidate: &Candidate) -
     }
 }
 
-/// Nodes, centres of facets and centres of cells of a body: bars of equal height pushed into one another have all nodes on
-/// sides of the other, and identical bodies in the same place their facets too.
+/// Nodes, centres of facets and centres of cells of a body. Bars of equal height pushed into one another have all their
+/// nodes on sides of the other; identical bodies in the same place have their facets there too.
 fn sample<const D: usize>(body: &ModelBody<D>) -> impl Iterator<Item = Vector<D>> {
     let mesh = body.body.mesh();
     let centre = |nodes: &[u32]| {

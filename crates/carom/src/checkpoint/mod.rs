@@ -1,7 +1,7 @@
 //! A run as plain arrays, and back: it then goes on as if it had never stopped, to the last bit.
 //!
-//! What is kept is listed once, in functions that either record or replay an [`Archive`]: `state.rs` the state, `progress.rs` the books and
-//! whatever else a run gathers, `factors.rs` what makes a [`Workspace`](crate::Workspace) more than scratch. A kept factor decides to
+//! What is kept is listed once, in functions that either record or replay an [`Archive`]. `state.rs` has the state, `progress.rs` the books
+//! and whatever else a run gathers, `factors.rs` what makes a [`Workspace`](crate::Workspace) more than scratch. A kept factor decides to
 //! which last digits iterations converge; its values are made again from where it was made, which takes less room than they do.
 
 mod factors;

@@ -37,7 +37,7 @@ impl<const D: usize> ActiveSet<D> {
 
     /// Keeps the candidates that take part in the step and recalls their last reactions.
     ///
-    /// A node that is found deeper inside its target than its velocity explains has not just got there: it slid past an edge that no node
+    /// A node that is found deeper inside its target than its velocity explains has not just got there. It slid past an edge that no node
     /// of the other side saw. It is kept from going deeper, until the bodies part: to push it out at once, the faster the shorter the step,
     /// would create energy. In a static analysis it is pushed out: there bodies may be meant to be pressed into one another.
     pub fn select(&mut self, given: &Given<'_, D>, search: &Search<D>) {

@@ -20,8 +20,8 @@ pub(crate) struct Finder<const D: usize> {
 }
 
 impl<const D: usize> Finder<D> {
-    /// Finds the candidates of the step between its start and the predicted end; another time between its start and where it led to, beside
-    /// those already found and those missed there.
+    /// Finds the candidates of the step between its start and the predicted end. Another time it searches between its start and where it
+    /// led to, beside those already found and those missed there.
     ///
     /// Nodes are not looked for farther and farther away: in a fast step that would be all there are, and their problem dense. Only
     /// the rows of mortar pairs, which cannot be recalled, are found by a wider margin.
@@ -45,7 +45,7 @@ impl<const D: usize> Finder<D> {
         self.found.clone_from(candidates);
     }
 
-    /// Whether a node that the search did not find has gone through its target by the end of the step; if so, what was missed is searched
+    /// Whether a node that the search did not find has gone through its target by the end of the step. If so, what was missed is searched
     /// from now on.
     ///
     /// Only where the condition is written there: the others choose their contacts at the start.

@@ -14,8 +14,8 @@ pub(super) struct Control {
     pub few: usize,
     /// A direction along a facet that yields less than this where the normal is held, relative to the normal, is held itself.
     pub rigid: f64,
-    /// What a held direction yields in W, relative to the normal, where nothing is driven along it, and where something is: any number
-    /// serves, as no force moves it, so long as it is the prescribed sliding that decides the friction.
+    /// What a held direction yields in W, relative to the normal, where nothing is driven along it, and where something is. Any number
+    /// serves, as no force moves it, so long as the prescribed sliding decides the friction.
     pub held_compliance: [f64; 2],
     /// Sliding below this, relative to the motion of the contact, is round-off.
     pub no_sliding: f64,

@@ -90,10 +90,12 @@ fn difference_of_motions<const D: usize>(
 
 /// √(8 N ε) for N unknowns: how far apart the motions of two answers can be whose natural residuals are at most ε.
 ///
-/// With e = r − proj_K(r − ρ w̃) and w̃ = w + μ|w_t| n the variational inequality of each answer, tested with the other, gives
-/// ρ Δw̃·Δr ≤ Δe·(ρ Δw̃ + Δr). Where |w_t| is the same in both, as always without friction, Δw̃ = Δw = W Δr, the left side is at
-/// least ρ|Δw|²/λ_max(W), and ρ λ_max ≤ N. For answers of size S, |Δe| ≤ 2εS while |Δr| and ρ|Δw| are at most 2S, so that
-/// (ρ|Δw|/S)² ≤ 8 N ε. A larger difference is no error of either solver: the problem has more than one solution, or nearly so.
+/// With e = r − proj_K(r − ρ w̃) and w̃ = w + μ|w_t| n the variational inequality of each answer, tested with the other, gives ρ
+/// Δw̃·Δr ≤ Δe·(ρ Δw̃ + Δr).
+///
+/// Where |w_t| is the same in both, as always without friction, Δw̃ = Δw = W Δr. The left side is at least ρ|Δw|²/λ_max(W), and
+/// ρ λ_max ≤ N. For answers of size S, |Δe| ≤ 2εS while |Δr| and ρ|Δw| are at most 2S. So (ρ|Δw|/S)² ≤ 8 N ε. A larger
+/// difference is no error of either solver: the problem has more than one solution, or nearly so.
 fn explained_difference(unknowns: usize, tolerance: f64) -> f64 {
     (8.0 * unknowns as f64 * tolerance).sqrt()
 }
@@ -166,7 +168,7 @@ mod tests {
     }
 
     /// Two answers to one problem, by hand: with much friction and normal motion that slip makes, a contact can stick or open.
-    /// W = [[1, −1.5], [−1.5, 4]] and q = (0.5, −1.5): r = 0 leaves w = q, which is open; and r = −W⁻¹q = (1/7, 3/7) holds the
+    /// W = [[1, −1.5], [−1.5, 4]] and q = (0.5, −1.5). r = 0 leaves w = q, which is open. r = −W⁻¹q = (1/7, 3/7) holds the
     /// contact in place for μ ≥ 3.
     #[test]
     fn a_contact_that_can_stick_or_open_is_a_disagreement() {

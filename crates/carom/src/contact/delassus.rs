@@ -32,9 +32,9 @@ impl<const D: usize> Delassus<D> {
 
     /// Writes W, q and μ of the contacts to `problem`.
     ///
-    /// `motion` is the nodal motion d that the step would make with the reactions known so far, and q what W leaves of it without them:
-    /// once these no longer change, the law holds for the motion itself, whatever the accuracy of W. `offsets` are what the normal components
-    /// lack of the contact condition's variable. The columns of W were prepared.
+    /// `motion` is the nodal motion d that the step would make with the reactions known so far, and q what W leaves of it without them. Once
+    /// these no longer change, the law holds for the motion itself, however accurate W is. `offsets` are what the normal components lack of
+    /// the contact condition's variable. The columns of W were prepared.
     pub fn condense(
         &mut self,
         assembly: &Assembly<D>,

@@ -13,8 +13,8 @@ use crate::error::StepError;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
 
-/// The tolerance of a contact problem whose motions may be wrong by `error` [m], which is what natural residuals are of the larger of q
-/// and, by the natural stiffness, r; at least that which is asked for.
+/// The tolerance of a contact problem whose motions may be wrong by `error` [m]. Natural residuals are such an error over the larger of
+/// q and, by the natural stiffness, r. It is at least the tolerance that is asked for.
 fn tolerance<const D: usize>(
     problem: &ContactProblem<D>,
     reactions: &[Vector<D>],
@@ -90,8 +90,8 @@ impl<const D: usize> Reduced<D> {
         }
     }
 
-    /// Solves the reduced problem of the contacts, so that their motions are wrong by about `error` [m] if that is not zero, while the bodies in
-    /// contact are between [`Body::begin_solve`] and [`Body::end_solve`], and gives them the change of the reactions.
+    /// Solves the reduced problem of the contacts, so that their motions are wrong by about `error` [m] if that is not zero. The bodies in
+    /// contact are between [`Body::begin_solve`] and [`Body::end_solve`], and are given the change of the reactions.
     pub fn solve(
         &mut self,
         given: &Given<'_, D>,

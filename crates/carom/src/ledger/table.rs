@@ -2,8 +2,8 @@ use super::{Books, TERMS};
 
 /// The books over time, a row per body and per pair that has touched.
 ///
-/// A row is: time [s]; entry, the index of the body or, after the bodies, of the pair; what happened since the start [J] by `TERMS`; and the
-/// defect [J]. What does not belong to an entry is NaN.
+/// A row is time [s], entry, what happened since the start [J] by `TERMS`, and the defect [J]. The entry is the index of the body or, after
+/// the bodies, of the pair. What does not belong to an entry is NaN.
 #[derive(Debug, Default)]
 pub struct LedgerTable {
     pub(crate) rows: Vec<f64>,

@@ -7,7 +7,7 @@ use crate::StepMap;
 /// Where in time the unilateral condition is written. It decides what impact does to the energy.
 ///
 /// The variants differ only in the configuration where contacts are evaluated, in which of them are active, and in an offset of
-/// the normal motion; no solver hears of them. Tangentially the slip is always the relative motion of the step, so that
+/// the normal motion. No solver knows of them. Tangentially the slip is always the relative motion of the step, so that
 /// friction dissipates exactly −Σ r_t·Δu_t.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -19,8 +19,8 @@ pub enum ContactCondition {
     Midpoint,
     /// The normal relative velocity at the end of the step, of contacts closed at its start (Moreau): a plastic impact.
     Endpoint,
-    /// The gap at the end of the step, between nodes without mass that are in static balance there: never penetrates, and
-    /// there is nothing that could bounce (Khenous, Laborde & Renard 2008).
+    /// The gap at the end of the step, between nodes without mass that are in static balance there. It never penetrates,
+    /// and nothing can bounce (Khenous, Laborde & Renard 2008).
     Massless,
 }
 
@@ -34,8 +34,8 @@ impl ContactCondition {
         }
     }
 
-    /// Whether a contact takes part in a step that it starts with this gap [m]: in one that is chosen at the start where it is closed there, up to
-    /// `round_off` [m]. At rest the gap is nothing but that, and its sign would be left to chance.
+    /// Whether a contact takes part in a step that it starts with this gap [m]. If that is decided at the start, the contact must be closed there,
+    /// up to `round_off` [m]. At rest the gap is nothing but that, and its sign would be left to chance.
     #[must_use]
     pub fn is_active(self, start_gap: f64, round_off: f64) -> bool {
         self.rules_the_end() || start_gap <= round_off
@@ -71,9 +71,9 @@ impl ContactCondition {
 
     /// What the normal motion (H d)_n lacks of the variable w_n of the condition [m].
     ///
-    /// `kept` is a penetration, negative, that the step may keep but not deepen: of a node that came past an edge, or in pairs checked from
-    /// both sides of a contact that starts inside its target where another has stood for it. To push it out at once would create energy.
-    /// `d` is the current motion of the step and `v` the velocity at its start.
+    /// `kept` is a penetration, negative, that the step may keep but not deepen. It is that of a node that came past an edge. In pairs
+    /// checked from both sides, it is that of a contact that starts inside its target where another has stood for it. To push it out at
+    /// once would create energy. `d` is the current motion of the step and `v` the velocity at its start.
     pub fn normal_offset<const D: usize>(
         self,
         contact: &Contact<D>,

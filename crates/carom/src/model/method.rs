@@ -8,8 +8,8 @@ use crate::scheme::Scheme;
 /// When Newton's iterations stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NewtonRule {
-    /// Largest correction of a displacement, relative to the largest motion of a node in the step; in a static analysis to the largest
-    /// displacement since the start, if that is more.
+    /// Largest correction of a displacement, relative to the largest motion of a node in the step. In a static analysis it is relative
+    /// to the largest displacement since the start, if that is more.
     pub tolerance: f64,
     /// Iterations after which the step fails.
     pub max_iterations: usize,
@@ -31,8 +31,8 @@ pub struct Method<const D: usize> {
     pub newton: NewtonRule,
     /// How often a step that fails is halved.
     pub max_halvings: u32,
-    /// The bi-potential gap of a step that a certified run may have, relative to the largest energy of the run or, if that is more, to the
-    /// largest work of the reactions of a step over the motion that they prevent.
+    /// The bi-potential gap of a step that a certified run may have, relative to the largest energy of the run. If that is more, it is
+    /// relative to the largest work of the reactions of a step over the motion that they prevent.
     pub certificate_tolerance: f64,
     /// How deep solids may be in one another in a completed run, relative to the diameter of the smaller facet that is there; beside what the
     /// condition lets them by its nature.
@@ -53,16 +53,17 @@ impl<const D: usize> Method<D> {
         }
     }
 
-    /// How deep solids may be in one another [m] where the smaller facet has the diameter `cell` and facets stand for these `arcs` [m], if no node has moved farther than `travel` [m] in a step. Nodes of one side go behind
-    /// the facets of the other by the arcs that these stand for. Conditions that rule motions and not gaps let nodes in by a travel, once; more
-    /// than half a cell is a way through.
+    /// How deep solids may be in one another [m] where the smaller facet has the diameter `cell` [m]. Nodes of one side go behind the
+    /// facets of the other by the `arcs` [m] that these stand for. Conditions that rule motions and not gaps let nodes in once by a
+    /// step's `travel` [m]. More than half a cell is a way through.
     pub(crate) fn allowed_penetration(&self, cell: f64, arcs: f64, travel: f64) -> f64 {
         let let_in = if self.condition.rules_the_end() { 0.0 } else { travel.min(0.5 * cell) };
         self.penetration_tolerance * cell + arcs + let_in
     }
 
-    /// The numbers that factors are kept in: double precision in a static analysis, where no mass keeps K̄ well-conditioned, and with
-    /// massless contact, whose balance of energy sees the last correction itself and not its square.
+    /// The numbers that factors are kept in. They have double precision in a static analysis, where no mass keeps K̄
+    /// well-conditioned. So they do with massless contact, whose balance of energy sees the last correction itself and not its
+    /// square.
     fn precision(&self) -> Precision {
         if self.scheme == Scheme::Static || self.condition.is_massless() {
             Precision::Double

@@ -14,12 +14,12 @@ use crate::{Crushed, Method, Model, Scheme, State, step};
 /// A load step that took no more iterations than this was easy.
 const EASY: usize = 12;
 
-/// Share of the largest energy so far, that at the end of the step and what it received included, that the blends of massless contact may leave
-/// over in one step, to be given back later. Where there has been no energy at all nothing can be left over.
+/// Share of the largest energy so far that the blends of massless contact may leave over in one step, to be given back later. That energy
+/// includes the energy at the end of the step and what the step received. Where there has been no energy at all nothing can be left over.
 ///
-/// Measured on 54 random impacts in the plane at up to the speed of waves: 43 complete without a limit, and some miss a fifth of their
-/// energy; with it 41 complete and miss 0.4 % at most. What damping leaves at the onset of a contact does not shrink with the step, so a shorter
-/// step may leave as much as a long one.
+/// Measured on 54 random impacts in the plane at up to the speed of waves: 43 complete without a limit, and some miss a fifth of their energy.
+/// With it 41 complete and miss 0.4 % at most. What damping leaves at the onset of a contact does not shrink with the step, so a shorter step
+/// may leave as much as a long one.
 const LARGEST_DEBT: f64 = 1e-3;
 
 /// A nominal step: one of the time grid.

@@ -35,8 +35,8 @@ pub(crate) struct EventLog {
 }
 
 impl EventLog {
-    /// A log that takes contacts less than `merge` [s] apart for one. Without it a dynamic analysis in steps of `dt` [s] takes the time of
-    /// the bodies themselves, see [`crossing_time`]; the time of a static one does not say how long anything lasts, and nothing is merged there.
+    /// A log that takes contacts less than `merge` [s] apart for one. Without it a dynamic analysis in steps of `dt` [s] takes the time of the
+    /// bodies themselves, see [`crossing_time`]. The time of a static one does not say how long anything lasts, and nothing is merged there.
     pub fn new<const D: usize>(model: &Model<D>, scheme: Scheme, dt: f64, merge: Option<f64>) -> Self {
         let own = |pair| match scheme {
             Scheme::Static => 0.0,

@@ -37,8 +37,8 @@ pub struct CertificateSummary {
     pub solver_joule: f64,
     /// Largest residual of the contact laws.
     pub max_residual: f64,
-    /// What it is measured by [J]: the largest energy of the run, or the largest work Σ |r·q| of the reactions of a step over the motion that they
-    /// prevent, where that is more.
+    /// What it is measured by [J]: the largest energy of the run or, where that is more, the largest work Σ |r·q|. That is the work of the
+    /// reactions of a step over the motion that they prevent.
     pub reference_joule: f64,
     /// The largest Σ that a completed run may have [J]: the tolerance of the method times this reference.
     pub tolerance_joule: f64,

@@ -5,7 +5,7 @@ use carom_mesh::{Facet, Vector};
 
 use crate::{Model, ModelBody, State};
 
-/// Facets around a node bear its contact if they face it at least this well, relative to the one that does best: the sides of a sole stand
+/// Facets around a node bear its contact if they face it at least this well, relative to the one that does best. The sides of a sole stand
 /// across it and bear nothing, whatever friction pulls at their nodes.
 const BEARS: f64 = 0.5;
 

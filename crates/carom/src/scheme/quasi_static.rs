@@ -2,8 +2,8 @@ use super::step_map::{StepMap, StressRule};
 
 /// No inertia: the forces balance at the end of the step (ξ = 1), and time only says how far loads and supports have come.
 ///
-/// The work of the end forces and the trapezoidal mean differ by ½ d·(f₊ − f), which the ledger has as `scheme`; what the mean
-/// differs from the change of stored energy, of third order in the step, is the defect.
+/// The work of the end forces and the trapezoidal mean differ by ½ d·(f₊ − f), which the ledger has as `scheme`. The defect is
+/// the difference between the mean and the change of stored energy; it is of third order in the step.
 pub(super) fn step_map(dt: f64) -> StepMap {
     StepMap {
         dt,

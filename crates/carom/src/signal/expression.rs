@@ -5,8 +5,8 @@ use super::parser::{ExpressionError, parse};
 /// A formula of the time t [s], such as `0.1*(1 - cos(pi*t))`, read once and evaluated with its exact rate.
 ///
 /// Operators from weak to strong: comparisons `<` `<=` `>` `>=` (1 where true, 0 where not), `+` `-`, `*` `/`, sign, power `^` or
-/// `**`. Constants `pi` and `e`; functions abs, acos, asin, atan, cos, cosh, exp, log (natural), max, min, sign, sin, sinh, sqrt,
-/// step(x) (1 from x = 0 on), tan, tanh, where(condition, a, b). Nothing else has a meaning.
+/// `**`. Constants are `pi` and `e`. Functions are abs, acos, asin, atan, cos, cosh, exp, log (natural), max, min, sign, sin,
+/// sinh, sqrt, step(x) (1 from x = 0 on), tan, tanh, where(condition, a, b). Nothing else has a meaning.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expression {
     root: Node,

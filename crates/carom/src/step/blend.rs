@@ -1,15 +1,17 @@
 //! The blend of start and end stresses that closes the energy balance of massless contact nodes.
 //!
-//! Nodes without mass are in static balance at the end of the step, f₁ + C v̄ = H₁ᵀ r₁, so the work of contact is not exactly
-//! that of the conserving force f_a. One scalar α per group of bodies in contact makes up for it: inside, the force is
-//! f_a + d_a + α (f_d + d_d), where f_d comes from the difference of the stresses of both ends, and d_a, d_d are rigid force fields
-//! that give the resultant and moment of what the boundary lacks back to the mass, so that the momenta are kept too. The
-//! reactions of the step are then r̄ = (½ − α) r₀ + (½ + α) r₁, and
+//! Nodes without mass are in static balance at the end of the step, f₁ + C v̄ = H₁ᵀ r₁. So the work of contact is not exactly that
+//! of the conserving force f_a.
+//!
+//! One scalar α per group of bodies in contact makes up for it. Inside, the force is f_a + d_a + α (f_d + d_d), where f_d comes
+//! from the difference of the stresses of both ends. d_a and d_d are rigid force fields. They give the resultant and moment of what
+//! the boundary lacks back to the mass, so the momenta are kept too. The reactions of the step are then r̄ = (½ − α) r₀ + (½ + α)
+//! r₁, and
 //!
 //! α = [Σ (f_a + C v̄)_b·d_b − d_a·d_i + D_a] / [Σ (f_d)_i·d_i + d_d·d_i − D_d]
 //!
-//! with i and b the nodes with and without mass, D_a + α D_d = Σ μ r̄_n |w_t| less the work of obstacles that move, makes the change of kinetic and strain energy
-//! what loads do, less what damping and friction take.
+//! with i and b the nodes with and without mass. D_a + α D_d = Σ μ r̄_n |w_t| less the work of obstacles that move. The change of kinetic
+//! and strain energy is then the work of the loads, less what damping and friction take.
 
 use carom_contact::Target;
 
@@ -19,8 +21,8 @@ use crate::contact::contact_work::ContactWork;
 /// Largest |α|. Up to here r̄ is a mean of r₀ and r₁ with weights that are not negative, so that friction never does work.
 const LARGEST: f64 = 0.5;
 
-/// What is missing below this fraction of the energy of the model, or of that of the motion of the step where the model starts from rest, is
-/// round-off and may wait. Where there is neither, nothing can be missing.
+/// What is missing below this fraction of the energy of the model is round-off and may wait. Where the model starts from rest, it is the
+/// energy of the motion of the step. Where there is neither, nothing can be missing.
 const NEGLIGIBLE: f64 = 1e-14;
 
 /// Balances and weights of all bodies.
@@ -44,8 +46,9 @@ impl Blend {
         }
     }
 
-    /// α of every group of bodies in contact among `bodies`, which `contacts` are all of. `energy_debt` is the energy of every body [J] that steps before left over and
-    /// `energy` that of the model: where little can be moved, as in nearly rigid flight, it waits for a step where there is more.
+    /// α of every group of bodies in contact among `bodies`, which `contacts` are all of. `energy_debt` is the energy of every body [J] that steps
+    /// before left over and `energy` that of the model. Where little can be moved, as in nearly rigid flight, it waits for a step where there is
+    /// more.
     pub fn weigh(&mut self, bodies: &[usize], contacts: &[ContactWork], energy_debt: &[f64], energy: f64) {
         for &i in bodies {
             (self.leader[i], self.groups[i]) = (i, Balance::default());

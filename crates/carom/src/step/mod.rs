@@ -29,8 +29,8 @@ use crate::model::state::State;
 struct Search {
     /// Margin of the contact search, in largest predicted motions of a node in the step.
     margin: f64,
-    /// The largest margin, in sizes of the model, where no body moves as a whole by half of that. More would make contacts of all that
-    /// there are where one node is very fast: two bodies whose 60 contacts a step was about had a dense problem of 1245.
+    /// The largest margin, in sizes of the model, where no body moves as a whole by half of that. With more, one very fast node would
+    /// turn all nodes into contacts: two bodies whose 60 contacts a step was about had a dense problem of 1245.
     largest_margin: f64,
     /// The least margin in a static analysis, where no velocity foretells the motion, in sizes of the model.
     static_margin: f64,

@@ -1,8 +1,8 @@
 """FCLIB files: contact problems in HDF5, in the layout of the Frictional Contact Library [1]_.
 
-A local problem has W, q and mu under ``fclib_local``, a global one M, H, f, w (here b) and mu under
-``fclib_global``; matrices are stored as CSparse has them: ``nz`` is −1 for compressed columns, −2
-for compressed rows, or the number of triplets.
+A local problem has W, q and mu under ``fclib_local``, a global one M, H, f, w (here b) and mu
+under ``fclib_global``. Matrices are stored as CSparse has them: ``nz`` is −1 for compressed
+columns, −2 for compressed rows, or the number of triplets.
 
 References
 ----------

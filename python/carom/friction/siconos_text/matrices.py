@@ -40,9 +40,9 @@ def _dense(tokens: Tokens, name: str, shape: tuple[int, int]) -> sp.sparray:
 def _blocks(tokens: Tokens, name: str, shape: tuple[int, int]) -> sp.sparray:
     """Read blocks in compressed block rows.
 
-    Their number; the numbers of block rows and columns; where each of these ends; the lengths of
-    the two lists that follow; the first block of every row, and their number; block columns; then
-    every block, its number first, by columns.
+    First come their number, the numbers of block rows and columns, and where each of these ends.
+    Then the lengths of the two lists that follow: the first block of every row, and their number;
+    block columns. Last comes every block, its number first, by columns.
     """
     count = tokens.integer(f"the number of blocks of {name}")
     ends = []

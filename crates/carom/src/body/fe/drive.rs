@@ -51,7 +51,7 @@ impl<const D: usize> Drive<D> {
         }
     }
 
-    /// Sets the `motion` [m] of everything held, which starts from `start` [m], to what is prescribed; returns the largest of it [m], or
+    /// Sets the `motion` [m] of everything held, which starts from `start` [m], to what is prescribed. Returns the largest of it [m], or
     /// none if a function of time is not finite.
     pub fn prescribe(
         &mut self,

@@ -100,9 +100,9 @@ impl<'a, const D: usize> Equation<'a, D> {
         }
     }
 
-    /// Writes the residual F̄ + F̄_acc (3) without reactions [N] to `out`:
-    /// M(g − (v₊ − v)/Δt) + F̄ − f̄ − C v̄, with v̄ = (1 − ξ)v + ξv₊ and f̄ by the scheme's [`StressRule`], and in the rows of nodes
-    /// without mass −ξ(f(u₊) + C v̄ + s − F₊), with s the [`Self::steadying_force`]. What is left in held rows is for the supports.
+    /// Writes the residual F̄ + F̄_acc (3) without reactions [N] to `out`: M(g − (v₊ − v)/Δt) + F̄ − f̄ − C v̄, with v̄ = (1 − ξ)v +
+    /// ξv₊ and f̄ by the scheme's [`StressRule`]. In the rows of nodes without mass it is −ξ(f(u₊) + C v̄ + s − F₊), with s the
+    /// [`Self::steadying_force`]. What is left in held rows is for the supports.
     pub fn residual(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
         self.inertia_and_damping(scratch, out);
         let map = self.map;
@@ -180,11 +180,12 @@ impl<'a, const D: usize> Equation<'a, D> {
         (self.motion[node] - expected * self.map.dt) * (STEADYING * stiffness)
     }
 
-    /// What it takes to write the rows of massless nodes at the end of the step instead of over it [J]: the work of the forces that these nodes are
-    /// left with in the mean of the step, (1 − ξ) r₀ + ξ r₊ + F̄ − C v̄ − f̄, with the contact forces `ends` = [r₀, r₊] and the internal force `end` at its end.
+    /// What it takes to write the rows of massless nodes at the end of the step instead of over it [J]. It is the work of the forces that these nodes
+    /// are left with in the mean of the step. These are (1 − ξ) r₀ + ξ r₊ + F̄ − C v̄ − f̄, with the contact forces `ends` = [r₀, r₊] and the
+    /// internal force `end` at its end.
     ///
-    /// In static balance at both ends a node is left with nothing but the [`Self::steadying_force`], whose work this is; where it starts a step
-    /// out of balance, as at t = 0 or when a load sets in, with what it gives way to.
+    /// In static balance at both ends a node is left with nothing but the [`Self::steadying_force`], whose work this is. Where it starts a step
+    /// out of balance, as at t = 0 or when a load sets in, it is left with what it gives way to.
     pub fn static_balance_work(
         &self,
         ends: [&[Vector<D>]; 2],
@@ -241,9 +242,9 @@ impl<'a, const D: usize> Equation<'a, D> {
 
     /// What the supports do at the final motion of a step [J].
     ///
-    /// `residual` is that of the body without reactions, scaled as the step's; its held rows are what the supports make up for:
-    /// with R = −residual, the force of a support less what contact presses on it, their work is Σ R·d plus, where v₊ is not what the
-    /// scheme makes of d, [M(v₊ − v)]·(½(v + v₊) − d/Δt). The change of kinetic energy is then closed whatever the motion.
+    /// `residual` is that of the body without reactions, scaled as the step's; its held rows are what the supports make up for. R =
+    /// −residual is the force of a support less what contact presses on it. The work of the supports is Σ R·d plus, where v₊ is not
+    /// what the scheme makes of d, [M(v₊ − v)]·(½(v + v₊) − d/Δt). The change of kinetic energy is then closed whatever the motion.
     pub fn support_work(&self, residual: &[Vector<D>], momentum_change: &[Vector<D>]) -> f64 {
         let mut work = 0.0;
         self.each_held(|n, i, rate| {

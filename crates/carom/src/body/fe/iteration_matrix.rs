@@ -11,7 +11,7 @@ use crate::error::StepError;
 use crate::scheme::StepMap;
 
 /// Share of the square of the lowest elastic frequency, by its scale c/L, that stands in for inertia where nothing else keeps K̄
-/// from being singular: below what a contact resists with, and far enough above round-off for W to stay well-conditioned.
+/// from being singular. It is below what a contact resists with, and far enough above round-off for W to stay well-conditioned.
 const PROXIMAL: f64 = 0.05;
 
 /// The factor of M [1/s²] that makes K̄ of a loose body regular in a static analysis; 0 where supports hold it.
@@ -21,14 +21,16 @@ fn proximal_coefficient<const D: usize>(body: &Body<D>) -> f64 {
     if body.is_loose() { PROXIMAL * (body.wave_speed() / body.mesh().diameter()).powi(2) } else { 0.0 }
 }
 
-/// The inverse of K̄ = ξ K + ξ/(θΔt) C + M/(θΔt²) (3) of one body: a factor, or for large bodies in short steps a polynomial that
-/// does what a factor would ([`Inverse`]). "Factor" stands for both here.
+/// The inverse of K̄ = ξ K + ξ/(θΔt) C + M/(θΔt²) (3) of one body: a factor or, for large bodies in short steps, a polynomial in
+/// its place ([`Inverse`]). "Factor" stands for both here.
 ///
-/// Reactions never enter K̄, so bodies are uncoupled in it and one factor serves for many steps: it is made in one
-/// configuration and applied in the frame that turns with the body since (M is isotropic and an objective law turns its
-/// stiffness along). Newton's iterations then converge linearly but fast, and the factor is renewed where they do not. Tied nodes are its affair
-/// alone: it takes and gives vectors of all nodes (see [`carom_fem::sparse::Factor`]), and what starts equal at two of them stays so. Held displacements
-/// have rows of their own in K̄: forces on them move nothing. As they are held in the axes of space, such a body's factor does not turn.
+/// Reactions never enter K̄, so bodies are uncoupled in it and one factor serves for many steps. It is made in one configuration and applied in the
+/// frame that has turned with the body since. (M is isotropic, and the stiffness of an objective law turns with the body.) Newton's iterations then
+/// converge linearly but fast, and the factor is renewed where they do not.
+///
+/// Only the factor knows of tied nodes: it takes and gives vectors of all nodes (see [`carom_fem::sparse::Factor`]), and what starts equal at two of
+/// them stays so. Held displacements have rows of their own in K̄: forces on them move nothing. As they are held in the axes of space, such a body's
+/// factor does not turn.
 #[derive(Debug)]
 pub(crate) struct IterationMatrix<const D: usize> {
     inverse: Inverse<D>,

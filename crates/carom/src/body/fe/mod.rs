@@ -25,8 +25,8 @@ use crate::error::StepError;
 use crate::ledger::{BodyLedger, Energies};
 use crate::scheme::StepMap;
 
-/// In so many cells around a node of the surface others feel a force on it: within a step of time a force is felt as far as a wave goes. What
-/// this leaves out costs iterations, not accuracy.
+/// In so many cells around a node of the surface, other nodes feel a force on it. Within a time step a force is felt as far as a wave
+/// goes. What this leaves out costs iterations, not accuracy.
 const RINGS: usize = 3;
 
 /// A body of finite elements in a step.

@@ -1,8 +1,8 @@
 //! Anderson's acceleration of the iterations of a step, which a kept factor makes a fixed-point iteration.
 //!
-//! With corrections f_k at guesses d_k, the next guess is not d_k + f_k but that of the combination of the last guesses whose
-//! corrections cancel best (Walker & Ni, SIAM J. Numer. Anal. 49, 2011). Bodies in contact depend on one another and share a
-//! combination, others have their own. The acceleration is local to a step: contacts of the next one are others.
+//! Let f_k be the corrections at guesses d_k. The next guess is not d_k + f_k but that of the combination of the last guesses
+//! whose corrections cancel best (Walker & Ni, SIAM J. Numer. Anal. 49, 2011). Bodies in contact depend on one another and
+//! share a combination, others have their own. The acceleration is local to a step: contacts of the next one are others.
 
 use std::ops::Range;
 

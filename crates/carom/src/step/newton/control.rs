@@ -7,8 +7,8 @@ pub(crate) struct Control {
     /// accelerated iterations, and the last correction stands as it is. Measured: with 10 the energy of conserving runs drifts three times as
     /// far.
     pub safety: f64,
-    /// The same where errors do not count so much: every load step of a static analysis is a solution of its own, and beside the error of the
-    /// weighted stresses of a long step that of its iterations is nothing.
+    /// The same where errors do not count so much. Every load step of a static analysis is a solution of its own. In a long step the error of
+    /// the iterations is nothing beside that of the weighted stresses.
     pub less_safety: f64,
     /// No contraction is trusted to be better than this: after a wild guess a correction may look small that is not.
     pub least_contraction: f64,
@@ -17,8 +17,8 @@ pub(crate) struct Control {
     pub slow_contraction: f64,
     /// See `slow_contraction`.
     pub patience: usize,
-    /// As `patience`, counted from the start of the step, where bodies become others: in a static analysis, whose steps are long and few, and
-    /// where plastic flow makes another body of one.
+    /// As `patience`, counted from the start of the step, where bodies change their behaviour. That is in a static analysis, whose steps are
+    /// long and few, and where there is plastic flow.
     pub changed_patience: usize,
     /// A loose body whose corrections shrink no faster than this is driven away by forces that nothing resists.
     pub no_contraction: f64,
@@ -26,8 +26,8 @@ pub(crate) struct Control {
     /// the start. Iterations may well converge from there, to another one: a body buckled or turned inside out.
     pub astray: f64,
     /// Iterations that have not halved the smallest correction for so long get nowhere, and a shorter step is the better chance. Measured on
-    /// impacts at up to twenty times the speed of waves: of 568 steps that did not converge 480 had such a spell, of 1640 that converged
-    /// after more than 12 iterations 3. Load steps go on, as plastic flow takes its time to settle.
+    /// impacts at up to twenty times the speed of waves: of 568 steps that did not converge, 480 had such a spell. Of 1640 that converged
+    /// after more than 12 iterations, 3 had one. Load steps go on, as plastic flow takes its time to settle.
     pub stalled: usize,
     /// Iterations that got so far down, in units of round-off, before they got nowhere have converged: nothing better can be had. A clamped
     /// block on a shaking floor stalls at 3.5; where steps do not converge, stalls at less than 200 have not been seen.

@@ -46,8 +46,8 @@ pub(crate) struct Convergence {
     max_iterations: usize,
     /// Relative to the motion in the step, or to `reached`.
     tolerance: f64,
-    /// In a static analysis the largest displacement so far [m]: a load step is a solution of its own, of which the motion in it may be a small
-    /// part, or none where nothing changes. Elsewhere zero: positions are sums of motions.
+    /// In a static analysis the largest displacement so far [m]: a load step is a solution of its own. The motion in it may be a small part of
+    /// that, or none where nothing changes. Elsewhere zero: positions are sums of motions.
     reached: f64,
     /// Smaller corrections say nothing [m].
     round_off: f64,
@@ -123,8 +123,8 @@ impl Convergence {
         Err(StepError::Newton { iterations: iteration, correction, wanted })
     }
 
-    /// How wrong the motion of so many `contacts` may be after the next iteration [m]: not at all, but for the tolerance of their
-    /// problem, where that may be the last one.
+    /// How wrong the motion of so many `contacts` may be after the next iteration [m]. Where that may be the last one, it must
+    /// not be wrong at all, but for the tolerance of their problem.
     pub fn contact_error(&self, contacts: usize, bodies: &[usize], progress: &[BodyProgress]) -> f64 {
         if self.is_static || contacts < CONTROL.many_contacts {
             return 0.0;
@@ -183,7 +183,7 @@ impl Convergence {
 
     /// Whether one of the `bodies` converges so slowly that they need new factors, `since` so many iterations with those they have.
     ///
-    /// Where bodies become others, every iteration may make one. Elsewhere a new one has the patience that the first had: acceleration
+    /// Where bodies become others, every iteration may make one. Elsewhere a new one has the patience that the first had. Acceleration
     /// begins anew with it, and without acceleration the iterations of some steps of `massless` contact only come near their solution.
     pub fn is_slow(
         &self,
@@ -273,7 +273,7 @@ mod tests {
         renewed
     }
 
-    /// Symptom guarded against: a factor renewed in every iteration forgot every time what acceleration had learnt, and steps of massless
+    /// Symptom guarded against: a factor renewed in every iteration forgot each time what acceleration had learnt. Steps of massless
     /// contact ended with corrections a hundred times as large as wanted.
     #[test]
     fn a_renewed_factor_is_given_time_where_bodies_stay_what_they_are() {
