@@ -208,7 +208,11 @@ def ending(scenario: carom.Scenario) -> Ending:
     with tempfile.TemporaryDirectory() as directory, mock.patch("carom.plot.draw"):
         try:
             carom.run(scenario, out=directory, progress=note)
-        except (carom.ConvergenceError, carom.CertificateError) as error:
+        except (
+            carom.ConvergenceError,
+            carom.CertificateError,
+            carom.PenetrationError,
+        ) as error:
             reason = str(error)
         except BaseException as error:  # a panic is no Exception
             if isinstance(error, KeyboardInterrupt):
@@ -237,7 +241,7 @@ def main() -> None:
         closed = OWED if scenario.contact.condition == "massless" else CLOSED
         if scheme == "conserving" and end.status == "completed" and end.defect > closed:
             bad.append(f"scene {seed} ({scheme}): the ledger misses {end.defect:.1e}")
-        if end.status not in ("completed", "failed", "uncertified"):
+        if end.status not in ("completed", "failed", "uncertified", "intersecting"):
             bad.append(f"scene {seed}: {end.status}: {end.reason}")
         if end.seconds > PATIENCE:
             bad.append(f"scene {seed}: took {end.seconds:.0f} s")
@@ -253,7 +257,7 @@ def main() -> None:
     print("|" + " --- |" * len(columns))
     for (scheme, condition, dimension), ends in sorted(rows.items()):
         defects = [e.defect for e in ends if e.status == "completed"] or [np.nan]
-        failed = [e for e in ends if e.status in ("failed", "uncertified") and e.reason]
+        failed = [e for e in ends if e.status not in ("completed", "broken") and e.reason]
         cells = (
             *(f"`{scheme}`", f"`{condition}`", str(dimension), str(len(ends))),
             str(sum(e.status == "completed" for e in ends)),

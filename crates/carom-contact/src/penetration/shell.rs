@@ -17,6 +17,9 @@ const SAME: f64 = 1e-9;
 /// A boundary that turns by more than this from facet to facet has a corner there and stands for no arc [rad]: 40°.
 const CORNER: f64 = 0.698;
 
+/// How well the depth of an edge is known, relative to itself.
+const FINEST: f64 = 0.01;
+
 /// The facets, nodes and edges of the boundary of a body.
 #[derive(Debug, Clone)]
 pub(super) struct Shell<const D: usize> {
@@ -240,11 +243,30 @@ impl<const D: usize> Shell<D> {
         // Through a body that is not convex a segment may go in and out several times: then some places between are outside.
         let places = if crossings <= 2 { 3 } else { 4 * crossings };
         let (from, to) = if crossings == 1 { (0.0, 1.0) } else { (first, last) };
-        let along = |k: usize| {
-            ends[0] + (ends[1] - ends[0]) * (from + (to - from) * (k as f64 + 0.5) / places as f64)
+        let way = (ends[1] - ends[0]) * (to - from);
+        let look = |share: f64| {
+            self.deep(&(ends[0] + (ends[1] - ends[0]) * from + way * share), f64::INFINITY, facet)
         };
-        (0..places)
-            .fold(Deep::none(), |deepest, k| deepest.deeper(self.deep(&along(k), f64::INFINITY, facet)))
+        let mut step = 0.5 / places as f64;
+        let shares = (0..places).map(|k| (2 * k + 1) as f64 * step);
+        let (mut share, mut deepest) = (0.5, Deep::none());
+        for s in shares {
+            let deep = look(s);
+            if deep.depth > deepest.depth {
+                (share, deepest) = (s, deep);
+            }
+        }
+        // The depth changes by no more than the way.
+        while deepest.depth > 0.0 && step * way.norm() > FINEST * deepest.depth {
+            for s in [share - step, share + step] {
+                let deep = look(s.clamp(0.0, 1.0));
+                if deep.depth > deepest.depth {
+                    (share, deepest) = (s.clamp(0.0, 1.0), deep);
+                }
+            }
+            step *= 0.5;
+        }
+        deepest
     }
 
     /// Calls `found` with the places at which a segment goes through a facet, as parts of its length, and whether it leaves the body there.

@@ -45,7 +45,8 @@ pub(super) fn measure<const D: usize>(
     let mut report = PenetrationReport::default();
     let mut largest = 0.0;
     wander(given, work);
-    let Workspace { boundaries, since_look, .. } = work;
+    let Workspace { boundaries, since_look, in_itself, .. } = work;
+    in_itself.fill(false);
     let counts = |between: [Solid; 2]| match between {
         [Solid::Body(a), Solid::Body(b)] if a == b => since_look[a].is_due,
         between => counts(between),
@@ -53,6 +54,9 @@ pub(super) fn measure<const D: usize>(
     boundaries.measure(obstacles, counts, &end, |found| {
         let Penetration { depth, cell, arcs, between, at } = found;
         report.depth = report.depth.max(depth);
+        if let [Solid::Body(a), Solid::Body(b)] = between {
+            in_itself[a] |= a == b;
+        }
         let excess = depth / method.allowed_penetration(cell, arcs, 0.0);
         if excess > largest {
             largest = excess;
@@ -63,6 +67,9 @@ pub(super) fn measure<const D: usize>(
             report.worst = Some(Inside { between, depth, cell, arcs, at: place });
         }
     });
+    // Who is in itself is looked at again in the next step.
+    let clear = since_look.iter_mut().zip(in_itself).filter(|(look, in_itself)| look.is_due && !**in_itself);
+    clear.for_each(|(look, _)| look.wandered = 0.0);
     Ok(report)
 }
 
@@ -74,8 +81,5 @@ fn wander<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) {
         let mean = nodal::total(motion) / motion.len().max(1) as f64;
         look.wandered += motion.iter().map(|d| (d - mean).norm_squared()).fold(0.0, f64::max).sqrt();
         look.is_due = look.wandered > UNSEEN * boundaries.least_cell(i);
-        if look.is_due {
-            look.wandered = 0.0;
-        }
     }
 }

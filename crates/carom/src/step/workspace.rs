@@ -23,6 +23,8 @@ pub struct Workspace<const D: usize> {
     pub(crate) boundaries: Boundaries<D>,
     /// Since every body was looked at for going through itself.
     pub(crate) since_look: Vec<SinceLook>,
+    /// Which bodies were found inside themselves in the last step.
+    pub(crate) in_itself: Vec<bool>,
     /// d = u₊ − u [m] of all nodes and obstacles.
     pub(crate) motion: Vec<Vector<D>>,
     /// What the pair_reports did in the last step, in the order of the assembly.
@@ -49,6 +51,7 @@ impl<const D: usize> Workspace<D> {
             blend: Blend::new(bodies.len()),
             boundaries: assembly.boundaries.clone(),
             since_look: vec![SinceLook::default(); bodies.len()],
+            in_itself: vec![false; bodies.len()],
             motion: vec![Vector::zeros(); assembly.reference.len()],
             pair_reports: vec![PairReport::default(); assembly.named_pairs.len()],
             body_ledgers: vec![BodyLedger::default(); bodies.len()],

@@ -51,7 +51,8 @@ fn a_block_meets_a_wall_that_is_thinner_than_its_way_in_a_step() {
             assert!(!summary.contacts.is_empty(), "{condition}: they meet");
             assert!(summary.retried_steps > 0, "{condition}: in a shorter step");
             if condition == "gap" {
-                let excess = summary.penetration.worst.map_or(0.0, |worst| worst.depth / worst.allowed);
+                let excess =
+                    summary.penetration.worst.as_ref().map_or(0.0, |worst| worst.depth / worst.allowed);
                 assert!(excess <= 1.0, "{:?}", summary.penetration);
             }
         }

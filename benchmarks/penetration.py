@@ -1,0 +1,124 @@
+"""Whether penetration is measured as an independent geometry library sees it.
+
+    pip install shapely
+    .venv/bin/python benchmarks/penetration.py [scenes] [first seed]
+
+The plane ones among the scenes of `wild_scenes.py`, step by step: the outlines of all bodies as
+polygons of shapely, which knows nothing of carom. A step at whose end two polygons, or a polygon
+and a wall, have an intersection that is deeper than round-off, or a polygon crosses itself, must
+have a penetration in its row of the history, and one that is as deep. Prints a table, and ends with
+exit status 1 if an intersection was silent.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from shapely import Point, Polygon
+from wild_scenes import scene
+
+import carom
+from carom.building.build import build
+
+PIECES = 200
+"""Pieces of an edge whose ends are looked at."""
+
+ROUND_OFF = 1e-12
+"""Depth that is none, of a metre."""
+
+
+def main() -> None:
+    """Measure all scenes."""
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 500
+    first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
+    found: dict[str, int] = defaultdict(int)
+    off = 0.0
+    for seed in range(first, first + count):
+        scenario = scene(seed)
+        if scenario.dimension != 2:
+            continue
+        found["scenes"] += 1
+        tells = True
+        for told, seen, crosses in steps(scenario):
+            found["steps"] += 1
+            found["steps with an intersection"] += seen > ROUND_OFF
+            # A body is looked at for itself when it has deformed by a twentieth of a cell.
+            tells = told > 0.0 or not crosses
+            if seen > ROUND_OFF and told < 0.5 * seen:
+                found["silent"] += 1
+                print(f"scene {seed}: told {told:.3g} m, seen {seen:.3g} m, crosses: {crosses}")
+            elif not crosses and seen > 1e-9:
+                off = max(off, abs(told / seen - 1.0))
+        if not tells:
+            found["silent"] += 1
+            print(f"scene {seed}: crosses itself at its end, and the last row says nothing")
+    for what, number in found.items():
+        print(f"{what:30} {number}")
+    print(f"{'largest relative difference':30} {off:.2g}")
+    raise SystemExit(found["silent"] > 0)
+
+
+def steps(scenario: carom.Scenario) -> Iterator[tuple[float, float, bool]]:
+    """Yield for every step how deep its row says, how deep shapely sees, whether a body crosses."""
+    simulation = build(scenario, [])
+    columns = simulation.history_columns()
+    surface, mesh = simulation.surface(), simulation.mesh()
+    outlines = list(rings(surface))
+    simulation.take_history()
+    dt = scenario.analysis.time_step
+    for step in range(1, round(scenario.analysis.end_time / dt) + 1):
+        try:
+            simulation.advance((step - 0.5) * dt, 1e9)
+        except carom.ConvergenceError:
+            return
+        rows = simulation.take_history()
+        if len(rows) == 0:
+            continue
+        x = (mesh["points"] + simulation.fields()["displacement"])[:, :2]
+        bodies = [Polygon(x[ring]) for ring in outlines]
+        crosses = not all(body.is_valid for body in bodies)
+        seen = 0.0 if crosses else deepest(bodies, scenario)
+        yield float(rows[-1][columns.index("penetration")]), seen, crosses
+
+
+def rings(surface: Mapping[str, Any]) -> Iterator[np.ndarray]:
+    """Yield the nodes along the outline of every body."""
+    segments = surface["connectivity"].reshape(-1, 2)
+    for body in np.unique(surface["body"]):
+        following = dict(segments[surface["body"] == body].tolist())
+        ring = [next(iter(following))]
+        while (node := following[ring[-1]]) != ring[0]:
+            ring.append(node)
+        yield np.array(ring)
+
+
+def deepest(bodies: list[Polygon], scenario: carom.Scenario) -> float:
+    """Return the largest depth of a point of an outline in another body or behind a wall [m]."""
+    depth = 0.0
+    for wall in scenario.obstacles:
+        normal, point = np.array(wall.normal), np.array(wall.point)
+        normal = normal / np.linalg.norm(normal)
+        for body in bodies:
+            depth = max(depth, *(-(np.array(body.exterior.coords) - point) @ normal))
+    for a in bodies:
+        for b in bodies:
+            if a is b or not a.intersects(b):
+                continue
+            inside = a.exterior.intersection(b)
+            for line in getattr(inside, "geoms", [inside]):
+                for share in np.linspace(0.0, 1.0, PIECES + 1):
+                    x = (
+                        line
+                        if isinstance(line, Point)
+                        else line.interpolate(share, normalized=True)
+                    )
+                    depth = max(depth, b.exterior.distance(x))
+    return depth
+
+
+if __name__ == "__main__":
+    main()
