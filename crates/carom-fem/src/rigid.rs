@@ -30,7 +30,7 @@ impl<const D: usize> Body<D> {
     /// The mean rotation R of the body: the polar factor of Σ m (x − c) ⊗ (X − C).
     ///
     /// It is the identity for a law of small displacements, whose forces do not turn with the body, and for a body that
-    /// repeats itself. So it is where the body is so deformed that there is no rotation to find.
+    /// repeats itself. It is also the identity where the body is so deformed that there is no rotation to find.
     #[must_use]
     pub fn frame(&self, u: &[Vector<D>]) -> Matrix<D> {
         if !self.turns() {

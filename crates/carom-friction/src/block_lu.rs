@@ -45,7 +45,7 @@ pub(crate) enum NoBlockFactor {
     TimeIsUp,
 }
 
-/// Products of blocks, or entries of a structure, after which the clock is looked at.
+/// Products of blocks, or entries of a structure, after which the clock is read.
 const LOOK: usize = 1 << 16;
 
 impl<const D: usize> BlockLu<D> {

@@ -48,9 +48,9 @@ class Output(Description):
         Time between two checkpoints, from which a run that was stopped goes on [s]; None takes ten
         minutes of wall time.
     merge_contacts
-        Contact events of one pair that are closer than this count as one [s]. None takes the time
-        that a pressure wave needs along the longest side of a body of the pair, of the body where
-        that is shortest. It is at least three time steps, and 0 in a static analysis.
+        Contact events of a pair closer than this count as one [s]; None takes the shortest of the
+        times that a pressure wave needs along the longest sides of its bodies. That default is at
+        least three time steps, and 0 in a static analysis.
     track
         Points to follow.
     audit

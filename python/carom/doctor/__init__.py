@@ -27,7 +27,7 @@ CHECKS: tuple[Callable[[Patient], Iterator[Finding]], ...] = (
     time_step,
     cost,
 )
-"""What is looked at, in this order; the last one takes steps."""
+"""What is checked, in this order; the last one takes steps."""
 
 
 def examine(scenario: Scenario) -> Diagnosis:

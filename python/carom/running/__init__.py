@@ -1,1 +1,1 @@
-"""A run: taken through time, looked at, recorded, gone on with."""
+"""A run: taken through time, observed, recorded, resumed."""

@@ -11,7 +11,7 @@ use crate::{Load, Motion, ObstacleMotion, Signal, SignalSpec};
 
 /// Names of the components.
 const AXES: [&str; 3] = ["x", "y", "z"];
-/// At how many moments of a run a function of time is looked at before it starts.
+/// At how many moments of a run a function of time is checked before it starts.
 const SAMPLES: usize = 1000;
 /// A displacement below this at the start, relative to the model, is round-off [1].
 const AT_START: f64 = 1e-12;
@@ -109,7 +109,7 @@ fn facets<const D: usize>(key: &str, body: &ModelBody<D>, on: &str) -> Result<Ve
     Ok(part.facets().to_vec())
 }
 
-/// The function of time under `key`, finite wherever it is looked at until `end` [s].
+/// The function of time under `key`, finite wherever it is checked until `end` [s].
 fn signal(key: &str, spec: &SignalSpec, end: f64) -> Result<Signal, InputError> {
     let signal = Signal::new(spec).map_err(|e| InputError::new(key, e.to_string()))?;
     for k in 0..=SAMPLES {

@@ -16,7 +16,8 @@ pub(crate) struct TimeGrid {
 }
 
 impl TimeGrid {
-    /// Steps of length `time_step` [s] until `end_time` [s]. A last one that would only be round-off of the ratio is none.
+    /// Steps of length `time_step` [s] until `end_time` [s]. A last one that would only be round-off of the ratio does not
+    /// count.
     pub fn new(time_step: f64, end_time: f64) -> Self {
         let steps = (end_time / time_step - SLACK).ceil().max(1.0) as u64;
         Self { time_step, end_time, steps, step: 0 }

@@ -8,7 +8,7 @@ use crate::Signal;
 pub enum Load<const D: usize> {
     /// Forces on nodes that do not depend on the motion.
     Dead(DeadLoad<D>),
-    /// Pressure that follows the body: always against the normal, on the area that there is.
+    /// Pressure that follows the body: always against the normal, on the current area.
     Follower(FollowerPressure),
 }
 
