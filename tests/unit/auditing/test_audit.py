@@ -192,15 +192,7 @@ COLUMNS = [
     *("time", "kinetic", "strain", "total", "friction", "viscous", "plastic", "scheme"),
     *("normal_contact", "external", "defect", "momentum_x", "angular_momentum"),
     *("a.x", "b.v_y", "a.spin"),
-    *(
-        "contacts",
-        "min_gap",
-        "penetration",
-        "normal_force",
-        "certificate",
-        "residual",
-        "newton_iterations",
-    ),
+    *("contacts", "min_gap", "normal_force", "certificate", "residual", "newton_iterations"),
     *("prescribed", "blend", "step_defect", "retried_steps", "shortest_step"),
     *("tip.u_x", "tip.v_y", "tip.vmid_x"),
 ]
