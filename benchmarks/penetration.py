@@ -18,11 +18,15 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
-from shapely import Point, Polygon
 from wild_scenes import scene
 
 import carom
 from carom.building.build import build
+
+try:
+    from shapely import Point, Polygon
+except ImportError:
+    sys.exit("shapely is not installed: pip install shapely") if __name__ == "__main__" else None
 
 PIECES = 200
 """Pieces of an edge whose ends are looked at."""

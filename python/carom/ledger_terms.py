@@ -33,8 +33,8 @@ class Term(NamedTuple):
 
 
 TERMS = (
-    Term("kinetic", ("run", "body"), "stored", "kinetic energy", "blue"),
-    Term("strain", ("run", "body"), "stored", "strain energy", "orange"),
+    Term("kinetic", ("run", "body"), "stored", "kinetic", "blue"),
+    Term("strain", ("run", "body"), "stored", "strain", "orange"),
     Term("external", ("run", "body"), "given", "work of gravity and loads", "grey"),
     Term(
         "prescribed",

@@ -18,7 +18,7 @@ ROWS = 8_000
 """Rows of history that the page takes; of more, evenly spaced ones."""
 
 _TERMS = (
-    ("total", "kinetic + strain", "ink"),
+    ("total", "total", "ink"),
     *((term.name, term.label, term.colour) for term in terms("run")),
 )
 """Terms of the ledger: column, label and colour."""
