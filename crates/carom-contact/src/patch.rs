@@ -224,14 +224,7 @@ impl<const D: usize> Patch<D> {
 impl<const D: usize> Point<D> {
     /// How far along the tangents the plane that they span is closest to `x`.
     pub fn foot(&self, x: &Vector<D>) -> [f64; 2] {
-        let (d, t) = (x - self.point, &self.tangents);
-        let (a, b, c) = (t[0].norm_squared(), t[0].dot(&t[1]), t[1].norm_squared());
-        let (p, q) = (d.dot(&t[0]), d.dot(&t[1]));
-        if D == 2 {
-            return [p / a, 0.0];
-        }
-        let det = a * c - b * b;
-        [(c * p - b * q) / det, (a * q - b * p) / det]
+        foot(&(x - self.point), &self.tangents)
     }
 
     /// Goes straight on along the tangents.
@@ -241,6 +234,33 @@ impl<const D: usize> Point<D> {
         }
         self.point += self.tangents[0] * by[0] + self.tangents[1] * by[1];
     }
+}
+
+/// How far along these `tangents` their combination is closest to an `offset`; in the plane there is one.
+pub(crate) fn foot<const D: usize>(offset: &Vector<D>, tangents: &[Vector<D>; 2]) -> [f64; 2] {
+    let (d, t) = (offset, tangents);
+    let (a, b, c) = (t[0].norm_squared(), t[0].dot(&t[1]), t[1].norm_squared());
+    let (p, q) = (d.dot(&t[0]), d.dot(&t[1]));
+    if D == 2 {
+        return [p / a, 0.0];
+    }
+    let det = a * c - b * b;
+    [(c * p - b * q) / det, (a * q - b * p) / det]
+}
+
+/// The straight lines around a facet from node to node, of a quadratic one two on each side; of a line itself, from end to end.
+pub(crate) fn rim(kind: CellKind) -> impl Iterator<Item = [usize; 2]> {
+    let reference = kind.reference();
+    let around = reference.facets.iter().filter(move |_| kind.dimension() == 2).flat_map(|(side, nodes)| {
+        let middle = side.is_quadratic().then(|| nodes[2]);
+        std::iter::once([nodes[0], middle.unwrap_or(nodes[1])]).chain(middle.map(|m| [m, nodes[1]]))
+    });
+    let line: &[[usize; 2]] = match (kind.dimension(), kind.is_quadratic()) {
+        (1, false) => &[[0, 1]],
+        (1, true) => &[[0, 2], [2, 1]],
+        _ => &[],
+    };
+    line.iter().copied().chain(around)
 }
 
 #[cfg(test)]

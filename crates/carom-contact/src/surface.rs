@@ -45,11 +45,7 @@ impl ContactSurface {
     /// The boundary of a body whose first node has the number `first_node`. As a target it consists of its facets.
     #[must_use]
     pub fn new(surface: &Surface, first_node: u32) -> Self {
-        let facets: Vec<Facet> = surface
-            .facets()
-            .iter()
-            .map(|f| Facet { kind: f.kind, nodes: f.nodes.iter().map(|n| n + first_node).collect() })
-            .collect();
+        let facets: Vec<Facet> = surface.facets().iter().map(|f| f.numbered_from(first_node)).collect();
         let nodes: Vec<u32> = surface.nodes().iter().map(|n| n + first_node).collect();
         let masters: BTreeMap<u32, u32> =
             surface.ties().iter().map(|t| (t.image + first_node, t.master + first_node)).collect();
@@ -162,7 +158,7 @@ impl ContactSurface {
 
 /// How far a facet of this kind may bulge out of the box around its nodes, in half sides of the box. It is the largest sum of the
 /// absolute values of its shape functions, less 1.
-fn overshoot(kind: CellKind) -> f64 {
+pub(crate) fn overshoot(kind: CellKind) -> f64 {
     match kind.node_count() {
         // Three nodes on a line: 5/4; on a triangle they are its corners.
         3 if kind.dimension() == 1 => 0.25,

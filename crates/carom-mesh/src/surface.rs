@@ -12,6 +12,12 @@ pub struct Facet {
 }
 
 impl Facet {
+    /// The same facet where the nodes of its mesh are numbered from `first` on.
+    #[must_use]
+    pub fn numbered_from(&self, first: u32) -> Self {
+        Self { kind: self.kind, nodes: self.nodes.iter().map(|node| node + first).collect() }
+    }
+
     /// Its outward normal times its size [m^(D−1)] in the reference configuration; for a curved facet the integral of its normal.
     #[must_use]
     pub fn area_vector<const D: usize>(&self, mesh: &Mesh<D>) -> Vector<D> {

@@ -7,7 +7,7 @@ use carom_mesh::{CellKind, Vector};
 use super::crossing::turns_outwards;
 use super::{Edge, Side};
 use crate::ContactSurface;
-use crate::patch::Patch;
+use crate::patch::{Patch, rim};
 use crate::project::normal;
 use crate::tolerances::{EDGES, SEARCH};
 
@@ -86,15 +86,10 @@ impl ContactSurface {
     }
 }
 
-/// The straight lines around a facet, from node to node, with the places of their middles; of a quadratic one two on each side.
+/// The straight lines around a facet, from node to node, with the places of their middles.
 fn lines(kind: CellKind) -> impl Iterator<Item = ([usize; 2], [f64; 2])> {
     let reference = kind.reference();
-    let around = reference.facets.iter().flat_map(|(side, nodes)| {
-        let middle = side.is_quadratic().then(|| nodes[2]);
-        let first = [nodes[0], middle.unwrap_or(nodes[1])];
-        std::iter::once(first).chain(middle.map(|node| [node, nodes[1]]))
-    });
-    around.map(|[a, b]| {
+    rim(kind).map(|[a, b]| {
         let [a_at, b_at] = [a, b].map(|k| reference.nodes[k]);
         ([a, b], [0, 1].map(|i| 0.5 * (a_at[i] + b_at[i])))
     })

@@ -28,6 +28,14 @@ pub enum Solid {
     Obstacle(usize),
 }
 
+impl Solid {
+    /// The two in ascending order, bodies before obstacles: the same whoever is named first.
+    #[must_use]
+    pub fn pair(self, other: Self) -> [Self; 2] {
+        [self.min(other), self.max(other)]
+    }
+}
+
 /// The deepest place of two solids that are inside one another, or of a body that is inside itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Penetration<const D: usize> {
@@ -35,7 +43,7 @@ pub struct Penetration<const D: usize> {
     pub depth: f64,
     /// The place [m].
     pub at: Vector<D>,
-    /// Who is inside whom.
+    /// The two, bodies before obstacles.
     pub between: [Solid; 2],
     /// Diameter of the smaller facet that is there [m].
     pub cell: f64,
@@ -95,7 +103,8 @@ impl<const D: usize> Boundaries<D> {
                 });
             let cell = facets.clone().map(|(shell, f)| shell.diameter(f)).fold(f64::INFINITY, f64::min);
             let arcs = facets.map(|(shell, f)| shell.arc(f)).sum();
-            found(Penetration { depth, at, between, cell, arcs });
+            let [inner, outer] = between;
+            found(Penetration { depth, at, between: inner.pair(outer), cell, arcs });
         };
         for (i, shell) in shells.iter().enumerate() {
             let me = Solid::Body(i);

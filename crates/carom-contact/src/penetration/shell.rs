@@ -8,14 +8,13 @@ use super::deep::Deep;
 use super::skin::Skin;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
-use crate::patch::Patch;
+use crate::patch::{Patch, foot, rim};
 use crate::project::normal;
+use crate::surface::overshoot;
+use crate::tolerances::SEARCH;
 
 /// Points this close to one another, relative to the diameter of the facet that they are on, are one.
 const SAME: f64 = 1e-9;
-
-/// A boundary that turns by more than this from facet to facet has a corner there and stands for no arc [rad]: 40°.
-const CORNER: f64 = 0.698;
 
 /// How well the depth of an edge is known, relative to itself.
 const FINEST: f64 = 0.01;
@@ -44,11 +43,7 @@ pub(super) struct Shell<const D: usize> {
 
 impl<const D: usize> Shell<D> {
     pub fn new(surface: &Surface, first: u32) -> Self {
-        let facets: Vec<Facet> = surface
-            .facets()
-            .iter()
-            .map(|f| Facet { kind: f.kind, nodes: f.nodes.iter().map(|n| n + first).collect() })
-            .collect();
+        let facets: Vec<Facet> = surface.facets().iter().map(|f| f.numbered_from(first)).collect();
         let mut nodes = BTreeMap::new();
         let mut edges: BTreeMap<[u32; 2], (u32, usize)> = BTreeMap::new();
         for (f, facet) in (0..).zip(&facets) {
@@ -87,8 +82,17 @@ impl<const D: usize> Shell<D> {
         for (node, _) in &self.nodes {
             self.x[(*node - self.first) as usize] = position(*node);
         }
-        let nodes = Aabb::of(self.nodes.iter().map(|(n, _)| self.at(*n)));
-        self.bounds = if self.is_quadratic { nodes.scaled(2.0) } else { nodes };
+        self.bounds = if self.is_quadratic {
+            let facets = self.facets.iter().map(|facet| self.room(facet));
+            facets.fold(Aabb::of([]), |all, room| all.union(&room))
+        } else {
+            Aabb::of(self.nodes.iter().map(|(n, _)| self.at(*n)))
+        };
+    }
+
+    /// A box around a facet.
+    fn room(&self, facet: &Facet) -> Aabb<D> {
+        Aabb::of(facet.nodes.iter().map(|&n| self.at(n))).scaled(overshoot(facet.kind))
     }
 
     /// Brings the boxes of its facets to where they are, once per place.
@@ -96,17 +100,14 @@ impl<const D: usize> Shell<D> {
         if self.is_fitted {
             return;
         }
-        let (facets, x, first) = (&self.facets, &self.x, self.first);
-        let room = |f: u32| {
-            let facet = &facets[f as usize];
-            let nodes = Aabb::of(facet.nodes.iter().map(|n| x[(n - first) as usize]));
-            if facet.kind.is_quadratic() { nodes.scaled(2.0) } else { nodes }
-        };
-        if self.tree.len() == facets.len() {
-            self.tree.refit(room);
+        let mut tree = std::mem::replace(&mut self.tree, Bvh::new(std::iter::empty()));
+        let room = |f: u32| self.room(&self.facets[f as usize]);
+        if tree.len() == self.facets.len() {
+            tree.refit(room);
         } else {
-            self.tree = Bvh::new((0..facets.len() as u32).map(room));
+            tree = Bvh::new((0..self.facets.len() as u32).map(room));
         }
+        self.tree = tree;
         self.is_fitted = true;
     }
 
@@ -136,8 +137,8 @@ impl<const D: usize> Shell<D> {
     pub fn arc(&self, facet: u32) -> f64 {
         let own = self.normal(facet);
         let around = self.facets[facet as usize].nodes.iter().flat_map(|n| self.around(*n));
-        let turns = around.map(|&f| own.angle(&self.normal(f))).filter(|turn| *turn < CORNER);
-        self.diameter(facet) * turns.fold(0.0, f64::max) / 8.0
+        let turns = around.map(|&f| own.dot(&self.normal(f))).filter(|cosine| *cosine > SEARCH.corner);
+        self.diameter(facet) * turns.fold(1.0, f64::min).acos() / 8.0
     }
 
     /// The facets around a node.
@@ -300,32 +301,10 @@ fn through<const D: usize>(ends: &[Vector<D>; 2], corners: &[Vector<D>], found: 
     }
     let t = before / (before - after);
     let x = ends[0] + (ends[1] - ends[0]) * t - corners[0];
-    let (a, b, c) = (tangents[0].norm_squared(), tangents[0].dot(&tangents[1]), tangents[1].norm_squared());
-    let (p, q) = (x.dot(&tangents[0]), x.dot(&tangents[1]));
-    let (s, r) = if D == 2 {
-        (p / a, 0.0)
-    } else {
-        let det = a * c - b * b;
-        ((c * p - b * q) / det, (a * q - b * p) / det)
-    };
+    let [s, r] = foot(&x, &tangents);
     if s >= -SAME && r >= -SAME && s + r <= 1.0 + SAME {
         found(t, before < 0.0);
     }
-}
-
-/// The straight lines around a facet from node to node; of a line itself, from end to end.
-fn rim(kind: CellKind) -> impl Iterator<Item = [usize; 2]> {
-    let reference = kind.reference();
-    let around = reference.facets.iter().filter(move |_| kind.dimension() == 2).flat_map(|(side, nodes)| {
-        let middle = side.is_quadratic().then(|| nodes[2]);
-        std::iter::once([nodes[0], middle.unwrap_or(nodes[1])]).chain(middle.map(|m| [m, nodes[1]]))
-    });
-    let line: &[[usize; 2]] = match (kind.dimension(), kind.is_quadratic()) {
-        (1, false) => &[[0, 1]],
-        (1, true) => &[[0, 2], [2, 1]],
-        _ => &[],
-    };
-    line.iter().copied().chain(around)
 }
 
 /// The angle of a facet at ξ, by which its normal counts there.

@@ -67,7 +67,7 @@ fn between(pair: &Pair) -> [Solid; 2] {
         Target::Surface(body) => Solid::Body(body),
         Target::Obstacle(obstacle) => Solid::Obstacle(obstacle),
     };
-    [source.min(target), source.max(target)]
+    source.pair(target)
 }
 
 impl<const D: usize> Assembly<D> {
@@ -124,7 +124,7 @@ impl<const D: usize> Assembly<D> {
 
     /// Whether two solids may touch, and so must not be inside one another; of a body with itself that is never meant.
     pub(crate) fn must_not_overlap(&self, [a, b]: [Solid; 2]) -> bool {
-        a == b || self.may_meet.contains(&[a.min(b), a.max(b)])
+        a == b || self.may_meet.contains(&a.pair(b))
     }
 
     /// Number of bodies.

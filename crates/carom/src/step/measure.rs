@@ -33,8 +33,7 @@ pub(super) fn measure<const D: usize>(
         let mut in_the_way = None;
         work.boundaries.measure(obstacles, counts, &between, |found| {
             if found.depth > method.allowed_penetration(found.cell, found.arcs, 0.0) {
-                let [a, b] = found.between;
-                in_the_way = Some([a.min(b), a.max(b)]);
+                in_the_way = Some(found.between);
             }
         });
         if let Some(between) = in_the_way {
@@ -62,8 +61,6 @@ pub(super) fn measure<const D: usize>(
             largest = excess;
             let mut place = [0.0; 3];
             place[..D].copy_from_slice(at.as_slice());
-            let [a, b] = between;
-            let between = [a.min(b), a.max(b)];
             report.worst = Some(Inside { between, depth, cell, arcs, at: place });
         }
     });
