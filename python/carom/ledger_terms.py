@@ -49,6 +49,7 @@ TERMS = (
     Term("plastic", ("run", "body"), "taken", "dissipated by plastic flow", "red"),
     Term("scheme", ("run", "body"), "taken", "dissipated by the time scheme", "yellow"),
     Term("normal_contact", ("run", "pair"), "taken", "taken by normal reactions", "sky"),
+    Term("settling", ("run", "pair"), "taken", "taken from closed contacts by damping", "purple"),
 )
 """All terms, in the order of their columns."""
 
@@ -69,7 +70,7 @@ class Ledger:
 
     Every term is computed from its own definition:
     ΔE_kinetic + ΔE_strain = external + prescribed − friction − viscous − plastic − scheme −
-    normal_contact + defect.
+    normal_contact − settling + defect.
 
     Parameters
     ----------
@@ -91,6 +92,8 @@ class Ledger:
         Dissipated by the time scheme's own algebra (θ, ξ > ½).
     normal_contact
         Taken by normal reactions: −Σ r_n Δu_n.
+    settling
+        Taken by damping from the velocities that closed contacts turn round in every step (θ = ½).
     """
 
     kinetic: float
@@ -102,6 +105,7 @@ class Ledger:
     plastic: float
     scheme: float
     normal_contact: float
+    settling: float
 
     @property
     def defect(self) -> float:
@@ -116,6 +120,7 @@ class Ledger:
             + self.plastic
             + self.scheme
             + self.normal_contact
+            + self.settling
         )
 
 
@@ -131,6 +136,7 @@ class RunTerms(TypedDict):
     plastic: float
     scheme: float
     normal_contact: float
+    settling: float
 
 
 class BodyTerms(TypedDict):
@@ -152,3 +158,4 @@ class PairTerms(TypedDict):
     prescribed: float
     friction: float
     normal_contact: float
+    settling: float

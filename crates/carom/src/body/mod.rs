@@ -171,6 +171,19 @@ pub trait Body<const D: usize>: Send + Sync {
         end: BodyEnd<'_, D>,
     ) -> (BodyLedger, Energies);
 
+    /// Whether damping or viscosity takes energy from its motion.
+    fn is_damped(&self) -> bool {
+        false
+    }
+
+    /// The mass that belongs to a node [kg].
+    fn mass_of(&self, node: u32) -> f64;
+
+    /// What an `impulse` [N s] makes of the velocities: writes Δv = M⁻¹ p [m/s] to `change`, zero where displacements are held, and where they
+    /// are replaces the impulse by M Δv, which the supports see to. Returns the power [W] that damping and viscosity would take from that
+    /// motion, Δv·C Δv, where the body is at the end of a step in `state`. It is asked of no body with nodes without mass.
+    fn jolt(&mut self, impulse: &mut [Vector<D>], state: &BodyState<'_, D>, change: &mut [Vector<D>]) -> f64;
+
     /// Grows with every K̄.
     fn generation(&self) -> u64;
 

@@ -17,7 +17,7 @@ pub(crate) struct ActiveSet<const D: usize> {
     /// The frame that every contact had when it was last evaluated, in this step or as a reaction of the last one; zeros where there is none.
     frames: Vec<Matrix<D>>,
     pub friction: Vec<f64>,
-    /// Penetration [m] that a contact may keep, negative: see `ContactCondition::normal_offset`.
+    /// The part of its gap [m] at the start that a contact may close or keep: see `ContactCondition::start_gap`.
     pub start_gaps: Vec<f64>,
     /// Reactions [N] that the step starts with, in the frame of the last step.
     pub start_forces: Vec<Vector<D>>,
@@ -55,6 +55,12 @@ impl<const D: usize> ActiveSet<D> {
             let explained = inside + map.dt * at_start.relative(|n| state.velocity[n]).norm();
             at_start.gap < -explained || known.is_ok_and(was_stuck)
         };
+        // Where contacts are chosen at the start, whether one at rest goes on must not hang on the sign of round-off.
+        let closed = |c: &Candidate| {
+            let pressed = state.reactions.binary_search_by_key(&c.key(), Reaction::key).is_ok();
+            let size = assembly.pair_size(&contact.pairs[c.pair as usize]);
+            if pressed { round_off.max(CONTROL.closed * size) } else { round_off }
+        };
         let mut at_starts = self.contacts.iter();
         self.candidates.retain(|c| {
             let Some(at_start) = at_starts.next() else { return false };
@@ -63,14 +69,15 @@ impl<const D: usize> ActiveSet<D> {
                 let inside = inside(c);
                 gap < -inside && contact.is_beyond(c, at_start, inside, &start, search)
             };
+            let closed = closed(c);
             let active = !c.redundant
-                && method.condition.is_active(gap, round_off)
+                && method.condition.is_active(gap, closed)
                 && answers(assembly, at_start)
                 && !is_beyond();
             if active {
                 let stays = gap < 0.0
                     && (contact.is_two_sided(c.pair as usize) || !map.is_static() && is_stuck(c, at_start));
-                self.start_gaps.push(if stays { gap } else { 0.0 });
+                self.start_gaps.push(method.condition.start_gap(gap, closed, stays));
             }
             active
         });

@@ -9,6 +9,9 @@ pub(super) struct Control {
     pub unresponsive: f64,
     /// A node this deep inside its target, in sizes of the smaller body, is more than touching it.
     pub inside: f64,
+    /// A contact that pressed in the last step is closed up to this gap, in sizes of the smaller body: that far do iterations that end above
+    /// round-off let it open.
+    pub closed: f64,
     /// Contact nodes of a body up to which every pair of them has its block. Beyond these, a node has blocks with those that are
     /// [near](crate::body::Body::near): what W lacks costs iterations, not accuracy.
     pub few: usize,
@@ -28,6 +31,7 @@ pub(super) const CONTROL: Control = Control {
     widening: 4.0,
     unresponsive: 1e-6,
     inside: 1e-6,
+    closed: 1e-9,
     few: 100,
     rigid: 1e-6,
     held_compliance: [1.0, 1e-3],

@@ -103,8 +103,8 @@ impl<const D: usize> Reduced<D> {
         let Given { assembly, method, state, interval } = *given;
         let start = |n: usize| state.velocity[n];
         self.offsets.clear();
-        self.offsets.extend(active.contacts.iter().zip(&active.start_gaps).map(|(contact, &kept)| {
-            method.condition.normal_offset(contact, kept, &interval.map, |n| motion[n], start)
+        self.offsets.extend(active.contacts.iter().zip(&active.start_gaps).map(|(contact, &start_gap)| {
+            method.condition.normal_offset(contact, start_gap, &interval.map, |n| motion[n], start)
         }));
         self.look(assembly, motion, bodies);
         let Self { delassus, problem, offsets, known_motion, .. } = self;

@@ -5,7 +5,7 @@ use std::ops::AddAssign;
 use serde::Serialize;
 
 /// Terms of all books, in the order of their columns.
-pub const TERMS: [&str; 10] = [
+pub const TERMS: [&str; 11] = [
     "kinetic",
     "strain",
     "external",
@@ -16,11 +16,12 @@ pub const TERMS: [&str; 10] = [
     "plastic",
     "scheme",
     "normal_contact",
+    "settling",
 ];
 
 /// What happened to the energy in a step, or since the start [J]. Every term is computed from its own definition:
 ///
-/// ΔE_kinetic + ΔE_strain = external + prescribed − friction − viscous − plastic − scheme − normal_contact + defect.
+/// ΔE_kinetic + ΔE_strain = external + prescribed − friction − viscous − plastic − scheme − normal_contact − settling + defect.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Ledger {
     /// Change of kinetic energy.
@@ -41,11 +42,13 @@ pub struct Ledger {
     pub scheme: f64,
     /// Taken by normal reactions: −Σ r_n Δu_n.
     pub normal_contact: f64,
+    /// Taken by damping from the velocities that closed contacts turn round in every step (θ = ½).
+    pub settling: f64,
 }
 
 impl Ledger {
     /// The names of its terms.
-    pub(crate) const NAMES: [&str; 9] = [
+    pub(crate) const NAMES: [&str; 10] = [
         "kinetic",
         "strain",
         "external",
@@ -55,10 +58,11 @@ impl Ledger {
         "plastic",
         "scheme",
         "normal_contact",
+        "settling",
     ];
 
     /// Its terms in the order of the columns.
-    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 9] {
+    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 10] {
         [
             &mut self.kinetic,
             &mut self.strain,
@@ -69,6 +73,7 @@ impl Ledger {
             &mut self.plastic,
             &mut self.scheme,
             &mut self.normal_contact,
+            &mut self.settling,
         ]
     }
 
@@ -81,6 +86,7 @@ impl Ledger {
             + self.plastic
             + self.scheme
             + self.normal_contact
+            + self.settling
     }
 
     /// Adds what happened to a body, but for what it received through contact:
@@ -100,6 +106,7 @@ impl Ledger {
         self.prescribed += pair.prescribed;
         self.friction += pair.friction;
         self.normal_contact += pair.normal_contact;
+        self.settling += pair.settling;
     }
 }
 
@@ -114,6 +121,7 @@ impl AddAssign for Ledger {
         self.plastic += step.plastic;
         self.scheme += step.scheme;
         self.normal_contact += step.normal_contact;
+        self.settling += step.settling;
     }
 }
 
@@ -156,7 +164,7 @@ impl BodyLedger {
     }
 
     /// Its terms in the columns `TERMS`; NaN where it has none.
-    pub(crate) fn columns(&self) -> [f64; 10] {
+    pub(crate) fn columns(&self) -> [f64; 11] {
         [
             self.kinetic,
             self.strain,
@@ -167,6 +175,7 @@ impl BodyLedger {
             self.viscous,
             self.plastic,
             self.scheme,
+            f64::NAN,
             f64::NAN,
         ]
     }
@@ -203,18 +212,20 @@ pub struct PairLedger {
     pub friction: f64,
     /// Taken by normal reactions: −Σ r_n Δu_n.
     pub normal_contact: f64,
+    /// Taken by damping from the velocities that closed contacts turn round in every step (θ = ½).
+    pub settling: f64,
     /// Whether there was a reaction.
     pub has_touched: bool,
 }
 
 impl PairLedger {
     /// Its terms in the order of the columns.
-    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 3] {
-        [&mut self.prescribed, &mut self.friction, &mut self.normal_contact]
+    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 4] {
+        [&mut self.prescribed, &mut self.friction, &mut self.normal_contact, &mut self.settling]
     }
 
     /// Its terms in the columns `TERMS`; NaN where it has none.
-    pub(crate) fn columns(&self) -> [f64; 10] {
+    pub(crate) fn columns(&self) -> [f64; 11] {
         [
             f64::NAN,
             f64::NAN,
@@ -226,6 +237,7 @@ impl PairLedger {
             f64::NAN,
             f64::NAN,
             self.normal_contact,
+            self.settling,
         ]
     }
 }
@@ -235,6 +247,7 @@ impl AddAssign for PairLedger {
         self.prescribed += step.prescribed;
         self.friction += step.friction;
         self.normal_contact += step.normal_contact;
+        self.settling += step.settling;
         self.has_touched |= step.has_touched;
     }
 }

@@ -15,7 +15,8 @@ pub enum ContactCondition {
     /// The gap at the end of the step, as in the paper: never penetrates.
     #[default]
     Gap,
-    /// The normal relative motion of the step, of contacts closed at its start: normal reactions do no work.
+    /// The normal relative motion of the step, less the gap that is open at its start: what is closed comes no closer, what closes lands
+    /// on its target. The work that normal reactions do on landing is given back, so that they do none.
     Midpoint,
     /// The normal relative velocity at the end of the step, of contacts closed at its start (Moreau): a plastic impact.
     Endpoint,
@@ -35,19 +36,35 @@ impl ContactCondition {
     }
 
     /// Whether a contact takes part in a step that it starts with this gap [m]. If that is decided at the start, the contact must be closed there,
-    /// up to `round_off` [m]. At rest the gap is nothing but that, and its sign would be left to chance.
+    /// up to what is as good as `closed` [m].
     #[must_use]
-    pub fn is_active(self, start_gap: f64, round_off: f64) -> bool {
-        self.rules_the_end() || start_gap <= round_off
+    pub fn is_active(self, start_gap: f64, closed: f64) -> bool {
+        self != ContactCondition::Endpoint || start_gap <= closed
     }
 
-    /// Whether the gap itself is ruled, at the end of the step.
+    /// The part of the gap at the start [m] that has a part in the condition: what is open there and may be closed, or the penetration, negative,
+    /// that the step may keep but not deepen, as `stays` says. What is as good as `closed` [m] is: at rest the gap is nothing but
+    /// round-off, and its sign would be left to chance.
+    #[must_use]
+    pub fn start_gap(self, gap: f64, closed: f64, stays: bool) -> f64 {
+        match self {
+            ContactCondition::Gap | ContactCondition::Massless if stays => gap.min(0.0),
+            ContactCondition::Midpoint if gap > closed => gap,
+            _ => 0.0,
+        }
+    }
+
+    /// Whether contacts that were missed are found by what has gone through its target at the end of the step. With `Endpoint` they are
+    /// chosen at the start.
     #[must_use]
     pub fn rules_the_end(self) -> bool {
-        match self {
-            ContactCondition::Gap | ContactCondition::Massless => true,
-            ContactCondition::Midpoint | ContactCondition::Endpoint => false,
-        }
+        self != ContactCondition::Endpoint
+    }
+
+    /// Whether what normal reactions take on landing is given back.
+    #[must_use]
+    pub fn restores(self) -> bool {
+        self == ContactCondition::Midpoint
     }
 
     /// Whether contact nodes carry no mass.
@@ -71,20 +88,22 @@ impl ContactCondition {
 
     /// What the normal motion (H d)_n lacks of the variable w_n of the condition [m].
     ///
-    /// `kept` is a penetration, negative, that the step may keep but not deepen. It is that of a node that came past an edge. In pairs
-    /// checked from both sides, it is that of a contact that starts inside its target where another has stood for it. To push it out at
-    /// once would create energy. `d` is the current motion of the step and `v` the velocity at its start.
+    /// `start_gap` is [what of it](Self::start_gap) has a part. A penetration that may be kept is that of a node that came past an edge. In
+    /// pairs checked from both sides, it is that of a contact that starts inside its target where another has stood for it. To push it
+    /// out at once would create energy. `d` is the current motion of the step and `v` the velocity at its start.
     pub fn normal_offset<const D: usize>(
         self,
         contact: &Contact<D>,
-        kept: f64,
+        start_gap: f64,
         map: &StepMap,
         d: impl Fn(usize) -> Vector<D>,
         v: impl Fn(usize) -> Vector<D>,
     ) -> f64 {
         match self {
-            ContactCondition::Gap | ContactCondition::Massless => contact.gap - kept - contact.relative(d)[0],
-            ContactCondition::Midpoint => 0.0,
+            ContactCondition::Gap | ContactCondition::Massless => {
+                contact.gap - start_gap - contact.relative(d)[0]
+            }
+            ContactCondition::Midpoint => start_gap,
             // v₊ = a v + b d, so w_n = v₊/b = d + (a/b) v: ½Δt v₊ for θ = ½.
             ContactCondition::Endpoint => {
                 map.velocity_of_velocity / map.velocity_of_motion * contact.relative(v)[0]

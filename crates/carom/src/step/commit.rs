@@ -4,7 +4,9 @@ use carom_contact::{Candidate, Contact, shares};
 use carom_friction::cone;
 use carom_mesh::Vector;
 
+use super::landing::restore;
 use super::report::{PairReport, StepReport};
+use super::settling::settle;
 use super::workspace::Workspace;
 use crate::body::BodyEnd;
 use crate::contact::Contacts;
@@ -34,8 +36,14 @@ pub(super) fn commit<const D: usize>(
     }
     next.support.fill(Vector::zeros());
     close_bodies(given, next, work);
+    work.pair_reports.fill(PairReport::default());
+    work.impulses.done.clear();
+    restore(given, next, work);
+    let landings = work.impulses.done.len();
+    settle(given, next, work);
     next.energies = next.body_energies.iter().copied().sum();
     close_contacts(given, next, work, &mut report);
+    book_impulses(given, next, work, landings, &mut report);
     for body in &work.body_ledgers {
         report.ledger.add_body(body);
     }
@@ -70,7 +78,8 @@ fn keep_contacts<const D: usize>(
     let assembly = given.assembly;
     let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
     assembly.contact.evaluate_all(&active.candidates, &end, &mut active.mortar, at_end);
-    for contact in &*at_end {
+    for (contact, before) in at_end.iter_mut().zip(&active.contacts) {
+        contact.carry_frame(&before.frame);
         report.min_gap = report.min_gap.min(contact.gap);
     }
     for (i, (candidate, contact)) in active.candidates.iter().zip(&active.contacts).enumerate() {
@@ -106,6 +115,33 @@ fn close_bodies<const D: usize>(given: &Given<'_, D>, next: &mut State<D>, work:
     }
 }
 
+/// Books the work of impulses in contacts, of which the first `landings` restore what landing took, and makes them part of the reactions.
+fn book_impulses<const D: usize>(
+    given: &Given<'_, D>,
+    next: &mut State<D>,
+    work: &mut Workspace<D>,
+    landings: usize,
+    report: &mut StepReport,
+) {
+    let assembly = given.assembly;
+    for (k, done) in work.impulses.done.iter().enumerate() {
+        let Reaction { contact, force, pair, .. } = &mut next.reactions[done.reaction];
+        let pair = &mut work.pair_reports[assembly.contact.pairs[*pair as usize].named_pair];
+        let [along, across] = done.taken;
+        pair.ledger.prescribed += done.prescribed;
+        if k < landings {
+            pair.ledger.normal_contact += along;
+            pair.ledger.friction += across;
+            report.least_friction = report.least_friction.min(across);
+            deposit(assembly, contact, across, &mut next.friction_energy);
+        } else {
+            pair.ledger.settling += along + across;
+        }
+        *force += done.force;
+        pair.normal_force += done.force[0];
+    }
+}
+
 /// Books the work of the reactions of every pair.
 fn close_contacts<const D: usize>(
     given: &Given<'_, D>,
@@ -114,10 +150,12 @@ fn close_contacts<const D: usize>(
     report: &mut StepReport,
 ) {
     let Given { assembly, state, interval, .. } = *given;
-    let Workspace { contacts, blend, motion, pair_reports, body_ledgers, .. } = work;
-    pair_reports.fill(PairReport::default());
+    let Workspace { contacts, blend, motion, pair_reports, body_ledgers, impulses, .. } = work;
     let pair_of = |reaction: &Reaction<D>| assembly.contact.pairs[reaction.pair as usize].named_pair;
-    for reaction in &next.reactions {
+    for (k, reaction) in next.reactions.iter().enumerate() {
+        if impulses.arriving.binary_search(&k).is_ok() {
+            continue;
+        }
         let report = &mut pair_reports[pair_of(reaction)];
         report.normal_force += reaction.force[0];
         report.ledger.has_touched = true;

@@ -2,10 +2,13 @@
 
 pub(crate) mod blend;
 mod commit;
+mod impulse;
 mod iterate;
+mod landing;
 mod measure;
 mod newton;
 pub(crate) mod report;
+mod settling;
 mod since_look;
 pub(crate) mod workspace;
 

@@ -4,6 +4,7 @@ use carom_contact::Boundaries;
 use carom_mesh::Vector;
 
 use super::blend::Blend;
+use super::impulse::Impulses;
 use super::newton::Newton;
 use super::report::PairReport;
 use super::since_look::SinceLook;
@@ -20,6 +21,7 @@ pub struct Workspace<const D: usize> {
     pub(crate) contacts: Contacts<D>,
     pub(crate) newton: Newton<D>,
     pub(crate) blend: Blend,
+    pub(crate) impulses: Impulses<D>,
     pub(crate) boundaries: Boundaries<D>,
     /// Since every body was looked at for going through itself.
     pub(crate) since_look: Vec<SinceLook>,
@@ -49,6 +51,7 @@ impl<const D: usize> Workspace<D> {
             contacts: Contacts::new(assembly),
             newton: Newton::new(assembly),
             blend: Blend::new(bodies.len()),
+            impulses: Impulses::new(assembly.reference.len(), bodies.len()),
             boundaries: assembly.boundaries.clone(),
             since_look: vec![SinceLook::default(); bodies.len()],
             in_itself: vec![false; bodies.len()],

@@ -130,6 +130,20 @@ impl Body<2> for PointMass {
         (ledger, energies)
     }
 
+    fn mass_of(&self, _node: u32) -> f64 {
+        MASS
+    }
+
+    fn jolt(
+        &mut self,
+        impulse: &mut [Vector<2>],
+        _state: &BodyState<'_, 2>,
+        change: &mut [Vector<2>],
+    ) -> f64 {
+        change[0] = impulse[0] / MASS;
+        0.0
+    }
+
     fn generation(&self) -> u64 {
         self.generation
     }

@@ -69,7 +69,7 @@ fn what_bodies_receive_through_contact_is_what_pairs_do_not_keep() {
         let simulation = collision(scheme, condition);
         let books = simulation.books();
         let received: f64 = books.bodies.iter().map(|b| b.contact).sum();
-        let kept: f64 = books.pairs.iter().map(|p| p.friction + p.normal_contact).sum();
+        let kept: f64 = books.pairs.iter().map(|p| p.friction + p.normal_contact + p.settling).sum();
         let scale = books.total.kinetic.abs();
         assert!((received + kept).abs() < 1e-9 * scale, "{scheme} {condition}: {received} and {kept}");
     }

@@ -11,6 +11,9 @@ use crate::scheme::{StepMap, StressRule};
 /// Resistance of massless nodes to a change of motion, in terms of the stiffness that holds them.
 pub(crate) const STEADYING: f64 = 0.1;
 
+/// A motion this short, in diameters of the body, stands for a velocity.
+const STRAIGHT: f64 = 1e-6;
+
 /// The equation of motion at a guess.
 pub(crate) struct Equation<'a, const D: usize> {
     pub body: &'a Body<D>,
@@ -70,6 +73,26 @@ impl<const D: usize> ResidualScratch<D> {
     pub fn new(nodes: usize) -> Self {
         let zeros = vec![Vector::zeros(); nodes];
         Self { force: zeros.clone(), velocity: zeros.clone(), viscous: zeros.clone(), product: zeros }
+    }
+
+    /// The force C v [N] with which damping and viscosity resist the velocities `v` [m/s] at the displacements `u` [m].
+    pub fn resistance(
+        &mut self,
+        body: &Body<D>,
+        frame: &Matrix<D>,
+        u: &[Vector<D>],
+        v: &[Vector<D>],
+    ) -> &[Vector<D>] {
+        let Self { force, product, velocity, .. } = self;
+        body.damping_force(frame, v, force, product);
+        // Viscosity knows motions: one that is so short that it is straight.
+        let largest = nodal::largest(v);
+        if largest > 0.0 {
+            let dt = STRAIGHT * body.mesh().diameter() / largest;
+            nodal::each(velocity, [u, v], |u1, [u, v]| *u1 = u + v * dt);
+            body.add_viscous_force(u, velocity, dt, force);
+        }
+        force
     }
 
     /// C v̄ [N] as it was last computed; zero without damping and viscosity.

@@ -10,6 +10,7 @@ pub(crate) mod supports;
 
 use std::sync::Arc;
 
+use carom_fem::MassSolver;
 use carom_fem::material::PlasticState;
 use carom_fem::sparse::{Inverse, Precision};
 use carom_mesh::{Matrix, Vector, nodal, tensor};
@@ -37,6 +38,7 @@ pub(crate) struct FeBody<const D: usize> {
     drive: Drive<D>,
     scratch: ResidualScratch<D>,
     blended: BlendedForces<D>,
+    mass_solver: MassSolver<D>,
     /// The configuration half way through the step.
     middle: Vec<Vector<D>>,
     /// The residual at the end of a step [N]; empty where nothing is held.
@@ -57,6 +59,7 @@ impl<const D: usize> FeBody<D> {
             drive: Drive::new(&part),
             scratch: ResidualScratch::new(part.body.node_count()),
             blended: BlendedForces::default(),
+            mass_solver: MassSolver::default(),
             residual: held,
             middle: zeros.clone(),
             jump: zeros.clone(),
@@ -285,6 +288,31 @@ impl<const D: usize> Body<D> for FeBody<D> {
             contact,
         };
         (ledger, Energies { kinetic, strain })
+    }
+
+    fn is_damped(&self) -> bool {
+        self.part.body.is_damped() && self.part.body.massless().is_empty()
+    }
+
+    fn mass_of(&self, node: u32) -> f64 {
+        self.part.body.nodal_mass()[node as usize]
+    }
+
+    fn jolt(&mut self, impulse: &mut [Vector<D>], state: &BodyState<'_, D>, change: &mut [Vector<D>]) -> f64 {
+        let Self { part, mass_solver, pose, scratch, momentum, .. } = self;
+        let body = &part.body;
+        mass_solver.solve(body, impulse, change);
+        if !body.held().is_empty() {
+            body.mass().multiply(change, momentum);
+            for dof in body.held().dofs() {
+                let (n, i) = (dof.node as usize, dof.component as usize);
+                impulse[n][i] = momentum[n][i];
+            }
+        }
+        if !body.is_damped() {
+            return 0.0;
+        }
+        nodal::dot(change, scratch.resistance(body, &pose.frame, state.displacement, change))
     }
 
     fn generation(&self) -> u64 {

@@ -1,0 +1,280 @@
+//! Impulses in contacts at the end of a step.
+
+use carom_contact::{Contact, Target};
+use carom_mesh::Vector;
+
+use crate::body::Body;
+use crate::contact::contact_work::driven;
+use crate::ledger::BodyLedger;
+use crate::model::assembly::Assembly;
+use crate::model::given::Given;
+use crate::model::state::{Reaction, State};
+
+/// A contact sticks where its friction is below the limit by more than this part of it.
+const STICKING: f64 = 1e-6;
+
+/// An impulse that a contact may take.
+#[derive(Debug, Clone)]
+pub(super) struct Impulse<const D: usize> {
+    /// Which of the reactions of the new state.
+    pub reaction: usize,
+    /// Which of the contacts at the end of the step.
+    pub contact: usize,
+    /// λ [N s] in its frame.
+    pub impulse: Vector<D>,
+    /// The energy that it is to give [J].
+    pub energy: f64,
+}
+
+/// What an impulse did.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Done<const D: usize> {
+    /// Which of the reactions of the new state has it as a part.
+    pub reaction: usize,
+    /// Its force over the step [N] in the frame of the contact.
+    pub force: Vector<D>,
+    /// Energy that it took along the normal and across it [J].
+    pub taken: [f64; 2],
+    /// Work of prescribed motion [J].
+    pub prescribed: f64,
+}
+
+/// What impulses mean for bodies that are connected by them.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Group {
+    /// Σ λ·H v, along the normals and across them [J].
+    pub work: [f64; 2],
+    /// Σ λ·H Δv [J] likewise, twice the energy of what the impulses make of bodies at rest.
+    pub square: [f64; 2],
+    /// What damping would take of that [W].
+    pub power: f64,
+    /// Σ of the energies that they are to give [J].
+    pub energy: f64,
+}
+
+/// Impulses in contacts change the velocities at the end of a step, Δv = M⁻¹ Hᵀλ, and neither positions nor the momentum of the whole. They are
+/// part of the reactions. Those that bodies connect are all scaled by one number.
+#[derive(Debug)]
+pub(crate) struct Impulses<const D: usize> {
+    pub(super) wanted: Vec<Impulse<D>>,
+    pub(super) done: Vec<Done<D>>,
+    /// Those of the reactions, ascending, whose contacts come to their target with the end of the step and are to land in the next.
+    pub(super) arriving: Vec<usize>,
+    /// Hᵀλ [N s] and what it makes of the velocities [m/s].
+    force: Vec<Vector<D>>,
+    change: Vec<Vector<D>>,
+    /// Whether bodies have a part.
+    takes_part: Vec<bool>,
+    /// For every body one that it is connected with; the one that stands for its group stands for itself.
+    next: Vec<usize>,
+    groups: Vec<Group>,
+}
+
+impl<const D: usize> Impulses<D> {
+    /// Of so many nodes, obstacles among them, and bodies.
+    pub fn new(nodes: usize, bodies: usize) -> Self {
+        Self {
+            wanted: Vec::new(),
+            done: Vec::new(),
+            arriving: Vec::new(),
+            force: vec![Vector::zeros(); nodes],
+            change: vec![Vector::zeros(); nodes],
+            takes_part: vec![false; bodies],
+            next: vec![0; bodies],
+            groups: vec![Group::default(); bodies],
+        }
+    }
+
+    /// What the wanted impulses mean for the groups of bodies that they connect, in `contacts` at the end of the step.
+    pub(super) fn weigh(
+        &mut self,
+        given: &Given<'_, D>,
+        contacts: &[Contact<D>],
+        bodies: &mut [Box<dyn Body<D>>],
+        new: &State<D>,
+    ) {
+        let wanted = std::mem::take(&mut self.wanted);
+        self.connect(given, contacts, new, &wanted);
+        self.respond(given, bodies, new);
+        self.measure(given, contacts, new, &wanted);
+        self.wanted = wanted;
+    }
+
+    /// What `scale` says of the group of a wanted impulse that was weighed.
+    pub(super) fn scale(
+        &self,
+        given: &Given<'_, D>,
+        new: &State<D>,
+        impulse: &Impulse<D>,
+        scale: impl Fn(&Group) -> f64,
+    ) -> f64 {
+        let pair = new.reactions[impulse.reaction].pair as usize;
+        scale(&self.groups[self.group(given.assembly.contact.pairs[pair].source)])
+    }
+
+    /// What a wanted impulse that was weighed would take along the normal and across it [J], times what `scale` says of its group.
+    pub(super) fn taken(
+        &self,
+        given: &Given<'_, D>,
+        contacts: &[Contact<D>],
+        new: &State<D>,
+        impulse: &Impulse<D>,
+        scale: impl Fn(&Group) -> f64,
+    ) -> [f64; 2] {
+        let scale = self.scale(given, new, impulse, scale);
+        let velocity = |n: usize| new.velocity[n] + self.change[n] * (0.5 * scale);
+        by_direction(&(impulse.impulse * -scale), &contacts[impulse.contact].relative(velocity))
+    }
+
+    /// Gives the impulses that were weighed times what `scale` says of their group, and adds what they did to `done`.
+    pub(super) fn give(
+        &mut self,
+        given: &Given<'_, D>,
+        contacts: &[Contact<D>],
+        new: &mut State<D>,
+        ledgers: &mut [BodyLedger],
+        scale: impl Fn(&Group) -> f64,
+    ) {
+        for wanted in &self.wanted {
+            let contact = &contacts[wanted.contact];
+            let impulse = wanted.impulse * self.scale(given, new, wanted, &scale);
+            let force = impulse / given.interval.map.dt;
+            self.done.push(Done {
+                reaction: wanted.reaction,
+                force,
+                taken: self.taken(given, contacts, new, wanted, &scale),
+                prescribed: driven(given.assembly, contact, &impulse, &new.velocity),
+            });
+            contact.add_force(&force, &mut new.contact_force);
+        }
+        self.move_bodies(given, new, ledgers, scale);
+    }
+
+    /// Gathers the impulses of bodies that they connect.
+    fn connect(
+        &mut self,
+        given: &Given<'_, D>,
+        contacts: &[Contact<D>],
+        new: &State<D>,
+        wanted: &[Impulse<D>],
+    ) {
+        self.takes_part.fill(false);
+        self.force.fill(Vector::zeros());
+        self.change.fill(Vector::zeros());
+        self.next.iter_mut().enumerate().for_each(|(i, next)| *next = i);
+        self.groups.fill(Group::default());
+        for Impulse { reaction, contact, impulse, .. } in wanted {
+            let Reaction { pair, .. } = new.reactions[*reaction];
+            let pair = &given.assembly.contact.pairs[pair as usize];
+            let target = if let Target::Surface(target) = pair.target { target } else { pair.source };
+            (self.takes_part[pair.source], self.takes_part[target]) = (true, true);
+            let (a, b) = (self.group(pair.source), self.group(target));
+            self.next[a.max(b)] = a.min(b);
+            contacts[*contact].add_force(impulse, &mut self.force);
+        }
+    }
+
+    /// What the impulses mean for the energy of every group.
+    fn measure(
+        &mut self,
+        given: &Given<'_, D>,
+        contacts: &[Contact<D>],
+        new: &State<D>,
+        wanted: &[Impulse<D>],
+    ) {
+        for &Impulse { reaction, contact, ref impulse, energy } in wanted {
+            let contact = &contacts[contact];
+            let work = by_direction(impulse, &contact.relative(|n| new.velocity[n]));
+            let square = by_direction(impulse, &contact.relative(|n| self.change[n]));
+            let group = self.group_of(given, new, reaction);
+            let group = &mut self.groups[group];
+            group.energy += energy;
+            for i in 0..2 {
+                group.work[i] += work[i];
+                group.square[i] += square[i];
+            }
+        }
+    }
+
+    /// Asks the bodies what the impulses make of their velocities.
+    fn respond(&mut self, given: &Given<'_, D>, bodies: &mut [Box<dyn Body<D>>], new: &State<D>) {
+        for (i, body) in bodies.iter_mut().enumerate() {
+            if self.takes_part[i] {
+                let (nodes, group) = (given.assembly.nodes(i), self.group(i));
+                let (force, change) = (&mut self.force[nodes.clone()], &mut self.change[nodes.clone()]);
+                self.groups[group].power += body.jolt(force, &new.body(i, nodes), change);
+            }
+        }
+    }
+
+    /// Changes the velocities of the bodies and their energies.
+    fn move_bodies(
+        &mut self,
+        given: &Given<'_, D>,
+        new: &mut State<D>,
+        ledgers: &mut [BodyLedger],
+        scale: impl Fn(&Group) -> f64,
+    ) {
+        for i in 0..self.takes_part.len() {
+            if !self.takes_part[i] {
+                continue;
+            }
+            let group = self.group(i);
+            let scale = scale(&self.groups[group]);
+            let (mut contact, mut supports) = (0.0, 0.0);
+            for n in given.assembly.nodes(i) {
+                let (momentum, change) = (self.force[n] * scale, self.change[n] * scale);
+                let mean = new.velocity[n] + change * 0.5;
+                contact += given.assembly.free_part(n, &momentum).dot(&mean);
+                supports += given.assembly.prescribed_part(n, &momentum).dot(&mean);
+                new.velocity[n] += change;
+            }
+            new.body_energies[i].kinetic += contact + supports;
+            ledgers[i].kinetic += contact + supports;
+            ledgers[i].contact += contact;
+            ledgers[i].prescribed += supports;
+        }
+    }
+
+    /// The body that stands for the group of one.
+    fn group(&self, mut body: usize) -> usize {
+        while self.next[body] != body {
+            body = self.next[body];
+        }
+        body
+    }
+
+    /// The body that stands for the group of a reaction of the state `new`.
+    fn group_of(&self, given: &Given<'_, D>, new: &State<D>, reaction: usize) -> usize {
+        self.group(given.assembly.contact.pairs[new.reactions[reaction].pair as usize].source)
+    }
+}
+
+/// Whether a contact with the reaction `r` sticks: its friction is below the limit by more than round-off.
+pub(super) fn sticks<const D: usize>(r: &Vector<D>, friction: f64) -> bool {
+    tangential(r) < friction * r[0] * (1.0 - STICKING)
+}
+
+/// The mass that a contact puts in the way of an impulse [kg], if every node moves for itself.
+pub(super) fn mass<const D: usize>(
+    contact: &Contact<D>,
+    assembly: &Assembly<D>,
+    bodies: &[Box<dyn Body<D>>],
+) -> f64 {
+    let yields = contact.stencil().filter_map(|(node, weight)| {
+        let (body, own) = assembly.place_of(node)?;
+        Some(weight * weight / bodies[body].mass_of(own as u32))
+    });
+    yields.sum::<f64>().recip()
+}
+
+/// |r_t|.
+pub(super) fn tangential<const D: usize>(r: &Vector<D>) -> f64 {
+    (1..D).map(|t| r[t] * r[t]).sum::<f64>().sqrt()
+}
+
+/// The parts of a·b along the normal and across it.
+fn by_direction<const D: usize>(a: &Vector<D>, b: &Vector<D>) -> [f64; 2] {
+    let along = a[0] * b[0];
+    [along, a.dot(b) - along]
+}

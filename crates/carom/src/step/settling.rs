@@ -1,0 +1,84 @@
+//! Rest is rest: what damping takes from the velocities that closed contacts turn round.
+
+use super::impulse::{Group, Impulse, mass, sticks, tangential};
+use super::workspace::Workspace;
+use crate::body::Body;
+use crate::contact::Contacts;
+use crate::model::given::Given;
+use crate::model::state::{Reaction, State};
+
+/// A velocity is at rest where it takes less than this part of the impulse of the step to stop it.
+const AT_REST: f64 = 1e-14;
+
+/// The reactions of closed contacts bear impulses so many times as large as those that would stop single nodes.
+const BORNE: f64 = 2.0;
+
+/// Takes from the velocities of a new state what closed contacts turn round in every step.
+///
+/// With θ = ½ a step is v₊ = 2d/Δt − v. A contact that stays closed, or sticks, has d = 0: its relative velocity changes sign in every step
+/// and is that of no motion. Damping, which knows d/Δt, never sees it. Its energy is what the nodes had when they met. Where nothing is
+/// damped they keep it until they part; where bodies are, it goes at the rate at which damping would take the energy of that motion.
+///
+/// It goes by impulses in the contacts, which are part of the reactions and stay within their cones. So momenta are kept, and nothing
+/// moves that was closed. They are λ = −m H v, with the mass that a contact puts in their way and the length that leaves the least
+/// energy: a step of steepest descent in every step in time.
+pub(super) fn settle<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, work: &mut Workspace<D>) {
+    let Given { method, interval, .. } = *given;
+    let Workspace { bodies, contacts, impulses, body_ledgers, .. } = work;
+    impulses.wanted.clear();
+    let acts = !interval.map.is_static() && !method.condition.is_massless();
+    if acts && !new.reactions.is_empty() && bodies.iter().any(|body| body.is_damped()) {
+        choose(given, new, contacts, bodies, &mut impulses.wanted);
+    }
+    if impulses.wanted.is_empty() {
+        return;
+    }
+    let dt = interval.map.dt;
+    impulses.weigh(given, &contacts.at_end, bodies, new);
+    impulses.give(given, &contacts.at_end, new, body_ledgers, |group: &Group| {
+        let [work, square] = [group.work, group.square].map(|[along, across]| along + across);
+        if square <= 0.0 || work >= 0.0 {
+            return 0.0;
+        }
+        let rate = group.power / square;
+        (-work / square).min(BORNE) * -(-rate * dt).exp_m1()
+    });
+}
+
+/// Chooses the contacts that press for longer than this step, and their impulses.
+fn choose<const D: usize>(
+    given: &Given<'_, D>,
+    new: &State<D>,
+    contacts: &Contacts<D>,
+    bodies: &[Box<dyn Body<D>>],
+    out: &mut Vec<Impulse<D>>,
+) {
+    let Given { assembly, state, interval, .. } = *given;
+    let dt = interval.map.dt;
+    let Contacts { active, at_end, .. } = contacts;
+    let mut reactions = new.reactions.iter().enumerate().peekable();
+    for (i, candidate) in active.candidates.iter().enumerate() {
+        let Some((k, reaction)) = reactions.next_if(|(_, r)| r.key() == candidate.key()) else { continue };
+        if state.reactions.binary_search_by_key(&reaction.key(), Reaction::key).is_err() {
+            continue;
+        }
+        let (r, mu) = (&reaction.force, active.friction[i]);
+        let velocity = at_end[i].relative(|n| new.velocity[n]);
+        let mut impulse = velocity * -mass(&at_end[i], assembly, bodies);
+        if !sticks(r, mu) {
+            (1..D).for_each(|t| impulse[t] = 0.0);
+        }
+        if impulse.norm() <= AT_REST * r[0] * dt {
+            continue;
+        }
+        let left = |part: f64| r + impulse * (part * BORNE / dt);
+        let is_borne = |part: &f64| left(*part)[0] > 0.0 && tangential(&left(*part)) <= mu * left(*part)[0];
+        let part = [1.0, 0.5, 0.25, 0.125].into_iter().find(is_borne);
+        out.extend(part.map(|part| Impulse {
+            reaction: k,
+            contact: i,
+            impulse: impulse * part,
+            energy: 0.0,
+        }));
+    }
+}
