@@ -188,6 +188,9 @@ impl Simulation {
             out.set_item(name, arrays::state(py, run.model(), state)?)?;
         }
         out.set_item("blend", PyArray1::from_slice(py, step.blend))?;
+        for (name, forces) in ["landing", "settling"].into_iter().zip(&step.impulses) {
+            out.set_item(name, arrays::vectors(py, forces)?)?;
+        }
         out.set_item("ledger", to_python(py, &step.ledger)?)?;
         Ok(Some(out))
         })

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -52,6 +52,14 @@ class Contacts:
     normal_error: Array
     side: tuple[Side | None, ...]
 
+    def less(self, others: list[Contacts]) -> Contacts:
+        """Return the same contacts without the reactions of others, in their own frames."""
+        normal = self.normal_force - sum(other.normal_force for other in others)
+        friction = self.friction_force - sum(other.friction_force for other in others)
+        across = np.stack([-self.normal[:, 1], self.normal[:, 0]], axis=1)
+        reaction = normal[:, None] * self.normal + friction[:, None] * across
+        return replace(self, reaction=reaction)
+
     def __len__(self) -> int:
         return len(self.node)
 
@@ -94,6 +102,14 @@ class Contacts:
         np.add.at(force, self.node, self.reaction)
         np.add.at(force, self.followed, -self.weights[:, :, None] * self.reaction[:, None])
         return force
+
+
+def all_forces(parts: Sequence[Contacts], node_count: int) -> Array:
+    """Return the reactions of several on the nodes [N], shape [node_count, 2]."""
+    force = np.zeros((node_count, 2))
+    for part in parts:
+        force += part.nodal_forces(node_count)
+    return force
 
 
 def find(model: AuditModel, state: Mapping[str, Any], position: Array, time: float) -> Contacts:

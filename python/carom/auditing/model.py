@@ -219,6 +219,8 @@ class AuditModel:
                 if b < 0:
                     yield Side(a, b, friction, two_sided=False)
                     continue
+                # The auditor has no mortar rows, of which one side has the multipliers.
+                sources = sources or "both"
                 if sources == "finer":
                     sources = (
                         "second" if self._mean_facet(b) < FINER * self._mean_facet(a) else "first"

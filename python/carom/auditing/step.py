@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -94,6 +94,7 @@ class Step:
         self.model = model
         self.start, self.end = stored["start"], stored["end"]
         self.blend: Array = stored["blend"]
+        self._impulses = [stored["landing"], stored["settling"]]
         self.ledger: Mapping[str, float] = stored["ledger"]
         self.time = float(self.end["time"])
         self.dt, self.off_grid = self._length()
@@ -103,6 +104,7 @@ class Step:
         self.v1: Array = self.end["velocity"]
         self.d: Array = self.u1 - self.u0
         self.motion = self._motion()
+        self.v_scheme = self._scheme_velocity()
 
     def _length(self) -> tuple[float, float]:
         """Return the length of the step [s], and how far it is from one on the time grid [s].
@@ -127,15 +129,48 @@ class Step:
         predicted = (speed + np.linalg.norm(self.model.gravity) * self.dt) * self.dt
         return float(max(np.abs(self.d).max(), predicted))
 
+    def _scheme_velocity(self) -> Array:
+        """Return the velocities that the scheme makes of the motion, before impulses [m/s]."""
+        theta = self.model.theta
+        velocity: Array = (1 - 1 / theta) * self.v0 + self.d / (theta * self.dt)
+        for body in self.model.bodies:
+            velocity[body.span][body.massless] = self.d[body.span][body.massless] / self.dt
+        return velocity
+
     def position(self, weight: float) -> Array:
         """Return the positions between start (0) and end (1) of the step [m]."""
         return self.model.points + self.u0 + weight * self.d
 
     @cached_property
     def contacts(self) -> Contacts:
-        """The contacts of the step, where the condition is written."""
+        """The contacts of the step, where the condition is written, with their whole reactions."""
         written = 1.0 if self.model.condition in ("gap", "massless") else 0.5
         return self._find(self.end, written)
+
+    @cached_property
+    def impulses(self) -> list[Contacts]:
+        """The same contacts at the end of the step.
+
+        Their reactions are the parts that are impulses there: those of landing, and of settling.
+        """
+        at_end = self._find(self.end, 1.0)
+        return [replace(at_end, reaction=reaction) for reaction in self._impulses]
+
+    @cached_property
+    def pressed(self) -> Contacts:
+        """The contacts of the step with the reactions that bore its motion."""
+        return self.contacts.less(self.impulses)
+
+    @cached_property
+    def start_gaps(self) -> Array:
+        """Gaps of the contacts of the step at its start [m], shape [count]."""
+        return self._find(self.end, 0.0).gap
+
+    def impulse(self, body: AuditBody) -> Array:
+        """Return the impulses on the nodes of a body at the end of the step [N s]."""
+        forces = contacts.all_forces(self.impulses, len(self.model.points))
+        impulse: Array = self.dt * forces[body.span]
+        return impulse
 
     @cached_property
     def start_contacts(self) -> Contacts:
@@ -154,7 +189,7 @@ class Step:
     def _forces(self, index: int, body: AuditBody) -> BodyForces:
         model, span, dt = self.model, body.span, self.dt
         u0, u1, v0, v1, d = (a[span] for a in (self.u0, self.u1, self.v0, self.v1, self.d))
-        mean = (1 - model.xi) * v0 + model.xi * v1
+        mean = (1 - model.xi) * v0 + model.xi * self.v_scheme[span]
         mean[body.massless] = d[body.massless] / dt
         viscous = body.damping_force(u0 + 0.5 * dt * v0, mean)
         start, end = body.internal_force(u0), body.internal_force(u1)
@@ -253,17 +288,18 @@ class Step:
     def _body_terms(self, index: int, body: AuditBody) -> dict[str, float]:
         model, f = self.model, self.forces[index]
         u0, u1, v0, v1, d = (a[body.span] for a in (self.u0, self.u1, self.v0, self.v1, self.d))
-        scheme = (model.theta - 0.5) * 2 * body.kinetic_energy(v1 - v0)
+        scheme = (model.theta - 0.5) * 2 * body.kinetic_energy(self.v_scheme[body.span] - v0)
         scheme += (model.xi - 0.5) * float(((f.end - f.start) * d).sum())
         if model.blended:
             contact = f.missing - float(self.blend[index]) * f.available
         else:
             share = model.xi if model.massless else 1.0
-            force = share * self.contacts.nodal_forces(len(model.points))
+            force = share * self.pressed.nodal_forces(len(model.points))
             if model.massless:
                 force += (1 - share) * self.start_contacts.nodal_forces(len(model.points))
             received = force[body.span]
-            contact = float((received * d).sum())
+            mean = 0.5 * (self.v_scheme[body.span] + v1)
+            contact = float((received * d).sum() + (self.impulse(body) * mean).sum())
             # What rows that are static at the end of a step leave of its mean forces.
             b = body.massless
             scheme += float(((received - f.viscous - f.internal)[b] * d[b]).sum())
@@ -285,7 +321,7 @@ class Step:
         model = self.model
         if model.blended:
             return self._rubbing()
-        parts = [(self.contacts, model.xi if model.massless else 1.0)]
+        parts = [(self.pressed, model.xi if model.massless else 1.0)]
         if model.massless:
             parts.append((self.start_contacts, 1 - model.xi))
         work = []
@@ -303,7 +339,25 @@ class Step:
                     doubt=np.zeros(len(found)),
                 )
             )
-        return work
+        return [*work, *self._impulse_work()]
+
+    def _impulse_work(self) -> list[ContactWork]:
+        """Return the work of impulses at the end of the step, by the mean of v before and after."""
+        landing, settling = self.impulses
+        mean = 0.5 * (self.v_scheme + self.v1)
+        works = []
+        for found, normal, across in (
+            (landing, "normal_contact", "friction"),
+            (settling, "settling", "settling"),
+        ):
+            v_n, v_t = found.relative(mean, 1.0)
+            terms = dict.fromkeys(names("pair"), np.zeros(len(found)))
+            terms[normal] = terms[normal] - self.dt * found.normal_force * v_n
+            terms[across] = terms[across] - self.dt * found.friction_force * v_t
+            terms["prescribed"] = found.prescribed_work(self.dt)
+            nothing = np.zeros(len(found))
+            works.append(ContactWork(found=found, terms=terms, whole=nothing, doubt=nothing))
+        return works
 
     @property
     def doubt(self) -> float:

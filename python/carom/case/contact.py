@@ -107,9 +107,9 @@ class Contact(Description):
     solver
         Solver of the reduced contact problem.
     sources
-        Whose nodes are checked in a pair of bodies that does not state its own: those of the body
-        with the finer boundary, of one side or of both. If the boundaries are alike, the finer is
-        the first-named one.
+        Whose nodes are checked in a pair of bodies that does not state its own: those of both, of
+        one side, or of the body with the finer boundary. If the boundaries are alike, the finer is
+        the first-named one. Left out, it is both, and of mortar pairs the finer.
     targets
         What they are checked against: a smooth curve through the boundary nodes of the other body,
         or the facets of its mesh. The curve has a continuous tangent but for corners of more than
@@ -137,7 +137,7 @@ class Contact(Description):
     condition: Literal["gap", "midpoint", "endpoint", "massless"] = "midpoint"
     friction: Friction = 0.0
     solver: FrictionSolver = FrictionSolver()
-    sources: Sources = "finer"
+    sources: Sources | None = None
     targets: Literal["smooth", "faceted"] = "smooth"
     discretisation: Discretisation = "node-to-segment"
     certificate_tolerance: Share = 1e-9

@@ -16,10 +16,11 @@ from carom.io.atomic import write_whole
 from carom.io.damage import DAMAGE
 from carom.io.journal import changed, going_on, shorter
 
-SCHEMA = 2
+SCHEMA = 3
 """Version of the layout; a reader refuses others."""
 
 _ENDS = ("start", "end")
+_ARRAYS = ("blend", "landing", "settling")
 
 
 class AuditWriter:
@@ -62,7 +63,9 @@ class AuditWriter:
         ----------
         steps
             What `carom.Simulation.last_step` gives: ``start`` and ``end``, mappings of the time
-            [s] and arrays; ``blend``, shape [body_count]; ``ledger``, energies by name [J].
+            [s] and arrays; ``blend``, shape [body_count]; ``landing`` and ``settling``, the parts
+            of the reactions at the end that are impulses there [N], each of shape [count, D];
+            ``ledger``, energies by name [J].
         """
         with changed(self._path) as file:
             there = file["steps"]
@@ -78,7 +81,8 @@ def _write(group: h5py.Group, step: Mapping[str, Any]) -> None:
                 state.attrs["time"] = value
             else:
                 state[name] = value
-    group["blend"] = step["blend"]
+    for name in _ARRAYS:
+        group[name] = step[name]
     group.create_group("ledger").attrs.update(step["ledger"])
 
 
@@ -106,7 +110,7 @@ def read_steps(path: Path) -> Iterator[dict[str, Any]]:
 
 def _step(group: h5py.Group) -> dict[str, Any]:
     step: dict[str, Any] = {end: _state(group[end]) for end in _ENDS}
-    step["blend"] = group["blend"][:]
+    step |= {name: group[name][:] for name in _ARRAYS}
     step["ledger"] = {name: float(energy) for name, energy in group["ledger"].attrs.items()}
     return step
 

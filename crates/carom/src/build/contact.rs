@@ -65,7 +65,7 @@ pub(super) fn contact<const D: usize>(
                     continue;
                 }
                 friction = entry.friction.unwrap_or(friction);
-                sources = entry.sources.unwrap_or(sources);
+                sources = entry.sources.or(sources);
                 // An order is only meant where the entry says which side is the source.
                 swapped = entry.sources.is_some() && entry.between[0] == second;
                 check_friction(&format!("contact.pairs.{k}.friction"), friction)?;
@@ -76,6 +76,11 @@ pub(super) fn contact<const D: usize>(
                 Target::Surface(b) => discretisation(scenario, found, sources, [&bodies[a], &bodies[b]])?,
                 Target::Obstacle(_) => Discretisation::NodeToSegment,
             };
+            // Multipliers are on one side; nodes of both are checked, as neither sees all that the other does.
+            let sources = sources.unwrap_or(match discretisation {
+                Discretisation::Mortar => Sources::Finer,
+                Discretisation::NodeToSegment => Sources::Both,
+            });
             let named_pair = named_pairs.len();
             named_pairs.push(NamedPair { between: [first.to_string(), second.to_string()], friction });
             let forward = Pair { source: a, target, friction, named_pair, discretisation };

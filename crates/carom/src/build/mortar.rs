@@ -11,7 +11,7 @@ use crate::scenario::{PairEntry, Scenario, Sources};
 pub(super) fn discretisation<const D: usize>(
     scenario: &Scenario,
     pair: Option<(usize, &PairEntry)>,
-    sources: Sources,
+    sources: Option<Sources>,
     bodies: [&ModelBody<D>; 2],
 ) -> Result<Discretisation, InputError> {
     let own = pair.and_then(|(k, entry)| Some((k, entry.discretisation?)));
@@ -27,7 +27,7 @@ pub(super) fn discretisation<const D: usize>(
         let reason = "the condition \"massless\" is written for nodes; choose \"node-to-segment\" or another condition";
         return refuse(reason.to_string());
     }
-    if sources == Sources::Both {
+    if sources == Some(Sources::Both) {
         let reason = "one side has the multipliers; choose \"finer\", \"first\" or \"second\" for sources";
         return refuse(reason.to_string());
     }

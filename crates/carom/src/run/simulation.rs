@@ -61,7 +61,7 @@ pub struct Simulation<const D: usize> {
 }
 
 /// A step as its two states.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct StepPair<'a, const D: usize> {
     /// The state that it started from.
     pub start: &'a State<D>,
@@ -69,6 +69,8 @@ pub struct StepPair<'a, const D: usize> {
     pub end: &'a State<D>,
     /// Blend α of start and end stresses of every body.
     pub blend: &'a [f64],
+    /// See [`Workspace::impulse_forces`].
+    pub impulses: [Vec<Vector<D>>; 2],
     /// What the step says of the energy.
     pub ledger: Ledger,
 }
@@ -201,7 +203,13 @@ impl<const D: usize> Simulation<D> {
     #[must_use]
     pub fn last_step(&self) -> Option<StepPair<'_, D>> {
         let ledger = self.last_step?;
-        Some(StepPair { start: &self.spare, end: &self.state, blend: self.work.blend_weights(), ledger })
+        Some(StepPair {
+            start: &self.spare,
+            end: &self.state,
+            blend: self.work.blend_weights(),
+            impulses: self.work.impulse_forces(self.state.reactions.len()),
+            ledger,
+        })
     }
 
     /// What the last nominal step says about itself; nothing before the first, or after a restart.

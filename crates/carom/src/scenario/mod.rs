@@ -249,8 +249,8 @@ pub struct ContactSpec {
     pub friction: f64,
     /// Solver of the reduced problem.
     pub solver: SolverSpec,
-    /// Whose nodes are checked in pairs of bodies that say nothing else.
-    pub sources: Sources,
+    /// Whose nodes are checked in pairs of bodies that say nothing else; `None`: both, of mortar pairs the finer.
+    pub sources: Option<Sources>,
     /// What they are checked against.
     pub targets: Targets,
     /// How contact between two bodies is written in pairs that say nothing else.
@@ -280,11 +280,10 @@ pub struct SolverSpec {
 }
 
 /// Whose nodes are checked against whose facets in a pair of bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sources {
     /// Nodes of the body with the finer boundary against facets of the other; of the first if they are alike.
-    #[default]
     Finer,
     /// Nodes of the first body against facets of the second.
     First,

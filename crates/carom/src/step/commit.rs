@@ -39,11 +39,12 @@ pub(super) fn commit<const D: usize>(
     work.pair_reports.fill(PairReport::default());
     work.impulses.done.clear();
     restore(given, next, work);
-    let landings = work.impulses.done.len();
+    work.impulses.landings = work.impulses.done.len();
     settle(given, next, work);
     next.energies = next.body_energies.iter().copied().sum();
     close_contacts(given, next, work, &mut report);
-    book_impulses(given, next, work, landings, &mut report);
+    book_impulses(given, next, work, &mut report);
+    report.contacts -= work.impulses.arriving.len();
     for body in &work.body_ledgers {
         report.ledger.add_body(body);
     }
@@ -115,12 +116,11 @@ fn close_bodies<const D: usize>(given: &Given<'_, D>, next: &mut State<D>, work:
     }
 }
 
-/// Books the work of impulses in contacts, of which the first `landings` restore what landing took, and makes them part of the reactions.
+/// Books the work of impulses in contacts, and makes them part of the reactions.
 fn book_impulses<const D: usize>(
     given: &Given<'_, D>,
     next: &mut State<D>,
     work: &mut Workspace<D>,
-    landings: usize,
     report: &mut StepReport,
 ) {
     let assembly = given.assembly;
@@ -129,7 +129,7 @@ fn book_impulses<const D: usize>(
         let pair = &mut work.pair_reports[assembly.contact.pairs[*pair as usize].named_pair];
         let [along, across] = done.taken;
         pair.ledger.prescribed += done.prescribed;
-        if k < landings {
+        if k < work.impulses.landings {
             pair.ledger.normal_contact += along;
             pair.ledger.friction += across;
             report.least_friction = report.least_friction.min(across);

@@ -31,6 +31,8 @@ pub(super) struct Impulse<const D: usize> {
 pub(super) struct Done<const D: usize> {
     /// Which of the reactions of the new state has it as a part.
     pub reaction: usize,
+    /// Which of the contacts at the end of the step.
+    pub contact: usize,
     /// Its force over the step [N] in the frame of the contact.
     pub force: Vector<D>,
     /// Energy that it took along the normal and across it [J].
@@ -58,6 +60,8 @@ pub(super) struct Group {
 pub(crate) struct Impulses<const D: usize> {
     pub(super) wanted: Vec<Impulse<D>>,
     pub(super) done: Vec<Done<D>>,
+    /// How many of these restore what landing took; the others settle.
+    pub(super) landings: usize,
     /// Those of the reactions, ascending, whose contacts come to their target with the end of the step and are to land in the next.
     pub(super) arriving: Vec<usize>,
     /// Hᵀλ [N s] and what it makes of the velocities [m/s].
@@ -76,6 +80,7 @@ impl<const D: usize> Impulses<D> {
         Self {
             wanted: Vec::new(),
             done: Vec::new(),
+            landings: 0,
             arriving: Vec::new(),
             force: vec![Vector::zeros(); nodes],
             change: vec![Vector::zeros(); nodes],
@@ -83,6 +88,17 @@ impl<const D: usize> Impulses<D> {
             next: vec![0; bodies],
             groups: vec![Group::default(); bodies],
         }
+    }
+
+    /// The forces [N] of the impulses of the last step in its `reactions`: of landing, and of what settled. Its contacts at the end are
+    /// `contacts`.
+    pub(super) fn forces(&self, reactions: usize, contacts: &[Contact<D>]) -> [Vec<Vector<D>>; 2] {
+        let mut forces = [(); 2].map(|()| vec![Vector::zeros(); reactions]);
+        for (k, done) in self.done.iter().enumerate() {
+            let force = contacts[done.contact].frame.tr_mul(&done.force);
+            forces[usize::from(k >= self.landings)][done.reaction] += force;
+        }
+        forces
     }
 
     /// What the wanted impulses mean for the groups of bodies that they connect, in `contacts` at the end of the step.
@@ -141,6 +157,7 @@ impl<const D: usize> Impulses<D> {
             let force = impulse / given.interval.map.dt;
             self.done.push(Done {
                 reaction: wanted.reaction,
+                contact: wanted.contact,
                 force,
                 taken: self.taken(given, contacts, new, wanted, &scale),
                 prescribed: driven(given.assembly, contact, &impulse, &new.velocity),

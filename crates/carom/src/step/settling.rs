@@ -45,7 +45,7 @@ pub(super) fn settle<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, w
     });
 }
 
-/// Chooses the contacts that press for longer than this step, and their impulses.
+/// Chooses the contacts that press for longer than this step and were closed at its start, and their impulses.
 fn choose<const D: usize>(
     given: &Given<'_, D>,
     new: &State<D>,
@@ -59,7 +59,8 @@ fn choose<const D: usize>(
     let mut reactions = new.reactions.iter().enumerate().peekable();
     for (i, candidate) in active.candidates.iter().enumerate() {
         let Some((k, reaction)) = reactions.next_if(|(_, r)| r.key() == candidate.key()) else { continue };
-        if state.reactions.binary_search_by_key(&reaction.key(), Reaction::key).is_err() {
+        let is_new = state.reactions.binary_search_by_key(&reaction.key(), Reaction::key).is_err();
+        if is_new || active.start_gaps[i] > 0.0 {
             continue;
         }
         let (r, mu) = (&reaction.force, active.friction[i]);

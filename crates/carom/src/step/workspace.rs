@@ -69,6 +69,13 @@ impl<const D: usize> Workspace<D> {
         &self.blend.weight
     }
 
+    /// The forces [N] of the impulses that were given at the end of the last step, one of each kind for each of its so many `reactions`: those
+    /// that restore what landing took, and those that settle contacts at rest. They are part of the reactions.
+    #[must_use]
+    pub fn impulse_forces(&self, reactions: usize) -> [Vec<Vector<D>>; 2] {
+        self.impulses.forces(reactions, &self.contacts.at_end)
+    }
+
     /// Memory of the factors of all bodies [bytes].
     #[must_use]
     pub fn factor_bytes(&self) -> usize {
