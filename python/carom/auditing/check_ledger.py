@@ -95,7 +95,10 @@ class LedgerChecks:
         if not self._model.blended:
             # All that reactions do, they do to bodies.
             parts = [entry["contact"] for entry in self._bodies.values()]
-            self._sum("contact", parts, h["prescribed"] - h["friction"] - h["normal_contact"])
+            taken = sum(
+                h[term.name] for term in TERMS if "pair" in term.books and term.side == "taken"
+            )
+            self._sum("contact", parts, h["prescribed"] - taken)
 
     def _sum(self, name: str, parts: list[Array], whole: Array) -> None:
         total = sum(parts, np.zeros(len(whole)))

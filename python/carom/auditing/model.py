@@ -192,6 +192,13 @@ class AuditModel:
         entries = self.scenario.contact.pairs
         return next((entry for entry in entries if {a, b} == set(entry.between)), None)
 
+    @property
+    def jolts(self) -> bool:
+        """Whether impulses change velocities: of landing, or settling of bodies that are damped."""
+        dampings = [body.damping for body in self.bodies]
+        damped = any(damping.mass > 0 or damping.stiffness > 0 for damping in dampings)
+        return self.condition == "midpoint" or (damped and not self.massless)
+
     def _enabled(self, a: str, b: str) -> bool:
         entry = self._pair(a, b)
         return entry is None or entry.enabled

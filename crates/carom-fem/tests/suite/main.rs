@@ -4,6 +4,7 @@ mod common;
 mod consistency;
 mod convergence;
 mod generated_bodies;
+mod impulse;
 mod locking;
 mod patch_test;
 mod revolution;

@@ -250,6 +250,7 @@ fn a_point_mass_that_bounces_off_a_wall_keeps_its_energy() {
     run(setting(stiffness, 0.0, wall, 0.0), &method, 1.0, 2000, |state, _| {
         assert!((state.energies.total() - 0.5 * MASS).abs() < 1e-12);
         largest = largest.max(state.displacement[0][0]);
+        assert!(state.displacement[0][0] > -0.5 * amplitude - 1e-15, "it lands on the wall");
         let v = state.velocity[0][0];
         bounces += usize::from(before < 0.0 && v > 0.5);
         before = v;

@@ -25,6 +25,7 @@ mod periodic;
 mod placed_obstacles;
 mod plasticity;
 mod promises;
+mod rest;
 mod scales;
 mod self_contact;
 mod space;

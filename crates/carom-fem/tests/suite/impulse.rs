@@ -1,0 +1,47 @@
+//! What impulses make of velocities: M Δv = p for every cell and both mass matrices, where displacements are held and where nodes are tied.
+
+use carom_fem::material::LawSpec;
+use carom_fem::{Body, BodySpec, HeldDof, MassKind, MassSolver};
+use carom_mesh::{CellKind, Mesh, Vector, nodal};
+
+use crate::common::{PLANE, SPATIAL, distortion, elastic, grid, shaken, spec};
+
+fn body<const D: usize>(mesh: Mesh<D>, mass: MassKind) -> Body<D> {
+    let spec = BodySpec { mass, ..spec(LawSpec::SaintVenantKirchhoff(elastic())) };
+    Body::new(mesh, &spec).expect("valid")
+}
+
+/// Largest component of M Δv − p where a node is free, relative to the largest impulse.
+fn lack<const D: usize>(body: &Body<D>) -> f64 {
+    let impulse = shaken::<D>(body.node_count(), 1.0, 0.3);
+    let (mut change, mut momentum) = (vec![Vector::zeros(); body.node_count()], impulse.clone());
+    MassSolver::default().solve(body, &impulse, &mut change);
+    assert!(body.held().dofs().iter().all(|d| change[d.node as usize][d.component as usize] == 0.0));
+    body.mass().multiply(&change, &mut momentum);
+    let mut lack: Vec<Vector<D>> = momentum.iter().zip(&impulse).map(|(m, p)| m - p).collect();
+    for tie in body.mesh().ties() {
+        assert_eq!(change[tie.image as usize], change[tie.master as usize]);
+        let at_image = std::mem::replace(&mut lack[tie.image as usize], Vector::zeros());
+        lack[tie.master as usize] += at_image;
+    }
+    body.held().clear(&mut lack);
+    nodal::largest(&lack)
+}
+
+fn every_cell<const D: usize>(kinds: &[CellKind]) {
+    for kind in kinds {
+        for mass in [MassKind::Consistent, MassKind::Lumped] {
+            let mut body = body(grid::<D>(*kind, 3, distortion), mass);
+            let free = lack(&body);
+            body.hold((0..D as u8).map(|component| HeldDof { node: u32::from(component), component }));
+            let held = lack(&body);
+            assert!(free.max(held) < 1e-11, "{kind:?}, {mass:?}: {free:e} free, {held:e} held");
+        }
+    }
+}
+
+#[test]
+fn impulses_are_the_momenta_that_they_make() {
+    every_cell::<2>(&PLANE);
+    every_cell::<3>(&SPATIAL);
+}
