@@ -20,6 +20,9 @@ from carom.ledger_terms import names
 TERMS = names("pair")
 """What a pair does to the energy; any of it shows that it pressed."""
 
+TURNED = 2e-3
+"""How much less of an impulse is along the normal of the step than along that of its end."""
+
 PINNED = 5e-3
 """A figure is known if its bounds are no farther apart than this part of it."""
 
@@ -169,7 +172,7 @@ class EventChecks:
             peaks = {e.pair: e.peak for e in self._events if self._holds(e, int(row))}
             low = sum(bound[0] for bound in bounds.values())
             high = sum(min(bound[1], peaks[name]) for name, bound in bounds.items())
-            off = PRESSED * total[row]
+            off = (PRESSED + TURNED * self._model.jolts) * total[row]
             self._check("events: force", max(low - total[row], 0.0), off, where)
             self._check("events: force", max(total[row] - high, 0.0), off, where)
             self.known[row] = high - low <= PINNED * total[row]

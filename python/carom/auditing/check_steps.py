@@ -305,8 +305,11 @@ class StepChecks:
         self._check("nodal reactions", error, total * turn, where)
         size = np.linalg.norm(found.reaction, axis=1)
         off = size * turn + self._scales.reaction(step, total)
-        self._check("Signorini: compression", np.maximum(-found.normal_force, 0.0), off, where)
-        excess = np.abs(found.friction_force) - found.friction * found.normal_force
+        normal, across = found.normal_force, found.friction_force
+        if state is step.end:
+            normal, across = step.whole_force
+        self._check("Signorini: compression", np.maximum(-normal, 0.0), off, where)
+        excess = np.abs(across) - found.friction * normal
         self._check("Coulomb: cone", np.maximum(excess, 0.0), off * (1 + found.friction), where)
 
     def _laws(self, step: Step, where: str) -> None:

@@ -53,11 +53,10 @@ class Contacts:
     side: tuple[Side | None, ...]
 
     def less(self, others: list[Contacts]) -> Contacts:
-        """Return the same contacts without the reactions of others, in their own frames."""
-        normal = self.normal_force - sum(other.normal_force for other in others)
-        friction = self.friction_force - sum(other.friction_force for other in others)
-        across = np.stack([-self.normal[:, 1], self.normal[:, 0]], axis=1)
-        reaction = normal[:, None] * self.normal + friction[:, None] * across
+        """Return the same contacts without the reactions of others."""
+        reaction = self.reaction.copy()
+        for other in others:
+            reaction -= other.reaction
         return replace(self, reaction=reaction)
 
     def __len__(self) -> int:

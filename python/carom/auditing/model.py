@@ -227,7 +227,7 @@ class AuditModel:
                     yield Side(a, b, friction, two_sided=False)
                     continue
                 # The auditor has no mortar rows, of which one side has the multipliers.
-                sources = sources or "both"
+                sources = sources or ("finer" if self.massless else "both")
                 if sources == "finer":
                     sources = (
                         "second" if self._mean_facet(b) < FINER * self._mean_facet(a) else "first"

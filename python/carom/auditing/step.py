@@ -161,6 +161,16 @@ class Step:
         """The contacts of the step with the reactions that bore its motion."""
         return self.contacts.less(self.impulses)
 
+    @property
+    def whole_force(self) -> tuple[Array, Array]:
+        """r_n and r_t with impulses, each part in the frame in which it acts [N], [count]."""
+        parts = [self.pressed, *self.impulses]
+        normal, across = np.zeros(len(self.contacts)), np.zeros(len(self.contacts))
+        for part in parts:
+            normal += part.normal_force
+            across += part.friction_force
+        return normal, across
+
     @cached_property
     def start_gaps(self) -> Array:
         """Gaps of the contacts of the step at its start [m], shape [count]."""

@@ -99,7 +99,7 @@ class Contact(Description):
         of the step, as in the paper and in every static analysis. ``midpoint`` writes it on the
         increment over the step, ``endpoint`` on the velocity at its end. ``massless`` again uses
         the gap at the end, but between nodes without mass. With the scheme ``conserving``,
-        ``midpoint`` keeps the energy and lets nodes in by less than a step's travel. ``massless``
+        ``midpoint`` keeps the energy, and nodes land on their targets. ``massless``
         keeps the energy, is quiet and never penetrates, but takes more time and does not work in
         every case yet.
     friction
@@ -109,7 +109,7 @@ class Contact(Description):
     sources
         Whose nodes are checked in a pair of bodies that does not state its own: those of both, of
         one side, or of the body with the finer boundary. If the boundaries are alike, the finer is
-        the first-named one. Left out, it is both, and of mortar pairs the finer.
+        the first-named one. Left out, it is both; of mortar pairs and with ``massless`` the finer.
     targets
         What they are checked against: a smooth curve through the boundary nodes of the other body,
         or the facets of its mesh. The curve has a continuous tangent but for corners of more than
@@ -127,9 +127,8 @@ class Contact(Description):
     penetration_tolerance
         How deep bodies and obstacles that may touch may be inside one another, or bodies inside
         themselves, at the end of a step. It is relative to the diameter of the facet that is there.
-        Conditions that rule motions and not gaps (``midpoint``, ``endpoint``) are allowed the
-        farthest motion of a node in a step besides, up to half that diameter. A run that goes
-        deeper is not completed.
+        ``endpoint``, which acts once a node has arrived, is allowed the farthest motion of a node
+        in a step besides, up to half that diameter. A run that goes deeper is not completed.
     pairs
         What single pairs do differently.
     """

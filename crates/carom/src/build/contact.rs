@@ -76,11 +76,11 @@ pub(super) fn contact<const D: usize>(
                 Target::Surface(b) => discretisation(scenario, found, sources, [&bodies[a], &bodies[b]])?,
                 Target::Obstacle(_) => Discretisation::NodeToSegment,
             };
-            // Multipliers are on one side; nodes of both are checked, as neither sees all that the other does.
-            let sources = sources.unwrap_or(match discretisation {
-                Discretisation::Mortar => Sources::Finer,
-                Discretisation::NodeToSegment => Sources::Both,
-            });
+            // Neither side sees all that the other does. But multipliers are on one, and nodes without mass that are in static balance on
+            // both sides at once take energy.
+            let one_side =
+                discretisation == Discretisation::Mortar || scenario.contact.condition.is_massless();
+            let sources = sources.unwrap_or(if one_side { Sources::Finer } else { Sources::Both });
             let named_pair = named_pairs.len();
             named_pairs.push(NamedPair { between: [first.to_string(), second.to_string()], friction });
             let forward = Pair { source: a, target, friction, named_pair, discretisation };

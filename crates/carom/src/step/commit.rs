@@ -124,6 +124,7 @@ fn book_impulses<const D: usize>(
     report: &mut StepReport,
 ) {
     let assembly = given.assembly;
+    let at_end = &work.contacts.at_end;
     for (k, done) in work.impulses.done.iter().enumerate() {
         let Reaction { contact, force, pair, .. } = &mut next.reactions[done.reaction];
         let pair = &mut work.pair_reports[assembly.contact.pairs[*pair as usize].named_pair];
@@ -137,8 +138,9 @@ fn book_impulses<const D: usize>(
         } else {
             pair.ledger.settling += along + across;
         }
-        *force += done.force;
-        pair.normal_force += done.force[0];
+        let impulse = contact.frame * at_end[done.contact].frame.tr_mul(&done.force);
+        *force += impulse;
+        pair.normal_force += impulse[0];
     }
 }
 

@@ -2,7 +2,7 @@
 
 use carom_mesh::Vector;
 
-use super::impulse::{Group, Impulse, Impulses, mass, tangential};
+use super::impulse::{Group, Impulse, Impulses, mass, sticks, tangential};
 use super::workspace::Workspace;
 use crate::body::Body;
 use crate::contact::Contacts;
@@ -12,6 +12,9 @@ use crate::model::state::State;
 /// A contact that is pressed by less than this part of what it would take to turn it round has come to its target with the end of the step,
 /// and lands in the next.
 const HAS_LANDED: f64 = 1e-8;
+
+/// Above this part the reaction itself says whether the contact sticks; below, its direction may be round-off.
+const IS_KNOWN: f64 = 1e-4;
 
 /// So often is friction looked for that takes energy at every contact.
 const ROUNDS: usize = 4;
@@ -65,8 +68,8 @@ fn restoring(group: &Group) -> f64 {
     if work > 0.0 { 2.0 * energy / (root + work) } else { (root - work) / square }
 }
 
-/// Gives the impulses Coulomb's friction against the velocity that they meet. It may stop a contact and turns none round: friction takes energy at
-/// every contact, or there is none.
+/// Gives the impulses Coulomb's friction against the velocity that they meet, where the contact does not stick. As in a step with θ = ½ it may turn
+/// a velocity round, but not make it larger: friction takes energy at every contact, or there is none.
 fn rub<const D: usize>(
     given: &Given<'_, D>,
     new: &State<D>,
@@ -76,13 +79,17 @@ fn rub<const D: usize>(
 ) {
     let Contacts { active, at_end, .. } = contacts;
     let mut rubs = false;
-    for Impulse { contact, impulse, .. } in &mut impulses.wanted {
+    let dt = given.interval.map.dt;
+    for Impulse { reaction, contact, impulse, .. } in &mut impulses.wanted {
         let v = at_end[*contact].relative(|n| new.velocity[n]);
         let speed = tangential(&v);
-        let friction = active.friction[*contact] * impulse[0];
-        if friction > 0.0 && speed > 0.0 {
-            let most = mass(&at_end[*contact], given.assembly, bodies);
-            (1..D).for_each(|t| impulse[t] = -v[t] * most.min(friction / speed));
+        let friction = active.friction[*contact];
+        let force = &new.reactions[*reaction].force;
+        let is_known = force[0] * dt > IS_KNOWN * impulse[0];
+        if friction > 0.0 && speed > 0.0 && !(is_known && sticks(force, friction)) {
+            let turns = 2.0 * mass(&at_end[*contact], given.assembly, bodies);
+            let most = friction * impulse[0] / speed;
+            (1..D).for_each(|t| impulse[t] = -v[t] * turns.min(most));
             rubs = true;
         }
     }

@@ -30,6 +30,15 @@ use crate::scheme::StepMap;
 /// goes. What this leaves out costs iterations, not accuracy.
 const RINGS: usize = 3;
 
+/// The mass that moves with every node [kg]: of tied nodes that of all.
+fn mass_of_tied_nodes<const D: usize>(body: &carom_fem::Body<D>) -> Vec<f64> {
+    let mut mass = body.nodal_mass().to_vec();
+    let ties = body.mesh().ties();
+    ties.iter().for_each(|t| mass[t.master as usize] += body.nodal_mass()[t.image as usize]);
+    ties.iter().for_each(|t| mass[t.image as usize] = mass[t.master as usize]);
+    mass
+}
+
 /// A body of finite elements in a step.
 pub(crate) struct FeBody<const D: usize> {
     part: Arc<ModelBody<D>>,
@@ -39,6 +48,8 @@ pub(crate) struct FeBody<const D: usize> {
     scratch: ResidualScratch<D>,
     blended: BlendedForces<D>,
     mass_solver: MassSolver<D>,
+    /// The mass that moves with every node, those tied to it included [kg].
+    nodal_mass: Vec<f64>,
     /// The configuration half way through the step.
     middle: Vec<Vector<D>>,
     /// The residual at the end of a step [N]; empty where nothing is held.
@@ -60,6 +71,7 @@ impl<const D: usize> FeBody<D> {
             scratch: ResidualScratch::new(part.body.node_count()),
             blended: BlendedForces::default(),
             mass_solver: MassSolver::default(),
+            nodal_mass: mass_of_tied_nodes(&part.body),
             residual: held,
             middle: zeros.clone(),
             jump: zeros.clone(),
@@ -295,7 +307,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
     }
 
     fn mass_of(&self, node: u32) -> f64 {
-        self.part.body.nodal_mass()[node as usize]
+        self.nodal_mass[node as usize]
     }
 
     fn jolt(&mut self, impulse: &mut [Vector<D>], state: &BodyState<'_, D>, change: &mut [Vector<D>]) -> f64 {
