@@ -24,7 +24,7 @@ def scenario() -> carom.Scenario:
             bar("left", left_end=-10.01, velocity=1.0),
             bar("right", left_end=0.01, velocity=-1.0),
         ],
-        contact=carom.Contact(condition="gap", targets="faceted"),
+        contact=carom.Contact(condition="gap", targets="faceted", sources="finer"),
     )
 
 

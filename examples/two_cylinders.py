@@ -29,7 +29,9 @@ def scenario(*, friction: float) -> carom.Scenario:
             carom.Plane(name="ceiling", point=[0.0, 8.0], normal=[0.0, -1.0]),
             carom.Plane(name="west", point=[0.0, 0.0], normal=[1.0, 0.0]),
         ],
-        contact=carom.Contact(condition="gap", targets="faceted", friction=friction),
+        contact=carom.Contact(
+            condition="gap", targets="faceted", sources="finer", friction=friction
+        ),
     )
 
 
