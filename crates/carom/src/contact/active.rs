@@ -129,6 +129,19 @@ impl<const D: usize> ActiveSet<D> {
         }
     }
 
+    /// Those of the contacts that have one of these `reactions`, which are in the order of their candidates: the place of the contact, then that
+    /// of the reaction.
+    pub fn pressing<'a>(
+        &'a self,
+        reactions: &'a [Reaction<D>],
+    ) -> impl Iterator<Item = (usize, usize, &'a Reaction<D>)> {
+        let mut reactions = reactions.iter().enumerate().peekable();
+        self.candidates.iter().enumerate().filter_map(move |(i, candidate)| {
+            let (k, reaction) = reactions.next_if(|(_, r)| r.key() == candidate.key())?;
+            Some((i, k, reaction))
+        })
+    }
+
     /// Adds the reactions known so far to `forces` [N].
     pub fn add_reactions(&self, forces: &mut [Vector<D>]) {
         for (contact, r) in self.contacts.iter().zip(&self.reactions) {

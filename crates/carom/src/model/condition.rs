@@ -39,7 +39,7 @@ impl ContactCondition {
     /// up to what is as good as `closed` [m].
     #[must_use]
     pub fn is_active(self, start_gap: f64, closed: f64) -> bool {
-        self != ContactCondition::Endpoint || start_gap <= closed
+        self.rules_the_end() || start_gap <= closed
     }
 
     /// The part of the gap at the start [m] that has a part in the condition: what is open there and may be closed, or the penetration, negative,

@@ -124,8 +124,7 @@ impl<const D: usize> Impulses<D> {
         impulse: &Impulse<D>,
         scale: impl Fn(&Group) -> f64,
     ) -> f64 {
-        let pair = new.reactions[impulse.reaction].pair as usize;
-        scale(&self.groups[self.group(given.assembly.contact.pairs[pair].source)])
+        scale(&self.groups[self.group_of(given, new, impulse.reaction)])
     }
 
     /// What a wanted impulse that was weighed would take along the normal and across it [J], times what `scale` says of its group.

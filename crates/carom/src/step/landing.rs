@@ -33,9 +33,7 @@ pub(super) fn restore<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, 
     }
     let Contacts { active, at_end, .. } = &*contacts;
     let map = &given.interval.map;
-    let mut reactions = new.reactions.iter().enumerate().peekable();
-    for (i, candidate) in active.candidates.iter().enumerate() {
-        let Some((k, reaction)) = reactions.next_if(|(_, r)| r.key() == candidate.key()) else { continue };
+    for (i, k, reaction) in active.pressing(&new.reactions) {
         let gap = active.start_gaps[i];
         if gap <= 0.0 {
             continue;

@@ -56,9 +56,7 @@ fn choose<const D: usize>(
     let Given { assembly, state, interval, .. } = *given;
     let dt = interval.map.dt;
     let Contacts { active, at_end, .. } = contacts;
-    let mut reactions = new.reactions.iter().enumerate().peekable();
-    for (i, candidate) in active.candidates.iter().enumerate() {
-        let Some((k, reaction)) = reactions.next_if(|(_, r)| r.key() == candidate.key()) else { continue };
+    for (i, k, reaction) in active.pressing(&new.reactions) {
         let is_new = state.reactions.binary_search_by_key(&reaction.key(), Reaction::key).is_err();
         if is_new || active.start_gaps[i] > 0.0 {
             continue;
