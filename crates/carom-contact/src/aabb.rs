@@ -35,6 +35,11 @@ impl<const D: usize> Aabb<D> {
         Self { low: self.low.add_scalar(-margin), high: self.high.add_scalar(margin) }
     }
 
+    /// The box `by` [m] away.
+    pub fn moved(&self, by: &Vector<D>) -> Self {
+        Self { low: self.low + by, high: self.high + by }
+    }
+
     pub fn overlaps(&self, other: &Self) -> bool {
         (0..D).all(|i| self.low[i] <= other.high[i] && other.low[i] <= self.high[i])
     }

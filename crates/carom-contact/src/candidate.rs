@@ -1,4 +1,4 @@
-/// Where on its source a contact is, the same from step to step.
+/// Where a contact is, the same from step to step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Site {
     /// A node; of a mortar pair the node of a multiplier.
@@ -6,6 +6,9 @@ pub enum Site {
     /// Where two edges cross, that of the source first, each from its first node to its second. Their vector product points
     /// from the target to the source.
     Crossing([u32; 2], [u32; 2]),
+    /// A corner of the obstacle that is the target, before a facet of the source. Corners are numbered after all nodes, for every obstacle
+    /// from the same number on.
+    Corner(u32),
 }
 
 /// What may touch its target within a step. Ordered by pair, then site: this is the order of the contacts.
@@ -13,9 +16,9 @@ pub enum Site {
 pub struct Candidate {
     /// Index of the pair.
     pub pair: u32,
-    /// The source node, or the edges.
+    /// The source node, the edges, or the corner of the target.
     pub site: Site,
-    /// The facet of a target surface that a node faces; `None` for an obstacle, a multiplier or edges.
+    /// The facet that a node or a corner faces on the other side; `None` for an obstacle without facets, a multiplier or edges.
     pub facet: Option<u32>,
     /// Whether it says what another candidate says, and is to be left out. Of two nodes that face one another one is left out, and so is
     /// one of a node and the edges that cross at it.
@@ -34,7 +37,7 @@ impl Candidate {
     pub fn node(&self) -> Option<u32> {
         match self.site {
             Site::Node(node) => Some(node),
-            Site::Crossing(..) => None,
+            Site::Crossing(..) | Site::Corner(_) => None,
         }
     }
 

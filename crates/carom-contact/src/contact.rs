@@ -29,6 +29,19 @@ impl<const D: usize> Contact<D> {
         Self { gap, frame, area: 0.0, stencil, sources: 1 }
     }
 
+    /// The contact of a source point, which follows `nodes` with these `weights`, with the `obstacle` that has this number.
+    pub(crate) fn before_obstacle(
+        gap: f64,
+        frame: Matrix<D>,
+        nodes: &[u32],
+        weights: &[f64],
+        obstacle: u32,
+    ) -> Self {
+        let source = nodes.iter().zip(weights).map(|(&node, &weight)| (node, weight));
+        let stencil = source.chain(std::iter::once((obstacle, -1.0))).collect();
+        Self { gap, frame, area: 0.0, stencil, sources: nodes.len() }
+    }
+
     /// The contact of two edges, given by their nodes, where they cross.
     pub(crate) fn of_crossing(crossing: &Crossing<D>, source: [u32; 2], target: [u32; 2]) -> Self {
         let [s, t] = crossing.along;

@@ -1,16 +1,14 @@
 use carom_mesh::Vector;
 
-use crate::aabb::Aabb;
 use crate::edge::Crossing;
-use crate::facing::{Projected, faced};
 use crate::frame::frame;
+use crate::path::Path;
 use crate::project::Reach;
-use crate::tolerances::SEARCH;
-use crate::{Candidate, Contact, ContactModel, Search, Site, Target};
+use crate::{Candidate, Contact, ContactModel, ContactSurface, Obstacle, Search, Site, Solid, Target};
 
 impl<const D: usize> ContactModel<D> {
-    /// Finds the nodes that come within `margin` [m] of their target or are inside it, and the facets they face. In space it also
-    /// finds the edges that cross those of the target.
+    /// Finds the nodes that come within `margin` [m] of their target or are inside it, and the facets they face; of obstacles with corners also
+    /// those that come near facets of the body. In space it also finds the edges that cross those of the target.
     ///
     /// `start` and `end` are the positions at the start of the step and those predicted for its end. A node keeps its facet for
     /// the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
@@ -28,32 +26,72 @@ impl<const D: usize> ContactModel<D> {
         out: &mut Vec<Candidate>,
     ) {
         out.clear();
-        search.sweep(self, start, end);
+        let path = Path { start, end, margin };
+        search.sweep(self, &path);
         for (p, pair) in self.pairs.iter().enumerate() {
-            let pair_index = p as u32;
-            let source = &self.surfaces[pair.source];
             match pair.target {
-                Target::Obstacle(o) => {
-                    let obstacle = &self.obstacles[o];
-                    let near = |&&node: &&u32| {
-                        obstacle.is_near(&start(node), margin, start)
-                            || obstacle.is_near(&end(node), margin, end)
-                    };
-                    let candidate = |&node: &u32| Candidate::at_node(pair_index, node, None);
-                    out.extend(source.sources.iter().filter(near).map(candidate));
-                }
+                Target::Obstacle(o) => match &self.obstacles[o].faceted {
+                    None => self.detect_round(p, &self.obstacles[o], &path, out),
+                    Some(faceted) => {
+                        let (start, end) = (&self.obstacles[o].placed(start), &self.obstacles[o].placed(end));
+                        let path = Path { start, end, margin };
+                        self.detect_faceted(p, (Solid::Obstacle(o), &faceted.surface), &path, search, out);
+                    }
+                },
                 Target::Surface(_) if self.is_mortar(p) => {}
                 Target::Surface(t) => {
-                    let Some(room) = search.meeting(pair.source, t, margin) else { continue };
-                    self.detect_facets(pair_index, t, &room, start, end, margin, search, out);
-                    // From the other side they are the same.
-                    if self.directions(p).start == p {
-                        self.detect_crossings(pair_index, t, &room, start, end, margin, search, out);
-                    }
+                    self.detect_faceted(p, (Solid::Body(t), &self.surfaces[t]), &path, search, out);
                 }
             }
         }
-        self.mark_mirrored(&|n| (start(n) + end(n)) * 0.5, out);
+        self.mark_mirrored(&|n| path.middle(n), out);
+    }
+
+    /// Adds to `out` the nodes of a pair that come near an obstacle without facets.
+    fn detect_round<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &self,
+        pair: usize,
+        obstacle: &Obstacle<D>,
+        path: &Path<'_, D, S, E>,
+        out: &mut Vec<Candidate>,
+    ) {
+        let near = |&&node: &&u32| {
+            obstacle.is_near(&(path.start)(node), path.margin, path.start)
+                || obstacle.is_near(&(path.end)(node), path.margin, path.end)
+        };
+        let source = &self.surfaces[self.pairs[pair].source];
+        let candidate = |&node: &u32| Candidate::at_node(pair as u32, node, None);
+        out.extend(source.sources.iter().filter(near).map(candidate));
+    }
+
+    /// Adds to `out` the nodes of a pair that come near facets of the `target`, in space the edges that cross, and the corners of an obstacle
+    /// that come near facets of the source.
+    fn detect_faceted<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &self,
+        pair: usize,
+        target: (Solid, &ContactSurface),
+        path: &Path<'_, D, S, E>,
+        search: &mut Search<D>,
+        out: &mut Vec<Candidate>,
+    ) {
+        let me = Solid::Body(self.pairs[pair].source);
+        if !search.meet(me, target.0, path.margin) {
+            return;
+        }
+        let (source, pair_index) = (&self.surfaces[self.pairs[pair].source], pair as u32);
+        search.facing(source, target, path, |node, facet| {
+            out.push(Candidate::at_node(pair_index, node, Some(facet)));
+        });
+        // From the other side they are the same.
+        if self.directions(pair).start == pair {
+            self.detect_crossings(pair, target, path, search, out);
+        }
+        if matches!(target.0, Solid::Obstacle(_)) {
+            search.facing(target.1, (me, source), path, |corner, facet| {
+                let site = Site::Corner(corner);
+                out.push(Candidate { pair: pair_index, site, facet: Some(facet), redundant: false });
+            });
+        }
     }
 
     /// Adds to the candidates `out` of [`ContactModel::detect`] those of nodes that were `known` before and are not among them, with the
@@ -75,88 +113,64 @@ impl<const D: usize> ContactModel<D> {
         self.mark_mirrored(&|n| (start(n) + end(n)) * 0.5, out);
     }
 
-    /// Adds to `out` the nodes of a pair that come into the `room` around its target and near it, and the facets they face.
-    fn detect_facets(
-        &self,
-        pair: u32,
-        target: usize,
-        room: &Aabb<D>,
-        start: &impl Fn(u32) -> Vector<D>,
-        end: &impl Fn(u32) -> Vector<D>,
-        margin: f64,
-        search: &mut Search<D>,
-        out: &mut Vec<Candidate>,
-    ) {
-        let Search { surfaces, near, projected, .. } = search;
-        let swept = &mut surfaces[target];
-        swept.fit(margin);
-        let (source, target) = (&self.surfaces[self.pairs[pair as usize].source], &self.surfaces[target]);
-        let middle = |n: u32| (start(n) + end(n)) * 0.5;
-        let is_own = self.is_self_contact(pair as usize);
-        for (k, &node) in source.sources.iter().enumerate() {
-            let (x0, x1) = (start(node), end(node));
-            if !(room.contains(&x0) || room.contains(&x1)) {
-                continue;
-            }
-            let x = middle(node);
-            near.clear();
-            swept.tree.overlapping(&Aabb::of([x0, x1]), |f, room| {
-                if is_own && !source.may_touch_itself(k, f) {
-                    return;
-                }
-                near.push((swept.facets[f as usize].distance(&x), f, room.diameter()));
-            });
-            if near.is_empty() {
-                continue;
-            }
-            near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            let outward = source.node_normal(node, &middle);
-            projected.clear();
-            let mut reach = f64::INFINITY;
-            for &(at_least, facet, size) in near.iter() {
-                // Nothing farther away than a facet that the node faces squarely has a say.
-                if at_least > reach + SEARCH.tie * size {
-                    break;
-                }
-                let p = Projected::new(facet, size, &x, &target.project(facet, &x, Reach::Facet, &middle));
-                if p.faces(&outward) && p.gap <= margin && p.is_square() {
-                    reach = reach.min(p.distance);
-                }
-                projected.push(p);
-            }
-            projected.sort_unstable_by_key(|p| p.facet);
-            if let Some(facet) = faced(projected, &outward, margin) {
-                out.push(Candidate::at_node(pair, node, Some(facet)));
-            }
-        }
-    }
-
     /// Gap, frame and stencil of a candidate where the nodes are at `position`.
     ///
     /// The normal row of the map from nodal to relative motion is the gradient of the gap. It is not half a facet or more
     /// beyond the edge of a facet, or beyond a corner of a smooth target.
     #[must_use]
     pub fn evaluate(&self, candidate: &Candidate, position: &impl Fn(u32) -> Vector<D>) -> Contact<D> {
-        let node = match candidate.site {
-            Site::Node(node) => node,
-            Site::Crossing(source, target) => {
-                let c = Crossing::new(source.map(position), target.map(position)).clamped();
-                return Contact::of_crossing(&c, source, target);
-            }
+        let pair = &self.pairs[candidate.pair as usize];
+        match pair.target {
+            Target::Obstacle(o) => self.before_obstacle(candidate, &self.obstacles[o], position),
+            Target::Surface(t) => match (candidate.site, candidate.facet) {
+                (Site::Node(node), Some(f)) => {
+                    let x = position(node);
+                    let p = self.surfaces[t].project(f, &x, Reach::Beyond, position);
+                    let gap = p.normal.dot(&(x - p.point));
+                    Contact::new(gap, frame(&p.normal), node, p.nodes, &p.weights)
+                }
+                (Site::Crossing(source, target), _) => {
+                    let c = Crossing::new(source.map(position), target.map(position)).clamped();
+                    Contact::of_crossing(&c, source, target)
+                }
+                _ => unreachable!("detect gives nodes before a surface their facet, and corners to obstacles"),
+            },
+        }
+    }
+
+    /// [`ContactModel::evaluate`] of a candidate whose target is an `obstacle`.
+    fn before_obstacle(
+        &self,
+        candidate: &Candidate,
+        obstacle: &Obstacle<D>,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Contact<D> {
+        let position = &obstacle.placed(position);
+        let contact = |gap, normal: &Vector<D>, nodes: &[u32], weights: &[f64]| {
+            Contact::before_obstacle(gap, frame(normal), nodes, weights, obstacle.node)
         };
-        let x = position(node);
-        match (self.pairs[candidate.pair as usize].target, candidate.facet) {
-            (Target::Surface(t), Some(f)) => {
-                let p = self.surfaces[t].project(f, &x, Reach::Beyond, position);
-                let gap = p.normal.dot(&(x - p.point));
-                Contact::new(gap, frame(&p.normal), node, p.nodes, &p.weights)
+        match (candidate.site, &obstacle.faceted, candidate.facet) {
+            (Site::Node(node), Some(faceted), Some(f)) => {
+                let x = position(node);
+                let p = faceted.surface.project(f, &x, Reach::Beyond, position);
+                contact(p.normal.dot(&(x - p.point)), &p.normal, &[node], &[1.0])
             }
-            (Target::Obstacle(o), _) => {
-                let obstacle = &self.obstacles[o];
-                let (gap, normal) = obstacle.gap(&x, position);
-                Contact::new(gap, frame(&normal), node, &[obstacle.node], &[1.0])
+            (Site::Node(node), ..) => {
+                let (gap, normal) = obstacle.gap(&position(node), position);
+                contact(gap, &normal, &[node], &[1.0])
             }
-            (Target::Surface(_), None) => unreachable!("detect gives nodes before a surface their facet"),
+            (Site::Corner(corner), _, Some(f)) => {
+                let source = &self.surfaces[self.pairs[candidate.pair as usize].source];
+                let x = position(corner);
+                let p = source.project(f, &x, Reach::Beyond, position);
+                contact(p.normal.dot(&(x - p.point)), &-p.normal, p.nodes, &p.weights)
+            }
+            (Site::Crossing(source, target), ..) => {
+                let c = Crossing::new(source.map(position), target.map(position)).clamped();
+                let [s, _] = c.along;
+                contact(c.gap, &c.normal, &source, &[1.0 - s, s])
+            }
+            (Site::Corner(_), _, None) => unreachable!("detect gives corners their facet"),
         }
     }
 }

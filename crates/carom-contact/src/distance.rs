@@ -3,7 +3,7 @@ use carom_mesh::Vector;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::project::Reach;
-use crate::{Candidate, Contact, ContactModel, ContactSurface, Pair, Search, Target};
+use crate::{Candidate, Contact, ContactModel, ContactSurface, Pair, Search, Site, Solid, Target};
 
 /// The place where the two sides of a pair are closest.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,7 +64,7 @@ impl<const D: usize> ContactModel<D> {
         closest
     }
 
-    /// Whether a candidate of the last [`ContactModel::detect`] that is behind its facet is outside the target all the same, by more than
+    /// Whether a candidate of the last [`ContactModel::detect`] that is behind its facet is outside of what it faces all the same, by more than
     /// `distance` [m]. It is then on the far side of a thin body. The nodes are at `position`, the start of that search, where the candidate
     /// is this `contact`.
     ///
@@ -79,12 +79,26 @@ impl<const D: usize> ContactModel<D> {
         search: &Search<D>,
     ) -> bool {
         let pair = candidate.pair as usize;
-        let Target::Surface(t) = self.pairs[pair].target else { return false };
+        let Pair { source, target, .. } = self.pairs[pair];
         if self.is_mortar(pair) || self.is_self_contact(pair) {
             return false;
         }
-        let x = contact.source_point(position);
-        signed_distance(&x, &self.surfaces[t], &search.surfaces[t].tree, position) > distance
+        let from = |x: &Vector<D>, solid: Solid, surface: &ContactSurface| {
+            signed_distance(x, surface, &search.swept(solid).tree, position)
+        };
+        match (candidate.site, target) {
+            (_, Target::Surface(t)) => {
+                let x = contact.source_point(position);
+                from(&x, Solid::Body(t), &self.surfaces[t]) > distance
+            }
+            (Site::Corner(corner), Target::Obstacle(o)) => {
+                let x = self.obstacles[o].placed(position)(corner);
+                from(&x, Solid::Body(source), &self.surfaces[source]) > distance
+            }
+            (_, Target::Obstacle(o)) => {
+                self.obstacles[o].gap(&contact.source_point(position), position).0 > distance
+            }
+        }
     }
 }
 

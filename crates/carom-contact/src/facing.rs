@@ -30,9 +30,9 @@ impl<const D: usize> Projected<D> {
         Self { facet, size, point: p.point, normal: p.normal, offset, distance: offset.norm(), gap }
     }
 
-    /// Whether the facet looks towards a node with this `outward` normal.
+    /// Whether the facet looks towards a node with this `outward` normal; a point without one looks everywhere.
     pub fn faces(&self, outward: &Vector<D>) -> bool {
-        self.normal.dot(outward) < 0.0
+        self.normal.dot(outward) < 0.0 || outward.norm_squared() == 0.0
     }
 
     /// Whether the node is in front of the facet, rather than beside it, or straight behind it.

@@ -22,6 +22,7 @@ mod model;
 mod mortar;
 mod obstacle;
 mod patch;
+mod path;
 mod penetration;
 mod project;
 mod redundant;

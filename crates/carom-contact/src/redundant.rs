@@ -5,15 +5,18 @@ use carom_mesh::Vector;
 use crate::edge::Crossing;
 use crate::project::{Reach, project};
 use crate::tolerances::{EDGES, SEARCH};
-use crate::{Candidate, ContactModel, Site, Target};
+use crate::{Candidate, ContactModel, ContactSurface, Site, Target};
 
 impl<const D: usize> ContactModel<D> {
     /// Marks what other candidates say where nodes are at `position`.
     pub(crate) fn mark_mirrored(&self, position: &impl Fn(u32) -> Vector<D>, candidates: &mut [Candidate]) {
         for k in 0..candidates.len() {
             let c = candidates[k];
-            candidates[k].redundant =
-                c.node().is_some_and(|node| self.is_second_side(&c, node, position, candidates));
+            candidates[k].redundant = match c.site {
+                Site::Node(node) => self.is_second_side(&c, node, position, candidates),
+                Site::Corner(corner) => self.is_at_node(&c, corner, position, candidates),
+                Site::Crossing(..) => false,
+            };
         }
         // Nodes first: one that gives way to some edges does not make others give way.
         for nodes in [true, false] {
@@ -42,19 +45,33 @@ impl<const D: usize> ContactModel<D> {
         }
         let Some(faced) = self.faced_node(candidate, node, position) else { return false };
         (!is_own || faced < node)
-            && find(candidates, first, faced)
+            && find(candidates, first as u32, Site::Node(faced))
                 .is_some_and(|k| self.faced_node(&candidates[k], faced, position) == Some(node))
     }
 
-    /// The node of its facet that the `node` of a candidate stands over, if it is over one.
+    /// Whether a corner of an obstacle faces a node of the body that faces the corner.
+    fn is_at_node(
+        &self,
+        candidate: &Candidate,
+        corner: u32,
+        position: &impl Fn(u32) -> Vector<D>,
+        candidates: &[Candidate],
+    ) -> bool {
+        let faced = self.faced_node(candidate, corner, position);
+        faced
+            .and_then(|node| Some((node, find(candidates, candidate.pair, Site::Node(node))?)))
+            .is_some_and(|(node, k)| self.faced_node(&candidates[k], node, position) == Some(corner))
+    }
+
+    /// The node of its facet that the `node` or corner of a candidate stands over, if it is over one.
     fn faced_node(
         &self,
         candidate: &Candidate,
         node: u32,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Option<u32> {
-        let Target::Surface(t) = self.pairs[candidate.pair as usize].target else { return None };
-        let facet = &self.surfaces[t].facets[candidate.facet? as usize];
+        let facet = &self.faced_surface(candidate)?.facets[candidate.facet? as usize];
+        let position = &self.placed(candidate.pair, position);
         let p = project(&position(node), facet, Reach::Facet, position);
         p.nodes.iter().zip(&p.weights).find(|&(_, &weight)| weight >= 1.0 - SEARCH.redundant).map(|(&n, _)| n)
     }
@@ -72,13 +89,15 @@ impl<const D: usize> ContactModel<D> {
         position: &impl Fn(u32) -> Vector<D>,
         candidates: &mut [Candidate],
     ) {
-        let crossing = Crossing::new(edges[0].map(position), edges[1].map(position));
+        let placed = &self.placed(candidates[k].pair, position);
+        let crossing = Crossing::new(edges[0].map(placed), edges[1].map(placed));
         let pair = candidates[k].pair as usize;
         for side in (0..2).filter(|&side| crossing.reach()[side] < EDGES.at_node) {
             let node = edges[side][crossing.nearer()[side]];
             for p in self.directions(pair) {
                 let node = self.surfaces[self.pairs[p].source].master(node);
-                let Some(j) = find(candidates, p, node) else { continue };
+                let at = |site| find(candidates, p as u32, site);
+                let Some(j) = at(Site::Node(node)).or_else(|| at(Site::Corner(node))) else { continue };
                 let other = candidates[j];
                 if other.redundant {
                     continue;
@@ -95,17 +114,40 @@ impl<const D: usize> ContactModel<D> {
 
     /// Whether the facet that a node faces is beside an edge.
     fn faces_beside(&self, candidate: &Candidate, edge: &[u32; 2]) -> bool {
-        match (self.pairs[candidate.pair as usize].target, candidate.facet) {
-            (Target::Surface(t), Some(f)) => {
-                let facet = &self.surfaces[t].facets[f as usize];
+        match (self.faced_surface(candidate), candidate.facet) {
+            (Some(surface), Some(f)) => {
+                let facet = &surface.facets[f as usize];
                 edge.iter().all(|n| facet.nodes.contains(n))
             }
             _ => false,
         }
     }
+
+    /// The surface that a candidate faces a facet of.
+    fn faced_surface(&self, candidate: &Candidate) -> Option<&ContactSurface> {
+        let pair = &self.pairs[candidate.pair as usize];
+        match (candidate.site, pair.target) {
+            (Site::Corner(_), _) => Some(&self.surfaces[pair.source]),
+            (_, Target::Surface(t)) => Some(&self.surfaces[t]),
+            (_, Target::Obstacle(o)) => self.obstacles[o].faceted.as_ref().map(|f| &f.surface),
+        }
+    }
+
+    /// Where nodes, and the corners of the obstacle of a pair, are.
+    fn placed(
+        &self,
+        pair: u32,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> impl Fn(u32) -> Vector<D> {
+        let obstacle = match self.pairs[pair as usize].target {
+            Target::Obstacle(o) => Some(&self.obstacles[o]),
+            Target::Surface(_) => None,
+        };
+        move |n| obstacle.map_or_else(|| position(n), |obstacle| obstacle.placed(position)(n))
+    }
 }
 
-/// The place of the candidate of a pair at a node.
-fn find(candidates: &[Candidate], pair: usize, node: u32) -> Option<usize> {
-    candidates.binary_search_by_key(&(pair as u32, Site::Node(node)), Candidate::key).ok()
+/// The place of the candidate of a pair at a site.
+fn find(candidates: &[Candidate], pair: u32, site: Site) -> Option<usize> {
+    candidates.binary_search_by_key(&(pair, site), Candidate::key).ok()
 }

@@ -3,9 +3,11 @@ use carom_mesh::Vector;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::edge::Found;
-use crate::facing::Projected;
+use crate::facing::{Projected, faced};
+use crate::path::Path;
+use crate::project::Reach;
 use crate::tolerances::SEARCH;
-use crate::{ContactModel, ContactSurface, Target};
+use crate::{ContactModel, ContactSurface, Pair, Solid, Target};
 
 /// What the search for contacts keeps from one call to the next: room for boxes, and the trees over them.
 ///
@@ -13,16 +15,24 @@ use crate::{ContactModel, ContactSurface, Target};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Search<const D: usize> {
     pub(crate) surfaces: Vec<Swept<D>>,
+    /// Those of obstacles that have facets.
+    obstacles: Vec<Swept<D>>,
     /// Facets near a node: how close to it they may come [m], their number, and the size of the box in which they find nodes [m].
-    pub(crate) near: Vec<(f64, u32, f64)>,
-    pub(crate) projected: Vec<Projected<D>>,
+    near: Vec<(f64, u32, f64)>,
+    projected: Vec<Projected<D>>,
     /// Edges of a pair that cross.
     pub(crate) crossings: Vec<Found>,
 }
 
 impl<const D: usize> Default for Search<D> {
     fn default() -> Self {
-        Self { surfaces: Vec::new(), near: Vec::new(), projected: Vec::new(), crossings: Vec::new() }
+        Self {
+            surfaces: Vec::new(),
+            obstacles: Vec::new(),
+            near: Vec::new(),
+            projected: Vec::new(),
+            crossings: Vec::new(),
+        }
     }
 }
 
@@ -30,95 +40,206 @@ impl<const D: usize> Default for Search<D> {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Swept<const D: usize> {
     /// A box around the paths of its sources.
-    pub sources: Aabb<D>,
+    sources: Aabb<D>,
     /// A box around the path of every facet.
-    pub facets: Vec<Aabb<D>>,
+    facets: Vec<Aabb<D>>,
     /// A box around all of these.
-    pub whole: Aabb<D>,
+    whole: Aabb<D>,
     /// The boxes of the facets, with the room in which a node is found.
     pub tree: Bvh<D>,
     /// The boxes of the paths of its edges, with the room in which one that crosses it is found.
     pub edges: Bvh<D>,
+    is_swept: bool,
     is_fitted: bool,
     edges_are_fitted: bool,
 }
 
 impl<const D: usize> Search<D> {
-    /// The room around the target surface that is within `margin` [m] of it, if nodes of the source surface come into its box.
-    pub(crate) fn meeting(&self, source: usize, target: usize, margin: f64) -> Option<Aabb<D>> {
-        let room = self.surfaces[target].whole.inflated(margin);
-        self.surfaces[source].sources.inflated(margin).overlaps(&room).then_some(room)
+    /// Whether one of the two comes within `margin` [m] of the other.
+    pub(crate) fn meet(&self, source: Solid, target: Solid, margin: f64) -> bool {
+        self.swept(source).sources.inflated(margin).overlaps(&self.room(target, margin))
     }
 
-    /// Boxes around all that moves from `start` to `end` and belongs to a pair of `model`.
-    pub(crate) fn sweep(
+    /// The room within `margin` [m] of a solid on its way.
+    pub(crate) fn room(&self, solid: Solid, margin: f64) -> Aabb<D> {
+        self.swept(solid).whole.inflated(margin)
+    }
+
+    pub(crate) fn swept(&self, solid: Solid) -> &Swept<D> {
+        match solid {
+            Solid::Body(i) => &self.surfaces[i],
+            Solid::Obstacle(o) => &self.obstacles[o],
+        }
+    }
+
+    /// The same, and room for the edges that cross it.
+    pub(crate) fn swept_and_crossings(&mut self, solid: Solid) -> (&mut Swept<D>, &mut Vec<Found>) {
+        let Self { surfaces, obstacles, crossings, .. } = self;
+        let swept = match solid {
+            Solid::Body(i) => &mut surfaces[i],
+            Solid::Obstacle(o) => &mut obstacles[o],
+        };
+        (swept, crossings)
+    }
+
+    /// Boxes around all that moves along a `path` and belongs to a pair of `model`.
+    pub(crate) fn sweep<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &mut self,
         model: &ContactModel<D>,
-        start: &impl Fn(u32) -> Vector<D>,
-        end: &impl Fn(u32) -> Vector<D>,
+        path: &Path<'_, D, S, E>,
     ) {
-        let empty = || Swept {
-            sources: Aabb::of([]),
-            facets: Vec::new(),
-            whole: Aabb::of([]),
-            tree: Bvh::new([].into_iter()),
-            edges: Bvh::new([].into_iter()),
-            is_fitted: false,
-            edges_are_fitted: false,
+        self.surfaces.resize_with(model.surfaces.len(), Swept::default);
+        self.obstacles.resize_with(model.obstacles.len(), Swept::default);
+        let is_faceted = |target: Target| match target {
+            Target::Surface(_) => true,
+            Target::Obstacle(o) => model.obstacles[o].faceted.is_some(),
         };
-        self.surfaces.resize_with(model.surfaces.len(), empty);
         for (s, (swept, surface)) in self.surfaces.iter_mut().zip(&model.surfaces).enumerate() {
-            (swept.is_fitted, swept.edges_are_fitted) = (false, false);
-            if model.pairs.iter().any(|p| matches!(p.target, Target::Surface(_)) && p.source == s) {
-                swept.sources = Aabb::of(surface.sources.iter().flat_map(|&n| [start(n), end(n)]));
+            swept.forget();
+            if model.pairs.iter().any(|p| p.source == s && is_faceted(p.target)) {
+                swept.sources = Aabb::of(surface.sources.iter().flat_map(|&n| path.ends(n)));
             }
-            if model.pairs.iter().any(|p| p.target == Target::Surface(s)) {
-                swept.sweep_facets(surface, start, end);
+            let is_faced = |p: &Pair| match p.target {
+                Target::Surface(t) => t == s,
+                Target::Obstacle(_) => p.source == s && is_faceted(p.target),
+            };
+            if model.pairs.iter().any(is_faced) {
+                swept.sweep_facets(surface, path);
+                swept.whole = swept.facets.iter().fold(Aabb::of([]), |all, b| all.union(b));
+            }
+        }
+        for (swept, obstacle) in self.obstacles.iter_mut().zip(&model.obstacles) {
+            swept.forget();
+            if let Some(faceted) = &obstacle.faceted {
+                let [start, end] = path.ends(obstacle.node).map(|shift| faceted.bounds.moved(&shift));
+                swept.whole = start.union(&end);
+                swept.sources = swept.whole;
+            }
+        }
+    }
+
+    /// Tells `found` which of the sources of a surface come near facets of a `target`, and which facet each faces: the closest one half way
+    /// among those that face it.
+    pub(crate) fn facing<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &mut self,
+        source: &ContactSurface,
+        target: (Solid, &ContactSurface),
+        path: &Path<'_, D, S, E>,
+        mut found: impl FnMut(u32, u32),
+    ) {
+        let room = self.room(target.0, path.margin);
+        let Self { surfaces, obstacles, near, projected, .. } = self;
+        let (solid, target) = target;
+        let swept = match solid {
+            Solid::Body(i) => &mut surfaces[i],
+            Solid::Obstacle(o) => &mut obstacles[o],
+        };
+        swept.fit(target, path);
+        let middle = |n: u32| path.middle(n);
+        let is_own = std::ptr::eq(source, target);
+        for (k, &node) in source.sources.iter().enumerate() {
+            let way = Aabb::of(path.ends(node));
+            if !way.overlaps(&room) {
+                continue;
+            }
+            let x = middle(node);
+            near.clear();
+            swept.tree.overlapping(&way, |f, room| {
+                if is_own && !source.may_touch_itself(k, f) {
+                    return;
+                }
+                near.push((swept.facets[f as usize].distance(&x), f, room.diameter()));
+            });
+            if near.is_empty() {
+                continue;
+            }
+            near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let outward = source.node_normal(node, &middle);
+            projected.clear();
+            let mut reach = f64::INFINITY;
+            for &(at_least, facet, size) in near.iter() {
+                // Nothing farther away than a facet that the node faces squarely has a say.
+                if at_least > reach + SEARCH.tie * size {
+                    break;
+                }
+                let p = Projected::new(facet, size, &x, &target.project(facet, &x, Reach::Facet, &middle));
+                if p.faces(&outward) && p.gap <= path.margin && p.is_square() {
+                    reach = reach.min(p.distance);
+                }
+                projected.push(p);
+            }
+            projected.sort_unstable_by_key(|p| p.facet);
+            if let Some(facet) = faced(projected, &outward, path.margin) {
+                found(node, facet);
             }
         }
     }
 }
 
+impl<const D: usize> Default for Swept<D> {
+    fn default() -> Self {
+        Self {
+            sources: Aabb::of([]),
+            facets: Vec::new(),
+            whole: Aabb::of([]),
+            tree: Bvh::new([].into_iter()),
+            edges: Bvh::new([].into_iter()),
+            is_swept: false,
+            is_fitted: false,
+            edges_are_fitted: false,
+        }
+    }
+}
+
 impl<const D: usize> Swept<D> {
-    fn sweep_facets(
+    fn forget(&mut self) {
+        (self.is_swept, self.is_fitted, self.edges_are_fitted) = (false, false, false);
+    }
+
+    fn sweep_facets<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &mut self,
         surface: &ContactSurface,
-        start: &impl Fn(u32) -> Vector<D>,
-        end: &impl Fn(u32) -> Vector<D>,
+        path: &Path<'_, D, S, E>,
     ) {
         self.facets.clear();
         let facets = 0..surface.facets.len() as u32;
-        self.facets.extend(facets.map(|f| surface.bounds(f, start).union(&surface.bounds(f, end))));
-        self.whole = self.facets.iter().fold(Aabb::of([]), |all, b| all.union(b));
+        self.facets
+            .extend(facets.map(|f| surface.bounds(f, path.start).union(&surface.bounds(f, path.end))));
+        self.is_swept = true;
     }
 
     /// Brings the tree up to date, once per sweep.
-    pub fn fit(&mut self, margin: f64) {
+    fn fit<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &mut self,
+        surface: &ContactSurface,
+        path: &Path<'_, D, S, E>,
+    ) {
         if self.is_fitted {
             return;
         }
+        if !self.is_swept {
+            self.sweep_facets(surface, path);
+        }
         let room = |f: u32| {
             let facet = self.facets[f as usize];
-            facet.inflated(margin + SEARCH.depth * facet.diameter())
+            facet.inflated(path.margin + SEARCH.depth * facet.diameter())
         };
         fit(&mut self.tree, self.facets.len(), room);
         self.is_fitted = true;
     }
 
     /// The same for the edges of the `surface`.
-    pub fn fit_edges(
+    pub fn fit_edges<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &mut self,
         surface: &ContactSurface,
-        margin: f64,
-        start: &impl Fn(u32) -> Vector<D>,
-        end: &impl Fn(u32) -> Vector<D>,
+        path: &Path<'_, D, S, E>,
     ) {
         if self.edges_are_fitted {
             return;
         }
         let room = |e: u32| {
-            let path = surface.edges[e as usize].path(start, end);
-            path.inflated(margin + SEARCH.depth * path.diameter())
+            let swept = surface.edges[e as usize].path(path.start, path.end);
+            swept.inflated(path.margin + SEARCH.depth * swept.diameter())
         };
         fit(&mut self.edges, surface.edges.len(), room);
         self.edges_are_fitted = true;
@@ -139,7 +260,7 @@ mod tests {
     use carom_mesh::{CellBlock, Mesh, Surface, generate};
 
     use super::*;
-    use crate::{Discretisation, Pair};
+    use crate::Discretisation;
 
     /// A body of cubes, or squares, pulled into a ball.
     fn ball<const D: usize>(divisions: usize) -> Mesh<D> {
@@ -195,7 +316,7 @@ mod tests {
             let (mut tree, mut scan) = (Vec::new(), Vec::new());
             model.detect(&start, &end, 0.1, &mut search, &mut tree);
             let mut flat = Search::default();
-            flat.sweep(&model, &start, &end);
+            flat.sweep(&model, &Path { start: &start, end: &end, margin: 0.1 });
             for (swept, surface) in flat.surfaces.iter_mut().zip(&model.surfaces) {
                 swept.tree = Bvh::flat(surface.facets.iter().map(|_| Aabb::of([])));
             }

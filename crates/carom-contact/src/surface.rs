@@ -6,7 +6,8 @@ use crate::aabb::Aabb;
 use crate::curve::Curve;
 use crate::edge::Edge;
 use crate::patch::Patch;
-use crate::project::{Projection, Reach, area_normal, project};
+use crate::project::{Projection, Reach, area_normal, normal, project};
+use crate::tolerances::EDGES;
 
 /// The boundary of a body, its nodes numbered over all bodies.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,7 +26,9 @@ pub struct ContactSurface {
     pub(crate) never_touched: Vec<Vec<u32>>,
     /// Its convex edges in space, by their nodes, once it is [`edged`](Self::edged).
     pub(crate) edges: Vec<Edge>,
-    /// Whether some of them are features.
+    /// Its other edges: an edge of an obstacle may lie on the facets beside them, with no node near.
+    pub(crate) flat_edges: Vec<Edge>,
+    /// Whether some of the convex ones are features.
     pub(crate) has_features: bool,
     /// The node that every image follows.
     masters: BTreeMap<u32, u32>,
@@ -66,6 +69,7 @@ impl ContactSurface {
             facets_around,
             never_touched: Vec::new(),
             edges: Vec::new(),
+            flat_edges: Vec::new(),
             has_features: false,
             masters,
             shape: Shape::Faceted,
@@ -83,6 +87,7 @@ impl ContactSurface {
             is_meridian: false,
             never_touched: Vec::new(),
             edges: Vec::new(),
+            flat_edges: Vec::new(),
             has_features: false,
             masters: BTreeMap::new(),
             shape: Shape::Faceted,
@@ -105,6 +110,26 @@ impl ContactSurface {
         if self.facets.iter().all(|f| f.kind == CellKind::Line2) {
             self.shape = Shape::Curved(Curve::through(&self.facets, &|node| self.around(node), reference));
         }
+        self
+    }
+
+    /// The same boundary without the sources that nothing flat can touch first: those around which it is flat in the `reference`
+    /// configuration [m], to 1°.
+    pub(crate) fn without_flat_sources<const D: usize>(
+        mut self,
+        reference: &impl Fn(u32) -> Vector<D>,
+    ) -> Self {
+        let normals: Vec<Vector<D>> = self
+            .facets
+            .iter()
+            .map(|facet| normal(&Patch::new(facet, reference).middle().tangents))
+            .collect();
+        let turns = |around: &[u32]| {
+            let of = |f: &u32| &normals[*f as usize];
+            around.iter().any(|f| of(f).dot(of(&around[0])) < EDGES.flat)
+        };
+        let both = self.sources.into_iter().zip(self.facets_around);
+        (self.sources, self.facets_around) = both.filter(|(_, around)| turns(around)).unzip();
         self
     }
 

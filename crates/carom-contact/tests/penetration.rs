@@ -33,7 +33,7 @@ fn measured<const D: usize>(
     }
     let node = nodes.len() as u32;
     let obstacles: Vec<Obstacle<D>> =
-        obstacles.into_iter().map(|shape| Obstacle { node, ..Obstacle::new(shape) }).collect();
+        obstacles.into_iter().map(|shape| Obstacle::new(shape).numbered(node, node + 1)).collect();
     nodes.push(Vector::zeros());
     let surfaces: Vec<Surface> = meshes.iter().map(Surface::of).collect();
     let mut boundaries = Boundaries::new(surfaces.iter().zip(firsts), &obstacles, &|n| nodes[n as usize]);

@@ -95,7 +95,9 @@ impl Surface {
         Self::of_facets(self.facets.iter().filter(|f| keep(f)).cloned().collect(), &self.ties)
     }
 
-    fn of_facets(facets: Vec<Facet>, ties: &[Tie]) -> Self {
+    /// The surface of these facets; of the ties those between its nodes count.
+    #[must_use]
+    pub fn of_facets(facets: Vec<Facet>, ties: &[Tie]) -> Self {
         let mut nodes: Vec<u32> = facets.iter().flat_map(|f| f.nodes.iter().copied()).collect();
         nodes.sort_unstable();
         nodes.dedup();

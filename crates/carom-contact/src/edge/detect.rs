@@ -2,47 +2,46 @@ use carom_mesh::Vector;
 
 use super::crossing::is_foremost;
 use super::{Crossing, Edge, Found};
-use crate::aabb::Aabb;
+use crate::path::Path;
 use crate::tolerances::{EDGES, SEARCH};
-use crate::{Candidate, ContactModel, ContactSurface, Search, Site};
+use crate::{Candidate, ContactModel, ContactSurface, Search, Site, Solid};
 
 impl<const D: usize> ContactModel<D> {
-    /// Adds to `out` the edges of a pair that, in the `room` around its target, cross within `margin` [m] of one another, or a little way through one another.
+    /// Adds to `out` the edges of a pair that, on their `path`, cross near one another, or a little way through one another.
     ///
     /// Of two edges one has to be a feature: where both are of something round, nodes and facets are as good. An edge counts if
     /// the line from the one to the other is between the normals of its facets. Also, no plane of these facets may keep the two
     /// edges apart any better. As the bodies may be inside one another at the predicted middle of the step, this is decided at
     /// its start; where they cross, at the middle.
-    pub(crate) fn detect_crossings(
+    pub(crate) fn detect_crossings<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
-        pair: u32,
-        target: usize,
-        room: &Aabb<D>,
-        start: &impl Fn(u32) -> Vector<D>,
-        end: &impl Fn(u32) -> Vector<D>,
-        margin: f64,
+        pair: usize,
+        (solid, target): (Solid, &ContactSurface),
+        path: &Path<'_, D, S, E>,
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
-        let swept = &mut search.surfaces[target];
-        let (source, target) = (&self.surfaces[self.pairs[pair as usize].source], &self.surfaces[target]);
+        let source = &self.surfaces[self.pairs[pair].source];
         if !(source.has_features || target.has_features) {
             return;
         }
-        swept.fit_edges(target, margin, start, end);
-        let is_own = self.is_self_contact(pair as usize);
-        let found = &mut search.crossings;
+        let room = search.room(solid, path.margin);
+        let (swept, found) = search.swept_and_crossings(solid);
+        swept.fit_edges(target, path);
+        let is_own = self.is_self_contact(pair);
         found.clear();
-        for (k, edge) in source.edges.iter().enumerate() {
-            let path = edge.path(start, end);
-            if !path.overlaps(room) {
+        // Edges of obstacles are as long as they please: between their ends they meet facets at the edges of these alone.
+        let flat: &[Edge] = if matches!(solid, Solid::Obstacle(_)) { &source.flat_edges } else { &[] };
+        for (k, edge) in source.edges.iter().chain(flat).enumerate() {
+            let way = edge.path(path.start, path.end);
+            if !way.overlaps(&room) {
                 continue;
             }
-            swept.edges.overlapping(&path, |other, _| {
+            swept.edges.overlapping(&way, |other, _| {
                 let other_edge = &target.edges[other as usize];
                 let may_touch = !is_own || (other as usize) > k && source.edges_may_touch(edge, other_edge);
                 if may_touch && (edge.is_feature || other_edge.is_feature) {
-                    found.extend(crossing(source, edge, target, other_edge, start, end, margin));
+                    found.extend(crossing((source, edge), (target, other_edge), path));
                 }
             });
         }
@@ -50,22 +49,19 @@ impl<const D: usize> ContactModel<D> {
         let stays = |c: &Found| !(c.is_beyond() && found.iter().any(|other| other.takes_over(c)));
         out.extend(found.iter().filter(|c| stays(c)).map(|c| {
             let [source, target] = c.edges;
-            Candidate { pair, site: Site::Crossing(source, target), facet: None, redundant: false }
+            let site = Site::Crossing(source, target);
+            Candidate { pair: pair as u32, site, facet: None, redundant: false }
         }));
     }
 }
 
 /// The crossing of two edges, if they are what the surfaces would touch with.
-fn crossing<const D: usize>(
-    source: &ContactSurface,
-    s: &Edge,
-    target: &ContactSurface,
-    t: &Edge,
-    start: &impl Fn(u32) -> Vector<D>,
-    end: &impl Fn(u32) -> Vector<D>,
-    margin: f64,
+fn crossing<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    (source, s): (&ContactSurface, &Edge),
+    (target, t): (&ContactSurface, &Edge),
+    path: &Path<'_, D, S, E>,
 ) -> Option<Found> {
-    let middle = |n: u32| (start(n) + end(n)) * 0.5;
+    let (start, middle) = (path.start, |n: u32| path.middle(n));
     let there = Crossing::new(s.nodes.map(middle), t.nodes.map(middle));
     let mut beyond = [None; 2];
     for (side, (surface, edge)) in [(source, s), (target, t)].into_iter().enumerate() {
@@ -88,7 +84,7 @@ fn crossing<const D: usize>(
     let is_turned = there.normal.dot(&at_start.normal) <= 0.0;
     if there.sine.min(at_start.sine) < EDGES.parallel
         || is_turned
-        || there.gap * sign > margin
+        || there.gap * sign > path.margin
         || gap < deepest
         || !is_foremost(&n, &f, &normals)
     {

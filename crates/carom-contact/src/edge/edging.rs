@@ -12,8 +12,8 @@ use crate::project::normal;
 use crate::tolerances::{EDGES, SEARCH};
 
 impl ContactSurface {
-    /// The same boundary with its convex edges, if it is one in space: those at which facets meet at an angle in the `reference`
-    /// configuration [m].
+    /// The same boundary with its edges, if it is one in space: convex ones, at which facets meet at an angle in the `reference`
+    /// configuration [m], and all others.
     #[must_use]
     pub fn edged<const D: usize>(mut self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
         let mut open: BTreeMap<[u32; 2], ([u32; 2], Side)> = BTreeMap::new();
@@ -35,10 +35,13 @@ impl ContactSurface {
                     edge.is_feature =
                         m0.dot(&m1) < SEARCH.corner || self.widths(&edge, reference).into_iter().all(is_long);
                     self.edges.push(edge);
+                } else {
+                    self.flat_edges.push(edge);
                 }
             }
         }
         self.edges.sort_unstable_by_key(|e| e.nodes);
+        self.flat_edges.sort_unstable_by_key(|e| e.nodes);
         self.join_edges(reference);
         self.has_features = self.edges.iter().any(|e| e.is_feature);
         self

@@ -167,12 +167,12 @@ impl<const D: usize> ClosedSurface<D> {
         Ok(Self { vertices, facets, normals, edge_normals, vertex_normals, bounds, tree })
     }
 
-    pub(super) fn bounds(&self) -> &Aabb<D> {
-        &self.bounds
-    }
-
     pub(crate) fn vertices(&self) -> &[Vector<D>] {
         &self.vertices
+    }
+
+    pub(crate) fn facets(&self) -> &[Facet] {
+        &self.facets
     }
 
     /// The ends of its edges [m], every edge once.

@@ -3,12 +3,14 @@
 mod closed;
 mod convex;
 mod direction;
+mod faceted;
 
 use std::sync::Arc;
 
 use carom_mesh::Vector;
 
 pub use closed::{ClosedSurface, SurfaceDefect};
+pub(crate) use faceted::{Faceted, box_corners};
 
 /// A rigid body that moves as prescribed, without turning.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +19,8 @@ pub struct Obstacle<const D: usize> {
     pub shape: RigidShape<D>,
     /// The number under which positions say how far it has moved [m]: to contact it is one more node.
     pub node: u32,
+    /// What of it has corners, once it is [numbered](Self::numbered).
+    pub(crate) faceted: Option<Faceted<D>>,
 }
 
 /// Shapes of obstacles.
@@ -64,13 +68,19 @@ impl<const D: usize> Obstacle<D> {
     /// An obstacle of this shape; the model gives it the number of its motion.
     #[must_use]
     pub fn new(shape: RigidShape<D>) -> Self {
-        Self { shape, node: u32::MAX }
+        Self { shape, node: u32::MAX, faceted: None }
+    }
+
+    /// The same with the number `node` of its motion, and its corners numbered from `first_corner` on: after all nodes and motions.
+    #[must_use]
+    pub fn numbered(self, node: u32, first_corner: u32) -> Self {
+        Self { node, faceted: Faceted::of(&self.shape, first_corner), shape: self.shape }
     }
 
     /// A half space; `node` is the number of its motion.
     #[must_use]
     pub fn plane(point: Vector<D>, normal: Vector<D>, node: u32) -> Self {
-        Self { shape: RigidShape::Plane { point, normal }, node }
+        Self { shape: RigidShape::Plane { point, normal }, node, faceted: None }
     }
 
     /// Signed distance of `x` [m], negative inside the obstacle, and the unit normal there: the gradient of the distance.
@@ -80,13 +90,29 @@ impl<const D: usize> Obstacle<D> {
         self.shape.gap(&(x - position(self.node)))
     }
 
-    /// Whether `x` may be within `margin` [m] of the obstacle or inside it; as sharp as it is cheap to say.
+    /// Whether `x` is within `margin` [m] of the obstacle or inside it.
     #[inline]
     pub(crate) fn is_near(&self, x: &Vector<D>, margin: f64, position: &impl Fn(u32) -> Vector<D>) -> bool {
-        let x = x - position(self.node);
-        match &self.shape {
-            RigidShape::Surface(surface) if !surface.bounds().inflated(margin).contains(&x) => false,
-            shape => shape.gap(&x).0 <= margin,
+        self.gap(x, position).0 <= margin
+    }
+
+    /// Where its corners are [m] when it has not moved.
+    #[must_use]
+    pub fn corners(&self) -> &[Vector<D>] {
+        self.faceted.as_ref().map_or(&[], |f| f.corners())
+    }
+
+    /// Whether a corner of the obstacle has this number.
+    #[must_use]
+    pub fn has_corner(&self, n: u32) -> bool {
+        self.faceted.as_ref().is_some_and(|f| f.corner(n).is_some())
+    }
+
+    /// Where nodes and the corners of this obstacle are, the nodes being at `position`.
+    pub(crate) fn placed(&self, position: &impl Fn(u32) -> Vector<D>) -> impl Fn(u32) -> Vector<D> {
+        move |n| match self.faceted.as_ref().and_then(|f| f.corner(n)) {
+            Some(corner) => corner + position(self.node),
+            None => position(n),
         }
     }
 }

@@ -4,6 +4,7 @@ use carom_mesh::Vector;
 
 use crate::RigidShape;
 use crate::aabb::Aabb;
+use crate::obstacle::box_corners;
 
 /// Where an obstacle has corners and edges, before it has moved [m].
 #[derive(Debug, Clone, PartialEq)]
@@ -36,15 +37,10 @@ impl<const D: usize> Skin<D> {
         Self { corners: Vec::new(), edges: Vec::new(), thickness }
     }
 
-    /// Corner k has the far end of axis i if bit i of k is set.
     fn of_box(corner: &Vector<D>, size: &Vector<D>) -> Self {
-        let at = |k: usize| Vector::from_fn(|i, _| corner[i] + if k >> i & 1 == 1 { size[i] } else { 0.0 });
-        let count = 1 << D;
-        let along = |i: usize| (0..count).filter(move |k| k >> i & 1 == 0).map(move |k| [k, k | 1 << i]);
-        Self {
-            corners: (0..count).map(at).collect(),
-            edges: (0..D).flat_map(along).map(|ends| ends.map(at)).collect(),
-            thickness: size.min(),
-        }
+        let corners = box_corners(corner, size);
+        let along = |i: usize| (0..1 << D).filter(move |k| k >> i & 1 == 0).map(move |k| [k, k | 1 << i]);
+        let edges = (0..D).flat_map(along).map(|ends| ends.map(|k: usize| corners[k])).collect();
+        Self { corners, edges, thickness: size.min() }
     }
 }

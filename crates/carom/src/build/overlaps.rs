@@ -1,4 +1,4 @@
-use carom_contact::{Candidate, Pair, RigidShape, Search, Target};
+use carom_contact::{Candidate, Pair, RigidShape, Search, Site, Target};
 use carom_mesh::Vector;
 
 use super::values::place;
@@ -68,7 +68,33 @@ pub(super) fn check_overlaps<const D: usize>(
             });
         }
     }
+    check_corners(scenario, model)?;
     check_crossings(model)
+}
+
+/// Refuses bodies that corners of obstacles are inside of.
+fn check_corners<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Result<(), InputError> {
+    let contact = &model.assembly.contact;
+    let at = |n: u32| model.assembly.reference[n as usize];
+    for pair in &contact.pairs {
+        let Target::Obstacle(o) = pair.target else { continue };
+        let corners = contact.obstacles[o].corners().iter().copied();
+        let Some(closest) = contact.closest(corners, Target::Surface(pair.source), &at) else { continue };
+        let body = &model.bodies[pair.source];
+        if closest.gap < -TOUCHING * body.body.mesh().smallest_edge() {
+            return Err(InputError::new(
+                format!("bodies.{}.mesh", pair.source),
+                format!(
+                    "obstacle {:?} overlaps body {:?} at the start: its corner at {} is {:.6} m inside; move one of them",
+                    scenario.obstacles[o].name,
+                    body.name,
+                    place(&closest.at),
+                    -closest.gap
+                ),
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses bodies of which edges have passed one another, though no node of one may be inside the other.
@@ -108,7 +134,7 @@ fn has_straight_edges<const D: usize>(model: &Model<D>, candidate: &Candidate) -
         Target::Surface(t) => {
             candidate.node().is_none() && t != pair.source && is_straight(pair.source) && is_straight(t)
         }
-        Target::Obstacle(_) => false,
+        Target::Obstacle(_) => matches!(candidate.site, Site::Crossing(..)) && is_straight(pair.source),
     }
 }
 

@@ -1,6 +1,6 @@
 //! The state.
 
-use carom_contact::{Contact, Site};
+use carom_contact::{Contact, Site, Target};
 use carom_mesh::{Matrix, Vector};
 
 use crate::archive::{Archive, CheckpointError};
@@ -50,17 +50,27 @@ struct Reactions<const D: usize> {
 
 const PREFIX: &str = "state/reactions";
 
-/// A site as four nodes: those of two edges, or one node four times.
+/// A site as four nodes: those of two edges, or one node or corner four times.
 fn to_nodes(site: Site) -> [u32; 4] {
     match site {
-        Site::Node(n) => [n; 4],
+        Site::Node(n) | Site::Corner(n) => [n; 4],
         Site::Crossing([a, b], [c, d]) => [a, b, c, d],
     }
 }
 
-/// The site of [`to_nodes`]. No edge begins where it ends.
-fn to_site([a, b, c, d]: [u32; 4]) -> Site {
-    if a == b { Site::Node(a) } else { Site::Crossing([a, b], [c, d]) }
+/// The site of [`to_nodes`] in a pair, if it can be one. No edge begins where it ends, and corners are numbered after all nodes.
+fn to_site<const D: usize>(assembly: &Assembly<D>, pair: u32, [a, b, c, d]: [u32; 4]) -> Option<Site> {
+    let contact = &assembly.contact;
+    let is_node = |n: &u32| (*n as usize) < assembly.node_count();
+    let is_corner = |n: &u32| match contact.pairs[pair as usize].target {
+        Target::Obstacle(o) => contact.obstacles[o].has_corner(*n),
+        Target::Surface(_) => false,
+    };
+    if a != b {
+        let is_crossing = [a, b].iter().all(is_node) && [c, d].iter().all(|n| is_node(n) || is_corner(n));
+        return is_crossing.then_some(Site::Crossing([a, b], [c, d]));
+    }
+    if is_node(&a) { Some(Site::Node(a)) } else { is_corner(&a).then_some(Site::Corner(a)) }
 }
 
 impl<const D: usize> Reactions<D> {
@@ -113,9 +123,6 @@ impl<const D: usize> Reactions<D> {
         if !all(&self.pair, assembly.contact.pairs.len()) {
             return Err(wrong("pair", "names a pair that is not there"));
         }
-        if !all(self.site.as_flattened(), assembly.node_count()) {
-            return Err(wrong("site", "names a node that is not there"));
-        }
         if !all(&self.stencil_node, assembly.reference.len()) {
             return Err(wrong("stencil_node", "names a node that is not there"));
         }
@@ -131,12 +138,10 @@ impl<const D: usize> Reactions<D> {
             let stencil = stencils.by_ref().take(self.stencil_length[k]);
             let contact =
                 Contact::of_stencil(self.gap[k], self.frame[k], self.area[k], stencil, self.source_count[k]);
-            reactions.push(Reaction {
-                pair: self.pair[k],
-                site: to_site(self.site[k]),
-                contact,
-                force: self.force[k],
-            });
+            let pair = self.pair[k];
+            let site = to_site(assembly, pair, self.site[k]);
+            let site = site.ok_or_else(|| wrong("site", "names a node that is not there"))?;
+            reactions.push(Reaction { pair, site, contact, force: self.force[k] });
         }
         if reactions.is_sorted_by_key(Reaction::key) {
             Ok(reactions)

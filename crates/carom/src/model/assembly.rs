@@ -76,10 +76,10 @@ impl<const D: usize> Assembly<D> {
     #[must_use]
     pub fn new(members: Vec<Member<D>>, mut contact: ContactModel<D>, named_pairs: Vec<NamedPair>) -> Self {
         let count: usize = members.iter().map(|m| m.reference.len()).sum();
-        for (o, obstacle) in contact.obstacles.iter_mut().enumerate() {
-            obstacle.node = (count + o) as u32;
-        }
         let obstacles = contact.obstacles.len();
+        let numbered = contact.obstacles.into_iter().enumerate();
+        contact.obstacles =
+            numbered.map(|(o, obstacle)| obstacle.numbered((count + o) as u32, (count + obstacles) as u32)).collect();
         let boundaries: Vec<Surface> = members.iter().map(|m| m.boundary.clone()).collect();
         let may_meet = contact.pairs.iter().map(between).collect();
         let mut assembly = Self {

