@@ -71,7 +71,7 @@ RULES = """\
 - A tracked point is at most a quarter of the diagonal of the body's bounding box away from a node.
 - Every body may touch every other body and every obstacle, unless `contact.pairs` says otherwise.
   An entry of `contact.pairs` names two different bodies, a body and an obstacle, or twice a body
-  with `self_contact`, and no two entries name the same pair.
+  that may touch itself, and no two entries name the same pair.
 - `contact.sources` and `contact.pairs.N.sources` matter between two bodies only: against an
   obstacle the nodes of the body are checked. `"first"` is the body that comes first in
   `[[bodies]]`, or, where the pair has an entry in `contact.pairs`, in `between` of that entry.

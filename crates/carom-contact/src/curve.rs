@@ -2,9 +2,10 @@ use carom_mesh::cell::MAX_FACET_NODES;
 use carom_mesh::{Facet, Vector};
 
 use crate::project::{Projection, Reach, normal};
-use crate::tolerances::SEARCH;
+use crate::tolerances::{EDGES, SEARCH};
 
-/// A curve through the nodes of a boundary line with a continuous tangent, except at corners.
+/// A curve through the nodes of a boundary line with a continuous tangent, except at corners and on sides that are straight in the
+/// reference configuration: those are where their cells say, and turn where these do.
 ///
 /// Each segment is a cubic in ξ from 0 to 1. Its tangents at the ends are those of the parabola through the node and its two
 /// neighbours, with the distances of the reference configuration as parameter (Catmull–Rom). A point of given ξ is so a fixed
@@ -24,6 +25,8 @@ struct Segment {
     weights: [[f64; 4]; 4],
     /// The segments before and behind; none at a corner and at the end of an open line.
     neighbours: [Option<u32>; 2],
+    /// Where nothing is smoothed, because the line is straight in the reference configuration.
+    is_flat: [bool; 2],
 }
 
 /// Newton or bisection steps; Newton alone needs about four.
@@ -66,13 +69,18 @@ impl Curve {
             if reach == Reach::Facet {
                 return segment.foot(&offset, x, ENDS[end], 0.0);
             }
-            let Some(next) = segment.neighbours[end] else {
-                let beyond = offset.beyond(ENDS[end]).clamp(-SEARCH.beyond, SEARCH.beyond);
-                return segment.foot(&offset, x, ENDS[end], beyond);
-            };
-            segment = &self.segments[next as usize];
-            offset = Cubic::new(segment, x, position);
-            from = Some(1 - end);
+            let next = segment.neighbours[end].map(|next| &self.segments[next as usize]);
+            let next = next.map(|next| (next, Cubic::new(next, x, position)));
+            // Before a kink a point is beside both segments: it stays with the one it came to first.
+            match next {
+                Some((next, there)) if !(segment.is_flat[end] && there.falls(1 - end)) => {
+                    (segment, offset, from) = (next, there, Some(1 - end));
+                }
+                _ => {
+                    let beyond = offset.beyond(ENDS[end]).clamp(-SEARCH.beyond, SEARCH.beyond);
+                    return segment.foot(&offset, x, ENDS[end], beyond);
+                }
+            }
         }
         segment.foot(&offset, x, ENDS[from.unwrap_or(0)], 0.0)
     }
@@ -117,8 +125,13 @@ impl Segment {
         let (mut nodes, mut len) = ([a, b, b, b], 2);
         // The tangents as weights of the nodes: the chord, and where there is a neighbour, a share of its slope.
         let mut tangents = [[-1.0, 1.0, 0.0, 0.0]; 2];
+        let mut is_flat = [false; 2];
         for (end, g) in neighbours.iter().enumerate().filter_map(|(end, g)| g.map(|g| (end, g))) {
             let other = chord(g).norm();
+            is_flat[end] = chord(g).dot(&chord(f)) > EDGES.flat * other * length;
+            if is_flat[end] {
+                continue;
+            }
             let own_share = other / (length + other);
             let slope = (1.0 - own_share) * length / other;
             let sign = if end == 0 { 1.0 } else { -1.0 };
@@ -135,7 +148,7 @@ impl Segment {
             let (rise, t) = (values[1][k] - values[0][k], tangents.map(|t| t[k]));
             *weight = [values[0][k], t[0], 3.0 * rise - 2.0 * t[0] - t[1], t[0] + t[1] - 2.0 * rise];
         }
-        Self { nodes, len, weights, neighbours }
+        Self { nodes, len, weights, neighbours, is_flat }
     }
 
     /// What belongs to the point at `xi`, or straight on from there by `beyond`.
@@ -185,10 +198,7 @@ impl<const D: usize> Cubic<D> {
     /// The end beyond which the distance falls, if there is one other than that which the walk came `from`. If it falls
     /// beyond both, the point is farther away than the centre of curvature: the closer one.
     fn falls_beyond(&self, from: Option<usize>) -> Option<usize> {
-        let falls = |end: usize| {
-            let (slope, _) = self.slope(ENDS[end]);
-            from != Some(end) && if end == 0 { slope > 0.0 } else { slope < 0.0 }
-        };
+        let falls = |end: usize| from != Some(end) && self.falls(end);
         match [falls(0), falls(1)] {
             [false, false] => None,
             [true, false] => Some(0),
@@ -198,6 +208,12 @@ impl<const D: usize> Cubic<D> {
                 Some(usize::from(distance(1) < distance(0)))
             }
         }
+    }
+
+    /// Whether the distance falls beyond an end.
+    fn falls(&self, end: usize) -> bool {
+        let (slope, _) = self.slope(ENDS[end]);
+        if end == 0 { slope > 0.0 } else { slope < 0.0 }
     }
 
     /// How far from an end the straight line along its tangent is closest, in tangents.

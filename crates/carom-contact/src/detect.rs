@@ -4,7 +4,7 @@ use crate::edge::Crossing;
 use crate::frame::frame;
 use crate::path::Path;
 use crate::project::Reach;
-use crate::{Candidate, Contact, ContactModel, ContactSurface, Obstacle, Search, Site, Solid, Target};
+use crate::{Candidate, Contact, ContactModel, ContactSurface, Obstacle, Pair, Search, Site, Solid, Target};
 
 impl<const D: usize> ContactModel<D> {
     /// Finds the nodes that come within `margin` [m] of their target or are inside it, and the facets they face; of obstacles with corners also
@@ -25,10 +25,23 @@ impl<const D: usize> ContactModel<D> {
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
+        self.detect_among(|_| true, start, end, margin, search, out);
+    }
+
+    /// [`ContactModel::detect`] of the pairs that `count`.
+    pub fn detect_among(
+        &self,
+        count: impl Fn(&Pair) -> bool,
+        start: &impl Fn(u32) -> Vector<D>,
+        end: &impl Fn(u32) -> Vector<D>,
+        margin: f64,
+        search: &mut Search<D>,
+        out: &mut Vec<Candidate>,
+    ) {
         out.clear();
         let path = Path { start, end, margin };
-        search.sweep(self, &path);
-        for (p, pair) in self.pairs.iter().enumerate() {
+        search.sweep(self, &count, &path);
+        for (p, pair) in self.pairs.iter().enumerate().filter(|(_, pair)| count(pair)) {
             match pair.target {
                 Target::Obstacle(o) => match &self.obstacles[o].faceted {
                     None => self.detect_round(p, &self.obstacles[o], &path, out),
@@ -94,25 +107,6 @@ impl<const D: usize> ContactModel<D> {
         }
     }
 
-    /// Adds to the candidates `out` of [`ContactModel::detect`] those of nodes that were `known` before and are not among them, with the
-    /// facets that they faced then.
-    pub fn recall(
-        &self,
-        known: &[Candidate],
-        start: &impl Fn(u32) -> Vector<D>,
-        end: &impl Fn(u32) -> Vector<D>,
-        out: &mut Vec<Candidate>,
-    ) {
-        let found = out.len();
-        for candidate in known.iter().filter(|c| !self.is_mortar(c.pair as usize)) {
-            if out[..found].binary_search_by_key(&candidate.key(), Candidate::key).is_err() {
-                out.push(Candidate { redundant: false, ..*candidate });
-            }
-        }
-        out.sort_unstable();
-        self.mark_mirrored(&|n| (start(n) + end(n)) * 0.5, out);
-    }
-
     /// Gap, frame and stencil of a candidate where the nodes are at `position`.
     ///
     /// The normal row of the map from nodal to relative motion is the gradient of the gap. It is not half a facet or more
@@ -133,7 +127,9 @@ impl<const D: usize> ContactModel<D> {
                     let c = Crossing::new(source.map(position), target.map(position)).clamped();
                     Contact::of_crossing(&c, source, target)
                 }
-                _ => unreachable!("detect gives nodes before a surface their facet, and corners to obstacles"),
+                _ => {
+                    unreachable!("detect gives nodes before a surface their facet, and corners to obstacles")
+                }
             },
         }
     }

@@ -17,6 +17,7 @@ mod distance;
 mod edge;
 mod facing;
 mod frame;
+mod kept;
 mod manifold;
 mod model;
 mod mortar;

@@ -1,8 +1,9 @@
 use std::ops::Range;
 
+use carom_mesh::Vector;
 use serde::{Deserialize, Serialize};
 
-use crate::{ContactSurface, Obstacle};
+use crate::{Candidate, ContactSurface, Obstacle, Site};
 
 /// What a source surface is checked against.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,5 +65,35 @@ impl<const D: usize> ContactModel<D> {
         let before = self.pairs[..pair].iter().rev().take_while(|p| is_of_same(p)).count();
         let after = self.pairs[pair..].iter().take_while(|p| is_of_same(p)).count();
         pair - before..pair + after
+    }
+
+    /// Whether the facet of a candidate is one of the surface that it faces.
+    #[must_use]
+    pub fn has_facet(&self, candidate: &Candidate) -> bool {
+        let count = self.faced_surface(candidate).map_or(0, |surface| surface.facets.len());
+        candidate.facet.is_none_or(|f| (f as usize) < count)
+    }
+
+    /// The surface that a candidate faces a facet of.
+    pub(crate) fn faced_surface(&self, candidate: &Candidate) -> Option<&ContactSurface> {
+        let pair = &self.pairs[candidate.pair as usize];
+        match (candidate.site, pair.target) {
+            (Site::Corner(_), _) => Some(&self.surfaces[pair.source]),
+            (_, Target::Surface(t)) => Some(&self.surfaces[t]),
+            (_, Target::Obstacle(o)) => self.obstacles[o].faceted.as_ref().map(|f| &f.surface),
+        }
+    }
+
+    /// Where nodes, and the corners of the obstacle of a pair, are.
+    pub(crate) fn placed(
+        &self,
+        pair: u32,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> impl Fn(u32) -> Vector<D> {
+        let obstacle = match self.pairs[pair as usize].target {
+            Target::Obstacle(o) => Some(&self.obstacles[o]),
+            Target::Surface(_) => None,
+        };
+        move |n| obstacle.map_or_else(|| position(n), |obstacle| obstacle.placed(position)(n))
     }
 }

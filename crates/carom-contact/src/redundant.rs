@@ -5,7 +5,7 @@ use carom_mesh::Vector;
 use crate::edge::Crossing;
 use crate::project::{Reach, project};
 use crate::tolerances::{EDGES, SEARCH};
-use crate::{Candidate, ContactModel, ContactSurface, Site, Target};
+use crate::{Candidate, ContactModel, Site};
 
 impl<const D: usize> ContactModel<D> {
     /// Marks what other candidates say where nodes are at `position`.
@@ -121,29 +121,6 @@ impl<const D: usize> ContactModel<D> {
             }
             _ => false,
         }
-    }
-
-    /// The surface that a candidate faces a facet of.
-    fn faced_surface(&self, candidate: &Candidate) -> Option<&ContactSurface> {
-        let pair = &self.pairs[candidate.pair as usize];
-        match (candidate.site, pair.target) {
-            (Site::Corner(_), _) => Some(&self.surfaces[pair.source]),
-            (_, Target::Surface(t)) => Some(&self.surfaces[t]),
-            (_, Target::Obstacle(o)) => self.obstacles[o].faceted.as_ref().map(|f| &f.surface),
-        }
-    }
-
-    /// Where nodes, and the corners of the obstacle of a pair, are.
-    fn placed(
-        &self,
-        pair: u32,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> impl Fn(u32) -> Vector<D> {
-        let obstacle = match self.pairs[pair as usize].target {
-            Target::Obstacle(o) => Some(&self.obstacles[o]),
-            Target::Surface(_) => None,
-        };
-        move |n| obstacle.map_or_else(|| position(n), |obstacle| obstacle.placed(position)(n))
     }
 }
 

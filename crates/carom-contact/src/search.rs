@@ -82,28 +82,30 @@ impl<const D: usize> Search<D> {
         (swept, crossings)
     }
 
-    /// Boxes around all that moves along a `path` and belongs to a pair of `model`.
+    /// Boxes around all that moves along a `path` and belongs to a pair of `model` that `counts`.
     pub(crate) fn sweep<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &mut self,
         model: &ContactModel<D>,
+        counts: impl Fn(&Pair) -> bool,
         path: &Path<'_, D, S, E>,
     ) {
         self.surfaces.resize_with(model.surfaces.len(), Swept::default);
         self.obstacles.resize_with(model.obstacles.len(), Swept::default);
+        let pairs = || model.pairs.iter().filter(|p| counts(p));
         let is_faceted = |target: Target| match target {
             Target::Surface(_) => true,
             Target::Obstacle(o) => model.obstacles[o].faceted.is_some(),
         };
         for (s, (swept, surface)) in self.surfaces.iter_mut().zip(&model.surfaces).enumerate() {
             swept.forget();
-            if model.pairs.iter().any(|p| p.source == s && is_faceted(p.target)) {
+            if pairs().any(|p| p.source == s && is_faceted(p.target)) {
                 swept.sources = Aabb::of(surface.sources.iter().flat_map(|&n| path.ends(n)));
             }
             let is_faced = |p: &Pair| match p.target {
                 Target::Surface(t) => t == s,
                 Target::Obstacle(_) => p.source == s && is_faceted(p.target),
             };
-            if model.pairs.iter().any(is_faced) {
+            if pairs().any(is_faced) {
                 swept.sweep_facets(surface, path);
                 swept.whole = swept.facets.iter().fold(Aabb::of([]), |all, b| all.union(b));
             }
@@ -203,8 +205,7 @@ impl<const D: usize> Swept<D> {
     ) {
         self.facets.clear();
         let facets = 0..surface.facets.len() as u32;
-        self.facets
-            .extend(facets.map(|f| surface.bounds(f, path.start).union(&surface.bounds(f, path.end))));
+        self.facets.extend(facets.map(|f| surface.bounds(f, path.start).union(&surface.bounds(f, path.end))));
         self.is_swept = true;
     }
 
@@ -316,7 +317,7 @@ mod tests {
             let (mut tree, mut scan) = (Vec::new(), Vec::new());
             model.detect(&start, &end, 0.1, &mut search, &mut tree);
             let mut flat = Search::default();
-            flat.sweep(&model, &Path { start: &start, end: &end, margin: 0.1 });
+            flat.sweep(&model, |_| true, &Path { start: &start, end: &end, margin: 0.1 });
             for (swept, surface) in flat.surfaces.iter_mut().zip(&model.surfaces) {
                 swept.tree = Bvh::flat(surface.facets.iter().map(|_| Aabb::of([])));
             }

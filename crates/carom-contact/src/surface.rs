@@ -119,11 +119,8 @@ impl ContactSurface {
         mut self,
         reference: &impl Fn(u32) -> Vector<D>,
     ) -> Self {
-        let normals: Vec<Vector<D>> = self
-            .facets
-            .iter()
-            .map(|facet| normal(&Patch::new(facet, reference).middle().tangents))
-            .collect();
+        let normals: Vec<Vector<D>> =
+            self.facets.iter().map(|facet| normal(&Patch::new(facet, reference).middle().tangents)).collect();
         let turns = |around: &[u32]| {
             let of = |f: &u32| &normals[*f as usize];
             around.iter().any(|f| of(f).dot(of(&around[0])) < EDGES.flat)

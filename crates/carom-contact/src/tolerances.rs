@@ -11,6 +11,8 @@ pub(crate) struct SearchTolerances {
     pub beyond: f64,
     /// A node this close to lying on a facet, relative to its size, is not beside it.
     pub aligned: f64,
+    /// A contact that pressed is kept this far from its facet or beyond the edge of it, relative to its size.
+    pub kept: f64,
     /// Distances that differ by no more than this fraction of the size of the facet are equal.
     pub tie: f64,
     /// A node is checked once where it faces another that faces it, to this fraction of the facet.
@@ -35,6 +37,7 @@ pub(crate) const SEARCH: SearchTolerances = SearchTolerances {
     wall: 2.0,
     beyond: 0.5,
     aligned: 1e-6,
+    kept: 1e-4,
     tie: 1e-12,
     redundant: 0.02,
     alike: 0.9,

@@ -68,6 +68,8 @@ def audit_files(files: Files) -> Audit:
 
 def _check(files: Files, findings: Findings) -> None:
     model = files.model()
+    if any(a == b for a, b in (pair["between"] for pair in files.summary["pairs"])):
+        raise InputError("cannot audit a body in contact with itself yet")
     scales = Scales(model)
     frames = []
     for frame in files.frames():

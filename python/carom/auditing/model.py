@@ -97,8 +97,6 @@ class AuditModel:
         for entry in scenario.bodies:
             if not isinstance(entry.mesh, Disc | Rectangle):
                 raise InputError(f"cannot audit a mesh of the kind {entry.mesh.kind!r} yet")
-        if any(body.self_contact for body in scenario.bodies):
-            raise InputError("cannot audit a body in contact with itself yet")
         _refuse_what_is_driven(scenario)
         self.scenario = scenario
         self.points = points

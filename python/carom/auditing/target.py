@@ -16,6 +16,9 @@ CORNER = np.cos(np.radians(40)) - 1e-9
 """Cosine of the angle from which on a smooth target keeps its corner; the slack is for polygons
 whose angles are 40° up to round-off."""
 
+FLAT = np.cos(np.radians(1))
+"""Cosine of the angle up to which it is straight there, and where its facets are."""
+
 BEYOND = 0.5
 """How far a facet, or the end of a smooth part, reaches beyond its edge, in facets."""
 
@@ -83,7 +86,7 @@ class Target:
         """Weights of the four nodes in the coefficients of 1, ξ, ξ², ξ³, [facet_count, 4, 4]."""
 
     def _join(self, facets: Indices, points: Array, tangents: Array) -> None:
-        """Give facets that meet without a corner the tangent of a parabola through three nodes.
+        """Give facets that meet at an angle, but no corner, the tangent of a parabola through three nodes.
 
         Its parameter is the distance of the nodes in the reference configuration (Catmull–Rom).
         """
@@ -98,7 +101,8 @@ class Target:
                 g = (before, after)[end].get(node)
                 if around[node] != 2 or g is None:
                     continue
-                if chords[f] @ chords[g] < CORNER * lengths[f] * lengths[g]:
+                turn = chords[f] @ chords[g] / (lengths[f] * lengths[g])
+                if turn < CORNER or turn > FLAT:
                     continue
                 # Slopes of both chords, each weighted by the length of the other.
                 own = lengths[g] / (lengths[f] + lengths[g])

@@ -37,7 +37,8 @@ class Body(Description):
     contact_sets
         Sets of facets that may touch others, such as the sides of a rectangle; None for all.
     self_contact
-        Whether the body may touch itself: its nodes its own facets, but those close to them.
+        Whether the body may touch itself: its nodes its own facets, but those close to them. None: it
+        may, and is looked at once it has deformed enough to come near itself.
     velocity
         Initial velocity of the centre of mass [m/s], shape [D]; None is none.
     spin
@@ -52,7 +53,7 @@ class Body(Description):
     mass: Literal["consistent", "lumped"] = "consistent"
     mesh: Mesh
     contact_sets: tuple[str, ...] | None = None
-    self_contact: Annotated[bool, Field(strict=True)] = False
+    self_contact: Annotated[bool | None, Field(strict=True)] = None
     velocity: Vector | None = None
     spin: Number | SpaceVector | None = None
 

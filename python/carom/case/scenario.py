@@ -205,7 +205,7 @@ class Scenario(Description):
     @model_validator(mode="after")
     def _pairs_exist_once(self) -> Self:
         obstacles = {obstacle.name for obstacle in self.obstacles}
-        touch_themselves = {body.name for body in self.bodies if body.self_contact}
+        touch_themselves = {body.name for body in self.bodies if body.self_contact is not False}
         names = [body.name for body in self.bodies] + sorted(obstacles)
         first_use: dict[frozenset[str], str] = {}
         for index, pair in enumerate(self.contact.pairs):
@@ -217,7 +217,7 @@ class Scenario(Description):
             two = frozenset(pair.between)
             if len(two) == 1 and two.isdisjoint(touch_themselves):
                 raise problem(
-                    "must be two different names, unless the body has self_contact = true",
+                    "must be two different names, as the body has self_contact = false",
                     key=key,
                     value=pair.between,
                 )

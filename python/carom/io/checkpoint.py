@@ -145,6 +145,8 @@ def _unpacked(content: bytes, path: Path) -> Checkpoint:
             f"{path}: has schema {schema}, this version reads {CHECKPOINT_SCHEMA}; go on with the "
             "version that wrote it, or start again with --force"
         )
+    if content != signed(content):
+        raise DamagedError(f"{path} is damaged: its first line is another")
     try:
         with h5py.File(io.BytesIO(content), "r") as file:
             version = str(file.attrs["version"])

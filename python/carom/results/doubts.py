@@ -121,7 +121,7 @@ def depth_of(worst: Mapping[str, Any]) -> str:
     who = f"{first} was" if first == second else f"{first} and {second} were"
     whom = "itself" if first == second else "one another"
     remedy = (
-        "give it self_contact"
+        "let it touch itself, bodies.self_contact = true"
         if first == second
         else 'have the nodes of both bodies checked, contact.sources = "both"'
     )

@@ -130,7 +130,6 @@ BAD = [
     ("contact.friction", -0.1, "contact.friction = -0.1: must be at least 0"),
     ("contact.solver", {"kind": "nlgs"}, 'contact.solver.kind = "nlgs": must be \''),
     ("contact.pairs.0.between", ["left", "flor"], 'no such body or obstacle; did you mean "floor"'),
-    ("contact.pairs.0.between", ["left", "left"], "must be two different names"),
     ("title", 5, "title = 5: must be a string"),
     (
         "dimension",
@@ -298,6 +297,16 @@ def test_two_obstacles_are_no_pair(box):
     box["obstacles"].append({"name": "west", "kind": "plane", "point": [0, 0], "normal": [1, 0]})
     box["contact"]["pairs"] = [{"between": ["floor", "west"]}]
     with pytest.raises(InputError, match=r"contact\.pairs\.0\.between .*two obstacles never touch"):
+        Scenario.from_dict(box)
+
+
+def test_a_body_that_may_not_touch_itself_is_no_pair(box):
+    box["contact"]["pairs"] = [{"between": ["left", "left"]}]
+    Scenario.from_dict(box)
+    box["bodies"][0]["self_contact"] = False
+    with pytest.raises(
+        InputError, match=r"contact\.pairs\.0\.between .*must be two different names"
+    ):
         Scenario.from_dict(box)
 
 

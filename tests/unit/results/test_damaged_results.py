@@ -169,7 +169,6 @@ def test_bodies_that_are_swapped_in_the_mesh_cannot_be_audited(results):
 
 CANNOT = [
     ("bodies.0.hypothesis=plane-stress", "cannot audit a body in 'plane-stress' yet"),
-    ("bodies.0.self_contact=true", "cannot audit a body in contact with itself yet"),
     ("materials.elastic.viscosity={shear=1.0}", "cannot audit a material with viscosity yet"),
     (
         'materials.elastic={kind="yeoh",c10=1.0,bulk=9.0,density=1.0}',
@@ -202,6 +201,15 @@ def test_what_the_auditor_does_not_know_is_named(results, override, message):
     with pytest.raises(InputError) as caught:
         carom.audit(results)
     assert str(caught.value) == message
+
+
+def test_a_body_that_touched_itself_cannot_be_audited(results):
+    path = results / "summary.json"
+    summary = json.loads(path.read_text())
+    summary["pairs"].append({**summary["pairs"][0], "between": ["left", "left"]})
+    path.write_text(json.dumps(summary))
+    with pytest.raises(InputError, match="cannot audit a body in contact with itself yet"):
+        carom.audit(results)
 
 
 def test_a_case_in_space_cannot_be_audited(results):

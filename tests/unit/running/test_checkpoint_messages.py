@@ -42,7 +42,7 @@ BAD = [
         more(1, 0, 1),
         "cross_checks/time_of_max: is missing where answers differ",
     ),
-    ("schema", first(99), "schema: is 99, this version reads 5"),
+    ("schema", first(99), "schema: is 99, this version reads 6"),
     ("schema", lambda a: a.astype(np.float32), "schema: neither float64 nor uint64 in one dimens"),
     ("run/step", first(10**9), "run/step: is beyond the end of the run"),
     ("run/halvings", first(2**40), "run/halvings: is too large a number"),

@@ -25,8 +25,23 @@ PLATE = {"name": "plate", "mesh": {"corner": [-0.5, 0.31], "size": [1.0, 0.2], "
 POST = {"name": "post", "corner": [-0.08, 0.0], "size": [0.16, 0.3]}
 
 
-def test_a_plate_impaled_on_a_post_does_not_complete(tmp_path):
-    scenario = case({**PLATE, "velocity": [0.0, -1.0]}, POST, end_time=0.05, time_step=1e-3)
+def test_a_plate_comes_to_rest_on_a_post_between_its_nodes(tmp_path):
+    damped = {**MATERIAL, "damping": {"mass": 20.0, "stiffness": 1e-3}}
+    scenario = case(PLATE, POST, end_time=1.0, time_step=2e-3, gravity=[0.0, -9.81])
+    scenario = scenario.model_copy(
+        update={"materials": {"m": carom.SaintVenantKirchhoff(**damped)}}
+    )
+    summary = carom.run(scenario, out=tmp_path).summary
+    history = Result.open(tmp_path).history
+    assert summary["penetration"]["max_depth"] < 1e-14
+    weight = 1.0 * 0.2 * 1000.0 * 9.81
+    assert history["normal_force"][-1] == pytest.approx(weight, rel=1e-3)
+    assert history["kinetic"][-1] < 1e-6
+
+
+def test_a_plate_whose_sole_touches_nothing_does_not_complete(tmp_path):
+    plate = {**PLATE, "velocity": [0.0, -1.0], "contact_sets": ["top"]}
+    scenario = case(plate, POST, end_time=0.05, time_step=1e-3)
     words = "plate and post were up to .* m inside one another at t = .*penetration_tolerance"
     with (
         pytest.warns(carom.CaromWarning, match="inside one another"),

@@ -24,16 +24,14 @@ impl<const D: usize> Faceted<D> {
         let (corners, facets) = match shape {
             RigidShape::Box { corner, size } => (box_corners(corner, size), box_facets(D)),
             RigidShape::Surface(surface) => (surface.vertices().to_vec(), surface.facets().to_vec()),
-            RigidShape::Plane { .. } | RigidShape::Sphere { .. } | RigidShape::Cylinder { .. } => return None,
+            RigidShape::Plane { .. } | RigidShape::Sphere { .. } | RigidShape::Cylinder { .. } => {
+                return None;
+            }
         };
         let at = |n: u32| corners[(n - first) as usize];
         let surface = ContactSurface::new(&Surface::of_facets(facets, &[]), first);
         let surface = surface.edged(&at).without_flat_sources(&at);
         Some(Self { surface, bounds: Aabb::of(corners.iter().copied()), corners, first })
-    }
-
-    pub fn corners(&self) -> &[Vector<D>] {
-        &self.corners
     }
 
     /// Where a corner is before the obstacle has moved [m]; none if the number is that of a node.

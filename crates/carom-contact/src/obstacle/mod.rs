@@ -96,10 +96,10 @@ impl<const D: usize> Obstacle<D> {
         self.gap(x, position).0 <= margin
     }
 
-    /// Where its corners are [m] when it has not moved.
+    /// Whether it has corners, and facets between them.
     #[must_use]
-    pub fn corners(&self) -> &[Vector<D>] {
-        self.faceted.as_ref().map_or(&[], |f| f.corners())
+    pub fn has_corners(&self) -> bool {
+        self.faceted.is_some()
     }
 
     /// Whether a corner of the obstacle has this number.

@@ -65,7 +65,11 @@ pub(super) fn may_touch(scenario: &Scenario, name: &str) -> bool {
         };
         scenario.contact.pairs.iter().find(between).is_none_or(|p| p.enabled)
     };
-    let others = scenario.bodies.iter().filter(|b| b.name != name || b.self_contact).map(|b| b.name.as_str());
+    let others = scenario
+        .bodies
+        .iter()
+        .filter(|b| b.name != name || b.self_contact == Some(true))
+        .map(|b| b.name.as_str());
     others.chain(scenario.obstacles.iter().map(|o| o.name.as_str())).any(enabled)
 }
 

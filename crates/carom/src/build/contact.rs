@@ -39,7 +39,8 @@ pub(super) fn contact<const D: usize>(
         if scenario.contact.targets == Targets::Smooth {
             surface = surface.smoothed(&reference);
         }
-        model.surfaces.push(if entry.self_contact { surface.touching_itself(&reference) } else { surface });
+        let touches_itself = entry.self_contact != Some(false);
+        model.surfaces.push(if touches_itself { surface.touching_itself(&reference) } else { surface });
     }
     for (i, entry) in scenario.obstacles.iter().enumerate() {
         let key = format!("obstacles.{i}");
@@ -52,7 +53,8 @@ pub(super) fn contact<const D: usize>(
     let obstacle_names: Vec<&str> = scenario.obstacles.iter().map(|o| o.name.as_str()).collect();
     for (a, &first) in names.iter().enumerate() {
         let others = names.iter().enumerate().skip(a).map(|(b, &name)| (Target::Surface(b), name));
-        let others = others.filter(|&(t, _)| t != Target::Surface(a) || scenario.bodies[a].self_contact);
+        let others = others
+            .filter(|&(t, _)| t != Target::Surface(a) || scenario.bodies[a].self_contact != Some(false));
         let obstacles = obstacle_names.iter().enumerate().map(|(o, &name)| (Target::Obstacle(o), name));
         for (target, second) in others.chain(obstacles) {
             let found = scenario.contact.pairs.iter().enumerate().find(|(_, p)| {

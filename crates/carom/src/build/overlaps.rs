@@ -1,4 +1,4 @@
-use carom_contact::{Candidate, Pair, RigidShape, Search, Site, Target};
+use carom_contact::{Candidate, Pair, Penetration, RigidShape, Search, Site, Solid, Target};
 use carom_mesh::Vector;
 
 use super::values::place;
@@ -72,29 +72,36 @@ pub(super) fn check_overlaps<const D: usize>(
     check_crossings(model)
 }
 
-/// Refuses bodies that corners of obstacles are inside of.
+/// Refuses bodies that corners and edges of obstacles are inside of, where no node need be inside the obstacle.
 fn check_corners<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Result<(), InputError> {
-    let contact = &model.assembly.contact;
-    let at = |n: u32| model.assembly.reference[n as usize];
-    for pair in &contact.pairs {
-        let Target::Obstacle(o) = pair.target else { continue };
-        let corners = contact.obstacles[o].corners().iter().copied();
-        let Some(closest) = contact.closest(corners, Target::Surface(pair.source), &at) else { continue };
-        let body = &model.bodies[pair.source];
-        if closest.gap < -TOUCHING * body.body.mesh().smallest_edge() {
-            return Err(InputError::new(
-                format!("bodies.{}.mesh", pair.source),
-                format!(
-                    "obstacle {:?} overlaps body {:?} at the start: its corner at {} is {:.6} m inside; move one of them",
-                    scenario.obstacles[o].name,
-                    body.name,
-                    place(&closest.at),
-                    -closest.gap
-                ),
-            ));
+    let assembly = &model.assembly;
+    let obstacles = &assembly.contact.obstacles;
+    let at = |n: u32| assembly.reference[n as usize];
+    let counts = |between: [Solid; 2]| match between {
+        [Solid::Body(_), Solid::Obstacle(o)] | [Solid::Obstacle(o), Solid::Body(_)] => {
+            obstacles[o].has_corners() && assembly.must_not_overlap(between)
         }
-    }
-    Ok(())
+        _ => false,
+    };
+    let mut refused = None;
+    assembly.boundaries.clone().measure(obstacles, counts, &at, |Penetration { depth, at, between, .. }| {
+        let [Solid::Body(i), Solid::Obstacle(o)] = between else { return };
+        let body = &model.bodies[i];
+        if depth > TOUCHING * body.body.mesh().smallest_edge() {
+            refused.get_or_insert_with(|| {
+                InputError::new(
+                    format!("bodies.{i}.mesh"),
+                    format!(
+                        "obstacle {:?} overlaps body {:?} at the start: near {} it is {depth:.6} m inside; move one of them",
+                        scenario.obstacles[o].name,
+                        body.name,
+                        place(&at),
+                    ),
+                )
+            });
+        }
+    });
+    refused.map_or(Ok(()), Err)
 }
 
 /// Refuses bodies of which edges have passed one another, though no node of one may be inside the other.

@@ -38,6 +38,8 @@ struct Reactions<const D: usize> {
     pair: Vec<u32>,
     /// As of [`to_nodes`].
     site: Vec<[u32; 4]>,
+    /// `u32::MAX` for none.
+    facet: Vec<u32>,
     force: Vec<Vector<D>>,
     gap: Vec<f64>,
     area: Vec<f64>,
@@ -80,6 +82,7 @@ impl<const D: usize> Reactions<D> {
         Self {
             pair: reactions.iter().map(|r| r.pair).collect(),
             site: reactions.iter().map(|r| to_nodes(r.site)).collect(),
+            facet: reactions.iter().map(|r| r.facet.unwrap_or(u32::MAX)).collect(),
             force: reactions.iter().map(|r| r.force).collect(),
             gap: contacts().map(|c| c.gap).collect(),
             area: contacts().map(|c| c.area).collect(),
@@ -97,6 +100,7 @@ impl<const D: usize> Reactions<D> {
         let entries = archive.rows(&name("stencil_node"), self.stencil_node.len())?;
         self.pair.resize(count, 0);
         self.site.resize(count, [0; 4]);
+        self.facet.resize(count, 0);
         self.force.resize(count, Vector::zeros());
         self.gap.resize(count, 0.0);
         self.area.resize(count, 0.0);
@@ -107,6 +111,7 @@ impl<const D: usize> Reactions<D> {
         self.stencil_weight.resize(entries, 0.0);
         archive.integers(&name("pair"), &mut self.pair)?;
         archive.integers(&name("site"), self.site.as_flattened_mut())?;
+        archive.integers(&name("facet"), &mut self.facet)?;
         archive.vectors(&name("force"), &mut self.force)?;
         archive.numbers(&name("gap"), &mut self.gap)?;
         archive.numbers(&name("area"), &mut self.area)?;
@@ -141,12 +146,16 @@ impl<const D: usize> Reactions<D> {
             let pair = self.pair[k];
             let site = to_site(assembly, pair, self.site[k]);
             let site = site.ok_or_else(|| wrong("site", "names a node that is not there"))?;
-            reactions.push(Reaction { pair, site, contact, force: self.force[k] });
+            let facet = Some(self.facet[k]).filter(|&f| f != u32::MAX);
+            let reaction = Reaction { pair, site, facet, contact, force: self.force[k] };
+            reactions.push(reaction);
         }
-        if reactions.is_sorted_by_key(Reaction::key) {
-            Ok(reactions)
-        } else {
-            Err(wrong("site", "is not ascending"))
+        if !reactions.is_sorted_by_key(Reaction::key) {
+            return Err(wrong("site", "is not ascending"));
         }
+        if !reactions.iter().all(|r| assembly.contact.has_facet(&r.candidate())) {
+            return Err(wrong("facet", "names a facet that is not there"));
+        }
+        Ok(reactions)
     }
 }

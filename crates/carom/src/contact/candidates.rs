@@ -1,17 +1,19 @@
 //! Which contacts there may be in a step.
 
-use carom_contact::{Candidate, Contact, Mortar, Search};
+use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Target};
 use carom_mesh::Vector;
 
 use super::active::ActiveSet;
 use super::control::CONTROL;
 use crate::model::given::Given;
-use crate::model::state::State;
+use crate::model::state::{Reaction, State};
 
 /// Finds candidates, and sees afterwards whether one was missed.
 #[derive(Debug, Default)]
 pub(crate) struct Finder<const D: usize> {
     pub search: Search<D>,
+    /// Bodies that are so far from touching themselves that they are not searched for it.
+    pub asleep: Vec<bool>,
     /// All that the search found, ascending.
     found: Vec<Candidate>,
     missed: Vec<Candidate>,
@@ -20,6 +22,11 @@ pub(crate) struct Finder<const D: usize> {
 }
 
 impl<const D: usize> Finder<D> {
+    /// Of so many bodies, all awake.
+    pub fn new(bodies: usize) -> Self {
+        Self { asleep: vec![false; bodies], ..Self::default() }
+    }
+
     /// Finds the candidates of the step between its start and the predicted end. Another time it searches between its start and where it
     /// led to, beside those already found and those missed there.
     ///
@@ -36,7 +43,12 @@ impl<const D: usize> Finder<D> {
         let start = |n: u32| given.position(n);
         let end = |n: u32| start(n) + motion[n as usize];
         let (contact, candidates) = (&given.assembly.contact, &mut active.candidates);
-        contact.detect(&start, &end, margin, &mut self.search, candidates);
+        let Self { search, asleep, .. } = self;
+        contact.detect_among(|p| !is_asleep(asleep, p), &start, &end, margin, search, candidates);
+        let pressed = given.state.reactions.iter().map(Reaction::candidate);
+        self.missed.clear();
+        self.missed.extend(pressed.filter(|c| contact.still_touches(c, &start)));
+        contact.recall(&self.missed, &start, &end, candidates);
         if repetition > 0 {
             contact.recall(&self.found, &start, &end, candidates);
         }
@@ -55,8 +67,8 @@ impl<const D: usize> Finder<D> {
         }
         let assembly = given.assembly;
         let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
-        let Self { search, found, missed, missed_mortar, missed_contacts } = self;
-        assembly.contact.detect(&end, &end, 0.0, search, missed);
+        let Self { search, asleep, found, missed, missed_mortar, missed_contacts } = self;
+        assembly.contact.detect_among(|p| !is_asleep(asleep, p), &end, &end, 0.0, search, missed);
         assembly.contact.detect_mortar(&end, &end, 0.0, missed_mortar, missed);
         missed.retain(|m| found.binary_search_by_key(&m.key(), Candidate::key).is_err());
         assembly.contact.evaluate_all(missed, &end, missed_mortar, missed_contacts);
@@ -67,4 +79,23 @@ impl<const D: usize> Finder<D> {
         }
         missed_one
     }
+
+    /// Whether a `body` is somewhere within `reach` [m] of itself where the nodes are at `position`.
+    pub fn comes_near_itself(
+        &mut self,
+        given: &Given<'_, D>,
+        body: usize,
+        reach: f64,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> bool {
+        let is_own = |p: &Pair| p.source == body && p.target == Target::Surface(body);
+        let Self { search, missed, .. } = self;
+        given.assembly.contact.detect_among(is_own, position, position, reach, search, missed);
+        !self.missed.is_empty()
+    }
+}
+
+/// Whether a pair is that of a body with itself which is not looked at.
+fn is_asleep(asleep: &[bool], pair: &Pair) -> bool {
+    pair.target == Target::Surface(pair.source) && asleep.get(pair.source).is_some_and(|asleep| *asleep)
 }

@@ -15,6 +15,14 @@ pub struct NamedPair {
     pub friction: f64,
 }
 
+impl NamedPair {
+    /// Whether it is that of a body with itself.
+    #[must_use]
+    pub fn is_of_one_body(&self) -> bool {
+        self.between[0] == self.between[1]
+    }
+}
+
 /// A body as the others see it: a name and places.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Member<const D: usize> {
@@ -78,8 +86,9 @@ impl<const D: usize> Assembly<D> {
         let count: usize = members.iter().map(|m| m.reference.len()).sum();
         let obstacles = contact.obstacles.len();
         let numbered = contact.obstacles.into_iter().enumerate();
-        contact.obstacles =
-            numbered.map(|(o, obstacle)| obstacle.numbered((count + o) as u32, (count + obstacles) as u32)).collect();
+        contact.obstacles = numbered
+            .map(|(o, obstacle)| obstacle.numbered((count + o) as u32, (count + obstacles) as u32))
+            .collect();
         let boundaries: Vec<Surface> = members.iter().map(|m| m.boundary.clone()).collect();
         let may_meet = contact.pairs.iter().map(between).collect();
         let mut assembly = Self {

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use carom_contact::{Contact, Site};
+use carom_contact::{Candidate, Contact, Site};
 use carom_fem::material::PlasticState;
 use carom_mesh::{Vector, nodal};
 
@@ -15,6 +15,8 @@ pub struct Reaction<const D: usize> {
     pub pair: u32,
     /// Where between the two.
     pub site: Site,
+    /// The facet that the node or corner faced.
+    pub facet: Option<u32>,
     /// Gap, frame and stencil where the contact condition was written.
     pub contact: Contact<D>,
     /// The reaction r [N] in that frame.
@@ -26,6 +28,12 @@ impl<const D: usize> Reaction<D> {
     #[must_use]
     pub fn key(&self) -> (u32, Site) {
         (self.pair, self.site)
+    }
+
+    /// The candidate that it was.
+    #[must_use]
+    pub fn candidate(&self) -> Candidate {
+        Candidate { pair: self.pair, site: self.site, facet: self.facet, redundant: false }
     }
 
     /// The source node; of an edge or a facet the one that takes most of the reaction.

@@ -87,7 +87,8 @@ pub(crate) fn describe<const D: usize>(
         .collect();
     let at = |n: u32| model.assembly.reference[n as usize] + state.displacement[n as usize];
     let mut pairs: Vec<PairDescription> = Vec::new();
-    for (g, pair) in model.assembly.named_pairs.iter().enumerate() {
+    for (g, pair) in model.assembly.named_pairs.iter().enumerate().filter(|(_, pair)| !pair.is_of_one_body())
+    {
         let closest = model
             .assembly
             .contact

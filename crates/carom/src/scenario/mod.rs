@@ -151,9 +151,9 @@ pub struct BodyEntry {
     /// Sets of facets that may touch others; the whole boundary if not given.
     #[serde(default)]
     pub contact_sets: Option<Vec<String>>,
-    /// Whether the body may touch itself.
+    /// Whether the body may touch itself; it may if not given.
     #[serde(default)]
-    pub self_contact: bool,
+    pub self_contact: Option<bool>,
     /// Initial velocity [m/s]; none if not given.
     #[serde(default)]
     pub velocity: Option<Vec<f64>>,

@@ -92,8 +92,8 @@ fn keep_contacts<const D: usize>(
         contact.add_force(&r, &mut next.contact_force);
         if r[0] > 0.0 {
             report.contacts += 1;
-            let Candidate { pair, site, .. } = *candidate;
-            next.reactions.push(Reaction { pair, site, contact: contact.clone(), force: r });
+            let Candidate { pair, site, facet, .. } = *candidate;
+            next.reactions.push(Reaction { pair, site, facet, contact: contact.clone(), force: r });
         }
     }
 }

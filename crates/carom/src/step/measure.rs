@@ -4,13 +4,11 @@ use carom_contact::{Penetration, Solid};
 use carom_mesh::nodal;
 
 use super::report::{Inside, PenetrationReport};
+use super::waking::wander;
 use super::workspace::Workspace;
 use crate::error::StepError;
 use crate::model::given::Given;
 use crate::model::state::State;
-
-/// How far the nodes of a body may move against one another before it is looked for itself, in diameters of its smallest facet.
-const UNSEEN: f64 = 0.05;
 
 /// Measures all boundaries at the end of the step and, where nodes move by more than half a cell past what they may touch, on the way there.
 ///
@@ -64,19 +62,5 @@ pub(super) fn measure<const D: usize>(
             report.worst = Some(Inside { between, depth, cell, arcs, at: place });
         }
     });
-    // Who is in itself is looked at again in the next step.
-    let clear = since_look.iter_mut().zip(in_itself).filter(|(look, in_itself)| look.is_due && !**in_itself);
-    clear.for_each(|(look, _)| look.wandered = 0.0);
     Ok(report)
-}
-
-/// Takes note of how far nodes have wandered, and which bodies may have gone through themselves since they were looked at.
-fn wander<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) {
-    let Workspace { motion, since_look, boundaries, .. } = work;
-    for (i, look) in since_look.iter_mut().enumerate() {
-        let motion = &motion[given.assembly.nodes(i)];
-        let mean = nodal::total(motion) / motion.len().max(1) as f64;
-        look.wandered += motion.iter().map(|d| (d - mean).norm_squared()).fold(0.0, f64::max).sqrt();
-        look.is_due = look.wandered > UNSEEN * boundaries.least_cell(i);
-    }
 }

@@ -10,6 +10,7 @@ mod newton;
 pub(crate) mod report;
 mod settling;
 mod since_look;
+mod waking;
 pub(crate) mod workspace;
 
 use carom_mesh::{Vector, nodal};
@@ -18,6 +19,7 @@ use self::commit::commit;
 use self::iterate::iterate;
 use self::measure::measure;
 use self::report::StepReport;
+use self::waking::wake;
 use self::workspace::Workspace;
 use crate::body::Body;
 use crate::contact::cross_check::cross_check;
@@ -73,6 +75,9 @@ pub fn step<const D: usize>(
         if !work.contacts.finder.missed_one(&given, next) {
             let report = commit(&given, next, work, iterations)?;
             let penetration = measure(&given, next, work)?;
+            if wake(&given, next, work) {
+                continue;
+            }
             let cross_check = cross_check(&given, &work.contacts);
             let travel = nodal::largest(&work.motion[..assembly.node_count()]);
             return Ok(StepReport { penetration, travel, cross_check, ..report });

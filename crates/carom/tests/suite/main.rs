@@ -6,6 +6,7 @@ mod conservation;
 mod contact_patch;
 mod contact_problems;
 mod contact_search;
+mod corners;
 mod curved_obstacles;
 mod driven_bodies;
 mod edges;

@@ -61,6 +61,8 @@ fn thrown<const D: usize>(place: Place, low: [f64; D], velocity: [f64; D], mut o
     case["analysis"]["newton"]["tolerance"] = json!(1e-11);
     case["contact"]["condition"] = json!("midpoint");
     case["contact"]["friction"] = json!(0.2);
+    // Corners and edges make many contacts of few nodes: W is nearly singular.
+    case["contact"]["solver"]["tolerance"] = json!(1e-15);
     let mut simulation = Simulation::<D>::new(&parse(&case)).expect("a valid case");
     simulation.advance(f64::INFINITY, || false).expect("converges");
     simulation.summary()
@@ -189,8 +191,8 @@ fn assert_same(here: &[(&str, Summary)], there: &[(&str, Summary)], what: &str) 
             [s.energy.terms.strain, s.energy.terms.friction, s.contacts[0].onset, s.contacts[0].peak_force]
         };
         for (x, y) in of(a).into_iter().zip(of(b)) {
-            // Measured: 4e-10 of 0.012 J, where 10 J move.
-            assert!((x - y).abs() < 1e-8 * x.abs().max(0.1), "{kind}, {what}: {x} became {y}");
+            // 0.25 J move; measured 1e-9 of it at coordinates of 40 m, before corners.
+            assert!((x - y).abs() < 1e-8 * x.abs().max(0.25), "{kind}, {what}: {x} became {y}");
         }
     }
 }

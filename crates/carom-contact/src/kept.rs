@@ -1,0 +1,56 @@
+//! Candidates that were known before.
+
+use carom_mesh::Vector;
+
+use crate::edge::Crossing;
+use crate::project::Reach;
+use crate::tolerances::{EDGES, SEARCH};
+use crate::{Candidate, ContactModel, Site};
+
+impl<const D: usize> ContactModel<D> {
+    /// Adds to the candidates `out` of [`ContactModel::detect`] those that were `known` before and are not among them, with the facets
+    /// that they faced then.
+    pub fn recall(
+        &self,
+        known: &[Candidate],
+        start: &impl Fn(u32) -> Vector<D>,
+        end: &impl Fn(u32) -> Vector<D>,
+        out: &mut Vec<Candidate>,
+    ) {
+        let found = out.len();
+        for candidate in known.iter().filter(|c| !self.is_mortar(c.pair as usize)) {
+            if out[..found].binary_search_by_key(&candidate.key(), Candidate::key).is_err() {
+                out.push(Candidate { redundant: false, ..*candidate });
+            }
+        }
+        if out.len() > found {
+            out.sort_unstable();
+            self.mark_mirrored(&|n| (start(n) + end(n)) * 0.5, out);
+        }
+    }
+
+    /// Whether a candidate that pressed before still touches what it faced, up to a little beyond the edge of that. There
+    /// the trembling of round-off would decide from step to step which of two nodes that face one another is found.
+    #[must_use]
+    pub fn still_touches(&self, candidate: &Candidate, position: &impl Fn(u32) -> Vector<D>) -> bool {
+        let position = &self.placed(candidate.pair, position);
+        match candidate.site {
+            Site::Node(node) | Site::Corner(node) => {
+                let faced = self.faced_surface(candidate).zip(candidate.facet);
+                faced.is_some_and(|(surface, f)| {
+                    let x = position(node);
+                    let near = SEARCH.kept * surface.bounds(f, position).diameter();
+                    (x - surface.project(f, &x, Reach::Facet, position).point).norm() <= near
+                })
+            }
+            Site::Crossing(source, target) => {
+                let [a, b] = [source.map(position), target.map(position)];
+                let length = (a[1] - a[0]).norm().min((b[1] - b[0]).norm());
+                let there = Crossing::new(a, b);
+                there.sine > EDGES.parallel
+                    && there.gap.abs() <= SEARCH.kept * length
+                    && there.reach().into_iter().all(|reach| reach >= -SEARCH.kept)
+            }
+        }
+    }
+}
