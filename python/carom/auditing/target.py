@@ -86,9 +86,10 @@ class Target:
         """Weights of the four nodes in the coefficients of 1, ξ, ξ², ξ³, [facet_count, 4, 4]."""
 
     def _join(self, facets: Indices, points: Array, tangents: Array) -> None:
-        """Give facets that meet at an angle, but no corner, the tangent of a parabola through three nodes.
+        """Give facets that meet at an angle, but no corner, the tangent of a parabola.
 
-        Its parameter is the distance of the nodes in the reference configuration (Catmull–Rom).
+        It goes through three nodes. Its parameter is the distance of the nodes in the reference
+        configuration (Catmull–Rom).
         """
         chords = points[facets[:, 1]] - points[facets[:, 0]]
         lengths = np.linalg.norm(chords, axis=1)

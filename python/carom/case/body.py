@@ -37,8 +37,8 @@ class Body(Description):
     contact_sets
         Sets of facets that may touch others, such as the sides of a rectangle; None for all.
     self_contact
-        Whether the body may touch itself: its nodes its own facets, but those close to them. None: it
-        may, and is looked at once it has deformed enough to come near itself.
+        Whether the body may touch itself: its nodes its own facets, but those close to them. It may
+        if nothing is said: a body that does not come near itself costs nothing.
     velocity
         Initial velocity of the centre of mass [m/s], shape [D]; None is none.
     spin

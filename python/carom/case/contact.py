@@ -65,7 +65,7 @@ class Pair(Description):
     Parameters
     ----------
     between
-        Names of two bodies, or of a body and an obstacle; twice that of a body for contact with itself.
+        Names of two bodies, or of a body and an obstacle; twice that of a body that touches itself.
     friction
         Coulomb's coefficient; None takes the default of `Contact`.
     sources

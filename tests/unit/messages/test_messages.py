@@ -304,9 +304,7 @@ def test_a_body_that_may_not_touch_itself_is_no_pair(box):
     box["contact"]["pairs"] = [{"between": ["left", "left"]}]
     Scenario.from_dict(box)
     box["bodies"][0]["self_contact"] = False
-    with pytest.raises(
-        InputError, match=r"contact\.pairs\.0\.between .*must be two different names"
-    ):
+    with pytest.raises(InputError, match=r"between .*must be two different names"):
         Scenario.from_dict(box)
 
 
