@@ -1,0 +1,145 @@
+"""Whether solids intersect, as geometry libraries see it that know nothing of carom.
+
+In the plane outlines are polygons of shapely, in space closed surfaces of manifold3d. A facet of
+four nodes that is not flat becomes 32 triangles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from manifold3d import Manifold, Mesh
+from shapely import Polygon, box
+
+import carom
+
+PIECES = 4
+"""Into how many parts the sides of a facet are cut."""
+
+FAR = 1e3
+"""How large a half space is drawn [m]."""
+
+
+class Judge:
+    """The solids of a scene."""
+
+    def __init__(self, scenario: carom.Scenario, surface: Mapping[str, Any]) -> None:
+        self._space = scenario.dimension == 3
+        self._facets = list(facets(surface))
+        self._obstacles = [self._obstacle(obstacle) for obstacle in scenario.obstacles]
+        self._moves = [obstacle.velocity for obstacle in scenario.obstacles]
+
+    def depth(self, x: np.ndarray) -> float:
+        """Return how thick the thickest intersection is [m]; infinite if a body crosses itself.
+
+        In the plane that is twice its area over its length, in space twice its volume over its
+        surface: the thickness of what is thin, and less than the depth of what is not.
+        """
+        bodies = [self._body(x, own) for own in self._facets]
+        if any(body is None for body in bodies):
+            return np.inf
+        solids = [*bodies, *self._obstacles]
+        pairs = ((a, b) for i, a in enumerate(bodies) for b in solids[i + 1 :])
+        return max((self._thickness(a, b) for a, b in pairs), default=0.0)
+
+    def blur(self, x: np.ndarray) -> float:
+        """Return what it cannot see [m]."""
+        return 2.0 * max(coarseness(x, own) for own in self._facets) if self._space else 0.0
+
+    def _body(self, x: np.ndarray, own: list[np.ndarray]) -> Any:
+        if not self._space:
+            polygon = Polygon(x[ring(own)])
+            return polygon if polygon.is_valid else None
+        return solid(x, own)
+
+    def _thickness(self, a: Any, b: Any) -> float:
+        if self._space:
+            parts = [part for part in (a ^ b).decompose() if part.volume() > 0.0]
+            return max((2.0 * part.volume() / part.surface_area() for part in parts), default=0.0)
+        common = a.intersection(b)
+        parts = [part for part in getattr(common, "geoms", [common]) if part.area > 0.0]
+        return max((2.0 * part.area / part.length for part in parts), default=0.0)
+
+    def _obstacle(self, obstacle: Any) -> Any:
+        if obstacle.kind == "box":
+            low, size = np.array(obstacle.corner), np.array(obstacle.size)
+            if self._space:
+                return Manifold.cube(tuple(size)).translate(tuple(low))
+            return box(*low, *(low + size))
+        if obstacle.kind == "plane":
+            return self._half_space(np.array(obstacle.point), np.array(obstacle.normal))
+        if obstacle.kind == "surface":
+            import trimesh
+
+            mesh = trimesh.load(obstacle.file)
+            return manifold(np.array(mesh.vertices), np.array(mesh.faces))
+        raise ValueError(obstacle.kind)
+
+    def _half_space(self, point: np.ndarray, normal: np.ndarray) -> Any:
+        normal = normal / np.linalg.norm(normal)
+        if self._space:
+            aside = np.linalg.svd(normal[None])[2][1:]
+            frame = np.stack([*aside, normal])
+            if np.linalg.det(frame) < 0:
+                frame[0] *= -1
+            cube = Manifold.cube((2 * FAR, 2 * FAR, FAR)).translate((-FAR, -FAR, -FAR))
+            return cube.transform(np.column_stack([frame.T, point]))
+        aside = np.array([-normal[1], normal[0]])
+        corners = [point + s * FAR * aside - d * FAR * normal for s, d in ((1, 0), (-1, 0), (-1, 1), (1, 1))]
+        return Polygon(corners)
+
+
+def facets(surface: Mapping[str, Any]) -> Iterator[list[np.ndarray]]:
+    """Yield the facets of every body, by their nodes."""
+    ends = surface["offsets"]
+    all_facets = [surface["connectivity"][a:b] for a, b in zip(ends[:-1], ends[1:], strict=True)]
+    for body in np.unique(surface["body"]):
+        yield [f for f, b in zip(all_facets, surface["body"], strict=True) if b == body]
+
+
+def ring(segments: list[np.ndarray]) -> np.ndarray:
+    """Return the nodes along the outline of a body."""
+    following = {int(a): int(b) for a, b in (s[:2] for s in segments)}
+    nodes = [next(iter(following))]
+    while (node := following[nodes[-1]]) != nodes[0]:
+        nodes.append(node)
+    return np.array(nodes)
+
+
+def solid(x: np.ndarray, own: list[np.ndarray]) -> Manifold:
+    """Return the body within facets."""
+    corners = [pieces(x[f]) for f in own]
+    points = np.concatenate(corners).reshape(-1, 3)
+    size = np.ptp(points, axis=0).max()
+    _, first, local = np.unique(
+        np.round(points / size, 12), axis=0, return_index=True, return_inverse=True
+    )
+    return manifold(points[first], local.reshape(-1, 3))
+
+
+def pieces(corners: np.ndarray) -> np.ndarray:
+    """Return the triangles of a facet, [count, 3, 3]."""
+    if len(corners) == 3:
+        return corners[None]
+    s = np.linspace(0.0, 1.0, PIECES + 1)
+    a, b = s[:, None, None], s[None, :, None]
+    p = corners
+    grid = (1 - a) * (1 - b) * p[0] + a * (1 - b) * p[1] + a * b * p[2] + (1 - a) * b * p[3]
+    low, right, far, up = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
+    triangles = np.stack([np.stack([low, right, far], 2), np.stack([low, far, up], 2)], 2)
+    return triangles.reshape(-1, 3, 3)
+
+
+def coarseness(x: np.ndarray, own: list[np.ndarray]) -> float:
+    """Return how far the triangles are from facets that are not flat, at most [m]."""
+    warps = [np.linalg.norm(x[f[0]] - x[f[1]] + x[f[2]] - x[f[3]]) for f in own if len(f) == 4]
+    return max(warps, default=0.0) / (4 * PIECES**2)
+
+
+def manifold(vertices: np.ndarray, triangles: np.ndarray) -> Manifold:
+    """Return a body of triangles, in double precision."""
+    from manifold3d import Mesh64
+
+    return Manifold(Mesh64(vert_properties=np.asarray(vertices, float), tri_verts=np.asarray(triangles, np.uint64)))
