@@ -7,13 +7,19 @@ four nodes that is not flat becomes 32 triangles.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from typing import Any
 
+import meshio
 import numpy as np
-from manifold3d import Manifold, Mesh
-from shapely import Polygon, box
 
 import carom
+
+try:
+    from manifold3d import Manifold, Mesh64
+    from shapely import Polygon, box
+except ImportError:
+    Manifold = None
 
 PIECES = 4
 """Into how many parts the sides of a facet are cut."""
@@ -26,6 +32,8 @@ class Judge:
     """The solids of a scene."""
 
     def __init__(self, scenario: carom.Scenario, surface: Mapping[str, Any]) -> None:
+        if Manifold is None:
+            raise SystemExit("a library is not installed: pip install shapely manifold3d")
         self._space = scenario.dimension == 3
         self._facets = list(facets(surface))
         self._obstacles = [self._obstacle(obstacle) for obstacle in scenario.obstacles]
@@ -71,10 +79,9 @@ class Judge:
         if obstacle.kind == "plane":
             return self._half_space(np.array(obstacle.point), np.array(obstacle.normal))
         if obstacle.kind == "surface":
-            import trimesh
-
-            mesh = trimesh.load(obstacle.file)
-            return manifold(np.array(mesh.vertices), np.array(mesh.faces))
+            mesh = meshio.read(obstacle.file)
+            points, local = np.unique(mesh.points, axis=0, return_inverse=True)
+            return manifold(points, local.reshape(-1)[mesh.cells_dict["triangle"]])
         raise ValueError(obstacle.kind)
 
     def _half_space(self, point: np.ndarray, normal: np.ndarray) -> Any:
@@ -87,14 +94,14 @@ class Judge:
             cube = Manifold.cube((2 * FAR, 2 * FAR, FAR)).translate((-FAR, -FAR, -FAR))
             return cube.transform(np.column_stack([frame.T, point]))
         aside = np.array([-normal[1], normal[0]])
-        corners = [point + s * FAR * aside - d * FAR * normal for s, d in ((1, 0), (-1, 0), (-1, 1), (1, 1))]
-        return Polygon(corners)
+        ways = ((1, 0), (-1, 0), (-1, 1), (1, 1))
+        return Polygon([point + FAR * (s * aside - d * normal) for s, d in ways])
 
 
 def facets(surface: Mapping[str, Any]) -> Iterator[list[np.ndarray]]:
     """Yield the facets of every body, by their nodes."""
     ends = surface["offsets"]
-    all_facets = [surface["connectivity"][a:b] for a, b in zip(ends[:-1], ends[1:], strict=True)]
+    all_facets = [surface["connectivity"][a:b] for a, b in pairwise(ends)]
     for body in np.unique(surface["body"]):
         yield [f for f, b in zip(all_facets, surface["body"], strict=True) if b == body]
 
@@ -108,7 +115,7 @@ def ring(segments: list[np.ndarray]) -> np.ndarray:
     return np.array(nodes)
 
 
-def solid(x: np.ndarray, own: list[np.ndarray]) -> Manifold:
+def solid(x: np.ndarray, own: list[np.ndarray]) -> Any:
     """Return the body within facets."""
     corners = [pieces(x[f]) for f in own]
     points = np.concatenate(corners).reshape(-1, 3)
@@ -138,8 +145,9 @@ def coarseness(x: np.ndarray, own: list[np.ndarray]) -> float:
     return max(warps, default=0.0) / (4 * PIECES**2)
 
 
-def manifold(vertices: np.ndarray, triangles: np.ndarray) -> Manifold:
+def manifold(vertices: np.ndarray, triangles: np.ndarray) -> Any:
     """Return a body of triangles, in double precision."""
-    from manifold3d import Mesh64
-
-    return Manifold(Mesh64(vert_properties=np.asarray(vertices, float), tri_verts=np.asarray(triangles, np.uint64)))
+    mesh = Mesh64(
+        vert_properties=np.asarray(vertices, float), tri_verts=np.asarray(triangles, np.uint64)
+    )
+    return Manifold(mesh)

@@ -139,21 +139,23 @@ def spike(centre: list[float], height: float, *, down: bool = False, ridge: bool
 
 @scene
 def stack_in_the_plane(_: Path) -> Case:
-    """Five flush boxes of unequal meshes."""
+    """Return the scene: five flush boxes of unequal meshes."""
     sizes = [4, 6, 4, 6, 4]
-    return case([block([0.0, float(k)], [1.0, 1.0], [n, n]) for k, n in enumerate(sizes)], [floor(2)])
+    return case(
+        [block([0.0, float(k)], [1.0, 1.0], [n, n]) for k, n in enumerate(sizes)], [floor(2)]
+    )
 
 
 @scene
 def stack_in_space(_: Path) -> Case:
-    """Three flush boxes of unequal meshes."""
+    """Return the scene: three flush boxes of unequal meshes."""
     up = [block([0.0, 0.0, float(k)], [1.0] * 3, [n] * 3) for k, n in enumerate((2, 3, 2))]
     return case(up, [floor(3)])
 
 
 @scene
 def inset_stack(_: Path) -> Case:
-    """Boxes that get smaller upwards."""
+    """Return the scene: boxes that get smaller upwards."""
     sizes = [1.0, 0.73, 0.41]
     bodies = [
         block([0.5 - s / 2, 0.5 - s / 2, sum(sizes[:k])], [s] * 3, [2] * 3)
@@ -164,7 +166,7 @@ def inset_stack(_: Path) -> Case:
 
 @scene
 def pyramid_of_boxes(_: Path) -> Case:
-    """Four, three, two, one."""
+    """Return the scene: four, three, two, one."""
     bodies = [
         block([1.1 * i + 0.55 * row, float(row)], [1.0, 1.0], [3, 3])
         for row in range(4)
@@ -175,20 +177,20 @@ def pyramid_of_boxes(_: Path) -> Case:
 
 @scene
 def box_on_its_edge(folder: Path) -> Case:
-    """A square that falls over its corner."""
+    """Return the scene: a square that falls over its corner."""
     form = turned([0.0, 0.8], np.pi / 4 + 0.05, [1.0, 1.0])
     return case([shaped(folder, form, [6, 6])], [floor(2)], end=2.0)
 
 
 @scene
 def cube_on_its_corner(folder: Path) -> Case:
-    """A cube that falls on its corner."""
+    """Return the scene: a cube that falls on its corner."""
     return case([shaped(folder, on_corner([0.0, 0.0, 0.9], 1.0), [3] * 3)], [floor(3)])
 
 
 @scene
 def corner_on_corner(folder: Path) -> Case:
-    """A square on its corner falls on that of another."""
+    """Return the scene: a square on its corner falls on that of another."""
     below = turned([0.0, 0.72], np.pi / 4, [1.0, 1.0])
     above = turned([0.0, 2.25], np.pi / 4, [1.0, 1.0])
     walls = [fixed("left", [-1.2, 0.0], [0.6, 0.4]), fixed("right", [0.6, 0.0], [0.6, 0.4])]
@@ -198,7 +200,7 @@ def corner_on_corner(folder: Path) -> Case:
 
 @scene
 def wedge_between_two_blocks(folder: Path) -> Case:
-    """A sharp wedge is driven into the gap between two blocks."""
+    """Return the scene: a sharp wedge is driven into the gap between two blocks."""
 
     def form(x: np.ndarray) -> np.ndarray:
         width = 0.02 + 0.5 * x[:, 1]
@@ -212,7 +214,9 @@ def wedge_between_two_blocks(folder: Path) -> Case:
 def needle(folder: Path, cells: int) -> Case:
     """Return a needle that falls on a sheet held at its rim."""
     sheet = block([-0.5, -0.5, 0.0], [1.0, 1.0, 0.1], [cells, cells, 1])
-    pin = shaped(folder, spike([0.03, 0.02, 0.62], 0.5, down=True), [1, 1, 3], velocity=[0, 0, -3.0])
+    pin = shaped(
+        folder, spike([0.03, 0.02, 0.62], 0.5, down=True), [1, 1, 3], velocity=[0, 0, -3.0]
+    )
     rims = [
         fixed("rim-a", [-0.6, -0.6, -0.3], [1.2, 0.2, 0.3]),
         fixed("rim-b", [-0.6, 0.4, -0.3], [1.2, 0.2, 0.3]),
@@ -222,40 +226,40 @@ def needle(folder: Path, cells: int) -> Case:
 
 @scene
 def needle_on_a_coarse_sheet(folder: Path) -> Case:
-    """Facets much larger than the tip."""
+    """Return the scene: facets much larger than the tip."""
     return needle(folder, 3)
 
 
 @scene
 def needle_on_a_fine_sheet(folder: Path) -> Case:
-    """Facets about as large as the tip is wide higher up."""
+    """Return the scene: facets about as large as the tip is wide higher up."""
     return needle(folder, 10)
 
 
 @scene
 def plate_over_a_post(_: Path) -> Case:
-    """A coarse plate falls over a post narrower than its cells."""
+    """Return the scene: a coarse plate falls over a post narrower than its cells."""
     plate = block([-0.5, -0.5, 0.31], [1.0, 1.0, 0.2], [5, 5, 2])
     return case([plate], [fixed("post", [-0.08, -0.08, 0.0], [0.16, 0.16, 0.3]), floor(3)])
 
 
 @scene
 def plate_over_a_post_in_the_plane(_: Path) -> Case:
-    """The same in the plane."""
+    """Return the scene: the same in the plane."""
     plate = block([-0.5, 0.31], [1.0, 0.2], [5, 2])
     return case([plate], [fixed("post", [-0.08, 0.0], [0.16, 0.3]), floor(2)])
 
 
 @scene
 def plate_across_a_beam(_: Path) -> Case:
-    """Neither has a node over the other."""
+    """Return the scene: neither has a node over the other."""
     plate = block([-0.5, -0.5, 0.31], [1.0, 1.0, 0.2], [5, 5, 2])
     return case([plate], [fixed("beam", [-1.0, -0.08, 0.0], [2.0, 0.16, 0.3]), floor(3)])
 
 
 @scene
 def plate_over_a_pyramid(folder: Path) -> Case:
-    """A pyramid of triangles under the middle of a coarse plate."""
+    """Return the scene: a pyramid of triangles under the middle of a coarse plate."""
     base = [[-0.3, -0.3, 0.0], [0.3, -0.3, 0.0], [0.3, 0.3, 0.0], [-0.3, 0.3, 0.0]]
     triangles = [[0, 2, 1], [0, 3, 2], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
     pyramid = stl(folder, [*base, [0.02, 0.03, 0.3]], triangles, "pyramid")
@@ -265,21 +269,23 @@ def plate_over_a_pyramid(folder: Path) -> Case:
 
 @scene
 def block_slides_off_a_table(_: Path) -> Case:
-    """It tips over the edge."""
+    """Return the scene: it tips over the edge."""
     sliding = block([-0.6, 0.5], [0.4, 0.2], [6, 3], velocity=[2.0, 0.0])
-    return case([sliding], [fixed("table", [-2.0, 0.0], [2.0, 0.5]), floor(2)], end=1.0, friction=0.1)
+    return case(
+        [sliding], [fixed("table", [-2.0, 0.0], [2.0, 0.5]), floor(2)], end=1.0, friction=0.1
+    )
 
 
 @scene
 def cliff_edges(_: Path) -> Case:
-    """A cube comes down half over the edge of another, edge along edge."""
+    """Return the scene: a cube comes down half over the edge of another, edge along edge."""
     below, above = block([0.0] * 3, [1.0] * 3, [3] * 3), block([0.5, 0.0, 1.05], [1.0] * 3, [3] * 3)
     return case([below, above], [floor(3)])
 
 
 @scene
 def internal_edges(_: Path) -> Case:
-    """A cube slides over the seam between two cubes that stand side by side."""
+    """Return the scene: a cube slides over the seam between two cubes that stand side by side."""
     below = [block([float(k), 0.0, 0.0], [1.0] * 3, [2] * 3) for k in range(2)]
     slider = block([0.1, 0.25, 1.0], [0.5] * 3, [2] * 3, velocity=[2.0, 0.0, 0.0])
     return case([*below, slider], [floor(3)], end=0.6, friction=0.1)
@@ -287,26 +293,29 @@ def internal_edges(_: Path) -> Case:
 
 def standing(folder: Path, below: Map, above: Map) -> Case:
     """Return one shape that falls on another which stands on the floor."""
-    bodies = [shaped(folder, below, [2, 2, 4]), shaped(folder, above, [2, 2, 4], velocity=[0, 0, -1.0])]
+    bodies = [
+        shaped(folder, below, [2, 2, 4]),
+        shaped(folder, above, [2, 2, 4], velocity=[0, 0, -1.0]),
+    ]
     return case(bodies, [floor(3)], end=0.8, step=1e-3)
 
 
 @scene
 def spikes(folder: Path) -> Case:
-    """Tip on tip, nearly."""
+    """Return the scene: tip on tip, nearly."""
     return standing(folder, spike([0, 0, 0], 0.8), spike([0.004, 0.003, 1.62], 0.8, down=True))
 
 
 @scene
 def spike_and_wedge(folder: Path) -> Case:
-    """A tip on a ridge."""
+    """Return the scene: a tip on a ridge."""
     above = spike([0.0, 0.1, 1.62], 0.8, down=True)
     return standing(folder, spike([0, 0, 0], 0.8, ridge=True), above)
 
 
 @scene
 def wedges(folder: Path) -> Case:
-    """Ridge across ridge."""
+    """Return the scene: ridge across ridge."""
 
     def above(x: np.ndarray) -> np.ndarray:
         form = spike([0.0, 0.0, 1.62], 0.8, down=True, ridge=True)(x)
@@ -317,16 +326,22 @@ def wedges(folder: Path) -> Case:
 
 @scene
 def spike_in_a_crack(folder: Path) -> Case:
-    """A tip goes into the gap between two blocks."""
-    blocks = [block([-1.02, -0.5, 0.0], [1.0] * 3, [2] * 3), block([0.02, -0.5, 0.0], [1.0] * 3, [2] * 3)]
+    """Return the scene: a tip goes into the gap between two blocks."""
+    blocks = [
+        block([-1.02, -0.5, 0.0], [1.0] * 3, [2] * 3),
+        block([0.02, -0.5, 0.0], [1.0] * 3, [2] * 3),
+    ]
     above = shaped(folder, spike([0, 0, 1.85], 0.8, down=True), [2, 2, 4], velocity=[0, 0, -1.0])
     return case([*blocks, above], [floor(3)], end=0.8, step=1e-3)
 
 
 @scene
 def wedge_in_a_crack(folder: Path) -> Case:
-    """A ridge goes into the gap between two blocks, along it."""
-    blocks = [block([-1.02, -0.5, 0.0], [1.0] * 3, [2] * 3), block([0.02, -0.5, 0.0], [1.0] * 3, [2] * 3)]
+    """Return the scene: a ridge goes into the gap between two blocks, along it."""
+    blocks = [
+        block([-1.02, -0.5, 0.0], [1.0] * 3, [2] * 3),
+        block([0.02, -0.5, 0.0], [1.0] * 3, [2] * 3),
+    ]
     above = spike([0, 0, 1.85], 0.8, down=True, ridge=True)
     body = shaped(folder, above, [2, 2, 4], velocity=[0, 0, -1.0])
     return case([*blocks, body], [floor(3)], end=0.8, step=1e-3)
@@ -334,19 +349,22 @@ def wedge_in_a_crack(folder: Path) -> Case:
 
 @scene
 def spike_in_a_hole(folder: Path) -> Case:
-    """A tip goes into the hole between four rigid posts and a floor."""
+    """Return the scene: a tip goes into the hole between four rigid posts and a floor."""
     at = [(-0.55, -0.05), (0.05, -0.05), (-0.05, -0.55), (-0.05, 0.05)]
     sizes = [(0.5, 0.1), (0.5, 0.1), (0.1, 0.5), (0.1, 0.5)]
     posts = [
-        fixed(f"post-{k}", [*a, 0.0], [*s, 0.6]) for k, (a, s) in enumerate(zip(at, sizes, strict=True))
+        fixed(f"post-{k}", [*a, 0.0], [*s, 0.6])
+        for k, (a, s) in enumerate(zip(at, sizes, strict=True))
     ]
-    above = shaped(folder, spike([0.0, 0.0, 1.42], 0.8, down=True), [2, 2, 4], velocity=[0, 0, -1.0])
+    above = shaped(
+        folder, spike([0.0, 0.0, 1.42], 0.8, down=True), [2, 2, 4], velocity=[0, 0, -1.0]
+    )
     return case([above], [*posts, floor(3, -0.001)], end=0.8, step=1e-3)
 
 
 @scene
 def ring_through_itself(_: Path) -> Case:
-    """A thin ring is thrown at a wall and folds upon itself."""
+    """Return the scene: a thin ring is thrown at a wall and folds upon itself."""
     ring = {
         "mesh": {
             "kind": "ring",
@@ -355,22 +373,22 @@ def ring_through_itself(_: Path) -> Case:
             "outer_radius": 1.0,
             "divisions": [60, 3],
         },
-        "velocity": [60.0, -20.0],
+        "velocity": [15.0, -5.0],
     }
     wall = {"name": "wall", "kind": "plane", "point": [1.1, 0.0], "normal": [-1.0, 0.0]}
-    return case([ring], [wall], end=0.08, step=1e-4, friction=0.5, damped=False)
+    return case([ring], [wall], end=0.3, step=4e-4, friction=0.5, damped=False)
 
 
 @scene
 def folding_strip(_: Path) -> Case:
-    """A tall strip buckles under its weight and lies down in folds."""
+    """Return the scene: a tall strip buckles under its weight and lies down in folds."""
     strip = block([0.0, 0.0], [0.1, 3.0], [2, 60], velocity=[0.0, 0.0], spin=0.05)
     walls = [
         {"name": "left", "kind": "plane", "point": [-0.5, 0.0], "normal": [1.0, 0.0]},
         {"name": "right", "kind": "plane", "point": [0.6, 0.0], "normal": [-1.0, 0.0]},
     ]
     made = case([strip], [floor(2), *walls], end=1.5, step=2e-3)
-    made["materials"]["m"]["young"] = 3e4
+    made["materials"]["m"]["young"] = 2e5
     return made
 
 

@@ -73,8 +73,9 @@ RULES = """\
   An entry of `contact.pairs` names two different bodies, a body and an obstacle, or twice a body
   that may touch itself, and no two entries name the same pair.
 - `contact.sources` and `contact.pairs.N.sources` matter between two bodies only: against an
-  obstacle the nodes of the body are checked. `"first"` is the body that comes first in
-  `[[bodies]]`, or, where the pair has an entry in `contact.pairs`, in `between` of that entry.
+  obstacle the nodes of the body are checked, and its facets against the corners of the obstacle.
+  `"first"` is the body that comes first in `[[bodies]]`, or, where the pair has an entry in
+  `contact.pairs`, in `between` of that entry.
 - In the reference configuration bodies overlap neither one another nor an obstacle (deeper than
   1e-9 of the smallest edge), unless their pair is disabled. Overlaps that the digits of a mesh file
   cannot tell from touching are closed.

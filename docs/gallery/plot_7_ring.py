@@ -3,7 +3,7 @@ A ring that is crushed: contact of a body with itself
 =====================================================
 
 A thin rubber ring is pressed flat between two plates until its inside touches itself.
-``self_contact`` is all that it takes.
+Nothing needs to be said for that: every body may touch itself.
 """
 
 from tempfile import mkdtemp
@@ -16,7 +16,6 @@ import carom
 ring = carom.Body(
     name="ring",
     material="rubber",
-    self_contact=True,
     mesh=carom.Ring(centre=[0.0, 0.0], inner_radius=0.8, outer_radius=1.0, divisions=[64, 3]),
 )
 stamp = carom.Displacement(y="-1.65*min(t, 1)")

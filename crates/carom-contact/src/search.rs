@@ -165,6 +165,11 @@ impl<const D: usize> Search<D> {
                     break;
                 }
                 let p = Projected::new(facet, size, &x, &target.project(facet, &x, Reach::Facet, &middle));
+                // Through its own walls a node does not come.
+                let deepest = -SEARCH.depth * swept.facets[facet as usize].diameter();
+                if is_own && target.gap_at(facet, &(path.start)(node), path.start) < deepest {
+                    continue;
+                }
                 if p.faces(&outward) && p.gap <= path.margin && p.is_square() {
                     reach = reach.min(p.distance);
                 }

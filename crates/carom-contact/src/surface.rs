@@ -155,6 +155,17 @@ impl ContactSurface {
         }
     }
 
+    /// How far `x` is in front of the facet `f` [m], negative behind it.
+    pub(crate) fn gap_at<const D: usize>(
+        &self,
+        f: u32,
+        x: &Vector<D>,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> f64 {
+        let p = self.project(f, x, Reach::Facet, position);
+        p.normal.dot(&(x - p.point))
+    }
+
     /// A box around what the surface is over the facet `f`.
     pub(crate) fn bounds<const D: usize>(&self, f: u32, position: &impl Fn(u32) -> Vector<D>) -> Aabb<D> {
         match &self.shape {

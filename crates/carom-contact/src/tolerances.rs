@@ -39,7 +39,7 @@ pub(crate) const SEARCH: SearchTolerances = SearchTolerances {
     aligned: 1e-6,
     kept: 1e-4,
     tie: 1e-12,
-    redundant: 0.02,
+    redundant: 1e-6,
     alike: 0.9,
     corner: 0.766_044_443_118_978 - 1e-9,
     curved: 0.1,

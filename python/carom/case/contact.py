@@ -113,7 +113,7 @@ class Contact(Description):
     targets
         What they are checked against: a smooth curve through the boundary nodes of the other body,
         or the facets of its mesh. The curve has a continuous tangent but for corners of more than
-        40°.
+        40° and along sides that are straight without deformation.
     discretisation
         How contact is written between two bodies that do not state their own: as gaps of the nodes
         of the source, or (mortar) as means under their shape functions. Mortar carries a uniform

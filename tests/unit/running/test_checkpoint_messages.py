@@ -55,6 +55,11 @@ BAD = [
     ("state/reactions/pair", first(99), "state/reactions/pair: names a pair that is not there"),
     ("state/reactions/site", first(10**6), "state/reactions/site: names a node that is not there"),
     (
+        "state/reactions/facet",
+        lambda a: np.full_like(a, 10**6),
+        "state/reactions/facet: names a facet that is not there",
+    ),
+    (
         "state/reactions/stencil_node",
         first(10**6),
         "state/reactions/stencil_node: names a node that is not there",

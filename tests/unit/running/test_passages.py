@@ -37,6 +37,13 @@ def test_a_plate_comes_to_rest_on_a_post_between_its_nodes(tmp_path):
     assert history["kinetic"][-1] < 1e-6
 
 
+def test_a_post_inside_a_plate_at_the_start_is_refused():
+    post = {"name": "post", "corner": [0.02, 0.0], "size": [0.04, 0.35]}
+    words = 'obstacle "post" overlaps body "plate" at the start: near .* it is 0.02.* m inside'
+    with pytest.raises(carom.InputError, match=words):
+        carom.Simulation(case(PLATE, post, end_time=1.0, time_step=1e-3))
+
+
 def test_a_plate_whose_sole_touches_nothing_does_not_complete(tmp_path):
     plate = {**PLATE, "velocity": [0.0, -1.0], "contact_sets": ["top"]}
     scenario = case(plate, POST, end_time=0.05, time_step=1e-3)

@@ -18,7 +18,7 @@ pub(super) fn exchange<const D: usize>(archive: &mut Archive<'_>, run: &mut Simu
     archive
         .integers("run/step", [&mut run.grid.step, &mut run.history_rows, &mut run.work.factorisations])?;
     archive.integers("run/halvings", [&mut run.halvings])?;
-    archive.extremes("run/since_look", run.work.since_look.iter_mut().map(|l| &mut l.wandered))?;
+    archive.numbers("run/since_look", run.work.since_look.iter_mut().map(|l| &mut l.wandered))?;
     archive.flags("run/asleep", &mut run.work.contacts.finder.asleep)?;
     archive.optional("run/last_recorded", [&mut run.last_recorded])?;
     archive.numbers("run/initial_energies", run.initial_energies.iter_mut().flat_map(|e| e.terms_mut()))?;

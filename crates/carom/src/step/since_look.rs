@@ -12,6 +12,6 @@ pub(crate) struct SinceLook {
 impl Default for SinceLook {
     /// Nobody has looked yet.
     fn default() -> Self {
-        Self { wandered: f64::INFINITY, in_step: 0.0, is_due: true }
+        Self { wandered: f64::MAX, in_step: 0.0, is_due: true }
     }
 }

@@ -37,6 +37,8 @@ fn aligned_meshes_collide_with_both_sides_as_sources() {
         case["contact"]["sources"] = json!("both");
         case["contact"]["condition"] = json!(condition);
         case["contact"]["friction"] = json!(0.2);
+        // Nodes nearly opposite make rows of W that are nearly the same, which Gauss-Seidel is slow to share reactions between.
+        case["contact"]["solver"]["kind"] = json!("auto");
         let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
         simulation.advance(f64::INFINITY, || false).expect("converges");
         let v = simulation.model().bodies[0]

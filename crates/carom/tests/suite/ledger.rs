@@ -59,7 +59,8 @@ fn books_of_bodies_and_pairs_add_up_to_those_of_the_whole() {
         close(books.pairs.iter().map(|p| p.friction).sum(), total.friction, "friction");
         close(books.pairs.iter().map(|p| p.normal_contact).sum(), total.normal_contact, "normal contact");
         assert_eq!(books.pairs.iter().filter(|p| p.has_touched).count(), 3, "{scheme} {condition}");
-        assert!(books.pairs.iter().all(|p| p.friction > 0.0), "{scheme} {condition}");
+        let mut touched = books.pairs.iter().filter(|p| p.has_touched);
+        assert!(touched.all(|p| p.friction > 0.0), "{scheme} {condition}");
     }
 }
 

@@ -1,0 +1,59 @@
+"""Scenes of contact that end as they should; `benchmarks/scenes.py` has all of them judged.
+
+The bounds are of the penetration that runs tell of, within ten times of what is measured.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import carom
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
+from scene_list import SCENES
+
+DEEPEST = {
+    "stack in the plane": 4e-11,
+    "inset stack": 3e-7,
+    "pyramid of boxes": 6e-11,
+    "box on its edge": 3e-13,
+    "cube on its corner": 1e-12,
+    "corner on corner": 5e-6,
+    "wedge between two blocks": 9e-7,
+    "needle on a coarse sheet": 6e-4,
+    "plate over a post": 8e-14,
+    "plate over a post in the plane": 8e-15,
+    "plate across a beam": 2e-13,
+    "plate over a pyramid": 1e-10,
+    "block slides off a table": 1e-12,
+    "bullet 10 rigid in the plane": 4e-13,
+    "bullet 1000 rigid in the plane": 1e-13,
+    "bullet 100 loose in the plane": 4e-7,
+    "bullet 1000 rigid in space": 4e-13,
+    "bullet 10 loose in space": 3e-5,
+}
+
+
+@pytest.mark.parametrize("name", DEEPEST)
+def test_nothing_is_in_anything(name, tmp_path):
+    scenario = carom.Scenario.model_validate(SCENES[name](tmp_path))
+    simulation = carom.Simulation(scenario)
+    while simulation.time < scenario.analysis.end_time * (1 - 1e-9):
+        simulation.step()
+    history = simulation.history
+    assert np.max(history["penetration"]) < DEEPEST[name]
+    work = max(np.ptp(history["kinetic"]), np.ptp(history["total"]))
+    assert np.max(np.abs(history["defect"])) < 1e-9 * work
+    assert np.max(history["contacts"]) > 0
+
+
+def test_a_ring_that_is_thrown_at_a_wall_touches_itself(tmp_path):
+    """Symptom guarded against: the inner circle went through itself, and nothing said so."""
+    scenario = carom.Scenario.model_validate(SCENES["ring through itself"](tmp_path))
+    summary = carom.run(scenario, out=tmp_path / "out").summary
+    assert summary["status"] == "completed"
+    assert ["body-0", "body-0"] in [pair["between"] for pair in summary["pairs"]]
+    worst = summary["penetration"]["worst"]
+    assert worst["depth"] < worst["allowed"]
