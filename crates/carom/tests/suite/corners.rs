@@ -79,7 +79,8 @@ fn a_plate_lies_on_a_post_between_its_nodes() {
 fn a_plate_lies_across_a_beam() {
     for condition in ["gap", "midpoint"] {
         let beam = block(&[-1.0, -0.08, 0.0], &[2.0, 0.16, 0.3]);
-        let summary = lay([-0.5, -0.5, 0.301], [1.0, 1.0, 0.2], [5, 5, 2], &[beam.clone()], condition);
+        let summary =
+            lay([-0.5, -0.5, 0.301], [1.0, 1.0, 0.2], [5, 5, 2], std::slice::from_ref(&beam), condition);
         assert_lies_on(&format!("plate, {condition}"), &summary, 200.0 * 9.81);
         let summary = lay([-0.05, -0.5, 0.301], [0.1, 1.0, 0.1], [1, 5, 1], &[beam], condition);
         assert_lies_on(&format!("strip, {condition}"), &summary, 10.0 * 9.81);
