@@ -12,6 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
+from matplotlib.patches import Rectangle
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 import carom
@@ -41,11 +43,18 @@ def draw(
             axes.set_axis_off()
             values = view.shown.values(frames, frame)
             cells = ScalarMappable(Normalize(values.min(), values.max()), "viridis")
-        figure.colorbar(cells, ax=axes, label=view.shown.title, location="bottom", shrink=0.8)
+        figure.colorbar(
+            cells,
+            ax=axes,
+            label=view.shown.title,
+            location="bottom",
+            shrink=0.8,
+            ticks=MaxNLocator(4),
+        )
 
 
 def _draw_plane(axes: Axes, view: View, frame: int) -> PolyCollection:
-    """Draw the cells, and the plane obstacles that stay where they are."""
+    """Draw the cells, and the planes and boxes that stay where they are."""
     frames = view.frames
     cells = np.split(frames.connectivity, frames.offsets[1:-1])
     values = view.shown.values(frames, frame)
@@ -58,11 +67,13 @@ def _draw_plane(axes: Axes, view: View, frame: int) -> PolyCollection:
     axes.add_collection(drawn)
     axes.set_aspect("equal")
     axes.autoscale_view()
-    for plane in view.scenario.obstacles:
-        if isinstance(plane, carom.Plane) and plane.motion is None:
-            x, y = plane.point
-            along = (x - plane.normal[1], y + plane.normal[0])
+    for obstacle in view.scenario.obstacles:
+        if isinstance(obstacle, carom.Plane) and obstacle.motion is None:
+            x, y = obstacle.point
+            along = (x - obstacle.normal[1], y + obstacle.normal[0])
             axes.axline((x, y), along, color="0.6", linewidth=1.0)
+        elif isinstance(obstacle, carom.RigidBox) and obstacle.motion is None:
+            axes.add_patch(Rectangle(obstacle.corner, *obstacle.size, color="0.8"))
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
     return drawn
