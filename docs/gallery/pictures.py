@@ -73,7 +73,8 @@ def _draw_plane(axes: Axes, view: View, frame: int) -> PolyCollection:
             along = (x - obstacle.normal[1], y + obstacle.normal[0])
             axes.axline((x, y), along, color="0.6", linewidth=1.0)
         elif isinstance(obstacle, carom.RigidBox) and obstacle.motion is None:
-            axes.add_patch(Rectangle(obstacle.corner, *obstacle.size, color="0.8"))
+            (x, y), (width, height) = obstacle.corner, obstacle.size
+            axes.add_patch(Rectangle((x, y), width, height, color="0.8"))
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
     return drawn
