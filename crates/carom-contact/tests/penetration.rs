@@ -147,6 +147,24 @@ fn a_strip_that_goes_through_itself_is_told_and_one_that_does_not_is_not() {
     }
 }
 
+/// Symptom guarded against: a crushed ring whose halves touched was said to be as deep in itself as its wall is thick.
+#[test]
+fn parts_that_touch_are_not_in_one_another() {
+    for overlap in [0.0, 1e-12, 1e-9, 1e-3] {
+        // Two arms of three cells, one on the other, that hang together in their first cell.
+        let row = |y: f64| (0..4).map(move |i| Vector::<2>::new(f64::from(i), y));
+        let mut nodes: Vec<_> = row(0.0).chain(row(1.0)).chain(row(2.0)).collect();
+        nodes.extend([2.0, 3.0].map(|x| Vector::<2>::new(x, 1.0 - overlap)));
+        let lower = [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6]];
+        let upper = [[4, 5, 9, 8], [5, 12, 10, 9], [12, 13, 11, 10]];
+        let connectivity = lower.into_iter().chain(upper).flatten().collect();
+        let arms = Mesh::new(nodes, vec![CellBlock { kind: CellKind::Quad4, connectivity }]).expect("valid");
+        let found = measured(&[arms], vec![], |x| *x);
+        let deepest = found.iter().map(|f| f.depth).fold(0.0, f64::max);
+        assert!((deepest - overlap).abs() <= 1e-9, "{overlap:e}: {found:?}");
+    }
+}
+
 #[test]
 fn second_order_boundaries_are_measured_by_their_curves() {
     // The upper side of the cell is the parabola y = 1.1 − 0.1 x².

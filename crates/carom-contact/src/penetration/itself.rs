@@ -14,6 +14,9 @@ use crate::project::normal;
 /// nearer than anything that is told.
 const BEFORE: f64 = 1e-6;
 
+/// The least sum of the unit normals around a node by which it has an outside.
+const CLOSED: f64 = 1e-3;
+
 /// Where rays go: nearly along an axis, so that few boxes are in their way, and along no edge that anybody drew.
 const RAY: [f64; 3] = [1.0, 0.013_717_421, 0.007_316_239];
 
@@ -69,8 +72,7 @@ impl<const D: usize> Shell<D> {
 
     /// Whether the boundary winds around what is just before a node.
     fn winds_around(&self, node: u32, facet: u32) -> bool {
-        let outwards: Vector<D> = self.around(node).iter().map(|&f| self.normal(f)).sum();
-        let from = self.at(node) + outwards.normalize() * (BEFORE * self.diameter(facet));
+        let Some(from) = self.before(node, facet) else { return false };
         let far = 2.0 * self.bounds().diameter();
         let ray = [from, from + Vector::from_fn(|i, _| RAY[i]) * far];
         let mut winding = 0;
@@ -80,9 +82,19 @@ impl<const D: usize> Shell<D> {
         winding > 0
     }
 
+    /// A place just before a node; none where a slot ends that has closed: there the facets around look at one another.
+    fn before(&self, node: u32, facet: u32) -> Option<Vector<D>> {
+        let outwards: Vector<D> = self.around(node).iter().map(|&f| self.normal(f)).sum();
+        let outwards = outwards.try_normalize(CLOSED)?;
+        Some(self.at(node) + outwards * (BEFORE * self.diameter(facet)))
+    }
+
     /// How far a node is behind the nearest facet that it is no part of.
+    ///
+    /// What is just before a node that touches another part is in that part, by as much as it is before the node: from there it is asked, lest
+    /// the nearest facet that the node is behind is the far side of the other part.
     fn behind_others(&self, node: u32, facet: u32) -> Deep<D> {
-        let x = self.at(node);
+        let Some(x) = self.before(node, facet) else { return Deep::none() };
         let position = |n: u32| self.at(n);
         let (mut depth, mut other) = (f64::INFINITY, None);
         self.tree.nearest(&x, |f, _| {
@@ -97,7 +109,12 @@ impl<const D: usize> Shell<D> {
             }
             depth
         });
-        if other.is_some() { Deep { depth, at: x, facet: Some(facet), other } } else { Deep::none() }
+        depth -= BEFORE * self.diameter(facet);
+        if other.is_some() && depth > 0.0 {
+            Deep { depth, at: self.at(node), facet: Some(facet), other }
+        } else {
+            Deep::none()
+        }
     }
 
     fn distance_from_plane(&self, f: u32, x: &Vector<D>) -> f64 {
