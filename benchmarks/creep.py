@@ -38,11 +38,10 @@ def main() -> None:
             print(f"{name:28} not run: pip install {missing.name}")
 
 
-def ours(dimension: int) -> float:
-    """Return the speed of a block of cells over the last second [m/s]."""
+def incline(dimension: int, angle: float, friction: float, end: float) -> carom.Simulation:
+    """Return the run of a damped block of cells on a slope of this angle [rad], at its end [s]."""
     up = [0.0] * (dimension - 1)
-    size = [0.4] * (dimension - 1) + [0.2]
-    down = [GRAVITY * np.sin(ANGLE), *up[1:], -GRAVITY * np.cos(ANGLE)]
+    down = [GRAVITY * np.sin(angle), *up[1:], -GRAVITY * np.cos(angle)]
     rubber = {
         "kind": "neo-hookean",
         "young": 1e7,
@@ -50,24 +49,32 @@ def ours(dimension: int) -> float:
         "density": 1000.0,
         "damping": {"stiffness": 1e-3},
     }
-    kind = "rectangle" if dimension == 2 else "box"
-    cells = [4] * (dimension - 1) + [2]
-    mesh = {"kind": kind, "corner": [*up, 0.0], "size": size, "divisions": cells}
+    mesh = {
+        "kind": "rectangle" if dimension == 2 else "box",
+        "corner": [*up, 0.0],
+        "size": [0.4] * (dimension - 1) + [0.2],
+        "divisions": [4] * (dimension - 1) + [2],
+    }
+    slope = {"name": "slope", "kind": "plane", "point": [*up, 0.0], "normal": [*up, 1.0]}
     scenario = carom.Scenario.from_dict(
         {
             "dimension": dimension,
-            "analysis": {"end_time": END, "time_step": 2e-3, "gravity": down},
+            "analysis": {"end_time": end, "time_step": 2e-3, "gravity": down},
             "materials": {"rubber": rubber},
             "bodies": [{"name": "block", "material": "rubber", "mesh": mesh}],
-            "obstacles": [
-                {"name": "slope", "kind": "plane", "point": [*up, 0.0], "normal": [*up, 1.0]}
-            ],
-            "contact": {"friction": FRICTION},
+            "obstacles": [slope],
+            "contact": {"friction": friction},
         }
     )
     simulation = carom.Simulation(scenario)
-    while simulation.time < END - 1e-9:
+    while simulation.time < end - 1e-9:
         simulation.step()
+    return simulation
+
+
+def ours(dimension: int) -> float:
+    """Return the speed of a block of cells over the last second [m/s]."""
+    simulation = incline(dimension, ANGLE, FRICTION, END)
     time, x = (np.asarray(simulation.history[name]) for name in ("time", "block.x"))
     start = np.searchsorted(time, END - 1.0)
     return float((x[-1] - x[start]) / (time[-1] - time[start]))

@@ -236,11 +236,15 @@ def needle_on_a_fine_sheet(folder: Path) -> Case:
     return needle(folder, 10)
 
 
+def plate() -> Case:
+    """Return a plate of coarse cells, just above 0.3 m."""
+    return block([-0.5, -0.5, 0.31], [1.0, 1.0, 0.2], [5, 5, 2])
+
+
 @scene
 def plate_over_a_post(_: Path) -> Case:
     """Return the scene: a coarse plate falls over a post narrower than its cells."""
-    plate = block([-0.5, -0.5, 0.31], [1.0, 1.0, 0.2], [5, 5, 2])
-    return case([plate], [fixed("post", [-0.08, -0.08, 0.0], [0.16, 0.16, 0.3]), floor(3)])
+    return case([plate()], [fixed("post", [-0.08, -0.08, 0.0], [0.16, 0.16, 0.3]), floor(3)])
 
 
 @scene
@@ -253,8 +257,7 @@ def plate_over_a_post_in_the_plane(_: Path) -> Case:
 @scene
 def plate_across_a_beam(_: Path) -> Case:
     """Return the scene: neither has a node over the other."""
-    plate = block([-0.5, -0.5, 0.31], [1.0, 1.0, 0.2], [5, 5, 2])
-    return case([plate], [fixed("beam", [-1.0, -0.08, 0.0], [2.0, 0.16, 0.3]), floor(3)])
+    return case([plate()], [fixed("beam", [-1.0, -0.08, 0.0], [2.0, 0.16, 0.3]), floor(3)])
 
 
 @scene
@@ -263,8 +266,7 @@ def plate_over_a_pyramid(folder: Path) -> Case:
     base = [[-0.3, -0.3, 0.0], [0.3, -0.3, 0.0], [0.3, 0.3, 0.0], [-0.3, 0.3, 0.0]]
     triangles = [[0, 2, 1], [0, 3, 2], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
     pyramid = stl(folder, [*base, [0.02, 0.03, 0.3]], triangles, "pyramid")
-    plate = block([-0.5, -0.5, 0.31], [1.0, 1.0, 0.2], [5, 5, 2])
-    return case([plate], [pyramid, floor(3, -0.001)])
+    return case([plate()], [pyramid, floor(3, -0.001)])
 
 
 @scene

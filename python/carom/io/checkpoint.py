@@ -125,9 +125,12 @@ def _packed(checkpoint: Checkpoint) -> bytes:
 def signed(content: bytes) -> bytes:
     """Return an HDF5 file with the text in front of it that fits what is behind."""
     data = content[_BLOCK:]
-    digest = hashlib.sha256(data).hexdigest()
-    text = f"{_MAGIC} {CHECKPOINT_SCHEMA} {len(data)} {digest}\n"
-    return text.encode().ljust(_BLOCK, b"\0") + data
+    return _block(len(data), hashlib.sha256(data).hexdigest()) + data
+
+
+def _block(length: int, digest: str) -> bytes:
+    text = f"{_MAGIC} {CHECKPOINT_SCHEMA} {length} {digest}\n"
+    return text.encode().ljust(_BLOCK, b"\0")
 
 
 def _unpacked(content: bytes, path: Path) -> Checkpoint:
@@ -145,7 +148,7 @@ def _unpacked(content: bytes, path: Path) -> Checkpoint:
             f"{path}: has schema {schema}, this version reads {CHECKPOINT_SCHEMA}; go on with the "
             "version that wrote it, or start again with --force"
         )
-    if content != signed(content):
+    if content[:_BLOCK] != _block(len(data), digest):
         raise DamagedError(f"{path} is damaged: its first line is another")
     try:
         with h5py.File(io.BytesIO(content), "r") as file:

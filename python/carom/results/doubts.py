@@ -121,7 +121,7 @@ def depth_of(worst: Mapping[str, Any]) -> str:
     who = f"{first} was" if first == second else f"{first} and {second} were"
     whom = "itself" if first == second else "one another"
     remedy = (
-        "let it touch itself, bodies.self_contact = true"
+        "let it touch itself, which bodies.self_contact = false forbids"
         if first == second
         else 'have the nodes of both bodies checked, contact.sources = "both"'
     )

@@ -1,4 +1,4 @@
-use carom_contact::{Candidate, Pair, Penetration, RigidShape, Search, Site, Solid, Target};
+use carom_contact::{Candidate, Pair, Penetration, RigidShape, Search, Solid, Target};
 use carom_mesh::Vector;
 
 use super::values::place;
@@ -134,14 +134,15 @@ fn check_crossings<const D: usize>(model: &Model<D>) -> Result<(), InputError> {
 
 /// Whether a candidate is of the edges of two bodies, and these are where they seem to be: those of quadratic cells are curved.
 fn has_straight_edges<const D: usize>(model: &Model<D>, candidate: &Candidate) -> bool {
-    let pair = &model.assembly.contact.pairs[candidate.pair as usize];
-    let is_straight =
-        |s: usize| !model.assembly.contact.surfaces[s].facets.iter().any(|f| f.kind.is_quadratic());
+    let contact = &model.assembly.contact;
+    let is_straight = |s: usize| !contact.surfaces[s].facets.iter().any(|f| f.kind.is_quadratic());
+    let pair = &contact.pairs[candidate.pair as usize];
     match pair.target {
         Target::Surface(t) => {
             candidate.node().is_none() && t != pair.source && is_straight(pair.source) && is_straight(t)
         }
-        Target::Obstacle(_) => matches!(candidate.site, Site::Crossing(..)) && is_straight(pair.source),
+        // The measure has seen them.
+        Target::Obstacle(_) => false,
     }
 }
 
