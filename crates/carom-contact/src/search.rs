@@ -75,11 +75,7 @@ impl<const D: usize> Search<D> {
     /// The same, and room for the edges that cross it.
     pub(crate) fn swept_and_crossings(&mut self, solid: Solid) -> (&mut Swept<D>, &mut Vec<Found>) {
         let Self { surfaces, obstacles, crossings, .. } = self;
-        let swept = match solid {
-            Solid::Body(i) => &mut surfaces[i],
-            Solid::Obstacle(o) => &mut obstacles[o],
-        };
-        (swept, crossings)
+        (of_solid(surfaces, obstacles, solid), crossings)
     }
 
     /// Boxes around all that moves along a `path` and belongs to a pair of `model` that `counts`.
@@ -132,10 +128,7 @@ impl<const D: usize> Search<D> {
         let room = self.room(target.0, path.margin);
         let Self { surfaces, obstacles, near, projected, .. } = self;
         let (solid, target) = target;
-        let swept = match solid {
-            Solid::Body(i) => &mut surfaces[i],
-            Solid::Obstacle(o) => &mut obstacles[o],
-        };
+        let swept = of_solid(surfaces, obstacles, solid);
         swept.fit(target, path);
         let middle = |n: u32| path.middle(n);
         let is_own = std::ptr::eq(source, target);
@@ -180,6 +173,18 @@ impl<const D: usize> Search<D> {
                 found(node, facet);
             }
         }
+    }
+}
+
+/// The one of a solid.
+fn of_solid<'a, const D: usize>(
+    surfaces: &'a mut [Swept<D>],
+    obstacles: &'a mut [Swept<D>],
+    solid: Solid,
+) -> &'a mut Swept<D> {
+    match solid {
+        Solid::Body(i) => &mut surfaces[i],
+        Solid::Obstacle(o) => &mut obstacles[o],
     }
 }
 
