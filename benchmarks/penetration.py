@@ -1,13 +1,14 @@
 """Whether penetration is measured as an independent geometry library sees it.
 
-    pip install shapely
+    pip install shapely manifold3d
     .venv/bin/python benchmarks/penetration.py [scenes] [first seed]
 
-The plane ones among the scenes of `wild_scenes.py`, step by step: the outlines of all bodies as
-polygons of shapely, which knows nothing of carom. A step at whose end two polygons, or a polygon
-and a wall, have an intersection that is deeper than round-off, or a polygon crosses itself, must
-have a penetration in its row of the history, and one that is as deep. Prints a table, and ends with
-exit status 1 if an intersection was silent.
+The scenes of `wild_scenes.py`, step by step: the outlines of all bodies as polygons of shapely or
+as closed surfaces of manifold3d, which know nothing of carom. A step at whose end two bodies, or a
+body and a wall, have an intersection that is deeper than round-off, or a body crosses itself, must
+have a penetration in its row of the history; in the plane it must be as deep, in space not less
+than a tenth of how thick what both have in common is. Prints a table, and ends with exit status 1
+if an intersection was silent.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
+from scenes import judged
 from wild_scenes import scene
 
 import carom
@@ -43,9 +45,16 @@ def main() -> None:
     off = 0.0
     for seed in range(first, first + count):
         scenario = scene(seed)
-        if scenario.dimension != 2:
+        if scenario.dimension == 3:
+            row = judged(scenario)
+            found["scenes in space"] += 1
+            found["scenes in space with an intersection"] += row["seen"] > 0.0
+            if row["silent"]:
+                found["silent"] += 1
+                time, told, seen = row["silent"]
+                print(f"scene {seed}: at t = {time:.4g} s told {told:.3g} m, seen {seen:.3g} m")
             continue
-        found["scenes"] += 1
+        found["scenes in the plane"] += 1
         tells = True
         for told, seen, crosses in steps(scenario):
             found["steps"] += 1
@@ -61,8 +70,8 @@ def main() -> None:
             found["silent"] += 1
             print(f"scene {seed}: crosses itself at its end, and the last row says nothing")
     for what, number in found.items():
-        print(f"{what:30} {number}")
-    print(f"{'largest relative difference':30} {off:.2g}")
+        print(f"{what:37} {number}")
+    print(f"{'largest relative difference':37} {off:.2g}")
     raise SystemExit(found["silent"] > 0)
 
 

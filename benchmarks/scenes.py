@@ -40,7 +40,7 @@ def main() -> None:
     silent = []
     for name, make in chosen.items():
         with tempfile.TemporaryDirectory() as folder:
-            row = judged(make(Path(folder)))
+            row = judged(carom.Scenario.model_validate(make(Path(folder))))
         numbers = "".join(f"{row[head]:10.1e}" for head in heads)
         rest = f"{row['iterations']:6.1f}{row['seconds']:7.1f}  {row['why']}"
         print(f"{name:40} {row['ended']:14}{numbers}{rest}".rstrip(), flush=True)
@@ -52,9 +52,8 @@ def main() -> None:
     raise SystemExit(bool(silent))
 
 
-def judged(case: dict[str, Any]) -> dict[str, Any]:
-    """Return what became of a case."""
-    scenario = carom.Scenario.model_validate(case)
+def judged(scenario: carom.Scenario) -> dict[str, Any]:
+    """Return what became of a scene."""
     simulation = build(scenario, [])
     judge = Judge(scenario, simulation.surface())
     columns = simulation.history_columns()

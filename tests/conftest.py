@@ -2,12 +2,17 @@ import signal
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 import carom
 import heard
 import restarting
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
+
+
+settings.register_profile("same everywhere", derandomize=True, deadline=None)
+settings.load_profile("same everywhere")
 
 
 def pytest_configure():

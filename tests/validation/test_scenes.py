@@ -12,6 +12,7 @@ import pytest
 import carom
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
+import stacks
 from scene_list import SCENES
 
 DEEPEST = {
@@ -21,6 +22,7 @@ DEEPEST = {
     "box on its edge": 3e-13,
     "cube on its corner": 1e-12,
     "corner on corner": 5e-6,
+    "spike and wedge": 2e-6,
     "wedge between two blocks": 9e-7,
     "needle on a coarse sheet": 6e-4,
     "plate over a post": 8e-14,
@@ -47,6 +49,14 @@ def test_nothing_is_in_anything(name, tmp_path):
     work = max(np.ptp(history["kinetic"]), np.ptp(history["total"]))
     assert np.max(np.abs(history["defect"])) < 1e-9 * work
     assert np.max(history["contacts"]) > 0
+
+
+@pytest.mark.parametrize("setting", stacks.SETTINGS)
+def test_a_stack_of_unequal_meshes_rests_in_space(setting):
+    """Symptom guarded against: rims sank into the flat sides that they stood on, between nodes."""
+    row = stacks.rest(3, 2, (3, 2), stacks.SETTINGS[setting], end=1.0)
+    assert row["depth"] < 1e-12
+    assert row["across"] < 1e-11
 
 
 def test_a_ring_that_is_thrown_at_a_wall_touches_itself(tmp_path):

@@ -31,6 +31,7 @@ mod search;
 mod self_contact;
 mod surface;
 mod tolerances;
+mod witness;
 
 pub use candidate::{Candidate, Site};
 pub use contact::{Contact, shares};
@@ -38,6 +39,6 @@ pub use distance::Proximity;
 pub use model::{ContactModel, Discretisation, Pair, Target};
 pub use mortar::Mortar;
 pub use obstacle::{ClosedSurface, Obstacle, RigidShape, SurfaceDefect};
-pub use penetration::{Boundaries, Penetration, Solid};
+pub use penetration::{Boundaries, Feature, Penetration, Solid, Witness};
 pub use search::Search;
 pub use surface::ContactSurface;

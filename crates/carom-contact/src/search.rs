@@ -220,7 +220,7 @@ impl<const D: usize> Swept<D> {
     }
 
     /// Brings the tree up to date, once per sweep.
-    fn fit<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    pub fn fit<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &mut self,
         surface: &ContactSurface,
         path: &Path<'_, D, S, E>,

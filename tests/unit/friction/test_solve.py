@@ -25,7 +25,7 @@ def random_problem(seed, contacts, dimension, *, rank, spread, units, mu):
 
 
 @every_solver
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(
     seed=st.integers(0, 10_000),
     contacts=st.integers(1, 6),

@@ -23,7 +23,7 @@ def test_what_is_packed_as_it_is_comes_back(kind, values):
     np.testing.assert_array_equal(unpack(packed), values.astype(kind))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     arrays.arrays(
         np.float64,
@@ -35,7 +35,8 @@ def test_quantised_values_come_back_to_within_half_a_step(values):
     back = unpack(json.loads(json.dumps(pack_quantised(values))))
     span = np.ptp(values, axis=(0, 1))
     size = np.abs(values).max(axis=(0, 1))
-    assert (np.abs(back - values) <= span / 65534 / 2 * (1 + 1e-9) + 1e-12 * size).all()
+    subnormal = np.finfo(float).smallest_normal  # numbers below it have fewer digits
+    assert (np.abs(back - values) <= span / 65534 / 2 * (1 + 1e-9) + 1e-12 * size + subnormal).all()
 
 
 def test_what_is_not_finite_stays_out_of_the_range():

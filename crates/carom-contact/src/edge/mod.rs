@@ -4,6 +4,7 @@ mod crossing;
 mod detect;
 mod edging;
 mod found;
+mod pierced;
 
 use carom_mesh::Vector;
 
@@ -12,6 +13,7 @@ use crate::tolerances::EDGES;
 
 pub(crate) use crossing::Crossing;
 pub(crate) use found::Found;
+pub(crate) use pierced::Pierced;
 
 /// A straight line along which a surface turns away from its outside, as it is without deformation.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,6 +5,7 @@
 //! obstacles are checked. So are the parts of every edge that run through the inside of another body, though its ends are outside.
 
 mod deep;
+mod feature;
 mod in_obstacle;
 mod itself;
 mod shell;
@@ -16,6 +17,7 @@ use carom_mesh::{Surface, Vector};
 use crate::Obstacle;
 use crate::aabb::Aabb;
 use deep::Deep;
+pub use feature::Feature;
 use shell::Shell;
 use skin::Skin;
 
@@ -51,11 +53,26 @@ pub struct Penetration<const D: usize> {
     pub arcs: f64,
 }
 
+/// What of a body is inside another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Witness {
+    /// The body that it is of.
+    pub of: usize,
+    /// The body that it is in.
+    pub inside: usize,
+    /// The node or edge.
+    pub feature: Feature,
+    /// How deep it is [m].
+    pub depth: f64,
+}
+
 /// The boundaries of all bodies and obstacles, and what the measure keeps from one call to the next.
 #[derive(Debug, Clone, Default)]
 pub struct Boundaries<const D: usize> {
     shells: Vec<Shell<D>>,
     skins: Vec<Skin<D>>,
+    /// Of the last measure.
+    witnesses: Vec<Witness>,
 }
 
 impl<const D: usize> Boundaries<D> {
@@ -71,13 +88,20 @@ impl<const D: usize> Boundaries<D> {
             shell.place(position);
             shell.size_up();
         }
-        Self { shells, skins: obstacles.iter().map(|o| Skin::of(&o.shape)).collect() }
+        let skins = obstacles.iter().map(|o| Skin::of(&o.shape)).collect();
+        Self { shells, skins, witnesses: Vec::new() }
     }
 
     /// Diameter of the smallest facet of a body where it was first [m]; infinite without facets.
     #[must_use]
     pub fn least_cell(&self, body: usize) -> f64 {
         self.shells[body].least_cell
+    }
+
+    /// What the last measure found of bodies inside one another by more than round-off, relative to the smaller of the facets there.
+    #[must_use]
+    pub fn witnesses(&self) -> &[Witness] {
+        &self.witnesses
     }
 
     /// Tells `found` the deepest place of every pair that `counts`, a body with itself among them, where the nodes are at `position`.
@@ -90,7 +114,8 @@ impl<const D: usize> Boundaries<D> {
     ) {
         self.shells.iter_mut().for_each(|shell| shell.place(position));
         self.fit_those_that_meet(obstacles, &counts, position);
-        let shells = &self.shells;
+        let Self { shells, skins, witnesses } = self;
+        witnesses.clear();
         let mut tell = |between: [Solid; 2], deep: Deep<D>| {
             let Deep { depth, at, facet, other } = deep;
             if depth == 0.0 {
@@ -114,10 +139,12 @@ impl<const D: usize> Boundaries<D> {
             for (j, other) in shells.iter().enumerate() {
                 let between = [me, Solid::Body(j)];
                 if i != j && shell.bounds().overlaps(other.bounds()) && counts(between) {
-                    tell(between, shell.inside_of(other));
+                    let witness =
+                        |feature, depth| witnesses.push(Witness { of: i, inside: j, feature, depth });
+                    tell(between, shell.inside_of(other, witness));
                 }
             }
-            for (o, (skin, obstacle)) in self.skins.iter().zip(obstacles).enumerate() {
+            for (o, (skin, obstacle)) in skins.iter().zip(obstacles).enumerate() {
                 let other = Solid::Obstacle(o);
                 if counts([me, other]) {
                     let shift = position(obstacle.node);

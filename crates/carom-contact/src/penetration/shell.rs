@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use carom_mesh::{CellKind, Facet, Surface, Vector};
 
 use super::deep::Deep;
+use super::feature::Feature;
 use super::skin::Skin;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
@@ -15,6 +16,10 @@ use crate::tolerances::SEARCH;
 
 /// Points this close to one another, relative to the diameter of the facet that they are on, are one.
 const SAME: f64 = 1e-9;
+
+/// What is deeper than this, relative to the diameter of its facet, is a witness. Facets of four nodes that are not quite flat go through one
+/// another by a tenth of it where flat sides slide on one another; with a thousandth of it such steps took four times as many iterations.
+const WITNESSED: f64 = 1e-6;
 
 /// How well the depth of an edge is known, relative to itself.
 const FINEST: f64 = 0.01;
@@ -180,25 +185,34 @@ impl<const D: usize> Shell<D> {
         (if side < 0.0 && !is_end { distance } else { 0.0 }, nearest)
     }
 
-    /// What of this boundary is deepest inside another.
+    /// What of this boundary is deepest inside another. Tells `witness` of all that is.
     ///
     /// What is inside at all has a part that is not deep: only if that is farther in than a facet is large, all are looked at.
-    pub fn inside_of(&self, other: &Self) -> Deep<D> {
-        let near = self.inside_within(2.0 * other.largest_cell, other);
-        if near.depth > other.largest_cell { self.inside_within(f64::INFINITY, other) } else { near }
+    pub fn inside_of(&self, other: &Self, mut witness: impl FnMut(Feature, f64)) -> Deep<D> {
+        let near = self.inside_within(2.0 * other.largest_cell, other, &mut witness);
+        if near.depth <= other.largest_cell {
+            return near;
+        }
+        self.inside_within(f64::INFINITY, other, &mut |_, _| ())
     }
 
-    fn inside_within(&self, reach: f64, other: &Self) -> Deep<D> {
+    fn inside_within(&self, reach: f64, other: &Self, witness: &mut impl FnMut(Feature, f64)) -> Deep<D> {
         let mut deepest = Deep::none();
+        let mut note = |deep: Deep<D>, feature: Feature, f: u32| {
+            if deep.depth > WITNESSED * self.diameter(f) {
+                witness(feature, deep.depth);
+            }
+            deepest = deepest.deeper(deep);
+        };
         for (node, around) in &self.nodes {
             let x = self.at(*node);
             if other.bounds.contains(&x) {
-                deepest = deepest.deeper(other.deep(&x, reach, around.first().copied()));
+                note(other.deep(&x, reach, around.first().copied()), Feature::Node(*node), around[0]);
             }
         }
         for &(nodes, f) in &self.edges {
             let ends = nodes.map(|n| self.at(n));
-            deepest = deepest.deeper(other.deepest_of_segment(&ends, Some(f)));
+            note(other.deepest_of_segment(&ends, Some(f)), Feature::Edge(nodes), f);
         }
         deepest
     }

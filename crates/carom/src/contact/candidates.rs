@@ -1,6 +1,6 @@
 //! Which contacts there may be in a step.
 
-use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Target};
+use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Site, Target, Witness};
 use carom_mesh::Vector;
 
 use super::active::ActiveSet;
@@ -16,6 +16,8 @@ pub(crate) struct Finder<const D: usize> {
     pub asleep: Vec<bool>,
     /// All that the search found, ascending.
     found: Vec<Candidate>,
+    /// Those of the step that say what no other does, as the measure has shown.
+    needed: Vec<(u32, Site)>,
     missed: Vec<Candidate>,
     missed_contacts: Vec<Contact<D>>,
     missed_mortar: Mortar<D>,
@@ -49,8 +51,15 @@ impl<const D: usize> Finder<D> {
         self.missed.clear();
         self.missed.extend(pressed.filter(|c| contact.still_touches(c, &start)));
         contact.recall(&self.missed, &start, &end, candidates);
-        if repetition > 0 {
+        if repetition == 0 {
+            self.needed.clear();
+        } else {
             contact.recall(&self.found, &start, &end, candidates);
+        }
+        for key in &self.needed {
+            if let Ok(k) = candidates.binary_search_by_key(key, Candidate::key) {
+                candidates[k].redundant = false;
+            }
         }
         let wide = margin * CONTROL.widening.powi(repetition as i32);
         contact.detect_mortar(&start, &end, wide, &mut active.mortar, candidates);
@@ -67,7 +76,7 @@ impl<const D: usize> Finder<D> {
         }
         let assembly = given.assembly;
         let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
-        let Self { search, asleep, found, missed, missed_mortar, missed_contacts } = self;
+        let Self { search, asleep, found, missed, missed_mortar, missed_contacts, .. } = self;
         assembly.contact.detect_among(|p| !is_asleep(asleep, p), &end, &end, 0.0, search, missed);
         assembly.contact.detect_mortar(&end, &end, 0.0, missed_mortar, missed);
         missed.retain(|m| found.binary_search_by_key(&m.key(), Candidate::key).is_err());
@@ -78,6 +87,31 @@ impl<const D: usize> Finder<D> {
             found.sort_unstable();
         }
         missed_one
+    }
+
+    /// Whether candidates that nobody had found would have kept out what the measure of the step has found inside. If so, they are searched
+    /// from now on.
+    pub fn missed_by(&mut self, given: &Given<'_, D>, next: &State<D>, witnesses: &[Witness]) -> bool {
+        if witnesses.is_empty() || !given.method.condition.rules_the_end() {
+            return false;
+        }
+        let assembly = given.assembly;
+        let start = |n: u32| given.position(n);
+        let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
+        let Self { search, found, needed, missed, .. } = self;
+        assembly.contact.witnessed(witnesses, &start, &end, search, missed);
+        missed.retain(|m| match found.binary_search_by_key(&m.key(), Candidate::key) {
+            Ok(k) => std::mem::take(&mut found[k].redundant),
+            Err(_) => true,
+        });
+        if missed.is_empty() {
+            return false;
+        }
+        needed.extend(missed.iter().map(Candidate::key));
+        missed.retain(|m| found.binary_search_by_key(&m.key(), Candidate::key).is_err());
+        found.extend_from_slice(missed);
+        found.sort_unstable();
+        true
     }
 
     /// Whether a `body` is somewhere within `reach` [m] of itself where the nodes are at `position`.

@@ -39,12 +39,15 @@ struct Search {
     largest_margin: f64,
     /// The least margin in a static analysis, where no velocity foretells the motion, in sizes of the model.
     static_margin: f64,
-    /// How often a step is repeated from where it led to, if a node came into contact unforeseen.
+    /// How often a step is repeated from where it led to, if something came into contact unforeseen.
     repetitions: usize,
+    /// How often at most for what the measure has found; after that it is told.
+    measured: usize,
 }
 
 /// The thresholds of every run.
-const SEARCH: Search = Search { margin: 2.0, largest_margin: 0.1, static_margin: 1e-3, repetitions: 4 };
+const SEARCH: Search =
+    Search { margin: 2.0, largest_margin: 0.1, static_margin: 1e-3, repetitions: 8, measured: 4 };
 
 /// Takes `state` one step of length `dt` [s] further and writes the result to `next`.
 ///
@@ -73,8 +76,13 @@ pub fn step<const D: usize>(
         }
         iterations += made?;
         if !work.contacts.finder.missed_one(&given, next) {
-            let report = commit(&given, next, work, iterations)?;
             let penetration = measure(&given, next, work)?;
+            let Workspace { contacts, boundaries, .. } = work;
+            if repetition < SEARCH.measured && contacts.finder.missed_by(&given, next, boundaries.witnesses())
+            {
+                continue;
+            }
+            let report = commit(&given, next, work, iterations)?;
             if wake(&given, next, work) {
                 continue;
             }

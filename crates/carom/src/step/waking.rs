@@ -16,15 +16,14 @@ const NEAR: f64 = 0.5;
 /// The same in motions of the step, where one is long.
 const NEAR_IN_MOTIONS: f64 = 4.0;
 
-/// Takes note of how far nodes have wandered, and which bodies may have gone through themselves since they were looked at.
+/// Takes note of how far nodes wander in the step, and which bodies may have gone through themselves since they were looked at.
 pub(super) fn wander<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) {
     let Workspace { motion, since_look, boundaries, .. } = work;
     for (i, look) in since_look.iter_mut().enumerate() {
         let nodes = given.assembly.nodes(i);
         let middle = |n: usize| given.position(n as u32) + motion[n] * 0.5;
         look.in_step = against_one_another(&motion[nodes.clone()], |k| middle(nodes.start + k));
-        look.wandered += look.in_step;
-        look.is_due = look.wandered > UNSEEN * boundaries.least_cell(i);
+        look.is_due = look.wandered + look.in_step > UNSEEN * boundaries.least_cell(i);
     }
 }
 
@@ -34,8 +33,12 @@ pub(super) fn wake<const D: usize>(given: &Given<'_, D>, next: &State<D>, work: 
     let Workspace { since_look, in_itself, boundaries, contacts, .. } = work;
     let end = |n: u32| given.assembly.reference[n as usize] + next.displacement[n as usize];
     let mut is_surprise = false;
-    for (i, look) in since_look.iter_mut().enumerate().filter(|(_, look)| look.is_due) {
+    for (i, look) in since_look.iter_mut().enumerate() {
         let finder = &mut contacts.finder;
+        look.wandered += look.in_step;
+        if !look.is_due {
+            continue;
+        }
         if in_itself[i] {
             // It is looked at again in the next step.
             is_surprise |= finder.asleep[i];

@@ -1,0 +1,121 @@
+//! Candidates where a measure has found bodies inside one another.
+
+use carom_mesh::Vector;
+
+use crate::aabb::Aabb;
+use crate::edge::{Edge, Pierced};
+use crate::patch::rim;
+use crate::path::Path;
+use crate::project::Reach;
+use crate::search::Swept;
+use crate::{Candidate, ContactModel, ContactSurface, Feature, Pair, Search, Site, Solid, Target, Witness};
+
+/// Edges that have gone through one another by less than this part of the depth of one of them do not account for it.
+const ACCOUNTS: f64 = 0.5;
+
+impl<const D: usize> ContactModel<D> {
+    /// Writes to `out`, ascending, the candidates that would have kept `witnesses` out on a straight way of all nodes from `start` to `end`: a
+    /// node before the facet that was nearest at the start, an edge where it goes through another.
+    ///
+    /// The rules by which [`ContactModel::detect`] chooses need not foresee everything: what they leave out is found here, where it matters.
+    /// Of bodies that are checked from one side alone, nodes of the other are inside by choice: these are left alone.
+    pub fn witnessed(
+        &self,
+        witnesses: &[Witness],
+        start: &impl Fn(u32) -> Vector<D>,
+        end: &impl Fn(u32) -> Vector<D>,
+        search: &mut Search<D>,
+        out: &mut Vec<Candidate>,
+    ) {
+        out.clear();
+        let path = Path { start, end, margin: 0.0 };
+        search.sweep(self, |_| true, &path);
+        for &Witness { of, inside, feature, depth } in witnesses {
+            let (Some(there), Some(_)) = (self.pair_of(of, inside), self.pair_of(inside, of)) else {
+                continue;
+            };
+            let (own, other) = (&self.surfaces[of], &self.surfaces[inside]);
+            let (swept, _) = search.swept_and_crossings(Solid::Body(inside));
+            swept.fit(other, &path);
+            match feature {
+                Feature::Node(node) => {
+                    let node = own.master(node);
+                    let facet = other.nearest_on_the_way(node, swept, &path);
+                    out.extend(facet.map(|f| Candidate::at_node(there as u32, node, Some(f))));
+                }
+                Feature::Edge(nodes) => {
+                    let Some(edge) = own.edge(nodes) else { continue };
+                    let first = self.directions(there).start;
+                    let is_source = first == there;
+                    let pierced = other.pierced_on_the_way((own, edge, depth), is_source, swept, &path);
+                    out.extend(pierced.map(|[source, target]| Candidate {
+                        pair: first as u32,
+                        site: Site::Crossing(source, target),
+                        facet: None,
+                        redundant: false,
+                    }));
+                }
+            }
+        }
+        out.sort_unstable();
+        out.dedup();
+    }
+
+    /// The pair in which nodes of the body `source` are checked one by one against the body `target`.
+    fn pair_of(&self, source: usize, target: usize) -> Option<usize> {
+        let is_it = |pair: &Pair| pair.source == source && pair.target == Target::Surface(target);
+        (0..self.pairs.len()).find(|&p| is_it(&self.pairs[p]) && !self.is_mortar(p))
+    }
+}
+
+impl ContactSurface {
+    /// The facet that is nearest to where a node starts, among those that it comes near.
+    fn nearest_on_the_way<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &self,
+        node: u32,
+        swept: &Swept<D>,
+        path: &Path<'_, D, S, E>,
+    ) -> Option<u32> {
+        let x = (path.start)(node);
+        let mut nearest: Option<(f64, u32)> = None;
+        swept.tree.overlapping(&Aabb::of(path.ends(node)), |f, _| {
+            let distance = (x - self.project(f, &x, Reach::Facet, path.start).point).norm();
+            if nearest.is_none_or(|(least, of)| distance < least || distance == least && f < of) {
+                nearest = Some((distance, f));
+            }
+        });
+        nearest.map(|(_, f)| f)
+    }
+
+    /// The edges of the source and of the target of the crossing at which an edge of another surface, which is the source or not, goes
+    /// through one of this by what accounts for its depth [m]; of several the shallowest.
+    fn pierced_on_the_way<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &self,
+        (surface, edge, depth): (&Self, &Edge, f64),
+        is_source: bool,
+        swept: &Swept<D>,
+        path: &Path<'_, D, S, E>,
+    ) -> Option<[[u32; 2]; 2]> {
+        let mut best: Option<Pierced> = None;
+        swept.tree.overlapping(&edge.path(path.start, path.end), |f, _| {
+            let facet = &self.facets[f as usize];
+            for [a, b] in rim(facet.kind) {
+                let Some(other) = self.edge([facet.nodes[a], facet.nodes[b]]) else { continue };
+                let sides = [(surface, edge), (self, other)];
+                let [source, target] = if is_source { sides } else { [sides[1], sides[0]] };
+                let pierced = Pierced::of(source, target, path).filter(|p| p.depth >= ACCOUNTS * depth);
+                best = pierced.into_iter().chain(best).reduce(Pierced::shallower);
+            }
+        });
+        best.map(|pierced| pierced.edges)
+    }
+
+    /// The edge between two nodes.
+    fn edge(&self, [a, b]: [u32; 2]) -> Option<&Edge> {
+        let of = |edges: &'_ [Edge], nodes| edges.binary_search_by_key(&nodes, |e| e.nodes).ok();
+        [[a, b], [b, a]].into_iter().find_map(|nodes| {
+            let sharp = of(&self.edges, nodes).map(|k| &self.edges[k]);
+            sharp.or_else(|| of(&self.flat_edges, nodes).map(|k| &self.flat_edges[k]))
+        })
+    }
+}
