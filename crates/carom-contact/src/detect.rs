@@ -13,7 +13,7 @@ impl<const D: usize> ContactModel<D> {
     /// `start` and `end` are the positions at the start of the step and those predicted for its end. A node keeps its facet for
     /// the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
     /// the closest facet alone is ambiguous. Nodes are found inside a target to a depth of half a facet. On a smooth target
-    /// the closest point may move on to other facets. Mortar pairs are left to `detect_mortar`.
+    /// the closest point may move on to other facets. Nodes of mortar pairs are left to `detect_mortar`.
     ///
     /// A node that slides over the rim of its target while it is a little
     /// inside, as the condition `midpoint` lets it, is beside the target from then on.
@@ -51,7 +51,6 @@ impl<const D: usize> ContactModel<D> {
                         self.detect_faceted(p, (Solid::Obstacle(o), &faceted.surface), &path, search, out);
                     }
                 },
-                Target::Surface(_) if self.is_mortar(p) => {}
                 Target::Surface(t) => {
                     self.detect_faceted(p, (Solid::Body(t), &self.surfaces[t]), &path, search, out);
                 }
@@ -92,9 +91,11 @@ impl<const D: usize> ContactModel<D> {
             return;
         }
         let (source, pair_index) = (&self.surfaces[self.pairs[pair].source], pair as u32);
-        search.facing(source, target, path, |node, facet| {
-            out.push(Candidate::at_node(pair_index, node, Some(facet)));
-        });
+        if !self.is_mortar(pair) {
+            search.facing(source, target, path, |node, facet| {
+                out.push(Candidate::at_node(pair_index, node, Some(facet)));
+            });
+        }
         // From the other side they are the same.
         if self.directions(pair).start == pair {
             self.detect_crossings(pair, target, path, search, out);

@@ -18,7 +18,7 @@ impl<const D: usize> ContactModel<D> {
         out: &mut Vec<Candidate>,
     ) {
         let found = out.len();
-        for candidate in known.iter().filter(|c| !self.is_mortar(c.pair as usize)) {
+        for candidate in known.iter().filter(|c| !self.is_multiplier(c)) {
             if out[..found].binary_search_by_key(&candidate.key(), Candidate::key).is_err() {
                 out.push(Candidate { redundant: false, ..*candidate });
             }

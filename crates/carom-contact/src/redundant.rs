@@ -92,6 +92,9 @@ impl<const D: usize> ContactModel<D> {
         let placed = &self.placed(candidates[k].pair, position);
         let crossing = Crossing::new(edges[0].map(placed), edges[1].map(placed));
         let pair = candidates[k].pair as usize;
+        if self.is_mortar(pair) {
+            return;
+        }
         for side in (0..2).filter(|&side| crossing.reach()[side] < EDGES.at_node) {
             let node = edges[side][crossing.nearer()[side]];
             for p in self.directions(pair) {

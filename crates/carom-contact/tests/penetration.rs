@@ -102,6 +102,23 @@ fn bars_that_cross_without_a_node_inside_are_found() {
     close(depth(&solid[..1], vec![post]), 0.05);
 }
 
+/// Symptom guarded against: a rod that is thinner than a facet went through it, and nothing said so.
+#[test]
+fn a_thin_rod_through_a_facet_is_as_deep_as_it_is_thick() {
+    let rod = |x: f64, slope: f64| RigidShape::Cylinder {
+        point: Vector::<3>::new(x, 0.3, 5.0),
+        axis: Vector::<3>::new(slope, 0.0, 1.0).normalize(),
+        radius: 0.05,
+        cavity: false,
+    };
+    for cells in [1, 2] {
+        let cube = [block([0.0; 3], [1.0; 3], [cells; 3])];
+        close(depth(&cube, vec![rod(0.3, 0.0)]), 0.05);
+        close(depth(&cube, vec![rod(0.3, -0.05)]), 0.05);
+        assert_eq!(depth(&cube, vec![rod(1.06, 0.0)]), 0.0);
+    }
+}
+
 #[test]
 fn a_ball_is_found_between_the_nodes_that_it_presses_into() {
     let plate = [block([-1.0, -1.0, 0.0], [2.0, 2.0, 0.5], [1; 3])];

@@ -13,6 +13,9 @@ impl<const D: usize> ContactModel<D> {
     /// the line from the one to the other is between the normals of its facets. Also, no plane of these facets may keep the two
     /// edges apart any better. As the bodies may be inside one another at the predicted middle of the step, this is decided at
     /// its start; where they cross, at the middle.
+    ///
+    /// Of a mortar pair they count where no facet beside them looks where they do: there multipliers have the mean of gaps that open on
+    /// both sides, and what the facets carry is theirs.
     pub(crate) fn detect_crossings<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
         pair: usize,
@@ -28,7 +31,7 @@ impl<const D: usize> ContactModel<D> {
         let room = search.room(solid, path.margin);
         let (swept, found) = search.swept_and_crossings(solid);
         swept.fit_edges(target, path);
-        let is_own = self.is_self_contact(pair);
+        let (is_own, is_mortar) = (self.is_self_contact(pair), self.is_mortar(pair));
         found.clear();
         // Edges of obstacles are as long as they please: between their ends they meet facets at the edges of these alone.
         let flat: &[Edge] = if matches!(solid, Solid::Obstacle(_)) { &source.flat_edges } else { &[] };
@@ -41,7 +44,7 @@ impl<const D: usize> ContactModel<D> {
                 let other_edge = &target.edges[other as usize];
                 let may_touch = !is_own || (other as usize) > k && source.edges_may_touch(edge, other_edge);
                 if may_touch && (edge.is_feature || other_edge.is_feature) {
-                    found.extend(crossing((source, edge), (target, other_edge), path));
+                    found.extend(crossing((source, edge), (target, other_edge), is_mortar, path));
                 }
             });
         }
@@ -59,6 +62,7 @@ impl<const D: usize> ContactModel<D> {
 fn crossing<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
     (source, s): (&ContactSurface, &Edge),
     (target, t): (&ContactSurface, &Edge),
+    is_mortar: bool,
     path: &Path<'_, D, S, E>,
 ) -> Option<Found> {
     let (start, middle) = (path.start, |n: u32| path.middle(n));
@@ -92,6 +96,9 @@ fn crossing<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
     }
     let opposite = source.normals(s, start);
     if !is_foremost(&-n, &e, &opposite) {
+        return None;
+    }
+    if is_mortar && normals.iter().chain(&opposite).any(|m| m.dot(&n).abs() > SEARCH.alike) {
         return None;
     }
     let before =

@@ -117,12 +117,14 @@ impl<const D: usize> ContactModel<D> {
             }
             let mut nodes = std::mem::take(&mut mortar.nodes);
             nodes.clear();
-            nodes.extend(of_pair.iter().filter_map(Candidate::node));
+            nodes.extend(of_pair.iter().map_while(Candidate::node));
             self.integrate_rows(pair, &nodes, position, mortar);
+            let (multipliers, crossings) = of_pair.split_at(nodes.len());
             mortar.nodes = nodes;
-            for (candidate, row) in of_pair.iter().zip(&mortar.rows) {
+            for (candidate, row) in multipliers.iter().zip(&mortar.rows) {
                 out.push(row.contact(position).unwrap_or_else(|| mortar.found(candidate).moved(position)));
             }
+            out.extend(crossings.iter().map(|c| self.evaluate(c, position)));
         }
     }
 
@@ -131,6 +133,11 @@ impl<const D: usize> ContactModel<D> {
     pub fn is_mortar(&self, pair: usize) -> bool {
         let pair = &self.pairs[pair];
         pair.discretisation == Discretisation::Mortar && matches!(pair.target, Target::Surface(_))
+    }
+
+    /// Whether a candidate is a multiplier of a mortar pair, and not edges that cross.
+    pub(crate) fn is_multiplier(&self, candidate: &Candidate) -> bool {
+        candidate.node().is_some() && self.is_mortar(candidate.pair as usize)
     }
 
     fn mortar_pairs(&self) -> impl Iterator<Item = usize> {

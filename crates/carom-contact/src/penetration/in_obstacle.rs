@@ -42,14 +42,34 @@ impl<const D: usize> Shell<D> {
         if D == 3 {
             for (f, facet) in (0..).zip(&self.facets) {
                 let patch = Patch::new(facet, &|n| self.at(n));
+                let middle = patch.middle().point;
                 let x = match shape {
                     RigidShape::Sphere { centre, .. } => patch.at(&patch.closest(&(centre + shift))).point,
-                    _ => patch.middle().point,
+                    RigidShape::Cylinder { point, axis, .. } => {
+                        self.pierced_by(f, &(point + shift), axis, &middle).unwrap_or(middle)
+                    }
+                    _ => middle,
                 };
                 look(x, f);
             }
         }
         deepest
+    }
+
+    /// Where a line through `point` along a unit vector goes through a facet that has this `middle`. Elsewhere the place of the facet that is
+    /// nearest to the line is on one of its edges.
+    fn pierced_by(
+        &self,
+        f: u32,
+        point: &Vector<D>,
+        along: &Vector<D>,
+        middle: &Vector<D>,
+    ) -> Option<Vector<D>> {
+        let (foot, reach) = (along.dot(&(middle - point)), self.diameter(f));
+        let ends = [foot - reach, foot + reach].map(|s| point + along * s);
+        let mut place = None;
+        self.crossings(f, &ends, &mut |t, _| place = Some(ends[0] + (ends[1] - ends[0]) * t));
+        place
     }
 }
 
