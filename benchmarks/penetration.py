@@ -7,7 +7,8 @@ The scenes of `wild_scenes.py`, step by step: the outlines of all bodies as poly
 as closed surfaces of manifold3d, which know nothing of carom. A step at whose end two bodies, or a
 body and a wall, have an intersection that is deeper than round-off, or a body crosses itself, must
 have a penetration in its row of the history; in the plane it must be as deep, in space not less
-than a tenth of how thick what both have in common is. Prints a table, and ends with exit status 1
+than a tenth of how thick what both have in common is. A row may tell of more: it has the deepest of
+halved steps too, and of bodies in themselves. Prints a table, and ends with exit status 1
 if an intersection was silent.
 """
 
@@ -42,7 +43,7 @@ def main() -> None:
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 500
     first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
     found: dict[str, int] = defaultdict(int)
-    off = 0.0
+    least = np.inf
     for seed in range(first, first + count):
         scenario = scene(seed)
         if scenario.dimension == 3:
@@ -65,13 +66,13 @@ def main() -> None:
                 found["silent"] += 1
                 print(f"scene {seed}: told {told:.3g} m, seen {seen:.3g} m, crosses: {crosses}")
             elif not crosses and seen > 1e-9:
-                off = max(off, abs(told / seen - 1.0))
+                least = min(least, told / seen)
         if not tells:
             found["silent"] += 1
             print(f"scene {seed}: crosses itself at its end, and the last row says nothing")
     for what, number in found.items():
         print(f"{what:37} {number}")
-    print(f"{'largest relative difference':37} {off:.2g}")
+    print(f"{'least of what is seen that is told':37} {least:.6g}")
     raise SystemExit(found["silent"] > 0)
 
 
