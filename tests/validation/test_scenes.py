@@ -67,3 +67,26 @@ def test_a_ring_that_is_thrown_at_a_wall_touches_itself(tmp_path):
     assert ["body-0", "body-0"] in [pair["between"] for pair in summary["pairs"]]
     worst = summary["penetration"]["worst"]
     assert worst["depth"] < worst["allowed"]
+
+
+@pytest.mark.parametrize("condition", ["midpoint", "gap"])
+def test_a_round_indenter_of_the_radius_of_a_few_cells_completes(condition, tmp_path):
+    """Symptom guarded against: between nodes that it touched it was in a facet, as it must be."""
+    material = {"kind": "neo-hookean", "young": 1e6, "poisson": 0.3, "density": 1000.0}
+    material["damping"] = {"mass": 5.0, "stiffness": 1e-3}
+    mesh = {"kind": "rectangle", "corner": [0.0, 0.0], "size": [2.0, 1.0], "divisions": [5, 2]}
+    ball = {"name": "ball", "kind": "sphere", "centre": [1.0, 2.02], "radius": 1.0}
+    case = {
+        "analysis": {"kind": "dynamic", "end_time": 0.2, "time_step": 2e-3},
+        "materials": {"m": material},
+        "bodies": [{"name": "block", "material": "m", "mesh": mesh}],
+        "obstacles": [
+            {"name": "floor", "kind": "plane", "point": [0.0, 0.0], "normal": [0.0, 1.0]},
+            {**ball, "velocity": [0.0, -0.5]},
+        ],
+        "contact": {"friction": 0.3, "condition": condition},
+    }
+    summary = carom.run(carom.Scenario.model_validate(case), out=tmp_path / "out").summary
+    assert summary["status"] == "completed"
+    worst = summary["penetration"]["worst"]
+    assert worst["allowed"] / 10 < worst["depth"] < worst["allowed"]

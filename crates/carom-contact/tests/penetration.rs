@@ -102,6 +102,21 @@ fn bars_that_cross_without_a_node_inside_are_found() {
     close(depth(&solid[..1], vec![post]), 0.05);
 }
 
+/// Symptom guarded against: an indenter of the radius of five cells ended a run as intersecting, before a node had touched it.
+#[test]
+fn a_round_obstacle_may_bulge_into_a_facet_that_is_not_larger_than_its_radius() {
+    let arcs = |radius: f64| {
+        let ball = RigidShape::Sphere { centre: [0.5, 1.0 + radius - 0.01].into(), radius, cavity: false };
+        let found = measured(&[block([0.0; 2], [1.0; 2], [1; 2])], vec![ball], |x| *x);
+        assert_eq!(found.len(), 1);
+        close(found[0].depth, 0.01);
+        found[0].arcs
+    };
+    close(arcs(1.0), 0.125);
+    close(arcs(5.0), 0.025);
+    assert_eq!(arcs(0.9), 0.0);
+}
+
 /// Symptom guarded against: a rod that is thinner than a facet went through it, and nothing said so.
 #[test]
 fn a_thin_rod_through_a_facet_is_as_deep_as_it_is_thick() {

@@ -118,6 +118,18 @@ impl<const D: usize> Obstacle<D> {
 }
 
 impl<const D: usize> RigidShape<D> {
+    /// How far it bulges into a facet of this `size` [m] whose nodes touch it [m]. Nothing that is small beside the facet touches its nodes.
+    pub(crate) fn bulge(&self, size: f64) -> f64 {
+        match self {
+            Self::Sphere { radius, cavity: false, .. } | Self::Cylinder { radius, cavity: false, .. }
+                if size <= *radius =>
+            {
+                size * size / (8.0 * radius)
+            }
+            _ => 0.0,
+        }
+    }
+
     pub(crate) fn gap(&self, x: &Vector<D>) -> (f64, Vector<D>) {
         match self {
             Self::Plane { point, normal } => (normal.dot(&(x - point)), *normal),

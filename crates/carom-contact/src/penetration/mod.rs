@@ -49,7 +49,8 @@ pub struct Penetration<const D: usize> {
     pub between: [Solid; 2],
     /// Diameter of the smaller facet that is there [m].
     pub cell: f64,
-    /// How far the arcs that the facets there stand for are in front of them [m], those of both sides together.
+    /// How far the arcs that the facets there stand for are in front of them [m], those of both sides together; of a round obstacle how far it
+    /// bulges into the facet.
     pub arcs: f64,
 }
 
@@ -127,7 +128,11 @@ impl<const D: usize> Boundaries<D> {
                     _ => None,
                 });
             let cell = facets.clone().map(|(shell, f)| shell.diameter(f)).fold(f64::INFINITY, f64::min);
-            let arcs = facets.map(|(shell, f)| shell.arc(f)).sum();
+            let bulge = between.iter().map(|solid| match solid {
+                Solid::Obstacle(o) => obstacles[*o].shape.bulge(cell),
+                Solid::Body(_) => 0.0,
+            });
+            let arcs = facets.map(|(shell, f)| shell.arc(f)).chain(bulge).sum();
             let [inner, outer] = between;
             found(Penetration { depth, at, between: inner.pair(outer), cell, arcs });
         };
