@@ -17,8 +17,9 @@ use crate::tolerances::SEARCH;
 /// Points this close to one another, relative to the diameter of the facet that they are on, are one.
 const SAME: f64 = 1e-9;
 
-/// What is deeper than this, relative to the diameter of its facet, is a witness. Facets of four nodes that are not quite flat go through one
-/// another by a tenth of it where flat sides slide on one another; with a thousandth of it such steps took four times as many iterations.
+/// What is deeper than this, relative to the diameter of its facet, and than the arcs that facets stand for, is a witness. Facets of four
+/// nodes that are not quite flat go through one another by a tenth of it where flat sides slide on one another; with a thousandth of it
+/// such steps took four times as many iterations.
 const WITNESSED: f64 = 1e-6;
 
 /// How well the depth of an edge is known, relative to itself.
@@ -35,6 +36,8 @@ pub(super) struct Shell<const D: usize> {
     /// Diameters of its smallest and of its largest facet [m].
     pub least_cell: f64,
     largest_cell: f64,
+    /// The arcs that its facets stand for where it was first [m].
+    arcs: Vec<f64>,
     /// Nodes at which the boundary ends: where a tied side begins.
     ends: BTreeSet<u32>,
     first: u32,
@@ -74,6 +77,7 @@ impl<const D: usize> Shell<D> {
             facets,
             least_cell: f64::INFINITY,
             largest_cell: 0.0,
+            arcs: Vec::new(),
             ends,
             first,
             tree: Bvh::new(std::iter::empty()),
@@ -116,12 +120,13 @@ impl<const D: usize> Shell<D> {
         self.is_fitted = true;
     }
 
-    /// Takes note of how large its facets are.
+    /// Takes note of how large and how round its facets are.
     pub fn size_up(&mut self) {
         let facets = 0..self.facets.len() as u32;
         (self.least_cell, self.largest_cell) = facets
             .map(|f| self.diameter(f))
             .fold((f64::INFINITY, 0.0), |(least, largest), d| (d.min(least), d.max(largest)));
+        self.arcs = (0..self.facets.len() as u32).map(|f| self.arc(f)).collect();
     }
 
     pub fn bounds(&self) -> &Aabb<D> {
@@ -199,7 +204,8 @@ impl<const D: usize> Shell<D> {
     fn inside_within(&self, reach: f64, other: &Self, witness: &mut impl FnMut(Feature, f64)) -> Deep<D> {
         let mut deepest = Deep::none();
         let mut note = |deep: Deep<D>, feature: Feature, f: u32| {
-            if deep.depth > WITNESSED * self.diameter(f) {
+            let arcs = self.arcs[f as usize] + deep.other.map_or(0.0, |o| other.arcs[o as usize]);
+            if deep.depth > WITNESSED * self.diameter(f) + arcs {
                 witness(feature, deep.depth);
             }
             deepest = deepest.deeper(deep);
