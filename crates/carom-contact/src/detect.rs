@@ -2,61 +2,58 @@ use carom_mesh::Vector;
 
 use crate::edge::Crossing;
 use crate::frame::frame;
-use crate::path::Path;
 use crate::project::Reach;
-use crate::{Candidate, Contact, ContactModel, ContactSurface, Obstacle, Pair, Search, Site, Solid, Target};
+use crate::search::SolidSurface;
+use crate::{Candidate, Contact, ContactModel, Obstacle, Pair, Path, Search, Site, Solid, Target};
 
 impl<const D: usize> ContactModel<D> {
-    /// Finds the nodes that come within `margin` [m] of their target or are inside it, and the facets they face; of obstacles with corners also
+    /// Finds the nodes that on their `path` come near their target or are inside it, and the facets they face; of obstacles with corners also
     /// those that come near facets of the body. In space it also finds the edges that cross those of the target.
     ///
-    /// `start` and `end` are the positions at the start of the step and those predicted for its end. A node keeps its facet for
-    /// the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
+    /// A node keeps its facet for the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
     /// the closest facet alone is ambiguous. Nodes are found inside a target to a depth of half a facet. On a smooth target
     /// the closest point may move on to other facets. Nodes of mortar pairs are left to `detect_mortar`.
     ///
     /// A node that slides over the rim of its target while it is a little
     /// inside, as the condition `midpoint` lets it, is beside the target from then on.
-    pub fn detect(
+    pub fn detect<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
-        start: &impl Fn(u32) -> Vector<D>,
-        end: &impl Fn(u32) -> Vector<D>,
-        margin: f64,
+        path: &Path<'_, D, S, E>,
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
-        self.detect_among(|_| true, start, end, margin, search, out);
+        self.detect_among(|_| true, path, search, out);
     }
 
     /// [`ContactModel::detect`] of the pairs that `count`.
-    pub fn detect_among(
+    pub fn detect_among<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
         count: impl Fn(&Pair) -> bool,
-        start: &impl Fn(u32) -> Vector<D>,
-        end: &impl Fn(u32) -> Vector<D>,
-        margin: f64,
+        path: &Path<'_, D, S, E>,
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
         out.clear();
-        let path = Path { start, end, margin };
-        search.sweep(self, &count, &path);
+        search.sweep(self, &count, path);
         for (p, pair) in self.pairs.iter().enumerate().filter(|(_, pair)| count(pair)) {
             match pair.target {
                 Target::Obstacle(o) => match &self.obstacles[o].faceted {
-                    None => self.detect_round(p, &self.obstacles[o], &path, out),
+                    None => self.detect_round(p, &self.obstacles[o], path, out),
                     Some(faceted) => {
-                        let (start, end) = (&self.obstacles[o].placed(start), &self.obstacles[o].placed(end));
-                        let path = Path { start, end, margin };
-                        self.detect_faceted(p, (Solid::Obstacle(o), &faceted.surface), &path, search, out);
+                        let obstacle = &self.obstacles[o];
+                        let (start, end) = (&obstacle.placed(path.start), &obstacle.placed(path.end));
+                        let path = Path { start, end, margin: path.margin };
+                        let target = SolidSurface { solid: Solid::Obstacle(o), surface: &faceted.surface };
+                        self.detect_faceted(p, target, &path, search, out);
                     }
                 },
                 Target::Surface(t) => {
-                    self.detect_faceted(p, (Solid::Body(t), &self.surfaces[t]), &path, search, out);
+                    let target = SolidSurface { solid: Solid::Body(t), surface: &self.surfaces[t] };
+                    self.detect_faceted(p, target, path, search, out);
                 }
             }
         }
-        self.mark_mirrored(&|n| path.middle(n), out);
+        self.mark_redundant(&|n| path.middle(n), out);
     }
 
     /// Adds to `out` the nodes of a pair that come near an obstacle without facets.
@@ -81,13 +78,13 @@ impl<const D: usize> ContactModel<D> {
     fn detect_faceted<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
         pair: usize,
-        target: (Solid, &ContactSurface),
+        target: SolidSurface<'_>,
         path: &Path<'_, D, S, E>,
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
         let me = Solid::Body(self.pairs[pair].source);
-        if !search.meet(me, target.0, path.margin) {
+        if !search.meet(me, target.solid, path.margin) {
             return;
         }
         let (source, pair_index) = (&self.surfaces[self.pairs[pair].source], pair as u32);
@@ -100,11 +97,16 @@ impl<const D: usize> ContactModel<D> {
         if self.directions(pair).start == pair {
             self.detect_crossings(pair, target, path, search, out);
         }
-        if matches!(target.0, Solid::Obstacle(_)) {
-            search.facing(target.1, (me, source), path, |corner, facet| {
-                let site = Site::Corner(corner);
-                out.push(Candidate { pair: pair_index, site, facet: Some(facet), redundant: false });
-            });
+        if matches!(target.solid, Solid::Obstacle(_)) {
+            search.facing(
+                target.surface,
+                SolidSurface { solid: me, surface: source },
+                path,
+                |corner, facet| {
+                    let site = Site::Corner(corner);
+                    out.push(Candidate { pair: pair_index, site, facet: Some(facet), redundant: false });
+                },
+            );
         }
     }
 

@@ -3,6 +3,7 @@ use carom_mesh::Vector;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::project::Reach;
+use crate::tolerances::MEASURE;
 use crate::{Candidate, Contact, ContactModel, ContactSurface, Pair, Search, Site, Solid, Target};
 
 /// The place where the two sides of a pair are closest.
@@ -111,7 +112,7 @@ fn signed_distance<const D: usize>(
 ) -> f64 {
     let (mut distance, mut side) = (f64::INFINITY, 0.0);
     tree.nearest(x, |f, facet_box| {
-        let tie = 1e-9 * facet_box.diameter();
+        let tie = MEASURE.same * facet_box.diameter();
         let p = surface.project(f, x, Reach::Facet, position);
         let d = (x - p.point).norm();
         let front = p.normal.dot(&(x - p.point));
@@ -131,7 +132,7 @@ mod tests {
     use carom_mesh::{Surface, generate};
 
     use super::*;
-    use crate::{Discretisation, Obstacle, Search};
+    use crate::{Discretisation, Obstacle, Path, Search};
 
     fn two_discs(distance: f64) -> (ContactModel<2>, Vec<Vector<2>>) {
         let disc = |x: f64| {
@@ -179,7 +180,7 @@ mod tests {
         assert!((between.gap - 0.5).abs() < 1e-12);
         assert!((model.proximity(&model.pairs[1], &at).expect("nodes").gap - 1.0).abs() < 1e-12);
         let mut candidates = Vec::new();
-        model.detect(&at, &at, 0.1, &mut Search::default(), &mut candidates);
+        model.detect(&Path::resting(&at, 0.1), &mut Search::default(), &mut candidates);
         assert!(candidates.is_empty());
     }
 
@@ -196,7 +197,7 @@ mod tests {
         let (model, x) = two_discs(2.01);
         let at = |n: u32| x[n as usize];
         let mut candidates = Vec::new();
-        model.detect(&at, &at, 0.02, &mut Search::default(), &mut candidates);
+        model.detect(&Path::resting(&at, 0.02), &mut Search::default(), &mut candidates);
         assert!(!candidates.is_empty());
         for candidate in &candidates {
             let contact = model.evaluate(candidate, &at);
@@ -235,7 +236,7 @@ mod tests {
             for shift in [-1e-3, 0.0, 1e-9, 1e-3] {
                 let at = |n: u32| x[n as usize] + Vector::<2>::new(if n < count { shift } else { 0.0 }, 0.0);
                 let mut candidates = Vec::new();
-                model.detect(&at, &at, 0.01, &mut Search::default(), &mut candidates);
+                model.detect(&Path::resting(&at, 0.01), &mut Search::default(), &mut candidates);
                 assert_eq!(candidates.len(), 5);
                 for candidate in &candidates {
                     let contact = model.evaluate(candidate, &at);

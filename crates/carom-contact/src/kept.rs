@@ -5,16 +5,15 @@ use carom_mesh::Vector;
 use crate::edge::Crossing;
 use crate::project::Reach;
 use crate::tolerances::{EDGES, SEARCH};
-use crate::{Candidate, ContactModel, Site};
+use crate::{Candidate, ContactModel, Path, Site};
 
 impl<const D: usize> ContactModel<D> {
     /// Adds to the candidates `out` of [`ContactModel::detect`] those that were `known` before and are not among them, with the facets
     /// that they faced then.
-    pub fn recall(
+    pub fn recall<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
         known: &[Candidate],
-        start: &impl Fn(u32) -> Vector<D>,
-        end: &impl Fn(u32) -> Vector<D>,
+        path: &Path<'_, D, S, E>,
         out: &mut Vec<Candidate>,
     ) {
         let found = out.len();
@@ -25,7 +24,7 @@ impl<const D: usize> ContactModel<D> {
         }
         if out.len() > found {
             out.sort_unstable();
-            self.mark_mirrored(&|n| (start(n) + end(n)) * 0.5, out);
+            self.mark_redundant(&|n| path.middle(n), out);
         }
     }
 

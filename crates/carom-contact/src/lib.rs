@@ -1,11 +1,11 @@
 //! Touch: which nodes may meet which facets or obstacles, how far apart they are, and in which frame.
 //!
 //! A [`ContactModel`] lists surfaces, rigid [`Obstacle`]s and [`Pair`]s. [`ContactModel::detect`] finds the [`Candidate`]s of a
-//! step. [`ContactModel::evaluate`] turns a candidate into a [`Contact`]. That has a gap [m] (negative = penetration), a frame
-//! (rows n, t₁, t₂, with n from target to source) and the stencil that maps nodal to relative motion. Positions are passed as
-//! functions of the node, so that only the nodes in question are ever evaluated. A surface consists of its facets or, once
-//! [smoothed](ContactSurface::smoothed), of a curve through its nodes. Nothing here knows of materials, forces or friction
-//! laws.
+//! step on the [`Path`] of its nodes. [`ContactModel::evaluate`] turns a candidate into a [`Contact`]. That has a gap [m]
+//! (negative = penetration), a frame (rows n, t₁, t₂, with n from target to source) and the stencil that maps nodal to relative
+//! motion. Positions are passed as functions of the node, so that only the nodes in question are ever evaluated. A surface
+//! consists of its facets or, once [smoothed](ContactSurface::smoothed), of a curve through its nodes. Nothing here knows of
+//! materials, forces or friction laws.
 
 mod aabb;
 mod bvh;
@@ -39,6 +39,7 @@ pub use distance::Proximity;
 pub use model::{ContactModel, Discretisation, Pair, Target};
 pub use mortar::Mortar;
 pub use obstacle::{ClosedSurface, Obstacle, RigidShape, SurfaceDefect};
+pub use path::Path;
 pub use penetration::{Boundaries, Feature, Penetration, Solid, Witness};
 pub use search::Search;
 pub use surface::ContactSurface;

@@ -9,7 +9,7 @@ use crate::{Candidate, ContactModel, Site};
 
 impl<const D: usize> ContactModel<D> {
     /// Marks what other candidates say where nodes are at `position`.
-    pub(crate) fn mark_mirrored(&self, position: &impl Fn(u32) -> Vector<D>, candidates: &mut [Candidate]) {
+    pub(crate) fn mark_redundant(&self, position: &impl Fn(u32) -> Vector<D>, candidates: &mut [Candidate]) {
         for k in 0..candidates.len() {
             let c = candidates[k];
             candidates[k].redundant = match c.site {

@@ -4,10 +4,9 @@ use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::edge::Found;
 use crate::facing::{Projected, faced};
-use crate::path::Path;
 use crate::project::Reach;
 use crate::tolerances::SEARCH;
-use crate::{ContactModel, ContactSurface, Pair, Solid, Target};
+use crate::{ContactModel, ContactSurface, Pair, Path, Solid, Target};
 
 /// What the search for contacts keeps from one call to the next: room for boxes, and the trees over them.
 ///
@@ -34,6 +33,13 @@ impl<const D: usize> Default for Search<D> {
             crossings: Vec::new(),
         }
     }
+}
+
+/// The surface of a solid.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SolidSurface<'a> {
+    pub solid: Solid,
+    pub surface: &'a ContactSurface,
 }
 
 /// A surface on its way through a step.
@@ -121,13 +127,13 @@ impl<const D: usize> Search<D> {
     pub(crate) fn facing<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &mut self,
         source: &ContactSurface,
-        target: (Solid, &ContactSurface),
+        target: SolidSurface<'_>,
         path: &Path<'_, D, S, E>,
         mut found: impl FnMut(u32, u32),
     ) {
-        let room = self.room(target.0, path.margin);
+        let SolidSurface { solid, surface: target } = target;
+        let room = self.room(solid, path.margin);
         let Self { surfaces, obstacles, near, projected, .. } = self;
-        let (solid, target) = target;
         let swept = of_solid(surfaces, obstacles, solid);
         swept.fit(target, path);
         let middle = |n: u32| path.middle(n);
@@ -325,13 +331,14 @@ mod tests {
             };
             let (start, end) = (|n: u32| at(n, way), |n: u32| at(n, way - 0.05));
             let (mut tree, mut scan) = (Vec::new(), Vec::new());
-            model.detect(&start, &end, 0.1, &mut search, &mut tree);
+            let path = Path { start: &start, end: &end, margin: 0.1 };
+            model.detect(&path, &mut search, &mut tree);
             let mut flat = Search::default();
-            flat.sweep(&model, |_| true, &Path { start: &start, end: &end, margin: 0.1 });
+            flat.sweep(&model, |_| true, &path);
             for (swept, surface) in flat.surfaces.iter_mut().zip(&model.surfaces) {
                 swept.tree = Bvh::flat(surface.facets.iter().map(|_| Aabb::of([])));
             }
-            model.detect(&start, &end, 0.1, &mut flat, &mut scan);
+            model.detect(&path, &mut flat, &mut scan);
             assert_eq!(tree, scan);
             found += tree.len();
         }
@@ -371,7 +378,7 @@ mod tests {
         let mut time = |search: &mut Search<3>| {
             let start = std::time::Instant::now();
             for _ in 0..10 {
-                model.detect(&at, &at, 0.01, search, &mut out);
+                model.detect(&Path::resting(&at, 0.01), search, &mut out);
             }
             (start.elapsed() / 10, out.len())
         };

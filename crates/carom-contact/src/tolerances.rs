@@ -101,3 +101,36 @@ pub(crate) struct MortarTolerances {
 /// The tolerances of all mortar pairs.
 pub(crate) const MORTAR: MortarTolerances =
     MortarTolerances { opposed: 0.5, reach: 1.0, depth: 0.25, negligible: 1e-14, covered: 1e-12 };
+
+/// What distances and the measure of penetration take for one point, for inside, and for worth a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct MeasureTolerances {
+    /// Points this close to one another, relative to the diameter of the facet that they are on, are one.
+    pub same: f64,
+    /// How far before a node of a body it is asked whether something else of it is there, in diameters of its facet: farther than round-off
+    /// reaches, and nearer than anything that is told.
+    pub before: f64,
+    /// The least sum of the unit normals around a node by which it has an outside.
+    pub closed: f64,
+    /// How well the depth of an edge is known, relative to itself.
+    pub finest: f64,
+    /// Steps in search of the deepest place of a segment in an obstacle; each leaves two thirds of it.
+    pub thirds: usize,
+    /// What is deeper than this, relative to the diameter of its facet, and than the arcs that facets stand for, is a witness. Facets of four
+    /// nodes that are not quite flat go through one another by a tenth of it where flat sides slide on one another; with a thousandth of it
+    /// such steps took four times as many iterations.
+    pub witnessed: f64,
+    /// Edges that have gone through one another by less than this part of the depth of one of them do not account for it.
+    pub accounts: f64,
+}
+
+/// The tolerances of every measure.
+pub(crate) const MEASURE: MeasureTolerances = MeasureTolerances {
+    same: 1e-9,
+    before: 1e-6,
+    closed: 1e-3,
+    finest: 0.01,
+    thirds: 40,
+    witnessed: 1e-6,
+    accounts: 0.5,
+};

@@ -3,51 +3,48 @@
 use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
-use crate::edge::{Edge, Pierced};
+use crate::edge::{Edge, Pierced, SurfaceEdge};
 use crate::patch::rim;
-use crate::path::Path;
 use crate::project::Reach;
 use crate::search::Swept;
-use crate::{Candidate, ContactModel, ContactSurface, Feature, Pair, Search, Site, Solid, Target, Witness};
-
-/// Edges that have gone through one another by less than this part of the depth of one of them do not account for it.
-const ACCOUNTS: f64 = 0.5;
+use crate::tolerances::MEASURE;
+use crate::{
+    Candidate, ContactModel, ContactSurface, Feature, Pair, Path, Search, Site, Solid, Target, Witness,
+};
 
 impl<const D: usize> ContactModel<D> {
-    /// Writes to `out`, ascending, the candidates that would have kept `witnesses` out on a straight way of all nodes from `start` to `end`: a
-    /// node before the facet that was nearest at the start, an edge where it goes through another.
+    /// Writes to `out`, ascending, the candidates that would have kept `witnesses` out on the straight `path` of all nodes: a node before the facet that was nearest at the start, an edge where it goes through another.
     ///
     /// The rules by which [`ContactModel::detect`] chooses need not foresee everything: what they leave out is found here, where it matters.
     /// Of bodies that are checked from one side alone, nodes of the other are inside by choice: these are left alone.
-    pub fn witnessed(
+    pub fn witnessed<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
         witnesses: &[Witness],
-        start: &impl Fn(u32) -> Vector<D>,
-        end: &impl Fn(u32) -> Vector<D>,
+        path: &Path<'_, D, S, E>,
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
         out.clear();
-        let path = Path { start, end, margin: 0.0 };
-        search.sweep(self, |_| true, &path);
+        search.sweep(self, |_| true, path);
         for &Witness { of, inside, feature, depth } in witnesses {
             let (Some(there), Some(_)) = (self.pair_of(of, inside), self.pair_of(inside, of)) else {
                 continue;
             };
             let (own, other) = (&self.surfaces[of], &self.surfaces[inside]);
             let (swept, _) = search.swept_and_crossings(Solid::Body(inside));
-            swept.fit(other, &path);
+            swept.fit(other, path);
             match feature {
                 Feature::Node(node) => {
                     let node = own.master(node);
-                    let facet = other.nearest_on_the_way(node, swept, &path);
+                    let facet = other.nearest_on_the_way(node, swept, path);
                     out.extend(facet.map(|f| Candidate::at_node(there as u32, node, Some(f))));
                 }
                 Feature::Edge(nodes) => {
                     let Some(edge) = own.edge(nodes) else { continue };
+                    let own_edge = SurfaceEdge { surface: own, edge };
                     let first = self.directions(there).start;
                     let is_source = first == there;
-                    let pierced = other.pierced_on_the_way((own, edge, depth), is_source, swept, &path);
+                    let pierced = other.pierced_on_the_way(own_edge, depth, is_source, swept, path);
                     out.extend(pierced.map(|[source, target]| Candidate {
                         pair: first as u32,
                         site: Site::Crossing(source, target),
@@ -91,19 +88,21 @@ impl ContactSurface {
     /// through one of this by what accounts for its depth [m]; of several the shallowest.
     fn pierced_on_the_way<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
-        (surface, edge, depth): (&Self, &Edge, f64),
+        of_another: SurfaceEdge<'_>,
+        depth: f64,
         is_source: bool,
         swept: &Swept<D>,
         path: &Path<'_, D, S, E>,
     ) -> Option<[[u32; 2]; 2]> {
         let mut best: Option<Pierced> = None;
-        swept.tree.overlapping(&edge.path(path.start, path.end), |f, _| {
+        swept.tree.overlapping(&of_another.edge.path(path.start, path.end), |f, _| {
             let facet = &self.facets[f as usize];
             for [a, b] in rim(facet.kind) {
                 let Some(other) = self.edge([facet.nodes[a], facet.nodes[b]]) else { continue };
-                let sides = [(surface, edge), (self, other)];
+                let sides = [of_another, SurfaceEdge { surface: self, edge: other }];
                 let [source, target] = if is_source { sides } else { [sides[1], sides[0]] };
-                let pierced = Pierced::of(source, target, path).filter(|p| p.depth >= ACCOUNTS * depth);
+                let pierced =
+                    Pierced::of(source, target, path).filter(|p| p.depth >= MEASURE.accounts * depth);
                 best = pierced.into_iter().chain(best).reduce(Pierced::shallower);
             }
         });

@@ -1,6 +1,8 @@
 //! Nodes before edges and corners of facets in space: a facet is found wherever the node comes from, and its force has no moment.
 
-use carom_contact::{Candidate, Contact, ContactModel, ContactSurface, Discretisation, Pair, Search, Target};
+use carom_contact::{
+    Candidate, Contact, ContactModel, ContactSurface, Discretisation, Pair, Path, Search, Target,
+};
 use carom_mesh::{CellBlock, CellKind, Mesh, Surface, Vector, generate};
 
 type Vector3 = Vector<3>;
@@ -45,7 +47,7 @@ fn contact(target: &Mesh<3>, surface: &Surface, x: &Vector3, back: &Vector3) -> 
     };
     let at = |n: u32| if n < count { tip.nodes()[n as usize] } else { target.nodes()[(n - count) as usize] };
     let mut found: Vec<Candidate> = Vec::new();
-    model.detect(&at, &at, 0.1, &mut Search::default(), &mut found);
+    model.detect(&Path::resting(&at, 0.1), &mut Search::default(), &mut found);
     let contact = found.iter().find(|c| c.node() == Some(0)).map(|c| model.evaluate(c, &at))?;
     // The pair of forces has no moment.
     let mut forces = vec![Vector3::zeros(); count as usize + target.nodes().len()];

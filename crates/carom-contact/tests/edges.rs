@@ -1,6 +1,8 @@
 //! Edges against edges in space: found where bodies meet with them, at the distance of the bodies, and nowhere else.
 
-use carom_contact::{Candidate, Contact, ContactModel, ContactSurface, Discretisation, Pair, Search, Target};
+use carom_contact::{
+    Candidate, Contact, ContactModel, ContactSurface, Discretisation, Pair, Path, Search, Target,
+};
 use carom_mesh::{CellBlock, CellKind, Matrix, Mesh, Surface, Tie, Vector, generate};
 
 type Vector3 = Vector<3>;
@@ -68,7 +70,7 @@ impl Scene {
             self.x[n as usize] + if (n as usize) < self.first_of_second { Vector3::zeros() } else { *by }
         };
         let (mut search, mut out) = (Search::default(), Vec::new());
-        self.model.detect(&at, &at, margin, &mut search, &mut out);
+        self.model.detect(&Path::resting(&at, margin), &mut search, &mut out);
         assert!(out.is_sorted());
         let mut found: Vec<_> = out.into_iter().map(|c| (c, self.model.evaluate(&c, &at))).collect();
         found.retain(|(c, contact)| {

@@ -1,6 +1,8 @@
 //! Mortar rows: means over surfaces that do not match, exact for uniform pressures, linear motions and plane gaps.
 
-use carom_contact::{Candidate, Contact, ContactModel, ContactSurface, Discretisation, Mortar, Pair, Target};
+use carom_contact::{
+    Candidate, Contact, ContactModel, ContactSurface, Discretisation, Mortar, Pair, Path, Target,
+};
 use carom_mesh::{CellBlock, CellKind, Mesh, Surface, Vector, generate, tensor};
 
 /// A source and, behind its nodes, a target, as one mortar pair.
@@ -33,7 +35,7 @@ impl<const D: usize> Scene<D> {
     fn contacts(&self, nodes: &[Vector<D>], margin: f64) -> (Vec<Candidate>, Vec<Contact<D>>) {
         let at = |n: u32| nodes[n as usize];
         let (mut mortar, mut candidates, mut contacts) = (Mortar::default(), Vec::new(), Vec::new());
-        self.model.detect_mortar(&at, &at, margin, &mut mortar, &mut candidates);
+        self.model.detect_mortar(&Path::resting(&at, margin), &mut mortar, &mut candidates);
         self.model.evaluate_all(&candidates, &at, &mut mortar, &mut contacts);
         (candidates, contacts)
     }
@@ -246,7 +248,7 @@ fn a_row_outlives_the_cover_of_the_step() {
         move |n: u32| nodes[n as usize] + Vector::<2>::new(if n < 10 { shift } else { 0.0 }, 0.0)
     };
     let (mut mortar, mut candidates, mut contacts) = (Mortar::default(), Vec::new(), Vec::new());
-    scene.model.detect_mortar(&at(0.0), &at(0.0), 0.1, &mut mortar, &mut candidates);
+    scene.model.detect_mortar(&Path::resting(&at(0.0), 0.1), &mut mortar, &mut candidates);
     assert_eq!(candidates.len(), 3);
     scene.model.evaluate_all(&candidates, &at(0.1), &mut mortar, &mut contacts);
     assert_eq!(contacts.len(), 3);

@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use carom_contact::{Candidate, Contact, ContactModel, ContactSurface, Discretisation, Pair, Search, Target};
+use carom_contact::{
+    Candidate, Contact, ContactModel, ContactSurface, Discretisation, Pair, Path, Search, Target,
+};
 use carom_mesh::{Matrix, Mesh, Surface, Vector, generate};
 
 type Vector2 = Vector<2>;
@@ -60,7 +62,7 @@ impl Scene {
     fn detect(&self, nodes: &[Vector2], margin: f64) -> Vec<Candidate> {
         let at = |n: u32| nodes[n as usize];
         let mut candidates = Vec::new();
-        self.model.detect(&at, &at, margin, &mut Search::default(), &mut candidates);
+        self.model.detect(&Path::resting(&at, margin), &mut Search::default(), &mut candidates);
         candidates
     }
 }

@@ -1,8 +1,8 @@
 //! What a measure finds inside becomes a candidate, whatever the rules of the search say.
 
 use carom_contact::{
-    Boundaries, Candidate, ContactModel, ContactSurface, Discretisation, Feature, Pair, Search, Site, Target,
-    Witness,
+    Boundaries, Candidate, ContactModel, ContactSurface, Discretisation, Feature, Pair, Path, Search, Site,
+    Target, Witness,
 };
 use carom_mesh::{Mesh, Surface, Vector, generate};
 
@@ -43,7 +43,12 @@ impl Scene {
         boundaries.measure(&[], |between| between[0] != between[1], &end, |p| depth = depth.max(p.depth));
         let witnesses = boundaries.witnesses().to_vec();
         let mut candidates = Vec::new();
-        model.witnessed(&witnesses, &start, &end, &mut Search::default(), &mut candidates);
+        model.witnessed(
+            &witnesses,
+            &Path { start: &start, end: &end, margin: 0.0 },
+            &mut Search::default(),
+            &mut candidates,
+        );
         (depth, witnesses, candidates)
     }
 
@@ -51,7 +56,8 @@ impl Scene {
     fn detected(&self) -> Vec<Candidate> {
         let (start, end) = (|n: u32| self.start[n as usize], |n: u32| self.end[n as usize]);
         let mut candidates = Vec::new();
-        self.model.detect(&start, &end, 1e-3, &mut Search::default(), &mut candidates);
+        let path = Path { start: &start, end: &end, margin: 1e-3 };
+        self.model.detect(&path, &mut Search::default(), &mut candidates);
         candidates
     }
 }

@@ -135,6 +135,7 @@ pub fn friction_solvers() -> Vec<&'static str> {
 /// Solves w = W r + q with Signorini's and Coulomb's laws from the guess in `reactions`, which is overwritten.
 #[pyfunction]
 #[pyo3(signature = (problem, reactions, *, solver, tolerance, max_iterations, time_limit))]
+#[expect(clippy::too_many_arguments, reason = "the keywords of a Python function")]
 pub fn solve_friction<'py>(
     py: Python<'py>,
     problem: Arrays<'py>,

@@ -1,10 +1,10 @@
 use carom_mesh::Vector;
 
 use super::crossing::is_foremost;
-use super::{Crossing, Edge, Found};
-use crate::path::Path;
+use super::{Crossing, Edge, Found, SurfaceEdge};
+use crate::search::SolidSurface;
 use crate::tolerances::{EDGES, SEARCH};
-use crate::{Candidate, ContactModel, ContactSurface, Search, Site, Solid};
+use crate::{Candidate, ContactModel, Path, Search, Site, Solid};
 
 impl<const D: usize> ContactModel<D> {
     /// Adds to `out` the edges of a pair that, on their `path`, cross near one another, or a little way through one another.
@@ -19,7 +19,7 @@ impl<const D: usize> ContactModel<D> {
     pub(crate) fn detect_crossings<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
         pair: usize,
-        (solid, target): (Solid, &ContactSurface),
+        SolidSurface { solid, surface: target }: SolidSurface<'_>,
         path: &Path<'_, D, S, E>,
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
@@ -44,7 +44,8 @@ impl<const D: usize> ContactModel<D> {
                 let other_edge = &target.edges[other as usize];
                 let may_touch = !is_own || (other as usize) > k && source.edges_may_touch(edge, other_edge);
                 if may_touch && (edge.is_feature || other_edge.is_feature) {
-                    found.extend(crossing((source, edge), (target, other_edge), is_mortar, path));
+                    let other = SurfaceEdge { surface: target, edge: other_edge };
+                    found.extend(crossing(SurfaceEdge { surface: source, edge }, other, is_mortar, path));
                 }
             });
         }
@@ -60,15 +61,16 @@ impl<const D: usize> ContactModel<D> {
 
 /// The crossing of two edges, if they are what the surfaces would touch with.
 fn crossing<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
-    (source, s): (&ContactSurface, &Edge),
-    (target, t): (&ContactSurface, &Edge),
+    source: SurfaceEdge<'_>,
+    target: SurfaceEdge<'_>,
     is_mortar: bool,
     path: &Path<'_, D, S, E>,
 ) -> Option<Found> {
+    let [s, t] = [source.edge, target.edge];
     let (start, middle) = (path.start, |n: u32| path.middle(n));
     let there = Crossing::new(s.nodes.map(middle), t.nodes.map(middle));
     let mut beyond = [None; 2];
-    for (side, (surface, edge)) in [(source, s), (target, t)].into_iter().enumerate() {
+    for (side, SurfaceEdge { surface, edge }) in [source, target].into_iter().enumerate() {
         let (reach, end) = (there.reach()[side], there.nearer()[side]);
         if reach < -EDGES.round_off {
             if !edge.goes_on[end] || reach < -EDGES.dent {
@@ -80,7 +82,7 @@ fn crossing<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
     let (a, b) = (s.nodes.map(start), t.nodes.map(start));
     let (e, f) = (a[1] - a[0], b[1] - b[0]);
     let at_start = Crossing::new(a, b);
-    let normals = target.normals(t, start);
+    let normals = target.normals(start);
     // So that the normal points out of the target.
     let sign = if at_start.normal.dot(&(normals[0] + normals[1])) > 0.0 { 1.0 } else { -1.0 };
     let (n, gap) = (at_start.normal * sign, at_start.gap * sign);
@@ -94,7 +96,7 @@ fn crossing<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
     {
         return None;
     }
-    let opposite = source.normals(s, start);
+    let opposite = source.normals(start);
     if !is_foremost(&-n, &e, &opposite) {
         return None;
     }
@@ -112,6 +114,6 @@ fn crossing<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
     }
     let [from, to] = t.nodes;
     let edges = [s.nodes, if sign > 0.0 { [from, to] } else { [to, from] }];
-    let masters = [edges[0].map(|n| source.master(n)), edges[1].map(|n| target.master(n))];
+    let masters = [edges[0].map(|n| source.surface.master(n)), edges[1].map(|n| target.surface.master(n))];
     Some(Found { edges, masters, beyond })
 }

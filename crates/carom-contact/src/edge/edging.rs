@@ -28,7 +28,7 @@ impl ContactSurface {
                 };
                 let mut edge =
                     Edge { nodes: first, sides: [beside, side], is_feature: false, goes_on: [false; 2] };
-                let [m0, m1] = self.normals(&edge, reference);
+                let [m0, m1] = SurfaceEdge { surface: &self, edge: &edge }.normals(reference);
                 let along = reference(first[1]) - reference(first[0]);
                 if turns_outwards(&along, [m0, m1]) && m0.dot(&m1) < EDGES.flat {
                     let is_long = |width: f64| along.norm() > EDGES.slender * width;
@@ -75,15 +75,20 @@ impl ContactSurface {
             corners.iter().map(|&n| across(position(n) - position(edge.nodes[0]))).fold(0.0, f64::max)
         })
     }
+}
 
-    /// Outward unit normals of the two facets of an edge, at its middle.
-    pub(super) fn normals<const D: usize>(
-        &self,
-        edge: &Edge,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> [Vector<D>; 2] {
-        edge.sides.map(|side| {
-            let patch = Patch::new(&self.facets[side.facet as usize], position);
+/// An edge, and the surface that it is of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SurfaceEdge<'a> {
+    pub surface: &'a ContactSurface,
+    pub edge: &'a Edge,
+}
+
+impl SurfaceEdge<'_> {
+    /// Outward unit normals of the two facets beside it, at its middle.
+    pub(super) fn normals<const D: usize>(&self, position: &impl Fn(u32) -> Vector<D>) -> [Vector<D>; 2] {
+        self.edge.sides.map(|side| {
+            let patch = Patch::new(&self.surface.facets[side.facet as usize], position);
             normal(&patch.at(&side.middle).tangents)
         })
     }

@@ -12,6 +12,7 @@ use crate::aabb::Aabb;
 use crate::tolerances::EDGES;
 
 pub(crate) use crossing::Crossing;
+pub(crate) use edging::SurfaceEdge;
 pub(crate) use found::Found;
 pub(crate) use pierced::Pierced;
 

@@ -3,9 +3,8 @@
 use carom_mesh::Vector;
 
 use super::crossing::is_foremost;
-use super::{Crossing, Edge};
-use crate::ContactSurface;
-use crate::path::Path;
+use super::{Crossing, SurfaceEdge};
+use crate::Path;
 use crate::tolerances::EDGES;
 
 /// Two edges that have gone through one another by the end of a path.
@@ -21,14 +20,15 @@ impl Pierced {
     /// The edges of a source and of a target, flat ones too, if the one is behind the other at the end, and farther than at the start, where
     /// the surfaces would touch with them.
     pub fn of<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
-        (source, s): (&ContactSurface, &Edge),
-        (target, t): (&ContactSurface, &Edge),
+        source: SurfaceEdge<'_>,
+        target: SurfaceEdge<'_>,
         path: &Path<'_, D, S, E>,
     ) -> Option<Self> {
+        let [s, t] = [source.edge, target.edge];
         let [a, b] = [s, t].map(|edge| edge.nodes.map(path.start));
         let start = Crossing::new(a, b);
         let end = Crossing::new(s.nodes.map(path.end), t.nodes.map(path.end));
-        let (normals, opposite) = (target.normals(t, path.start), source.normals(s, path.start));
+        let (normals, opposite) = (target.normals(path.start), source.normals(path.start));
         let sign = if start.normal.dot(&(normals[0] + normals[1])) > 0.0 { 1.0 } else { -1.0 };
         let n = start.normal * sign;
         let crosses = start.sine.min(end.sine) >= EDGES.parallel

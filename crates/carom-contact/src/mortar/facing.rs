@@ -7,7 +7,7 @@ use super::plane::Plane;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::tolerances::MORTAR;
-use crate::{ContactModel, ContactSurface, Target};
+use crate::{ContactModel, ContactSurface, Path, Target};
 
 /// A facet of the source and one of the target that may touch. Ordered by pair, source and target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,24 +22,22 @@ pub(super) struct Facing {
 
 impl<const D: usize> ContactModel<D> {
     /// Adds the facing facets of a pair that come within `margin` [m] of one another between `start` and `end`.
-    pub(super) fn find_facing(
+    pub(super) fn find_facing<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
         pair: usize,
-        start: &impl Fn(u32) -> Vector<D>,
-        end: &impl Fn(u32) -> Vector<D>,
-        margin: f64,
+        path: &Path<'_, D, S, E>,
         out: &mut Vec<Facing>,
     ) {
         let Target::Surface(target) = self.pairs[pair].target else { return };
         let (source, target) = (&self.surfaces[self.pairs[pair].source], &self.surfaces[target]);
-        let middle = |n: u32| (start(n) + end(n)) * 0.5;
+        let (middle, margin) = (|n: u32| path.middle(n), path.margin);
         let swept = |surface: &ContactSurface, f: usize| {
             let nodes = surface.facets[f].nodes.iter();
-            let facet_box = Aabb::of(nodes.flat_map(|&n| [start(n), end(n)]));
+            let facet_box = Aabb::of(nodes.flat_map(|&n| path.ends(n)));
             facet_box.inflated(margin + MORTAR.reach * facet_box.diameter())
         };
         let whole = |surface: &ContactSurface| {
-            Aabb::of(surface.nodes.iter().flat_map(|&n| [start(n), end(n)])).inflated(margin)
+            Aabb::of(surface.nodes.iter().flat_map(|&n| path.ends(n))).inflated(margin)
         };
         // The facets that come near the other side at all.
         let near = |surface: &ContactSurface, other: &Aabb<D>| -> Vec<Near<D>> {

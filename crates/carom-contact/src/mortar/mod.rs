@@ -35,7 +35,7 @@ use carom_mesh::Vector;
 use self::facing::Facing;
 use self::integrate::integrate;
 use self::row::Row;
-use crate::{Candidate, Contact, ContactModel, Discretisation, Site, Target};
+use crate::{Candidate, Contact, ContactModel, Discretisation, Path, Site, Target};
 
 /// What the mortar pairs of a model have found in a step, and scratch. It may be dropped at any moment between two steps.
 #[derive(Debug, Clone, Default)]
@@ -49,24 +49,21 @@ pub struct Mortar<const D: usize> {
 }
 
 impl<const D: usize> ContactModel<D> {
-    /// Finds the multipliers of mortar pairs whose gap comes within `margin` [m] and adds them to the candidates `out`.
+    /// Finds the multipliers of mortar pairs whose gap comes within the margin of the `path` and adds them to the candidates `out`.
     ///
-    /// `start` and `end` are the positions at the start of the step and those predicted for its end. A multiplier counts where the
-    /// target covers it at the predicted middle of the step or at its end.
-    pub fn detect_mortar(
+    /// A multiplier counts where the target covers it at the predicted middle of the step or at its end.
+    pub fn detect_mortar<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
-        start: &impl Fn(u32) -> Vector<D>,
-        end: &impl Fn(u32) -> Vector<D>,
-        margin: f64,
+        path: &Path<'_, D, S, E>,
         mortar: &mut Mortar<D>,
         out: &mut Vec<Candidate>,
     ) {
         mortar.facing.clear();
         mortar.found.clear();
-        let middle = |n: u32| (start(n) + end(n)) * 0.5;
+        let (middle, end) = (|n: u32| path.middle(n), path.end);
         for pair in self.mortar_pairs() {
             let first = mortar.facing.len();
-            self.find_facing(pair, start, end, margin, &mut mortar.facing);
+            self.find_facing(pair, path, &mut mortar.facing);
             let surface = &self.surfaces[self.pairs[pair].source];
             let mut nodes = std::mem::take(&mut mortar.nodes);
             nodes.clear();
@@ -80,7 +77,7 @@ impl<const D: usize> ContactModel<D> {
             let first = mortar.found.len();
             self.integrate_rows(pair, &nodes, &middle, mortar);
             for (node, row) in nodes.iter().zip(&mortar.rows) {
-                let contact = row.contact(&middle).filter(|c| c.gap <= margin);
+                let contact = row.contact(&middle).filter(|c| c.gap <= path.margin);
                 mortar.found.extend(contact.map(|c| (candidate(node), c)));
             }
             let known = mortar.found.len();
@@ -88,7 +85,7 @@ impl<const D: usize> ContactModel<D> {
             for (node, row) in nodes.iter().zip(&mortar.rows) {
                 let known = &mortar.found[first..known];
                 let is_new = known.binary_search_by_key(&Site::Node(*node), |(c, _)| c.site).is_err();
-                let contact = row.contact(end).filter(|c| is_new && c.gap <= margin);
+                let contact = row.contact(end).filter(|c| is_new && c.gap <= path.margin);
                 mortar.found.extend(contact.map(|c| (candidate(node), c)));
             }
             mortar.found[first..].sort_unstable_by_key(|(c, _)| *c);

@@ -6,9 +6,7 @@ use super::deep::Deep;
 use super::shell::Shell;
 use crate::RigidShape;
 use crate::patch::Patch;
-
-/// Halvings of a segment in search of its deepest place; each leaves two thirds of it.
-const HALVINGS: usize = 40;
+use crate::tolerances::MEASURE;
 
 impl<const D: usize> Shell<D> {
     /// What of this boundary is deepest inside an obstacle that has moved by `shift` [m].
@@ -77,7 +75,7 @@ impl<const D: usize> Shell<D> {
 fn lowest<const D: usize>(ends: &[Vector<D>; 2], value: &impl Fn(&Vector<D>) -> f64) -> Vector<D> {
     let at = |t: f64| ends[0] + (ends[1] - ends[0]) * t;
     let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..HALVINGS {
+    for _ in 0..MEASURE.thirds {
         let third = (high - low) / 3.0;
         if value(&at(low + third)) <= value(&at(high - third)) {
             high -= third;

@@ -9,13 +9,7 @@ use super::shell::Shell;
 use crate::aabb::Aabb;
 use crate::patch::Patch;
 use crate::project::normal;
-
-/// How far before a node it is asked whether something else is there, in diameters of its facet: farther than round-off reaches, and
-/// nearer than anything that is told.
-const BEFORE: f64 = 1e-6;
-
-/// The least sum of the unit normals around a node by which it has an outside.
-const CLOSED: f64 = 1e-3;
+use crate::tolerances::MEASURE;
 
 /// Where rays go: nearly along an axis, so that few boxes are in their way, and along no edge that anybody drew.
 const RAY: [f64; 3] = [1.0, 0.013_717_421, 0.007_316_239];
@@ -85,8 +79,8 @@ impl<const D: usize> Shell<D> {
     /// A place just before a node; none where a slot ends that has closed: there the facets around look at one another.
     fn before(&self, node: u32, facet: u32) -> Option<Vector<D>> {
         let outwards: Vector<D> = self.around(node).iter().map(|&f| self.normal(f)).sum();
-        let outwards = outwards.try_normalize(CLOSED)?;
-        Some(self.at(node) + outwards * (BEFORE * self.diameter(facet)))
+        let outwards = outwards.try_normalize(MEASURE.closed)?;
+        Some(self.at(node) + outwards * (MEASURE.before * self.diameter(facet)))
     }
 
     /// How far a node is behind the nearest facet that it is no part of.
@@ -109,7 +103,7 @@ impl<const D: usize> Shell<D> {
             }
             depth
         });
-        depth -= BEFORE * self.diameter(facet);
+        depth -= MEASURE.before * self.diameter(facet);
         if other.is_some() && depth > 0.0 {
             Deep { depth, at: self.at(node), facet: Some(facet), other }
         } else {

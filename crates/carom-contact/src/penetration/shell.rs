@@ -12,18 +12,7 @@ use crate::bvh::Bvh;
 use crate::patch::{Patch, foot, rim};
 use crate::project::normal;
 use crate::surface::overshoot;
-use crate::tolerances::SEARCH;
-
-/// Points this close to one another, relative to the diameter of the facet that they are on, are one.
-const SAME: f64 = 1e-9;
-
-/// What is deeper than this, relative to the diameter of its facet, and than the arcs that facets stand for, is a witness. Facets of four
-/// nodes that are not quite flat go through one another by a tenth of it where flat sides slide on one another; with a thousandth of it
-/// such steps took four times as many iterations.
-const WITNESSED: f64 = 1e-6;
-
-/// How well the depth of an edge is known, relative to itself.
-const FINEST: f64 = 0.01;
+use crate::tolerances::{MEASURE, SEARCH};
 
 /// The facets, nodes and edges of the boundary of a body.
 #[derive(Debug, Clone)]
@@ -174,7 +163,7 @@ impl<const D: usize> Shell<D> {
             let p = patch.at(&xi);
             let offset = x - p.point;
             let d = offset.norm();
-            let tie = SAME * facet_box.diameter();
+            let tie = MEASURE.same * facet_box.diameter();
             if d <= distance + tie {
                 let front = normal(&p.tangents).dot(&offset) * angle(facet.kind, &xi, &p.tangents);
                 if d < distance - tie {
@@ -182,7 +171,7 @@ impl<const D: usize> Shell<D> {
                 }
                 distance = distance.min(d);
                 side += front;
-                let closest = facet.nodes.iter().zip(&p.weights).find(|(_, w)| **w > 1.0 - SAME);
+                let closest = facet.nodes.iter().zip(&p.weights).find(|(_, w)| **w > 1.0 - MEASURE.same);
                 is_end |= closest.is_some_and(|(n, _)| self.ends.contains(n));
             }
             reach.min(distance + tie)
@@ -205,7 +194,7 @@ impl<const D: usize> Shell<D> {
         let mut deepest = Deep::none();
         let mut note = |deep: Deep<D>, feature: Feature, f: u32| {
             let arcs = self.arcs[f as usize] + deep.other.map_or(0.0, |o| other.arcs[o as usize]);
-            if deep.depth > WITNESSED * self.diameter(f) + arcs {
+            if deep.depth > MEASURE.witnessed * self.diameter(f) + arcs {
                 witness(feature, deep.depth);
             }
             deepest = deepest.deeper(deep);
@@ -278,7 +267,7 @@ impl<const D: usize> Shell<D> {
             }
         }
         // The depth changes by no more than the way.
-        while deepest.depth > 0.0 && step * way.norm() > FINEST * deepest.depth {
+        while deepest.depth > 0.0 && step * way.norm() > MEASURE.finest * deepest.depth {
             for s in [share - step, share + step] {
                 let deep = look(s.clamp(0.0, 1.0));
                 if deep.depth > deepest.depth {
@@ -322,7 +311,7 @@ fn through<const D: usize>(ends: &[Vector<D>; 2], corners: &[Vector<D>], found: 
     let t = before / (before - after);
     let x = ends[0] + (ends[1] - ends[0]) * t - corners[0];
     let [s, r] = foot(&x, &tangents);
-    if s >= -SAME && r >= -SAME && s + r <= 1.0 + SAME {
+    if s >= -MEASURE.same && r >= -MEASURE.same && s + r <= 1.0 + MEASURE.same {
         found(t, before < 0.0);
     }
 }
@@ -334,7 +323,7 @@ fn angle<const D: usize>(kind: CellKind, xi: &[f64; 2], tangents: &[Vector<D>; 2
         return 1.0;
     }
     let [t0, t1] = tangents;
-    let is_at = |x: f64, end: f64| (x - end).abs() <= SAME;
+    let is_at = |x: f64, end: f64| (x - end).abs() <= MEASURE.same;
     if kind.corner_count() == 3 {
         let sides = [is_at(xi[0], 0.0), is_at(xi[1], 0.0), is_at(xi[0] + xi[1], 1.0)];
         return match sides {

@@ -15,23 +15,32 @@ pub struct Scene {
     pub scenario: Scenario,
 }
 
+/// How the discs are taken through time.
+struct Method<'a> {
+    scheme: &'a str,
+    condition: &'a str,
+    friction: f64,
+    solver: &'a str,
+}
+
 /// The scenario with this coefficient of friction, contact condition and friction solver, in the paper's scheme.
 pub fn scenario(friction: f64, condition: &str, solver: &str) -> Scenario {
     let bodies = json!([disc("left", [2.0, 1.2], [1.0, -2.0]), disc("right", [3.9, 2.6], [0.0, 0.0])]);
-    discs("theta", condition, friction, solver, STEPS as f64 * 1e-3, [10.0, 6.0], bodies)
+    discs(&Method { scheme: "theta", condition, friction, solver }, STEPS as f64 * 1e-3, [10.0, 6.0], bodies)
 }
 
 /// The window that other codes were measured on.
 pub fn scene(scheme: &'static str, condition: &str, friction: f64) -> Scene {
     let bodies = json!([disc("left", [2.0, 1.2], [1.0, -2.0]), disc("right", [3.9, 2.6], [0.0, 0.0])]);
-    let scenario = discs(scheme, condition, friction, "auto", STEPS as f64 * 1e-3, [10.0, 6.0], bodies);
+    let method = Method { scheme, condition, friction, solver: "auto" };
+    let scenario = discs(&method, STEPS as f64 * 1e-3, [10.0, 6.0], bodies);
     Scene { name: format!("0.6 s, {scheme}, {condition}, μ = {friction}"), scheme, scenario }
 }
 
 /// The paper's two cylinders, 15 s, on the mesh of [`scene`].
 pub fn paper_scene(scheme: &'static str, condition: &str, friction: f64) -> Scene {
     let bodies = json!([disc("left", [2.0, 4.0], [1.0, -2.0]), disc("right", [6.0, 4.0], [0.0, 0.0])]);
-    let scenario = discs(scheme, condition, friction, "auto", 15.0, [8.0, 8.0], bodies);
+    let scenario = discs(&Method { scheme, condition, friction, solver: "auto" }, 15.0, [8.0, 8.0], bodies);
     Scene { name: format!("15 s, {scheme}, {condition}, μ = {friction}"), scheme, scenario }
 }
 
@@ -43,15 +52,8 @@ fn disc(name: &str, centre: [f64; 2], velocity: [f64; 2]) -> Value {
     })
 }
 
-fn discs(
-    scheme: &str,
-    condition: &str,
-    friction: f64,
-    solver: &str,
-    end_time: f64,
-    room: [f64; 2],
-    bodies: Value,
-) -> Scenario {
+fn discs(method: &Method<'_>, end_time: f64, room: [f64; 2], bodies: Value) -> Scenario {
+    let Method { scheme, condition, friction, solver } = *method;
     let plane = |name: &str, point: [f64; 2], normal: [f64; 2]| json!({"name": name, "kind": "plane", "point": point, "normal": normal});
     let scheme = match scheme {
         "theta" => json!({"kind": "theta", "theta": 0.5, "xi": 0.5}),

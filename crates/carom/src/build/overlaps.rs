@@ -1,4 +1,4 @@
-use carom_contact::{Candidate, Pair, Penetration, RigidShape, Search, Solid, Target};
+use carom_contact::{Candidate, Pair, Path, Penetration, RigidShape, Search, Solid, Target};
 use carom_mesh::Vector;
 
 use super::values::place;
@@ -108,7 +108,7 @@ fn check_corners<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Resul
 fn check_crossings<const D: usize>(model: &Model<D>) -> Result<(), InputError> {
     let at = |n: u32| model.assembly.reference[n as usize];
     let (mut search, mut candidates) = (Search::default(), Vec::new());
-    model.assembly.contact.detect(&at, &at, 0.0, &mut search, &mut candidates);
+    model.assembly.contact.detect(&Path::resting(&at, 0.0), &mut search, &mut candidates);
     for candidate in candidates.iter().filter(|c| has_straight_edges(model, c)) {
         let pair = &model.assembly.contact.pairs[candidate.pair as usize];
         let smallest_edge = model.bodies[pair.source].body.mesh().smallest_edge();

@@ -1,6 +1,6 @@
 //! Which contacts there may be in a step.
 
-use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Site, Target, Witness};
+use carom_contact::{Candidate, Contact, Mortar, Pair, Path, Search, Site, Target, Witness};
 use carom_mesh::Vector;
 
 use super::active::ActiveSet;
@@ -44,25 +44,26 @@ impl<const D: usize> Finder<D> {
     ) {
         let start = |n: u32| given.position(n);
         let end = |n: u32| start(n) + motion[n as usize];
+        let path = Path { start: &start, end: &end, margin };
         let (contact, candidates) = (&given.assembly.contact, &mut active.candidates);
         let Self { search, asleep, .. } = self;
-        contact.detect_among(|p| !is_asleep(asleep, p), &start, &end, margin, search, candidates);
+        contact.detect_among(|p| !is_asleep(asleep, p), &path, search, candidates);
         let pressed = given.state.reactions.iter().map(Reaction::candidate);
         self.missed.clear();
         self.missed.extend(pressed.filter(|c| contact.still_touches(c, &start)));
-        contact.recall(&self.missed, &start, &end, candidates);
+        contact.recall(&self.missed, &path, candidates);
         if repetition == 0 {
             self.needed.clear();
         } else {
-            contact.recall(&self.found, &start, &end, candidates);
+            contact.recall(&self.found, &path, candidates);
         }
         for key in &self.needed {
             if let Ok(k) = candidates.binary_search_by_key(key, Candidate::key) {
                 candidates[k].redundant = false;
             }
         }
-        let wide = margin * CONTROL.widening.powi(repetition as i32);
-        contact.detect_mortar(&start, &end, wide, &mut active.mortar, candidates);
+        let wide = Path { margin: margin * CONTROL.widening.powi(repetition as i32), ..path };
+        contact.detect_mortar(&wide, &mut active.mortar, candidates);
         self.found.clone_from(candidates);
     }
 
@@ -76,9 +77,10 @@ impl<const D: usize> Finder<D> {
         }
         let assembly = given.assembly;
         let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
+        let at_end = Path::resting(&end, 0.0);
         let Self { search, asleep, found, missed, missed_mortar, missed_contacts, .. } = self;
-        assembly.contact.detect_among(|p| !is_asleep(asleep, p), &end, &end, 0.0, search, missed);
-        assembly.contact.detect_mortar(&end, &end, 0.0, missed_mortar, missed);
+        assembly.contact.detect_among(|p| !is_asleep(asleep, p), &at_end, search, missed);
+        assembly.contact.detect_mortar(&at_end, missed_mortar, missed);
         missed.retain(|m| found.binary_search_by_key(&m.key(), Candidate::key).is_err());
         assembly.contact.evaluate_all(missed, &end, missed_mortar, missed_contacts);
         let missed_one = missed_contacts.iter().any(|c| c.gap < -assembly.round_off());
@@ -99,7 +101,12 @@ impl<const D: usize> Finder<D> {
         let start = |n: u32| given.position(n);
         let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
         let Self { search, found, needed, missed, .. } = self;
-        assembly.contact.witnessed(witnesses, &start, &end, search, missed);
+        assembly.contact.witnessed(
+            witnesses,
+            &Path { start: &start, end: &end, margin: 0.0 },
+            search,
+            missed,
+        );
         missed.retain(|m| match found.binary_search_by_key(&m.key(), Candidate::key) {
             Ok(k) => std::mem::take(&mut found[k].redundant),
             Err(_) => true,
@@ -124,7 +131,7 @@ impl<const D: usize> Finder<D> {
     ) -> bool {
         let is_own = |p: &Pair| p.source == body && p.target == Target::Surface(body);
         let Self { search, missed, .. } = self;
-        given.assembly.contact.detect_among(is_own, position, position, reach, search, missed);
+        given.assembly.contact.detect_among(is_own, &Path::resting(position, reach), search, missed);
         !self.missed.is_empty()
     }
 }

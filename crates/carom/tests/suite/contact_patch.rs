@@ -4,7 +4,7 @@
 //! The upper block is pushed down by δ, the lower rests on rollers, both may expand sideways from rollers at x = 0 (and y = 0), and
 //! nothing rubs. The exact solution is uniaxial stress: −E δ/2h for blocks of height h = 1, with E/(1 − ν²) in plane strain.
 
-use carom_contact::{ContactModel, ContactSurface, Discretisation, Mortar, Pair, Search, Target};
+use carom_contact::{ContactModel, ContactSurface, Discretisation, Mortar, Pair, Path, Search, Target};
 use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_friction::{BlockMatrix, ContactProblem, Criterion, SolverKind, StoppingRule};
@@ -79,8 +79,8 @@ impl<const D: usize> Blocks<D> {
         let (mut mortar, mut candidates, mut contacts) = (Mortar::default(), Vec::new(), Vec::new());
         // As in a step, the facets that may touch are found once.
         let start = |n: u32| x[n as usize];
-        model.detect(&start, &start, 2.0 * PUSH, &mut Search::default(), &mut candidates);
-        model.detect_mortar(&start, &start, 2.0 * PUSH, &mut mortar, &mut candidates);
+        model.detect(&Path::resting(&start, 2.0 * PUSH), &mut Search::default(), &mut candidates);
+        model.detect_mortar(&Path::resting(&start, 2.0 * PUSH), &mut mortar, &mut candidates);
         let mut change = f64::INFINITY;
         for _ in 0..50 {
             let at = |n: u32| x[n as usize] + node::<D>(&u, n as usize);
