@@ -101,7 +101,7 @@ fn cross_checks(archive: &mut Archive<'_>, checks: &mut CrossCheckSummary) -> Do
 fn events(archive: &mut Archive<'_>, named_pairs: &[NamedPair], log: &mut EventLog) -> Done {
     let count = archive.rows("events/pair", log.events.len())?;
     let pair_of =
-        |event: &ContactEvent| named_pairs.iter().position(|g| g.between == event.pair).unwrap_or(0);
+        |event: &ContactEvent| named_pairs.iter().position(|pair| pair.between == event.pair).unwrap_or(0);
     let mut pairs: Vec<usize> = log.events.iter().map(pair_of).collect();
     pairs.resize(count, 0);
     archive.integers("events/pair", &mut pairs)?;

@@ -50,16 +50,13 @@ impl<const D: usize> ActiveSet<D> {
         let inside = |c: &Candidate| CONTROL.inside * assembly.pair_size(&contact.pairs[c.pair as usize]);
         let is_stuck = |c: &Candidate, at_start: &Contact<D>| {
             let inside = inside(c);
-            let was_stuck = |k: usize| state.reactions[k].contact.gap < -inside;
-            let known = state.reactions.binary_search_by_key(&c.key(), Reaction::key);
             let explained = inside + map.dt * at_start.relative(|n| state.velocity[n]).norm();
-            at_start.gap < -explained || known.is_ok_and(was_stuck)
+            at_start.gap < -explained || state.reaction(c.key()).is_some_and(|r| r.contact.gap < -inside)
         };
         // Where contacts are chosen at the start, whether one at rest goes on must not hang on the sign of round-off.
         let closed = |c: &Candidate| {
-            let pressed = state.reactions.binary_search_by_key(&c.key(), Reaction::key).is_ok();
             let size = assembly.pair_size(&contact.pairs[c.pair as usize]);
-            if pressed { round_off.max(CONTROL.closed * size) } else { round_off }
+            if state.reaction(c.key()).is_some() { round_off.max(CONTROL.closed * size) } else { round_off }
         };
         let mut at_starts = self.contacts.iter();
         self.candidates.retain(|c| {
@@ -95,10 +92,9 @@ impl<const D: usize> ActiveSet<D> {
         self.touched.fill(false);
         let weight = given.reaction_weight();
         for candidate in &self.candidates {
-            let known = reactions.binary_search_by_key(&candidate.key(), Reaction::key);
-            let known = known.map(|k| &reactions[k]);
-            let force = known.map_or_else(|_| Vector::zeros(), |r| r.force);
-            self.frames.push(known.map_or_else(|_| Matrix::zeros(), |r| r.contact.frame));
+            let known = given.state.reaction(candidate.key());
+            let force = known.map_or_else(Vector::zeros, |r| r.force);
+            self.frames.push(known.map_or_else(Matrix::zeros, |r| r.contact.frame));
             self.reactions.push(force * weight);
             self.start_forces.push(force);
             self.friction.push(pairs[candidate.pair as usize].friction);

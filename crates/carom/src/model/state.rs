@@ -79,6 +79,11 @@ pub struct State<const D: usize> {
 }
 
 impl<const D: usize> State<D> {
+    /// The reaction of the last step with a pair and a site.
+    pub(crate) fn reaction(&self, key: (u32, Site)) -> Option<&Reaction<D>> {
+        self.reactions.binary_search_by_key(&key, Reaction::key).ok().map(|k| &self.reactions[k])
+    }
+
     /// The state at t = 0 with these velocities of the nodes of all bodies, and the bodies in their reference configuration. Tied nodes start as their
     /// masters do, and what is prescribed as prescribed.
     #[must_use]

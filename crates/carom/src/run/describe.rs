@@ -87,14 +87,14 @@ pub(crate) fn describe<const D: usize>(
         .collect();
     let at = |n: u32| model.assembly.reference[n as usize] + state.displacement[n as usize];
     let mut pairs: Vec<PairDescription> = Vec::new();
-    for (g, pair) in model.assembly.named_pairs.iter().enumerate().filter(|(_, pair)| !pair.is_of_one_body())
+    for (k, pair) in model.assembly.named_pairs.iter().enumerate().filter(|(_, pair)| !pair.is_of_one_body())
     {
         let closest = model
             .assembly
             .contact
             .pairs
             .iter()
-            .filter(|p| p.named_pair == g)
+            .filter(|p| p.named_pair == k)
             .filter_map(|p| model.assembly.contact.proximity(p, &at))
             .min_by(|a, b| a.gap.total_cmp(&b.gap));
         if let Some(closest) = closest {

@@ -57,19 +57,19 @@ impl EventLog {
 
     /// Records what the named pairs did in a step from `start` to `end` [s].
     pub fn record(&mut self, named_pairs: &[NamedPair], reports: &[PairReport], start: f64, end: f64) {
-        for (g, report) in reports.iter().enumerate() {
+        for (pair, report) in reports.iter().enumerate() {
             if report.normal_force <= 0.0 {
                 // A reaction that is gone by the end of the step may still have rubbed in it.
-                if let Some((event, _)) = self.last[g] {
+                if let Some((event, _)) = self.last[pair] {
                     self.events[event].friction_work += report.ledger.friction;
                 }
                 continue;
             }
-            let event = match self.last[g] {
-                Some((event, until)) if start <= until || start - until < self.merge[g] => event,
+            let event = match self.last[pair] {
+                Some((event, until)) if start <= until || start - until < self.merge[pair] => event,
                 _ => {
                     self.events.push(ContactEvent {
-                        pair: named_pairs[g].between.clone(),
+                        pair: named_pairs[pair].between.clone(),
                         onset: end,
                         release: None,
                         peak_force: 0.0,
@@ -78,7 +78,7 @@ impl EventLog {
                     self.events.len() - 1
                 }
             };
-            self.last[g] = Some((event, end));
+            self.last[pair] = Some((event, end));
             let event = &mut self.events[event];
             event.peak_force = event.peak_force.max(report.normal_force);
             event.friction_work += report.ledger.friction;

@@ -309,7 +309,7 @@ impl<const D: usize> Simulation<D> {
         *nominal_step = NominalStep::default();
         let mut stepper = Stepper { model, method, state, spare, work, halvings, failed: 0 };
         let outcome = stepper.advance(nominal, |state, report, work| {
-            books.add(report.ledger, &work.body_ledgers, work.pair_reports.iter().map(|g| g.ledger));
+            books.add(report.ledger, &work.body_ledgers, work.pair_reports.iter().map(|pair| pair.ledger));
             books.set_changes(initial_energies, &state.body_energies);
             *last_step = Some(report.ledger);
             nominal_step.note(report);

@@ -201,8 +201,8 @@ impl<const D: usize> Simulation<D> {
                 .zip(&self.books.pairs)
                 .enumerate()
                 // Every body may touch itself; few do.
-                .filter(|(_, (g, l))| !g.is_of_one_body() || l.has_touched)
-                .map(|(i, (g, l))| PairSummary::new(g, self.events.merge(i), l))
+                .filter(|(_, (pair, l))| !pair.is_of_one_body() || l.has_touched)
+                .map(|(i, (pair, l))| PairSummary::new(pair, self.events.merge(i), l))
                 .collect(),
             max_blend: t.max_blend,
             least_friction: t.least_friction,

@@ -29,7 +29,7 @@ pub struct Workspace<const D: usize> {
     pub(crate) in_itself: Vec<bool>,
     /// d = u₊ − u [m] of all nodes and obstacles.
     pub(crate) motion: Vec<Vector<D>>,
-    /// What the pair_reports did in the last step, in the order of the assembly.
+    /// What the named pairs did in the last step, in the order of the assembly.
     pub pair_reports: Vec<PairReport>,
     /// What happened to the energy of each body in the last step.
     pub body_ledgers: Vec<BodyLedger>,
