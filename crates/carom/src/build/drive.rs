@@ -9,8 +9,6 @@ use crate::model::Model;
 use crate::scenario::{Axis, Displacement, LoadSpec, MotionSpec, ObstacleEntry, Scenario};
 use crate::{Load, Motion, ObstacleMotion, Signal, SignalSpec};
 
-/// Names of the components.
-const AXES: [&str; 3] = ["x", "y", "z"];
 /// At how many moments of a run a function of time is checked before it starts.
 const SAMPLES: usize = 1000;
 /// A displacement below this at the start, relative to the model, is round-off [1].
@@ -144,7 +142,7 @@ fn fixed<const D: usize>(key: &str, components: Option<&[Axis]>) -> Result<[Opti
     let mut signals = std::array::from_fn(|_| None);
     for axis in named.iter().map(|&a| a as usize) {
         let signal = signals.get_mut(axis).ok_or_else(|| {
-            let message = format!("{:?}: there are {D} dimensions", AXES[axis]);
+            let message = format!("{:?}: there are {D} dimensions", Axis::NAMES[axis]);
             InputError::new(format!("{key}.components"), message)
         })?;
         *signal = zero();
@@ -162,7 +160,7 @@ fn displacement<const D: usize>(
     let mut signals = std::array::from_fn(|_| None);
     for (i, spec) in [&spec.x, &spec.y, &spec.z].into_iter().enumerate() {
         let Some(spec) = spec else { continue };
-        let key = format!("{key}.{}", AXES[i]);
+        let key = format!("{key}.{}", Axis::NAMES[i]);
         let place = signals
             .get_mut(i)
             .ok_or_else(|| InputError::new(&key, format!("there are {D} dimensions; leave it out")))?;
@@ -205,7 +203,8 @@ fn refuse_contradictions<const D: usize>(
             let message = format!(
                 "node {node} is in {:?} of motions.{k} too, which moves it along {} differently; \
                  leave that component out of one of them",
-                other.name, AXES[component]
+                other.name,
+                Axis::NAMES[component]
             );
             return Err(InputError::new(format!("{key}.on"), message));
         }

@@ -72,6 +72,16 @@ impl<const D: usize> Method<D> {
         }
     }
 
+    /// Whether what normal reactions take on landing is given back. Without inertia nothing lands.
+    pub(crate) fn restores(&self) -> bool {
+        self.scheme != Scheme::Static && self.condition.restores()
+    }
+
+    /// Whether there are velocities that closed contacts turn round in every step: where there is inertia, and nodes in contact have mass.
+    pub(crate) fn settles(&self) -> bool {
+        self.scheme != Scheme::Static && !self.condition.is_massless()
+    }
+
     /// Whether the balance of massless contact nodes is closed by a blend of start and end stresses.
     fn is_blended(&self) -> bool {
         self.scheme == Scheme::Conserving && self.condition.is_massless()

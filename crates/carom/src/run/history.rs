@@ -1,9 +1,8 @@
 use carom_mesh::{Vector, nodal};
 
+use crate::scenario::Axis;
 use crate::step::report::StepReport;
 use crate::{Ledger, Model, State};
-
-const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// A node whose motion is in the history.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,7 +52,7 @@ pub(crate) struct Since {
 impl<const D: usize> History<D> {
     /// A history of a run that starts from `state`.
     pub fn new(model: &Model<D>, state: &State<D>, tracks: Vec<Track>) -> Self {
-        let axes = &AXES[..D];
+        let axes = &Axis::NAMES[..D];
         let mut columns = vec!["time".to_string()];
         columns.extend(Ledger::NAMES.iter().chain(&["total", "defect"]).map(|name| name.to_string()));
         columns.extend(axes.iter().map(|a| format!("momentum_{a}")));

@@ -91,3 +91,8 @@ pub enum Axis {
     /// The third.
     Z,
 }
+
+impl Axis {
+    /// What they are called, in this order.
+    pub(crate) const NAMES: [&str; 3] = ["x", "y", "z"];
+}

@@ -3,15 +3,13 @@
 use carom_contact::{Contact, Target};
 use carom_mesh::Vector;
 
+use super::control::IMPULSIVE;
 use crate::body::Body;
 use crate::contact::contact_work::driven;
 use crate::ledger::BodyLedger;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
 use crate::model::state::{Reaction, State};
-
-/// A contact sticks where its friction is below the limit by more than this part of it.
-const STICKING: f64 = 1e-6;
 
 /// An impulse that a contact may take.
 #[derive(Debug, Clone)]
@@ -268,7 +266,7 @@ impl<const D: usize> Impulses<D> {
 
 /// Whether a contact with the reaction `r` sticks: its friction is below the limit by more than round-off.
 pub(super) fn sticks<const D: usize>(r: &Vector<D>, friction: f64) -> bool {
-    tangential(r) < friction * r[0] * (1.0 - STICKING)
+    tangential(r) < friction * r[0] * (1.0 - IMPULSIVE.sticking)
 }
 
 /// The mass that a contact puts in the way of an impulse [kg], if every node moves for itself.

@@ -2,22 +2,13 @@
 
 use carom_mesh::Vector;
 
+use super::control::IMPULSIVE;
 use super::impulse::{Group, Impulse, Impulses, mass, sticks, tangential};
 use super::workspace::Workspace;
 use crate::body::Body;
 use crate::contact::Contacts;
 use crate::model::given::Given;
 use crate::model::state::State;
-
-/// A contact that is pressed by less than this part of what it would take to turn it round has come to its target with the end of the step,
-/// and lands in the next.
-const HAS_LANDED: f64 = 1e-8;
-
-/// Above this part the reaction itself says whether the contact sticks; below, its direction may be round-off.
-const IS_KNOWN: f64 = 1e-4;
-
-/// So often is friction looked for that takes energy at every contact.
-const ROUNDS: usize = 4;
 
 /// Gives back what normal reactions took on landing, −r_n (H d)_n > 0, by impulses along the normals (Laursen & Love 2002). So no node is let in,
 /// and normal reactions take no energy.
@@ -28,7 +19,7 @@ pub(super) fn restore<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, 
     let Workspace { bodies, contacts, impulses, motion, body_ledgers, .. } = work;
     impulses.wanted.clear();
     impulses.arriving.clear();
-    if !given.method.condition.restores() || given.interval.map.is_static() {
+    if !given.method.restores() {
         return;
     }
     let Contacts { active, at_end, .. } = &*contacts;
@@ -40,7 +31,7 @@ pub(super) fn restore<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, 
         }
         let mut impulse = Vector::zeros();
         impulse[0] = mass(&at_end[i], given.assembly, bodies) * gap * map.velocity_of_motion;
-        if reaction.force[0] * map.dt > HAS_LANDED * impulse[0] {
+        if reaction.force[0] * map.dt > IMPULSIVE.has_landed * impulse[0] {
             let energy = -reaction.force[0] * reaction.contact.relative(|n| motion[n])[0];
             impulses.wanted.push(Impulse { reaction: k, contact: i, impulse, energy });
         } else {
@@ -83,7 +74,7 @@ fn rub<const D: usize>(
         let speed = tangential(&v);
         let friction = active.friction[*contact];
         let force = &new.reactions[*reaction].force;
-        let is_known = force[0] * dt > IS_KNOWN * impulse[0];
+        let is_known = force[0] * dt > IMPULSIVE.is_known * impulse[0];
         if friction > 0.0 && speed > 0.0 && !(is_known && sticks(force, friction)) {
             let turns = 2.0 * mass(&at_end[*contact], given.assembly, bodies);
             let most = friction * impulse[0] / speed;
@@ -91,7 +82,7 @@ fn rub<const D: usize>(
             rubs = true;
         }
     }
-    for round in 1..=ROUNDS {
+    for round in 1..=IMPULSIVE.rounds {
         if !rubs {
             return;
         }
@@ -100,7 +91,7 @@ fn rub<const D: usize>(
         rubs = false;
         for impulse in &mut wanted {
             let [_, across] = impulses.taken(given, at_end, new, impulse, restoring);
-            if across < 0.0 || round == ROUNDS - 1 {
+            if across < 0.0 || round == IMPULSIVE.rounds - 1 {
                 (1..D).for_each(|t| impulse.impulse[t] = 0.0);
                 rubs = true;
             }

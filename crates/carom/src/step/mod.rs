@@ -2,6 +2,7 @@
 
 pub(crate) mod blend;
 mod commit;
+mod control;
 mod impulse;
 mod iterate;
 mod landing;
@@ -16,6 +17,7 @@ pub(crate) mod workspace;
 use carom_mesh::{Vector, nodal};
 
 use self::commit::commit;
+use self::control::SEARCH;
 use self::iterate::iterate;
 use self::measure::measure;
 use self::report::StepReport;
@@ -28,26 +30,6 @@ use crate::model::assembly::Assembly;
 use crate::model::given::Given;
 use crate::model::method::Method;
 use crate::model::state::State;
-
-/// How far around the bodies contacts are looked for, and how often.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Search {
-    /// Margin of the contact search, in largest predicted motions of a node in the step.
-    margin: f64,
-    /// The largest margin, in sizes of the model, where no body moves as a whole by half of that. With more, one very fast node would
-    /// turn all nodes into contacts: two bodies whose 60 contacts a step was about had a dense problem of 1245.
-    largest_margin: f64,
-    /// The least margin in a static analysis, where no velocity foretells the motion, in sizes of the model.
-    static_margin: f64,
-    /// How often a step is repeated from where it led to, if something came into contact unforeseen.
-    repetitions: usize,
-    /// How often at most for what the measure has found; after that it is told.
-    measured: usize,
-}
-
-/// The thresholds of every run.
-const SEARCH: Search =
-    Search { margin: 2.0, largest_margin: 0.1, static_margin: 1e-3, repetitions: 8, measured: 4 };
 
 /// Takes `state` one step of length `dt` [s] further and writes the result to `next`.
 ///
@@ -112,9 +94,7 @@ fn predict<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) -> Res
         acceleration = acceleration.max(forecast.acceleration);
         *factorisations += u64::from(forecast.is_factorised);
     }
-    // In a static analysis nothing falls: its time says how far the loads have come, not how long they act.
-    let free = if interval.map.is_static() { 0.0 } else { (speed + acceleration * dt) * dt };
-    Ok(search_margin(given, free, driven, bodies))
+    Ok(search_margin(given, (speed + acceleration * dt) * dt, driven, bodies))
 }
 
 /// How far around the bodies contacts are looked for [m], where nodes fly as far as `free` [m] or are moved by `driven` [m] in the step.
@@ -125,15 +105,19 @@ fn search_margin<const D: usize>(
     bodies: &[Box<dyn Body<D>>],
 ) -> f64 {
     let Given { assembly, state, interval, .. } = *given;
-    let mut margin = SEARCH.margin * free.max(driven);
-    let largest = SEARCH.largest_margin * assembly.size;
-    if margin > largest {
-        let means = bodies.iter().enumerate().map(|(i, body)| {
-            let velocity = &state.velocity[assembly.nodes(i)];
-            body.mean_velocity(velocity).norm()
-        });
-        let drift = means.fold(0.0, f64::max) * interval.map.dt;
-        margin = margin.min(largest.max(SEARCH.margin * driven.max(drift)));
+    // In a static analysis nothing falls: its time says how far the loads have come, not how long they act.
+    if interval.map.is_static() {
+        return (SEARCH.margin * driven).max(SEARCH.static_margin * assembly.size);
     }
-    if interval.map.is_static() { margin.max(SEARCH.static_margin * assembly.size) } else { margin }
+    let margin = SEARCH.margin * free.max(driven);
+    let largest = SEARCH.largest_margin * assembly.size;
+    if margin <= largest {
+        return margin;
+    }
+    let means = bodies.iter().enumerate().map(|(i, body)| {
+        let velocity = &state.velocity[assembly.nodes(i)];
+        body.mean_velocity(velocity).norm()
+    });
+    let drift = means.fold(0.0, f64::max) * interval.map.dt;
+    margin.min(largest.max(SEARCH.margin * driven.max(drift)))
 }

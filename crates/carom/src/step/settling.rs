@@ -1,17 +1,12 @@
 //! Rest is rest: what damping takes from the velocities that closed contacts turn round.
 
+use super::control::IMPULSIVE;
 use super::impulse::{Group, Impulse, mass, sticks, tangential};
 use super::workspace::Workspace;
 use crate::body::Body;
 use crate::contact::Contacts;
 use crate::model::given::Given;
-use crate::model::state::{Reaction, State};
-
-/// A velocity is at rest where it takes less than this part of the impulse of the step to stop it.
-const AT_REST: f64 = 1e-14;
-
-/// The reactions of closed contacts bear impulses so many times as large as those that would stop single nodes.
-const BORNE: f64 = 2.0;
+use crate::model::state::State;
 
 /// Takes from the velocities of a new state what closed contacts turn round in every step.
 ///
@@ -26,8 +21,7 @@ pub(super) fn settle<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, w
     let Given { method, interval, .. } = *given;
     let Workspace { bodies, contacts, impulses, body_ledgers, .. } = work;
     impulses.wanted.clear();
-    let acts = !interval.map.is_static() && !method.condition.is_massless();
-    if acts && !new.reactions.is_empty() && bodies.iter().any(|body| body.is_damped()) {
+    if method.settles() && !new.reactions.is_empty() && bodies.iter().any(|body| body.is_damped()) {
         choose(given, new, contacts, bodies, &mut impulses.wanted);
     }
     if impulses.wanted.is_empty() {
@@ -41,7 +35,7 @@ pub(super) fn settle<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, w
             return 0.0;
         }
         let rate = group.power / square;
-        (-work / square).min(BORNE) * -(-rate * dt).exp_m1()
+        (-work / square).min(IMPULSIVE.borne) * -(-rate * dt).exp_m1()
     });
 }
 
@@ -57,8 +51,7 @@ fn choose<const D: usize>(
     let dt = interval.map.dt;
     let Contacts { active, at_end, .. } = contacts;
     for (i, k, reaction) in active.pressing(&new.reactions) {
-        let is_new = state.reactions.binary_search_by_key(&reaction.key(), Reaction::key).is_err();
-        if is_new || active.start_gaps[i] > 0.0 {
+        if state.reaction(reaction.key()).is_none() || active.start_gaps[i] > 0.0 {
             continue;
         }
         let (r, mu) = (&reaction.force, active.friction[i]);
@@ -67,10 +60,10 @@ fn choose<const D: usize>(
         if !sticks(r, mu) {
             (1..D).for_each(|t| impulse[t] = 0.0);
         }
-        if impulse.norm() <= AT_REST * r[0] * dt {
+        if impulse.norm() <= IMPULSIVE.at_rest * r[0] * dt {
             continue;
         }
-        let left = |part: f64| r + impulse * (part * BORNE / dt);
+        let left = |part: f64| r + impulse * (part * IMPULSIVE.borne / dt);
         let is_borne = |part: &f64| left(*part)[0] > 0.0 && tangential(&left(*part)) <= mu * left(*part)[0];
         let part = [1.0, 0.5, 0.25, 0.125].into_iter().find(is_borne);
         out.extend(part.map(|part| Impulse {

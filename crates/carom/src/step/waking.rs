@@ -2,19 +2,10 @@
 
 use carom_mesh::{Matrix, Vector, nodal, tensor};
 
+use super::control::WAKING;
 use super::workspace::Workspace;
 use crate::model::given::Given;
 use crate::model::state::State;
-
-/// How far the nodes of a body may move against one another before it is looked at, in diameters of its smallest facet.
-const UNSEEN: f64 = 0.05;
-
-/// A body that comes no nearer to itself than this is left alone until the next look, in diameters of its smallest facet: two nodes that move
-/// towards one another until then come nearer by a fifth of it.
-const NEAR: f64 = 0.5;
-
-/// The same in motions of the step, where one is long.
-const NEAR_IN_MOTIONS: f64 = 4.0;
 
 /// Takes note of how far nodes wander in the step, and which bodies may have gone through themselves since they were looked at.
 pub(super) fn wander<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) {
@@ -23,7 +14,7 @@ pub(super) fn wander<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<
         let nodes = given.assembly.nodes(i);
         let middle = |n: usize| given.position(n as u32) + motion[n] * 0.5;
         look.in_step = against_one_another(&motion[nodes.clone()], |k| middle(nodes.start + k));
-        look.is_due = look.wandered + look.in_step > UNSEEN * boundaries.least_cell(i);
+        look.is_due = look.wandered + look.in_step > WAKING.unseen * boundaries.least_cell(i);
     }
 }
 
@@ -45,7 +36,7 @@ pub(super) fn wake<const D: usize>(given: &Given<'_, D>, next: &State<D>, work: 
             finder.asleep[i] = false;
             continue;
         }
-        let reach = (NEAR * boundaries.least_cell(i)).max(NEAR_IN_MOTIONS * look.in_step);
+        let reach = (WAKING.near * boundaries.least_cell(i)).max(WAKING.near_in_motions * look.in_step);
         finder.asleep[i] = !finder.comes_near_itself(given, i, reach, &end);
         look.wandered = 0.0;
     }
