@@ -2,6 +2,8 @@
 
 pub(crate) mod blend;
 mod commit;
+mod equilibrate;
+mod hold;
 mod impulse;
 mod iterate;
 mod landing;
@@ -16,6 +18,7 @@ pub(crate) mod workspace;
 use carom_mesh::{Vector, nodal};
 
 use self::commit::commit;
+use self::equilibrate::set_out;
 use self::iterate::iterate;
 use self::measure::measure;
 use self::report::StepReport;
@@ -64,7 +67,7 @@ pub fn step<const D: usize>(
 ) -> Result<StepReport, StepError> {
     let interval = method.interval(state.time, dt);
     let given = Given { assembly, method, state, interval: &interval };
-    let margin = predict(&given, work)?;
+    let mut margin = predict(&given, work)?;
     let mut iterations = 0;
     for repetition in 0..SEARCH.repetitions {
         let Workspace { contacts, motion, .. } = work;
@@ -73,6 +76,13 @@ pub fn step<const D: usize>(
         if made.is_err() {
             // A factor that was made on the way to nowhere would mislead the next attempt.
             work.bodies.iter_mut().for_each(|body| body.forget());
+        }
+        if let Err(StepError::NotHeld { .. } | StepError::Runaway { .. }) = made
+            && margin < assembly.size
+        {
+            // It may fall on something that is farther away than the loads foretold.
+            margin = assembly.size.max(predict(&given, work)?);
+            continue;
         }
         iterations += made?;
         if !work.contacts.finder.missed_one(&given, next) {
@@ -112,6 +122,10 @@ fn predict<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) -> Res
         acceleration = acceleration.max(forecast.acceleration);
         *factorisations += u64::from(forecast.is_factorised);
     }
+    if interval.map.is_static() {
+        set_out(given, work)?;
+    }
+    let Workspace { bodies, .. } = work;
     // In a static analysis nothing falls: its time says how far the loads have come, not how long they act.
     let free = if interval.map.is_static() { 0.0 } else { (speed + acceleration * dt) * dt };
     Ok(search_margin(given, free, driven, bodies))
