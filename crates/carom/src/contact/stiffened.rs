@@ -45,7 +45,7 @@ pub(crate) struct Stiffened<const D: usize> {
     seen: DVector<f64>,
 }
 
-/// κ of a contact: that of the softest node which is free.
+/// κ of a contact, by the stiffness of its softest node in the undeformed body.
 fn spring<const D: usize>(
     assembly: &Assembly<D>,
     contact: &Contact<D>,
@@ -53,7 +53,7 @@ fn spring<const D: usize>(
 ) -> f64 {
     let places = contact.stencil().filter_map(|(n, _)| assembly.place_of(n));
     let softest = places.map(|(b, own)| bodies[b].stiffness_at(own as u32)).fold(f64::INFINITY, f64::min);
-    if softest.is_finite() { softest } else { 0.0 }
+    if softest.is_finite() { CONTROL.spring * softest } else { 0.0 }
 }
 
 /// The directions of its frame that a contact with the reaction `r` holds: none, the normal, or all.
@@ -188,6 +188,7 @@ impl<const D: usize> Stiffened<D> {
         let count = self.nodes.len() * D;
         self.missing = DMatrix::zeros(count, count);
         self.add_geometric(given, active, motion);
+        // Friction makes it unsymmetric, of which a solver of contacts knows nothing.
         self.missing = (&self.missing + self.missing.transpose()) * 0.5;
         self.add_springs(given.assembly, active);
         let scale = self.springs_of_contacts.iter().map(|&(k, _)| k).fold(0.0, f64::max);
@@ -230,7 +231,8 @@ impl<const D: usize> Stiffened<D> {
             if is_fixed || *r == Vector::<D>::zeros() || contact_model.is_mortar(candidate.pair as usize) {
                 continue;
             }
-            let step = CONTROL.difference * given.assembly.pair_size(&contact_model.pairs[candidate.pair as usize]);
+            let step =
+                CONTROL.difference * given.assembly.pair_size(&contact_model.pairs[candidate.pair as usize]);
             for (node, _) in contact.stencil() {
                 let Some(column) = self.place(node) else { continue };
                 for component in 0..D {
@@ -308,9 +310,7 @@ impl<const D: usize> Stiffened<D> {
     /// Makes what K̄⁻¹ alone gives at P, beside the `motion` so far [m], what the tangent gives.
     pub fn see(&mut self, motion: &[Vector<D>], seen: &mut [Vector<D>]) {
         let of = |place: usize| self.nodes[place / D];
-        let alone = DVector::from_fn(self.nodes.len() * D, |k, _| {
-            seen[of(k)][k % D] - motion[of(k)][k % D]
-        });
+        let alone = DVector::from_fn(self.nodes.len() * D, |k, _| seen[of(k)][k % D] - motion[of(k)][k % D]);
         self.seen = &alone - &self.compliance * (&self.missing * &alone);
         for (place, &n) in self.nodes.iter().enumerate() {
             seen[n] = motion[n] + Vector::from_fn(|i, _| self.seen[place * D + i]);

@@ -58,8 +58,6 @@ fn approach<const D: usize>(
         let motion = moved.fold(0.0, f64::max);
         let verdict = load_step.judge(iteration, correction, motion, round_off(bodies, given, work));
         let verdict = verdict.map_err(|error| reason.unwrap_or(error))?;
-        if std::env::var_os("CDBG").is_some() { eprintln!("DBG t={:.5} dt={:.2e} it={iteration} c={correction:.3e} m={motion:.3e} ro={:.1e} {verdict:?} n={} hold={:?}", given.interval.start, given.interval.map.dt, round_off(bodies, given, work), work.contacts.active.contacts.len(), bodies.iter().map(|&i| work.newton.holding[i].share).collect::<Vec<_>>()); }
-        if std::env::var_os("CDBG2").is_some() && iteration > 20 && iteration < 30 { let a = &work.contacts.active; for (k, c) in a.candidates.iter().enumerate() { if a.reactions[k] != Vector::<D>::zeros() || a.contacts[k].gap < 1e-3 { eprintln!("   {:?} {:?} gap {:.4e} n {:?} r {:?} start_gap {:.2e} st {:?}", c.site, c.facet, a.contacts[k].gap, a.contacts[k].frame.row(0).iter().map(|x| (x*1e4).round()/1e4).collect::<Vec<_>>(), a.reactions[k].iter().map(|x| format!("{x:.4e}")).collect::<Vec<_>>(), a.start_gaps[k], a.contacts[k].stencil().map(|(n,w)| (n, (w*1e3).round()/1e3)).collect::<Vec<_>>()); } } }
         if verdict == Verdict::Refused {
             work.newton.return_to_guess(bodies, given.assembly, &mut work.motion, &mut work.contacts.active);
             follow(bodies, given, next, work);
@@ -77,7 +75,9 @@ fn approach<const D: usize>(
             return Err(StepError::Runaway { motion: motion.max(correction), size });
         }
         if verdict == Verdict::Renewed {
-            bodies.iter().for_each(|&i| work.newton.holding[i].lower());
+            if load_step.is_shrinking() {
+                bodies.iter().for_each(|&i| work.newton.holding[i].lower());
+            }
             linearise(bodies, given, next, work)?;
         }
     }
@@ -139,12 +139,8 @@ fn linearise<const D: usize>(
     reduced.delassus.stiffened.spring_from_guess(given.assembly, active, all);
     for &i in bodies {
         let guess = given.guess(i, motion, &next.displacement);
-        work.factorisations += hold(
-            &mut *all[i],
-            &guess,
-            &mut work.newton.holding[i],
-            &reduced.delassus.stiffened.springs[i],
-        )?;
+        work.factorisations +=
+            hold(&mut *all[i], &guess, &mut work.newton.holding[i], &reduced.delassus.stiffened.springs[i])?;
     }
     Ok(())
 }

@@ -36,7 +36,9 @@ impl<'a, const D: usize> Motions<'a, D> {
         let columns = bodies.iter().enumerate();
         Self {
             bodies,
-            columns: columns.flat_map(|(k, &i)| work.bodies[i].rigid_motions().map(move |m| (k, m))).collect(),
+            columns: columns
+                .flat_map(|(k, &i)| work.bodies[i].rigid_motions().map(move |m| (k, m)))
+                .collect(),
             centres: bodies.iter().map(|&i| centre(assembly.nodes(i))).collect(),
             size: assembly.size,
         }

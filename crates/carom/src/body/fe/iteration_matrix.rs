@@ -6,8 +6,8 @@ use carom_fem::{Body, BodyWithHistory, Held};
 use carom_mesh::{Matrix, Vector, nodal};
 
 use super::equation::STEADYING;
-use crate::body::Guess;
 use crate::archive::{Archive, CheckpointError};
+use crate::body::Guess;
 use crate::error::StepError;
 use crate::scheme::StepMap;
 

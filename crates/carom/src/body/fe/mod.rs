@@ -4,8 +4,8 @@ mod blended;
 mod drive;
 mod equation;
 mod iteration_matrix;
-mod load_step;
 pub(crate) mod load;
+mod load_step;
 pub(crate) mod part;
 pub(crate) mod supports;
 
@@ -327,8 +327,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
                 * (nodal::dot(guess.motion, end.internal_force)
                     - nodal::dot(guess.motion, start.internal_force));
         }
-        let contact =
-            exchanged.unwrap_or_else(|| held.free_dot(guess.motion, end.mean_contact_force));
+        let contact = exchanged.unwrap_or_else(|| held.free_dot(guess.motion, end.mean_contact_force));
         if exchanged.is_none() {
             let ends = [start.contact_force, end.contact_force];
             scheme += equation.static_balance_work(ends, end.internal_force, scratch.viscous());

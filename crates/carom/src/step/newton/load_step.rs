@@ -85,7 +85,8 @@ impl LoadStep {
             self.stalled += 1;
         }
         let left = (LOAD_STEP.safety * contraction).min(1.0);
-        let is_round_off = self.stalled >= LOAD_STEP.stalled && correction <= LOAD_STEP.unavoidable * round_off;
+        let is_round_off =
+            self.stalled >= LOAD_STEP.stalled && correction <= LOAD_STEP.unavoidable * round_off;
         if correction * left <= wanted || is_round_off {
             return Ok(Verdict::Last);
         }
@@ -94,6 +95,11 @@ impl LoadStep {
         }
         let is_fast = correction * contraction.powi(LOAD_STEP.worth) <= wanted;
         Ok(if is_fast { Verdict::Applied } else { Verdict::Renewed })
+    }
+
+    /// Whether the last correction is the smallest so far by far.
+    pub fn is_shrinking(&self) -> bool {
+        self.stalled == 0
     }
 
     /// Takes note of a guess that led nowhere.
