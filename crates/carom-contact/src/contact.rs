@@ -85,8 +85,9 @@ impl<const D: usize> Contact<D> {
         self.frame = carried(&self.frame, before);
     }
 
-    /// The same contact of a multiplier with its gap where nodes are at `position`.
-    pub(crate) fn moved(&self, position: &impl Fn(u32) -> Vector<D>) -> Self {
+    /// The same contact, frame and stencil, with its gap where nodes are at `position`.
+    #[must_use]
+    pub fn moved(&self, position: &impl Fn(u32) -> Vector<D>) -> Self {
         Self { gap: self.relative(|n| position(n as u32))[0], ..self.clone() }
     }
 

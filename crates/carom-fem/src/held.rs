@@ -1,4 +1,4 @@
-use carom_mesh::{Matrix, Vector};
+use carom_mesh::{Matrix, Vector, nodal};
 
 use crate::sparse::NodalMatrix;
 
@@ -71,14 +71,14 @@ impl Held {
         Vector::from_fn(|i, _| if self.holds(node, i) { 0.0 } else { v[i] })
     }
 
-    /// Σ a·b over what is held.
+    /// Σ a·b over what is free.
     #[must_use]
-    pub fn dot<const D: usize>(&self, a: &[Vector<D>], b: &[Vector<D>]) -> f64 {
+    pub fn free_dot<const D: usize>(&self, a: &[Vector<D>], b: &[Vector<D>]) -> f64 {
         let product = |dof: &HeldDof| {
             let (n, i) = (dof.node as usize, dof.component as usize);
             a[n][i] * b[n][i]
         };
-        self.dofs.iter().map(product).sum()
+        nodal::dot(a, b) - self.dofs.iter().map(product).sum::<f64>()
     }
 
     /// Sets what is held of a nodal vector to zero.

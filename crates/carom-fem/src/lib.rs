@@ -28,5 +28,6 @@ pub use facets::FacetPatch;
 pub use held::{Held, HeldDof};
 pub use hypothesis::{Formulation, Hypothesis};
 pub use impulse::MassSolver;
+pub use loose::rigid_motion;
 pub use rigid::RigidMass;
 pub use with_history::BodyWithHistory;

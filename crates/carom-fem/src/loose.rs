@@ -1,4 +1,6 @@
-//! Whether supports hold a body, or leave it rigid motions.
+//! Rigid motions, and whether supports leave a body any.
+
+use std::ops::Range;
 
 use carom_mesh::{Vector, tensor};
 use nalgebra::DMatrix;
@@ -8,32 +10,40 @@ use crate::Body;
 /// Rigid motions that move what is held by less than this, relative to the body, are free.
 const FREE: f64 = 1e-6;
 
+/// The velocity of a point at `arm` [m] from the centre in rigid motion number `k`: of unit speed along an axis if k < D; if not, about z in the
+/// plane or about axis k − D in space, at unit speed in the distance `size` [m].
+#[must_use]
+pub fn rigid_motion<const D: usize>(k: usize, arm: &Vector<D>, size: f64) -> Vector<D> {
+    if k < D {
+        return Vector::from_fn(|i, _| if i == k { 1.0 } else { 0.0 });
+    }
+    let axis = if D == 2 { 2 } else { k - D };
+    let spin: [f64; 3] = std::array::from_fn(|i| if i == axis { 1.0 / size } else { 0.0 });
+    tensor::rotation_velocity(&spin, arm)
+}
+
 impl<const D: usize> Body<D> {
+    /// The numbers of its rigid motions, as [`rigid_motion`] has them. A body that repeats itself cannot turn, and one of revolution moves along its
+    /// axis only.
+    #[must_use]
+    pub fn rigid_motions(&self) -> Range<usize> {
+        let turns = if self.mesh().ties().is_empty() { D * (D - 1) / 2 } else { 0 };
+        if self.is_axisymmetric() { 1..D } else { 0..D + turns }
+    }
+
     /// Whether what is held leaves the body a rigid motion.
     #[must_use]
     pub fn is_loose(&self) -> bool {
-        // A body that repeats itself cannot turn, and one of revolution moves along its axis only.
-        let turns = if self.mesh().ties().is_empty() { D * (D - 1) / 2 } else { 0 };
-        let (first, last) = if self.is_axisymmetric() { (1, D) } else { (0, D + turns) };
-        let modes = last - first;
+        let motions = self.rigid_motions();
         let centre = self.mean(self.mesh().nodes());
         let size = self.mesh().diameter();
-        let mode = |k: usize, arm: &Vector<D>| -> Vector<D> {
-            if k < D {
-                Vector::from_fn(|i, _| if i == k { 1.0 } else { 0.0 })
-            } else {
-                // About z in the plane, about each axis in space.
-                let axis = if D == 2 { 2 } else { k - D };
-                let spin: [f64; 3] = std::array::from_fn(|i| if i == axis { 1.0 / size } else { 0.0 });
-                tensor::rotation_velocity(&spin, arm)
-            }
-        };
-        let mut gram = DMatrix::<f64>::zeros(modes, modes);
+        let mut gram = DMatrix::<f64>::zeros(motions.len(), motions.len());
         for dof in self.held().dofs() {
             let arm = self.mesh().nodes()[dof.node as usize] - centre;
-            let at: Vec<f64> = (first..last).map(|k| mode(k, &arm)[dof.component as usize]).collect();
-            for i in 0..modes {
-                for j in 0..modes {
+            let at: Vec<f64> =
+                motions.clone().map(|k| rigid_motion(k, &arm, size)[dof.component as usize]).collect();
+            for i in 0..at.len() {
+                for j in 0..at.len() {
                     gram[(i, j)] += at[i] * at[j];
                 }
             }

@@ -101,12 +101,14 @@ pub enum StepError {
     },
     /// In a static analysis nothing keeps a body where it is.
     #[error(
-        "body {body:?} is not held: neither supports nor contact resist the forces on it; fix what would move, start it in \
-         contact, or give friction"
+        "body {body:?} is not held: it is free to {motion}, and the forces on it drive it there; support it, start it in \
+         contact with what holds it, or give friction"
     )]
     NotHeld {
         /// The body.
         body: String,
+        /// What nothing resists, in words.
+        motion: String,
     },
     /// Something was not a finite number.
     #[error("the {0} is not finite")]

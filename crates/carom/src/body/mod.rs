@@ -5,6 +5,8 @@
 
 pub(crate) mod fe;
 
+use std::ops::Range;
+
 use carom_fem::material::PlasticState;
 use carom_fem::sparse::Precision;
 use carom_mesh::{Matrix, Vector};
@@ -23,10 +25,27 @@ pub struct Interval {
     pub start: f64,
     /// The numbers that factors are kept in.
     pub precision: Precision,
-    /// How much the contact forces at its start and at its end count in it.
-    pub contact_weights: [f64; 2],
+    /// How much the reactions at its start and at its end count in its books.
+    pub contact_weights: ContactWeights,
     /// Whether stresses of start and end are blended so that massless contact keeps the energy: see [`Body::balance`].
     pub is_blended: bool,
+}
+
+/// How much the reactions at the start and at the end of a step count in its books.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactWeights {
+    /// Of normal reactions.
+    pub normal: [f64; 2],
+    /// Of friction.
+    pub across: [f64; 2],
+}
+
+impl ContactWeights {
+    /// The part of a reaction at the start (0) or at the end (1) that counts.
+    #[must_use]
+    pub fn part<const D: usize>(&self, end: usize, force: &Vector<D>) -> Vector<D> {
+        Vector::from_fn(|i, _| force[i] * if i == 0 { self.normal[end] } else { self.across[end] })
+    }
 }
 
 /// The part of one body in a state; vectors have an entry per node of the body.
@@ -88,6 +107,8 @@ pub struct Balance {
 pub struct BodyEnd<'a, const D: usize> {
     /// Contact forces [N] that the step ended with.
     pub contact_force: &'a [Vector<D>],
+    /// Those of the books: the reactions of start and end by their [weights](ContactWeights).
+    pub mean_contact_force: &'a [Vector<D>],
     /// v₊ [m/s].
     pub velocity: &'a mut [Vector<D>],
     /// ∂E/∂u at u₊ [N].
@@ -160,6 +181,33 @@ pub trait Body<const D: usize>: Send + Sync {
     /// If K̄ cannot be factorised.
     fn renew(&mut self, guess: &Guess<'_, D>, again: bool) -> Result<(), StepError>;
 
+    /// Makes K̄ the tangent at a guess of a load step, with `springs` to the ground [N/m] at some nodes. `held_back` is the share of the inertia of the
+    /// body's lowest elastic motion that holds corrections back towards the guess, in K̄ alone, where the tangent by itself has no inverse.
+    ///
+    /// # Errors
+    /// If K̄ is not positive definite even so.
+    fn linearise(
+        &mut self,
+        guess: &Guess<'_, D>,
+        _held_back: f64,
+        _springs: &[(u32, Matrix<D>)],
+    ) -> Result<(), StepError> {
+        self.renew(guess, false)
+    }
+
+    /// Lets the rest of the body follow the part of `motion` [m] that is prescribed, from the start of a load step, as its K̄ says.
+    fn follow(&mut self, _start: &BodyState<'_, D>, _motion: &mut [Vector<D>]) {}
+
+    /// How stiff it is at a node, where nothing has moved [N/m]. Zero wants no springs there.
+    fn stiffness_at(&mut self, _node: u32) -> f64 {
+        0.0
+    }
+
+    /// How far the round-off of its forces moves it [m], as its present K̄ resists. Corrections below this say nothing.
+    fn round_off(&self) -> f64 {
+        0.0
+    }
+
     /// Lets no step rely on K̄ as it is.
     fn forget(&mut self);
 
@@ -216,6 +264,11 @@ pub trait Body<const D: usize>: Send + Sync {
     /// Whether only contact, or nothing, keeps the body from moving rigidly in a static analysis.
     fn is_loose(&self) -> bool {
         false
+    }
+
+    /// The numbers of the rigid motions that it has where nothing holds it: see [`carom_fem::rigid_motion`].
+    fn rigid_motions(&self) -> Range<usize> {
+        0..D
     }
 
     /// Memory of its factor [bytes].

@@ -21,6 +21,9 @@ pub(crate) struct ActiveSet<const D: usize> {
     pub start_gaps: Vec<f64>,
     /// Reactions [N] that the step starts with, in the frame of the last step.
     pub start_forces: Vec<Vector<D>>,
+    /// The contacts as they were evaluated before, and those that stand at a kink: see [`Self::evaluate_late`].
+    before: Vec<Contact<D>>,
+    pub at_kink: Vec<bool>,
     /// Reactions as the reduced problem has them: see `ContactCondition::reaction_weight`.
     pub reactions: Vec<Vector<D>>,
     /// Reactions of the state whose contacts have no part in the step.
@@ -85,6 +88,7 @@ impl<const D: usize> ActiveSet<D> {
     fn recall(&mut self, given: &Given<'_, D>) {
         let (pairs, reactions) = (&given.assembly.contact.pairs, &given.state.reactions);
         self.contacts.clear();
+        self.at_kink.clear();
         self.frames.clear();
         self.reactions.clear();
         self.friction.clear();
@@ -119,6 +123,32 @@ impl<const D: usize> ActiveSet<D> {
         let position = |n: u32| given.position(n) + motion[n as usize] * weight;
         let contact = &given.assembly.contact;
         contact.evaluate_all(&self.candidates, &position, &mut self.mortar, &mut self.contacts);
+        self.follow_frames();
+    }
+
+    /// [`Self::evaluate`] where the last correction was of `correction` [m], late in the iterations of a load step. A contact whose normal turns by
+    /// more than such a motion explains stands at a kink of its target. It keeps its normal and stencil from now on: any normal between those of
+    /// both sides will do there, and with either of them the reaction would push it to the other side.
+    pub fn evaluate_late(&mut self, given: &Given<'_, D>, motion: &[Vector<D>], correction: f64) {
+        let position = |n: u32| given.position(n) + motion[n as usize];
+        let contact = &given.assembly.contact;
+        std::mem::swap(&mut self.before, &mut self.contacts);
+        contact.evaluate_all(&self.candidates, &position, &mut self.mortar, &mut self.contacts);
+        self.at_kink.resize(self.candidates.len(), false);
+        let contacts = self.contacts.iter_mut().zip(&self.before).zip(&mut self.at_kink);
+        for (((contact_now, before), at_kink), candidate) in contacts.zip(&self.candidates) {
+            let turn = (contact_now.frame.row(0) - before.frame.row(0)).norm();
+            let size = given.assembly.pair_size(&contact.pairs[candidate.pair as usize]);
+            *at_kink |= turn * size > CONTROL.kink * correction && turn > CONTROL.straight;
+            if *at_kink {
+                *contact_now = before.moved(&position);
+            }
+        }
+        self.follow_frames();
+    }
+
+    /// Turns the frames to where those before were.
+    fn follow_frames(&mut self) {
         for (contact, frame) in self.contacts.iter_mut().zip(&mut self.frames) {
             contact.carry_frame(frame);
             *frame = contact.frame;

@@ -8,6 +8,7 @@ use super::active::ActiveSet;
 use super::compliance::Compliance;
 use super::control::CONTROL;
 use super::coupling::Coupling;
+use super::stiffened::Stiffened;
 use crate::model::assembly::Assembly;
 
 /// The blocks of K̄⁻¹ at the contact nodes of every body, and what makes W of them.
@@ -15,6 +16,8 @@ use crate::model::assembly::Assembly;
 pub(crate) struct Delassus<const D: usize> {
     pub compliances: Vec<Compliance<D>>,
     coupling: Coupling,
+    /// The tangents of a load step.
+    pub stiffened: Stiffened<D>,
     /// A row of W on its way to the problem.
     row_blocks: Vec<(usize, Matrix<D>)>,
 }
@@ -26,6 +29,7 @@ impl<const D: usize> Delassus<D> {
         Self {
             compliances: bodies.map(|i| Compliance::new(assembly.nodes(i).len())).collect(),
             coupling: Coupling::new(assembly.node_count(), assembly.body_count()),
+            stiffened: Stiffened::new(assembly),
             row_blocks: Vec::new(),
         }
     }
@@ -43,7 +47,8 @@ impl<const D: usize> Delassus<D> {
         motion: &[Vector<D>],
         problem: &mut ContactProblem<D>,
     ) {
-        let Self { compliances, coupling, row_blocks } = self;
+        let stiffened = self.stiffened.is_needed();
+        let Self { compliances, coupling, row_blocks, stiffened: tangent } = self;
         let ActiveSet { contacts, reactions, .. } = active;
         problem.w.clear();
         problem.q.clear();
@@ -55,11 +60,16 @@ impl<const D: usize> Delassus<D> {
             q[0] += offsets[i];
             problem.q.push(q);
             row_blocks.clear();
-            for &j in coupling.partners(assembly, compliances, i, row) {
+            // Through one another's contacts all respond to all.
+            let all = if stiffened { 0..contacts.len() as u32 } else { 0..0 };
+            let near = if stiffened { &[] } else { coupling.partners(assembly, compliances, i, row) };
+            for j in all.chain(near.iter().copied()) {
                 let j = j as usize;
                 // W is symmetric, also where round-off is not.
                 let block = if j < i {
                     problem.w.block(j, i).map(Matrix::transpose)
+                } else if stiffened {
+                    Some(stiffened_block(tangent, row, &contacts[j]))
                 } else {
                     coupling_block(assembly, compliances, row, &contacts[j])
                 };
@@ -113,6 +123,23 @@ fn support<const D: usize>(
         }
     }
     support
+}
+
+/// The block of W between two contacts by the tangents of a load step.
+fn stiffened_block<const D: usize>(
+    tangent: &Stiffened<D>,
+    row: &Contact<D>,
+    column: &Contact<D>,
+) -> Matrix<D> {
+    let mut response = Matrix::zeros();
+    for (m, column_weight) in column.stencil() {
+        for (n, row_weight) in row.stencil() {
+            if let Some(yields) = tangent.block(n, m) {
+                response += yields * (row_weight * column_weight);
+            }
+        }
+    }
+    row.frame * response * column.frame.transpose()
 }
 
 /// The block of W between two contacts, if nodes of a body respond to one another.

@@ -10,6 +10,7 @@ pub(crate) mod cross_check;
 mod delassus;
 pub(crate) mod reduced;
 pub(crate) mod slip;
+pub(crate) mod stiffened;
 
 use carom_contact::Contact;
 use carom_friction::ContactProblem;
@@ -20,10 +21,11 @@ use self::candidates::Finder;
 use self::contact_work::ContactWork;
 use self::reduced::Reduced;
 use self::slip::Slip;
-use crate::body::Body;
+use crate::body::{Body, ContactWeights};
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
+use crate::model::state::Reaction;
 
 /// A contact problem as a step posed it: motions in m, reactions in N (with massless contact ξ times these).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,6 +47,8 @@ pub(crate) struct Contacts<const D: usize> {
     pub slip: Slip,
     /// Contacts at the end of the step.
     pub at_end: Vec<Contact<D>>,
+    /// The nodal forces of the books [N], obstacles after the nodes of bodies.
+    pub mean_force: Vec<Vector<D>>,
 }
 
 impl<const D: usize> Contacts<D> {
@@ -57,6 +61,20 @@ impl<const D: usize> Contacts<D> {
             work: Vec::new(),
             slip: Slip::new(assembly.node_count()),
             at_end: Vec::new(),
+            mean_force: vec![Vector::zeros(); assembly.reference.len()],
+        }
+    }
+
+    /// Sums the forces of the books: the reactions at the two `ends` of a step by their `weights`.
+    pub fn weigh(&mut self, weights: &ContactWeights, ends: [&[Reaction<D>]; 2]) {
+        self.mean_force.fill(Vector::zeros());
+        for (end, reactions) in ends.into_iter().enumerate() {
+            for reaction in reactions {
+                let force = weights.part(end, &reaction.force);
+                if force != Vector::<D>::zeros() {
+                    reaction.contact.add_force(&force, &mut self.mean_force);
+                }
+            }
         }
     }
 
@@ -64,6 +82,29 @@ impl<const D: usize> Contacts<D> {
     pub fn evaluate(&mut self, given: &Given<'_, D>, motion: &[Vector<D>], bodies: &mut [Box<dyn Body<D>>]) {
         self.active.evaluate(given, motion);
         self.reduced.prepare(given, &self.active, bodies);
+    }
+
+    /// The same late in the iterations of a load step: see [`ActiveSet::evaluate_late`].
+    pub fn evaluate_late(
+        &mut self,
+        given: &Given<'_, D>,
+        motion: &[Vector<D>],
+        correction: f64,
+        bodies: &mut [Box<dyn Body<D>>],
+    ) {
+        self.active.evaluate_late(given, motion, correction);
+        self.reduced.prepare(given, &self.active, bodies);
+    }
+
+    /// Makes what contacts add to the tangents of a load step: see [`Reduced::stiffen`].
+    pub fn stiffen(
+        &mut self,
+        given: &Given<'_, D>,
+        motion: &[Vector<D>],
+        bodies: &mut [Box<dyn Body<D>>],
+        residual: &mut [Vector<D>],
+    ) {
+        self.reduced.stiffen(given, &self.active, motion, bodies, residual);
     }
 
     /// Solves for the reactions at a guess: see [`Reduced::solve`].

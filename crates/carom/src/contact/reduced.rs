@@ -76,6 +76,11 @@ impl<const D: usize> Reduced<D> {
                 self.nodes[b].push(own as u32);
             }
         }
+        for (i, springs) in
+            self.delassus.stiffened.springs.iter().enumerate().filter(|(i, _)| active.touched[*i])
+        {
+            self.nodes[i].extend(springs.iter().map(|&(node, _)| node));
+        }
         let everywhere = given.interval.map.is_static();
         for ((nodes, compliance), body) in
             self.nodes.iter_mut().zip(&mut self.delassus.compliances).zip(bodies)
@@ -88,6 +93,20 @@ impl<const D: usize> Reduced<D> {
             compliance.prepare(&mut **body, nodes, everywhere);
             body.set_reach(nodes);
         }
+    }
+
+    /// Makes what contacts add to the tangents of a load step at a guess, and adds the forces that go with it to the `residual` [N].
+    pub fn stiffen(
+        &mut self,
+        given: &Given<'_, D>,
+        active: &ActiveSet<D>,
+        motion: &[Vector<D>],
+        bodies: &mut [Box<dyn Body<D>>],
+        residual: &mut [Vector<D>],
+    ) {
+        let Delassus { stiffened, compliances, .. } = &mut self.delassus;
+        stiffened.add_forces(given, active, motion, bodies, residual);
+        stiffened.prepare(given, active, motion, compliances);
     }
 
     /// Solves the reduced problem of the contacts, so that their motions are wrong by about `error` [m] if that is not zero. The bodies in
@@ -107,6 +126,9 @@ impl<const D: usize> Reduced<D> {
             method.condition.normal_offset(contact, start_gap, &interval.map, |n| motion[n], start)
         }));
         self.look(assembly, motion, bodies);
+        if self.delassus.stiffened.is_needed() {
+            self.delassus.stiffened.see(motion, &mut self.known_motion);
+        }
         let Self { delassus, problem, offsets, known_motion, .. } = self;
         delassus.condense(assembly, active, offsets, known_motion, problem);
         self.guess.clone_from(&active.reactions);
@@ -153,6 +175,9 @@ impl<const D: usize> Reduced<D> {
         }
         for ((contact, r), before) in active.contacts.iter().zip(&active.reactions).zip(&self.guess) {
             contact.add_force(&(r - before), &mut self.change);
+        }
+        if self.delassus.stiffened.is_needed() {
+            self.delassus.stiffened.stand_in(&mut self.change);
         }
         for (i, (body, nodes)) in bodies.iter_mut().zip(&self.nodes).enumerate() {
             if !nodes.is_empty() {

@@ -3,6 +3,7 @@ use carom_mesh::Vector;
 use serde::{Deserialize, Serialize};
 
 use crate::StepMap;
+use crate::body::ContactWeights;
 
 /// Where in time the unilateral condition is written. It decides what impact does to the energy.
 ///
@@ -80,10 +81,15 @@ impl ContactCondition {
         if self.is_massless() { map.xi } else { 1.0 }
     }
 
-    /// How much the contact forces that the last step and this one ended with count in this one.
+    /// How much the reactions that the last step and this one ended with count in this one.
     #[must_use]
-    pub fn weights_of_ends(self, map: &StepMap) -> [f64; 2] {
-        if self.is_massless() { [1.0 - map.xi, map.xi] } else { [0.0, 1.0] }
+    pub fn weights_of_ends(self, map: &StepMap) -> ContactWeights {
+        let alike = |weights| ContactWeights { normal: weights, across: weights };
+        if map.is_static() {
+            // Reactions grow with the motion of a load step; where something slides, it does so when friction is at its limit.
+            return ContactWeights { normal: [0.5, 0.5], across: [0.0, 1.0] };
+        }
+        if self.is_massless() { alike([1.0 - map.xi, map.xi]) } else { alike([0.0, 1.0]) }
     }
 
     /// What the normal motion (H d)_n lacks of the variable w_n of the condition [m].

@@ -100,11 +100,13 @@ fn keep_contacts<const D: usize>(
 
 /// Completes the states of the bodies and closes their books.
 fn close_bodies<const D: usize>(given: &Given<'_, D>, next: &mut State<D>, work: &mut Workspace<D>) {
-    let Workspace { bodies, blend, motion, body_ledgers, .. } = work;
+    let Workspace { bodies, contacts, blend, motion, body_ledgers, .. } = work;
+    contacts.weigh(&given.interval.contact_weights, [&given.state.reactions, &next.reactions]);
     for (i, body) in bodies.iter_mut().enumerate() {
         let nodes = given.assembly.nodes(i);
         let end = BodyEnd {
             contact_force: &next.contact_force[nodes.clone()],
+            mean_contact_force: &contacts.mean_force[nodes.clone()],
             velocity: &mut next.velocity[nodes.clone()],
             internal_force: &mut next.internal_force[nodes],
             history: &mut next.history[i],
@@ -186,17 +188,17 @@ fn close_contacts<const D: usize>(
         blend.carry(surplus, &contacts.work, &mut next.energy_debt);
         return;
     }
-    let [start, end] = interval.contact_weights;
-    for (reactions, share) in [(&state.reactions, start), (&next.reactions, end)] {
-        if share == 0.0 {
-            continue;
-        }
+    for (end, reactions) in [&state.reactions, &next.reactions].into_iter().enumerate() {
         for Reaction { contact, force, pair, .. } in reactions {
+            let force = interval.contact_weights.part(end, force);
+            if force == Vector::<D>::zeros() {
+                continue;
+            }
             let w = contact.relative(|n| motion[n]);
             let report = &mut pair_reports[assembly.contact.pairs[*pair as usize].named_pair];
-            report.ledger.normal_contact -= share * force[0] * w[0];
-            report.ledger.prescribed += share * driven(assembly, contact, force, motion);
-            let dissipation = -share * (1..D).map(|t| force[t] * w[t]).sum::<f64>();
+            report.ledger.normal_contact -= force[0] * w[0];
+            report.ledger.prescribed += driven(assembly, contact, &force, motion);
+            let dissipation = -(1..D).map(|t| force[t] * w[t]).sum::<f64>();
             book(report, contact, dissipation);
         }
     }

@@ -2,6 +2,7 @@
 
 use carom_mesh::nodal;
 
+use super::equilibrate::equilibrate;
 use super::newton::Newton;
 use super::newton::acceleration::Last;
 use super::newton::convergence::{BodyProgress, Convergence};
@@ -9,6 +10,10 @@ use super::workspace::Workspace;
 use crate::error::StepError;
 use crate::model::given::Given;
 use crate::model::state::State;
+
+/// How the iterations of some bodies go: see [`iterate_bodies`].
+type Solve<const D: usize> =
+    fn(&[usize], &Given<'_, D>, &mut State<D>, &mut Workspace<D>) -> Result<usize, StepError>;
 
 /// Newton's iterations with a kept factor; returns how many the slowest body took. Writes u₊ to `next` and d to `work`.
 ///
@@ -18,28 +23,23 @@ pub(super) fn iterate<const D: usize>(
     next: &mut State<D>,
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
-    let Workspace { bodies, contacts, newton, motion, .. } = work;
+    let Workspace { contacts, newton, motion, .. } = work;
     contacts.active.select(given, &contacts.finder.search);
-    for (i, (progress, body)) in newton.progress.iter_mut().zip(&*bodies).enumerate() {
-        *progress = BodyProgress::new(nodal::largest(&motion[given.assembly.nodes(i)]), body.is_loose());
+    for (i, progress) in newton.progress.iter_mut().enumerate() {
+        *progress = BodyProgress::new(nodal::largest(&motion[given.assembly.nodes(i)]));
     }
     newton.acceleration.restart();
     nodal::each(&mut next.displacement, [&given.state.displacement, motion], |u1, [u0, d]| *u1 = u0 + d);
-    let convergence = Convergence::new(given);
+    let solve: Solve<D> = if given.interval.map.is_static() { equilibrate } else { iterate_bodies };
     let mut in_contact = std::mem::take(&mut newton.in_contact);
     in_contact.clear();
     in_contact.extend((0..work.bodies.len()).filter(|&i| contacts.active.touched[i]));
-    let made = if in_contact.is_empty() {
-        Ok(0)
-    } else {
-        iterate_bodies(&in_contact, convergence, given, next, work)
-    };
+    let made = if in_contact.is_empty() { Ok(0) } else { solve(&in_contact, given, next, work) };
     work.newton.in_contact = in_contact;
     let mut iterations = made?;
     for i in 0..work.bodies.len() {
         if !work.contacts.active.touched[i] {
-            let made = iterate_bodies(&[i], convergence, given, next, work)?;
-            iterations = iterations.max(made);
+            iterations = iterations.max(solve(&[i], given, next, work)?);
         }
     }
     Ok(iterations)
@@ -48,11 +48,11 @@ pub(super) fn iterate<const D: usize>(
 /// [`iterate`] for some `bodies`: all that are in contact, or one that is not.
 fn iterate_bodies<const D: usize>(
     bodies: &[usize],
-    mut convergence: Convergence,
     given: &Given<'_, D>,
     next: &mut State<D>,
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
+    let mut convergence = Convergence::new(given);
     let touched = bodies.iter().any(|&i| work.contacts.active.touched[i]);
     let (mut renewed, mut nearly_settled) = (0, false);
     for iteration in 1.. {
@@ -70,8 +70,9 @@ fn iterate_bodies<const D: usize>(
             }
             work.contacts.solve(given, &work.motion, error, &mut work.bodies)?;
         }
-        correct(bodies, given, next, work)?;
-        if convergence.settle(iteration, bodies, &work.newton.progress, given.assembly)? {
+        end_solves(bodies, given, work)?;
+        correct(bodies, given, next, work);
+        if convergence.settle(iteration, bodies, &work.newton.progress)? {
             if error == 0.0 {
                 return Ok(iteration);
             }
@@ -87,7 +88,7 @@ fn iterate_bodies<const D: usize>(
 }
 
 /// Residuals of the `bodies` without reactions.
-fn residuals<const D: usize>(
+pub(super) fn residuals<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
     next: &State<D>,
@@ -122,7 +123,7 @@ fn weigh_blend<const D: usize>(
 }
 
 /// Adds the reactions known so far to the residuals of the `bodies`, and starts to solve for their corrections.
-fn begin_solves<const D: usize>(
+pub(super) fn begin_solves<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
     reacts: bool,
@@ -137,32 +138,44 @@ fn begin_solves<const D: usize>(
     }
 }
 
-/// Ends the solves and applies the corrections.
-fn correct<const D: usize>(
+/// Ends the solves for the corrections of the `bodies`.
+pub(super) fn end_solves<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
-    next: &mut State<D>,
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
-    let Workspace { bodies: all, newton: Newton { correction, progress, .. }, motion, .. } = work;
+    let Workspace { bodies: all, newton: Newton { correction, .. }, .. } = work;
     for &i in bodies {
-        let nodes = given.assembly.nodes(i);
-        let correction = &mut correction[nodes.clone()];
+        let correction = &mut correction[given.assembly.nodes(i)];
         all[i].end_solve(correction);
         // The largest size does not see what is not a number.
         if !nodal::is_finite(correction) {
             return Err(StepError::NotFinite("displacement"));
         }
+    }
+    Ok(())
+}
+
+/// Applies the corrections.
+pub(super) fn correct<const D: usize>(
+    bodies: &[usize],
+    given: &Given<'_, D>,
+    next: &mut State<D>,
+    work: &mut Workspace<D>,
+) {
+    let Workspace { newton: Newton { correction, progress, .. }, motion, .. } = work;
+    for &i in bodies {
+        let nodes = given.assembly.nodes(i);
+        let correction = &correction[nodes.clone()];
         let size = nodal::largest(correction);
         let start = &given.state.displacement[nodes.clone()];
         let (motion, moved) = (&mut motion[nodes.clone()], &mut next.displacement[nodes]);
-        nodal::each_of_two(motion, moved, [&*correction, start], |d, u1, [c, u0]| {
+        nodal::each_of_two(motion, moved, [correction, start], |d, u1, [c, u0]| {
             *d += c;
             *u1 = u0 + *d;
         });
         progress[i].note(size, nodal::largest(motion));
     }
-    Ok(())
 }
 
 /// Moves the `bodies` on to better guesses.

@@ -3,6 +3,8 @@
 pub(crate) mod blend;
 mod commit;
 mod control;
+mod equilibrate;
+mod hold;
 mod impulse;
 mod iterate;
 mod landing;
@@ -18,6 +20,7 @@ use carom_mesh::{Vector, nodal};
 
 use self::commit::commit;
 use self::control::SEARCH;
+use self::equilibrate::set_out;
 use self::iterate::iterate;
 use self::measure::measure;
 use self::report::StepReport;
@@ -46,7 +49,7 @@ pub fn step<const D: usize>(
 ) -> Result<StepReport, StepError> {
     let interval = method.interval(state.time, dt);
     let given = Given { assembly, method, state, interval: &interval };
-    let margin = predict(&given, work)?;
+    let mut margin = predict(&given, work)?;
     let mut iterations = 0;
     for repetition in 0..SEARCH.repetitions {
         let Workspace { contacts, motion, .. } = work;
@@ -55,6 +58,13 @@ pub fn step<const D: usize>(
         if made.is_err() {
             // A factor that was made on the way to nowhere would mislead the next attempt.
             work.bodies.iter_mut().for_each(|body| body.forget());
+        }
+        if let Err(StepError::NotHeld { .. } | StepError::Runaway { .. }) = made
+            && margin < assembly.size
+        {
+            // It may fall on something that is farther away than the loads foretold.
+            margin = assembly.size.max(predict(&given, work)?);
+            continue;
         }
         iterations += made?;
         if !work.contacts.finder.missed_one(&given, next) {
@@ -94,7 +104,10 @@ fn predict<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) -> Res
         acceleration = acceleration.max(forecast.acceleration);
         *factorisations += u64::from(forecast.is_factorised);
     }
-    Ok(search_margin(given, (speed + acceleration * dt) * dt, driven, bodies))
+    if interval.map.is_static() {
+        set_out(given, work)?;
+    }
+    Ok(search_margin(given, (speed + acceleration * dt) * dt, driven, &work.bodies))
 }
 
 /// How far around the bodies contacts are looked for [m], where nodes fly as far as `free` [m] or are moved by `driven` [m] in the step.

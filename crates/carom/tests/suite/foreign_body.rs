@@ -117,14 +117,13 @@ impl Body<2> for PointMass {
         let energies = self.measure(&at_end, end.internal_force);
         let jump = v[0] - start.velocity[0];
         let stretch = end.internal_force[0] - start.internal_force[0];
-        let [before, after] = guess.interval.contact_weights;
         let ledger = BodyLedger {
             kinetic: energies.kinetic - start.energies.kinetic,
             strain: energies.strain - start.energies.strain,
             external: MASS * self.gravity.dot(d),
             scheme: map.kinetic_dissipation * MASS * jump.norm_squared()
                 + map.strain_dissipation * d.dot(&stretch),
-            contact: (start.contact_force[0] * before + end.contact_force[0] * after).dot(d),
+            contact: end.mean_contact_force[0].dot(d),
             ..BodyLedger::default()
         };
         (ledger, energies)

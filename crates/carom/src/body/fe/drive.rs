@@ -33,16 +33,21 @@ impl<const D: usize> Drive<D> {
 
     /// Evaluates the loads at a guess.
     pub fn load(&mut self, part: &ModelBody<D>, guess: &Guess<'_, D>) {
+        self.load_at(part, guess, guess.interval.map.xi);
+    }
+
+    /// Evaluates the loads at a guess, the mean ones at `share` of the way from the start to the end of the step.
+    pub fn load_at(&mut self, part: &ModelBody<D>, guess: &Guess<'_, D>, share: f64) {
         if part.loads.is_empty() {
             return;
         }
         let Self { mean, end, between, .. } = self;
         let Interval { map, start, .. } = guess.interval;
         for ((x, u), d) in between.iter_mut().zip(guess.start.displacement).zip(guess.motion) {
-            *x = u + d * map.xi;
+            *x = u + d * share;
         }
         let times = [*start, start + map.dt];
-        let weighted = |s: &Signal| (1.0 - map.xi) * s.at(times[0]).value + map.xi * s.at(times[1]).value;
+        let weighted = |s: &Signal| (1.0 - share) * s.at(times[0]).value + share * s.at(times[1]).value;
         mean.fill(Vector::zeros());
         end.fill(Vector::zeros());
         for load in &part.loads {

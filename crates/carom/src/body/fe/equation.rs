@@ -12,7 +12,7 @@ use crate::scheme::{StepMap, StressRule};
 pub(crate) const STEADYING: f64 = 0.1;
 
 /// A motion this short, in diameters of the body, stands for a velocity.
-const STRAIGHT: f64 = 1e-6;
+pub(crate) const STRAIGHT: f64 = 1e-6;
 
 /// The equation of motion at a guess.
 pub(crate) struct Equation<'a, const D: usize> {
@@ -95,6 +95,18 @@ impl<const D: usize> ResidualScratch<D> {
         force
     }
 
+    /// What the internal force [N] at `u` [m] has more than `before` [N].
+    pub fn change_of_force(
+        &mut self,
+        body: &BodyWithHistory<'_, D>,
+        u: &[Vector<D>],
+        before: &[Vector<D>],
+    ) -> &[Vector<D>] {
+        body.internal_force(u, &mut self.force);
+        nodal::each(&mut self.force, [before], |f, [f0]| *f -= f0);
+        &self.force
+    }
+
     /// C v̄ [N] as it was last computed; zero without damping and viscosity.
     pub fn viscous(&self) -> &[Vector<D>] {
         &self.viscous
@@ -144,6 +156,17 @@ impl<'a, const D: usize> Equation<'a, D> {
         self.balance_massless(&scratch.force, &scratch.viscous, out);
     }
 
+    /// Writes what a load step lacks of balance in its mean to `out` [N]: the loads half way through, which the drive has, less the force whose
+    /// work is the change of the strain energy. Inside a body both ends of the step are in balance, and what is left is of third order in
+    /// the step; where displacements are held it is what supports and contact do.
+    pub fn path_residual(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
+        self.with_history.conserving_force(self.start, self.displacement, &mut scratch.force);
+        scratch.velocity.fill(*self.gravity);
+        self.body.mass().multiply(&scratch.velocity, out);
+        out.iter_mut().zip(&self.drive.mean).for_each(|(out, f)| *out += f);
+        nodal::each(out, [&scratch.force], |out, [f]| *out -= f);
+    }
+
     /// Writes M(g − (v₊ − v)/Δt) + F̄ − C v̄ to `out`; C v̄ stays in `scratch`.
     pub fn inertia_and_damping(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
         let map = self.map;
@@ -155,7 +178,7 @@ impl<'a, const D: usize> Equation<'a, D> {
         });
         self.body.mass().multiply(&scratch.velocity, out);
         out.iter_mut().zip(&self.drive.mean).for_each(|(out, f)| *out += f);
-        if self.body.is_damped() {
+        if self.is_damped() {
             let viscous = self.viscous_force(scratch);
             out.iter_mut().zip(viscous).for_each(|(out, f)| *out -= f);
         }
@@ -170,6 +193,11 @@ impl<'a, const D: usize> Equation<'a, D> {
             // Supports see to what they hold as they do inside: over the whole step.
             out[n] = self.body.held().free_part(n, &static_row) + self.body.held().part(n, &out[n]);
         }
+    }
+
+    /// Whether damping or viscosity resists the motion; in a load step nothing has a velocity.
+    fn is_damped(&self) -> bool {
+        self.body.is_damped() && !self.map.is_static()
     }
 
     /// F̄ [N] at a node.
@@ -238,13 +266,13 @@ impl<'a, const D: usize> Equation<'a, D> {
         let mut external = self.gravity.dot(&self.body.mean(self.motion)) * self.body.total_mass();
         external += self.drive.mean.iter().zip(self.motion).map(|(f, d)| f.dot(d)).sum::<f64>();
         let viscous =
-            if self.body.is_damped() { nodal::dot(self.motion, self.viscous_force(scratch)) } else { 0.0 };
+            if self.is_damped() { nodal::dot(self.motion, self.viscous_force(scratch)) } else { 0.0 };
         (external, viscous)
     }
 
-    /// The viscous force C v̄ [N] of damping and viscosity; zero without.
+    /// The viscous force C v̄ [N] of damping and viscosity; zero without, and in a load step.
     pub fn viscous_force<'s>(&self, scratch: &'s mut ResidualScratch<D>) -> &'s [Vector<D>] {
-        if self.body.is_damped() {
+        if self.is_damped() {
             let ResidualScratch { velocity, viscous, product, .. } = scratch;
             for ((mean, d), v) in velocity.iter_mut().zip(self.motion).zip(self.velocity) {
                 *mean = self.map.mean_velocity(v, d);
@@ -252,13 +280,9 @@ impl<'a, const D: usize> Equation<'a, D> {
             for n in self.body.massless().iter().map(|&n| n as usize) {
                 velocity[n] = self.motion[n] / self.map.dt;
             }
-            if !self.map.is_static() {
-                self.each_held(|n, i, _| velocity[n][i] = self.motion[n][i] / self.map.dt);
-            }
+            self.each_held(|n, i, _| velocity[n][i] = self.motion[n][i] / self.map.dt);
             self.body.damping_force(self.frame, velocity, viscous, product);
-            if !self.map.is_static() {
-                self.body.add_viscous_force(self.start, self.displacement, self.map.dt, viscous);
-            }
+            self.body.add_viscous_force(self.start, self.displacement, self.map.dt, viscous);
         }
         &scratch.viscous
     }
@@ -272,11 +296,8 @@ impl<'a, const D: usize> Equation<'a, D> {
         let mut work = 0.0;
         self.each_held(|n, i, rate| {
             let d = self.motion[n][i];
-            work -= residual[n][i] * d;
-            if !self.map.is_static() {
-                let mean = 0.5 * (self.velocity[n][i] + rate);
-                work += momentum_change[n][i] * (mean - d / self.map.dt);
-            }
+            let mean = 0.5 * (self.velocity[n][i] + rate);
+            work += momentum_change[n][i] * (mean - d / self.map.dt) - residual[n][i] * d;
         });
         work
     }

@@ -7,18 +7,25 @@ use carom_mesh::{Matrix, Vector, nodal};
 
 use super::equation::STEADYING;
 use crate::archive::{Archive, CheckpointError};
+use crate::body::Guess;
 use crate::error::StepError;
 use crate::scheme::StepMap;
 
-/// Share of the square of the lowest elastic frequency, by its scale c/L, that stands in for inertia where nothing else keeps K̄
-/// from being singular. It is below what a contact resists with, and far enough above round-off for W to stay well-conditioned.
-const PROXIMAL: f64 = 0.05;
-
-/// The factor of M [1/s²] that makes K̄ of a loose body regular in a static analysis; 0 where supports hold it.
+/// The inertia of the lowest elastic motion, by its scale (c/L)² [1/s²]: what corrections of a load step are held back by.
 ///
 /// It is in K̄ alone, never in a residual: each iteration is held back towards the last guess, and the solution is the same.
-fn proximal_coefficient<const D: usize>(body: &Body<D>) -> f64 {
-    if body.is_loose() { PROXIMAL * (body.wave_speed() / body.mesh().diameter()).powi(2) } else { 0.0 }
+fn lowest_inertia<const D: usize>(body: &Body<D>) -> f64 {
+    (body.wave_speed() / body.mesh().diameter()).powi(2)
+}
+
+/// The least share of it that a body has which its supports leave loose: enough for a tangent to have an inverse to eleven digits before anything
+/// presses, and so little that slender bodies bend.
+const LOOSE: f64 = 1e-4;
+
+/// A pattern of signs without a period, by which round-off of the forces on nodes is summed as chance would.
+fn sign(k: usize) -> f64 {
+    // The bits of the golden ratio (Knuth, multiplicative hashing).
+    if (k as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 63 == 0 { 1.0 } else { -1.0 }
 }
 
 /// The inverse of K̄ = ξ K + ξ/(θΔt) C + M/(θΔt²) (3) of one body: a factor or, for large bodies in short steps, a polynomial in
@@ -36,8 +43,12 @@ pub(crate) struct IterationMatrix<const D: usize> {
     inverse: Inverse<D>,
     /// The factors of K, C and M that K̄ was made with.
     coefficients: Option<[f64; 3]>,
-    /// What a body that its supports leave loose has in place of inertia in a static analysis [1/s²].
-    proximal: f64,
+    /// See [`lowest_inertia`].
+    lowest_inertia: f64,
+    /// Whether its supports leave the body loose.
+    is_loose: bool,
+    /// How far round-off of the forces moves the body in a load step [m].
+    round_off: f64,
     /// Frame of the body in the configuration of K.
     factor_frame: Matrix<D>,
     /// Rotation since then.
@@ -104,7 +115,9 @@ impl<const D: usize> IterationMatrix<D> {
         Self {
             inverse: Inverse::new(body.mesh().ties()),
             coefficients: None,
-            proximal: proximal_coefficient(body),
+            lowest_inertia: lowest_inertia(body),
+            is_loose: body.is_loose(),
+            round_off: 0.0,
             factor_frame: Matrix::identity(),
             turn: Matrix::identity(),
             generation: 0,
@@ -123,18 +136,22 @@ impl<const D: usize> IterationMatrix<D> {
 
     /// Whether the factor belongs to steps like `map`.
     pub fn fits(&self, map: &StepMap) -> bool {
-        self.inverse.is_made() && self.coefficients == Some(self.coefficients(map))
+        self.inverse.is_made() && self.coefficients == Some(Self::coefficients(map))
+    }
+
+    /// How far round-off of the forces moves the body in a load step [m].
+    pub fn round_off(&self) -> f64 {
+        self.round_off
     }
 
     /// The factors of K, C and M in K̄.
-    fn coefficients(&self, map: &StepMap) -> [f64; 3] {
-        let mass = if map.is_static() { self.proximal } else { map.mass_coefficient() };
-        [map.stiffness_coefficient(), map.damping_coefficient(), mass]
+    fn coefficients(map: &StepMap) -> [f64; 3] {
+        [map.stiffness_coefficient(), map.damping_coefficient(), map.mass_coefficient()]
     }
 
     /// Whether only contact, or nothing, keeps the body from moving rigidly.
     pub fn is_loose(&self) -> bool {
-        self.proximal > 0.0
+        self.is_loose
     }
 
     /// Whether the factor is exact but for round-off.
@@ -218,6 +235,38 @@ impl<const D: usize> IterationMatrix<D> {
         Ok(())
     }
 
+    /// Makes the factor of the tangent at a guess of a load step, with `springs` to the ground [N/m], held back by a `share` of the body's lowest
+    /// inertia, or says that it is indefinite.
+    pub fn linearise(
+        &mut self,
+        with_history: &BodyWithHistory<'_, D>,
+        guess: &Guess<'_, D>,
+        share: f64,
+        springs: &[(u32, Matrix<D>)],
+    ) -> Result<(), StepError> {
+        let (body, u) = (with_history.body, guess.displacement);
+        let mut stiffness = with_history.stiffness(u);
+        for &(n, block) in springs {
+            stiffness.values[body.graph().entry(n, n)] += block;
+        }
+        let share = if self.is_loose { share.max(LOOSE) } else { share };
+        for (k, m) in stiffness.values.iter_mut().zip(&body.mass().values) {
+            *k += Matrix::from_diagonal_element(m * share * self.lowest_inertia);
+        }
+        self.coefficients = None;
+        self.note_noise(body, u, &stiffness);
+        self.held.uncouple(&mut stiffness);
+        self.inverse.make(Precision::Double, &stiffness)?;
+        self.held.clear(&mut self.scratch);
+        self.inverse.begin(&mut self.scratch);
+        self.inverse.end(&mut self.scratch);
+        self.round_off = nodal::largest(&self.scratch);
+        self.factor_frame = Matrix::identity();
+        self.turn = Matrix::identity();
+        self.generation += 1;
+        Ok(())
+    }
+
     fn factorize_at(
         &mut self,
         with_history: &BodyWithHistory<'_, D>,
@@ -231,14 +280,14 @@ impl<const D: usize> IterationMatrix<D> {
         for (&n, k) in body.massless().iter().zip(body.massless_stiffness()) {
             stiffness.values[body.graph().entry(n, n)] += Matrix::from_diagonal_element(STEADYING * k);
         }
-        let coefficients = self.coefficients(map);
+        let coefficients = Self::coefficients(map);
         let [k, c, m] = coefficients;
         let damping = body.damping();
         let mass_coefficient = m + c * damping.mass;
         let mass: &NodalMatrix<f64> = body.mass();
         let damping_stiffness = body.damping_stiffness();
         // The force of viscosity is that of the mean rate of the step, d/Δt, whatever the scheme.
-        let viscosity = if map.is_static() { None } else { body.viscosity(u) };
+        let viscosity = body.viscosity(u);
         self.coefficients = None;
         for (entry, block) in stiffness.values.iter_mut().enumerate() {
             *block *= k;
@@ -258,6 +307,17 @@ impl<const D: usize> IterationMatrix<D> {
         self.turn = Matrix::identity();
         self.generation += 1;
         Ok(())
+    }
+
+    /// Writes the round-off of the internal forces on nodes to the scratch [N]. A deformation gradient is of the order of 1 + |u|/h, so that
+    /// stresses are known to ε E (1 + |u|/h) and the force on a node to ε K_nn (h + |u|), h the distance of nodes.
+    fn note_noise(&mut self, body: &Body<D>, u: &[Vector<D>], stiffness: &NodalMatrix<Matrix<D>>) {
+        let spacing = body.mesh().diameter() / (body.node_count() as f64).powf(1.0 / D as f64);
+        for (n, (noise, u)) in self.scratch.iter_mut().zip(u).enumerate() {
+            let own = stiffness.values[body.graph().entry(n as u32, n as u32)];
+            let size = f64::EPSILON * (spacing + u.amax());
+            *noise = Vector::from_fn(|i, _| sign(n * D + i) * own[(i, i)].abs() * size);
+        }
     }
 
     /// Follows the body, whose frame is now `frame`.

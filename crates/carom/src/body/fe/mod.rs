@@ -5,9 +5,11 @@ mod drive;
 mod equation;
 mod iteration_matrix;
 pub(crate) mod load;
+mod load_step;
 pub(crate) mod part;
 pub(crate) mod supports;
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use carom_fem::MassSolver;
@@ -17,7 +19,7 @@ use carom_mesh::{Matrix, Vector, nodal, tensor};
 
 use self::blended::BlendedForces;
 use self::drive::Drive;
-use self::equation::{Equation, Pose, ResidualScratch};
+use self::equation::{Equation, Pose, ResidualScratch, STRAIGHT};
 use self::iteration_matrix::IterationMatrix;
 use self::part::ModelBody;
 use super::{Balance, Body, BodyEnd, BodyState, Forecast, Guess, Interval};
@@ -52,6 +54,8 @@ pub(crate) struct FeBody<const D: usize> {
     nodal_mass: Vec<f64>,
     /// The configuration half way through the step.
     middle: Vec<Vector<D>>,
+    /// How stiff nodes are [N/m]; empty until somebody asks.
+    node_stiffness: Vec<f64>,
     /// The residual at the end of a step [N]; empty where nothing is held.
     residual: Vec<Vector<D>>,
     /// v₊ − v [m/s], and M times it or M v₊.
@@ -72,6 +76,7 @@ impl<const D: usize> FeBody<D> {
             blended: BlendedForces::default(),
             mass_solver: MassSolver::default(),
             nodal_mass: mass_of_tied_nodes(&part.body),
+            node_stiffness: Vec::new(),
             residual: held,
             middle: zeros.clone(),
             jump: zeros.clone(),
@@ -107,11 +112,9 @@ impl<const D: usize> FeBody<D> {
         }
         part.body.mass().multiply(jump, momentum);
         let work = equation.support_work(residual, momentum);
-        let weights = guess.interval.contact_weights;
         for (dof, k) in part.supports.driven(&part.body) {
             let (n, i) = (dof.node as usize, dof.component as usize);
-            let contact = weights[0] * guess.start.contact_force[n][i] + weights[1] * contact_force[n][i];
-            support[k][i] -= residual[n][i] + contact;
+            support[k][i] -= residual[n][i] + contact_force[n][i];
         }
         work
     }
@@ -158,6 +161,9 @@ impl<const D: usize> Body<D> for FeBody<D> {
         let dt = interval.map.dt;
         let driven = self.drive.prescribe(&self.part, interval, start.displacement, motion);
         let driven = driven.ok_or(StepError::NotFinite("prescribed motion"))?;
+        if interval.map.is_static() {
+            return Ok(Forecast { driven, ..Forecast::default() });
+        }
         nodal::each(&mut self.middle, [start.displacement, motion], |m, [u, d]| *m = u + d * 0.5);
         self.pose = Pose { frame: body.frame(&self.middle), ..Pose::default() };
         let (u, v) = (start.displacement, start.velocity);
@@ -223,6 +229,45 @@ impl<const D: usize> Body<D> for FeBody<D> {
         self.factorise(guess.interval, guess.start.history, precision)
     }
 
+    fn linearise(
+        &mut self,
+        guess: &Guess<'_, D>,
+        held_back: f64,
+        springs: &[(u32, Matrix<D>)],
+    ) -> Result<(), StepError> {
+        let with_history = self.part.body.after(guess.start.history);
+        self.matrix.linearise(&with_history, guess, held_back, springs)
+    }
+
+    /// Held nodes that move alone would crush the cells beside them. K̄⁻¹ of what the body resists that with, by a difference of its forces.
+    fn follow(&mut self, start: &BodyState<'_, D>, motion: &mut [Vector<D>]) {
+        let Self { part, matrix, middle, scratch, jump, .. } = self;
+        let share = STRAIGHT * part.body.mesh().diameter() / nodal::largest(motion);
+        if !share.is_finite() {
+            return;
+        }
+        nodal::each(middle, [start.displacement, &*motion], |m, [u, d]| *m = u + d * share);
+        let resisted = scratch.change_of_force(&part.body.after(start.history), middle, start.internal_force);
+        nodal::each(jump, [resisted], |j, [f]| *j = -f / share);
+        matrix.begin(jump);
+        matrix.end(middle);
+        nodal::each(motion, [&*middle], |d, [c]| *d += c);
+    }
+
+    fn stiffness_at(&mut self, node: u32) -> f64 {
+        if self.node_stiffness.is_empty() {
+            let body = &self.part.body;
+            let stiffness = body.stiffness(&vec![Vector::zeros(); body.node_count()]);
+            let own = |n: u32| stiffness.values[body.graph().entry(n, n)].trace() / D as f64;
+            self.node_stiffness = (0..body.node_count() as u32).map(own).collect();
+        }
+        self.node_stiffness[node as usize]
+    }
+
+    fn round_off(&self) -> f64 {
+        self.matrix.round_off()
+    }
+
     fn forget(&mut self) {
         self.matrix.forget();
     }
@@ -235,6 +280,9 @@ impl<const D: usize> Body<D> for FeBody<D> {
     ) -> (BodyLedger, Energies) {
         let map = &guess.interval.map;
         let start = &guess.start;
+        if map.is_static() {
+            return self.end_load_step(guess, end);
+        }
         self.drive.load(&self.part, guess);
         let Self { part, pose, drive, scratch, blended, jump, .. } = self;
         let equation = Equation::new(part, guess, pose, drive);
@@ -257,7 +305,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         }
         let mut prescribed = 0.0;
         if is_held {
-            prescribed = self.close_supports(guess, blend, end.contact_force, end.support);
+            prescribed = self.close_supports(guess, blend, end.mean_contact_force, end.support);
         }
         let Self { part, pose, drive, scratch, jump, momentum, .. } = self;
         let equation = Equation::new(part, guess, pose, drive);
@@ -279,12 +327,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
                 * (nodal::dot(guess.motion, end.internal_force)
                     - nodal::dot(guess.motion, start.internal_force));
         }
-        let weights = guess.interval.contact_weights;
-        let contact = exchanged.unwrap_or_else(|| {
-            let work_of =
-                |force: &[Vector<D>]| nodal::dot(guess.motion, force) - held.dot(guess.motion, force);
-            weights[0] * work_of(start.contact_force) + weights[1] * work_of(end.contact_force)
-        });
+        let contact = exchanged.unwrap_or_else(|| held.free_dot(guess.motion, end.mean_contact_force));
         if exchanged.is_none() {
             let ends = [start.contact_force, end.contact_force];
             scheme += equation.static_balance_work(ends, end.internal_force, scratch.viscous());
@@ -367,6 +410,10 @@ impl<const D: usize> Body<D> for FeBody<D> {
 
     fn is_loose(&self) -> bool {
         self.matrix.is_loose()
+    }
+
+    fn rigid_motions(&self) -> Range<usize> {
+        self.part.body.rigid_motions()
     }
 
     fn factor_bytes(&self) -> usize {

@@ -7,8 +7,7 @@ pub(crate) struct Control {
     /// accelerated iterations, and the last correction stands as it is. Measured: with 10 the energy of conserving runs drifts three times as
     /// far.
     pub safety: f64,
-    /// The same where errors do not count so much. Every load step of a static analysis is a solution of its own. In a long step the error of
-    /// the iterations is nothing beside that of the weighted stresses.
+    /// The same where errors do not count so much: in a long step that of the iterations is nothing beside that of the weighted stresses.
     pub less_safety: f64,
     /// No contraction is trusted to be better than this: after a wild guess a correction may look small that is not.
     pub least_contraction: f64,
@@ -17,17 +16,14 @@ pub(crate) struct Control {
     pub slow_contraction: f64,
     /// See `slow_contraction`.
     pub patience: usize,
-    /// As `patience`, counted from the start of the step, where bodies change their behaviour. That is in a static analysis, whose steps are
-    /// long and few, and where there is plastic flow.
+    /// As `patience`, counted from the start of the step, where bodies change their behaviour: where there is plastic flow.
     pub changed_patience: usize,
-    /// A loose body whose corrections shrink no faster than this is driven away by forces that nothing resists.
-    pub no_contraction: f64,
     /// A correction larger than this times the first one, or the motion that the step set out with, leads away from the solution next to
     /// the start. Iterations may well converge from there, to another one: a body buckled or turned inside out.
     pub astray: f64,
     /// Iterations that have not halved the smallest correction for so long get nowhere, and a shorter step is the better chance. Measured on
     /// impacts at up to twenty times the speed of waves: of 568 steps that did not converge, 480 had such a spell. Of 1640 that converged
-    /// after more than 12 iterations, 3 had one. Load steps go on, as plastic flow takes its time to settle.
+    /// after more than 12 iterations, 3 had one.
     pub stalled: usize,
     /// Iterations that got so far down, in units of round-off, before they got nowhere have converged: nothing better can be had. A clamped
     /// block on a shaking floor stalls at 3.5; where steps do not converge, stalls at less than 200 have not been seen.
@@ -57,7 +53,6 @@ pub(crate) const CONTROL: Control = Control {
     slow_contraction: 0.3,
     patience: 12,
     changed_patience: 3,
-    no_contraction: 0.95,
     astray: 3.0,
     stalled: 15,
     unavoidable: 100.0,
@@ -68,4 +63,46 @@ pub(crate) const CONTROL: Control = Control {
     fast: 0.05,
     parallel: 1e-12,
     largest_weight: 2.0,
+};
+
+/// When a correction of a load step is the last one, is refused, or calls for a new tangent, and how much bodies are held back.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LoadControl {
+    /// A correction is the last one where this times its contraction would leave less than what is wanted.
+    pub safety: f64,
+    /// A correction so many times as large as anything in the step so far leads astray.
+    pub astray: f64,
+    /// A motion so many times as large as the largest body is none that anything bears.
+    pub runaway: f64,
+    /// Iterations that have not halved the smallest correction for so long have stalled,
+    pub stalled: usize,
+    /// and have converged if they are within so many times of what round-off leaves.
+    pub unavoidable: f64,
+    /// A new tangent costs as much as so many iterations: it is not made where as many with the present one will do.
+    pub worth: i32,
+    /// After so many iterations a normal that jumps has crossed a kink of its target, which no smaller correction will undo.
+    pub late: usize,
+    /// Guesses that may be refused before the step is.
+    pub refusals: usize,
+    /// The first share where K̄ is indefinite or a guess was refused.
+    pub first: f64,
+    /// By how much it changes.
+    pub change: f64,
+    /// With more of it nothing moves.
+    pub largest: f64,
+}
+
+/// The thresholds of every load step.
+pub(crate) const LOAD_STEP: LoadControl = LoadControl {
+    safety: 10.0,
+    astray: 3.0,
+    runaway: 1.0,
+    stalled: 4,
+    unavoidable: 100.0,
+    worth: 3,
+    late: 4,
+    refusals: 8,
+    first: 1e-3,
+    change: 4.0,
+    largest: 1e4,
 };

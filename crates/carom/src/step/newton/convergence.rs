@@ -1,10 +1,7 @@
 //! When the iterations of a step have ended, are slow, or lead astray.
 
-use carom_mesh::nodal;
-
 use super::control::CONTROL;
 use crate::error::StepError;
-use crate::model::assembly::Assembly;
 use crate::model::given::Given;
 use crate::scheme::StressRule;
 
@@ -19,14 +16,12 @@ pub(crate) struct BodyProgress {
     predicted: f64,
     /// The larger of that and of the motion in the step so far [m].
     pub motion: f64,
-    /// Whether only contact, or nothing, keeps the body from moving rigidly in a static analysis.
-    is_loose: bool,
 }
 
 impl BodyProgress {
     /// At the start of the iterations, with the largest component of the `predicted` motion [m].
-    pub fn new(predicted: f64, is_loose: bool) -> Self {
-        Self { predicted, is_loose, motion: predicted, correction: f64::INFINITY, contraction: 1.0 }
+    pub fn new(predicted: f64) -> Self {
+        Self { predicted, motion: predicted, correction: f64::INFINITY, contraction: 1.0 }
     }
 
     /// Takes note of a new correction and of the motion that it leads to.
@@ -44,14 +39,10 @@ pub(crate) struct Convergence {
     /// Whether bodies become others in the step.
     is_changing: bool,
     max_iterations: usize,
-    /// Relative to the motion in the step, or to `reached`.
+    /// Relative to the motion in the step.
     tolerance: f64,
-    /// In a static analysis the largest displacement so far [m]: a load step is a solution of its own. The motion in it may be a small part of
-    /// that, or none where nothing changes. Elsewhere zero: positions are sums of motions.
-    reached: f64,
     /// Smaller corrections say nothing [m].
     round_off: f64,
-    is_static: bool,
     /// How far the first iteration went [m].
     reach: f64,
     /// The last correction that was at most half of the one noted before [m], and the iterations since.
@@ -63,24 +54,13 @@ impl Convergence {
     pub fn new<const D: usize>(given: &Given<'_, D>) -> Self {
         let Given { assembly, method, state, interval } = *given;
         let map = &interval.map;
-        let is_static = map.is_static();
-        let is_changing = is_static || state.history.iter().any(|history| !history.is_empty());
+        let is_changing = state.history.iter().any(|history| !history.is_empty());
         Self {
-            safety: if is_static || map.stress == StressRule::Weighted {
-                CONTROL.less_safety
-            } else {
-                CONTROL.safety
-            },
+            safety: if map.stress == StressRule::Weighted { CONTROL.less_safety } else { CONTROL.safety },
             is_changing,
             max_iterations: method.newton.max_iterations,
             tolerance: method.newton.tolerance,
-            reached: if is_static {
-                nodal::largest(&state.displacement[..assembly.node_count()])
-            } else {
-                0.0
-            },
             round_off: assembly.round_off(),
-            is_static,
             reach: 0.0,
             least: f64::INFINITY,
             stalled: 0,
@@ -91,33 +71,25 @@ impl Convergence {
     ///
     /// # Errors
     /// If the iterations lead astray or must not go on.
-    pub fn settle<const D: usize>(
+    pub fn settle(
         &mut self,
         iteration: usize,
         bodies: &[usize],
         all: &[BodyProgress],
-        assembly: &Assembly<D>,
     ) -> Result<bool, StepError> {
         let progress = || bodies.iter().map(|&i| &all[i]);
         let motion = progress().map(|p| p.motion).fold(0.0, f64::max);
         let correction = progress().map(|p| p.correction).fold(0.0, f64::max);
-        if self.is_static && motion > assembly.size {
-            let lost = StepError::Runaway { motion, size: assembly.size };
-            return Err(not_held(bodies, all, assembly).unwrap_or(lost));
-        }
         self.check_reach(iteration, motion, correction)?;
         if progress().all(|p| self.has_converged(p, motion)) {
             return Ok(true);
         }
-        let hopeless = self.stalls(correction) && !self.is_static;
+        let hopeless = self.stalls(correction);
         if hopeless && self.is_unavoidable(correction) {
             return Ok(true);
         }
         if iteration < self.max_iterations && !hopeless {
             return Ok(false);
-        }
-        if let (true, Some(error)) = (self.is_static, not_held(bodies, all, assembly)) {
-            return Err(error);
         }
         let wanted = self.wanted(motion);
         Err(StepError::Newton { iterations: iteration, correction, wanted })
@@ -126,7 +98,7 @@ impl Convergence {
     /// How wrong the motion of so many `contacts` may be after the next iteration [m]. Where that may be the last one, it must
     /// not be wrong at all, but for the tolerance of their problem.
     pub fn contact_error(&self, contacts: usize, bodies: &[usize], progress: &[BodyProgress]) -> f64 {
-        if self.is_static || contacts < CONTROL.many_contacts {
+        if contacts < CONTROL.many_contacts {
             return 0.0;
         }
         let largest =
@@ -167,15 +139,15 @@ impl Convergence {
 
     /// The correction that may be left where the largest motion in the step is `motion` [m].
     fn wanted(&self, motion: f64) -> f64 {
-        (self.tolerance * motion.max(self.reached)).max(self.round_off)
+        (self.tolerance * motion).max(self.round_off)
     }
 
-    /// Refuses iterations that lead away from where they set out. Load steps may.
+    /// Refuses iterations that lead away from where they set out.
     fn check_reach(&mut self, iteration: usize, motion: f64, correction: f64) -> Result<(), StepError> {
         if iteration == 1 {
             self.reach = motion.max(correction).max(self.round_off);
         }
-        if correction > CONTROL.astray * self.reach && !self.is_static {
+        if correction > CONTROL.astray * self.reach {
             return Err(StepError::Astray { iterations: iteration, correction, reach: self.reach });
         }
         Ok(())
@@ -199,20 +171,6 @@ impl Convergence {
     }
 }
 
-/// Says which of the `bodies` is loose and nothing holds it, if its corrections are the largest and do not shrink.
-fn not_held<const D: usize>(
-    bodies: &[usize],
-    progress: &[BodyProgress],
-    assembly: &Assembly<D>,
-) -> Option<StepError> {
-    let lost = |i: &&usize| progress[**i].is_loose && progress[**i].contraction > CONTROL.no_contraction;
-    let worst = bodies
-        .iter()
-        .filter(lost)
-        .max_by(|&&i, &&j| progress[i].correction.total_cmp(&progress[j].correction))?;
-    Some(StepError::NotHeld { body: assembly.name(*worst).to_string() })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -222,9 +180,7 @@ mod tests {
         is_changing: false,
         max_iterations: 100,
         tolerance: 1e-10,
-        reached: 0.0,
         round_off: 0.0,
-        is_static: false,
         reach: 0.0,
         least: f64::INFINITY,
         stalled: 0,
@@ -262,7 +218,7 @@ mod tests {
 
     /// The iterations of 30 slow ones after which a factor is made.
     fn renewals(convergence: Convergence) -> Vec<usize> {
-        let mut slow = BodyProgress::new(1.0, false);
+        let mut slow = BodyProgress::new(1.0);
         (0..2).for_each(|_| slow.note(1.0, 1.0));
         let mut renewed = Vec::new();
         for iteration in 1..=30 {
@@ -286,7 +242,7 @@ mod tests {
     fn contacts_are_solved_as_well_as_it_takes() {
         let convergence = Convergence { round_off: 1e-15, ..DYNAMIC };
         let error = |contacts, corrections: &[f64]| {
-            let mut progress = BodyProgress::new(1.0, false);
+            let mut progress = BodyProgress::new(1.0);
             corrections.iter().for_each(|&c| progress.note(c, 1.0));
             convergence.contact_error(contacts, &[0], &[progress])
         };

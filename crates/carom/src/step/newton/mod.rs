@@ -1,13 +1,17 @@
 //! How Newton's iterations go on and end.
 
 pub(super) mod acceleration;
-mod control;
+pub(super) mod control;
 pub(super) mod convergence;
+pub(super) mod holding;
+pub(super) mod load_step;
 
-use carom_mesh::Vector;
+use carom_mesh::{Vector, nodal};
 
 use self::acceleration::Acceleration;
 use self::convergence::BodyProgress;
+use self::holding::Holding;
+use crate::contact::active::ActiveSet;
 use crate::model::assembly::Assembly;
 
 /// The iterations of a step.
@@ -19,6 +23,11 @@ pub(crate) struct Newton<const D: usize> {
     pub correction: Vec<Vector<D>>,
     pub progress: Vec<BodyProgress>,
     pub acceleration: Acceleration<D>,
+    /// How much corrections of every body are held back in load steps.
+    pub holding: Vec<Holding>,
+    /// The last guess of a load step that led on: d [m] and the reactions known there.
+    guess: Vec<Vector<D>>,
+    guess_reactions: Vec<Vector<D>>,
     /// The bodies that contacts act on.
     pub in_contact: Vec<usize>,
 }
@@ -31,8 +40,45 @@ impl<const D: usize> Newton<D> {
             acceleration: Acceleration::new(zeros.len(), assembly.body_count()),
             residual: zeros.clone(),
             correction: zeros,
-            progress: vec![BodyProgress::new(0.0, false); assembly.body_count()],
+            progress: vec![BodyProgress::new(0.0); assembly.body_count()],
+            holding: vec![Holding::default(); assembly.body_count()],
+            guess: Vec::new(),
+            guess_reactions: Vec::new(),
             in_contact: Vec::with_capacity(assembly.body_count()),
         }
+    }
+
+    /// Keeps a guess of a load step of the `bodies`, to return to if it leads nowhere.
+    pub fn keep_guess(
+        &mut self,
+        bodies: &[usize],
+        assembly: &Assembly<D>,
+        motion: &[Vector<D>],
+        active: &ActiveSet<D>,
+    ) {
+        self.guess.resize(motion.len(), Vector::zeros());
+        for nodes in bodies.iter().map(|&i| assembly.nodes(i)) {
+            self.guess[nodes.clone()].copy_from_slice(&motion[nodes]);
+        }
+        self.guess_reactions.clone_from(&active.reactions);
+    }
+
+    /// Goes back to that guess.
+    pub fn return_to_guess(
+        &self,
+        bodies: &[usize],
+        assembly: &Assembly<D>,
+        motion: &mut [Vector<D>],
+        active: &mut ActiveSet<D>,
+    ) {
+        for nodes in bodies.iter().map(|&i| assembly.nodes(i)) {
+            motion[nodes.clone()].copy_from_slice(&self.guess[nodes]);
+        }
+        active.reactions.clone_from(&self.guess_reactions);
+    }
+
+    /// The largest component of the last correction of the `bodies` [m].
+    pub fn largest_correction(&self, bodies: &[usize], assembly: &Assembly<D>) -> f64 {
+        bodies.iter().map(|&i| nodal::largest(&self.correction[assembly.nodes(i)])).fold(0.0, f64::max)
     }
 }

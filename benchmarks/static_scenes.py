@@ -1,0 +1,186 @@
+"""Random static scenes: pressed, sheared, bent onto obstacles. Every one completes, or ends with its reason.
+
+    .venv/bin/python benchmarks/static_scenes.py [scenes] [first seed]
+
+Blocks on blocks with meshes that do not fit, strips over posts and balls; all laws, cells of first and
+second order, friction from 0 to 1, in the plane and in space. The last column says how many iterations
+a load step took. Every scene that does not complete is printed with its reason, to be looked at, and
+makes the exit status 1; so do books that do not close.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+import warnings
+from collections import Counter
+from time import process_time
+from typing import Any
+
+import numpy as np
+
+import carom
+
+STEPS = 10
+
+LAWS: tuple[dict[str, Any], ...] = (
+    {"kind": "linear-elastic", "young": 1e6, "poisson": 0.3},
+    {"kind": "saint-venant-kirchhoff", "young": 1e6, "poisson": 0.3},
+    {"kind": "neo-hookean", "young": 1e6, "poisson": 0.4},
+    {"kind": "mooney-rivlin", "c10": 1e5, "c01": 7e4, "bulk": 8e5},
+    {"kind": "yeoh", "c10": 1.7e5, "c20": 1e4, "c30": 2e3, "bulk": 8e5},
+    {"kind": "ogden", "mu": [3e5, -2e4], "alpha": [2.0, -2.0], "bulk": 8e5},
+    {"kind": "blatz-ko", "shear": 4e5},
+    {"kind": "j2-plasticity", "young": 1e6, "poisson": 0.3, "yield_stress": 3e4, "hardening": 1e5},
+)
+
+SMALL = {"linear-elastic", "saint-venant-kirchhoff", "j2-plasticity"}
+"""Laws that are meant for smaller strains than rubber's."""
+
+CELLS = {2: ("quad4", "tri3", "quad8", "quad9", "tri6"), 3: ("hex8", "tet4", "hex20", "tet10")}
+
+
+def scene(seed: int) -> carom.Scenario:
+    """Return a scene at random."""
+    random = np.random.default_rng(seed)
+    dimension = 2 if random.random() < 0.75 else 3
+    law = dict(LAWS[random.integers(len(LAWS))])
+    other = dict(LAWS[random.integers(len(LAWS))])
+    softer = 10.0 ** random.uniform(-1.0, 1.0)
+    for key in ("young", "c10", "c01", "c20", "c30", "bulk", "shear", "yield_stress", "hardening"):
+        if key in other:
+            other[key] *= softer
+    if "mu" in other:
+        other["mu"] = [softer * mu for mu in other["mu"]]
+    strain = 0.03 if {law["kind"], other["kind"]} & SMALL else random.uniform(0.05, 0.3)
+    kind = str(random.choice(["press", "shear", "bend", "plate"]))
+    parts = {"press": _press, "shear": _press, "bend": _bend, "plate": _plate}[kind]
+    bodies, motions, obstacles = parts(random, dimension, strain, kind)
+    friction = float(random.choice([0.0, random.uniform(0.0, 1.0)]))
+    return carom.Scenario.from_dict(
+        {
+            "title": f"Static scene {seed}: {kind}, {law['kind']} on {other['kind']}, friction {friction:.2f}",
+            "dimension": dimension,
+            "analysis": {"kind": "static", "end_time": 1.0, "time_step": 1.0 / STEPS},
+            "output": {"fields_every": 1.0, "history_every": 1.0 / STEPS},
+            "materials": {"one": law | {"density": 1000.0}, "other": other | {"density": 1000.0}},
+            "bodies": bodies,
+            "motions": motions,
+            "obstacles": obstacles,
+            "contact": {"friction": friction},
+        }
+    )
+
+
+def _block(
+    random: np.random.Generator, name: str, material: str, corner: list[float], size: list[float]
+) -> dict[str, Any]:
+    dimension = len(size)
+    cell = str(random.choice(CELLS[dimension]))
+    finest = {2: 9, 3: 4}[dimension]
+    divisions = [int(random.integers(2, finest)) for _ in size]
+    kind = "rectangle" if dimension == 2 else "box"
+    mesh = {"kind": kind, "corner": corner, "size": size, "divisions": divisions, "cell": cell}
+    return {"name": name, "material": material, "mesh": mesh}
+
+
+def _press(
+    random: np.random.Generator, dimension: int, strain: float, kind: str
+) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[dict[str, Any]]]:
+    """A block on a block, pressed and perhaps sheared by its top."""
+    across = dimension - 1
+    lower = [*random.uniform(1.0, 3.0, across).tolist(), 1.0]
+    upper = [*(random.uniform(0.5, 1.0) * np.array(lower[:-1])).tolist(), float(random.uniform(0.4, 1.0))]
+    gap = float(random.choice([0.0, 0.01]))
+    corner = [*(random.uniform(0.0, 1.0) * (np.array(lower[:-1]) - upper[:-1])).tolist(), 1.0 + gap]
+    bodies = [
+        _block(random, "lower", "one", [0.0] * dimension, lower),
+        _block(random, "upper", "other", corner, upper),
+    ]
+    down = strain * (1.0 + upper[-1]) + gap
+    axes = "xyz"[:dimension]
+    driven = {axes[-1]: f"-{down}*t", "x": f"{0.5 * strain}*t" if kind == "shear" else 0.0}
+    if dimension == 3:
+        driven["y"] = 0.0
+    motions = [
+        {"kind": "fixed", "body": "lower", "on": "bottom"},
+        {"kind": "prescribed", "body": "upper", "on": "top", **driven},
+    ]
+    return bodies, motions, []
+
+
+def _plate(
+    random: np.random.Generator, dimension: int, strain: float, kind: str
+) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[dict[str, Any]]]:
+    """A block that nothing but two plates holds, one of which comes down."""
+    size = random.uniform(0.5, 2.0, dimension).tolist()
+    bodies = [_block(random, "block", "one", [0.0] * dimension, size)]
+    up = [*[0.0] * (dimension - 1), 1.0]
+    top = [*[0.0] * (dimension - 1), size[-1]]
+    motion = {"xyz"[dimension - 1]: f"-{strain * size[-1]}*t"}
+    obstacles = [
+        {"name": "below", "kind": "plane", "point": [0.0] * dimension, "normal": up},
+        {"name": "above", "kind": "plane", "point": top, "normal": [-x for x in up], "motion": motion},
+    ]
+    return bodies, [], obstacles
+
+
+def _bend(
+    random: np.random.Generator, dimension: int, strain: float, kind: str
+) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[dict[str, Any]]]:
+    """A cantilever whose tip is bent down over a ball or a post."""
+    depth = float(random.uniform(0.1, 0.3))
+    size = [2.0, depth] if dimension == 2 else [2.0, 0.5, depth]
+    bodies = [_block(random, "strip", "one", [0.0] * dimension, size)]
+    bodies[0]["mesh"]["divisions"][0] = int(random.integers(8, 24 if dimension == 2 else 13))
+    place = float(random.uniform(0.6, 1.4))
+    axis = "xyz"[dimension - 1]
+    motions = [
+        {"kind": "fixed", "body": "strip", "on": "left"},
+        {"kind": "prescribed", "body": "strip", "on": "right", axis: f"-{strain}*t"},
+    ]
+    radius = float(random.uniform(0.1, 0.4))
+    if random.random() < 0.5:
+        middle = [0.0] * (dimension - 2)
+        centre = [place, *([0.25] if dimension == 3 else middle), -radius]
+        obstacles = [{"name": "ball", "kind": "sphere", "centre": centre, "radius": radius}]
+    else:
+        corner = [place, *([-0.1] if dimension == 3 else []), -1.0]
+        sizes = [0.2, *([0.7] if dimension == 3 else []), 1.0]
+        obstacles = [{"name": "post", "kind": "box", "corner": corner, "size": sizes}]
+    return bodies, motions, obstacles
+
+
+def main() -> int:
+    """Run the scenes."""
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 200
+    first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
+    seen: Counter[str] = Counter()
+    worst_defect, iterations, steps = 0.0, 0, 0
+    for seed in range(first, first + count):
+        case = scene(seed)
+        begun = process_time()
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                result = carom.run(case, out=f"{folder}/out")
+                status, reason = result.summary["status"], ""
+            except carom.CaromError as error:
+                result = carom.Result.open(f"{folder}/out")
+                status, reason = result.summary["status"], str(error)
+        seen[status] += 1
+        energy = result.summary["energy"]
+        scale = max(energy["strain"], energy["prescribed"], 1e-300)
+        defect = abs(energy["max_defect"]) / scale
+        worst_defect = max(worst_defect, defect)
+        iterations += result.summary["newton_iterations"]
+        steps += max(result.summary["steps"], 1)
+        if status != "completed":
+            print(f"{case.title}: {status} after {process_time() - begun:.1f} s: {reason}", flush=True)
+    print(f"{count} scenes: {dict(seen)}; largest defect {worst_defect:.1e} of the work")
+    print(f"{iterations / steps:.2f} iterations per load step")
+    return int(seen["completed"] < count or worst_defect > 1e-9)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,48 @@
+//! The books of a load step.
+
+use carom_mesh::nodal;
+
+use super::FeBody;
+use super::equation::Equation;
+use crate::body::{BodyEnd, Guess};
+use crate::ledger::{BodyLedger, Energies};
+
+impl<const D: usize> FeBody<D> {
+    /// Completes the state at the end of a load step. Its books are those of path work: of loads and normal reactions in the mean of the step, and of
+    /// the force whose work is the change of the strain energy. `scheme` is what the mean lacks of balance inside the body, of third order
+    /// in the step where nothing slides.
+    pub(super) fn end_load_step(
+        &mut self,
+        guess: &Guess<'_, D>,
+        end: BodyEnd<'_, D>,
+    ) -> (BodyLedger, Energies) {
+        self.drive.load(&self.part, guess);
+        if !self.part.body.held().is_empty() {
+            self.close_supports(guess, None, end.contact_force, end.support);
+        }
+        self.drive.load_at(&self.part, guess, 0.5);
+        let Self { part, pose, drive, scratch, momentum, .. } = self;
+        let equation = Equation::new(part, guess, pose, drive);
+        equation.end_velocity(end.velocity);
+        equation.with_history.internal_force(guess.displacement, end.internal_force);
+        let plastic = equation.with_history.update(guess.displacement, end.history);
+        let (body, held) = (&part.body, part.body.held());
+        let strain = body.after(end.history).strain_energy(guess.displacement);
+        let (external, viscous) = equation.external_and_viscous_work(scratch);
+        let lacking = momentum;
+        equation.path_residual(scratch, lacking);
+        let contact = held.free_dot(guess.motion, end.mean_contact_force);
+        let inside = held.free_dot(guess.motion, lacking);
+        let ledger = BodyLedger {
+            kinetic: -guess.start.energies.kinetic,
+            strain: strain - guess.start.energies.strain,
+            external,
+            prescribed: inside - nodal::dot(guess.motion, lacking),
+            viscous,
+            plastic,
+            scheme: inside + contact,
+            contact,
+        };
+        (ledger, Energies { kinetic: 0.0, strain })
+    }
+}

@@ -1,0 +1,334 @@
+//! What contacts add to the tangents of a load step.
+//!
+//! The tangent of a model in contact is K + G + Hᵀκ H. G = −∂(Hᵀr)/∂u is the stiffness of the reactions themselves, as normals turn and
+//! targets curve. Hᵀκ H are springs in the directions that contacts hold, the normal of those that press and all of those that stick, as stiff as the
+//! nodes there. They change no solution: a force −κ w goes with them, and w = 0 in these directions (augmented Lagrangian). But without
+//! them a body under pressure may have a tangent without an inverse, although contact holds it.
+//!
+//! Bodies are uncoupled in K̄. It has springs to the ground, B, in place of those between bodies, and what is missing, Ĝ = G + Hᵀκ H − B,
+//! lives on the nodes of the contacts, P. With C = Pᵀ K̄⁻¹ P, the compliance that the reduced problem is made of,
+//! Pᵀ(K̄ + P Ĝ Pᵀ)⁻¹P = (I + C Ĝ)⁻¹ C (Woodbury), and no factor is needed but K̄'s.
+
+use carom_contact::Contact;
+use carom_mesh::{Matrix, Vector};
+use nalgebra::{DMatrix, DVector};
+
+use super::active::ActiveSet;
+use super::compliance::Compliance;
+use super::control::CONTROL;
+use crate::body::Body;
+use crate::model::assembly::Assembly;
+use crate::model::given::Given;
+use crate::model::state::Reaction;
+
+/// No place.
+const NONE: u32 = u32::MAX;
+
+/// Springs to the ground in K̄ of a body [N/m], by its own nodes, ascending.
+pub(crate) type Springs<const D: usize> = Vec<(u32, Matrix<D>)>;
+
+/// The tangents of the contacts of a load step.
+#[derive(Debug)]
+pub(crate) struct Stiffened<const D: usize> {
+    /// What K̄ of every body has.
+    pub springs: Vec<Springs<D>>,
+    /// κ of every contact [N/m], and in how many directions; zero where it does not press.
+    springs_of_contacts: Vec<(f64, usize)>,
+    /// P, and the place of every position of the model in it.
+    nodes: Vec<usize>,
+    places: Vec<u32>,
+    /// Ĝ.
+    missing: DMatrix<f64>,
+    /// (I + C Ĝ)⁻¹ C; empty where nothing is missing.
+    compliance: DMatrix<f64>,
+    /// What the correction is at P without new reactions [m].
+    seen: DVector<f64>,
+}
+
+/// κ of a contact, by the stiffness of its softest node in the undeformed body.
+fn spring<const D: usize>(
+    assembly: &Assembly<D>,
+    contact: &Contact<D>,
+    bodies: &mut [Box<dyn Body<D>>],
+) -> f64 {
+    let places = contact.stencil().filter_map(|(n, _)| assembly.place_of(n));
+    let softest = places.map(|(b, own)| bodies[b].stiffness_at(own as u32)).fold(f64::INFINITY, f64::min);
+    if softest.is_finite() { CONTROL.spring * softest } else { 0.0 }
+}
+
+/// The directions of its frame that a contact with the reaction `r` holds: none, the normal, or all.
+pub(crate) fn held_directions<const D: usize>(r: &Vector<D>, friction: f64) -> usize {
+    let across = r.rows(1, D - 1).norm();
+    if r[0] <= 0.0 {
+        0
+    } else if across < friction * r[0] * (1.0 - CONTROL.sliding) {
+        D
+    } else {
+        1
+    }
+}
+
+/// The projector on the first so many directions of a frame.
+fn projector<const D: usize>(frame: &Matrix<D>, directions: usize) -> Matrix<D> {
+    let along = |k: usize| frame.row(k).transpose() * frame.row(k);
+    (0..directions).fold(Matrix::zeros(), |sum, k| sum + along(k))
+}
+
+impl<const D: usize> Stiffened<D> {
+    /// Of an assembly.
+    pub fn new(assembly: &Assembly<D>) -> Self {
+        Self {
+            springs: vec![Vec::new(); assembly.body_count()],
+            springs_of_contacts: Vec::new(),
+            nodes: Vec::new(),
+            places: vec![NONE; assembly.reference.len()],
+            missing: DMatrix::zeros(0, 0),
+            compliance: DMatrix::zeros(0, 0),
+            seen: DVector::zeros(0),
+        }
+    }
+
+    /// Whether K̄ alone is not the tangent.
+    pub fn is_needed(&self) -> bool {
+        !self.compliance.is_empty()
+    }
+
+    /// Forgets what a step before has left.
+    pub fn clear(&mut self) {
+        self.compliance = DMatrix::zeros(0, 0);
+    }
+
+    /// Takes the springs of the tangents from the contacts that press: those that a step starts with.
+    pub fn spring_from_start(
+        &mut self,
+        assembly: &Assembly<D>,
+        reactions: &[Reaction<D>],
+        bodies: &mut [Box<dyn Body<D>>],
+    ) {
+        let friction = |r: &Reaction<D>| assembly.contact.pairs[r.pair as usize].friction;
+        let holding = reactions.iter().map(|r| (&r.contact, held_directions(&r.force, friction(r))));
+        self.spring_from(assembly, holding, bodies);
+    }
+
+    /// The same of those of the present guess.
+    pub fn spring_from_guess(
+        &mut self,
+        assembly: &Assembly<D>,
+        active: &ActiveSet<D>,
+        bodies: &mut [Box<dyn Body<D>>],
+    ) {
+        let contacts = active.contacts.iter().zip(&active.reactions).zip(&active.friction);
+        let holding = contacts.map(|((contact, r), &mu)| (contact, held_directions(r, mu)));
+        self.spring_from(assembly, holding, bodies);
+    }
+
+    fn spring_from<'a>(
+        &mut self,
+        assembly: &Assembly<D>,
+        contacts: impl Iterator<Item = (&'a Contact<D>, usize)>,
+        bodies: &mut [Box<dyn Body<D>>],
+    ) {
+        self.springs.iter_mut().for_each(Vec::clear);
+        for (contact, directions) in contacts.filter(|&(_, directions)| directions > 0) {
+            let block = projector(&contact.frame, directions) * spring(assembly, contact, bodies);
+            for (node, weight) in contact.stencil() {
+                let Some((b, own)) = assembly.place_of(node) else { continue };
+                self.springs[b].push((own as u32, block * weight.abs()));
+            }
+        }
+        for springs in &mut self.springs {
+            springs.sort_by_key(|&(node, _)| node);
+            springs.dedup_by(|next, kept| {
+                let same = next.0 == kept.0;
+                if same {
+                    kept.1 += next.1;
+                }
+                same
+            });
+        }
+    }
+
+    /// Adds the forces −κ w that go with the springs between contacts to `residual` [N]. The contacts are those of the guess.
+    pub fn add_forces(
+        &mut self,
+        given: &Given<'_, D>,
+        active: &ActiveSet<D>,
+        motion: &[Vector<D>],
+        bodies: &mut [Box<dyn Body<D>>],
+        residual: &mut [Vector<D>],
+    ) {
+        let Given { assembly, method, state, interval } = *given;
+        self.springs_of_contacts.clear();
+        let contacts = active.contacts.iter().zip(&active.start_gaps);
+        for (((contact, &start_gap), r), &mu) in contacts.zip(&active.reactions).zip(&active.friction) {
+            let directions = held_directions(r, mu);
+            let stiffness = if directions > 0 { spring(assembly, contact, bodies) } else { 0.0 };
+            self.springs_of_contacts.push((stiffness, directions));
+            if stiffness > 0.0 {
+                let d = |n: usize| motion[n];
+                let v = |n: usize| state.velocity[n];
+                let offset = method.condition.normal_offset(contact, start_gap, &interval.map, d, v);
+                let mut w = contact.relative(d);
+                w[0] += offset;
+                let force = Vector::from_fn(|i, _| if i < directions { -stiffness * w[i] } else { 0.0 });
+                contact.add_force(&force, residual);
+            }
+        }
+    }
+
+    /// Makes the tangent at a guess, whose contacts were evaluated and whose bodies know how they yield there.
+    pub fn prepare(
+        &mut self,
+        given: &Given<'_, D>,
+        active: &ActiveSet<D>,
+        motion: &[Vector<D>],
+        compliances: &[Compliance<D>],
+    ) {
+        self.list_nodes(given.assembly, active);
+        let count = self.nodes.len() * D;
+        self.missing = DMatrix::zeros(count, count);
+        self.add_geometric(given, active, motion);
+        // Friction makes it unsymmetric, of which a solver of contacts knows nothing.
+        self.missing = (&self.missing + self.missing.transpose()) * 0.5;
+        self.add_springs(given.assembly, active);
+        let scale = self.springs_of_contacts.iter().map(|&(k, _)| k).fold(0.0, f64::max);
+        if self.missing.amax() <= CONTROL.negligible * scale {
+            self.clear();
+            return;
+        }
+        let compliance = self.compliance_of(given.assembly, compliances);
+        let mut system = &compliance * &self.missing;
+        (0..count).for_each(|i| system[(i, i)] += 1.0);
+        self.compliance = system.lu().solve(&compliance).unwrap_or(compliance);
+    }
+
+    /// P: the nodes of bodies that contacts or springs act on.
+    fn list_nodes(&mut self, assembly: &Assembly<D>, active: &ActiveSet<D>) {
+        self.nodes.drain(..).for_each(|n| self.places[n] = NONE);
+        let of_contacts = active.contacts.iter().flat_map(|contact| contact.stencil().map(|(n, _)| n));
+        self.nodes.extend(of_contacts.filter(|&n| assembly.body_of(n).is_some()));
+        for (b, springs) in self.springs.iter().enumerate().filter(|(b, _)| active.touched[*b]) {
+            let first = assembly.nodes(b).start;
+            self.nodes.extend(springs.iter().map(|&(own, _)| first + own as usize));
+        }
+        self.nodes.sort_unstable();
+        self.nodes.dedup();
+        (0..).zip(&self.nodes).for_each(|(place, &n)| self.places[n] = place);
+    }
+
+    /// The place of a node in P.
+    fn place(&self, node: usize) -> Option<usize> {
+        Some(self.places[node]).filter(|&place| place != NONE).map(|place| place as usize)
+    }
+
+    /// G: how the forces of the reactions change as nodes move, by central differences of what the search makes of their places.
+    fn add_geometric(&mut self, given: &Given<'_, D>, active: &ActiveSet<D>, motion: &[Vector<D>]) {
+        let contact_model = &given.assembly.contact;
+        let mut force = vec![Vector::<D>::zeros(); motion.len()];
+        let contacts = active.candidates.iter().zip(&active.contacts).zip(&active.reactions);
+        for (k, ((candidate, contact), r)) in contacts.enumerate() {
+            let is_fixed = active.at_kink.get(k).is_some_and(|at_kink| *at_kink);
+            if is_fixed || *r == Vector::<D>::zeros() || contact_model.is_mortar(candidate.pair as usize) {
+                continue;
+            }
+            let step =
+                CONTROL.difference * given.assembly.pair_size(&contact_model.pairs[candidate.pair as usize]);
+            for (node, _) in contact.stencil() {
+                let Some(column) = self.place(node) else { continue };
+                for component in 0..D {
+                    for sign in [1.0, -1.0] {
+                        let position = |n: u32| {
+                            let mut x = given.position(n) + motion[n as usize];
+                            if n as usize == node {
+                                x[component] += sign * step;
+                            }
+                            x
+                        };
+                        let mut moved = contact_model.evaluate(candidate, &position);
+                        moved.carry_frame(&contact.frame);
+                        moved.add_force(&(r * (-sign / (2.0 * step))), &mut force);
+                        for (n, _) in moved.stencil() {
+                            let change = std::mem::replace(&mut force[n], Vector::zeros());
+                            if let Some(row) = self.place(n) {
+                                (0..D).for_each(|i| {
+                                    self.missing[(row * D + i, column * D + component)] += change[i];
+                                });
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Hᵀκ H − B.
+    fn add_springs(&mut self, assembly: &Assembly<D>, active: &ActiveSet<D>) {
+        for (contact, &(stiffness, directions)) in active.contacts.iter().zip(&self.springs_of_contacts) {
+            if stiffness == 0.0 {
+                continue;
+            }
+            let block = projector(&contact.frame, directions) * stiffness;
+            for (n, a) in contact.stencil() {
+                let Some(row) = self.place(n) else { continue };
+                for (m, b) in contact.stencil() {
+                    let Some(column) = self.place(m) else { continue };
+                    add(&mut self.missing, (row, column), &(block * (a * b)));
+                }
+            }
+        }
+        for (b, springs) in self.springs.iter().enumerate() {
+            let first = assembly.nodes(b).start;
+            for &(own, block) in springs {
+                let Some(place) = self.place(first + own as usize) else { continue };
+                add(&mut self.missing, (place, place), &-block);
+            }
+        }
+    }
+
+    /// C.
+    fn compliance_of(&self, assembly: &Assembly<D>, compliances: &[Compliance<D>]) -> DMatrix<f64> {
+        let count = self.nodes.len() * D;
+        let mut compliance = DMatrix::zeros(count, count);
+        for (column, &m) in self.nodes.iter().enumerate() {
+            let Some((b, own)) = assembly.place_of(m) else { continue };
+            let turn = &compliances[b].turn;
+            for (row, &n) in self.nodes.iter().enumerate().filter(|(_, n)| assembly.body_of(**n) == Some(b)) {
+                if let Some(block) = compliances[b].block(n - (m - own), own) {
+                    add(&mut compliance, (row, column), &(turn * block * turn.transpose()));
+                }
+            }
+        }
+        compliance
+    }
+
+    /// The block of the compliance between two nodes of P.
+    pub fn block(&self, a: usize, b: usize) -> Option<Matrix<D>> {
+        let (row, column) = (self.place(a)?, self.place(b)?);
+        Some(Matrix::from_fn(|i, j| self.compliance[(row * D + i, column * D + j)]))
+    }
+
+    /// Makes what K̄⁻¹ alone gives at P, beside the `motion` so far [m], what the tangent gives.
+    pub fn see(&mut self, motion: &[Vector<D>], seen: &mut [Vector<D>]) {
+        let of = |place: usize| self.nodes[place / D];
+        let alone = DVector::from_fn(self.nodes.len() * D, |k, _| seen[of(k)][k % D] - motion[of(k)][k % D]);
+        self.seen = &alone - &self.compliance * (&self.missing * &alone);
+        for (place, &n) in self.nodes.iter().enumerate() {
+            seen[n] = motion[n] + Vector::from_fn(|i, _| self.seen[place * D + i]);
+        }
+    }
+
+    /// Adds what stands in K̄ for the tangent to the `change` of forces [N] by new reactions: −Ĝ c, with the correction c = s + C f that they lead to.
+    pub fn stand_in(&self, change: &mut [Vector<D>]) {
+        let forces = DVector::from_fn(self.nodes.len() * D, |k, _| change[self.nodes[k / D]][k % D]);
+        let resisted = &self.missing * (&self.seen + &self.compliance * forces);
+        for (place, &n) in self.nodes.iter().enumerate() {
+            change[n] -= Vector::from_fn(|i, _| resisted[place * D + i]);
+        }
+    }
+}
+
+fn add<const D: usize>(matrix: &mut DMatrix<f64>, (row, column): (usize, usize), block: &Matrix<D>) {
+    for i in 0..D {
+        (0..D).for_each(|j| matrix[(row * D + i, column * D + j)] += block[(i, j)]);
+    }
+}

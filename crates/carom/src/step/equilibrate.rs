@@ -1,0 +1,197 @@
+//! Newton's iterations of a load step: see [`super::newton::load_step`].
+
+use carom_mesh::{Matrix, Vector, nodal};
+
+use super::hold::not_held;
+use super::iterate::{begin_solves, correct, end_solves, residuals};
+use super::newton::control::LOAD_STEP;
+use super::newton::holding::Holding;
+use super::newton::load_step::{LoadStep, Verdict};
+use super::workspace::Workspace;
+use crate::body::{Body, Guess};
+use crate::contact::Contacts;
+use crate::error::StepError;
+use crate::model::given::Given;
+use crate::model::state::State;
+
+/// Iterates for some `bodies` until they are in equilibrium, all that are in contact or one that is not, and returns how often.
+///
+/// # Errors
+/// If that does not end, with what nothing holds where that is the reason.
+pub(super) fn equilibrate<const D: usize>(
+    bodies: &[usize],
+    given: &Given<'_, D>,
+    next: &mut State<D>,
+    work: &mut Workspace<D>,
+) -> Result<usize, StepError> {
+    let made = approach(bodies, given, next, work);
+    made.map_err(|error| match error {
+        StepError::Newton { .. } | StepError::Runaway { .. } => {
+            not_held(bodies, given, next, work).unwrap_or(error)
+        }
+        error => error,
+    })
+}
+
+/// [`equilibrate`] with whatever error comes first.
+fn approach<const D: usize>(
+    bodies: &[usize],
+    given: &Given<'_, D>,
+    next: &mut State<D>,
+    work: &mut Workspace<D>,
+) -> Result<usize, StepError> {
+    let rule = &given.method.newton;
+    let reached = nodal::largest(&given.state.displacement[..given.assembly.node_count()]);
+    let mut load_step = LoadStep::new(rule.tolerance, rule.max_iterations, reached);
+    work.newton.keep_guess(bodies, given.assembly, &work.motion, &work.contacts.active);
+    for iteration in 1.. {
+        let late = (iteration > LOAD_STEP.late).then_some(load_step.last);
+        let solved = solve(bodies, late, given, next, work);
+        let (correction, reason) = match solved {
+            Ok(()) => (work.newton.largest_correction(bodies, given.assembly), None),
+            Err(reason @ (StepError::Friction { .. } | StepError::NotFinite(_))) => {
+                (f64::INFINITY, Some(reason))
+            }
+            Err(reason) => return Err(reason),
+        };
+        let moved = bodies.iter().map(|&i| nodal::largest(&work.motion[given.assembly.nodes(i)]));
+        let motion = moved.fold(0.0, f64::max);
+        let verdict = load_step.judge(iteration, correction, motion, round_off(bodies, given, work));
+        let verdict = verdict.map_err(|error| reason.unwrap_or(error))?;
+        if verdict == Verdict::Refused {
+            work.newton.return_to_guess(bodies, given.assembly, &mut work.motion, &mut work.contacts.active);
+            follow(bodies, given, next, work);
+            bodies.iter().for_each(|&i| work.newton.holding[i].raise());
+            linearise(bodies, given, next, work)?;
+            continue;
+        }
+        work.newton.keep_guess(bodies, given.assembly, &work.motion, &work.contacts.active);
+        correct(bodies, given, next, work);
+        if verdict == Verdict::Last {
+            return Ok(iteration);
+        }
+        let size = given.assembly.size;
+        if motion.max(correction) > LOAD_STEP.runaway * size {
+            return Err(StepError::Runaway { motion: motion.max(correction), size });
+        }
+        if verdict == Verdict::Renewed {
+            if load_step.is_shrinking() {
+                bodies.iter().for_each(|&i| work.newton.holding[i].lower());
+            }
+            linearise(bodies, given, next, work)?;
+        }
+    }
+    unreachable!("the loop ends at max_iterations")
+}
+
+/// Solves for a correction at the present guess, and for the reactions there; `late` in the iterations the last correction [m] is known.
+fn solve<const D: usize>(
+    bodies: &[usize],
+    late: Option<f64>,
+    given: &Given<'_, D>,
+    next: &mut State<D>,
+    work: &mut Workspace<D>,
+) -> Result<(), StepError> {
+    let touched = bodies.iter().any(|&i| work.contacts.active.touched[i]);
+    if let (true, Some(correction)) = (touched, late) {
+        work.contacts.evaluate_late(given, &work.motion, correction, &mut work.bodies);
+    } else if touched {
+        work.contacts.evaluate(given, &work.motion, &mut work.bodies);
+    }
+    residuals(bodies, given, next, work);
+    let reacts = touched && !work.contacts.active.contacts.is_empty();
+    if bodies.iter().any(|&i| !nodal::is_finite(&work.newton.residual[given.assembly.nodes(i)])) {
+        return Err(StepError::NotFinite("internal force"));
+    }
+    if reacts {
+        let Workspace { contacts, motion, bodies, newton, .. } = work;
+        contacts.stiffen(given, motion, bodies, &mut newton.residual);
+    }
+    begin_solves(bodies, given, reacts, work);
+    if reacts {
+        work.contacts.solve(given, &work.motion, 0.0, &mut work.bodies)?;
+    }
+    end_solves(bodies, given, work)
+}
+
+/// Writes the displacements [m] of the present guess.
+fn follow<const D: usize>(
+    bodies: &[usize],
+    given: &Given<'_, D>,
+    next: &mut State<D>,
+    work: &mut Workspace<D>,
+) {
+    for nodes in bodies.iter().map(|&i| given.assembly.nodes(i)) {
+        let from = [&given.state.displacement[nodes.clone()], &work.motion[nodes.clone()]];
+        nodal::each(&mut next.displacement[nodes], from, |u1, [u0, d]| *u1 = u0 + d);
+    }
+}
+
+/// Makes the tangents at the present guess.
+fn linearise<const D: usize>(
+    bodies: &[usize],
+    given: &Given<'_, D>,
+    next: &State<D>,
+    work: &mut Workspace<D>,
+) -> Result<(), StepError> {
+    let Workspace { bodies: all, contacts, motion, .. } = work;
+    let Contacts { active, reduced, .. } = contacts;
+    reduced.delassus.stiffened.spring_from_guess(given.assembly, active, all);
+    for &i in bodies {
+        let guess = given.guess(i, motion, &next.displacement);
+        work.factorisations +=
+            hold(&mut *all[i], &guess, &mut work.newton.holding[i], &reduced.delassus.stiffened.springs[i])?;
+    }
+    Ok(())
+}
+
+/// Makes the tangents at the start of a load step, and lets the bodies follow what is prescribed of them.
+pub(super) fn set_out<const D: usize>(
+    given: &Given<'_, D>,
+    work: &mut Workspace<D>,
+) -> Result<(), StepError> {
+    let Workspace { bodies, contacts, newton, motion, .. } = work;
+    let stiffened = &mut contacts.reduced.delassus.stiffened;
+    stiffened.spring_from_start(given.assembly, &given.state.reactions, bodies);
+    newton.holding.fill(Holding::default());
+    for (i, body) in bodies.iter_mut().enumerate() {
+        let nodes = given.assembly.nodes(i);
+        // Nothing has moved yet, whatever will.
+        newton.correction[nodes.clone()].fill(Vector::zeros());
+        let guess = Guess {
+            motion: &newton.correction[nodes.clone()],
+            displacement: &given.state.displacement[nodes.clone()],
+            ..given.guess(i, motion, &given.state.displacement)
+        };
+        let held = hold(&mut **body, &guess, &mut newton.holding[i], &stiffened.springs[i])?;
+        work.factorisations += held;
+        body.follow(&given.start(i), &mut motion[nodes]);
+    }
+    Ok(())
+}
+
+/// Makes the tangent of a body at a guess, held back by as much as it takes for it to have an inverse; returns how often it was tried.
+fn hold<const D: usize>(
+    body: &mut dyn Body<D>,
+    guess: &Guess<'_, D>,
+    holding: &mut Holding,
+    springs: &[(u32, Matrix<D>)],
+) -> Result<u64, StepError> {
+    for tries in 1.. {
+        let made = body.linearise(guess, holding.share, springs);
+        if made.is_ok() {
+            return Ok(tries);
+        }
+        holding.raise_for_good();
+        if holding.share > LOAD_STEP.largest {
+            made?;
+        }
+    }
+    unreachable!("the share grows beyond its largest")
+}
+
+/// What round-off and the tolerance of the contact problem leave of the motion [m].
+fn round_off<const D: usize>(bodies: &[usize], given: &Given<'_, D>, work: &Workspace<D>) -> f64 {
+    let of_bodies = bodies.iter().map(|&i| work.bodies[i].round_off());
+    of_bodies.fold(given.assembly.round_off(), f64::max)
+}

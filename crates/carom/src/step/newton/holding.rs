@@ -1,0 +1,31 @@
+//! How much of its inertia holds the corrections of a body back in a load step.
+
+use super::control::LOAD_STEP;
+
+/// The share of a body.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Holding {
+    /// What K̄ has of the inertia of the lowest motion.
+    pub share: f64,
+    /// Below this nothing is to be gained: it was too little in this step.
+    least: f64,
+}
+
+impl Holding {
+    /// More of it.
+    pub fn raise(&mut self) {
+        self.share = (self.share * LOAD_STEP.change).max(LOAD_STEP.first);
+    }
+
+    /// More of it, as K̄ was indefinite.
+    pub fn raise_for_good(&mut self) {
+        self.raise();
+        self.least = self.share;
+    }
+
+    /// Less of it.
+    pub fn lower(&mut self) {
+        let share = self.share / LOAD_STEP.change;
+        self.share = if share < LOAD_STEP.first { self.least } else { share.max(self.least) };
+    }
+}
