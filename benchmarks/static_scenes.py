@@ -90,7 +90,10 @@ def _press(
     """A block on a block, pressed and perhaps sheared by its top."""
     across = dimension - 1
     lower = [*random.uniform(1.0, 3.0, across).tolist(), 1.0]
-    upper = [*(random.uniform(0.5, 1.0) * np.array(lower[:-1])).tolist(), float(random.uniform(0.4, 1.0))]
+    upper = [
+        *(random.uniform(0.5, 1.0) * np.array(lower[:-1])).tolist(),
+        float(random.uniform(0.4, 1.0)),
+    ]
     gap = float(random.choice([0.0, 0.01]))
     corner = [*(random.uniform(0.0, 1.0) * (np.array(lower[:-1]) - upper[:-1])).tolist(), 1.0 + gap]
     bodies = [
@@ -120,7 +123,13 @@ def _plate(
     motion = {"xyz"[dimension - 1]: f"-{strain * size[-1]}*t"}
     obstacles = [
         {"name": "below", "kind": "plane", "point": [0.0] * dimension, "normal": up},
-        {"name": "above", "kind": "plane", "point": top, "normal": [-x for x in up], "motion": motion},
+        {
+            "name": "above",
+            "kind": "plane",
+            "point": top,
+            "normal": [-x for x in up],
+            "motion": motion,
+        },
     ]
     return bodies, [], obstacles
 
@@ -176,7 +185,9 @@ def main() -> int:
         iterations += result.summary["newton_iterations"]
         steps += max(result.summary["steps"], 1)
         if status != "completed":
-            print(f"{case.title}: {status} after {process_time() - begun:.1f} s: {reason}", flush=True)
+            print(
+                f"{case.title}: {status} after {process_time() - begun:.1f} s: {reason}", flush=True
+            )
     print(f"{count} scenes: {dict(seen)}; largest defect {worst_defect:.1e} of the work")
     print(f"{iterations / steps:.2f} iterations per load step")
     return int(seen["completed"] < count or worst_defect > 1e-9)

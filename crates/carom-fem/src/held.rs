@@ -124,7 +124,7 @@ mod tests {
         for node in 0..4 {
             assert_eq!(held.part(node, &v) + held.free_part(node, &v), v);
         }
-        assert_eq!(held.dot(&[v; 4], &[v; 4]), 9.0 + 16.0 + 16.0);
+        assert_eq!(held.free_dot(&[v; 4], &[v; 4]), 4.0 * 25.0 - (9.0 + 16.0 + 16.0));
         assert!(held.touches(2) && !held.touches(1) && !Held::default().touches(2));
     }
 }

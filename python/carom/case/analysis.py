@@ -109,6 +109,11 @@ class Static(Description):
         Newton's iteration.
     max_halvings
         How often a step that failed is halved before the run stops.
+    stabilisation
+        What a step does that finds no equilibrium near the last one, as where a body snaps through
+        or loses its hold. With ``"none"`` it fails; with ``"dynamic"`` the bodies move on with
+        inertia, as damped as the time scheme can make them, until they rest in another. The ledger
+        has what that dissipates in `scheme`.
     gravity
         Acceleration of all bodies [m/s²], shape [D]; None is none.
     """
@@ -118,6 +123,7 @@ class Static(Description):
     time_step: Positive
     newton: Newton = Newton()
     max_halvings: Annotated[int, Field(strict=True, ge=0, le=30)] = 12
+    stabilisation: Literal["none", "dynamic"] = "none"
     gravity: Vector | None = None
 
     @model_validator(mode="after")

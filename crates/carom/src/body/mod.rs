@@ -21,8 +21,12 @@ use crate::ledger::{BodyLedger, Energies};
 pub struct Interval {
     /// What the time scheme says.
     pub map: StepMap,
-    /// Time at its start [s].
+    /// Time at its start and at its end [s], of loads and of what is prescribed.
     pub start: f64,
+    /// See `start`.
+    pub end: f64,
+    /// Whether time only says how far loads have come: what is prescribed has no velocity.
+    pub is_load_step: bool,
     /// The numbers that factors are kept in.
     pub precision: Precision,
     /// How much the reactions at its start and at its end count in its books.

@@ -3,7 +3,7 @@ use carom_friction::{Criterion, StoppingRule};
 use super::values::number;
 use crate::error::InputError;
 use crate::model::method::{Method, NewtonRule};
-use crate::scenario::{AnalysisKind, Scenario, Spin};
+use crate::scenario::{AnalysisKind, Scenario, Spin, Stabilisation};
 use crate::{ContactCondition, Scheme};
 
 /// How the scenario is taken through time.
@@ -72,6 +72,7 @@ pub(super) fn method<const D: usize>(scenario: &Scenario) -> Result<Method<D>, I
         cross_check: solver.cross_check,
         newton: NewtonRule { tolerance: newton.tolerance, max_iterations: newton.max_iterations },
         max_halvings: analysis.max_halvings,
+        bridges: analysis.stabilisation == Stabilisation::Dynamic,
         certificate_tolerance: scenario.contact.certificate_tolerance,
         penetration_tolerance: scenario.contact.penetration_tolerance,
     })

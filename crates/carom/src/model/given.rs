@@ -54,8 +54,8 @@ impl<'a, const D: usize> Given<'a, D> {
     /// # Errors
     /// If a function of time is not finite.
     pub fn move_obstacles(&self, motion: &mut [Vector<D>]) -> Result<f64, StepError> {
-        let dt = self.interval.map.dt;
-        let end = self.interval.start + dt;
+        let end = self.interval.end;
+        let dt = end - self.interval.start;
         let obstacles = self.assembly.node_count()..;
         let (mut largest, mut sum): (f64, f64) = (0.0, 0.0);
         let starts = &self.state.displacement[obstacles.clone()];

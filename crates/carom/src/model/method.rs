@@ -31,6 +31,8 @@ pub struct Method<const D: usize> {
     pub newton: NewtonRule,
     /// How often a step that fails is halved.
     pub max_halvings: u32,
+    /// Whether load steps that find no equilibrium near the last one move on to another with inertia.
+    pub bridges: bool,
     /// The bi-potential gap of a step that a certified run may have, relative to the largest energy of the run. If that is more, it is
     /// relative to the largest work of the reactions of a step over the motion that they prevent.
     pub certificate_tolerance: f64,
@@ -43,10 +45,22 @@ impl<const D: usize> Method<D> {
     /// The step of length `dt` [s] that starts at time `start` [s].
     #[must_use]
     pub fn interval(&self, start: f64, dt: f64) -> Interval {
-        let map = self.scheme.step_map(dt);
+        self.interval_by(self.scheme, [start, start + dt], dt)
+    }
+
+    /// A step of a bridge between two states of equilibrium: loads come from where they are at the first of these `times` [s] to where they are at
+    /// the second, and the bodies move there for `dt` [s], as damped as the paper's scheme can make them.
+    pub(crate) fn bridge(&self, times: [f64; 2], dt: f64) -> Interval {
+        self.interval_by(Scheme::Theta { theta: 1.0, xi: 1.0 }, times, dt)
+    }
+
+    fn interval_by(&self, scheme: Scheme, [start, end]: [f64; 2], dt: f64) -> Interval {
+        let map = scheme.step_map(dt);
         Interval {
             map,
             start,
+            end,
+            is_load_step: self.scheme == Scheme::Static,
             precision: self.precision(),
             contact_weights: self.condition.weights_of_ends(&map),
             is_blended: self.is_blended(),

@@ -5,6 +5,7 @@
 
 use carom_mesh::parallel::among_threads;
 
+use super::bridge;
 use super::error::RunError;
 use crate::error::StepError;
 use crate::step::report::StepReport;
@@ -82,6 +83,15 @@ impl<const D: usize> Stepper<'_, D> {
                 }
                 Err(reason) => {
                     self.failed += 1;
+                    let is_short = size <= whole >> bridge::AFTER.min(self.method.max_halvings);
+                    if self.method.bridges && is_short {
+                        let there = end - dt * ((whole - done - size) as f64 / whole as f64);
+                        if !self.bridge(there, &mut observe) {
+                            return Err(self.error(length, reason));
+                        }
+                        done += size;
+                        continue;
+                    }
                     if size == 1 {
                         return Err(self.error(length, reason));
                     }

@@ -126,7 +126,10 @@ impl<const D: usize> History<D> {
     /// Notes a step of length `dt` [s] that ended in `state` for the next row.
     pub fn observe(&mut self, report: &StepReport, state: &State<D>, dt: f64) {
         let since = &mut self.since;
-        since.shortest_step = if since.steps == 0 { dt } else { since.shortest_step.min(dt) };
+        // The steps of a bridge stand still in the time of loads.
+        if dt > 0.0 {
+            since.shortest_step = if since.shortest_step == 0.0 { dt } else { since.shortest_step.min(dt) };
+        }
         since.steps += 1;
         since.iterations += report.newton_iterations;
         since.certificate = since.certificate.max(report.certificate);

@@ -1,5 +1,6 @@
 //! Through time: nominal steps, the books, and what is told of them.
 
+mod bridge;
 pub(crate) mod control;
 pub(crate) mod crushed;
 pub(crate) mod describe;

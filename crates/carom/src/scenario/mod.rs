@@ -63,8 +63,22 @@ pub struct Analysis {
     pub newton: NewtonSpec,
     /// How often a step that fails is halved.
     pub max_halvings: u32,
+    /// What a load step does that finds no equilibrium near the last one.
+    #[serde(default)]
+    pub stabilisation: Stabilisation,
     /// Gravity [m/s²].
     pub gravity: Option<Vec<f64>>,
+}
+
+/// What a load step does that finds no equilibrium near the last one, as where a body snaps through or loses its hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stabilisation {
+    /// It fails.
+    #[default]
+    None,
+    /// It moves on with inertia until it comes to rest.
+    Dynamic,
 }
 
 /// Kinds of analysis.

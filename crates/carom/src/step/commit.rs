@@ -23,9 +23,9 @@ pub(super) fn commit<const D: usize>(
     work: &mut Workspace<D>,
     newton_iterations: usize,
 ) -> Result<StepReport, StepError> {
-    let Given { assembly, state, interval, .. } = *given;
+    let Given { assembly, interval, .. } = *given;
     let mut report = StepReport { newton_iterations, min_gap: f64::INFINITY, ..StepReport::default() };
-    next.time = state.time + interval.map.dt;
+    next.time = interval.end;
     keep_contacts(given, next, work, &mut report);
     if interval.is_blended {
         report.blend = work.blend.largest_weight();

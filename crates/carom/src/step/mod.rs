@@ -26,7 +26,7 @@ use self::measure::measure;
 use self::report::StepReport;
 use self::waking::wake;
 use self::workspace::Workspace;
-use crate::body::Body;
+use crate::body::{Body, Interval};
 use crate::contact::cross_check::cross_check;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
@@ -47,8 +47,19 @@ pub fn step<const D: usize>(
     dt: f64,
     work: &mut Workspace<D>,
 ) -> Result<StepReport, StepError> {
-    let interval = method.interval(state.time, dt);
-    let given = Given { assembly, method, state, interval: &interval };
+    step_over(assembly, method, &method.interval(state.time, dt), state, next, work)
+}
+
+/// [`step`] over this `interval`.
+pub(crate) fn step_over<const D: usize>(
+    assembly: &Assembly<D>,
+    method: &Method<D>,
+    interval: &Interval,
+    state: &State<D>,
+    next: &mut State<D>,
+    work: &mut Workspace<D>,
+) -> Result<StepReport, StepError> {
+    let given = Given { assembly, method, state, interval };
     let mut margin = predict(&given, work)?;
     let mut iterations = 0;
     for repetition in 0..SEARCH.repetitions {
@@ -92,7 +103,8 @@ fn predict<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) -> Res
     let Given { assembly, state, interval, .. } = *given;
     let dt = interval.map.dt;
     let Workspace { bodies, motion, factorisations, .. } = work;
-    nodal::each(motion, [&state.velocity], |d, [v]| *d = v * dt);
+    let flight = if interval.map.is_static() { 0.0 } else { dt };
+    nodal::each(motion, [&state.velocity], |d, [v]| *d = v * flight);
     let mut driven = given.move_obstacles(motion)?;
     let obstacles = state.velocity[assembly.node_count()..].iter();
     let mut speed = obstacles.map(Vector::norm_squared).fold(0.0, f64::max).sqrt();
@@ -106,6 +118,8 @@ fn predict<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) -> Res
     }
     if interval.map.is_static() {
         set_out(given, work)?;
+    } else {
+        work.contacts.reduced.delassus.stiffened.clear();
     }
     Ok(search_margin(given, (speed + acceleration * dt) * dt, driven, &work.bodies))
 }

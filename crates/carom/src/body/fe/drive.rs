@@ -42,11 +42,11 @@ impl<const D: usize> Drive<D> {
             return;
         }
         let Self { mean, end, between, .. } = self;
-        let Interval { map, start, .. } = guess.interval;
+        let Interval { start, end: finish, .. } = guess.interval;
         for ((x, u), d) in between.iter_mut().zip(guess.start.displacement).zip(guess.motion) {
             *x = u + d * share;
         }
-        let times = [*start, start + map.dt];
+        let times = [*start, *finish];
         let weighted = |s: &Signal| (1.0 - share) * s.at(times[0]).value + share * s.at(times[1]).value;
         mean.fill(Vector::zeros());
         end.fill(Vector::zeros());
@@ -65,13 +65,13 @@ impl<const D: usize> Drive<D> {
         start: &[Vector<D>],
         motion: &mut [Vector<D>],
     ) -> Option<f64> {
-        let end = interval.start + interval.map.dt;
+        let end = interval.end;
         let (mut largest, mut sum): (f64, f64) = (0.0, 0.0);
         for ((dof, there), rate) in part.supports.at(&part.body, end).zip(&mut self.rates) {
             let (node, component) = (dof.node as usize, dof.component as usize);
             let d = there.value - start[node][component];
             motion[node][component] = d;
-            *rate = if interval.map.is_static() { 0.0 } else { there.rate };
+            *rate = if interval.is_load_step { 0.0 } else { there.rate };
             largest = largest.max(d.abs());
             sum += d + there.rate;
         }

@@ -170,12 +170,16 @@ impl<'a, const D: usize> Equation<'a, D> {
     /// Writes M(g − (v₊ − v)/Δt) + F̄ − C v̄ to `out`; C v̄ stays in `scratch`.
     pub fn inertia_and_damping(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
         let map = self.map;
-        nodal::each(&mut scratch.velocity, [self.motion, self.velocity], |a, [d, v]| {
-            *a = self.gravity - (map.end_velocity(v, d) - v) / map.dt;
-        });
-        self.each_held(|n, i, rate| {
-            scratch.velocity[n][i] = self.gravity[i] - (rate - self.velocity[n][i]) / map.dt;
-        });
+        if map.is_static() {
+            scratch.velocity.fill(*self.gravity);
+        } else {
+            nodal::each(&mut scratch.velocity, [self.motion, self.velocity], |a, [d, v]| {
+                *a = self.gravity - (map.end_velocity(v, d) - v) / map.dt;
+            });
+            self.each_held(|n, i, rate| {
+                scratch.velocity[n][i] = self.gravity[i] - (rate - self.velocity[n][i]) / map.dt;
+            });
+        }
         self.body.mass().multiply(&scratch.velocity, out);
         out.iter_mut().zip(&self.drive.mean).for_each(|(out, f)| *out += f);
         if self.is_damped() {

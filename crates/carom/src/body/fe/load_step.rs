@@ -33,14 +33,16 @@ impl<const D: usize> FeBody<D> {
         equation.path_residual(scratch, lacking);
         let contact = held.free_dot(guess.motion, end.mean_contact_force);
         let inside = held.free_dot(guess.motion, lacking);
+        // A bridge may leave motion, which ends here.
+        let kinetic = guess.start.energies.kinetic;
         let ledger = BodyLedger {
-            kinetic: -guess.start.energies.kinetic,
+            kinetic: -kinetic,
             strain: strain - guess.start.energies.strain,
             external,
             prescribed: inside - nodal::dot(guess.motion, lacking),
             viscous,
             plastic,
-            scheme: inside + contact,
+            scheme: inside + contact + kinetic,
             contact,
         };
         (ledger, Energies { kinetic: 0.0, strain })

@@ -1,0 +1,86 @@
+//! A bridge between two states of equilibrium, where a load step finds none near the last one: bodies snap through, or lose their hold and find
+//! another. They move on with inertia and the paper's scheme at its most damped, θ = ξ = 1, under the loads of the end of the load step, in steps that
+//! grow, until they come to rest. What that dissipates is in the ledger's `scheme`.
+
+use carom_mesh::parallel::among_threads;
+
+use super::control::Stepper;
+use crate::State;
+use crate::body::Interval;
+use crate::step::report::StepReport;
+use crate::step::step_over;
+use crate::step::workspace::Workspace;
+
+/// Load steps are halved so often before there is a bridge.
+pub(super) const AFTER: u32 = 4;
+
+/// The length of the first step, of the longest and of the shortest, in times of a wave through the largest body.
+const LENGTHS: [f64; 3] = [0.1, 1e4, 1e-5];
+
+/// Steps of a bridge. One in steps of the longest length never takes so many.
+const STEPS: usize = 400;
+
+/// A step with no more iterations than this was easy, and the next is twice as long.
+const EASY: usize = 12;
+
+/// Bodies may be at rest where their kinetic energy is below this share of the strain energy.
+const SLOW: f64 = 1e-6;
+
+/// So many steps lie between two attempts to find the equilibrium.
+const ATTEMPTS: usize = 4;
+
+impl<const D: usize> Stepper<'_, D> {
+    /// Takes the state to the equilibrium under the loads at time `end` [s], wherever that is, and returns whether there is one. If not, the state
+    /// is where the bridge ended; `observe` was told of all its steps.
+    pub(super) fn bridge(
+        &mut self,
+        end: f64,
+        observe: &mut impl FnMut(&State<D>, &StepReport, &Workspace<D>),
+    ) -> bool {
+        let waves = self.model.bodies.iter().map(|b| b.body.mesh().diameter() / b.body.wave_speed());
+        let time = waves.fold(0.0, f64::max);
+        let mut dt = LENGTHS[0] * time;
+        let mut since = 0;
+        for _ in 0..STEPS {
+            let interval = self.method.bridge([self.state.time, end], dt);
+            let Some(report) = self.cross(&interval, observe) else {
+                dt /= 4.0;
+                if dt < LENGTHS[2] * time {
+                    return false;
+                }
+                continue;
+            };
+            since += 1;
+            let energies = self.state.energies;
+            if energies.kinetic <= SLOW * energies.strain && since >= ATTEMPTS {
+                since = 0;
+                if self.cross(&self.method.interval(end, 0.0), observe).is_some() {
+                    return true;
+                }
+            }
+            if report.newton_iterations <= EASY {
+                dt = (2.0 * dt).min(LENGTHS[1] * time);
+            }
+        }
+        false
+    }
+
+    /// One step of a bridge, if it succeeds.
+    fn cross(
+        &mut self,
+        interval: &Interval,
+        observe: &mut impl FnMut(&State<D>, &StepReport, &Workspace<D>),
+    ) -> Option<StepReport> {
+        let Self { model, method, state, spare, work, .. } = self;
+        let made = among_threads(model.node_count(), || {
+            step_over(&model.assembly, method, interval, state, spare, work)
+        });
+        let Ok(report) = made else {
+            self.failed += 1;
+            return None;
+        };
+        std::mem::swap(*state, *spare);
+        observe(state, &report, work);
+        Some(report)
+    }
+}
