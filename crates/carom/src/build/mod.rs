@@ -8,6 +8,7 @@ mod method;
 mod mortar;
 mod obstacle;
 mod overlaps;
+mod signals;
 pub(crate) mod values;
 mod velocity;
 
