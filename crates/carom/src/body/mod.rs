@@ -29,6 +29,21 @@ pub struct Interval {
     pub is_blended: bool,
 }
 
+impl Interval {
+    /// Whether it is the first step of a static analysis. That starts from bodies that nothing has driven yet: what drives them at t = 0 is
+    /// applied in this step.
+    #[must_use]
+    pub fn starts_from_nothing(&self) -> bool {
+        self.map.is_static() && self.start == 0.0
+    }
+
+    /// The time at its end [s].
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        self.start + self.map.dt
+    }
+}
+
 /// The part of one body in a state; vectors have an entry per node of the body.
 #[derive(Debug, Clone, Copy)]
 pub struct BodyState<'a, const D: usize> {

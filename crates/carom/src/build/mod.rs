@@ -3,6 +3,7 @@
 mod body;
 mod contact;
 mod drive;
+mod growth;
 mod mesh;
 mod method;
 mod mortar;
@@ -56,7 +57,8 @@ pub(crate) fn build_with_surfaces<const D: usize>(
     for (i, entry) in scenario.bodies.iter().enumerate() {
         let first_node = bodies.last().map_or(0, |b| b.nodes().end);
         let body = body::body(scenario, i, entry, meshes.remove(&entry.name))?;
-        bodies.push(ModelBody::new(&entry.name, body, first_node));
+        let growth = growth::growth(scenario, i, entry)?;
+        bodies.push(ModelBody { growth, ..ModelBody::new(&entry.name, body, first_node) });
     }
     if bodies.is_empty() {
         return Err(InputError::new("bodies", "there is no body; add one [[bodies]] table at least"));

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 pub use drive::{Axis, Displacement, LoadEntry, LoadSpec, MotionEntry, MotionSpec};
 
 pub use self::mesh_spec::{Cell, MeshSpec};
-use crate::{ContactCondition, Scheme};
+use crate::{ContactCondition, Scheme, SignalSpec};
 
 /// A complete case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -148,6 +148,9 @@ pub struct BodyEntry {
     pub mass: MassKind,
     /// Mesh.
     pub mesh: MeshSpec,
+    /// Linear strain by which it would grow if nothing held it.
+    #[serde(default)]
+    pub growth: Option<SignalSpec>,
     /// Sets of facets that may touch others; the whole boundary if not given.
     #[serde(default)]
     pub contact_sets: Option<Vec<String>>,

@@ -17,7 +17,7 @@ const STRAIGHT: f64 = 1e-6;
 /// The equation of motion at a guess.
 pub(crate) struct Equation<'a, const D: usize> {
     pub body: &'a Body<D>,
-    /// The body with the history of its material at the start.
+    /// The body with the history of its material at the start, grown as it is where forces are evaluated.
     pub with_history: BodyWithHistory<'a, D>,
     pub map: &'a StepMap,
     gravity: &'a Vector<D>,
@@ -107,7 +107,7 @@ impl<'a, const D: usize> Equation<'a, D> {
         let start = &guess.start;
         Self {
             body: &part.body,
-            with_history: part.body.after(start.history),
+            with_history: part.body.after(start.history).grown(part.growth_of_forces(guess.interval)),
             map: &guess.interval.map,
             gravity: &part.gravity,
             drive,
