@@ -4,6 +4,7 @@ mod body;
 mod contact;
 mod drive;
 mod growth;
+mod interference;
 mod mesh;
 mod method;
 mod mortar;
@@ -74,6 +75,7 @@ pub(crate) fn build_with_surfaces<const D: usize>(
         return Err(InputError::new("analysis.gravity", message + "; let it point along y"));
     }
     let model = drive::drive(scenario, Model::new(bodies, contact, named_pairs, gravity))?;
+    let model = interference::interference(scenario, model)?;
     overlaps::check_overlaps(scenario, &model)?;
     let velocity = velocity::initial_velocity(scenario, &model)?;
     let state = match method.scheme {

@@ -64,7 +64,8 @@ pub fn step<const D: usize>(
 ) -> Result<StepReport, StepError> {
     let interval = method.interval(state.time, dt);
     let given = Given { assembly, method, state, interval: &interval };
-    let margin = predict(&given, work)?;
+    let reach = assembly.reach(state.time).max(assembly.reach(interval.end()));
+    let margin = predict(&given, work)? + reach;
     let mut iterations = 0;
     for repetition in 0..SEARCH.repetitions {
         let Workspace { contacts, motion, .. } = work;

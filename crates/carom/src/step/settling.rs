@@ -58,7 +58,9 @@ fn choose<const D: usize>(
     let Contacts { active, at_end, .. } = contacts;
     for (i, k, reaction) in active.pressing(&new.reactions) {
         let is_new = state.reactions.binary_search_by_key(&reaction.key(), Reaction::key).is_err();
-        if is_new || active.start_gaps[i] > 0.0 {
+        // Surfaces that are being pushed apart are not at rest.
+        let [h0, h1] = active.interferences[i];
+        if is_new || active.start_gaps[i] > 0.0 || h0 != h1 {
             continue;
         }
         let (r, mu) = (&reaction.force, active.friction[i]);
