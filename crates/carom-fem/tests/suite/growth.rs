@@ -82,15 +82,16 @@ fn a_slice_of_a_long_body_grows_across_by_what_is_held_along() {
     let law = LawSpec::LinearElastic(elastic());
     let body = Body::<2>::new(grid(CellKind::Quad4, 2, |x| x), &BodySpec { grows: true, ..spec(law) })
         .expect("valid");
-    let growth = 1e-6;
+    let growth = 1e-3;
     let u: Vec<_> = body.mesh().nodes().iter().map(|x| x * (1.33 * growth)).collect();
     let grown = body.after(&[]).grown(growth);
     let mut force = vec![Vector::zeros(); u.len()];
     let energy = grown.internal_force_and_energy(&u, &mut force);
-    assert!(force.iter().all(|f| f.norm() < 1e-15));
+    assert!(force.iter().all(|f| f.norm() < 1e-12));
     assert!((energy - 0.5 * 2700.0 * growth * growth).abs() < 1e-12 * energy, "{energy:e}");
     for cell in grown.cell_states(&u) {
-        assert!((cell.stress[(2, 2)] / (-2700.0 * growth) - 1.0).abs() < 1e-5, "{}", cell.stress);
+        // Cauchy's stress is P over the deformed area.
+        assert!((cell.stress[(2, 2)] / (-2700.0 * growth) - 1.0).abs() < growth, "{}", cell.stress);
     }
 }
 

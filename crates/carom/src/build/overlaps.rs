@@ -132,8 +132,9 @@ fn is_pushed<const D: usize>(
     };
     let [a, b] = between;
     let message = format!(
-        "{a:?} and {b:?} are {gap:.3e} m apart at the start, where it pushes them {least:.3e} m apart at once; \
-         let it grow with time, as \"{least:e}*min(t/1e-3, 1)\" does"
+        "{a:?} and {b:?} are {:.3e} m apart at the start, where it pushes them {least:.3e} m apart at once; \
+         let it grow with time, as \"{least:e}*min(t/1e-3, 1)\" does",
+        gap.abs()
     );
     InputError::new(key, message)
 }
