@@ -40,7 +40,7 @@ TERMS = (
         "prescribed",
         ("run", "body", "pair"),
         "given",
-        "work of supports and moving obstacles",
+        "work of supports, moving obstacles, growth",
         "brown",
     ),
     Term("contact", ("body",), "given", "received through contact", "sky"),
@@ -81,7 +81,7 @@ class Ledger:
     external
         Work of gravity and loads.
     prescribed
-        Work of prescribed motion: of supports and of obstacles that move.
+        Work of what is prescribed: motion, growth of bodies, interference that grows.
     friction
         Dissipated by friction: −Σ r_t·Δu_t ≥ 0.
     viscous

@@ -28,17 +28,22 @@ impl<const D: usize> ContactModel<D> {
         }
     }
 
-    /// Whether a candidate that pressed before still touches what it faced, up to a little beyond the edge of that. There
-    /// the trembling of round-off would decide from step to step which of two nodes that face one another is found.
+    /// Whether a candidate that pressed before, `apart` from what it faced or inside it by so much [m], still touches it, up to a little beyond
+    /// the edge of that. There the trembling of round-off would decide from step to step which of two nodes that face one another is found.
     #[must_use]
-    pub fn still_touches(&self, candidate: &Candidate, position: &impl Fn(u32) -> Vector<D>) -> bool {
+    pub fn still_touches(
+        &self,
+        candidate: &Candidate,
+        apart: f64,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> bool {
         let position = &self.placed(candidate.pair, position);
         match candidate.site {
             Site::Node(node) | Site::Corner(node) => {
                 let faced = self.faced_surface(candidate).zip(candidate.facet);
                 faced.is_some_and(|(surface, f)| {
                     let x = position(node);
-                    let near = SEARCH.kept * surface.bounds(f, position).diameter();
+                    let near = apart + SEARCH.kept * surface.bounds(f, position).diameter();
                     (x - surface.project(f, &x, Reach::Facet, position).point).norm() <= near
                 })
             }
@@ -47,7 +52,7 @@ impl<const D: usize> ContactModel<D> {
                 let length = (a[1] - a[0]).norm().min((b[1] - b[0]).norm());
                 let there = Crossing::new(a, b);
                 there.sine > EDGES.parallel
-                    && there.gap.abs() <= SEARCH.kept * length
+                    && there.gap.abs() <= apart + SEARCH.kept * length
                     && there.reach().into_iter().all(|reach| reach >= -SEARCH.kept)
             }
         }

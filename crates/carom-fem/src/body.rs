@@ -2,13 +2,13 @@ use std::sync::Arc;
 
 use carom_mesh::{Facet, Matrix, Mesh, Surface, Vector};
 
-use crate::elements::{Dashpots, Elements, add_mass, add_scaled_diagonal_mass, dashpots, elements};
+use crate::elements::{Dashpots, Elements, Past, add_mass, add_scaled_diagonal_mass, dashpots, elements};
 use crate::held::{Held, HeldDof};
 use crate::massless::{followers, redistributed};
 use crate::material::PlasticState;
 use crate::shape_table::{Cells, Depth, facet_area};
 use crate::sparse::{NodalMatrix, NodeGraph};
-use crate::{BodySpec, FemError, Hypothesis, MassKind, RayleighDamping};
+use crate::{BodySpec, FemError, Growth, Hypothesis, MassKind, RayleighDamping};
 
 /// A node whose radius is below this, relative to the size of the body, is on the axis.
 const ON_THE_AXIS: f64 = 1e-9;
@@ -34,6 +34,7 @@ pub struct Body<const D: usize> {
     volume: f64,
     damping: RayleighDamping,
     damping_stiffness: Option<NodalMatrix<Matrix<D>>>,
+    is_objective: bool,
     turns: bool,
     /// See [`Self::reference_arms`].
     pub(crate) frame_arms: Vec<Vector<D>>,
@@ -113,6 +114,7 @@ impl<const D: usize> Body<D> {
             massless_stiffness: Vec::new(),
             massless_contact: spec.massless_contact,
             nodal_mass,
+            is_objective: law.is_objective(),
             turns,
             frame_arms: Vec::new(),
             held: Held::default(),
@@ -248,6 +250,12 @@ impl<const D: usize> Body<D> {
         self.damping
     }
 
+    /// What growth by this linear strain is to its material.
+    #[must_use]
+    pub fn growth(&self, strain: f64) -> Growth {
+        Growth::new(strain, self.is_objective)
+    }
+
     /// The blocks of elements.
     pub(crate) fn elements(&self) -> &[Box<dyn Elements<D>>] {
         &self.elements
@@ -275,17 +283,21 @@ impl<const D: usize> Body<D> {
     /// The stiffness ∂²E/∂u² [N/m] of the virgin body at `u`.
     #[must_use]
     pub fn stiffness(&self, u: &[Vector<D>]) -> NodalMatrix<Matrix<D>> {
-        self.stiffness_after(&[], u)
+        self.stiffness_after(&[], Growth::default(), u)
     }
 
-    /// The stiffness [N/m] at `u` where the material remembers this `history`.
+    /// The stiffness [N/m] at `u` where the material remembers this `history` and has grown.
     pub(crate) fn stiffness_after(
         &self,
         history: &[PlasticState],
+        growth: Growth,
         u: &[Vector<D>],
     ) -> NodalMatrix<Matrix<D>> {
         let mut k = NodalMatrix::filled(&self.graph, Matrix::zeros());
-        self.blocks(history).for_each(|(e, history)| e.add_stiffness(u, history, &mut k));
+        self.blocks(history).for_each(|(e, history)| e.add_stiffness(u, Past { history, growth }, &mut k));
+        if growth.tangent() != 1.0 {
+            k.values.iter_mut().for_each(|block| *block *= growth.tangent());
+        }
         k
     }
 

@@ -51,6 +51,8 @@ pub struct BodySpec {
     pub formulation: Formulation,
     /// Thickness in 2D [m], but of a body of revolution; 1 in 3D.
     pub thickness: f64,
+    /// Whether the body may grow.
+    pub grows: bool,
     /// Whether the mass of the nodes that may touch others moves inside; total mass, centre and inertia stay.
     pub massless_contact: bool,
 }

@@ -70,6 +70,7 @@ mod tests {
             thickness: 1.0,
             hypothesis: Hypothesis::PlaneStrain,
             formulation: Formulation::Standard,
+            grows: false,
             massless_contact: false,
         };
         let mesh = generate::grid([0.0; 3], [1.0; 3], [1, 1, 1]).expect("valid");

@@ -1,19 +1,20 @@
 use carom_mesh::{Matrix, Vector};
 
-use crate::Body;
-use crate::elements::{CellState, Elements, StepForces};
+use crate::elements::{CellState, Elements, Past, StepForces};
 use crate::material::PlasticState;
 use crate::sparse::NodalMatrix;
+use crate::{Body, Growth};
 
-/// A body whose material has gone through something: what its laws remember, quadrature point by quadrature point.
+/// A body whose material has gone through something: what its laws remember, quadrature point by quadrature point, and how it has grown.
 ///
-/// All forces and energies are those of a step that starts from this history. Of an elastic body, and of one that is virgin, the
-/// history is empty.
+/// All forces and energies are those of a step that starts from this history, with the growth as it is. Of an elastic body, and of one that
+/// is virgin, the history is empty.
 #[derive(Debug, Clone, Copy)]
 pub struct BodyWithHistory<'a, const D: usize> {
     /// The body.
     pub body: &'a Body<D>,
     history: &'a [PlasticState],
+    growth: Growth,
 }
 
 impl<'a, const D: usize> BodyWithHistory<'a, D> {
@@ -23,53 +24,80 @@ impl<'a, const D: usize> BodyWithHistory<'a, D> {
         self.history
     }
 
-    /// The blocks of elements, each with its part of the history.
-    fn blocks(&self) -> impl Iterator<Item = (&'a dyn Elements<D>, &'a [PlasticState])> {
-        self.body.blocks(self.history)
+    /// The same, grown by a linear `strain`.
+    #[must_use]
+    pub fn grown(self, strain: f64) -> Self {
+        Self { growth: self.body.growth(strain), ..self }
+    }
+
+    /// The linear strain by which it has grown.
+    #[must_use]
+    pub fn growth(&self) -> f64 {
+        self.growth.strain()
+    }
+
+    /// The blocks of elements, each with what its points are under.
+    fn blocks(&self) -> impl Iterator<Item = (&'a dyn Elements<D>, Past<'a>)> {
+        let growth = self.growth;
+        self.body.blocks(self.history).map(move |(e, history)| (e, Past { history, growth }))
+    }
+
+    /// What the law's stresses count in forces.
+    fn weigh(&self, f: &mut [Vector<D>]) {
+        let factor = self.growth.stress();
+        if factor != 1.0 {
+            f.iter_mut().for_each(|f| *f *= factor);
+        }
     }
 
     /// Stored energy and plastic work of the step so far [J]. At the start of a step it is the stored energy alone.
     #[must_use]
     pub fn strain_energy(&self, u: &[Vector<D>]) -> f64 {
-        self.blocks().map(|(e, history)| e.energy(u, history)).sum()
+        self.blocks().map(|(e, past)| e.energy(u, past)).sum::<f64>() * self.growth.energy()
     }
 
     /// Writes the internal force ∂E/∂u [N] to `f`.
     pub fn internal_force(&self, u: &[Vector<D>], f: &mut [Vector<D>]) {
         f.fill(Vector::zeros());
-        self.blocks().for_each(|(e, history)| e.add_internal_force(u, history, f));
+        self.blocks().for_each(|(e, past)| e.add_internal_force(u, past, f));
+        self.weigh(f);
     }
 
     /// Writes the internal force [N] to `f` and returns the [`Self::strain_energy`] [J].
     #[must_use]
     pub fn internal_force_and_energy(&self, u: &[Vector<D>], f: &mut [Vector<D>]) -> f64 {
         f.fill(Vector::zeros());
-        self.blocks().map(|(e, history)| e.add_internal_force_of_energy(u, history, f)).sum()
+        let energy: f64 = self.blocks().map(|(e, past)| e.add_internal_force_of_energy(u, past, f)).sum();
+        self.weigh(f);
+        energy * self.growth.energy()
     }
 
     /// Writes the force [N] of a step from `u0` to `u1` whose work is the change of [`Self::strain_energy`] to `f`.
     pub fn conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]) {
         f.fill(Vector::zeros());
-        self.blocks().for_each(|(e, history)| e.add_conserving_force(u0, u1, history, f));
+        self.blocks().for_each(|(e, past)| e.add_conserving_force(u0, u1, past, f));
+        self.weigh(f);
     }
 
     /// Writes the forces [N] of a step from `u0` to `u1` that a blend of its stresses is made of.
     pub fn step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut StepForces<'_, D>) {
         f.fill_with_zeros();
-        self.blocks().for_each(|(e, history)| e.add_step_forces(u0, u1, history, f));
+        self.blocks().for_each(|(e, past)| e.add_step_forces(u0, u1, past, f));
+        [&mut *f.conserving, &mut *f.difference, &mut *f.end].into_iter().for_each(|f| self.weigh(f));
     }
 
     /// The stiffness ∂²E/∂u² [N/m] at `u`.
     #[must_use]
     pub fn stiffness(&self, u: &[Vector<D>]) -> NodalMatrix<Matrix<D>> {
-        self.body.stiffness_after(self.history, u)
+        self.body.stiffness_after(self.history, self.growth, u)
     }
 
     /// Mean stress, energy density and plastic strain of every cell, in the order of the mesh.
     #[must_use]
     pub fn cell_states(&self, u: &[Vector<D>]) -> Vec<CellState> {
         let mut out = Vec::with_capacity(self.body.mesh().cell_count());
-        self.blocks().for_each(|(e, history)| e.cell_states(u, history, &mut out));
+        self.blocks().for_each(|(e, past)| e.cell_states(u, past, &mut out));
+        out.iter_mut().for_each(|cell| cell.energy_density *= self.growth.energy());
         out
     }
 
@@ -87,10 +115,10 @@ impl<'a, const D: usize> BodyWithHistory<'a, D> {
         for e in self.body.elements() {
             let count = e.point_count().min(rest.len());
             let (own, others) = rest.split_at_mut(count);
-            work += e.update(u, own);
+            work += e.update(u, self.growth, own);
             rest = others;
         }
-        work
+        work * self.growth.energy()
     }
 }
 
@@ -98,7 +126,7 @@ impl<const D: usize> Body<D> {
     /// The body with what its material remembers, quadrature point by quadrature point.
     #[must_use]
     pub fn after<'a>(&'a self, history: &'a [PlasticState]) -> BodyWithHistory<'a, D> {
-        BodyWithHistory { body: self, history }
+        BodyWithHistory { body: self, history, growth: Growth::default() }
     }
 
     /// Stored energy of the virgin body [J].

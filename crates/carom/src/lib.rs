@@ -43,6 +43,7 @@ pub use ledger::{BodyLedger, Books, Energies, Ledger, PairLedger};
 pub use model::Model;
 pub use model::assembly::{Assembly, Member, NamedPair};
 pub use model::condition::ContactCondition;
+pub use model::interference::{Interference, Overlap};
 pub use model::method::{Method, NewtonRule};
 pub use model::obstacle_motion::ObstacleMotion;
 pub use model::state::{Reaction, State};

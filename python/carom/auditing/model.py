@@ -265,3 +265,7 @@ def _refuse_what_is_driven(scenario: Scenario) -> None:
             raise InputError(f"cannot audit a case with {what} yet")
     if moving:
         raise InputError("cannot audit an obstacle with a motion yet")
+    if any(pair.interference is not None for pair in scenario.contact.pairs):
+        raise InputError("cannot audit a pair with an interference yet")
+    if any(body.growth is not None for body in scenario.bodies):
+        raise InputError("cannot audit a body that grows yet")

@@ -9,6 +9,7 @@ from typing_extensions import Self
 
 from carom.case.description import Description, Name, Number, Positive, SpaceVector, Vector
 from carom.case.mesh import Mesh, Rectangle
+from carom.case.signal import Signal
 from carom.messages import known, problem
 
 
@@ -34,6 +35,10 @@ class Body(Description):
         Mass matrix: consistent, or lumped to the nodes.
     mesh
         Reference geometry and its cells.
+    growth
+        Linear strain by which the body would grow in all directions if nothing held it, a number or
+        a function of time: for a body that is heated by ΔT, α ΔT. A static analysis applies in its
+        first step what is there at t = 0; a dynamic one starts from none. None is none.
     contact_sets
         Sets of facets that may touch others, such as the sides of a rectangle; None for all.
     self_contact
@@ -52,6 +57,7 @@ class Body(Description):
     thickness: Positive = 1.0
     mass: Literal["consistent", "lumped"] = "consistent"
     mesh: Mesh
+    growth: Signal | None = None
     contact_sets: tuple[str, ...] | None = None
     self_contact: Annotated[bool | None, Field(strict=True)] = None
     velocity: Vector | None = None

@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from typing_extensions import Self
 
 from carom.case.description import Count, Description, Number, Positive, Share
+from carom.case.signal import Signal
 from carom.messages import problem
 
 Sources = Literal["finer", "first", "second", "both"]
@@ -72,6 +73,14 @@ class Pair(Description):
         Whose nodes are checked, as seen from `between`; None takes the default of `Contact`.
     discretisation
         How contact between the two is written; None takes the default of `Contact`.
+    interference
+        By how much their surfaces are pushed apart [m], a number or a function of time: contact
+        sees the gap less this, so that a shaft modelled line to line with its hub presses as if it
+        were that much thicker. A static analysis applies in its first step what is there at t = 0;
+        ``"20e-6*t"`` spreads it. Negative values are clearance: the two may be inside one another
+        by as much. None is none.
+    resolve_overlap
+        Whether overlaps at the start are taken up; None takes the default of `Contact`.
     enabled
         Whether the two can touch at all.
     """
@@ -80,6 +89,8 @@ class Pair(Description):
     friction: Friction | None = None
     sources: Sources | None = None
     discretisation: Discretisation | None = None
+    interference: Signal | None = None
+    resolve_overlap: Annotated[bool | None, Field(strict=True)] = None
     enabled: Annotated[bool, Field(strict=True)] = True
 
     @model_validator(mode="after")
@@ -131,6 +142,12 @@ class Contact(Description):
         in a step besides, up to half that diameter. So are the arcs that the facets of a round side
         stand for, and how far a round obstacle bulges into a facet no larger than its radius. A run
         that goes deeper is not completed.
+    resolve_overlap
+        Whether bodies may overlap one another, or obstacles, at the start of a static analysis. The
+        overlap of every contact is then clearance at first, which falls linearly to zero: meshes
+        that are drawn with their interference press on one another as they do when fitted.
+    overlap_resolved_at
+        When overlaps are taken up [s]; None is at the end of the analysis.
     pairs
         What single pairs do differently.
     """
@@ -143,6 +160,8 @@ class Contact(Description):
     discretisation: Discretisation = "node-to-segment"
     certificate_tolerance: Share = 1e-9
     penetration_tolerance: Positive = 0.01
+    resolve_overlap: Annotated[bool, Field(strict=True)] = False
+    overlap_resolved_at: Positive | None = None
     pairs: tuple[Pair, ...] = ()
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -45,15 +45,30 @@ def meeting(patient: Patient) -> Iterator[Finding]:
     }
     gaps = [(_initial_gap(patient, pair, flights), pair) for pair in pairs]
     (gap, place), nearest = min(gaps, key=lambda found: found[0][0])
-    yield Finding(
-        "ok",
-        "bodies",
-        f"no overlap at the start; the nearest are {_names(nearest)}, {gap:.4g} m apart at "
-        f"{_place(place)}",
-    )
+    if gap < 0 and _may_overlap(scenario, nearest["between"]):
+        said = (
+            f"{_names(nearest)} overlap at the start by {-gap:.4g} m at {_place(place)}, as their "
+            "interference lets them"
+        )
+    else:
+        said = (
+            f"no overlap at the start; the nearest are {_names(nearest)}, {gap:.4g} m apart at "
+            f"{_place(place)}"
+        )
+    yield Finding("ok", "bodies", said)
     if not patient.is_dynamic:
         return
     yield from _first_touch(patient, foreseen, flights, others=len(pairs) - len(foreseen))
+
+
+def _may_overlap(scenario: Scenario, between: Collection[str]) -> bool:
+    """Return whether a pair takes up what overlaps at the start, or has an interference."""
+    resolves = scenario.contact.resolve_overlap
+    for pair in scenario.contact.pairs:
+        if {*pair.between} == {*between}:
+            own = pair.resolve_overlap
+            return pair.interference is not None or (resolves if own is None else own)
+    return resolves
 
 
 def _led(scenario: Scenario, body: str) -> Led | None:

@@ -19,6 +19,13 @@ def formula(text):
     return {"loads": [{"kind": "pressure", "body": "block", "on": "all", "pressure": text}]}
 
 
+def fitted(**contact):
+    """A static case with this law of contact."""
+    return {"analysis": STATIC, "contact": contact}
+
+
+TOUCHING = {"bodies.1": {"name": "other", "material": "elastic", "mesh": ABOVE}}
+
 BAD = [
     # what of the case is replaced, the beginning of the message, a part of it
     (
@@ -200,6 +207,65 @@ BAD = [
         {"bodies.0.mesh": {**BLOCK, "divisions": [4000, 4000]}},
         "bodies.0.mesh",
         "it would have more than 5 million cells; take fewer divisions",
+    ),
+    # press fits
+    (
+        {**fitted(), **TOUCHING, "bodies.1.mesh": BLOCK},
+        "bodies.0.mesh: ",
+        "move one of them, or let the analysis take the overlap up by contact.resolve_overlap = tr",
+    ),
+    (
+        {**fitted(resolve_overlap=True), **TOUCHING, "bodies.1.mesh": BLOCK},
+        "bodies.0.mesh: ",
+        "move one of them; contact takes up no more than half a facet",
+    ),
+    (
+        {"contact.pairs": [{"between": ["block", "floor"], "interference": 1.5}]},
+        "contact.pairs.0.interference: ",
+        '"block" and "floor" are 1.000e0 m apart at the start, where it pushes them 1.500e0 m '
+        'apart at once; let it grow with time, as "1.5e0*min(t/1e-3, 1)" does',
+    ),
+    (
+        {"contact.pairs": [{"between": ["block", "floor"], "interference": "-t"}]},
+        "contact.pairs.0.interference: -1: ",
+        "m, a quarter of the smallest facet; give less clearance, or coarsen the mesh",
+    ),
+    (
+        {"contact.pairs": [{"between": ["block", "floor"], "interference": "1/(t-t)"}]},
+        "contact.pairs.0.interference: ",
+        "it must be finite",
+    ),
+    (
+        {"contact.resolve_overlap": True},
+        "contact.resolve_overlap: ",
+        "overlaps are taken up in a static analysis; in a dynamic one, move the bodies apart and "
+        "let `interference` grow",
+    ),
+    (
+        {"contact.pairs": [{"between": ["block", "floor"], "resolve_overlap": True}]},
+        "contact.pairs.0.resolve_overlap: ",
+        "overlaps are taken up in a static analysis",
+    ),
+    (
+        fitted(overlap_resolved_at=0.5),
+        "contact.overlap_resolved_at: ",
+        "no overlap is to be taken up; write resolve_overlap = true, or leave this out",
+    ),
+    (
+        fitted(resolve_overlap=True, overlap_resolved_at=2.0),
+        "contact.overlap_resolved_at: 2: ",
+        "must be greater than 0 s and at most analysis.end_time",
+    ),
+    ({"bodies.0.growth": 0.1}, "bodies.0.growth: 0.1 at t = 0, ", "let it grow from 0, as t*0.1"),
+    (
+        {"bodies.0.growth": "20*t"},
+        "bodies.0.growth: ",
+        "growth is a linear strain, from -2/3 to 2; for a temperature T give alpha*T",
+    ),
+    (
+        {"bodies.0.growth": "0.1*t", "contact.condition": "massless"},
+        "contact.condition: ",
+        '"massless" contact of body "block", which grows; choose "gap" or "midpoint"',
     ),
 ]
 

@@ -170,6 +170,18 @@ def test_overlapping_bodies_are_an_error_with_their_place(case):
     assert finding.what.startswith('body "block" overlaps obstacle "floor"')
 
 
+def test_overlaps_that_are_taken_up_are_told(case):
+    case["analysis"] = {"kind": "static", "end_time": 1.0, "time_step": 0.5}
+    case["bodies"][0]["mesh"]["corner"] = [0.0, -1e-3]
+    del case["bodies"][0]["velocity"]
+    case["contact"]["resolve_overlap"] = True
+    said = "block and floor overlap at the start by 0.001 m at ("
+    assert said in fact(meeting, case, "bodies")
+    own = {"between": ["floor", "block"], "resolve_overlap": True}
+    case["contact"] = {"pairs": [own]}
+    assert said in fact(meeting, case, "bodies")
+
+
 def test_nothing_to_touch(case):
     case["obstacles"] = []
     assert grave(meeting, case)["contact"].level == "warning"

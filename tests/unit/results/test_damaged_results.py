@@ -187,6 +187,11 @@ CANNOT = [
         'bodies.0.mesh={kind="ring",centre=[0,1],inner_radius=0.5,outer_radius=1,divisions=[8,2]}',
         "cannot audit a mesh of the kind 'ring' yet",
     ),
+    (
+        'contact.pairs=[{between=["left","right"],interference="1e-3*t"}]',
+        "cannot audit a pair with an interference yet",
+    ),
+    ("bodies.0.growth='1e-3*t'", "cannot audit a body that grows yet"),
     ("contact.discretisation=mortar", "cannot audit mortar contact yet"),
     (
         'analysis={kind="static",end_time=0.02,time_step=2e-3}',

@@ -99,6 +99,12 @@ impl<const D: usize> Boundaries<D> {
         self.shells[body].least_cell
     }
 
+    /// How far the largest arc that a facet of a body stands for is in front of it where it was first [m].
+    #[must_use]
+    pub fn largest_arc(&self, body: usize) -> f64 {
+        self.shells[body].largest_arc()
+    }
+
     /// What the last measure found of bodies inside one another by more than round-off, relative to the smaller of the facets there.
     #[must_use]
     pub fn witnesses(&self) -> &[Witness] {

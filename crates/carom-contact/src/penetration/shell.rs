@@ -118,6 +118,11 @@ impl<const D: usize> Shell<D> {
         self.arcs = (0..self.facets.len() as u32).map(|f| self.arc(f)).collect();
     }
 
+    /// The largest [`Self::arc`] where its facets were first [m].
+    pub fn largest_arc(&self) -> f64 {
+        self.arcs.iter().copied().fold(0.0, f64::max)
+    }
+
     pub fn bounds(&self) -> &Aabb<D> {
         &self.bounds
     }

@@ -4,7 +4,8 @@ use carom_mesh::{Matrix, Vector};
 
 use super::grid::Grid;
 use super::kinematics::Kinematics;
-use super::{CellState, Elements, StepForces};
+use super::{CellState, Elements, Past, StepForces};
+use crate::Growth;
 use crate::material::{BATCH, Batch, Mat3, PlasticState, PointLaw, Tangent, embed, green_lagrange};
 use crate::sparse::NodalMatrix;
 
@@ -20,12 +21,12 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         self.grid.point_count()
     }
 
-    fn energy(&self, u: &[Vector<D>], history: &[PlasticState]) -> f64 {
+    fn energy(&self, u: &[Vector<D>], past: Past<'_>) -> f64 {
         let (mut f, mut densities) = (Batch::zeros(), [0.0; BATCH]);
         let mut energy = 0.0;
         for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u, &mut f);
-            let history = self.grid.part(pack, history);
+            self.grid.deform_elastically(pack, u, past.growth, &mut f);
+            let history = self.grid.part(pack, past.history);
             self.law.energies(self.grid.batch(), &f, history, &mut densities);
             let weights = self.grid.weights(pack);
             energy += self.grid.sum(pack, |q| weights[q] * densities[q]);
@@ -33,24 +34,19 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         energy
     }
 
-    fn add_internal_force(&self, u: &[Vector<D>], history: &[PlasticState], force: &mut [Vector<D>]) {
+    fn add_internal_force(&self, u: &[Vector<D>], past: Past<'_>, force: &mut [Vector<D>]) {
         self.grid.assemble(force, Batch::zeros, |pack, f, stresses| {
-            self.grid.deform(pack, u, f);
-            self.law.stresses(self.grid.batch(), f, self.grid.part(pack, history), stresses);
+            self.grid.deform_elastically(pack, u, past.growth, f);
+            self.law.stresses(self.grid.batch(), f, self.grid.part(pack, past.history), stresses);
             0.0
         });
     }
 
-    fn add_internal_force_of_energy(
-        &self,
-        u: &[Vector<D>],
-        history: &[PlasticState],
-        force: &mut [Vector<D>],
-    ) -> f64 {
+    fn add_internal_force_of_energy(&self, u: &[Vector<D>], past: Past<'_>, force: &mut [Vector<D>]) -> f64 {
         let scratch = || (Batch::zeros(), [0.0; BATCH]);
         self.grid.assemble(force, scratch, |pack, (f, densities), stresses| {
-            self.grid.deform(pack, u, f);
-            let history = self.grid.part(pack, history);
+            self.grid.deform_elastically(pack, u, past.growth, f);
+            let history = self.grid.part(pack, past.history);
             self.law.stresses(self.grid.batch(), f, history, stresses);
             self.law.energies(self.grid.batch(), f, history, densities);
             let weights = self.grid.weights(pack);
@@ -62,11 +58,11 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         &self,
         u0: &[Vector<D>],
         u1: &[Vector<D>],
-        history: &[PlasticState],
+        past: Past<'_>,
         force: &mut [Vector<D>],
     ) {
-        self.grid.assemble_step(u0, u1, force, |pack, f0, f1, stresses| {
-            let history = self.grid.part(pack, history);
+        self.grid.assemble_step(u0, u1, past.growth, force, |pack, f0, f1, stresses| {
+            let history = self.grid.part(pack, past.history);
             self.law.discrete_stresses(self.grid.batch(), f0, f1, history, stresses);
         });
     }
@@ -75,16 +71,16 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         &self,
         u0: &[Vector<D>],
         u1: &[Vector<D>],
-        history: &[PlasticState],
+        past: Past<'_>,
         force: &mut StepForces<'_, D>,
     ) {
         let (mut f0, mut f1) = (Batch::zeros(), Batch::zeros());
         let mut stresses = [Batch::zeros(), Batch::zeros(), Batch::zeros()];
         let mut local = Grid::<D, S, N, K>::NOWHERE;
         for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u0, &mut f0);
-            self.grid.deform(pack, u1, &mut f1);
-            let history = self.grid.part(pack, history);
+            self.grid.deform_elastically(pack, u0, past.growth, &mut f0);
+            self.grid.deform_elastically(pack, u1, past.growth, &mut f1);
+            let history = self.grid.part(pack, past.history);
             self.law.all_step_stresses(self.grid.batch(), &f0, &f1, history, &mut stresses);
             self.grid.add_forces(pack, &stresses[0], &mut local, force.conserving);
             self.grid.add_forces(pack, &stresses[1], &mut local, force.difference);
@@ -92,12 +88,12 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         }
     }
 
-    fn add_stiffness(&self, u: &[Vector<D>], history: &[PlasticState], k: &mut NodalMatrix<Matrix<D>>) {
+    fn add_stiffness(&self, u: &[Vector<D>], past: Past<'_>, k: &mut NodalMatrix<Matrix<D>>) {
         let mut f = Batch::zeros();
         let mut tangents: Vec<Tangent<S>> = vec![[[[[0.0; S]; S]; S]; S]; self.grid.batch()];
         for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u, &mut f);
-            self.law.tangents(self.grid.batch(), &f, self.grid.part(pack, history), &mut tangents);
+            self.grid.deform_elastically(pack, u, past.growth, &mut f);
+            self.law.tangents(self.grid.batch(), &f, self.grid.part(pack, past.history), &mut tangents);
             for (lane, cell) in self.grid.cells(pack).enumerate() {
                 let of_cell = self.grid.points(lane).map(|q| &tangents[q]);
                 self.grid.scatter(cell, &self.grid.local_stiffness(pack, lane, of_cell), k);
@@ -105,20 +101,22 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         }
     }
 
-    fn cell_states(&self, u: &[Vector<D>], history: &[PlasticState], out: &mut Vec<CellState>) {
+    fn cell_states(&self, u: &[Vector<D>], past: Past<'_>, out: &mut Vec<CellState>) {
         let (mut f, mut densities, mut stresses) = (Batch::zeros(), [0.0; BATCH], [Mat3::zeros(); BATCH]);
+        let mut motion = Batch::zeros();
         for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u, &mut f);
-            let own = self.grid.part(pack, history);
+            self.grid.deform(pack, u, &mut motion);
+            self.grid.deform_elastically(pack, u, past.growth, &mut f);
+            let own = self.grid.part(pack, past.history);
             self.law.energies(self.grid.batch(), &f, own, &mut densities);
             self.law.cauchy_stresses(self.grid.batch(), &f, own, &mut stresses);
             let weights = self.grid.weights(pack);
             for lane in 0..self.grid.cells(pack).len() {
-                let mut mean = CellState::empty(self.grid.plastic_strain(pack, lane, history));
+                let mut mean = CellState::empty(self.grid.plastic_strain(pack, lane, past.history));
                 let mut volume = 0.0;
                 for q in self.grid.points(lane) {
                     mean.stress += stresses[q] * weights[q];
-                    mean.strain += green_lagrange(&embed(&f.get(q))) * weights[q];
+                    mean.strain += green_lagrange(&embed(&motion.get(q))) * weights[q];
                     mean.energy_density += densities[q] * weights[q];
                     volume += weights[q];
                 }
@@ -130,14 +128,14 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Elemen
         }
     }
 
-    fn update(&self, u: &[Vector<D>], history: &mut [PlasticState]) -> f64 {
+    fn update(&self, u: &[Vector<D>], growth: Growth, history: &mut [PlasticState]) -> f64 {
         if history.is_empty() {
             return 0.0;
         }
         let (mut f, mut densities) = (Batch::zeros(), [0.0; BATCH]);
         let mut work = 0.0;
         for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u, &mut f);
+            self.grid.deform_elastically(pack, u, growth, &mut f);
             let states = self.grid.part_mut(pack, history);
             for (q, (state, density)) in states.iter_mut().zip(&mut densities).enumerate() {
                 (*state, *density) = self.law.update(&f.get(q), state);

@@ -45,7 +45,11 @@ pub fn elements<const D: usize>(
                 _ => Err(refuse("mesh the body with quad4, hex8 or quadratic cells")),
             }
         }
-        (Formulation::Standard, Hypothesis::Axisymmetric) => {
+        // What grows across the plane is held there: the law has to see F₃₃ = 1 less growth.
+        (Formulation::Standard, hypothesis)
+            if hypothesis == Hypothesis::Axisymmetric
+                || D == 2 && hypothesis == Hypothesis::PlaneStrain && spec.grows =>
+        {
             let law = spec.law.point_law::<3>(spec.hypothesis)?;
             Ok(with_node_count!(kind, N => {
                 Box::new(Block::<D, 3, N, Embedded> { law, grid: Grid::new(cells, graph)? })

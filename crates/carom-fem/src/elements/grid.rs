@@ -6,11 +6,11 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::kinematics::Kinematics;
 use super::staging::{Local, Staging};
-use crate::FemError;
 use crate::material::{Batch, LANES, MAX_POINTS, PlasticState, Tangent};
 use crate::quadrature::Integrand;
 use crate::shape_table::{Cells, ShapeTable};
 use crate::sparse::{NodalMatrix, NodeGraph};
+use crate::{FemError, Growth};
 
 /// Cells with `N` nodes and their quadrature points, whatever their law: [`LANES`] cells side by side in a pack.
 ///
@@ -154,6 +154,13 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
         self.arch.dispatch(Deform { grid: self, pack, u, f });
     }
 
+    /// Writes the elastic part of F at the points of a pack to `f`.
+    #[inline]
+    pub fn deform_elastically(&self, pack: usize, u: &[Vector<D>], growth: Growth, f: &mut Batch<S>) {
+        self.deform(pack, u, f);
+        growth.take_out_of(f);
+    }
+
     /// Adds the nodal forces of the `stresses` at the points of a pack to `f`; those of its cells go to `local`.
     #[inline]
     pub fn add_forces(&self, pack: usize, stresses: &Batch<S>, local: &mut Local<D, N>, f: &mut [Vector<D>]) {
@@ -199,19 +206,20 @@ impl<const D: usize, const S: usize, const N: usize, K: Kinematics<D, S>> Grid<D
         sum
     }
 
-    /// As [`Self::assemble`], for the stresses of a step from `u0` to `u1`, of which `stress` gets F at both ends.
+    /// As [`Self::assemble`], for the stresses of a step from `u0` to `u1`, of which `stress` gets the elastic part of F at both ends.
     #[inline]
     pub fn assemble_step(
         &self,
         u0: &[Vector<D>],
         u1: &[Vector<D>],
+        growth: Growth,
         force: &mut [Vector<D>],
         stress: impl Fn(usize, &Batch<S>, &Batch<S>, &mut Batch<S>) + Sync,
     ) {
         let scratch = || (Batch::zeros(), Batch::zeros());
         self.assemble(force, scratch, |pack, (f0, f1), stresses| {
-            self.deform(pack, u0, f0);
-            self.deform(pack, u1, f1);
+            self.deform_elastically(pack, u0, growth, f0);
+            self.deform_elastically(pack, u1, growth, f1);
             stress(pack, f0, f1, stresses);
             0.0
         });

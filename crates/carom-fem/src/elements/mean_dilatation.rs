@@ -5,7 +5,8 @@ use carom_mesh::{Matrix, Vector};
 use super::dilatation::Cell;
 use super::grid::Grid;
 use super::kinematics::Kinematics;
-use super::{CellState, Elements, StepForces};
+use super::{CellState, Elements, Past, StepForces};
+use crate::Growth;
 use crate::material::control::CONTROL;
 use crate::material::discrete_gradient::{deformation, second_piola, stress_difference};
 use crate::material::{
@@ -148,21 +149,21 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
         self.grid.point_count()
     }
 
-    fn energy(&self, u: &[Vector<D>], history: &[PlasticState]) -> f64 {
+    fn energy(&self, u: &[Vector<D>], past: Past<'_>) -> f64 {
         let (mut f, mut energies) = (Batch::zeros(), [0.0; BATCH]);
         let mut sum = 0.0;
         for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u, &mut f);
-            self.energies(pack, &f, history, &mut energies);
+            self.grid.deform_elastically(pack, u, past.growth, &mut f);
+            self.energies(pack, &f, past.history, &mut energies);
             sum += self.grid.sum(pack, |q| energies[q]);
         }
         sum
     }
 
-    fn add_internal_force(&self, u: &[Vector<D>], history: &[PlasticState], force: &mut [Vector<D>]) {
+    fn add_internal_force(&self, u: &[Vector<D>], past: Past<'_>, force: &mut [Vector<D>]) {
         self.grid.assemble(force, Batch::zeros, |pack, f, stresses| {
-            self.grid.deform(pack, u, f);
-            self.stresses(pack, f, history, stresses);
+            self.grid.deform_elastically(pack, u, past.growth, f);
+            self.stresses(pack, f, past.history, stresses);
             0.0
         });
     }
@@ -171,11 +172,11 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
         &self,
         u0: &[Vector<D>],
         u1: &[Vector<D>],
-        history: &[PlasticState],
+        past: Past<'_>,
         force: &mut [Vector<D>],
     ) {
-        self.grid.assemble_step(u0, u1, force, |pack, f0, f1, stresses| {
-            self.discrete_stresses(pack, f0, f1, history, stresses);
+        self.grid.assemble_step(u0, u1, past.growth, force, |pack, f0, f1, stresses| {
+            self.discrete_stresses(pack, f0, f1, past.history, stresses);
         });
     }
 
@@ -183,19 +184,19 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
         &self,
         u0: &[Vector<D>],
         u1: &[Vector<D>],
-        history: &[PlasticState],
+        past: Past<'_>,
         force: &mut StepForces<'_, D>,
     ) {
         let (mut f0, mut f1) = (Batch::zeros(), Batch::zeros());
         let (mut start, mut end, mut other) = (Batch::zeros(), Batch::zeros(), Batch::zeros());
         let mut local = Grid::<D, 3, N, K>::NOWHERE;
         for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u0, &mut f0);
-            self.grid.deform(pack, u1, &mut f1);
-            self.stresses(pack, &f0, history, &mut start);
-            self.stresses(pack, &f1, history, &mut end);
+            self.grid.deform_elastically(pack, u0, past.growth, &mut f0);
+            self.grid.deform_elastically(pack, u1, past.growth, &mut f1);
+            self.stresses(pack, &f0, past.history, &mut start);
+            self.stresses(pack, &f1, past.history, &mut end);
             self.grid.add_forces(pack, &end, &mut local, force.end);
-            self.discrete_stresses(pack, &f0, &f1, history, &mut other);
+            self.discrete_stresses(pack, &f0, &f1, past.history, &mut other);
             self.grid.add_forces(pack, &other, &mut local, force.conserving);
             for q in 0..self.grid.batch() {
                 let (f0, f1) = (f0.get(q), f1.get(q));
@@ -205,15 +206,15 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
         }
     }
 
-    fn add_stiffness(&self, u: &[Vector<D>], history: &[PlasticState], k: &mut NodalMatrix<Matrix<D>>) {
+    fn add_stiffness(&self, u: &[Vector<D>], past: Past<'_>, k: &mut NodalMatrix<Matrix<D>>) {
         let (mut f, mut modified, mut stresses) = (Batch::zeros(), Batch::zeros(), Batch::zeros());
         let (mut swelling, mut pressing) = (Batch::zeros(), Batch::zeros());
         let (mut n, mut g) = (Grid::<D, 3, N, K>::NOWHERE, Grid::<D, 3, N, K>::NOWHERE);
         let mut tangents: Vec<Tangent<3>> = vec![[[[[0.0; 3]; 3]; 3]; 3]; self.grid.batch()];
         for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u, &mut f);
+            self.grid.deform_elastically(pack, u, past.growth, &mut f);
             self.modify(pack, &f, &mut modified);
-            let history = self.grid.part(pack, history);
+            let history = self.grid.part(pack, past.history);
             self.law.stresses(self.grid.batch(), &modified, history, &mut stresses);
             self.law.tangents(self.grid.batch(), &modified, history, &mut tangents);
             let couplings: Vec<_> = self
@@ -255,21 +256,23 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
         }
     }
 
-    fn cell_states(&self, u: &[Vector<D>], history: &[PlasticState], out: &mut Vec<CellState>) {
+    fn cell_states(&self, u: &[Vector<D>], past: Past<'_>, out: &mut Vec<CellState>) {
         let (mut f, mut stresses, mut energies) = (Batch::zeros(), Batch::zeros(), [0.0; BATCH]);
+        let mut motion = Batch::zeros();
         for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u, &mut f);
-            self.stresses(pack, &f, history, &mut stresses);
-            self.energies(pack, &f, history, &mut energies);
+            self.grid.deform(pack, u, &mut motion);
+            self.grid.deform_elastically(pack, u, past.growth, &mut f);
+            self.stresses(pack, &f, past.history, &mut stresses);
+            self.energies(pack, &f, past.history, &mut energies);
             let weights = self.grid.weights(pack);
             for lane in 0..self.grid.cells(pack).len() {
                 let volume: f64 = self.grid.points(lane).map(|q| weights[q]).sum();
-                let mut mean = CellState::empty(self.grid.plastic_strain(pack, lane, history));
+                let mut mean = CellState::empty(self.grid.plastic_strain(pack, lane, past.history));
                 for q in self.grid.points(lane) {
                     let f = f.get(q);
                     mean.stress +=
                         stresses.get(q) * f.transpose() * (weights[q] / (volume * f.determinant()));
-                    mean.strain += green_lagrange(&embed(&f)) * (weights[q] / volume);
+                    mean.strain += green_lagrange(&embed(&motion.get(q))) * (weights[q] / volume);
                     mean.energy_density += energies[q] / volume;
                 }
                 out.push(mean);
@@ -277,14 +280,14 @@ impl<const D: usize, const N: usize, K: Kinematics<D, 3>> Elements<D> for MeanDi
         }
     }
 
-    fn update(&self, u: &[Vector<D>], history: &mut [PlasticState]) -> f64 {
+    fn update(&self, u: &[Vector<D>], growth: Growth, history: &mut [PlasticState]) -> f64 {
         if history.is_empty() {
             return 0.0;
         }
         let (mut f, mut modified, mut densities) = (Batch::zeros(), Batch::zeros(), [0.0; BATCH]);
         let mut work = 0.0;
         for pack in 0..self.grid.packs() {
-            self.grid.deform(pack, u, &mut f);
+            self.grid.deform_elastically(pack, u, growth, &mut f);
             self.modify(pack, &f, &mut modified);
             let states = self.grid.part_mut(pack, history);
             for (q, (state, density)) in states.iter_mut().zip(&mut densities).enumerate() {

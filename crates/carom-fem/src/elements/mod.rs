@@ -14,6 +14,7 @@ use std::fmt::Debug;
 
 use carom_mesh::{Matrix, Vector};
 
+use crate::Growth;
 use crate::material::{Mat3, PlasticState};
 use crate::sparse::NodalMatrix;
 
@@ -60,49 +61,41 @@ impl<const D: usize> StepForces<'_, D> {
     }
 }
 
+/// What the quadrature points of a block are under beside the motion.
+#[derive(Debug, Clone, Copy)]
+pub struct Past<'a> {
+    /// What they remember at the start of the step; empty if they are elastic or virgin.
+    pub history: &'a [PlasticState],
+    /// How they have grown.
+    pub growth: Growth,
+}
+
 /// The elements of one block of cells. Chosen once per block; what is inside runs without dispatch.
 ///
-/// `u` and `f` hold one vector per node of the body. `history` is what the quadrature points of the block remember at the start of the
-/// step; it is empty if they are elastic or virgin.
+/// `u` and `f` hold one vector per node of the body. Energies, forces and stiffnesses are those that the law gives for the elastic part of the
+/// deformation, per volume as it has grown.
 pub trait Elements<const D: usize>: Send + Sync + Debug {
     /// Number of quadrature points of all cells.
     fn point_count(&self) -> usize;
     /// Stored energy ∫ψ dV [J], and plastic work since the start of the step.
-    fn energy(&self, u: &[Vector<D>], history: &[PlasticState]) -> f64;
+    fn energy(&self, u: &[Vector<D>], past: Past<'_>) -> f64;
     /// Adds the internal force ∂E/∂u = ∫ P·∇N dV [N] to `f`.
-    fn add_internal_force(&self, u: &[Vector<D>], history: &[PlasticState], f: &mut [Vector<D>]);
+    fn add_internal_force(&self, u: &[Vector<D>], past: Past<'_>, f: &mut [Vector<D>]);
     /// Adds the internal force to `f` and returns the stored energy, in one pass where that is cheaper.
-    fn add_internal_force_of_energy(
-        &self,
-        u: &[Vector<D>],
-        history: &[PlasticState],
-        f: &mut [Vector<D>],
-    ) -> f64 {
-        self.add_internal_force(u, history, f);
-        self.energy(u, history)
+    fn add_internal_force_of_energy(&self, u: &[Vector<D>], past: Past<'_>, f: &mut [Vector<D>]) -> f64 {
+        self.add_internal_force(u, past, f);
+        self.energy(u, past)
     }
     /// Adds the force [N] of a step from `u0` to `u1` whose work is the change of the stored energy, f·(u₁ − u₀) = ΔE, to `f`.
-    fn add_conserving_force(
-        &self,
-        u0: &[Vector<D>],
-        u1: &[Vector<D>],
-        history: &[PlasticState],
-        f: &mut [Vector<D>],
-    );
+    fn add_conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], past: Past<'_>, f: &mut [Vector<D>]);
     /// Adds the forces of a step from `u0` to `u1`.
-    fn add_step_forces(
-        &self,
-        u0: &[Vector<D>],
-        u1: &[Vector<D>],
-        history: &[PlasticState],
-        f: &mut StepForces<'_, D>,
-    );
+    fn add_step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], past: Past<'_>, f: &mut StepForces<'_, D>);
     /// Adds the stiffness ∂²E/∂u² [N/m] to `k`.
-    fn add_stiffness(&self, u: &[Vector<D>], history: &[PlasticState], k: &mut NodalMatrix<Matrix<D>>);
+    fn add_stiffness(&self, u: &[Vector<D>], past: Past<'_>, k: &mut NodalMatrix<Matrix<D>>);
     /// Appends the mean state of every cell.
-    fn cell_states(&self, u: &[Vector<D>], history: &[PlasticState], out: &mut Vec<CellState>);
+    fn cell_states(&self, u: &[Vector<D>], past: Past<'_>, out: &mut Vec<CellState>);
     /// Replaces what the points remember by what they will at the end of a step to `u`; returns the plastic work of the step [J].
-    fn update(&self, u: &[Vector<D>], history: &mut [PlasticState]) -> f64;
+    fn update(&self, u: &[Vector<D>], growth: Growth, history: &mut [PlasticState]) -> f64;
 }
 
 /// Evaluates an expression in which `$n` is the number of nodes of cells of a kind, as a constant.

@@ -4,6 +4,7 @@ mod common;
 mod consistency;
 mod convergence;
 mod generated_bodies;
+mod growth;
 mod impulse;
 mod locking;
 mod patch_test;

@@ -52,6 +52,15 @@ impl ContactWeights {
     }
 }
 
+impl Interval {
+    /// Whether it is the first step of a static analysis. That starts from bodies that nothing has driven yet: what drives them at t = 0 is
+    /// applied in this step.
+    #[must_use]
+    pub fn starts_from_nothing(&self) -> bool {
+        self.is_load_step && self.start == 0.0
+    }
+}
+
 /// The part of one body in a state; vectors have an entry per node of the body.
 #[derive(Debug, Clone, Copy)]
 pub struct BodyState<'a, const D: usize> {
@@ -200,7 +209,7 @@ pub trait Body<const D: usize>: Send + Sync {
     }
 
     /// Lets the rest of the body follow the part of `motion` [m] that is prescribed, from the start of a load step, as its K̄ says.
-    fn follow(&mut self, _start: &BodyState<'_, D>, _motion: &mut [Vector<D>]) {}
+    fn follow(&mut self, _interval: &Interval, _start: &BodyState<'_, D>, _motion: &mut [Vector<D>]) {}
 
     /// How stiff it is at a node, where nothing has moved [N/m]. Zero wants no springs there.
     fn stiffness_at(&mut self, _node: u32) -> f64 {

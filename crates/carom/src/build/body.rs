@@ -29,6 +29,13 @@ pub(super) fn body<const D: usize>(
             format!("\"massless\" contact of body {:?}, whose material flows; choose \"gap\"", entry.name);
         return Err(InputError::new("contact.condition", message));
     }
+    if massless_contact && entry.growth.is_some() {
+        let message = format!(
+            "\"massless\" contact of body {:?}, which grows; choose \"gap\" or \"midpoint\"",
+            entry.name
+        );
+        return Err(InputError::new("contact.condition", message));
+    }
     let spec = BodySpec {
         law: material.law.clone(),
         density: material.density,
@@ -38,6 +45,7 @@ pub(super) fn body<const D: usize>(
         hypothesis: entry.hypothesis,
         formulation: entry.formulation,
         thickness: entry.thickness,
+        grows: entry.growth.is_some(),
         massless_contact,
     };
     let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;

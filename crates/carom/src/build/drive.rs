@@ -2,15 +2,14 @@
 
 use carom_mesh::{Facet, Surface};
 
+use super::signals::{signal, signals};
 use super::values::vector;
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::Model;
 use crate::scenario::{Axis, Displacement, LoadSpec, MotionSpec, ObstacleEntry, Scenario};
-use crate::{Load, Motion, ObstacleMotion, Signal, SignalSpec};
+use crate::{Load, Motion, ObstacleMotion, Signal};
 
-/// At how many moments of a run a function of time is checked before it starts.
-const SAMPLES: usize = 1000;
 /// A displacement below this at the start, relative to the model, is round-off [1].
 const AT_START: f64 = 1e-12;
 
@@ -105,34 +104,6 @@ fn facets<const D: usize>(key: &str, body: &ModelBody<D>, on: &str) -> Result<Ve
         return Err(InputError::new(&key, format!("{on:?}: no facet of this set is on the boundary")));
     }
     Ok(part.facets().to_vec())
-}
-
-/// The function of time under `key`, finite wherever it is checked until `end` [s].
-fn signal(key: &str, spec: &SignalSpec, end: f64) -> Result<Signal, InputError> {
-    let signal = Signal::new(spec).map_err(|e| InputError::new(key, e.to_string()))?;
-    for k in 0..=SAMPLES {
-        let t = end * k as f64 / SAMPLES as f64;
-        let value = signal.at(t).value;
-        if !value.is_finite() {
-            return Err(InputError::new(
-                key,
-                format!("its value at t = {t} s is {value}: it must be finite"),
-            ));
-        }
-    }
-    Ok(signal)
-}
-
-/// A vector of functions of time.
-fn signals<const D: usize>(key: &str, specs: &[SignalSpec], end: f64) -> Result<[Signal; D], InputError> {
-    if specs.len() != D {
-        return Err(InputError::new(key, format!("must have {D} components, not {}", specs.len())));
-    }
-    let mut signals = std::array::from_fn(|_| Signal::Constant(0.0));
-    for (i, (signal_i, spec)) in signals.iter_mut().zip(specs).enumerate() {
-        *signal_i = signal(&format!("{key}.{i}"), spec, end)?;
-    }
-    Ok(signals)
 }
 
 /// Zero for the components that are named, or for all.

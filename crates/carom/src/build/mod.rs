@@ -3,11 +3,14 @@
 mod body;
 mod contact;
 mod drive;
+mod growth;
+mod interference;
 mod mesh;
 mod method;
 mod mortar;
 mod obstacle;
 mod overlaps;
+mod signals;
 pub(crate) mod values;
 mod velocity;
 
@@ -55,7 +58,8 @@ pub(crate) fn build_with_surfaces<const D: usize>(
     for (i, entry) in scenario.bodies.iter().enumerate() {
         let first_node = bodies.last().map_or(0, |b| b.nodes().end);
         let body = body::body(scenario, i, entry, meshes.remove(&entry.name))?;
-        bodies.push(ModelBody::new(&entry.name, body, first_node));
+        let growth = growth::growth(scenario, i, entry)?;
+        bodies.push(ModelBody { growth, ..ModelBody::new(&entry.name, body, first_node) });
     }
     if bodies.is_empty() {
         return Err(InputError::new("bodies", "there is no body; add one [[bodies]] table at least"));
@@ -71,6 +75,7 @@ pub(crate) fn build_with_surfaces<const D: usize>(
         return Err(InputError::new("analysis.gravity", message + "; let it point along y"));
     }
     let model = drive::drive(scenario, Model::new(bodies, contact, named_pairs, gravity))?;
+    let model = interference::interference(scenario, model)?;
     overlaps::check_overlaps(scenario, &model)?;
     let velocity = velocity::initial_velocity(scenario, &model)?;
     let state = match method.scheme {

@@ -1,16 +1,18 @@
 use carom_contact::{Candidate, Pair, Path, Penetration, RigidShape, Search, Solid, Target};
 use carom_mesh::Vector;
 
+use super::interference::entry_of;
 use super::values::place;
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::Model;
-use crate::scenario::Scenario;
+use crate::model::interference::Interference;
+use crate::scenario::{AnalysisKind, Scenario};
 
 /// Overlaps at the start deeper than this, relative to the smallest edge, are an error.
 const TOUCHING: f64 = 1e-9;
 
-/// Refuses bodies that overlap one another or an obstacle before anything has moved.
+/// Refuses bodies that overlap one another or an obstacle before anything has moved by more than the interference of their pair lets them.
 pub(super) fn check_overlaps<const D: usize>(
     scenario: &Scenario,
     model: &Model<D>,
@@ -18,6 +20,8 @@ pub(super) fn check_overlaps<const D: usize>(
     let at = |n: u32| model.assembly.reference[n as usize];
     let is_other = |pair: &&Pair| pair.target != Target::Surface(pair.source);
     for pair in model.assembly.contact.pairs.iter().filter(is_other) {
+        let least = least_gap(scenario, model, pair);
+        let cure = cure(scenario, model.assembly.interferences.get(pair.named_pair));
         // Both directions are checked, whichever the contact condition uses.
         let mut directions = vec![*pair];
         if let Target::Surface(b) = pair.target {
@@ -29,8 +33,12 @@ pub(super) fn check_overlaps<const D: usize>(
                 continue;
             };
             let source = &model.bodies[direction.source];
-            if closest.gap >= -TOUCHING * source.body.mesh().smallest_edge() {
+            let touching = TOUCHING * source.body.mesh().smallest_edge();
+            if closest.gap >= least - touching {
                 continue;
+            }
+            if closest.gap >= -touching {
+                return Err(is_pushed(scenario, model, pair.named_pair, closest.gap, least));
             }
             let [a, b] = &model.assembly.named_pairs[pair.named_pair].between;
             let place = place(&closest.at);
@@ -40,7 +48,7 @@ pub(super) fn check_overlaps<const D: usize>(
                     format!("bodies.{index}.mesh"),
                     format!(
                         "bodies {a:?} and {b:?} overlap at the start: {:?} at {place} is {:.6} m inside; \
-                         move one of them",
+                         move one of them{cure}",
                         source.name, -closest.gap
                     ),
                 ),
@@ -48,6 +56,7 @@ pub(super) fn check_overlaps<const D: usize>(
                     let obstacle = &model.assembly.contact.obstacles[o];
                     let outside =
                         source.nodes().all(|n| obstacle.gap(&model.assembly.reference[n], &at).0 < 0.0);
+                    let cure = if outside { "" } else { cure };
                     let fact = if outside { "lies outside, behind" } else { "overlaps" };
                     let free = match obstacle.shape {
                         RigidShape::Plane { .. } => "turn the normal of",
@@ -60,7 +69,7 @@ pub(super) fn check_overlaps<const D: usize>(
                         format!("bodies.{index}.mesh"),
                         format!(
                             "body {a:?} {fact} obstacle {b:?} at the start: its node at {place} is {:.6} m behind it; \
-                             move the body or {free} obstacles.{} ({:?})",
+                             move the body or {free} obstacles.{} ({:?}){cure}",
                             -closest.gap, o, scenario.obstacles[o].name
                         ),
                     )
@@ -69,7 +78,65 @@ pub(super) fn check_overlaps<const D: usize>(
         }
     }
     check_corners(scenario, model)?;
-    check_crossings(model)
+    check_crossings(scenario, model)
+}
+
+/// What else may be done about an overlap.
+fn cure(scenario: &Scenario, interference: Option<&Interference>) -> &'static str {
+    match scenario.analysis.kind {
+        AnalysisKind::Static if interference.is_none_or(|i| i.overlap.is_none()) => {
+            ", or let the analysis take the overlap up by contact.resolve_overlap = true"
+        }
+        // A contact sees half a facet deep.
+        AnalysisKind::Static => "; contact takes up no more than half a facet",
+        AnalysisKind::Dynamic => "",
+    }
+}
+
+/// The least gap that a pair may start with [m].
+///
+/// A static analysis pushes apart in its first step what overlaps only by the arcs that facets stand for: surfaces that are modelled line to line
+/// because interference or growth is to press them on one another need not have matching meshes. A dynamic one has to start from surfaces that
+/// do not press yet.
+fn least_gap<const D: usize>(scenario: &Scenario, model: &Model<D>, pair: &Pair) -> f64 {
+    let interference = &model.assembly.interferences[pair.named_pair];
+    let least = interference.least(0.0);
+    if scenario.analysis.kind == AnalysisKind::Dynamic {
+        return least;
+    }
+    let boundaries = &model.assembly.boundaries;
+    let target = match pair.target {
+        Target::Surface(target) => boundaries.largest_arc(target),
+        Target::Obstacle(_) => 0.0,
+    };
+    let arcs = boundaries.largest_arc(pair.source) + target;
+    let grows = |body: usize| model.bodies[body].growth.is_some();
+    let is_meant = *interference != Interference::default()
+        || grows(pair.source)
+        || matches!(pair.target, Target::Surface(target) if grows(target));
+    least.min(0.0) - if is_meant { arcs } else { 0.0 }
+}
+
+/// Why a dynamic analysis cannot start from surfaces that are nearer than their interference.
+fn is_pushed<const D: usize>(
+    scenario: &Scenario,
+    model: &Model<D>,
+    named_pair: usize,
+    gap: f64,
+    least: f64,
+) -> InputError {
+    let between = &model.assembly.named_pairs[named_pair].between;
+    let key = match entry_of(scenario, between) {
+        Some((k, _)) => format!("contact.pairs.{k}.interference"),
+        None => "contact.pairs".to_string(),
+    };
+    let [a, b] = between;
+    let message = format!(
+        "{a:?} and {b:?} are {:.3e} m apart at the start, where it pushes them {least:.3e} m apart at once; \
+         let it grow with time, as \"{least:e}*min(t/1e-3, 1)\" does",
+        gap.abs()
+    );
+    InputError::new(key, message)
 }
 
 /// Refuses bodies that corners and edges of obstacles are inside of, where no node need be inside the obstacle.
@@ -87,12 +154,14 @@ fn check_corners<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Resul
     assembly.boundaries.clone().measure(obstacles, counts, &at, |Penetration { depth, at, between, .. }| {
         let [Solid::Body(i), Solid::Obstacle(o)] = between else { return };
         let body = &model.bodies[i];
-        if depth > TOUCHING * body.body.mesh().smallest_edge() {
+        let depth_beyond = depth - assembly.clearance(between, 0.0);
+        if depth_beyond > TOUCHING * body.body.mesh().smallest_edge() {
+            let cure = cure(scenario, assembly.interference_between(between));
             refused.get_or_insert_with(|| {
                 InputError::new(
                     format!("bodies.{i}.mesh"),
                     format!(
-                        "obstacle {:?} overlaps body {:?} at the start: near {} it is {depth:.6} m inside; move one of them",
+                        "obstacle {:?} overlaps body {:?} at the start: near {} it is {depth:.6} m inside; move one of them{cure}",
                         scenario.obstacles[o].name,
                         body.name,
                         place(&at),
@@ -105,7 +174,7 @@ fn check_corners<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Resul
 }
 
 /// Refuses bodies of which edges have passed one another, though no node of one may be inside the other.
-fn check_crossings<const D: usize>(model: &Model<D>) -> Result<(), InputError> {
+fn check_crossings<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Result<(), InputError> {
     let at = |n: u32| model.assembly.reference[n as usize];
     let (mut search, mut candidates) = (Search::default(), Vec::new());
     model.assembly.contact.detect(&Path::resting(&at, 0.0), &mut search, &mut candidates);
@@ -114,7 +183,8 @@ fn check_crossings<const D: usize>(model: &Model<D>) -> Result<(), InputError> {
         let smallest_edge = model.bodies[pair.source].body.mesh().smallest_edge();
         let contact = model.assembly.contact.evaluate(candidate, &at);
         let touching = TOUCHING * smallest_edge;
-        if contact.gap >= -touching
+        let least = least_gap(scenario, model, pair).min(0.0);
+        if contact.gap >= least - touching
             || model.assembly.contact.is_beyond(candidate, &contact, touching, &at, &search)
         {
             continue;
@@ -123,9 +193,10 @@ fn check_crossings<const D: usize>(model: &Model<D>) -> Result<(), InputError> {
         return Err(InputError::new(
             format!("bodies.{}.mesh", pair.source),
             format!(
-                "edges of {a:?} and {b:?} are {:.6} m through one another at the start, near {}; move one of them",
+                "edges of {a:?} and {b:?} are {:.6} m through one another at the start, near {}; move one of them{}",
                 -contact.gap,
-                place(&contact.source_point(&at))
+                place(&contact.source_point(&at)),
+                cure(scenario, model.assembly.interferences.get(pair.named_pair))
             ),
         ));
     }

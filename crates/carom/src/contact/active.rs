@@ -19,6 +19,8 @@ pub(crate) struct ActiveSet<const D: usize> {
     pub friction: Vec<f64>,
     /// The part of its gap [m] at the start that a contact may close or keep: see `ContactCondition::start_gap`.
     pub start_gaps: Vec<f64>,
+    /// The interference [m] of every contact at the start and the end of the step.
+    pub interferences: Vec<[f64; 2]>,
     /// Reactions [N] that the step starts with, in the frame of the last step.
     pub start_forces: Vec<Vector<D>>,
     /// The contacts as they were evaluated before, and those that stand at a kink: see [`Self::evaluate_late`].
@@ -42,32 +44,36 @@ impl<const D: usize> ActiveSet<D> {
     ///
     /// A node that is found deeper inside its target than its velocity explains has not just got there. It slid past an edge that no node
     /// of the other side saw. It is kept from going deeper, until the bodies part: to push it out at once, the faster the shorter the step,
-    /// would create energy. In a static analysis it is pushed out: there bodies may be meant to be pressed into one another.
+    /// would create energy. In a static analysis it is pushed out: there bodies may be meant to be pressed into one another. So is in its first
+    /// step whatever is inside: nothing has come there.
     pub fn select(&mut self, given: &Given<'_, D>, search: &Search<D>) {
         let Given { assembly, method, state, interval } = *given;
         let (contact, map) = (&assembly.contact, &interval.map);
         let start = |n: u32| given.position(n);
         self.start_gaps.clear();
+        self.interferences.clear();
         contact.evaluate_all(&self.candidates, &start, &mut self.mortar, &mut self.contacts);
         let round_off = assembly.round_off();
         let inside = |c: &Candidate| CONTROL.inside * assembly.pair_size(&contact.pairs[c.pair as usize]);
-        let is_stuck = |c: &Candidate, at_start: &Contact<D>| {
+        let is_stuck = |c: &Candidate, at_start: &Contact<D>, gap: f64| {
             let inside = inside(c);
             let explained = inside + map.dt * at_start.relative(|n| state.velocity[n]).norm();
-            at_start.gap < -explained || state.reaction(c.key()).is_some_and(|r| r.contact.gap < -inside)
+            gap < -explained || state.reaction(c.key()).is_some_and(|r| r.contact.gap < -inside)
         };
         // Where contacts are chosen at the start, whether one at rest goes on must not hang on the sign of round-off.
         let closed = |c: &Candidate| {
             let size = assembly.pair_size(&contact.pairs[c.pair as usize]);
             if state.reaction(c.key()).is_some() { round_off.max(CONTROL.closed * size) } else { round_off }
         };
+        let starts_from_nothing = interval.starts_from_nothing();
         let mut at_starts = self.contacts.iter();
         self.candidates.retain(|c| {
             let Some(at_start) = at_starts.next() else { return false };
-            let gap = at_start.gap;
+            let interference = given.interference(c.key());
+            let gap = at_start.gap - interference[0];
             let is_beyond = || {
                 let inside = inside(c);
-                gap < -inside && contact.is_beyond(c, at_start, inside, &start, search)
+                at_start.gap < -inside && contact.is_beyond(c, at_start, inside, &start, search)
             };
             let closed = closed(c);
             let active = !c.redundant
@@ -76,7 +82,10 @@ impl<const D: usize> ActiveSet<D> {
                 && !is_beyond();
             if active {
                 let stays = gap < 0.0
-                    && (contact.is_two_sided(c.pair as usize) || !map.is_static() && is_stuck(c, at_start));
+                    && !starts_from_nothing
+                    && (contact.is_two_sided(c.pair as usize)
+                        || !map.is_static() && is_stuck(c, at_start, gap));
+                self.interferences.push(interference);
                 self.start_gaps.push(method.condition.start_gap(gap, closed, stays));
             }
             active
@@ -117,12 +126,14 @@ impl<const D: usize> ActiveSet<D> {
         }
     }
 
-    /// Evaluates the contacts where the condition is written, in frames that follow those before: reactions are known in these.
+    /// Evaluates the contacts where the condition is written, their gaps less their interference, in frames that follow those before: reactions
+    /// are known in these.
     pub fn evaluate(&mut self, given: &Given<'_, D>, motion: &[Vector<D>]) {
         let weight = given.method.condition.evaluation_weight();
         let position = |n: u32| given.position(n) + motion[n as usize] * weight;
         let contact = &given.assembly.contact;
         contact.evaluate_all(&self.candidates, &position, &mut self.mortar, &mut self.contacts);
+        self.stand_off(weight);
         self.follow_frames();
     }
 
@@ -144,7 +155,15 @@ impl<const D: usize> ActiveSet<D> {
                 *contact_now = before.moved(&position);
             }
         }
+        self.stand_off(1.0);
         self.follow_frames();
+    }
+
+    /// Takes the interference off the gaps, where contacts are evaluated at this `weight` between start and end of the step.
+    fn stand_off(&mut self, weight: f64) {
+        for (contact, [h0, h1]) in self.contacts.iter_mut().zip(&self.interferences) {
+            contact.gap -= h0 * (1.0 - weight) + h1 * weight;
+        }
     }
 
     /// Turns the frames to where those before were.

@@ -1,6 +1,6 @@
 //! Which contacts there may be in a step.
 
-use carom_contact::{Candidate, Contact, Mortar, Pair, Path, Search, Site, Target, Witness};
+use carom_contact::{Candidate, Contact, Mortar, Pair, Path, Search, Site, Solid, Target, Witness};
 use carom_mesh::Vector;
 
 use super::active::ActiveSet;
@@ -49,8 +49,9 @@ impl<const D: usize> Finder<D> {
         let Self { search, asleep, .. } = self;
         contact.detect_among(|p| !is_asleep(asleep, p), &path, search, candidates);
         let pressed = given.state.reactions.iter().map(Reaction::candidate);
+        let stand_off = |c: &Candidate| given.interference(c.key())[0].abs();
         self.missed.clear();
-        self.missed.extend(pressed.filter(|c| contact.still_touches(c, &start)));
+        self.missed.extend(pressed.filter(|c| contact.still_touches(c, stand_off(c), &start)));
         contact.recall(&self.missed, &path, candidates);
         if repetition == 0 {
             self.needed.clear();
@@ -77,13 +78,14 @@ impl<const D: usize> Finder<D> {
         }
         let assembly = given.assembly;
         let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
-        let at_end = Path::resting(&end, 0.0);
+        let at_end = Path::resting(&end, assembly.reach(given.interval.end));
         let Self { search, asleep, found, missed, missed_mortar, missed_contacts, .. } = self;
         assembly.contact.detect_among(|p| !is_asleep(asleep, p), &at_end, search, missed);
         assembly.contact.detect_mortar(&at_end, missed_mortar, missed);
         missed.retain(|m| found.binary_search_by_key(&m.key(), Candidate::key).is_err());
         assembly.contact.evaluate_all(missed, &end, missed_mortar, missed_contacts);
-        let missed_one = missed_contacts.iter().any(|c| c.gap < -assembly.round_off());
+        let gaps = missed.iter().zip(&*missed_contacts).map(|(m, c)| c.gap - given.interference(m.key())[1]);
+        let missed_one = gaps.into_iter().any(|gap| gap < -assembly.round_off());
         if missed_one {
             found.extend_from_slice(missed);
             found.sort_unstable();
@@ -98,11 +100,16 @@ impl<const D: usize> Finder<D> {
             return false;
         }
         let assembly = given.assembly;
+        let is_too_deep = |w: &&Witness| {
+            let between = [Solid::Body(w.of), Solid::Body(w.inside)];
+            w.depth > assembly.clearance(between, given.interval.end)
+        };
+        let witnesses: Vec<Witness> = witnesses.iter().filter(is_too_deep).copied().collect();
         let start = |n: u32| given.position(n);
         let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
         let Self { search, found, needed, missed, .. } = self;
         assembly.contact.witnessed(
-            witnesses,
+            &witnesses,
             &Path { start: &start, end: &end, margin: 0.0 },
             search,
             missed,

@@ -1,4 +1,4 @@
-use carom_contact::{Contact, Target};
+use carom_contact::{Contact, Site, Target};
 use carom_mesh::Vector;
 
 use super::active::ActiveSet;
@@ -15,7 +15,7 @@ pub(crate) struct ContactWork {
     pub start: f64,
     pub end: f64,
     pub slip: f64,
-    /// Work [J] that prescribed motion, as of an obstacle, would do with the reactions of the start and of the end.
+    /// Work [J] that prescribed motion, as of an obstacle, and growing interference would do with the reactions of the start and of the end.
     pub driven: [f64; 2],
 }
 
@@ -53,10 +53,11 @@ pub(crate) fn measure<const D: usize>(
     out: &mut Vec<ContactWork>,
 ) {
     let weight = given.reaction_weight();
-    let work = |pair: u32, contact: &Contact<D>, start: Vector<D>, end: Vector<D>| {
-        let pair = &given.assembly.contact.pairs[pair as usize];
+    let work = |key: (u32, Site), contact: &Contact<D>, start: Vector<D>, end: Vector<D>| {
+        let [h0, h1] = given.interference(key);
+        let pair = &given.assembly.contact.pairs[key.0 as usize];
         let w = contact.relative(|n| motion[n]);
-        let driven = [start, end].map(|r| driven(given.assembly, contact, &r, motion));
+        let driven = [start, end].map(|r| driven(given.assembly, contact, &r, motion) + r[0] * (h1 - h0));
         ContactWork {
             named_pair: pair.named_pair,
             source: pair.source,
@@ -71,9 +72,9 @@ pub(crate) fn measure<const D: usize>(
     out.clear();
     for (k, contact) in active.contacts.iter().enumerate() {
         let (start, end) = (active.start_forces[k], active.reactions[k] / weight);
-        out.push(work(active.candidates[k].pair, contact, start, end));
+        out.push(work(active.candidates[k].key(), contact, start, end));
     }
     for reaction in active.lost.iter().map(|&k| &given.state.reactions[k]) {
-        out.push(work(reaction.pair, &reaction.contact, reaction.force, Vector::zeros()));
+        out.push(work(reaction.key(), &reaction.contact, reaction.force, Vector::zeros()));
     }
 }

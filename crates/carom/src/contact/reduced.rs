@@ -122,8 +122,9 @@ impl<const D: usize> Reduced<D> {
         let Given { assembly, method, state, interval } = *given;
         let start = |n: usize| state.velocity[n];
         self.offsets.clear();
-        self.offsets.extend(active.contacts.iter().zip(&active.start_gaps).map(|(contact, &start_gap)| {
-            method.condition.normal_offset(contact, start_gap, &interval.map, |n| motion[n], start)
+        let contacts = active.contacts.iter().zip(&active.start_gaps).zip(&active.interferences);
+        self.offsets.extend(contacts.map(|((contact, &start_gap), [h0, h1])| {
+            method.condition.normal_offset(contact, start_gap, h1 - h0, &interval.map, |n| motion[n], start)
         }));
         self.look(assembly, motion, bodies);
         if self.delassus.stiffened.is_needed() {

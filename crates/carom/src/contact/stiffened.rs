@@ -159,15 +159,17 @@ impl<const D: usize> Stiffened<D> {
     ) {
         let Given { assembly, method, state, interval } = *given;
         self.springs_of_contacts.clear();
-        let contacts = active.contacts.iter().zip(&active.start_gaps);
-        for (((contact, &start_gap), r), &mu) in contacts.zip(&active.reactions).zip(&active.friction) {
+        let contacts = active.contacts.iter().zip(&active.start_gaps).zip(&active.interferences);
+        for ((((contact, &start_gap), [h0, h1]), r), &mu) in
+            contacts.zip(&active.reactions).zip(&active.friction)
+        {
             let directions = held_directions(r, mu);
             let stiffness = if directions > 0 { spring(assembly, contact, bodies) } else { 0.0 };
             self.springs_of_contacts.push((stiffness, directions));
             if stiffness > 0.0 {
                 let d = |n: usize| motion[n];
                 let v = |n: usize| state.velocity[n];
-                let offset = method.condition.normal_offset(contact, start_gap, &interval.map, d, v);
+                let offset = method.condition.normal_offset(contact, start_gap, h1 - h0, &interval.map, d, v);
                 let mut w = contact.relative(d);
                 w[0] += offset;
                 let force = Vector::from_fn(|i, _| if i < directions { -stiffness * w[i] } else { 0.0 });

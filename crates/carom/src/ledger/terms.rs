@@ -30,7 +30,7 @@ pub struct Ledger {
     pub strain: f64,
     /// Work of gravity and loads.
     pub external: f64,
-    /// Work of prescribed motion: of supports and of obstacles that move.
+    /// Work of what is prescribed: motion, growth of bodies, interference that grows.
     pub prescribed: f64,
     /// Dissipated by friction: −Σ r_t·Δu_t ≥ 0.
     pub friction: f64,
@@ -136,7 +136,7 @@ pub struct BodyLedger {
     pub strain: f64,
     /// Work of gravity and loads.
     pub external: f64,
-    /// Work of its supports, less that of the contacts that press on them.
+    /// Work of its supports, less that of the contacts that press on them, and of its growth.
     pub prescribed: f64,
     /// Received through contact: the work of the contact forces on what of the body is free.
     pub contact: f64,
@@ -206,7 +206,7 @@ impl AddAssign for BodyLedger {
 /// What a pair did to the energy in a step, or since the start [J].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct PairLedger {
-    /// Work of prescribed motion through its contacts: of its obstacle, or of supports that are pressed on.
+    /// Work of prescribed motion through its contacts, of its obstacle or of supports that are pressed on, and of its interference that grows.
     pub prescribed: f64,
     /// Dissipated by friction: −Σ r_t·Δu_t ≥ 0.
     pub friction: f64,

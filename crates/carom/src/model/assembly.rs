@@ -4,6 +4,7 @@ use std::ops::Range;
 use carom_contact::{Boundaries, ContactModel, Pair, Solid, Target};
 use carom_mesh::{Surface, Vector};
 
+use crate::model::interference::Interference;
 use crate::model::obstacle_motion::ObstacleMotion;
 
 /// A named pair of bodies, or of a body and an obstacle, that may touch.
@@ -45,6 +46,8 @@ pub struct Assembly<const D: usize> {
     pub contact: ContactModel<D>,
     /// The named pairs that the pairs of `contact` belong to.
     pub named_pairs: Vec<NamedPair>,
+    /// By how much each named pair is pushed apart.
+    pub interferences: Vec<Interference>,
     /// Reference positions of all nodes [m]; after those of the bodies, zero for every obstacle, whose displacement says how far
     /// it has moved.
     pub reference: Vec<Vector<D>>,
@@ -92,6 +95,7 @@ impl<const D: usize> Assembly<D> {
         let boundaries: Vec<Surface> = members.iter().map(|m| m.boundary.clone()).collect();
         let may_meet = contact.pairs.iter().map(between).collect();
         let mut assembly = Self {
+            interferences: vec![Interference::default(); named_pairs.len()],
             obstacle_motions: vec![ObstacleMotion::Velocity(Vector::zeros()); obstacles],
             supports: 0,
             size: members.iter().map(|m| m.diameter).fold(0.0, f64::max),
@@ -134,6 +138,28 @@ impl<const D: usize> Assembly<D> {
     /// Whether two solids may touch, and so must not be inside one another; of a body with itself that is never meant.
     pub(crate) fn must_not_overlap(&self, [a, b]: [Solid; 2]) -> bool {
         a == b || self.may_meet.contains(&a.pair(b))
+    }
+
+    /// The interference of a pair of the contact model.
+    pub(crate) fn interference(&self, pair: u32) -> &Interference {
+        &self.interferences[self.contact.pairs[pair as usize].named_pair]
+    }
+
+    /// How far apart surfaces may press on one another at time `t` [s], in metres.
+    pub(crate) fn reach(&self, t: f64) -> f64 {
+        self.interferences.iter().map(|interference| interference.reach(t)).fold(0.0, f64::max)
+    }
+
+    /// The interference of the pair of two solids that may touch.
+    pub(crate) fn interference_between(&self, [a, b]: [Solid; 2]) -> Option<&Interference> {
+        let wanted = a.pair(b);
+        let pair = self.contact.pairs.iter().find(|pair| between(pair) == wanted)?;
+        Some(&self.interferences[pair.named_pair])
+    }
+
+    /// How deep two solids may be inside one another at time `t` [s] by the interference of their pair, in metres.
+    pub(crate) fn clearance(&self, between: [Solid; 2], t: f64) -> f64 {
+        self.interference_between(between).map_or(0.0, |interference| (-interference.least(t)).max(0.0))
     }
 
     /// Number of bodies.

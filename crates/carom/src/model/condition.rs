@@ -96,11 +96,15 @@ impl ContactCondition {
     ///
     /// `start_gap` is [what of it](Self::start_gap) has a part. A penetration that may be kept is that of a node that came past an edge. In
     /// pairs checked from both sides, it is that of a contact that starts inside its target where another has stood for it. To push it
-    /// out at once would create energy. `d` is the current motion of the step and `v` the velocity at its start.
+    /// out at once would create energy.
+    ///
+    /// Gaps are less the interference of the contact, which grows by `widening` [m] in the step. `d` is the current motion of the step and `v`
+    /// the velocity at its start.
     pub fn normal_offset<const D: usize>(
         self,
         contact: &Contact<D>,
         start_gap: f64,
+        widening: f64,
         map: &StepMap,
         d: impl Fn(usize) -> Vector<D>,
         v: impl Fn(usize) -> Vector<D>,
@@ -109,10 +113,11 @@ impl ContactCondition {
             ContactCondition::Gap | ContactCondition::Massless => {
                 contact.gap - start_gap - contact.relative(d)[0]
             }
-            ContactCondition::Midpoint => start_gap,
+            ContactCondition::Midpoint => start_gap - widening,
             // v₊ = a v + b d, so w_n = v₊/b = d + (a/b) v: ½Δt v₊ for θ = ½.
             ContactCondition::Endpoint => {
-                map.velocity_of_velocity / map.velocity_of_motion * contact.relative(v)[0]
+                let closing = contact.relative(v)[0] - widening / map.dt;
+                map.velocity_of_velocity / map.velocity_of_motion * closing - widening
             }
         }
     }

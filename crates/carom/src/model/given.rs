@@ -1,3 +1,4 @@
+use carom_contact::Site;
 use carom_mesh::Vector;
 
 use crate::StepError;
@@ -42,6 +43,11 @@ impl<'a, const D: usize> Given<'a, D> {
     #[inline]
     pub fn position(&self, node: u32) -> Vector<D> {
         self.assembly.reference[node as usize] + self.state.displacement[node as usize]
+    }
+
+    /// The interference of a contact, given by pair and site, at both ends of the step [m].
+    pub fn interference(&self, contact: (u32, Site)) -> [f64; 2] {
+        self.assembly.interference(contact.0).ends(contact, self.interval)
     }
 
     /// How much of a reaction the reduced problem solves for.

@@ -3,6 +3,7 @@
 pub(crate) mod assembly;
 pub(crate) mod condition;
 pub(crate) mod given;
+pub(crate) mod interference;
 pub(crate) mod method;
 pub(crate) mod obstacle_motion;
 pub(crate) mod state;
@@ -13,6 +14,7 @@ use carom_contact::ContactModel;
 use carom_mesh::{Surface, Vector};
 
 use self::assembly::{Assembly, Member, NamedPair};
+use self::interference::Interference;
 use self::obstacle_motion::ObstacleMotion;
 use self::state::State;
 use crate::body::Body;
@@ -59,6 +61,14 @@ impl<const D: usize> Model<D> {
     pub fn with_obstacle_motions(mut self, motions: Vec<ObstacleMotion<D>>) -> Self {
         assert_eq!(motions.len(), self.assembly.contact.obstacles.len(), "one motion per obstacle");
         self.assembly.obstacle_motions = motions;
+        self
+    }
+
+    /// The same with this interference of its named pairs.
+    #[must_use]
+    pub fn with_interferences(mut self, interferences: Vec<Interference>) -> Self {
+        assert_eq!(interferences.len(), self.assembly.named_pairs.len(), "one interference per named pair");
+        self.assembly.interferences = interferences;
         self
     }
 

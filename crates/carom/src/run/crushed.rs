@@ -24,7 +24,11 @@ impl Crushed {
     /// Looks for crushed cells in a state.
     pub(crate) fn find<const D: usize>(model: &Model<D>, state: &State<D>) -> Option<Self> {
         let crushed = model.bodies.iter().zip(&state.history).map(|(b, history)| {
-            let cells = b.body.after(history).cell_states(&state.displacement[b.nodes()]);
+            let cells = b
+                .body
+                .after(history)
+                .grown(b.growth_at(state.time))
+                .cell_states(&state.displacement[b.nodes()]);
             let volumes =
                 cells.iter().map(|cell| (Matrix::<3>::identity() + cell.strain * 2.0).determinant().sqrt());
             let mut crushed = Self { body: b.name.clone(), cells: 0, least: f64::INFINITY };

@@ -177,8 +177,13 @@ impl<const D: usize> History<D> {
             .contact
             .pairs
             .iter()
-            .filter_map(|p| model.assembly.contact.proximity(p, &at))
-            .map(|p| p.gap)
+            .filter_map(|p| {
+                let interference = &model.assembly.interferences[p.named_pair];
+                // A static analysis applies what is there at t = 0 in its first step.
+                let most = if state.time > 0.0 { f64::INFINITY } else { 0.0 };
+                let least = interference.least(state.time).min(most);
+                Some(model.assembly.contact.proximity(p, &at)?.gap - least)
+            })
             // Nodes deep between others are closest to a side; the contacts know what they face.
             .fold(if since.steps > 0 { since.min_gap } else { f64::INFINITY }, f64::min);
         self.rows.extend([

@@ -399,7 +399,10 @@ impl<const D: usize> Simulation<D> {
                 .bodies
                 .iter()
                 .zip(&s.history)
-                .flat_map(|(b, history)| b.body.after(history).cell_states(&s.displacement[b.nodes()]))
+                .flat_map(|(b, history)| {
+                    let grown = b.body.after(history).grown(b.growth_at(s.time));
+                    grown.cell_states(&s.displacement[b.nodes()])
+                })
                 .collect(),
         }
     }

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 pub use drive::{Axis, Displacement, LoadEntry, LoadSpec, MotionEntry, MotionSpec};
 
 pub use self::mesh_spec::{Cell, MeshSpec};
-use crate::{ContactCondition, Scheme};
+use crate::{ContactCondition, Scheme, SignalSpec};
 
 /// A complete case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -162,6 +162,9 @@ pub struct BodyEntry {
     pub mass: MassKind,
     /// Mesh.
     pub mesh: MeshSpec,
+    /// Linear strain by which it would grow if nothing held it.
+    #[serde(default)]
+    pub growth: Option<SignalSpec>,
     /// Sets of facets that may touch others; the whole boundary if not given.
     #[serde(default)]
     pub contact_sets: Option<Vec<String>>,
@@ -274,6 +277,12 @@ pub struct ContactSpec {
     pub certificate_tolerance: f64,
     /// How deep solids may be in one another in a completed run, in diameters of the facet that is there.
     pub penetration_tolerance: f64,
+    /// Whether overlaps at the start are taken up, in pairs that say nothing else.
+    #[serde(default)]
+    pub resolve_overlap: bool,
+    /// When they are [s]; at the end of the run if not given.
+    #[serde(default)]
+    pub overlap_resolved_at: Option<f64>,
     /// Exceptions for pairs.
     #[serde(default)]
     pub pairs: Vec<PairEntry>,
@@ -329,6 +338,12 @@ pub struct PairEntry {
     pub sources: Option<Sources>,
     /// How contact between the two is written.
     pub discretisation: Option<Discretisation>,
+    /// By how much their surfaces are pushed apart [m].
+    #[serde(default)]
+    pub interference: Option<SignalSpec>,
+    /// Whether overlaps at the start are taken up.
+    #[serde(default)]
+    pub resolve_overlap: Option<bool>,
     /// Whether the two may touch at all.
     #[serde(default = "yes")]
     pub enabled: bool,

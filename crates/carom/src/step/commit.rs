@@ -79,7 +79,8 @@ fn keep_contacts<const D: usize>(
     let assembly = given.assembly;
     let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
     assembly.contact.evaluate_all(&active.candidates, &end, &mut active.mortar, at_end);
-    for (contact, before) in at_end.iter_mut().zip(&active.contacts) {
+    for ((contact, before), [_, h1]) in at_end.iter_mut().zip(&active.contacts).zip(&active.interferences) {
+        contact.gap -= h1;
         contact.carry_frame(&before.frame);
         report.min_gap = report.min_gap.min(contact.gap);
     }
@@ -189,15 +190,19 @@ fn close_contacts<const D: usize>(
         return;
     }
     for (end, reactions) in [&state.reactions, &next.reactions].into_iter().enumerate() {
-        for Reaction { contact, force, pair, .. } in reactions {
+        for reaction in reactions {
+            let Reaction { contact, force, pair, .. } = reaction;
             let force = interval.contact_weights.part(end, force);
             if force == Vector::<D>::zeros() {
                 continue;
             }
+            let [h0, h1] = given.interference(reaction.key());
             let w = contact.relative(|n| motion[n]);
             let report = &mut pair_reports[assembly.contact.pairs[*pair as usize].named_pair];
-            report.ledger.normal_contact -= force[0] * w[0];
-            report.ledger.prescribed += driven(assembly, contact, &force, motion);
+            // What pushes the surfaces apart does the work of its growth; the rest is that of the reactions themselves.
+            let widening = h1 - h0;
+            report.ledger.normal_contact -= force[0] * (w[0] - widening);
+            report.ledger.prescribed += driven(assembly, contact, &force, motion) + force[0] * widening;
             let dissipation = -(1..D).map(|t| force[t] * w[t]).sum::<f64>();
             book(report, contact, dissipation);
         }

@@ -165,7 +165,7 @@ pub(super) fn set_out<const D: usize>(
         };
         let held = hold(&mut **body, &guess, &mut newton.holding[i], &stiffened.springs[i])?;
         work.factorisations += held;
-        body.follow(&given.start(i), &mut motion[nodes]);
+        body.follow(given.interval, &given.start(i), &mut motion[nodes]);
     }
     Ok(())
 }

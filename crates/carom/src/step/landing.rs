@@ -32,7 +32,8 @@ pub(super) fn restore<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, 
         let mut impulse = Vector::zeros();
         impulse[0] = mass(&at_end[i], given.assembly, bodies) * gap * map.velocity_of_motion;
         if reaction.force[0] * map.dt > IMPULSIVE.has_landed * impulse[0] {
-            let energy = -reaction.force[0] * reaction.contact.relative(|n| motion[n])[0];
+            let [h0, h1] = active.interferences[i];
+            let energy = -reaction.force[0] * (reaction.contact.relative(|n| motion[n])[0] - (h1 - h0));
             impulses.wanted.push(Impulse { reaction: k, contact: i, impulse, energy });
         } else {
             impulses.arriving.push(k);

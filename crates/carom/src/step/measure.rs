@@ -19,18 +19,21 @@ pub(super) fn measure<const D: usize>(
     next: &State<D>,
     work: &mut Workspace<D>,
 ) -> Result<PenetrationReport, StepError> {
-    let Given { assembly, method, state, .. } = *given;
+    let Given { assembly, method, state, interval } = *given;
     let at = |state: &State<D>, n: u32| assembly.reference[n as usize] + state.displacement[n as usize];
     let (start, end) = (|n: u32| at(state, n), |n: u32| at(next, n));
     let counts = |between: [Solid; 2]| between[0] != between[1] && assembly.must_not_overlap(between);
     let obstacles = &assembly.contact.obstacles;
+    let times = [state.time, interval.end];
     let parts = work.boundaries.parts(nodal::largest(&work.motion), obstacles, counts, &start, &end);
     for part in 1..parts {
         let share = part as f64 / parts as f64;
         let between = |n: u32| start(n) * (1.0 - share) + end(n) * share;
         let mut in_the_way = None;
         work.boundaries.measure(obstacles, counts, &between, |found| {
-            if found.depth > method.allowed_penetration(found.cell, found.arcs, 0.0) {
+            let clearance =
+                times.map(|t| assembly.clearance(found.between, t)).into_iter().fold(0.0, f64::max);
+            if found.depth - clearance > method.allowed_penetration(found.cell, found.arcs, 0.0) {
                 in_the_way = Some(found.between);
             }
         });
@@ -50,6 +53,10 @@ pub(super) fn measure<const D: usize>(
     };
     boundaries.measure(obstacles, counts, &end, |found| {
         let Penetration { depth, cell, arcs, between, at } = found;
+        let depth = depth - assembly.clearance(between, interval.end);
+        if depth <= 0.0 {
+            return;
+        }
         report.depth = report.depth.max(depth);
         if let [Solid::Body(a), Solid::Body(b)] = between {
             in_itself[a] |= a == b;

@@ -60,7 +60,8 @@ pub(crate) fn step_over<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<StepReport, StepError> {
     let given = Given { assembly, method, state, interval };
-    let mut margin = predict(&given, work)?;
+    let reach = assembly.reach(interval.start).max(assembly.reach(interval.end));
+    let mut margin = predict(&given, work)? + reach;
     let mut iterations = 0;
     for repetition in 0..SEARCH.repetitions {
         let Workspace { contacts, motion, .. } = work;

@@ -107,6 +107,15 @@ fn mortar_contact_between_bodies() {
 }
 
 #[test]
+fn bodies_that_grow_and_are_pushed_apart() {
+    let mut case = discs("conserving", "midpoint");
+    case["bodies"][0]["growth"] = json!("0.1*t");
+    case["contact"]["pairs"] = json!([{"between": ["left", "right"], "interference": "0.05*t"}]);
+    let whole = goes_on_identically::<2>(&case, 4);
+    assert!(whole.summary().energy.terms.prescribed.abs() > 1e-3, "what is prescribed works");
+}
+
+#[test]
 fn metal_that_flows() {
     let mesh = json!({"kind": "rectangle", "corner": [0.0, 0.0], "size": [3.0, 6.0], "divisions": [4, 8]});
     let mut case =

@@ -36,6 +36,7 @@ fn body<const D: usize>(mesh: Mesh<D>) -> Body<D> {
         hypothesis: Hypothesis::PlaneStrain,
         formulation: Formulation::Standard,
         thickness: 1.0,
+        grows: false,
         massless_contact: false,
     };
     Body::new(mesh, &spec).expect("valid")

@@ -26,6 +26,7 @@ fn spec(law: LawSpec, density: f64, massless_contact: bool) -> BodySpec {
         thickness: 1.0,
         hypothesis: Hypothesis::PlaneStrain,
         formulation: Formulation::Standard,
+        grows: false,
         massless_contact,
     }
 }

@@ -25,6 +25,7 @@ mod passages;
 mod periodic;
 mod placed_obstacles;
 mod plasticity;
+mod press_fit;
 mod promises;
 mod rest;
 mod scales;

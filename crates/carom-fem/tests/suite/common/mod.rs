@@ -32,6 +32,7 @@ pub fn spec(law: LawSpec) -> BodySpec {
         hypothesis: Hypothesis::PlaneStrain,
         formulation: Formulation::Standard,
         thickness: 1.0,
+        grows: false,
         massless_contact: false,
     }
 }

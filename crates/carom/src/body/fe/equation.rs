@@ -17,7 +17,7 @@ pub(crate) const STRAIGHT: f64 = 1e-6;
 /// The equation of motion at a guess.
 pub(crate) struct Equation<'a, const D: usize> {
     pub body: &'a Body<D>,
-    /// The body with the history of its material at the start.
+    /// The body with the history of its material at the start, grown as it is where forces are evaluated.
     pub with_history: BodyWithHistory<'a, D>,
     pub map: &'a StepMap,
     gravity: &'a Vector<D>,
@@ -119,7 +119,7 @@ impl<'a, const D: usize> Equation<'a, D> {
         let start = &guess.start;
         Self {
             body: &part.body,
-            with_history: part.body.after(start.history),
+            with_history: part.body.after(start.history).grown(part.growth_of_forces(guess.interval)),
             map: &guess.interval.map,
             gravity: &part.gravity,
             drive,
@@ -158,9 +158,9 @@ impl<'a, const D: usize> Equation<'a, D> {
 
     /// Writes what a load step lacks of balance in its mean to `out` [N]: the loads half way through, which the drive has, less the force whose
     /// work is the change of the strain energy. Inside a body both ends of the step are in balance, and what is left is of third order in
-    /// the step; where displacements are held it is what supports and contact do.
-    pub fn path_residual(&self, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
-        self.with_history.conserving_force(self.start, self.displacement, &mut scratch.force);
+    /// the step; where displacements are held it is what supports and contact do. The body has grown by `growth` half way.
+    pub fn path_residual(&self, growth: f64, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
+        self.with_history.grown(growth).conserving_force(self.start, self.displacement, &mut scratch.force);
         scratch.velocity.fill(*self.gravity);
         self.body.mass().multiply(&scratch.velocity, out);
         out.iter_mut().zip(&self.drive.mean).for_each(|(out, f)| *out += f);

@@ -73,6 +73,8 @@ struct Origin<const D: usize> {
     displacement: Vec<Vector<D>>,
     /// What the material remembered.
     history: Vec<PlasticState>,
+    /// How it had grown.
+    growth: f64,
 }
 
 /// The uniform part of a solution, which mass alone resists: Σ m x = Σ b over the coefficient of M, whatever the stiffness. A factor in
@@ -130,6 +132,7 @@ impl<const D: usize> IterationMatrix<D> {
                 frame: Matrix::identity(),
                 displacement: vec![Vector::zeros(); body.node_count()],
                 history: body.virgin(),
+                growth: 0.0,
             },
         }
     }
@@ -185,6 +188,7 @@ impl<const D: usize> IterationMatrix<D> {
         archive.numbers(&name("frame"), origin.frame.iter_mut())?;
         archive.vectors(&name("displacement"), &mut origin.displacement)?;
         archive.plastic(&name("plastic"), &mut origin.history)?;
+        archive.numbers(&name("growth"), [&mut origin.growth])?;
         if !archive.replays() {
             return Ok(true);
         }
@@ -192,7 +196,7 @@ impl<const D: usize> IterationMatrix<D> {
             return Err(CheckpointError::new(&name("dt"), "is not positive"));
         }
         let precision = if is_double { Precision::Double } else { Precision::Single };
-        let with_history = body.after(&origin.history);
+        let with_history = body.after(&origin.history).grown(origin.growth);
         self.factorize(&with_history, &map(origin.dt), &origin.displacement, &origin.frame, precision)
             .map_err(|e| CheckpointError::new(&name("displacement"), e.to_string()))?;
         Ok(true)
@@ -228,7 +232,8 @@ impl<const D: usize> IterationMatrix<D> {
             self.turn_to(frame);
             Ok::<(), StepError>(())
         })?;
-        let Origin { displacement, history, .. } = &mut self.origin;
+        let Origin { displacement, history, growth, .. } = &mut self.origin;
+        *growth = with_history.growth();
         displacement.copy_from_slice(u);
         history.copy_from_slice(with_history.history());
         (self.origin.dt, self.origin.precision, self.origin.frame) = (map.dt, precision, *frame);

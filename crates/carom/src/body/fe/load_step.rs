@@ -27,10 +27,11 @@ impl<const D: usize> FeBody<D> {
         equation.with_history.internal_force(guess.displacement, end.internal_force);
         let plastic = equation.with_history.update(guess.displacement, end.history);
         let (body, held) = (&part.body, part.body.held());
-        let strain = body.after(end.history).strain_energy(guess.displacement);
+        let [before, after] = part.growth_of(guess.interval);
+        let strain = body.after(end.history).grown(after).strain_energy(guess.displacement);
         let (external, viscous) = equation.external_and_viscous_work(scratch);
         let lacking = momentum;
-        equation.path_residual(scratch, lacking);
+        equation.path_residual(0.5 * (before + after), scratch, lacking);
         let contact = held.free_dot(guess.motion, end.mean_contact_force);
         let inside = held.free_dot(guess.motion, lacking);
         // A bridge may leave motion, which ends here.
@@ -39,7 +40,7 @@ impl<const D: usize> FeBody<D> {
             kinetic: -kinetic,
             strain: strain - guess.start.energies.strain,
             external,
-            prescribed: inside - nodal::dot(guess.motion, lacking),
+            prescribed: part.work_of_growth(guess) + inside - nodal::dot(guess.motion, lacking),
             viscous,
             plastic,
             scheme: inside + contact + kinetic,

@@ -3,6 +3,7 @@
 mod blended;
 mod drive;
 mod equation;
+mod growing;
 mod iteration_matrix;
 pub(crate) mod load;
 mod load_step;
@@ -92,7 +93,8 @@ impl<const D: usize> FeBody<D> {
         history: &[PlasticState],
         precision: Precision,
     ) -> Result<(), StepError> {
-        let with_history = self.part.body.after(history);
+        let growth = self.part.growth_of_forces(interval);
+        let with_history = self.part.body.after(history).grown(growth);
         self.matrix.factorize(&with_history, &interval.map, &self.middle, &self.pose.frame, precision)
     }
 
@@ -161,6 +163,8 @@ impl<const D: usize> Body<D> for FeBody<D> {
         let dt = interval.map.dt;
         let driven = self.drive.prescribe(&self.part, interval, start.displacement, motion);
         let driven = driven.ok_or(StepError::NotFinite("prescribed motion"))?;
+        let [before, after] = self.part.growth_of(interval);
+        let driven = driven.max((after - before).abs() * body.mesh().diameter());
         if interval.map.is_static() {
             return Ok(Forecast { driven, ..Forecast::default() });
         }
@@ -235,19 +239,21 @@ impl<const D: usize> Body<D> for FeBody<D> {
         held_back: f64,
         springs: &[(u32, Matrix<D>)],
     ) -> Result<(), StepError> {
-        let with_history = self.part.body.after(guess.start.history);
+        let growth = self.part.growth_of_forces(guess.interval);
+        let with_history = self.part.body.after(guess.start.history).grown(growth);
         self.matrix.linearise(&with_history, guess, held_back, springs)
     }
 
     /// Held nodes that move alone would crush the cells beside them. K̄⁻¹ of what the body resists that with, by a difference of its forces.
-    fn follow(&mut self, start: &BodyState<'_, D>, motion: &mut [Vector<D>]) {
+    fn follow(&mut self, interval: &Interval, start: &BodyState<'_, D>, motion: &mut [Vector<D>]) {
         let Self { part, matrix, middle, scratch, jump, .. } = self;
         let share = STRAIGHT * part.body.mesh().diameter() / nodal::largest(motion);
         if !share.is_finite() {
             return;
         }
         nodal::each(middle, [start.displacement, &*motion], |m, [u, d]| *m = u + d * share);
-        let resisted = scratch.change_of_force(&part.body.after(start.history), middle, start.internal_force);
+        let with_history = part.body.after(start.history).grown(part.growth_of(interval)[0]);
+        let resisted = scratch.change_of_force(&with_history, middle, start.internal_force);
         nodal::each(jump, [resisted], |j, [f]| *j = -f / share);
         matrix.begin(jump);
         matrix.end(middle);
@@ -291,6 +297,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         if is_held || map.kinetic_dissipation != 0.0 {
             nodal::each(jump, [&*end.velocity, start.velocity], |jump, [v1, v0]| *jump = v1 - v0);
         }
+        let [_, grown] = part.growth_of(guess.interval);
         let mut elastic = None;
         let exchanged = blend.map(|weight| {
             let Balance { missing, available, .. } = blended.measure(&equation, scratch);
@@ -299,21 +306,24 @@ impl<const D: usize> Body<D> for FeBody<D> {
         });
         if exchanged.is_none() {
             // After plastic flow the stored energy is another: that of the new history.
-            let energy =
-                equation.with_history.internal_force_and_energy(guess.displacement, end.internal_force);
+            let energy = equation
+                .with_history
+                .grown(grown)
+                .internal_force_and_energy(guess.displacement, end.internal_force);
             elastic = equation.with_history.is_virgin().then_some(energy);
         }
-        let mut prescribed = 0.0;
+        let mut prescribed = self.part.work_of_growth(guess);
         if is_held {
-            prescribed = self.close_supports(guess, blend, end.mean_contact_force, end.support);
+            prescribed += self.close_supports(guess, blend, end.mean_contact_force, end.support);
         }
         let Self { part, pose, drive, scratch, jump, momentum, .. } = self;
         let equation = Equation::new(part, guess, pose, drive);
         let (body, held) = (&part.body, part.body.held());
         body.mass().multiply(end.velocity, momentum);
         let kinetic = 0.5 * nodal::dot(end.velocity, momentum);
-        let plastic = equation.with_history.update(guess.displacement, end.history);
-        let strain = elastic.unwrap_or_else(|| body.after(end.history).strain_energy(guess.displacement));
+        let plastic = equation.with_history.grown(grown).update(guess.displacement, end.history);
+        let strain =
+            elastic.unwrap_or_else(|| body.after(end.history).grown(grown).strain_energy(guess.displacement));
         let (external, viscous) = equation.external_and_viscous_work(scratch);
         let mut scheme = 0.0;
         if map.kinetic_dissipation != 0.0 {

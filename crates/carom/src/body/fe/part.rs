@@ -5,6 +5,7 @@ use carom_mesh::Vector;
 
 use super::load::Load;
 use super::supports::Supports;
+use crate::signal::Signal;
 
 /// A body of finite elements in its place in the model, and what drives it.
 #[derive(Debug)]
@@ -19,6 +20,8 @@ pub struct ModelBody<const D: usize> {
     pub loads: Vec<Load<D>>,
     /// Gravity [m/s²].
     pub gravity: Vector<D>,
+    /// The linear strain by which it would grow if nothing held it.
+    pub growth: Option<Signal>,
     pub(crate) supports: Supports<D>,
 }
 
@@ -27,7 +30,8 @@ impl<const D: usize> ModelBody<D> {
     #[must_use]
     pub fn new(name: impl Into<String>, body: Body<D>, first_node: usize) -> Self {
         let supports = Supports::none(&body);
-        Self { name: name.into(), body, first_node, loads: Vec::new(), gravity: Vector::zeros(), supports }
+        let gravity = Vector::zeros();
+        Self { name: name.into(), body, first_node, loads: Vec::new(), gravity, growth: None, supports }
     }
 
     /// The numbers of its nodes.
