@@ -51,6 +51,9 @@ pub(crate) struct Convergence {
     reached: f64,
     /// Smaller corrections say nothing [m].
     round_off: f64,
+    /// What the tolerance of the contact problem leaves of motions [m]: where bodies rest in contact that is more than a part of their motion,
+    /// and no iteration makes it smaller.
+    pub left_by_contacts: f64,
     is_static: bool,
     /// How far the first iteration went [m].
     reach: f64,
@@ -80,6 +83,7 @@ impl Convergence {
                 0.0
             },
             round_off: assembly.round_off(),
+            left_by_contacts: 0.0,
             is_static,
             reach: 0.0,
             least: f64::INFINITY,
@@ -167,7 +171,7 @@ impl Convergence {
 
     /// The correction that may be left where the largest motion in the step is `motion` [m].
     fn wanted(&self, motion: f64) -> f64 {
-        (self.tolerance * motion.max(self.reached)).max(self.round_off)
+        (self.tolerance * motion.max(self.reached)).max(self.round_off).max(self.left_by_contacts)
     }
 
     /// Refuses iterations that lead away from where they set out. Load steps may.
@@ -224,6 +228,7 @@ mod tests {
         tolerance: 1e-10,
         reached: 0.0,
         round_off: 0.0,
+        left_by_contacts: 0.0,
         is_static: false,
         reach: 0.0,
         least: f64::INFINITY,
