@@ -38,7 +38,7 @@ pub use contact::{Contact, shares};
 pub use distance::Proximity;
 pub use model::{ContactModel, Discretisation, Pair, Target};
 pub use mortar::Mortar;
-pub use obstacle::{ClosedSurface, Obstacle, RigidShape, SurfaceDefect};
+pub use obstacle::{ClosedSurface, Obstacle, PolygonDefect, RigidShape, SurfaceDefect};
 pub use penetration::{Boundaries, Feature, Penetration, Solid, Witness};
 pub use search::Search;
 pub use surface::ContactSurface;

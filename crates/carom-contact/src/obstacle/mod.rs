@@ -4,6 +4,7 @@ mod closed;
 mod convex;
 mod direction;
 mod faceted;
+mod polygon;
 
 use std::sync::Arc;
 
@@ -11,6 +12,7 @@ use carom_mesh::Vector;
 
 pub use closed::{ClosedSurface, SurfaceDefect};
 pub(crate) use faceted::{Faceted, box_corners};
+pub use polygon::PolygonDefect;
 
 /// A rigid body that moves as prescribed, without turning.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,7 +62,7 @@ pub enum RigidShape<const D: usize> {
         /// Sides [m].
         size: Vector<D>,
     },
-    /// What a closed surface encloses.
+    /// What a closed surface encloses, in the plane a polygon.
     Surface(Arc<ClosedSurface<D>>),
 }
 

@@ -103,6 +103,18 @@ fn a_plate_lies_on_the_tip_of_a_pyramid_and_a_post_beside_it() {
     assert!(summary.contacts.iter().any(|c| c.pair[1] == "post"), "{:?}", summary.contacts);
 }
 
+/// A ridge between two nodes, beside a dent of the same polygon in which a corner of the plate lies.
+#[test]
+fn a_plate_lies_on_a_ridge_and_in_a_dent() {
+    let corners =
+        [[-0.7, 0.0], [0.5, 0.0], [0.5, 0.2], [0.13, 0.3], [0.05, 0.25], [-0.55, 0.25], [-0.7, 0.45]];
+    for condition in ["gap", "midpoint"] {
+        let block = json!({"name": "block", "kind": "polygon", "points": corners});
+        let summary = lay([-0.5, 0.301], [1.0, 0.2], [5, 2], &[block], condition);
+        assert_lies_on(condition, &summary, 200.0 * 9.81);
+    }
+}
+
 /// An obstacle that pushes with its corner does the work that the body receives.
 #[test]
 fn a_wedge_that_is_pushed_against_a_plate_does_work() {
