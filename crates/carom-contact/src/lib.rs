@@ -27,6 +27,7 @@ mod path;
 mod penetration;
 mod project;
 mod redundant;
+mod round;
 mod search;
 mod self_contact;
 mod surface;

@@ -77,7 +77,7 @@ impl ContactSurface {
     }
 
     /// Outward unit normals of the two facets of an edge, at its middle.
-    pub(super) fn normals<const D: usize>(
+    pub(crate) fn normals<const D: usize>(
         &self,
         edge: &Edge,
         position: &impl Fn(u32) -> Vector<D>,
