@@ -1,7 +1,7 @@
 """Whether solids intersect, as geometry libraries see it that know nothing of carom.
 
-In the plane outlines are polygons of shapely, in space closed surfaces of manifold3d. A facet of
-four nodes that is not flat becomes 32 triangles.
+In the plane outlines are polygons of shapely, in space closed surfaces of manifold3d. What is not
+flat is cut into pieces: a facet of four nodes into 32 triangles, one of six into 16.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import carom
 
 try:
     from manifold3d import Manifold, Mesh64
-    from shapely import Polygon, box
+    from shapely import Point, Polygon, box
 except ImportError:
     Manifold = None
 
@@ -26,6 +26,9 @@ PIECES = 4
 
 FAR = 1e3
 """How large a half space is drawn [m]."""
+
+ROUND = 64
+"""Corners of a quarter of what is round, which are on it: its sides are a little inside."""
 
 
 class Judge:
@@ -54,11 +57,11 @@ class Judge:
 
     def blur(self, x: np.ndarray) -> float:
         """Return what it cannot see [m]."""
-        return 2.0 * max(coarseness(x, own) for own in self._facets) if self._space else 0.0
+        return 2.0 * max(coarseness(x, own) for own in self._facets)
 
     def _body(self, x: np.ndarray, own: list[np.ndarray]) -> Any:
         if not self._space:
-            polygon = Polygon(x[ring(own)])
+            polygon = Polygon(outline(x, own))
             return polygon if polygon.is_valid else None
         return solid(x, own)
 
@@ -76,13 +79,27 @@ class Judge:
             if self._space:
                 return Manifold.cube(tuple(size)).translate(tuple(low))
             return box(*low, *(low + size))
+        if obstacle.kind in {"sphere", "cylinder"}:
+            return self._round(obstacle)
+        if obstacle.kind == "polygon":
+            return Polygon(obstacle.points)
         if obstacle.kind == "plane":
             return self._half_space(np.array(obstacle.point), np.array(obstacle.normal))
-        if obstacle.kind == "surface":
-            mesh = meshio.read(obstacle.file)
-            points, local = np.unique(mesh.points, axis=0, return_inverse=True)
-            return manifold(points, local.reshape(-1)[mesh.cells_dict["triangle"]])
-        raise ValueError(obstacle.kind)
+        mesh = meshio.read(obstacle.file)
+        points, local = np.unique(mesh.points, axis=0, return_inverse=True)
+        return manifold(points, local.reshape(-1)[mesh.cells_dict["triangle"]])
+
+    def _round(self, obstacle: Any) -> Any:
+        if not self._space:
+            return Point(obstacle.centre).buffer(obstacle.radius, quad_segs=ROUND)
+        if obstacle.kind == "sphere":
+            return Manifold.sphere(obstacle.radius, 4 * ROUND).translate(tuple(obstacle.centre))
+        bar = Manifold.cylinder(2 * FAR, obstacle.radius, circular_segments=4 * ROUND, center=True)
+        axis = np.array(obstacle.axis) / np.linalg.norm(obstacle.axis)
+        frame = np.stack([*np.linalg.svd(axis[None])[2][1:], axis])
+        if np.linalg.det(frame) < 0:
+            frame[0] *= -1
+        return bar.transform(np.column_stack([frame.T, np.array(obstacle.point)]))
 
     def _half_space(self, point: np.ndarray, normal: np.ndarray) -> Any:
         normal = normal / np.linalg.norm(normal)
@@ -106,13 +123,23 @@ def facets(surface: Mapping[str, Any]) -> Iterator[list[np.ndarray]]:
         yield [f for f, b in zip(all_facets, surface["body"], strict=True) if b == body]
 
 
-def ring(segments: list[np.ndarray]) -> np.ndarray:
-    """Return the nodes along the outline of a body."""
-    following = {int(a): int(b) for a, b in (s[:2] for s in segments)}
-    nodes = [next(iter(following))]
-    while (node := following[nodes[-1]]) != nodes[0]:
-        nodes.append(node)
-    return np.array(nodes)
+def outline(x: np.ndarray, segments: list[np.ndarray]) -> np.ndarray:
+    """Return the outline of a body, [count, 2]; segments of three nodes are parabolas."""
+    following = {int(segment[0]): segment for segment in segments}
+    start = node = next(iter(following))
+    points = []
+    while not points or node != start:
+        segment = following[node]
+        node = int(segment[1])
+        if len(segment) == 2:
+            points.append(x[segment[:1]])
+        else:
+            t = np.linspace(0.0, 1.0, PIECES + 1)[:-1, None]
+            a, b, middle = x[segment]
+            points.append(
+                (1 - t) * (1 - 2 * t) * a + t * (2 * t - 1) * b + 4 * t * (1 - t) * middle
+            )
+    return np.concatenate(points)
 
 
 def solid(x: np.ndarray, own: list[np.ndarray]) -> Any:
@@ -127,21 +154,50 @@ def solid(x: np.ndarray, own: list[np.ndarray]) -> Any:
 
 
 def pieces(corners: np.ndarray) -> np.ndarray:
-    """Return the triangles of a facet, [count, 3, 3]."""
+    """Return the triangles of a facet of three, four or six nodes, [count, 3, 3]."""
     if len(corners) == 3:
         return corners[None]
-    s = np.linspace(0.0, 1.0, PIECES + 1)
+    if len(corners) == 6:
+        return bent(corners)
+    p, s = corners, np.linspace(0.0, 1.0, PIECES + 1)
     a, b = s[:, None, None], s[None, :, None]
-    p = corners
     grid = (1 - a) * (1 - b) * p[0] + a * (1 - b) * p[1] + a * b * p[2] + (1 - a) * b * p[3]
     low, right, far, up = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
     triangles = np.stack([np.stack([low, right, far], 2), np.stack([low, far, up], 2)], 2)
     return triangles.reshape(-1, 3, 3)
 
 
+def bent(p: np.ndarray) -> np.ndarray:
+    """Return the triangles of a facet of six nodes, those of the sides last."""
+
+    def at(i: int, j: int) -> np.ndarray:
+        r, s = i / PIECES, j / PIECES
+        t = 1 - r - s
+        weights = (
+            t * (2 * t - 1),
+            r * (2 * r - 1),
+            s * (2 * s - 1),
+            4 * t * r,
+            4 * r * s,
+            4 * s * t,
+        )
+        return np.asarray(np.array(weights) @ p)
+
+    steps = [(i, j) for i in range(PIECES) for j in range(PIECES - i)]
+    up = [[at(i, j), at(i + 1, j), at(i, j + 1)] for i, j in steps]
+    down = [[at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)] for i, j in steps if i + j < PIECES - 1]
+    return np.array(up + down)
+
+
 def coarseness(x: np.ndarray, own: list[np.ndarray]) -> float:
-    """Return how far the triangles are from facets that are not flat, at most [m]."""
+    """Return how far the pieces are from facets that are not flat, at most [m]."""
     warps = [np.linalg.norm(x[f[0]] - x[f[1]] + x[f[2]] - x[f[3]]) for f in own if len(f) == 4]
+    for f in own:
+        if len(f) == 6:
+            sides = [(f[0], f[1], f[3]), (f[1], f[2], f[4]), (f[2], f[0], f[5])]
+        else:
+            sides = [tuple(f)] if x.shape[1] == 2 and len(f) == 3 else []
+        warps += [np.linalg.norm(x[a] + x[b] - 2 * x[c]) for a, b, c in sides]
     return max(warps, default=0.0) / (4 * PIECES**2)
 
 

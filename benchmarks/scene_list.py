@@ -44,7 +44,9 @@ def case(
 ) -> Case:
     """Return a case of these bodies."""
     parts = [body["mesh"] for body in bodies] + obstacles
-    dimension = next(len(part[k]) for part in parts for k in ("corner", "point") if k in part)
+    places = [[part[k] for k in ("corner", "point") if k in part] for part in parts]
+    places += [part["points"] for part in parts if "points" in part]
+    dimension = next(len(place[0]) for place in places if place)
     down = [0.0] * (dimension - 1) + [-9.81]
     return {
         "dimension": dimension,
@@ -392,6 +394,145 @@ def folding_strip(_: Path) -> Case:
     made = case([strip], [floor(2), *walls], end=1.5, step=2e-3)
     made["materials"]["m"]["young"] = 2e5
     return made
+
+
+@scene
+def sliding_spool(folder: Path) -> Case:
+    """Return the scene: a spool slides along two rails, between its flanges."""
+
+    def form(x: np.ndarray) -> np.ndarray:
+        across, along = 2.0 * x[:, :2] - 1.0, 2.0 * x[:, 2] - 1.0
+        reach, length = np.abs(across).max(axis=1), np.linalg.norm(across, axis=1)
+        round_ = (
+            across * np.divide(reach, length, out=np.zeros_like(reach), where=length > 0)[:, None]
+        )
+        radius = np.where(np.abs(along) > 0.55, 0.3, 0.15)
+        disc = round_ * radius[:, None]
+        return np.stack([disc[:, 0], 0.8 * along, 0.651 + disc[:, 1]], axis=1)
+
+    rails = [
+        fixed("left", [-1.0, -0.35, 0.0], [4.0, 0.1, 0.5]),
+        fixed("right", [-1.0, 0.25, 0.0], [4.0, 0.1, 0.5]),
+    ]
+    spool = shaped(folder, form, [4, 4, 8], velocity=[2.0, 0.3, 0.0])
+    return case([spool], rails, end=0.8, friction=0.1)
+
+
+@scene
+def house_of_cards(folder: Path) -> Case:
+    """Return the scene: thin cards lean on one another in two storeys."""
+    length, thin, angle, apart = 1.0, 0.03, np.radians(70.0), 1e-3
+    along, across = length * np.cos(angle), thin * np.sin(angle)
+    height = length * np.sin(angle) + thin * np.cos(angle)
+
+    def leaning(middle: float, low: float) -> list[Case]:
+        aside = 0.5 * (along + across) + apart
+        return [
+            shaped(
+                folder,
+                turned(
+                    [middle + s * aside, low + height / 2],
+                    np.pi / 2 + s * (np.pi / 2 - angle),
+                    size,
+                ),
+                [20, 2],
+            )
+            for s, size in ((-1, [length, thin]), (1, [length, thin]))
+        ]
+
+    pitch = 2.0 * (along + across) + 0.05
+    deck = block([-0.15, height + apart], [pitch + 0.3, thin], [20, 2])
+    cards = [*leaning(0.0, apart), *leaning(pitch, apart), deck]
+    cards += leaning(0.5 * pitch, height + thin + 2.0 * apart)
+    made = case(cards, [floor(2)], friction=0.6)
+    made["materials"]["m"]["young"] = 2e9
+    return made
+
+
+@scene
+def ball_rolls_far(_: Path) -> Case:
+    """Return the scene: a ball rolls 100 m over the seams of a fine floor."""
+    tops = [[0.1 * k - 1.0, 0.0] for k in range(1030, -1, -1)]
+    ground = {"name": "ground", "kind": "polygon", "points": [[-1.0, -1.0], [102.0, -1.0], *tops]}
+    mesh = {"kind": "disc", "centre": [0.0, 0.501], "radius": 0.5, "divisions": 8}
+    ball = {"mesh": mesh, "velocity": [10.0, 0.0], "spin": -20.0}
+    return case([ball, block([-0.95, 0.001], [0.2, 0.2], [2, 2])], [ground], end=10.0, damped=False)
+
+
+@scene
+def square_in_a_notch(folder: Path) -> Case:
+    """Return the scene: a square falls on its corner into a dent of a polygon that is narrower."""
+    corners = [
+        [-1.0, -0.5],
+        [1.0, -0.5],
+        [1.0, 0.1],
+        [0.25, 0.0],
+        [0.0, -0.3],
+        [-0.2, 0.0],
+        [-1.0, 0.0],
+    ]
+    notch = {"name": "notch", "kind": "polygon", "points": corners}
+    form = turned([0.03, 0.75], np.pi / 4, [1.0, 1.0])
+    return case([shaped(folder, form, [5, 5])], [notch], end=2.0)
+
+
+def round_posts(dimension: int, *, bars: bool = False) -> Case:
+    """Return a coarse plate that falls on round posts smaller than its facets."""
+    places = [[-0.2], [0.2]]
+    if dimension == 3 and not bars:
+        places = [[x, y] for x in (-0.2, 0.2) for y in (-0.2, 0.2)]
+    bar = {"kind": "cylinder", "axis": [0.0, 1.0, 0.0]} if bars else {"kind": "sphere"}
+    middle = "point" if bars else "centre"
+    rest = [0.0, 0.2] if bars else [0.2]
+    posts = [
+        {"name": f"post-{k}", "radius": 0.1, **bar, middle: [*at, *rest]}
+        for k, at in enumerate(places)
+    ]
+    aside = dimension - 1
+    plate = block([-0.5] * aside + [0.31], [1.0] * aside + [0.2], [5] * aside + [2])
+    return case([plate], [*posts, floor(dimension)])
+
+
+@scene
+def plate_on_small_discs(_: Path) -> Case:
+    """Return the scene: discs touch a coarse plate between its nodes."""
+    return round_posts(2)
+
+
+@scene
+def plate_on_small_balls(_: Path) -> Case:
+    """Return the scene: balls touch facets of a coarse plate in their middles."""
+    return round_posts(3)
+
+
+@scene
+def plate_on_thin_bars(_: Path) -> Case:
+    """Return the scene: bars lie across the edges of its facets."""
+    return round_posts(3, bars=True)
+
+
+@scene
+def gmsh_parts_that_interlock(folder: Path) -> Case:
+    """Return the scene: a dovetail in its slot is thrown up and takes the other part along.
+
+    Gmsh cuts both into triangles of second order.
+    """
+    left = [(-1.0, 1.0), (-0.21, 1.0), (-0.41, 0.4)]
+    slot = [(-1.0, 0.0), *left, *((-x, z) for x, z in reversed(left)), (1.0, 0.0)]
+    left = [(-0.39, 0.411), (-0.2, 0.99), (-0.2, 1.2), (-0.6, 1.2), (-0.6, 1.7)]
+    tail = [*left, *((-x, z) for x, z in reversed(left))]
+    bodies = []
+    for name, corners in (("slot", slot), ("tail", tail)):
+        corners.reverse()
+        lines = [f"Point({k}) = {{{x}, {z}, 0, 0.2}};" for k, (x, z) in enumerate(corners, 1)]
+        count = len(corners)
+        lines += [f"Line({k}) = {{{k}, {k % count + 1}}};" for k in range(1, count + 1)]
+        lines += [f"Line Loop(1) = {{1:{count}}};", "Plane Surface(1) = {1};"]
+        file = folder / f"{name}.geo"
+        file.write_text("\n".join(lines))
+        bodies.append({"mesh": {"kind": "file", "file": str(file)}})
+    bodies[1]["velocity"] = [0.3, 3.0]
+    return case(bodies, [floor(2, -0.001)])
 
 
 def bullet(dimension: int, sizes_per_second: float, *, rigid: bool) -> Case:

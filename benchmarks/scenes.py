@@ -1,6 +1,6 @@
 """The scenes of contact, judged step by step by geometry libraries that know nothing of carom.
 
-    pip install shapely manifold3d
+    pip install shapely manifold3d gmsh
     .venv/bin/python benchmarks/scenes.py [part of a name ...]
 
 A scene is right if it completes and nothing is in anything by more than the run said, or if it ends

@@ -144,6 +144,7 @@ def parts(field: FieldInfo) -> tuple[object, list[object]]:
     return annotation, asked
 
 
+COUNTS = {PER_DIMENSION: "D ", InPlane: "2 ", InSpace: "3 "}
 PLAIN = {float: "number", int: "integer", str: "string", bool: "boolean"}
 
 
@@ -160,10 +161,11 @@ def type_of(field: FieldInfo) -> str:  # noqa: PLR0911 (one per type)
         item = get_args(annotation)[0]
         if models(item):
             return "array of tables"
-        item = get_args(item)[0] if get_origin(item) is Annotated else item
+        item, *of_item = get_args(item) if get_origin(item) is Annotated else [item]
+        if get_origin(item) is tuple:
+            return f"array of {COUNTS[of_item[0]]}numbers each"
         plain = "string" if get_origin(item) is Literal else PLAIN[item]
-        count = {PER_DIMENSION: "D ", InPlane: "2 ", InSpace: "3 "}
-        return next((f"{count[a]}{plain}s" for a in asked if a in count), f"array of {plain}s")
+        return next((f"{COUNTS[a]}{plain}s" for a in asked if a in COUNTS), f"array of {plain}s")
     if get_origin(annotation) is dict:
         return "table of tables"
     return "table"

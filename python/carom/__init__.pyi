@@ -41,6 +41,7 @@ from carom.case.motion import Prescribed as Prescribed
 from carom.case.obstacle import Plane as Plane
 from carom.case.obstacle import RigidBox as RigidBox
 from carom.case.obstacle import RigidCylinder as RigidCylinder
+from carom.case.obstacle import RigidPolygon as RigidPolygon
 from carom.case.obstacle import RigidSphere as RigidSphere
 from carom.case.obstacle import RigidSurface as RigidSurface
 from carom.case.output import Output as Output

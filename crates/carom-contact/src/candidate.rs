@@ -9,6 +9,10 @@ pub enum Site {
     /// A corner of the obstacle that is the target, before a facet of the source. Corners are numbered after all nodes, for every obstacle
     /// from the same number on.
     Corner(u32),
+    /// A facet of the source that is large beside the round obstacle that is the target, where it is nearest to its centre.
+    Facet(u32),
+    /// An edge of the source, from its first node to its second, where it is nearest to the axis of the target.
+    Edge([u32; 2]),
 }
 
 /// What may touch its target within a step. Ordered by pair, then site: this is the order of the contacts.
@@ -18,7 +22,8 @@ pub struct Candidate {
     pub pair: u32,
     /// The source node, the edges, or the corner of the target.
     pub site: Site,
-    /// The facet that a node or a corner faces on the other side; `None` for an obstacle without facets, a multiplier or edges.
+    /// The facet that a node or a corner faces on the other side, or that a round obstacle is before; `None` of nodes before an obstacle without
+    /// facets, of multipliers and of edges.
     pub facet: Option<u32>,
     /// Whether it says what another candidate says, and is to be left out. Of two nodes that face one another one is left out, and so is
     /// one of a node and the edges that cross at it.
@@ -37,7 +42,7 @@ impl Candidate {
     pub fn node(&self) -> Option<u32> {
         match self.site {
             Site::Node(node) => Some(node),
-            Site::Crossing(..) | Site::Corner(_) => None,
+            _ => None,
         }
     }
 

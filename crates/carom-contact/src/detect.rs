@@ -8,7 +8,8 @@ use crate::{Candidate, Contact, ContactModel, Obstacle, Pair, Path, Search, Site
 
 impl<const D: usize> ContactModel<D> {
     /// Finds the nodes that on their `path` come near their target or are inside it, and the facets they face; of obstacles with corners also
-    /// those that come near facets of the body. In space it also finds the edges that cross those of the target.
+    /// those that come near facets of the body, and before round obstacles the facets or edges that are large beside them. In space it also finds
+    /// the edges that cross those of the target.
     ///
     /// A node keeps its facet for the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
     /// the closest facet alone is ambiguous. Nodes are found inside a target to a depth of half a facet. On a smooth target
@@ -38,7 +39,10 @@ impl<const D: usize> ContactModel<D> {
         for (p, pair) in self.pairs.iter().enumerate().filter(|(_, pair)| count(pair)) {
             match pair.target {
                 Target::Obstacle(o) => match &self.obstacles[o].faceted {
-                    None => self.detect_round(p, &self.obstacles[o], path, out),
+                    None => {
+                        self.detect_round(p, &self.obstacles[o], path, out);
+                        self.detect_between(p, &self.obstacles[o], path, out);
+                    }
                     Some(faceted) => {
                         let obstacle = &self.obstacles[o];
                         let (start, end) = (&obstacle.placed(path.start), &obstacle.placed(path.end));
@@ -169,6 +173,9 @@ impl<const D: usize> ContactModel<D> {
                 let [s, _] = c.along;
                 contact(c.gap, &c.normal, &source, &[1.0 - s, s])
             }
+            (Site::Facet(_) | Site::Edge(_), ..) => self
+                .before_round(candidate, obstacle, position)
+                .expect("detect finds these before round obstacles alone"),
             (Site::Corner(_), _, None) => unreachable!("detect gives corners their facet"),
         }
     }

@@ -47,6 +47,8 @@ impl<const D: usize> ContactModel<D> {
                     (x - surface.project(f, &x, Reach::Facet, position).point).norm() <= near
                 })
             }
+            // Found again wherever they come near.
+            Site::Facet(_) | Site::Edge(_) => false,
             Site::Crossing(source, target) => {
                 let [a, b] = [source.map(position), target.map(position)];
                 let length = (a[1] - a[0]).norm().min((b[1] - b[0]).norm());

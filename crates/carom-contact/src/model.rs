@@ -78,7 +78,7 @@ impl<const D: usize> ContactModel<D> {
     pub(crate) fn faced_surface(&self, candidate: &Candidate) -> Option<&ContactSurface> {
         let pair = &self.pairs[candidate.pair as usize];
         match (candidate.site, pair.target) {
-            (Site::Corner(_), _) => Some(&self.surfaces[pair.source]),
+            (Site::Corner(_) | Site::Facet(_), _) => Some(&self.surfaces[pair.source]),
             (_, Target::Surface(t)) => Some(&self.surfaces[t]),
             (_, Target::Obstacle(o)) => self.obstacles[o].faceted.as_ref().map(|f| &f.surface),
         }

@@ -15,6 +15,7 @@ impl<const D: usize> ContactModel<D> {
             candidates[k].redundant = match c.site {
                 Site::Node(node) => self.is_second_side(&c, node, position, candidates),
                 Site::Corner(corner) => self.is_at_node(&c, corner, position, candidates),
+                Site::Facet(_) | Site::Edge(_) => self.is_said_before(k, position, candidates),
                 Site::Crossing(..) => false,
             };
         }

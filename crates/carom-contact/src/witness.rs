@@ -110,7 +110,7 @@ impl ContactSurface {
     }
 
     /// The edge between two nodes.
-    fn edge(&self, [a, b]: [u32; 2]) -> Option<&Edge> {
+    pub(crate) fn edge(&self, [a, b]: [u32; 2]) -> Option<&Edge> {
         let of = |edges: &'_ [Edge], nodes| edges.binary_search_by_key(&nodes, |e| e.nodes).ok();
         [[a, b], [b, a]].into_iter().find_map(|nodes| {
             let sharp = of(&self.edges, nodes).map(|k| &self.edges[k]);

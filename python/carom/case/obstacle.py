@@ -12,6 +12,7 @@ from carom.case.description import (
     Description,
     FilePath,
     Name,
+    PlaneVector,
     Positive,
     SpaceVector,
     Vector,
@@ -139,6 +140,27 @@ class RigidBox(_Obstacle):
     size: Annotated[tuple[Positive, ...], PER_DIMENSION]
 
 
+class RigidPolygon(_Obstacle):
+    """The inside of a polygon, in 2D; bodies are outside.
+
+    It may have dents. Its sides meet at its corners alone.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    points
+        Its corners [m] in order, in either sense of turning; the last side closes by itself.
+    velocity
+        Constant velocity [m/s], shape [2]; None is none.
+    motion
+        Displacement over time, in place of a velocity.
+    """
+
+    kind: Literal["polygon"] = "polygon"
+    points: Annotated[tuple[PlaneVector, ...], Field(min_length=3)]
+
+
 class RigidSurface(_Obstacle):
     """What a closed surface of triangles encloses, in 3D; bodies are outside.
 
@@ -162,5 +184,6 @@ class RigidSurface(_Obstacle):
 
 
 Obstacle = Annotated[
-    Plane | RigidSphere | RigidCylinder | RigidBox | RigidSurface, Field(discriminator="kind")
+    Plane | RigidSphere | RigidCylinder | RigidBox | RigidPolygon | RigidSurface,
+    Field(discriminator="kind"),
 ]

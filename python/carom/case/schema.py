@@ -88,5 +88,7 @@ def _described(entry: JsonSchemaValue, field: FieldInfo, text: str) -> JsonSchem
         if any(one is marker for one in asked):
             for form in (entry, *entry.get("anyOf", ())):
                 if form.get("type") == "array":
-                    form |= {"minItems": least, "maxItems": most}
+                    # What is asked of one member is asked of every member of an array of vectors.
+                    vector = form["items"] if form["items"].get("type") == "array" else form
+                    vector |= {"minItems": least, "maxItems": most}
     return {"description": text.replace("``", "").replace("`", ""), **entry}

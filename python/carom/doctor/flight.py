@@ -9,7 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.building.simplices import Boundary, distance, to_point
-from carom.case.obstacle import Obstacle, Plane, RigidBox, RigidSphere, RigidSurface
+from carom.case.obstacle import (
+    Obstacle,
+    Plane,
+    RigidBox,
+    RigidPolygon,
+    RigidSphere,
+    RigidSurface,
+)
 from carom.mesh_file.cells import KINDS
 
 Array = NDArray[np.float64]
@@ -84,9 +91,8 @@ def obstacle_gap(
     # Nothing is nearer to a plane or the wall of a cavity than a node. What bulges may be between.
     if of_nodes <= 0.0 or isinstance(obstacle, Plane):
         return of_nodes
-    if isinstance(obstacle, RigidBox):
-        low = np.asarray(obstacle.corner, dtype=float)
-        return distance(boundary, _box(low, low + obstacle.size))[0]
+    if isinstance(obstacle, RigidBox | RigidPolygon):
+        return distance(boundary, _sides(obstacle))[0]
     if obstacle.cavity:
         return of_nodes
     if isinstance(obstacle, RigidSphere):
@@ -97,12 +103,25 @@ def obstacle_gap(
     return to_point(across, np.zeros(3)) - obstacle.radius
 
 
+def _sides(obstacle: RigidBox | RigidPolygon) -> Boundary:
+    """Return the boundary of an obstacle."""
+    if isinstance(obstacle, RigidPolygon):
+        return _around(np.asarray(obstacle.points, dtype=float))
+    low = np.asarray(obstacle.corner, dtype=float)
+    return _box(low, low + obstacle.size)
+
+
+def _around(corners: Array) -> Boundary:
+    """Return the sides of a polygon."""
+    ends = np.arange(len(corners))
+    return Boundary(corners, np.column_stack([ends, np.roll(ends, -1)]))
+
+
 def _box(low: Array, high: Array) -> Boundary:
     """Return the boundary of an upright box."""
     if len(low) == 2:
         (x, y), (u, v) = low, high
-        corners = np.array([[x, y], [u, y], [u, v], [x, v]])
-        return Boundary(corners, np.array([[0, 1], [1, 2], [2, 3], [3, 0]]))
+        return _around(np.array([[x, y], [u, y], [u, v], [x, v]]))
     kind = KINDS["hexahedron"]
     unit = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]
     pieces = [part for a, b, c, d in kind.sides for part in ((a, b, c), (a, c, d))]

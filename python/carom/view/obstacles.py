@@ -7,7 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.case.obstacle import Obstacle, Plane, RigidBox, RigidCylinder, RigidSphere
+from carom.case.obstacle import (
+    Obstacle,
+    Plane,
+    RigidBox,
+    RigidCylinder,
+    RigidPolygon,
+    RigidSphere,
+    RigidSurface,
+)
 from carom.case.scenario import Scenario
 from carom.case.travel import travel
 from carom.mesh_file import read_surface
@@ -67,6 +75,9 @@ def _line(obstacle: Obstacle, middle: NDArray[np.float64], size: float) -> Any: 
         return circle.extract_feature_edges()
     if isinstance(obstacle, RigidBox):
         return _box(obstacle).extract_feature_edges()
+    if isinstance(obstacle, RigidPolygon):
+        corners = [_spatial(corner) for corner in obstacle.points]
+        return pyvista.lines_from_points(np.array(corners), close=True)
     raise AssertionError(f"{obstacle.kind} is no obstacle of the plane")
 
 
@@ -98,6 +109,7 @@ def _solid(obstacle: Obstacle, middle: NDArray[np.float64], size: float, *, key:
         )
     if isinstance(obstacle, RigidBox):
         return _box(obstacle)
+    assert isinstance(obstacle, RigidSurface), f"{obstacle.kind} is no obstacle of space"
     surface = read_surface(obstacle.file, scale=obstacle.scale, key=key)
     triangles: Any = surface.triangles
     return pyvista.PolyData.from_regular_faces(surface.points, triangles)

@@ -169,6 +169,31 @@ BAD = [
         "0: every side must be greater than 0 m",
     ),
     (
+        obstacle(kind="polygon", points=[[0, -2], [1, -2]]),
+        "obstacles.0.points",
+        "2 corners enclose nothing; give three or more",
+    ),
+    (
+        obstacle(kind="polygon", points=[[0, -2], [1, -2], [1, -1], [0, -2]]),
+        "obstacles.0.points",
+        "corner 3 is where the next one is; give it once, the last side closes by itself",
+    ),
+    (
+        obstacle(kind="polygon", points=[[0, -2], [1, -2], [0.5, -2], [0, -1]]),
+        "obstacles.0.points",
+        "the sides at corner 1 lie on one another; leave it out",
+    ),
+    (
+        obstacle(kind="polygon", points=[[0, -2], [1, -2], [0, -1], [1, -1]]),
+        "obstacles.0.points",
+        "the sides from corners 1 and 3 meet; give the corners in the order in which they follow",
+    ),
+    (
+        {**SPACE, **mesh(**BALL), **obstacle(kind="polygon", points=[[0, -2], [1, -2], [1, -1]])},
+        "obstacles.0.kind",
+        "a polygon is an obstacle of the plane; in space take a box or a surface",
+    ),
+    (
         obstacle(kind="plane", point=[0, 0], normal=[0, 0]),
         "obstacles.0.normal",
         "0: the normal must not be zero and points to the free side",

@@ -352,6 +352,24 @@ def test_gaps_of_obstacles():
         assert found == pytest.approx(gap)
 
 
+def test_a_polygon_is_as_far_away_as_its_nearest_corner_or_side():
+    """A bracket with a dent, over which the side of a body passes."""
+    bracket = [[0, 0], [3, 0], [3, 2], [2, 2], [2, 1], [1, 1], [1, 2], [0, 2]]
+    shape = carom.RigidPolygon(name="bracket", points=bracket)
+    mesh = carom.Rectangle(corner=[0.5, 2.5], size=[2, 1], divisions=[1, 1])
+    scenario = carom.Scenario(
+        analysis=carom.Dynamic(end_time=1.0, time_step=1.0),
+        materials={"m": carom.LinearElastic(young=1.0, poisson=0.3, density=1.0)},
+        bodies=[carom.Body(name="block", material="m", mesh=mesh)],
+        obstacles=[shape],
+    )
+    native = build(scenario)
+    for points, gap in ([[1.2, 2.5], [1.8, 2.5]], 0.5), ([[1.5, 1.2], [1.5, 1.4]], 0.2):
+        side = Boundary(np.array(points), np.array([[0, 1]]))
+        found = obstacle_gap(shape, side, lambda x: native.obstacle_gaps(0, x)[0])
+        assert found == pytest.approx(gap if gap < 0.5 else np.hypot(0.2, 0.5))
+
+
 def test_a_thrown_body_falls_and_turns():
     flight = Flight(
         Boundary(np.array([[1.0, 0.0, 0.0]]), np.array([[0, 0, 0]])),

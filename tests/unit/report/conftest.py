@@ -43,6 +43,7 @@ DISC = {
             "radius": 0.5,
             "motion": {"x": "0.3*sin(4*t)", "y": {"time": [0, 0.2], "value": [0, 0.1]}},
         },
+        {"name": "ramp", "kind": "polygon", "points": [[4, 3], [6, 2], [5, 2.2], [4, 2]]},
     ],
     "contact": {"friction": 0.2},
     "output": {"fields_every": 0.02, "report": True},

@@ -127,8 +127,9 @@ def test_books_of_bodies_and_pairs_are_those_of_the_ledger(disc, data_of):
 
 def test_an_obstacle_that_moves_is_where_it_is(disc, data_of):
     scene = data_of(disc.path / layout.REPORT).scene
-    floor, lift, swing = scene["obstacles"]
+    floor, lift, swing, ramp = scene["obstacles"]
     assert (floor["kind"], lift["kind"], lift["corner"]) == ("plane", "box", [3, 0])
+    assert (ramp["kind"], ramp["points"][2]) == ("polygon", [5, 2.2])
     times = unpack(scene["times"])
     np.testing.assert_allclose(np.array(lift["travel"]), np.outer(times, [0.5, 0]))
     np.testing.assert_array_equal(floor["travel"], np.zeros((len(times), 2)))

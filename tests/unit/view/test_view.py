@@ -144,6 +144,26 @@ def test_bodies_fill_the_picture_and_not_the_obstacles(tmp_path, dimension, size
     assert columns.max() < pixels.shape[1] - 1
 
 
+def test_a_polygon_is_drawn_where_it_has_moved(tmp_path):
+    import matplotlib.image
+
+    case = block(2)
+    beside = {
+        "name": "beside",
+        "kind": "polygon",
+        "points": [[0.14, 0.02], [0.2, 0.02], [0.17, 0.2]],
+    }
+    pictures = []
+    for k, more in enumerate(([], [beside], [{**beside, "velocity": [0.0, 2.0]}])):
+        made = {**case, "obstacles": [*case["obstacles"], *more]}
+        carom.run(carom.Scenario.from_dict(made), out=tmp_path / f"run{k}")
+        assert view(tmp_path / f"run{k}", "--screenshot", tmp_path / f"{k}.png").exit_code == 0
+        pictures.append(matplotlib.image.imread(tmp_path / f"{k}.png"))
+    without, still, moved = pictures
+    assert np.abs(still - without).max() > 0.1
+    assert np.abs(still - moved).max() > 0.1
+
+
 def test_the_side_that_faces_the_camera_has_the_colour_of_the_bar(tmp_path):
     """Symptom guarded against: parts in space were dim, and no colour of the bar was on them."""
     import matplotlib.image

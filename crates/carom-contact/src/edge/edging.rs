@@ -86,7 +86,7 @@ pub(crate) struct SurfaceEdge<'a> {
 
 impl SurfaceEdge<'_> {
     /// Outward unit normals of the two facets beside it, at its middle.
-    pub(super) fn normals<const D: usize>(&self, position: &impl Fn(u32) -> Vector<D>) -> [Vector<D>; 2] {
+    pub(crate) fn normals<const D: usize>(&self, position: &impl Fn(u32) -> Vector<D>) -> [Vector<D>; 2] {
         self.edge.sides.map(|side| {
             let patch = Patch::new(&self.surface.facets[side.facet as usize], position);
             normal(&patch.at(&side.middle).tangents)

@@ -14,13 +14,14 @@ use super::direction::along;
 /// A closed surface of straight facets, triangles in space and segments in the plane, with the body inside.
 ///
 /// Its signed distance takes the sign from pseudo-normals. That of a facet is its normal, and that of an edge the sum over its
-/// two facets. That of a vertex is the sum over the facets around it, weighted by their angles there (Bærentzen & Aanæs 2005).
+/// two facets. That of a vertex is the sum over the facets around it, weighted by their angles there (Bærentzen & Aanæs 2005); in the plane
+/// the sum over its two segments.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClosedSurface<const D: usize> {
     vertices: Vec<Vector<D>>,
     facets: Vec<Facet>,
     normals: Vec<Vector<D>>,
-    /// Of the edges opposite to each corner of a triangle; not normalised.
+    /// Of the edges opposite to each corner of a triangle, in the plane none; not normalised.
     edge_normals: Vec<[Vector<D>; 3]>,
     vertex_normals: Vec<Vector<D>>,
     bounds: Aabb<D>,
@@ -160,11 +161,20 @@ impl<const D: usize> ClosedSurface<D> {
                 })
             })
             .collect();
-        let facets: Vec<Facet> =
-            triangles.iter().map(|t| Facet { kind: CellKind::Tri3, nodes: t.to_vec() }).collect();
-        let tree = Bvh::new(triangles.iter().map(|t| Aabb::of(t.map(x))));
+        let facets = triangles.iter().map(|t| Facet { kind: CellKind::Tri3, nodes: t.to_vec() }).collect();
+        Ok(Self { edge_normals, ..Self::of_facets(vertices, facets, normals, vertex_normals) })
+    }
+
+    /// One of these facets with their unit normals, and the pseudo-normals of its vertices, of any length.
+    pub(super) fn of_facets(
+        vertices: Vec<Vector<D>>,
+        facets: Vec<Facet>,
+        normals: Vec<Vector<D>>,
+        vertex_normals: Vec<Vector<D>>,
+    ) -> Self {
+        let tree = Bvh::new(facets.iter().map(|f| Aabb::of(f.nodes.iter().map(|&n| vertices[n as usize]))));
         let bounds = Aabb::of(vertices.iter().copied());
-        Ok(Self { vertices, facets, normals, edge_normals, vertex_normals, bounds, tree })
+        Self { vertices, facets, normals, edge_normals: Vec::new(), vertex_normals, bounds, tree }
     }
 
     pub(crate) fn vertices(&self) -> &[Vector<D>] {
@@ -177,7 +187,8 @@ impl<const D: usize> ClosedSurface<D> {
 
     /// The ends of its edges [m], every edge once.
     pub(crate) fn edges(&self) -> impl Iterator<Item = [Vector<D>; 2]> {
-        let around = self.facets.iter().flat_map(|f| (0..3).map(|k| [f.nodes[k], f.nodes[(k + 1) % 3]]));
+        let around = self.facets.iter().flat_map(|f| (0..D).map(|k| [f.nodes[k], f.nodes[(k + 1) % D]]));
+        // A triangle has its edges in common with others that run through them the other way, a segment is one.
         around.filter(|[a, b]| a < b).map(|ends| ends.map(|n| self.vertices[n as usize]))
     }
 

@@ -4,6 +4,7 @@ mod closed;
 mod convex;
 mod direction;
 mod faceted;
+mod polygon;
 
 use std::sync::Arc;
 
@@ -11,6 +12,7 @@ use carom_mesh::Vector;
 
 pub use closed::{ClosedSurface, SurfaceDefect};
 pub(crate) use faceted::{Faceted, box_corners};
+pub use polygon::PolygonDefect;
 
 /// A rigid body that moves as prescribed, without turning.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,7 +62,7 @@ pub enum RigidShape<const D: usize> {
         /// Sides [m].
         size: Vector<D>,
     },
-    /// What a closed surface encloses.
+    /// What a closed surface encloses, in the plane a polygon.
     Surface(Arc<ClosedSurface<D>>),
 }
 
@@ -102,6 +104,12 @@ impl<const D: usize> Obstacle<D> {
         self.faceted.is_some()
     }
 
+    /// Whether it may be inside a body without a node of that being inside it.
+    #[must_use]
+    pub fn touches_between_nodes(&self) -> bool {
+        self.has_corners() || self.shape.bulging_radius().is_some()
+    }
+
     /// Whether a corner of the obstacle has this number.
     #[must_use]
     pub fn has_corner(&self, n: u32) -> bool {
@@ -118,25 +126,17 @@ impl<const D: usize> Obstacle<D> {
 }
 
 impl<const D: usize> RigidShape<D> {
-    /// How far it bulges into a facet of this `size` [m] whose nodes touch it [m]. Nothing that is small beside the facet touches its nodes.
+    /// How far it bulges into a facet of this `size` [m] whose nodes touch it [m]. Beside what is larger it touches the facet itself.
     pub(crate) fn bulge(&self, size: f64) -> f64 {
-        match self {
-            Self::Sphere { radius, cavity: false, .. } | Self::Cylinder { radius, cavity: false, .. }
-                if size <= *radius =>
-            {
-                size * size / (8.0 * radius)
-            }
-            _ => 0.0,
-        }
+        let radius = self.bulging_radius().filter(|radius| size <= *radius);
+        radius.map_or(0.0, |radius| size * size / (8.0 * radius))
     }
 
     pub(crate) fn gap(&self, x: &Vector<D>) -> (f64, Vector<D>) {
         match self {
             Self::Plane { point, normal } => (normal.dot(&(x - point)), *normal),
-            Self::Sphere { centre, radius, cavity } => convex::round(&(x - centre), *radius, *cavity),
-            Self::Cylinder { point, axis, radius, cavity } => {
-                let offset = x - point;
-                convex::round(&(offset - axis * axis.dot(&offset)), *radius, *cavity)
+            Self::Sphere { radius, cavity, .. } | Self::Cylinder { radius, cavity, .. } => {
+                convex::round(&self.offset_of(x), *radius, *cavity)
             }
             Self::Box { corner, size } => convex::cuboid(&(x - corner - size * 0.5), &(size * 0.5)),
             Self::Surface(surface) => surface.gap(x),

@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use carom_contact::{ClosedSurface, Obstacle, RigidShape};
+use carom_contact::{ClosedSurface, Obstacle, PolygonDefect, RigidShape};
 use carom_mesh::Vector;
 
 use super::values::{number, vector};
@@ -24,7 +24,8 @@ pub(super) fn obstacle<const D: usize>(
     let radius =
         |radius: f64| number(&of("radius"), radius, radius > 0.0, "the radius must be greater than 0 m");
     let in_space = |what: &str| {
-        let remedy = "is an obstacle in 3D; in the plane take a sphere, which is a circle there, or a box";
+        let remedy =
+            "is an obstacle in 3D; in the plane take a sphere, which is a circle there, a box or a polygon";
         if D == 3 { Ok(()) } else { Err(InputError::new(of("kind"), format!("{what} {remedy}"))) }
     };
     let shape = match shape {
@@ -49,6 +50,15 @@ pub(super) fn obstacle<const D: usize>(
                 number(&of("size"), *side, *side > 0.0, "every side must be greater than 0 m")?;
             }
             RigidShape::Box { corner: vector(&of("corner"), corner)?, size }
+        }
+        ObstacleShape::Polygon { points } => {
+            if D != 2 {
+                return Err(InputError::new(of("kind"), PolygonDefect::NotInPlane.to_string()));
+            }
+            let key = of("points");
+            let corners = points.iter().map(|x| vector(&key, x)).collect::<Result<_, _>>()?;
+            let surface = ClosedSurface::polygon(corners);
+            RigidShape::Surface(Arc::new(surface.map_err(|e| InputError::new(key, e.to_string()))?))
         }
         ObstacleShape::Surface { vertices, triangles } => {
             in_space("a surface")?;

@@ -139,22 +139,24 @@ fn is_pushed<const D: usize>(
     InputError::new(key, message)
 }
 
-/// Refuses bodies that corners and edges of obstacles are inside of, where no node need be inside the obstacle.
+/// Refuses bodies that corners and edges of obstacles are inside of, or round obstacles between nodes, where no node need be inside.
 fn check_corners<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Result<(), InputError> {
     let assembly = &model.assembly;
     let obstacles = &assembly.contact.obstacles;
     let at = |n: u32| assembly.reference[n as usize];
     let counts = |between: [Solid; 2]| match between {
         [Solid::Body(_), Solid::Obstacle(o)] | [Solid::Obstacle(o), Solid::Body(_)] => {
-            obstacles[o].has_corners() && assembly.must_not_overlap(between)
+            obstacles[o].touches_between_nodes() && assembly.must_not_overlap(between)
         }
         _ => false,
     };
     let mut refused = None;
-    assembly.boundaries.clone().measure(obstacles, counts, &at, |Penetration { depth, at, between, .. }| {
+    assembly.boundaries.clone().measure(obstacles, counts, &at, |Penetration { depth, at, between, arcs, .. }| {
         let [Solid::Body(i), Solid::Obstacle(o)] = between else { return };
         let body = &model.bodies[i];
-        let depth_beyond = depth - assembly.clearance(between, 0.0);
+        // What is round bulges into small facets, and facets are in front of the round sides that they stand for.
+        let arcs = if obstacles[o].has_corners() { 0.0 } else { arcs };
+        let depth_beyond = depth - assembly.clearance(between, 0.0) - arcs;
         if depth_beyond > TOUCHING * body.body.mesh().smallest_edge() {
             let cure = cure(scenario, assembly.interference_between(between));
             refused.get_or_insert_with(|| {

@@ -52,11 +52,14 @@ struct Reactions<const D: usize> {
 
 const PREFIX: &str = "state/reactions";
 
-/// A site as four nodes: those of two edges, or one node or corner four times.
+/// A site as four nodes: those of two edges, or one node or corner four times; of what is before a round obstacle those of an edge, or the number
+/// of a facet twice, and twice none.
 fn to_nodes(site: Site) -> [u32; 4] {
     match site {
         Site::Node(n) | Site::Corner(n) => [n; 4],
         Site::Crossing([a, b], [c, d]) => [a, b, c, d],
+        Site::Facet(f) => [f, f, u32::MAX, u32::MAX],
+        Site::Edge([a, b]) => [a, b, u32::MAX, u32::MAX],
     }
 }
 
@@ -68,6 +71,10 @@ fn to_site<const D: usize>(assembly: &Assembly<D>, pair: u32, [a, b, c, d]: [u32
         Target::Obstacle(o) => contact.obstacles[o].has_corner(*n),
         Target::Surface(_) => false,
     };
+    if [c, d] == [u32::MAX; 2] {
+        let site = if a == b { Site::Facet(a) } else { Site::Edge([a, b]) };
+        return contact.has_before_round(pair as usize, site).then_some(site);
+    }
     if a != b {
         let is_crossing = [a, b].iter().all(is_node) && [c, d].iter().all(|n| is_node(n) || is_corner(n));
         return is_crossing.then_some(Site::Crossing([a, b], [c, d]));

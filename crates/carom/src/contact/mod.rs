@@ -114,7 +114,7 @@ impl<const D: usize> Contacts<D> {
         motion: &[Vector<D>],
         error: f64,
         bodies: &mut [Box<dyn Body<D>>],
-    ) -> Result<(), StepError> {
+    ) -> Result<f64, StepError> {
         self.reduced.solve(given, &mut self.active, motion, error, bodies)
     }
 

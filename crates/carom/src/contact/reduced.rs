@@ -13,20 +13,18 @@ use crate::error::StepError;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
 
-/// The tolerance of a contact problem whose motions may be wrong by `error` [m]. Natural residuals are such an error over the larger of
-/// q and, by the natural stiffness, r. It is at least the tolerance that is asked for.
-fn tolerance<const D: usize>(
-    problem: &ContactProblem<D>,
-    reactions: &[Vector<D>],
-    error: f64,
-    least: f64,
-) -> f64 {
+/// What residuals are relative to [m]: the larger of q and, by the natural stiffness, the reactions. A residual is an error of motions over it.
+fn size<const D: usize>(problem: &ContactProblem<D>, reactions: &[Vector<D>]) -> f64 {
+    let squares = |vectors: &[Vector<D>]| vectors.iter().map(Vector::norm_squared).sum::<f64>();
+    squares(&problem.q).max(squares(reactions) / problem.natural_stiffness().powi(2)).sqrt()
+}
+
+/// The tolerance of a contact problem of this `size` [m] whose motions may be wrong by `error` [m]. It is at least the tolerance that is asked for.
+fn tolerance(contacts: usize, size: f64, error: f64, least: f64) -> f64 {
     if error == 0.0 {
         return least;
     }
-    let squares = |vectors: &[Vector<D>]| vectors.iter().map(Vector::norm_squared).sum::<f64>();
-    let size = squares(&problem.q).max(squares(reactions) / problem.natural_stiffness().powi(2));
-    (error * (problem.q.len() as f64 / size).sqrt()).min(CONTROL.loosest).max(least)
+    (error * (contacts as f64).sqrt() / size).min(CONTROL.loosest).max(least)
 }
 
 /// The reduced problem of a step and what leads to it.
@@ -110,7 +108,8 @@ impl<const D: usize> Reduced<D> {
     }
 
     /// Solves the reduced problem of the contacts, so that their motions are wrong by about `error` [m] if that is not zero. The bodies in
-    /// contact are between [`Body::begin_solve`] and [`Body::end_solve`], and are given the change of the reactions.
+    /// contact are between [`Body::begin_solve`] and [`Body::end_solve`], and are given the change of the reactions. Returns what the tolerance
+    /// of the friction solver leaves of any motion [m]: less cannot be had by iterating on.
     pub fn solve(
         &mut self,
         given: &Given<'_, D>,
@@ -118,7 +117,7 @@ impl<const D: usize> Reduced<D> {
         motion: &[Vector<D>],
         error: f64,
         bodies: &mut [Box<dyn Body<D>>],
-    ) -> Result<(), StepError> {
+    ) -> Result<f64, StepError> {
         let Given { assembly, method, state, interval } = *given;
         let start = |n: usize| state.velocity[n];
         self.offsets.clear();
@@ -133,7 +132,8 @@ impl<const D: usize> Reduced<D> {
         let Self { delassus, problem, offsets, known_motion, .. } = self;
         delassus.condense(assembly, active, offsets, known_motion, problem);
         self.guess.clone_from(&active.reactions);
-        let tolerance = tolerance(&self.problem, &active.reactions, error, method.stopping.tolerance);
+        let size = size(&self.problem, &active.reactions);
+        let tolerance = tolerance(active.reactions.len(), size, error, method.stopping.tolerance);
         let stopping = StoppingRule { tolerance, ..method.stopping };
         let report = method.solver.solve(&self.problem, &mut active.reactions, &stopping);
         self.solved_by = report.solver;
@@ -147,7 +147,7 @@ impl<const D: usize> Reduced<D> {
             });
         }
         self.give(assembly, active, bodies);
-        Ok(())
+        Ok(method.stopping.tolerance * size)
     }
 
     /// Writes the motion with the reactions known so far.

@@ -42,7 +42,7 @@ impl<const D: usize> Reaction<D> {
         let nearest = || self.contact.sources().max_by(|(_, a), (_, b)| a.total_cmp(b));
         match self.site {
             Site::Node(node) => node,
-            Site::Crossing(..) | Site::Corner(_) => nearest().map_or(u32::MAX, |(node, _)| node as u32),
+            _ => nearest().map_or(u32::MAX, |(node, _)| node as u32),
         }
     }
 }

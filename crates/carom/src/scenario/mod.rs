@@ -248,6 +248,11 @@ pub enum ObstacleShape {
         /// Sides [m].
         size: Vec<f64>,
     },
+    /// The inside of a polygon, in 2D.
+    Polygon {
+        /// Its corners in order [m], in either sense of turning.
+        points: Vec<Vec<f64>>,
+    },
     /// What a closed surface of triangles encloses, in 3D.
     Surface {
         /// Vertices [m].

@@ -47,16 +47,17 @@ fn approach<const D: usize>(
     for iteration in 1.. {
         let late = (iteration > LOAD_STEP.late).then_some(load_step.last);
         let solved = solve(bodies, late, given, next, work);
-        let (correction, reason) = match solved {
-            Ok(()) => (work.newton.largest_correction(bodies, given.assembly), None),
+        let (correction, left, reason) = match solved {
+            Ok(left) => (work.newton.largest_correction(bodies, given.assembly), left, None),
             Err(reason @ (StepError::Friction { .. } | StepError::NotFinite(_))) => {
-                (f64::INFINITY, Some(reason))
+                (f64::INFINITY, 0.0, Some(reason))
             }
             Err(reason) => return Err(reason),
         };
         let moved = bodies.iter().map(|&i| nodal::largest(&work.motion[given.assembly.nodes(i)]));
         let motion = moved.fold(0.0, f64::max);
-        let verdict = load_step.judge(iteration, correction, motion, round_off(bodies, given, work));
+        let verdict =
+            load_step.judge(iteration, correction, motion, left.max(round_off(bodies, given, work)));
         let verdict = verdict.map_err(|error| reason.unwrap_or(error))?;
         if verdict == Verdict::Refused {
             work.newton.return_to_guess(bodies, given.assembly, &mut work.motion, &mut work.contacts.active);
@@ -84,14 +85,15 @@ fn approach<const D: usize>(
     unreachable!("the loop ends at max_iterations")
 }
 
-/// Solves for a correction at the present guess, and for the reactions there; `late` in the iterations the last correction [m] is known.
+/// Solves for a correction at the present guess, and for the reactions there; `late` in the iterations the last correction [m] is known. Returns what
+/// the tolerance of the contact problem leaves of motions [m].
 fn solve<const D: usize>(
     bodies: &[usize],
     late: Option<f64>,
     given: &Given<'_, D>,
     next: &mut State<D>,
     work: &mut Workspace<D>,
-) -> Result<(), StepError> {
+) -> Result<f64, StepError> {
     let touched = bodies.iter().any(|&i| work.contacts.active.touched[i]);
     if let (true, Some(correction)) = (touched, late) {
         work.contacts.evaluate_late(given, &work.motion, correction, &mut work.bodies);
@@ -108,10 +110,12 @@ fn solve<const D: usize>(
         contacts.stiffen(given, motion, bodies, &mut newton.residual);
     }
     begin_solves(bodies, given, reacts, work);
+    let mut left = 0.0;
     if reacts {
-        work.contacts.solve(given, &work.motion, 0.0, &mut work.bodies)?;
+        left = work.contacts.solve(given, &work.motion, 0.0, &mut work.bodies)?;
     }
-    end_solves(bodies, given, work)
+    end_solves(bodies, given, work)?;
+    Ok(left)
 }
 
 /// Writes the displacements [m] of the present guess.
@@ -190,8 +194,8 @@ fn hold<const D: usize>(
     unreachable!("the share grows beyond its largest")
 }
 
-/// What round-off and the tolerance of the contact problem leave of the motion [m].
+/// What round-off leaves of the motion [m]. Where that is much, the tangent is as good as singular, and says nothing of it.
 fn round_off<const D: usize>(bodies: &[usize], given: &Given<'_, D>, work: &Workspace<D>) -> f64 {
     let of_bodies = bodies.iter().map(|&i| work.bodies[i].round_off());
-    of_bodies.fold(given.assembly.round_off(), f64::max)
+    of_bodies.fold(given.assembly.round_off(), f64::max).min(LOAD_STEP.trusted * given.assembly.size)
 }

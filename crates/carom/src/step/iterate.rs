@@ -68,7 +68,8 @@ fn iterate_bodies<const D: usize>(
                 let count = work.contacts.active.contacts.len();
                 error = convergence.contact_error(count, bodies, &work.newton.progress);
             }
-            work.contacts.solve(given, &work.motion, error, &mut work.bodies)?;
+            convergence.left_by_contacts =
+                work.contacts.solve(given, &work.motion, error, &mut work.bodies)?;
         }
         end_solves(bodies, given, work)?;
         correct(bodies, given, next, work);

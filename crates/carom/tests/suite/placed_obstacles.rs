@@ -71,6 +71,9 @@ fn thrown<const D: usize>(place: Place, low: [f64; D], velocity: [f64; D], mut o
 /// A tetrahedron with one face up.
 const WEDGE: [[f64; 3]; 4] = [[-2.0, -2.0, 0.0], [2.0, -2.0, 0.0], [0.0, 2.0, -0.1], [0.0, 0.0, -1.0]];
 
+/// A roof with a dent beside its ridge.
+const ROOF: [[f64; 2]; 5] = [[-2.0, -1.0], [2.0, -1.0], [2.0, -0.2], [0.6, -0.3], [0.1, 0.0]];
+
 /// Every kind of obstacle in the plane, where the scene stands at `p`.
 fn in_the_plane(p: Place) -> Vec<(&'static str, Summary)> {
     let (corner, size) = p.block([-2.0, -1.0], [0.3, 0.0]);
@@ -110,6 +113,15 @@ fn in_the_plane(p: Place) -> Vec<(&'static str, Summary)> {
                 [0.0, 0.02],
                 fall,
                 json!({"kind": "box", "corner": corner.to_vec(), "size": size.to_vec()}),
+            ),
+        ),
+        (
+            "polygon",
+            thrown(
+                p,
+                [0.0, 0.02],
+                fall,
+                json!({"kind": "polygon", "points": ROOF.map(|x| p.point(x).to_vec())}),
             ),
         ),
     ]

@@ -58,6 +58,10 @@ carom.shapes = (() => {
       );
       solid.position.copy(centre);
       edge = outline(circle(centre, obstacle.radius), line);
+    } else if (obstacle.kind === "polygon") {
+      const corners = obstacle.points.map(spatial);
+      solid = new THREE.Mesh(new THREE.ShapeGeometry(new THREE.Shape(corners)), fill);
+      edge = outline(corners, line);
     } else {
       const low = spatial(obstacle.corner);
       const [width, height] = obstacle.size;

@@ -29,6 +29,8 @@ export {
   RGBAFormat,
   RingGeometry,
   Scene,
+  Shape,
+  ShapeGeometry,
   SphereGeometry,
   SRGBColorSpace,
   Vector2,

@@ -78,6 +78,8 @@ pub(crate) struct LoadControl {
     pub stalled: usize,
     /// and have converged if they are within so many times of what round-off leaves.
     pub unavoidable: f64,
+    /// No round-off is trusted to be more than this, in sizes of the largest body.
+    pub trusted: f64,
     /// A new tangent costs as much as so many iterations: it is not made where as many with the present one will do.
     pub worth: i32,
     /// After so many iterations a normal that jumps has crossed a kink of its target, which no smaller correction will undo.
@@ -99,6 +101,7 @@ pub(crate) const LOAD_STEP: LoadControl = LoadControl {
     runaway: 1.0,
     stalled: 4,
     unavoidable: 100.0,
+    trusted: 1e-8,
     worth: 3,
     late: 4,
     refusals: 8,

@@ -43,6 +43,9 @@ pub(crate) struct Convergence {
     tolerance: f64,
     /// Smaller corrections say nothing [m].
     round_off: f64,
+    /// What the tolerance of the contact problem leaves of motions [m]: where bodies rest in contact that is more than a part of their motion,
+    /// and no iteration makes it smaller.
+    pub left_by_contacts: f64,
     /// How far the first iteration went [m].
     reach: f64,
     /// The last correction that was at most half of the one noted before [m], and the iterations since.
@@ -61,6 +64,7 @@ impl Convergence {
             max_iterations: method.newton.max_iterations,
             tolerance: method.newton.tolerance,
             round_off: assembly.round_off(),
+            left_by_contacts: 0.0,
             reach: 0.0,
             least: f64::INFINITY,
             stalled: 0,
@@ -139,7 +143,7 @@ impl Convergence {
 
     /// The correction that may be left where the largest motion in the step is `motion` [m].
     fn wanted(&self, motion: f64) -> f64 {
-        (self.tolerance * motion).max(self.round_off)
+        (self.tolerance * motion).max(self.round_off).max(self.left_by_contacts)
     }
 
     /// Refuses iterations that lead away from where they set out.
@@ -181,6 +185,7 @@ mod tests {
         max_iterations: 100,
         tolerance: 1e-10,
         round_off: 0.0,
+        left_by_contacts: 0.0,
         reach: 0.0,
         least: f64::INFINITY,
         stalled: 0,
