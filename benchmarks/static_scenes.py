@@ -1,11 +1,11 @@
-"""Random static scenes: pressed, sheared, bent onto obstacles. Every one completes, or ends with its reason.
+"""Random static scenes: pressed, sheared, bent. Each completes, or ends with its reason.
 
     .venv/bin/python benchmarks/static_scenes.py [scenes] [first seed]
 
-Blocks on blocks with meshes that do not fit, strips over posts and balls; all laws, cells of first and
-second order, friction from 0 to 1, in the plane and in space. The last column says how many iterations
-a load step took. Every scene that does not complete is printed with its reason, to be looked at, and
-makes the exit status 1; so do books that do not close.
+Blocks on blocks with meshes that do not fit, strips over posts and balls; all laws, cells of first
+and second order, friction from 0 to 1, in the plane and in space. Every scene that does not complete
+is printed with its reason, to be looked at, and makes the exit status 1; so do books that do not
+close. The last line says how many iterations a load step took.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def scene(seed: int) -> carom.Scenario:
     friction = float(random.choice([0.0, random.uniform(0.0, 1.0)]))
     return carom.Scenario.from_dict(
         {
-            "title": f"Static scene {seed}: {kind}, {law['kind']} on {other['kind']}, friction {friction:.2f}",
+            "title": f"Scene {seed}: {kind}, {law['kind']} on {other['kind']}, {friction:.2f}",
             "dimension": dimension,
             "analysis": {"kind": "static", "end_time": 1.0, "time_step": 1.0 / STEPS},
             "output": {"fields_every": 1.0, "history_every": 1.0 / STEPS},
@@ -87,7 +87,7 @@ def _block(
 def _press(
     random: np.random.Generator, dimension: int, strain: float, kind: str
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[dict[str, Any]]]:
-    """A block on a block, pressed and perhaps sheared by its top."""
+    """Press a block on a block, and perhaps shear it, by its top."""
     across = dimension - 1
     lower = [*random.uniform(1.0, 3.0, across).tolist(), 1.0]
     upper = [
@@ -115,7 +115,7 @@ def _press(
 def _plate(
     random: np.random.Generator, dimension: int, strain: float, kind: str
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[dict[str, Any]]]:
-    """A block that nothing but two plates holds, one of which comes down."""
+    """Press a block that nothing holds but two plates, one of which comes down."""
     size = random.uniform(0.5, 2.0, dimension).tolist()
     bodies = [_block(random, "block", "one", [0.0] * dimension, size)]
     up = [*[0.0] * (dimension - 1), 1.0]
@@ -137,7 +137,7 @@ def _plate(
 def _bend(
     random: np.random.Generator, dimension: int, strain: float, kind: str
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[dict[str, Any]]]:
-    """A cantilever whose tip is bent down over a ball or a post."""
+    """Bend a cantilever by its tip over a ball or a post."""
     depth = float(random.uniform(0.1, 0.3))
     size = [2.0, depth] if dimension == 2 else [2.0, 0.5, depth]
     bodies = [_block(random, "strip", "one", [0.0] * dimension, size)]

@@ -11,6 +11,7 @@ use super::delassus::Delassus;
 use crate::body::Body;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
+use crate::model::condition::Opening;
 use crate::model::given::Given;
 
 /// What residuals are relative to [m]: the larger of q and, by the natural stiffness, the reactions. A residual is an error of motions over it.
@@ -123,7 +124,8 @@ impl<const D: usize> Reduced<D> {
         self.offsets.clear();
         let contacts = active.contacts.iter().zip(&active.start_gaps).zip(&active.interferences);
         self.offsets.extend(contacts.map(|((contact, &start_gap), [h0, h1])| {
-            method.condition.normal_offset(contact, start_gap, h1 - h0, &interval.map, |n| motion[n], start)
+            let opening = Opening { start_gap, widening: h1 - h0 };
+            method.condition.normal_offset(contact, opening, &interval.map, |n| motion[n], start)
         }));
         self.look(assembly, motion, bodies);
         if self.delassus.stiffened.is_needed() {

@@ -18,6 +18,7 @@ use super::compliance::Compliance;
 use super::control::CONTROL;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
+use crate::model::condition::Opening;
 use crate::model::given::Given;
 use crate::model::state::Reaction;
 
@@ -169,7 +170,8 @@ impl<const D: usize> Stiffened<D> {
             if stiffness > 0.0 {
                 let d = |n: usize| motion[n];
                 let v = |n: usize| state.velocity[n];
-                let offset = method.condition.normal_offset(contact, start_gap, h1 - h0, &interval.map, d, v);
+                let opening = Opening { start_gap, widening: h1 - h0 };
+                let offset = method.condition.normal_offset(contact, opening, &interval.map, d, v);
                 let mut w = contact.relative(d);
                 w[0] += offset;
                 let force = Vector::from_fn(|i, _| if i < directions { -stiffness * w[i] } else { 0.0 });

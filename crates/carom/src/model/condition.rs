@@ -5,6 +5,15 @@ use serde::{Deserialize, Serialize};
 use crate::StepMap;
 use crate::body::ContactWeights;
 
+/// How a contact stands in a step [m].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Opening {
+    /// [What of its gap](ContactCondition::start_gap) at the start has a part in the condition.
+    pub start_gap: f64,
+    /// How much its interference, which gaps are less, grows in the step.
+    pub widening: f64,
+}
+
 /// Where in time the unilateral condition is written. It decides what impact does to the energy.
 ///
 /// The variants differ only in the configuration where contacts are evaluated, in which of them are active, and in an offset of
@@ -94,17 +103,13 @@ impl ContactCondition {
 
     /// What the normal motion (H d)_n lacks of the variable w_n of the condition [m].
     ///
-    /// `start_gap` is [what of it](Self::start_gap) has a part. A penetration that may be kept is that of a node that came past an edge. In
-    /// pairs checked from both sides, it is that of a contact that starts inside its target where another has stood for it. To push it
-    /// out at once would create energy.
-    ///
-    /// Gaps are less the interference of the contact, which grows by `widening` [m] in the step. `d` is the current motion of the step and `v`
-    /// the velocity at its start.
+    /// A penetration that may be kept is that of a node that came past an edge. In pairs checked from both sides, it is that of a contact that
+    /// starts inside its target where another has stood for it. To push it out at once would create energy. `d` is the current motion of
+    /// the step and `v` the velocity at its start.
     pub fn normal_offset<const D: usize>(
         self,
         contact: &Contact<D>,
-        start_gap: f64,
-        widening: f64,
+        Opening { start_gap, widening }: Opening,
         map: &StepMap,
         d: impl Fn(usize) -> Vector<D>,
         v: impl Fn(usize) -> Vector<D>,

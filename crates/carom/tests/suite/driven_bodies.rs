@@ -45,6 +45,7 @@ fn method<const D: usize>(scheme: Scheme, condition: ContactCondition) -> Method
         cross_check: false,
         newton: NewtonRule { tolerance: 1e-11, max_iterations: 60 },
         max_halvings: 0,
+        bridges: false,
         certificate_tolerance: 1e-9,
         penetration_tolerance: 0.01,
     }

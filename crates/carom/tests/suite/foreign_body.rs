@@ -194,6 +194,7 @@ fn method(scheme: Scheme, condition: ContactCondition) -> Method<2> {
         cross_check: false,
         newton: NewtonRule { tolerance: 1e-12, max_iterations: 50 },
         max_halvings: 0,
+        bridges: false,
         certificate_tolerance: 1e-9,
         penetration_tolerance: 0.01,
     }

@@ -68,6 +68,7 @@ fn method(condition: ContactCondition) -> Method<3> {
         cross_check: false,
         newton: NewtonRule { tolerance: 1e-9, max_iterations: 50 },
         max_halvings: 8,
+        bridges: false,
         certificate_tolerance: 1e-9,
         penetration_tolerance: 0.01,
     }
