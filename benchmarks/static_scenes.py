@@ -3,7 +3,7 @@
     .venv/bin/python benchmarks/static_scenes.py [scenes] [first seed]
 
 Blocks on blocks with meshes that do not fit, strips over posts and balls; all laws, cells of first
-and second order, friction from 0 to 1, in the plane and in space. Every scene that does not complete
+and second order, friction from 0 to 1, in the plane and in space. A scene that does not complete
 is printed with its reason, to be looked at, and makes the exit status 1; so do books that do not
 close. The last line says how many iterations a load step took.
 """

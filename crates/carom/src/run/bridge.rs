@@ -4,7 +4,7 @@
 
 use carom_mesh::parallel::among_threads;
 
-use super::control::Stepper;
+use super::stepper::Stepper;
 use crate::State;
 use crate::body::Interval;
 use crate::step::report::StepReport;

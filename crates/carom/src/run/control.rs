@@ -7,10 +7,11 @@ use carom_mesh::parallel::among_threads;
 
 use super::bridge;
 use super::error::RunError;
+use super::stepper::{Nominal, Stepper};
 use crate::error::StepError;
 use crate::step::report::StepReport;
 use crate::step::workspace::Workspace;
-use crate::{Crushed, Method, Model, Scheme, State, step};
+use crate::{Scheme, State, step};
 
 /// A load step that took no more iterations than this was easy.
 const EASY: usize = 12;
@@ -22,31 +23,6 @@ const EASY: usize = 12;
 /// With it 41 complete and miss 0.4 % at most. What damping leaves at the onset of a contact does not shrink with the step, so a shorter step
 /// may leave as much as a long one.
 const LARGEST_DEBT: f64 = 1e-3;
-
-/// A nominal step: one of the time grid.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Nominal {
-    /// When it ends [s].
-    pub end: f64,
-    /// Its length [s].
-    pub dt: f64,
-    /// The largest energy of the model so far [J].
-    pub energy: f64,
-}
-
-/// A state on its way through time.
-pub(crate) struct Stepper<'a, const D: usize> {
-    pub model: &'a Model<D>,
-    pub method: &'a Method<D>,
-    pub state: &'a mut State<D>,
-    /// Scratch of the same size.
-    pub spare: &'a mut State<D>,
-    pub work: &'a mut Workspace<D>,
-    /// How often the steps of a static analysis are halved at present.
-    pub halvings: &'a mut u32,
-    /// Substeps that failed.
-    pub failed: u64,
-}
 
 impl<const D: usize> Stepper<'_, D> {
     /// Takes the state over a nominal step, in substeps where it must be; `observe` is told of each that succeeds.
@@ -111,17 +87,6 @@ impl<const D: usize> Stepper<'_, D> {
             among_threads(model.node_count(), || step(assembly, method, state, spare, length, work))?;
         check_debt(state, spare, energy, &report)?;
         Ok(report)
-    }
-
-    /// Why the run ends here.
-    fn error(&self, length: f64, reason: StepError) -> RunError {
-        RunError {
-            time: self.state.time,
-            time_step: length,
-            halvings: self.method.max_halvings,
-            reason,
-            crushed: Crushed::find(self.model, self.state).map(Box::new),
-        }
     }
 }
 

@@ -9,6 +9,7 @@ pub(crate) mod events;
 pub(crate) mod history;
 pub(crate) mod nominal_step;
 pub(crate) mod simulation;
+pub(crate) mod stepper;
 pub(crate) mod summary;
 pub(crate) mod surface_fields;
 pub(crate) mod time_grid;

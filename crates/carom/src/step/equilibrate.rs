@@ -2,8 +2,8 @@
 
 use carom_mesh::{Matrix, Vector, nodal};
 
+use super::correction::{begin_solves, correct, end_solves, residuals};
 use super::hold::not_held;
-use super::iterate::{begin_solves, correct, end_solves, residuals};
 use super::newton::control::LOAD_STEP;
 use super::newton::holding::Holding;
 use super::newton::load_step::{LoadStep, Verdict};

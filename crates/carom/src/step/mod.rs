@@ -3,6 +3,7 @@
 pub(crate) mod blend;
 mod commit;
 mod control;
+mod correction;
 mod equilibrate;
 mod hold;
 mod impulse;
