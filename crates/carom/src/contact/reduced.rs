@@ -75,8 +75,13 @@ impl<const D: usize> Reduced<D> {
                 self.nodes[b].push(own as u32);
             }
         }
-        for (i, springs) in
-            self.delassus.stiffened.springs.iter().enumerate().filter(|(i, _)| active.touched[*i])
+        for (i, springs) in self
+            .delassus
+            .stiffened
+            .springs
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| active.touched[*i] && self.delassus.stiffened.is_sprung(*i))
         {
             self.nodes[i].extend(springs.iter().map(|&(node, _)| node));
         }

@@ -3,7 +3,8 @@
 //! The tangent of a model in contact is K + G + Hᵀκ H. G = −∂(Hᵀr)/∂u is the stiffness of the reactions themselves, as normals turn and
 //! targets curve. Hᵀκ H are springs in the directions that contacts hold, the normal of those that press and all of those that stick, as stiff as the
 //! nodes there. They change no solution: a force −κ w goes with them, and w = 0 in these directions (augmented Lagrangian). But without
-//! them a body under pressure may have a tangent without an inverse, although contact holds it.
+//! them a body under pressure may have a tangent without an inverse, although contact holds it. They are there where that is so: where contacts
+//! come and go they take guesses to settle, which the contact problem without them does not. A body that only contact holds has a small part.
 //!
 //! Bodies are uncoupled in K̄. It has springs to the ground, B, in place of those between bodies, and what is missing, Ĝ = G + Hᵀκ H − B,
 //! lives on the nodes of the contacts, P. With C = Pᵀ K̄⁻¹ P, the compliance that the reduced problem is made of,
@@ -31,8 +32,10 @@ pub(crate) type Springs<const D: usize> = Vec<(u32, Matrix<D>)>;
 /// The tangents of the contacts of a load step.
 #[derive(Debug)]
 pub(crate) struct Stiffened<const D: usize> {
-    /// What K̄ of every body has.
+    /// What K̄ of every body may have, and has where it is indefinite without.
     pub springs: Vec<Springs<D>>,
+    /// How much of them it has.
+    share: Vec<f64>,
     /// κ of every contact [N/m], and in how many directions; zero where it does not press.
     springs_of_contacts: Vec<(f64, usize)>,
     /// P, and the place of every position of the model in it.
@@ -80,6 +83,7 @@ impl<const D: usize> Stiffened<D> {
     pub fn new(assembly: &Assembly<D>) -> Self {
         Self {
             springs: vec![Vec::new(); assembly.body_count()],
+            share: vec![0.0; assembly.body_count()],
             springs_of_contacts: Vec::new(),
             nodes: Vec::new(),
             places: vec![NONE; assembly.reference.len()],
@@ -109,6 +113,21 @@ impl<const D: usize> Stiffened<D> {
         let friction = |r: &Reaction<D>| assembly.contact.pairs[r.pair as usize].friction;
         let holding = reactions.iter().map(|r| (&r.contact, held_directions(&r.force, friction(r))));
         self.spring_from(assembly, holding, bodies);
+    }
+
+    /// At the start of a step a body has a small part of its springs if nothing else holds it, and none otherwise.
+    pub fn begin(&mut self, body: usize, is_loose: bool) {
+        self.share[body] = if is_loose { CONTROL.loose_spring } else { 0.0 };
+    }
+
+    /// The springs of a body, and how much of them it has.
+    pub fn support(&mut self, body: usize) -> (&[(u32, Matrix<D>)], &mut f64) {
+        (&self.springs[body], &mut self.share[body])
+    }
+
+    /// Whether a body has springs.
+    pub fn is_sprung(&self, body: usize) -> bool {
+        self.share[body] > 0.0
     }
 
     /// The same of those of the present guess.
@@ -165,7 +184,10 @@ impl<const D: usize> Stiffened<D> {
             contacts.zip(&active.reactions).zip(&active.friction)
         {
             let directions = held_directions(r, mu);
-            let stiffness = if directions > 0 { spring(assembly, contact, bodies) } else { 0.0 };
+            let bodies_of = contact.stencil().filter_map(|(n, _)| assembly.body_of(n));
+            let share = bodies_of.map(|b| self.share[b]).fold(0.0, f64::max);
+            let wanted = directions > 0 && share > 0.0;
+            let stiffness = if wanted { share * spring(assembly, contact, bodies) } else { 0.0 };
             self.springs_of_contacts.push((stiffness, directions));
             if stiffness > 0.0 {
                 let d = |n: usize| motion[n];
@@ -195,12 +217,11 @@ impl<const D: usize> Stiffened<D> {
         // Friction makes it unsymmetric, of which a solver of contacts knows nothing.
         self.missing = (&self.missing + self.missing.transpose()) * 0.5;
         self.add_springs(given.assembly, active);
-        let scale = self.springs_of_contacts.iter().map(|&(k, _)| k).fold(0.0, f64::max);
-        if self.missing.amax() <= CONTROL.negligible * scale {
+        let compliance = self.compliance_of(given.assembly, compliances);
+        if self.missing.amax() * compliance.amax() <= CONTROL.negligible {
             self.clear();
             return;
         }
-        let compliance = self.compliance_of(given.assembly, compliances);
         let mut system = &compliance * &self.missing;
         (0..count).for_each(|i| system[(i, i)] += 1.0);
         self.compliance = system.lu().solve(&compliance).unwrap_or(compliance);
@@ -211,7 +232,8 @@ impl<const D: usize> Stiffened<D> {
         self.nodes.drain(..).for_each(|n| self.places[n] = NONE);
         let of_contacts = active.contacts.iter().flat_map(|contact| contact.stencil().map(|(n, _)| n));
         self.nodes.extend(of_contacts.filter(|&n| assembly.body_of(n).is_some()));
-        for (b, springs) in self.springs.iter().enumerate().filter(|(b, _)| active.touched[*b]) {
+        let in_use = |b: &usize| active.touched[*b] && self.share[*b] > 0.0;
+        for (b, springs) in self.springs.iter().enumerate().filter(|(b, _)| in_use(b)) {
             let first = assembly.nodes(b).start;
             self.nodes.extend(springs.iter().map(|&(own, _)| first + own as usize));
         }
@@ -280,11 +302,11 @@ impl<const D: usize> Stiffened<D> {
                 }
             }
         }
-        for (b, springs) in self.springs.iter().enumerate() {
+        for (b, springs) in self.springs.iter().enumerate().filter(|(b, _)| self.share[*b] > 0.0) {
             let first = assembly.nodes(b).start;
             for &(own, block) in springs {
                 let Some(place) = self.place(first + own as usize) else { continue };
-                add(&mut self.missing, (place, place), &-block);
+                add(&mut self.missing, (place, place), &(block * -self.share[b]));
             }
         }
     }

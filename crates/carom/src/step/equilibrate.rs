@@ -144,7 +144,7 @@ fn linearise<const D: usize>(
     for &i in bodies {
         let guess = given.guess(i, motion, &next.displacement);
         work.factorisations +=
-            hold(&mut *all[i], &guess, &mut work.newton.holding[i], &reduced.delassus.stiffened.springs[i])?;
+            hold(&mut *all[i], &guess, &mut work.newton.holding[i], reduced.delassus.stiffened.support(i))?;
     }
     Ok(())
 }
@@ -167,24 +167,31 @@ pub(super) fn set_out<const D: usize>(
             displacement: &given.state.displacement[nodes.clone()],
             ..given.guess(i, motion, &given.state.displacement)
         };
-        let held = hold(&mut **body, &guess, &mut newton.holding[i], &stiffened.springs[i])?;
+        stiffened.begin(i, body.is_loose());
+        let held = hold(&mut **body, &guess, &mut newton.holding[i], stiffened.support(i))?;
         work.factorisations += held;
         body.follow(given.interval, &given.start(i), &mut motion[nodes]);
     }
     Ok(())
 }
 
-/// Makes the tangent of a body at a guess, held back by as much as it takes for it to have an inverse; returns how often it was tried.
+/// Makes the tangent of a body at a guess, with all of the springs of its contacts where it has no inverse with a `share`, and held back by as much as
+/// it takes; returns how often it was tried.
 fn hold<const D: usize>(
     body: &mut dyn Body<D>,
     guess: &Guess<'_, D>,
     holding: &mut Holding,
-    springs: &[(u32, Matrix<D>)],
+    (springs, share): (&[(u32, Matrix<D>)], &mut f64),
 ) -> Result<u64, StepError> {
     for tries in 1.. {
-        let made = body.linearise(guess, holding.share, springs);
+        let scaled: Vec<_> = springs.iter().map(|&(node, block)| (node, block * *share)).collect();
+        let made = body.linearise(guess, holding.share, &scaled);
         if made.is_ok() {
             return Ok(tries);
+        }
+        if *share < 1.0 && !springs.is_empty() {
+            *share = 1.0;
+            continue;
         }
         holding.raise_for_good();
         if holding.share > LOAD_STEP.largest {
