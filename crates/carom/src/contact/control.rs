@@ -30,7 +30,8 @@ pub(super) struct Control {
     pub straight: f64,
     /// A reaction this near the edge of Coulomb's cone, relative to it, slides.
     pub sliding: f64,
-    /// The springs of the tangents of load steps, in stiffnesses of nodes: as much as pressure takes of them. Measured on 60 random scenes:
+    /// The springs of the tangents of load steps, in stiffnesses of nodes: enough for cells that are pressed to 60 %: with 1 the last
+    /// of ten steps there takes 13 iterations, with 10 it takes 4. Measured on 60 random scenes:
     /// with 1, 10 and 100, wherever something pressed, load steps took 4.6, 4.3 and 4.3 iterations, and 3, 3 and 4 scenes failed.
     pub spring: f64,
     /// The part of them that a body has which only contact holds: with it rigid motions have digits, and contacts that open or slip settle at once.
@@ -55,8 +56,8 @@ pub(super) const CONTROL: Control = Control {
     kink: 1e3,
     straight: 1e-6,
     sliding: 1e-6,
-    spring: 1.0,
-    loose_spring: 1e-3,
+    spring: 10.0,
+    loose_spring: 1e-4,
     difference: 1e-6,
     negligible: 1e-8,
 };
