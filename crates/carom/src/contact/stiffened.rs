@@ -3,8 +3,8 @@
 //! The tangent of a model in contact is K + G + Hᵀκ H. G = −∂(Hᵀr)/∂u is the stiffness of the reactions themselves, as normals turn and
 //! targets curve. Hᵀκ H are springs in the directions that contacts hold, the normal of those that press and all of those that stick, as stiff as the
 //! nodes there. They change no solution: a force −κ w goes with them, and w = 0 in these directions (augmented Lagrangian). But without
-//! them a body under pressure may have a tangent without an inverse, although contact holds it. They are there where that is so: where contacts
-//! come and go they take guesses to settle, which the contact problem without them does not. A body that only contact holds has a small part.
+//! them a body under pressure may have a tangent without an inverse, although contact holds it. They are there where that is so, and nowhere else:
+//! where contacts come and go they take guesses to settle, which the contact problem without them does not.
 //!
 //! Bodies are uncoupled in K̄. It has springs to the ground, B, in place of those between bodies, and what is missing, Ĝ = G + Hᵀκ H − B,
 //! lives on the nodes of the contacts, P. With C = Pᵀ K̄⁻¹ P, the compliance that the reduced problem is made of,
@@ -34,8 +34,8 @@ pub(crate) type Springs<const D: usize> = Vec<(u32, Matrix<D>)>;
 pub(crate) struct Stiffened<const D: usize> {
     /// What K̄ of every body may have, and has where it is indefinite without.
     pub springs: Vec<Springs<D>>,
-    /// How much of them it has.
-    share: Vec<f64>,
+    /// Whether it has them.
+    pub is_sprung: Vec<bool>,
     /// κ of every contact [N/m], and in how many directions; zero where it does not press.
     springs_of_contacts: Vec<(f64, usize)>,
     /// P, and the place of every position of the model in it.
@@ -83,7 +83,7 @@ impl<const D: usize> Stiffened<D> {
     pub fn new(assembly: &Assembly<D>) -> Self {
         Self {
             springs: vec![Vec::new(); assembly.body_count()],
-            share: vec![0.0; assembly.body_count()],
+            is_sprung: vec![false; assembly.body_count()],
             springs_of_contacts: Vec::new(),
             nodes: Vec::new(),
             places: vec![NONE; assembly.reference.len()],
@@ -115,19 +115,9 @@ impl<const D: usize> Stiffened<D> {
         self.spring_from(assembly, holding, bodies);
     }
 
-    /// At the start of a step a body has a small part of its springs if nothing else holds it, and none otherwise.
-    pub fn begin(&mut self, body: usize, is_loose: bool) {
-        self.share[body] = if is_loose { CONTROL.loose_spring } else { 0.0 };
-    }
-
-    /// The springs of a body, and how much of them it has.
-    pub fn support(&mut self, body: usize) -> (&[(u32, Matrix<D>)], &mut f64) {
-        (&self.springs[body], &mut self.share[body])
-    }
-
-    /// Whether a body has springs.
-    pub fn is_sprung(&self, body: usize) -> bool {
-        self.share[body] > 0.0
+    /// The springs of a body, and whether it has them.
+    pub fn support(&mut self, body: usize) -> (&[(u32, Matrix<D>)], &mut bool) {
+        (&self.springs[body], &mut self.is_sprung[body])
     }
 
     /// The same of those of the present guess.
@@ -184,10 +174,9 @@ impl<const D: usize> Stiffened<D> {
             contacts.zip(&active.reactions).zip(&active.friction)
         {
             let directions = held_directions(r, mu);
-            let bodies_of = contact.stencil().filter_map(|(n, _)| assembly.body_of(n));
-            let share = bodies_of.map(|b| self.share[b]).fold(0.0, f64::max);
-            let wanted = directions > 0 && share > 0.0;
-            let stiffness = if wanted { share * spring(assembly, contact, bodies) } else { 0.0 };
+            let mut bodies_of = contact.stencil().filter_map(|(n, _)| assembly.body_of(n));
+            let is_sprung = directions > 0 && bodies_of.any(|b| self.is_sprung[b]);
+            let stiffness = if is_sprung { spring(assembly, contact, bodies) } else { 0.0 };
             self.springs_of_contacts.push((stiffness, directions));
             if stiffness > 0.0 {
                 let d = |n: usize| motion[n];
@@ -232,7 +221,7 @@ impl<const D: usize> Stiffened<D> {
         self.nodes.drain(..).for_each(|n| self.places[n] = NONE);
         let of_contacts = active.contacts.iter().flat_map(|contact| contact.stencil().map(|(n, _)| n));
         self.nodes.extend(of_contacts.filter(|&n| assembly.body_of(n).is_some()));
-        let in_use = |b: &usize| active.touched[*b] && self.share[*b] > 0.0;
+        let in_use = |b: &usize| active.touched[*b] && self.is_sprung[*b];
         for (b, springs) in self.springs.iter().enumerate().filter(|(b, _)| in_use(b)) {
             let first = assembly.nodes(b).start;
             self.nodes.extend(springs.iter().map(|&(own, _)| first + own as usize));
@@ -302,11 +291,11 @@ impl<const D: usize> Stiffened<D> {
                 }
             }
         }
-        for (b, springs) in self.springs.iter().enumerate().filter(|(b, _)| self.share[*b] > 0.0) {
+        for (b, springs) in self.springs.iter().enumerate().filter(|(b, _)| self.is_sprung[*b]) {
             let first = assembly.nodes(b).start;
             for &(own, block) in springs {
                 let Some(place) = self.place(first + own as usize) else { continue };
-                add(&mut self.missing, (place, place), &(block * -self.share[b]));
+                add(&mut self.missing, (place, place), &-block);
             }
         }
     }

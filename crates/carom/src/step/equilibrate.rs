@@ -167,7 +167,7 @@ pub(super) fn set_out<const D: usize>(
             displacement: &given.state.displacement[nodes.clone()],
             ..given.guess(i, motion, &given.state.displacement)
         };
-        stiffened.begin(i, body.is_loose());
+        stiffened.is_sprung[i] = false;
         let held = hold(&mut **body, &guess, &mut newton.holding[i], stiffened.support(i))?;
         work.factorisations += held;
         body.follow(given.interval, &given.start(i), &mut motion[nodes]);
@@ -175,22 +175,21 @@ pub(super) fn set_out<const D: usize>(
     Ok(())
 }
 
-/// Makes the tangent of a body at a guess, with all of the springs of its contacts where it has no inverse with a `share`, and held back by as much as
+/// Makes the tangent of a body at a guess, with the springs of its contacts where it has no inverse without, and held back by as much as
 /// it takes; returns how often it was tried.
 fn hold<const D: usize>(
     body: &mut dyn Body<D>,
     guess: &Guess<'_, D>,
     holding: &mut Holding,
-    (springs, share): (&[(u32, Matrix<D>)], &mut f64),
+    (springs, is_sprung): (&[(u32, Matrix<D>)], &mut bool),
 ) -> Result<u64, StepError> {
     for tries in 1.. {
-        let scaled: Vec<_> = springs.iter().map(|&(node, block)| (node, block * *share)).collect();
-        let made = body.linearise(guess, holding.share, &scaled);
+        let made = body.linearise(guess, holding.share, if *is_sprung { springs } else { &[] });
         if made.is_ok() {
             return Ok(tries);
         }
-        if *share < 1.0 && !springs.is_empty() {
-            *share = 1.0;
+        if !*is_sprung && !springs.is_empty() {
+            *is_sprung = true;
             continue;
         }
         holding.raise_for_good();
