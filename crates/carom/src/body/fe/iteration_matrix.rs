@@ -18,9 +18,9 @@ fn lowest_inertia<const D: usize>(body: &Body<D>) -> f64 {
     (body.wave_speed() / body.mesh().diameter()).powi(2)
 }
 
-/// The least share of it that a body has which its supports leave loose: enough for a tangent to have an inverse to eleven digits before anything
-/// presses, and so little that slender bodies bend.
-const LOOSE: f64 = 1e-4;
+/// The least share of it that a body has which its supports leave loose: below what a contact resists with, and so far above round-off that a shaft
+/// which may turn in a hub does not.
+const LOOSE: f64 = 0.05;
 
 /// A pattern of signs without a period, by which round-off of the forces on nodes is summed as chance would.
 fn sign(k: usize) -> f64 {
