@@ -167,7 +167,7 @@ fn load_steps_that_were_halved() {
     let mut case = scenario(1.0, 0.125, &[body("block", mesh, [0.0, 0.0])], &[floor]);
     case["analysis"] = json!({
         "kind": "static", "end_time": 1.0, "time_step": 0.125, "max_halvings": 8, "gravity": null,
-        "newton": {"tolerance": 1e-11, "max_iterations": 4},
+        "newton": {"tolerance": 1e-11, "max_iterations": 3},
     });
     case["contact"]["friction"] = json!(0.4);
     case["contact"]["solver"]["kind"] = json!("auto");
