@@ -274,11 +274,6 @@ pub trait Body<const D: usize>: Send + Sync {
     /// The block (K̄⁻¹)_ab [m/N] for a node a of the reach and a node b that was `number` among those last given to [`Self::respond`].
     fn response(&self, a: u32, b: u32, number: usize) -> Matrix<D>;
 
-    /// Whether only contact, or nothing, keeps the body from moving rigidly in a static analysis.
-    fn is_loose(&self) -> bool {
-        false
-    }
-
     /// The numbers of the rigid motions that it has where nothing holds it: see [`carom_fem::rigid_motion`].
     fn rigid_motions(&self) -> Range<usize> {
         0..D

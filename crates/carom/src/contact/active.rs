@@ -5,6 +5,7 @@ use carom_mesh::{Matrix, Vector};
 
 use super::control::CONTROL;
 use crate::model::assembly::Assembly;
+use crate::model::condition::Opening;
 use crate::model::given::Given;
 use crate::model::state::Reaction;
 
@@ -172,6 +173,21 @@ impl<const D: usize> ActiveSet<D> {
             contact.carry_frame(frame);
             *frame = contact.frame;
         }
+    }
+
+    /// What the normal motions of the contacts lack of the variable of the condition [m], at a guess.
+    pub fn offsets<'a>(
+        &'a self,
+        given: &'a Given<'_, D>,
+        motion: &'a [Vector<D>],
+    ) -> impl Iterator<Item = f64> + 'a {
+        let Given { method, state, interval, .. } = *given;
+        let contacts = self.contacts.iter().zip(&self.start_gaps).zip(&self.interferences);
+        contacts.map(move |((contact, &start_gap), [h0, h1])| {
+            let opening = Opening { start_gap, widening: h1 - h0 };
+            let velocity = |n: usize| state.velocity[n];
+            method.condition.normal_offset(contact, opening, &interval.map, |n| motion[n], velocity)
+        })
     }
 
     /// Those of the contacts that have one of these `reactions`, which are in the order of their candidates: the place of the contact, then that

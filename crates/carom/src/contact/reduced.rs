@@ -11,7 +11,6 @@ use super::delassus::Delassus;
 use crate::body::Body;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
-use crate::model::condition::Opening;
 use crate::model::given::Given;
 
 /// What residuals are relative to [m]: the larger of q and, by the natural stiffness, the reactions. A residual is an error of motions over it.
@@ -124,14 +123,9 @@ impl<const D: usize> Reduced<D> {
         error: f64,
         bodies: &mut [Box<dyn Body<D>>],
     ) -> Result<f64, StepError> {
-        let Given { assembly, method, state, interval } = *given;
-        let start = |n: usize| state.velocity[n];
+        let Given { assembly, method, .. } = *given;
         self.offsets.clear();
-        let contacts = active.contacts.iter().zip(&active.start_gaps).zip(&active.interferences);
-        self.offsets.extend(contacts.map(|((contact, &start_gap), [h0, h1])| {
-            let opening = Opening { start_gap, widening: h1 - h0 };
-            method.condition.normal_offset(contact, opening, &interval.map, |n| motion[n], start)
-        }));
+        self.offsets.extend(active.offsets(given, motion));
         self.look(assembly, motion, bodies);
         if self.delassus.stiffened.is_needed() {
             self.delassus.stiffened.see(motion, &mut self.known_motion);

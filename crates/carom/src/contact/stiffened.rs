@@ -19,7 +19,6 @@ use super::compliance::Compliance;
 use super::control::CONTROL;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
-use crate::model::condition::Opening;
 use crate::model::given::Given;
 use crate::model::state::Reaction;
 
@@ -115,11 +114,6 @@ impl<const D: usize> Stiffened<D> {
         self.spring_from(assembly, holding, bodies);
     }
 
-    /// The springs of a body, and whether it has them.
-    pub fn support(&mut self, body: usize) -> (&[(u32, Matrix<D>)], &mut bool) {
-        (&self.springs[body], &mut self.is_sprung[body])
-    }
-
     /// The same of those of the present guess.
     pub fn spring_from_guess(
         &mut self,
@@ -158,6 +152,11 @@ impl<const D: usize> Stiffened<D> {
         }
     }
 
+    /// The springs of a body, and whether it has them.
+    pub fn support(&mut self, body: usize) -> (&[(u32, Matrix<D>)], &mut bool) {
+        (&self.springs[body], &mut self.is_sprung[body])
+    }
+
     /// Adds the forces −κ w that go with the springs between contacts to `residual` [N]. The contacts are those of the guess.
     pub fn add_forces(
         &mut self,
@@ -167,23 +166,17 @@ impl<const D: usize> Stiffened<D> {
         bodies: &mut [Box<dyn Body<D>>],
         residual: &mut [Vector<D>],
     ) {
-        let Given { assembly, method, state, interval } = *given;
+        let assembly = given.assembly;
         self.springs_of_contacts.clear();
-        let contacts = active.contacts.iter().zip(&active.start_gaps).zip(&active.interferences);
-        for ((((contact, &start_gap), [h0, h1]), r), &mu) in
-            contacts.zip(&active.reactions).zip(&active.friction)
-        {
+        let contacts = active.contacts.iter().zip(active.offsets(given, motion));
+        for (((contact, offset), r), &mu) in contacts.zip(&active.reactions).zip(&active.friction) {
             let directions = held_directions(r, mu);
             let mut bodies_of = contact.stencil().filter_map(|(n, _)| assembly.body_of(n));
             let is_sprung = directions > 0 && bodies_of.any(|b| self.is_sprung[b]);
             let stiffness = if is_sprung { spring(assembly, contact, bodies) } else { 0.0 };
             self.springs_of_contacts.push((stiffness, directions));
             if stiffness > 0.0 {
-                let d = |n: usize| motion[n];
-                let v = |n: usize| state.velocity[n];
-                let opening = Opening { start_gap, widening: h1 - h0 };
-                let offset = method.condition.normal_offset(contact, opening, &interval.map, d, v);
-                let mut w = contact.relative(d);
+                let mut w = contact.relative(|n| motion[n]);
                 w[0] += offset;
                 let force = Vector::from_fn(|i, _| if i < directions { -stiffness * w[i] } else { 0.0 });
                 contact.add_force(&force, residual);

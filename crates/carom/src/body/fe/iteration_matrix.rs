@@ -152,11 +152,6 @@ impl<const D: usize> IterationMatrix<D> {
         [map.stiffness_coefficient(), map.damping_coefficient(), map.mass_coefficient()]
     }
 
-    /// Whether only contact, or nothing, keeps the body from moving rigidly.
-    pub fn is_loose(&self) -> bool {
-        self.is_loose
-    }
-
     /// Whether the factor is exact but for round-off.
     pub fn is_exact(&self) -> bool {
         self.inverse.is_exact()

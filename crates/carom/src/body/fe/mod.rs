@@ -418,10 +418,6 @@ impl<const D: usize> Body<D> for FeBody<D> {
         self.matrix.response(a as usize, (number, b as usize))
     }
 
-    fn is_loose(&self) -> bool {
-        self.matrix.is_loose()
-    }
-
     fn rigid_motions(&self) -> Range<usize> {
         self.part.body.rigid_motions()
     }
