@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from carom._carom import CHECKPOINT_SCHEMA
 from carom.building.build import build
 from restarting import scenario
 
@@ -42,7 +43,7 @@ BAD = [
         more(1, 0, 1),
         "cross_checks/time_of_max: is missing where answers differ",
     ),
-    ("schema", first(99), "schema: is 99, this version reads 6"),
+    ("schema", first(99), f"schema: is 99, this version reads {CHECKPOINT_SCHEMA}"),
     ("schema", lambda a: a.astype(np.float32), "schema: neither float64 nor uint64 in one dimens"),
     ("run/step", first(10**9), "run/step: is beyond the end of the run"),
     ("run/halvings", first(2**40), "run/halvings: is too large a number"),
