@@ -39,6 +39,7 @@ pub struct Body<const D: usize> {
     /// See [`Self::reference_arms`].
     pub(crate) frame_arms: Vec<Vector<D>>,
     wave_speed: f64,
+    shear_wave_speed: f64,
     held: Held,
 }
 
@@ -104,6 +105,7 @@ impl<const D: usize> Body<D> {
             depth,
             volume: total_mass / spec.density,
             wave_speed: (tangent[0][0][0][0] / spec.density).sqrt(),
+            shear_wave_speed: (tangent[0][1][0][1] / spec.density).sqrt(),
             damping: spec.damping,
             damping_stiffness: None,
             mesh,
@@ -242,6 +244,12 @@ impl<const D: usize> Body<D> {
     #[must_use]
     pub fn wave_speed(&self) -> f64 {
         self.wave_speed
+    }
+
+    /// Speed of shear waves in the reference configuration [m/s].
+    #[must_use]
+    pub fn shear_wave_speed(&self) -> f64 {
+        self.shear_wave_speed
     }
 
     /// Damping coefficients.

@@ -13,7 +13,7 @@ use crate::{
 /// A few accelerated Gauss–Seidel sweeps solve well-conditioned problems and improve the start of others. They go on while they promise
 /// to end soon, and then while they are a small part of what Newton's method would cost. Contacts that are densely coupled have full
 /// factors and make sweeps slow. There ADMM, which needs one factor, is tried instead, unless the contacts answer mostly to their own
-/// reactions.
+/// reactions. It forgets its start: from a good one a few of Newton's iterations come first.
 ///
 /// Then comes the proximal point method with Newton's iterations, and where that is trapped, sweeps again: in turn, until the problem is
 /// solved or the limits are reached. Where the factors would outgrow the problem, as those of large piles do, Uzawa's iteration takes
@@ -32,6 +32,9 @@ struct Control {
     dense: usize,
     /// Coupling of a contact to all others, relative to its own compliance, up to which it is local.
     local: f64,
+    /// A residual below which a start is a good one, and the factors that Newton's iterations may take from there: they take one to four.
+    good_start: f64,
+    from_good_start: usize,
     /// Iterations of ADMM, with one factor or two, that are tried before Newton's method renews its factors again and again.
     directions: usize,
     /// Cost of the sweeps that are tried before Newton's method, in iterations of it.
@@ -48,6 +51,8 @@ const CONTROL: Control = Control {
     promised_sweeps: 60.0,
     dense: 12,
     local: 4.0,
+    good_start: 0.1,
+    from_good_start: 6,
     directions: 60,
     sweeps_worth: 5,
     fill: 8,
@@ -102,6 +107,12 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
     let sweeps = CONTROL.sweeps_worth * newton.cost(problem) / gauss_seidel::cost(problem);
     if sweeps > 5 * CONTROL.first_sweeps {
         if dense {
+            if monitor.residual() < CONTROL.good_start {
+                let status = Strategy::NEWTON.run(monitor, &mut newton, r, CONTROL.from_good_start);
+                if status != SolveStatus::IterationLimit {
+                    return (SolverKind::NewtonAlartCurnier, status);
+                }
+            }
             match admm::run(monitor, r, CONTROL.directions) {
                 // A factor that would take longer than what is left of the time: others may use it.
                 Some(SolveStatus::TimeLimit) if !monitor.clock().is_over() => {}

@@ -120,6 +120,11 @@ impl<const D: usize> BlockLu<D> {
         })
     }
 
+    /// Blocks of both factors.
+    pub fn block_count(&self) -> usize {
+        2 * self.upper_columns.len() + self.order.len()
+    }
+
     /// Products of blocks in a factorisation.
     pub fn products(&self) -> usize {
         let rows = |j: u32| self.upper_starts[j as usize + 1] - self.upper_starts[j as usize];

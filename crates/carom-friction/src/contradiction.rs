@@ -1,5 +1,5 @@
-use crate::block_lu::BlockLu;
 use crate::clock::Clock;
+use crate::lu::Lu;
 use crate::{ContactProblem, Matrix, Vector};
 
 /// Whether the step from `before` to `r` shows that no reactions keep the contacts apart.
@@ -13,7 +13,7 @@ pub(crate) fn contradicts<const D: usize>(
     r: &[Vector<D>],
     before: &[Vector<D>],
     stiffness: f64,
-    lu: &mut BlockLu<D>,
+    lu: &mut Lu<D>,
     clock: Clock,
 ) -> bool {
     let growth = |(r, before): (&Vector<D>, &Vector<D>)| normal(r[0] - before[0]);
@@ -100,7 +100,7 @@ impl<'a, const D: usize> Rows<'a, D> {
     }
 
     /// A step of inverse iteration on the normal rows and columns in which z > 0; false where there is no factor.
-    fn sharpen(&self, z: &mut [Vector<D>], lu: &mut BlockLu<D>, clock: Clock) -> bool {
+    fn sharpen(&self, z: &mut [Vector<D>], lu: &mut Lu<D>, clock: Clock) -> bool {
         let n = z.len();
         let (mut a, mut b) = (vec![Matrix::zeros(); n], vec![Matrix::identity(); n]);
         for i in 0..n {
@@ -196,7 +196,7 @@ mod tests {
         }
         let problem = ContactProblem { w, q: vec![Vector::<1>::new(-1.0); 3], mu: vec![0.0; 3] };
         let clock = Clock::new(None);
-        let mut lu = BlockLu::new(&problem.w, 100, clock).expect("few blocks");
+        let mut lu = Lu::new(&problem.w, 100, clock).expect("few blocks");
         let rows = Rows::new(&problem, problem.natural_stiffness());
         let mut z = [1.0, 1.0001, 0.9999].map(Vector::<1>::new);
         assert!(!rows.are_contradicted_by(&z));

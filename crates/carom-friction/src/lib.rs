@@ -37,11 +37,13 @@ pub mod cone;
 #[cfg(test)]
 mod contract;
 mod contradiction;
+mod dense_lu;
 mod equation;
 mod gauss_seidel;
 mod global;
 mod kind;
 mod local;
+mod lu;
 mod newton;
 mod penalised;
 mod problem;

@@ -1,6 +1,7 @@
-use crate::block_lu::{BlockLu, NoStructure};
+use crate::block_lu::NoStructure;
 use crate::clock::Clock;
 use crate::equation::Equation;
+use crate::lu::Lu;
 use crate::{ContactProblem, Matrix, Vector};
 
 /// A contact problem with the motions w = W r + q + shift (r − centre): a step of the proximal point method.
@@ -30,7 +31,7 @@ impl<const D: usize> Shifted<'_, D> {
 /// Semismooth Newton iterations on the contacts' equations, and their memory.
 #[derive(Debug)]
 pub(crate) struct Newton<const D: usize> {
-    pub lu: BlockLu<D>,
+    pub lu: Lu<D>,
     clock: Clock,
     by_motion: Vec<Matrix<D>>,
     by_reaction: Vec<Matrix<D>>,
@@ -57,7 +58,7 @@ impl<const D: usize> Newton<D> {
     pub fn new(problem: &ContactProblem<D>, max_blocks: usize, clock: Clock) -> Result<Self, NoStructure> {
         let n = problem.len();
         Ok(Self {
-            lu: BlockLu::new(&problem.w, max_blocks, clock)?,
+            lu: Lu::new(&problem.w, max_blocks, clock)?,
             clock,
             by_motion: vec![Matrix::zeros(); n],
             by_reaction: vec![Matrix::zeros(); n],

@@ -33,8 +33,7 @@ impl<const D: usize> FrictionSolver<D> for Proximal {
 
 impl<const D: usize> FrictionSolver<D> for NewtonAlartCurnier {
     fn solve(&self, problem: &ContactProblem<D>, r: &mut [Vector<D>], rule: &StoppingRule) -> SolveReport {
-        let strategy = Strategy { equations: &[Equation::AlartCurnier], first_shift: CONTROL.nearly_none };
-        strategy.solve(SolverKind::NewtonAlartCurnier, problem, r, rule)
+        Strategy::NEWTON.solve(SolverKind::NewtonAlartCurnier, problem, r, rule)
     }
 }
 
@@ -91,6 +90,7 @@ pub(crate) struct Strategy {
 }
 
 impl Strategy {
+    pub const NEWTON: Self = Self { equations: &[Equation::AlartCurnier], first_shift: CONTROL.nearly_none };
     pub const PROXIMAL: Self =
         Self { equations: &[Equation::NaturalMap, Equation::AlartCurnier], first_shift: CONTROL.safe };
 

@@ -96,7 +96,7 @@ fn kernels(body: &Body<2>, dt: f64, conserving: bool) -> (f64, f64) {
     }));
     let stiffness = body.stiffness(&vec![Vector::zeros(); n]);
     let mass = body.mass();
-    let mut factor = Factor::new(body.graph(), &[]).expect("structure");
+    let mut factor = Factor::new(body.graph(), &[], &[]).expect("structure");
     factor
         .factorize(Precision::Single, |e| {
             stiffness.values[e] * 0.5 + Matrix::<2>::from_diagonal_element(2.0 / (dt * dt) * mass.values[e])

@@ -1,5 +1,7 @@
 //! Substitution for many right-hand sides side by side: what is loaded of a factor serves all of them.
 
+use std::ops::Range;
+
 use faer::{MatMut, MatRef};
 
 use super::real::Real;
@@ -7,6 +9,13 @@ use super::row::{ABREAST, Row};
 use super::substitution::{Panel, Substitution};
 
 impl<T: Real> Substitution<T> {
+    /// The part of Z of the last panel that belongs to these last columns.
+    pub fn end_of_last_panel(&self, columns: Range<usize>) -> MatRef<'_, T> {
+        let z = panel(&self.panels[self.panels.len() - 1], &self.values);
+        let (first, count) = (z.ncols() - columns.len(), columns.len());
+        z.submatrix(first, first, count, count)
+    }
+
     /// [`Self::forward`] where the right-hand sides are zero outside of a [`Self::reach`], and stay so.
     pub fn forward_abreast(&mut self, reach: &[u32], x: &mut [Row<T>]) {
         self.gathered_abreast.resize(self.gathered.len(), [T::default(); ABREAST]);
@@ -53,7 +62,7 @@ fn clear_negligible<T: Real>(rows: &mut [Row<T>], largest: &mut [f64; ABREAST]) 
     }
 }
 
-/// Z.
+/// Z of a panel.
 fn panel<'v, T: Real>(p: &Panel, values: &'v [T]) -> MatRef<'v, T> {
     let z = &values[p.first_value..p.first_value + p.padded * p.columns];
     MatRef::from_column_major_slice_with_stride(z, p.columns + p.below, p.columns, p.padded)

@@ -5,6 +5,12 @@
 pub(super) struct Control {
     /// Nodes from which nested dissection is worth its time: below it, minimum degree makes factors as sparse.
     pub dissected: usize,
+    /// Values from which a factor is large: it takes seconds, and a solve a hundredth of that.
+    pub large: usize,
+    /// Nodes with responses from which a factor is ordered by them: solving for each takes as long as the factor.
+    pub gathered: usize,
+    /// and up to which it is, in faces of a cube of as many nodes as the body: their part of the factor is full.
+    pub faces: f64,
     /// Values of a factor from which it is taken apart.
     pub apart: usize,
     /// A subtree with less than one part in so many of the values is a piece.
@@ -35,6 +41,9 @@ pub(super) struct Control {
 /// The sizes and shares of every matrix.
 pub(super) const CONTROL: Control = Control {
     dissected: 4000,
+    large: 1 << 24,
+    gathered: 100,
+    faces: 4.0,
     apart: 1 << 21,
     share: 10,
     small_share: 200,

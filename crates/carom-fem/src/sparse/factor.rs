@@ -51,18 +51,22 @@ impl<const D: usize> std::fmt::Debug for Factor<D> {
 
 impl<const D: usize> Factor<D> {
     /// Orders the unknowns (AMD; nested dissection where there are many) and finds the structure of the factor of matrices over `graph` whose nodes have these `ties`.
+    /// Where they are dissected, the nodes in `last` come last: it costs least to [respond](Self::respond) there.
     ///
     /// # Errors
     /// If the symbolic factorisation fails, in practice for lack of memory.
-    pub fn new(graph: &NodeGraph, ties: &[Tie]) -> Result<Self, FemError> {
+    pub fn new(graph: &NodeGraph, ties: &[Tie], last: &[u32]) -> Result<Self, FemError> {
         if ties.is_empty() {
-            return Self::over(graph, None);
+            return Self::over(graph, None, last);
         }
         let (folding, folded) = Folding::new(graph, ties);
-        Self::over(&folded, Some(folding))
+        let mut last: Vec<u32> = last.iter().map(|&node| folding.masters[node as usize]).collect();
+        last.sort_unstable();
+        last.dedup();
+        Self::over(&folded, Some(folding), &last)
     }
 
-    fn over(graph: &NodeGraph, folding: Option<Folding<D>>) -> Result<Self, FemError> {
+    fn over(graph: &NodeGraph, folding: Option<Folding<D>>, last: &[u32]) -> Result<Self, FemError> {
         let n = graph.node_count() * D;
         let mut column_starts = vec![0];
         let mut rows = Vec::new();
@@ -80,7 +84,7 @@ impl<const D: usize> Factor<D> {
             }
         }
         let lower = SymbolicSparseColMat::new_checked(n, n, column_starts, None, rows);
-        let order = nested_dissection(graph).map(|nodes| {
+        let order = nested_dissection(graph, last).map(|nodes| {
             let unknowns: Vec<usize> = nodes.iter().flat_map(|n| (0..D).map(move |i| n * D + i)).collect();
             let mut places = vec![0; n];
             unknowns.iter().enumerate().for_each(|(k, &u)| places[u] = k);
@@ -211,6 +215,12 @@ impl<const D: usize> Factor<D> {
         self.triangular.look();
     }
 
+    /// Values of the factor.
+    #[must_use]
+    pub fn value_count(&self) -> usize {
+        self.symbolic.len_val()
+    }
+
     /// Memory of the factor [bytes].
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -298,7 +308,7 @@ mod tests {
             .collect();
         let mut b = vec![Vector::zeros(); x.len()];
         a.multiply(&x, &mut b);
-        let mut factor = Factor::new(&graph, &[]).expect("symbolic");
+        let mut factor = Factor::new(&graph, &[], &[]).expect("symbolic");
         factor.factorize(Precision::Double, |entry| a.values[entry]).expect("positive definite");
         factor.solve(&mut b);
         for (b, x) in b.iter().zip(&x) {
@@ -323,7 +333,7 @@ mod tests {
             (0..graph.node_count()).map(|n| Vector::from_fn(|i, _| ((3 * n + i) as f64).cos())).collect();
         let mut b = vec![Vector::zeros(); x.len()];
         a.multiply(&x, &mut b);
-        let mut factor = Factor::new(&graph, &[]).expect("symbolic");
+        let mut factor = Factor::new(&graph, &[], &[]).expect("symbolic");
         factor.factorize(Precision::Double, |entry| a.values[entry]).expect("positive definite");
         factor.solve(&mut b);
         for (b, x) in b.iter().zip(&x) {
@@ -353,7 +363,7 @@ mod tests {
             let b: Vec<Vector<2>> = (0..graph.node_count())
                 .map(|n| Vector::<2>::new((n as f64).sin(), (n as f64 * 0.7).cos()))
                 .collect();
-            let mut factor = Factor::new(&graph, mesh.ties()).expect("symbolic");
+            let mut factor = Factor::new(&graph, mesh.ties(), &[]).expect("symbolic");
             factor.factorize(Precision::Double, |entry| a.values[entry]).expect("positive definite");
             let mut x = b.clone();
             factor.solve(&mut x);
@@ -381,7 +391,7 @@ mod tests {
             for node in 0..n {
                 a.values[graph.entry(node as u32, node as u32)] = Matrix::<2>::new(5.0, 0.4, 0.4, 6.0);
             }
-            let mut factor = Factor::new(&graph, mesh.ties()).expect("symbolic");
+            let mut factor = Factor::new(&graph, mesh.ties(), &[]).expect("symbolic");
             factor.factorize(Precision::Double, |entry| a.values[entry]).expect("positive definite");
             let b: Vec<_> = (0..n).map(|k| Vector::<2>::new((k as f64).sin(), (k as f64).cos())).collect();
             let (nodes, force) = ([0, 12, 40, n - 1], Vector::<2>::new(0.7, -0.2));
@@ -416,6 +426,35 @@ mod tests {
         }
     }
 
+    /// Nodes that come last answer one another out of the last panel, as they would by way of all.
+    #[test]
+    fn responses_do_not_depend_on_what_is_eliminated_last() {
+        let mesh = generate::grid([0.0; 3], [1.0; 3], [16, 16, 15]).expect("valid");
+        let graph = NodeGraph::of(&mesh);
+        let mut is_diagonal = vec![false; graph.entry_count()];
+        (0..graph.node_count() as u32).for_each(|n| is_diagonal[graph.entry(n, n)] = true);
+        let coupling = Matrix::<3>::new(-0.2, 0.05, 0.01, 0.05, -0.1, 0.0, 0.01, 0.0, -0.15);
+        let block = |entry: usize| if is_diagonal[entry] { Matrix::identity() * 6.0 } else { coupling };
+        let last: Vec<u32> = (0..17 * 17).collect();
+        let responses = [&[][..], &last].map(|last_of_factor| {
+            let mut factor = Factor::<3>::new(&graph, &[], last_of_factor).expect("symbolic");
+            factor.factorize(Precision::Double, block).expect("positive definite");
+            factor.set_reach(last.iter().map(|&node| node as usize));
+            factor.respond([3, 150, 200].into_iter());
+            let of = |number: usize| last.iter().map(|&n| factor.response(number, n as usize)).collect();
+            let found: [Vec<Matrix<3>>; 3] = std::array::from_fn(of);
+            // Others take their way through the factor again.
+            factor.set_reach([3, 2000].into_iter());
+            factor.respond(std::iter::once(2000));
+            (found, factor.response(0, 3))
+        });
+        let [(found, other), (of_last, other_of_last)] = responses;
+        for (a, b) in found.iter().flatten().zip(of_last.iter().flatten()) {
+            assert!((a - b).norm() < 1e-13);
+        }
+        assert!((other - other_of_last).norm() < 1e-13);
+    }
+
     /// Every number is computed by one thread, by the same operations in the same order, however many there are.
     #[test]
     fn solutions_do_not_depend_on_the_number_of_threads() {
@@ -426,7 +465,7 @@ mod tests {
     }
 
     fn assert_independent_of_threads<const D: usize>(graph: &NodeGraph, coupling: Matrix<D>) {
-        let mut factor = Factor::<D>::new(graph, &[]).expect("symbolic");
+        let mut factor = Factor::<D>::new(graph, &[], &[]).expect("symbolic");
         let diagonal: Vec<usize> =
             (0..graph.node_count()).map(|node| graph.entry(node as u32, node as u32)).collect();
         let mut is_diagonal = vec![false; graph.entry_count()];

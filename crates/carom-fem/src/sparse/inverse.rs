@@ -14,6 +14,9 @@ use crate::FemError;
 pub struct Inverse<const D: usize> {
     ties: Vec<Tie>,
     precision: Precision,
+    /// The nodes that a factor eliminates last, and those that the next one is to.
+    last: Vec<u32>,
+    next_last: Vec<u32>,
     kind: Kind<D>,
 }
 
@@ -28,7 +31,26 @@ impl<const D: usize> Inverse<D> {
     /// For matrices whose nodes have these `ties`: see [`Factor`]. It is [made](Self::make) later.
     #[must_use]
     pub fn new(ties: &[Tie]) -> Self {
-        Self { ties: ties.to_vec(), precision: Precision::default(), kind: Kind::None }
+        Self {
+            ties: ties.to_vec(),
+            precision: Precision::default(),
+            last: Vec::new(),
+            next_last: Vec::new(),
+            kind: Kind::None,
+        }
+    }
+
+    /// Names the `nodes`, ascending, that [responses](Self::respond) will be asked for of inverses made from now on. Where they are many but not
+    /// most of the body, its factor is ordered by them: solving for each through all of it would take more time than the factor itself.
+    pub fn expect(&mut self, nodes: &[u32]) {
+        self.next_last.clear();
+        self.next_last.extend(nodes);
+    }
+
+    /// Whether a factor over a graph of so many nodes is ordered by those expected.
+    fn suits_last(&self, count: usize) -> bool {
+        let surface = CONTROL.faces * (count as f64).powf(2.0 / 3.0);
+        self.next_last.len() >= CONTROL.gathered && (self.next_last.len() as f64) <= surface
     }
 
     /// Makes the inverse of `matrix`, exact but for round-off if `precision` is double.
@@ -44,12 +66,43 @@ impl<const D: usize> Inverse<D> {
                 return Ok(());
             }
         }
-        if !matches!(self.kind, Kind::Factor(_)) {
+        self.make_factor(matrix, |_| precision)
+    }
+
+    /// Makes the exact inverse of `matrix`, in single precision if it is `economical` and the factor is large: one in double precision takes as
+    /// much memory while it is made as it does afterwards.
+    ///
+    /// # Errors
+    /// As [`Self::make`].
+    pub fn make_exact(&mut self, economical: bool, matrix: &NodalMatrix<Matrix<D>>) -> Result<(), FemError> {
+        let is_single = |values: usize| economical && values >= CONTROL.large;
+        self.make_factor(
+            matrix,
+            |values| {
+                if is_single(values) { Precision::Single } else { Precision::Double }
+            },
+        )
+    }
+
+    /// Makes a factor in the precision for so many values.
+    fn make_factor(
+        &mut self,
+        matrix: &NodalMatrix<Matrix<D>>,
+        precision: impl Fn(usize) -> Precision,
+    ) -> Result<(), FemError> {
+        if !self.suits_last(matrix.graph().node_count()) {
+            self.next_last.clear();
+        }
+        if !matches!(self.kind, Kind::Factor(_)) || self.last != self.next_last {
             self.kind = Kind::None;
-            self.kind = Kind::Factor(Box::new(Factor::new(matrix.graph(), &self.ties)?));
+            self.last.clone_from(&self.next_last);
+            self.kind = Kind::Factor(Box::new(Factor::new(matrix.graph(), &self.ties, &self.last)?));
         }
         match &mut self.kind {
-            Kind::Factor(factor) => factor.factorize(precision, |entry| matrix.values[entry]),
+            Kind::Factor(factor) => {
+                self.precision = precision(factor.value_count());
+                factor.factorize(self.precision, |entry| matrix.values[entry])
+            }
             _ => unreachable!("a factor was put there"),
         }
     }
@@ -74,6 +127,12 @@ impl<const D: usize> Inverse<D> {
     #[must_use]
     pub fn is_exact(&self) -> bool {
         matches!(self.kind, Kind::Factor(_))
+    }
+
+    /// Whether making it takes far longer than many solves.
+    #[must_use]
+    pub fn is_large(&self) -> bool {
+        matches!(&self.kind, Kind::Factor(factor) if factor.value_count() >= CONTROL.large)
     }
 
     /// Memory [bytes].

@@ -7,6 +7,7 @@ mod factor;
 mod folding;
 mod graph;
 mod inverse;
+mod last_panel;
 mod nodal_matrix;
 mod ordering;
 mod pieces;

@@ -8,19 +8,29 @@ use super::control::CONTROL;
 /// Nested dissection (Karypis & Kumar, SIAM J. Sci. Comput. 20, 1998) of the nodes, not of the unknowns: those of a node have the
 /// same neighbours. In space a factor so ordered has a fraction of the values that minimum degree leaves. The order is a
 /// postorder of the elimination tree, so that columns of like structure are neighbours and make large supernodes.
-pub fn nested_dissection(graph: &NodeGraph) -> Option<Vec<usize>> {
+///
+/// The nodes in `last` are eliminated after all others. The last columns of the factor are then that of their Schur complement, and solutions there
+/// for forces there need no others.
+pub fn nested_dissection(graph: &NodeGraph, last: &[u32]) -> Option<Vec<usize>> {
     let n = graph.node_count();
     if n < CONTROL.dissected {
         return None;
     }
+    const LAST: i32 = -1;
+    let mut place = vec![0_i32; n];
+    last.iter().for_each(|&node| place[node as usize] = LAST);
+    let others: Vec<usize> = (0..n).filter(|&node| place[node] != LAST).collect();
+    (0..).zip(&others).for_each(|(k, &node)| place[node] = k);
     let mut starts = vec![0_i32];
     let mut neighbours = Vec::with_capacity(graph.entry_count());
-    for node in 0..n {
-        neighbours.extend(graph.row(node).filter(|&(_, m)| m != node).map(|(_, m)| m as i32));
+    for &node in &others {
+        let around = graph.row(node).filter(|&(_, m)| m != node).map(|(_, m)| place[m]);
+        neighbours.extend(around.filter(|&k| k != LAST));
         starts.push(i32::try_from(neighbours.len()).ok()?);
     }
-    let order = metis_order(&CscPattern::new(n, &starts, &neighbours)?).ok()?;
-    let order: Vec<usize> = order.into_iter().map(|node| node as usize).collect();
+    let order = metis_order(&CscPattern::new(others.len(), &starts, &neighbours)?).ok()?;
+    let order = order.into_iter().map(|k| others[k as usize]);
+    let order: Vec<usize> = order.chain(last.iter().map(|&node| node as usize)).collect();
     Some(postordered(graph, &order))
 }
 
@@ -84,7 +94,7 @@ mod tests {
     fn every_node_is_eliminated_once_and_after_its_subtree() {
         let mesh = generate::grid([0.0; 3], [1.0; 3], [16, 16, 15]).expect("valid");
         let graph = NodeGraph::of(&mesh);
-        let order = nested_dissection(&graph).expect("large");
+        let order = nested_dissection(&graph, &[]).expect("large");
         let mut sorted = order.clone();
         sorted.sort_unstable();
         assert!(sorted.iter().copied().eq(0..graph.node_count()));
@@ -103,8 +113,21 @@ mod tests {
     }
 
     #[test]
+    fn last_nodes_are_eliminated_last() {
+        let mesh = generate::grid([0.0; 3], [1.0; 3], [16, 16, 15]).expect("valid");
+        let graph = NodeGraph::of(&mesh);
+        let last: Vec<u32> = (0..17 * 17).collect();
+        let order = nested_dissection(&graph, &last).expect("large");
+        let mut sorted = order.clone();
+        sorted.sort_unstable();
+        assert!(sorted.iter().copied().eq(0..graph.node_count()));
+        let (_, ends) = order.split_at(order.len() - last.len());
+        assert!(ends.iter().all(|&node| node < last.len()));
+    }
+
+    #[test]
     fn small_graphs_are_left_to_minimum_degree() {
         let mesh = generate::grid([0.0; 2], [1.0; 2], [5, 4]).expect("valid");
-        assert_eq!(nested_dissection(&NodeGraph::of(&mesh)), None);
+        assert_eq!(nested_dissection(&NodeGraph::of(&mesh), &[]), None);
     }
 }

@@ -4,6 +4,7 @@ use std::ops::Range;
 use carom_mesh::parallel::{each_chunk, has_threads};
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 
+use super::last_panel::LastPanel;
 use super::pieces::pieces;
 use super::real::Real;
 use super::row::{self, ABREAST, Row};
@@ -70,6 +71,10 @@ struct Halves<T> {
     partial: Vec<T>,
     /// Solutions for unit vectors within the reach, alike; empty until there are any.
     abreast: Vec<Row<T>>,
+    /// The same where the reach is most of the last panel, and nothing else.
+    last_panel: LastPanel<T>,
+    /// Columns of the top, if so.
+    in_last_panel: Option<Range<usize>>,
     /// Where in these the value of every column is.
     position: Vec<u32>,
     /// Where the value of every unknown is.
@@ -154,9 +159,22 @@ impl<T: Real> Halves<T> {
             ordered: Vec::new(),
             partial: Vec::new(),
             abreast: Vec::new(),
+            last_panel: LastPanel::default(),
+            in_last_panel: None,
             position: Vec::new(),
             position_of_unknown: Vec::new(),
         }
+    }
+
+    /// The columns of the top from the first in the reach on, where that is in the last panel and the reach is most of them.
+    fn ask_in_last_panel(&self) -> Option<Range<usize>> {
+        let Piece { substitution, reach, wanted, .. } = &self.top;
+        let (&[panel], Some(last)) = (&reach[..], substitution.panels.last()) else { return None };
+        let is_alone = panel as usize + 1 == substitution.panels.len()
+            && self.pieces.iter().all(|piece| piece.reach.is_empty());
+        let first = wanted.iter().min().filter(|_| is_alone)?;
+        let columns = *first as usize..last.start + last.columns;
+        (2 * wanted.len() >= columns.len()).then_some(columns)
     }
 
     /// The piece that a position belongs to, as an index; that behind the last is the top.
@@ -169,6 +187,7 @@ impl<T: Real> Triangular for Halves<T> {
     fn bytes(&self) -> usize {
         let pieces = self.pieces.iter().chain([&self.top]);
         let own: usize = pieces.map(|p| p.substitution.bytes() + size_of_val(&p.unknowns[..])).sum();
+        let own = own + self.last_panel.bytes();
         let vectors = 2 * size_of_val(&self.ordered[..]) + size_of_val(&self.abreast[..]);
         own + vectors + 2 * size_of_val(&self.position[..])
     }
@@ -209,6 +228,7 @@ impl<T: Real> Triangular for Halves<T> {
         }
 
         self.pieces.clear();
+        self.last_panel.clear();
         self.position = vec![0; ordering.len()];
         let mut start = 0;
         let mut place_outside = vec![NONE; ordering.len()];
@@ -285,6 +305,7 @@ impl<T: Real> Triangular for Halves<T> {
 
     fn set_reach(&mut self, places: &mut dyn Iterator<Item = usize>) {
         self.find(places, |piece| &mut piece.reach);
+        self.in_last_panel = self.ask_in_last_panel();
     }
 
     fn look(&mut self) {
@@ -303,6 +324,13 @@ impl<T: Real> Triangular for Halves<T> {
     }
 
     fn respond(&mut self, places: &[usize]) {
+        if let Some(columns) = self.in_last_panel.clone() {
+            let Self { top, last_panel, position, .. } = self;
+            let asked = places.iter().map(|&place| position[place] as usize - top.range.start);
+            last_panel.ask(asked, columns, |own| top.substitution.end_of_last_panel(own));
+            return;
+        }
+        self.last_panel.ask_for_none();
         self.find(&mut places.iter().copied(), |piece| &mut piece.path);
         self.abreast.resize(self.ordered.len(), [T::default(); ABREAST]);
         let Self { pieces, top, abreast, position, .. } = self;
@@ -330,7 +358,9 @@ impl<T: Real> Triangular for Halves<T> {
     }
 
     fn response(&self, number: usize, place: usize) -> f64 {
-        self.abreast[self.position[place] as usize][number].to_f64()
+        let position = self.position[place] as usize;
+        let answer = self.last_panel.answer(number, || position - self.top.range.start);
+        answer.unwrap_or_else(|| self.abreast[position][number]).to_f64()
     }
 
     fn add(&mut self, values: &mut dyn Iterator<Item = (usize, f64)>) {

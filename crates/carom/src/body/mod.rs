@@ -91,6 +91,18 @@ pub struct Guess<'a, const D: usize> {
     pub displacement: &'a [Vector<D>],
 }
 
+/// What the tangent of a load step has beside the stiffness of the body itself.
+#[derive(Debug, Clone, Copy)]
+pub struct Tangent<'a, const D: usize> {
+    /// The share of the inertia of the body's lowest elastic motion that holds corrections back towards the guess, in K̄ alone, where the tangent by
+    /// itself has no inverse.
+    pub held_back: f64,
+    /// Springs to the ground [N/m] at some nodes.
+    pub springs: &'a [(u32, Matrix<D>)],
+    /// Whether it is the first one of the step: later ones are made where it was not good enough.
+    pub is_first: bool,
+}
+
 /// What a body expects of a step before it knows of contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Forecast {
@@ -194,17 +206,19 @@ pub trait Body<const D: usize>: Send + Sync {
     /// If K̄ cannot be factorised.
     fn renew(&mut self, guess: &Guess<'_, D>, again: bool) -> Result<(), StepError>;
 
-    /// Makes K̄ the tangent at a guess of a load step, with `springs` to the ground [N/m] at some nodes. `held_back` is the share of the inertia of the
-    /// body's lowest elastic motion that holds corrections back towards the guess, in K̄ alone, where the tangent by itself has no inverse.
+    /// Names the nodes, ascending, that contacts act on in what is [made](Self::linearise) from now on.
+    fn expect_contacts(&mut self, _nodes: &[u32]) {}
+
+    /// How many iterations with a kept tangent a new one is worth in a load step.
+    fn tangent_worth(&self) -> i32 {
+        1
+    }
+
+    /// Makes K̄ the tangent at a guess of a load step.
     ///
     /// # Errors
-    /// If K̄ is not positive definite even so.
-    fn linearise(
-        &mut self,
-        guess: &Guess<'_, D>,
-        _held_back: f64,
-        _springs: &[(u32, Matrix<D>)],
-    ) -> Result<(), StepError> {
+    /// If K̄ is not positive definite even with what the tangent has beside the body's own stiffness.
+    fn linearise(&mut self, guess: &Guess<'_, D>, _tangent: &Tangent<'_, D>) -> Result<(), StepError> {
         self.renew(guess, false)
     }
 

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use carom_contact::Contact;
 use carom_friction::{ContactProblem, SolverKind, StoppingRule};
 use carom_mesh::Vector;
 
@@ -12,6 +13,7 @@ use crate::body::Body;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
+use crate::model::state::State;
 
 /// What residuals are relative to [m]: the larger of q and, by the natural stiffness, the reactions. A residual is an error of motions over it.
 fn size<const D: usize>(problem: &ContactProblem<D>, reactions: &[Vector<D>]) -> f64 {
@@ -65,34 +67,56 @@ impl<const D: usize> Reduced<D> {
         }
     }
 
-    /// Gets the bodies ready to respond at the nodes of the contacts: their compliance there, and the reach of these nodes.
-    pub fn prepare(&mut self, given: &Given<'_, D>, active: &ActiveSet<D>, bodies: &mut [Box<dyn Body<D>>]) {
+    /// Lists the nodes of every body that these contacts, and springs in K̄, act on.
+    fn list_nodes<'a>(
+        &mut self,
+        assembly: &Assembly<D>,
+        touched: &[bool],
+        contacts: impl Iterator<Item = &'a Contact<D>>,
+    ) {
         self.nodes.iter_mut().for_each(Vec::clear);
-        for (node, _) in active.contacts.iter().flat_map(|contact| contact.stencil()) {
-            // The motion of obstacles is prescribed: they do not respond.
-            if let Some((b, own)) = given.assembly.place_of(node) {
-                self.nodes[b].push(own as u32);
-            }
+        // The motion of obstacles is prescribed: they do not respond.
+        for (b, own) in contacts.flat_map(Contact::stencil).filter_map(|(n, _)| assembly.place_of(n)) {
+            self.nodes[b].push(own as u32);
         }
-        for (i, springs) in self
-            .delassus
-            .stiffened
-            .springs
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| active.touched[*i] && self.delassus.stiffened.is_sprung[*i])
-        {
-            self.nodes[i].extend(springs.iter().map(|&(node, _)| node));
-        }
-        let everywhere = given.interval.map.is_static();
-        for ((nodes, compliance), body) in
-            self.nodes.iter_mut().zip(&mut self.delassus.compliances).zip(bodies)
-        {
-            if nodes.is_empty() {
-                continue;
+        let stiffened = &self.delassus.stiffened;
+        for (i, nodes) in self.nodes.iter_mut().enumerate() {
+            if touched[i] && stiffened.is_sprung[i] {
+                nodes.extend(stiffened.springs[i].iter().map(|&(node, _)| node));
             }
             nodes.sort_unstable();
             nodes.dedup();
+        }
+    }
+
+    /// Tells the bodies which nodes the contacts of the state act on: those of a load step are next to them.
+    pub fn expect_those_of(
+        &mut self,
+        state: &State<D>,
+        assembly: &Assembly<D>,
+        bodies: &mut [Box<dyn Body<D>>],
+    ) {
+        let touched = vec![false; bodies.len()];
+        self.list_nodes(assembly, &touched, state.reactions.iter().map(|r| &r.contact));
+        self.nodes.iter().zip(bodies).for_each(|(nodes, body)| body.expect_contacts(nodes));
+    }
+
+    /// The same of the contacts that the bodies were last [prepared](Self::prepare) for.
+    pub fn expect_more(&self, bodies: &mut [Box<dyn Body<D>>]) {
+        self.nodes.iter().zip(bodies).for_each(|(nodes, body)| body.expect_contacts(nodes));
+    }
+
+    /// Gets the bodies ready to respond at the nodes of the contacts: their compliance there, and the reach of these nodes.
+    pub fn prepare(&mut self, given: &Given<'_, D>, active: &ActiveSet<D>, bodies: &mut [Box<dyn Body<D>>]) {
+        self.list_nodes(given.assembly, &active.touched, active.contacts.iter());
+        let everywhere = given.interval.map.is_static();
+        for ((nodes, compliance), body) in self
+            .nodes
+            .iter()
+            .zip(&mut self.delassus.compliances)
+            .zip(bodies)
+            .filter(|((n, _), _)| !n.is_empty())
+        {
             compliance.prepare(&mut **body, nodes, everywhere);
             body.set_reach(nodes);
         }

@@ -8,7 +8,7 @@ use super::newton::control::LOAD_STEP;
 use super::newton::holding::Holding;
 use super::newton::load_step::{LoadStep, Verdict};
 use super::workspace::Workspace;
-use crate::body::{Body, Guess};
+use crate::body::{Body, Guess, Tangent};
 use crate::contact::Contacts;
 use crate::error::StepError;
 use crate::model::given::Given;
@@ -42,7 +42,8 @@ fn approach<const D: usize>(
 ) -> Result<usize, StepError> {
     let rule = &given.method.newton;
     let reached = nodal::largest(&given.state.displacement[..given.assembly.node_count()]);
-    let mut load_step = LoadStep::new(rule.tolerance, rule.max_iterations, reached);
+    let worth = bodies.iter().map(|&i| work.bodies[i].tangent_worth()).max().unwrap_or(1);
+    let mut load_step = LoadStep::new(rule.tolerance, rule.max_iterations, worth, reached);
     work.newton.keep_guess(bodies, given.assembly, &work.motion, &work.contacts.active);
     for iteration in 1.. {
         let late = (iteration > LOAD_STEP.late).then_some(load_step.last);
@@ -141,10 +142,16 @@ fn linearise<const D: usize>(
     let Workspace { bodies: all, contacts, motion, .. } = work;
     let Contacts { active, reduced, .. } = contacts;
     reduced.delassus.stiffened.spring_from_guess(given.assembly, active, all);
+    reduced.expect_more(all);
     for &i in bodies {
         let guess = given.guess(i, motion, &next.displacement);
-        work.factorisations +=
-            hold(&mut *all[i], &guess, &mut work.newton.holding[i], reduced.delassus.stiffened.support(i))?;
+        work.factorisations += hold(
+            &mut *all[i],
+            &guess,
+            false,
+            &mut work.newton.holding[i],
+            reduced.delassus.stiffened.support(i),
+        )?;
     }
     Ok(())
 }
@@ -155,6 +162,7 @@ pub(super) fn set_out<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
     let Workspace { bodies, contacts, newton, motion, .. } = work;
+    contacts.reduced.expect_those_of(given.state, given.assembly, bodies);
     let stiffened = &mut contacts.reduced.delassus.stiffened;
     stiffened.spring_from_start(given.assembly, &given.state.reactions, bodies);
     newton.holding.fill(Holding::default());
@@ -168,7 +176,7 @@ pub(super) fn set_out<const D: usize>(
             ..given.guess(i, motion, &given.state.displacement)
         };
         stiffened.is_sprung[i] = false;
-        let held = hold(&mut **body, &guess, &mut newton.holding[i], stiffened.support(i))?;
+        let held = hold(&mut **body, &guess, true, &mut newton.holding[i], stiffened.support(i))?;
         work.factorisations += held;
         body.follow(given.interval, &given.start(i), &mut motion[nodes]);
     }
@@ -180,11 +188,14 @@ pub(super) fn set_out<const D: usize>(
 fn hold<const D: usize>(
     body: &mut dyn Body<D>,
     guess: &Guess<'_, D>,
+    is_first: bool,
     holding: &mut Holding,
     (springs, is_sprung): (&[(u32, Matrix<D>)], &mut bool),
 ) -> Result<u64, StepError> {
     for tries in 1.. {
-        let made = body.linearise(guess, holding.share, if *is_sprung { springs } else { &[] });
+        let springs_in_use = if *is_sprung { springs } else { &[] };
+        let tangent = Tangent { held_back: holding.share, springs: springs_in_use, is_first };
+        let made = body.linearise(guess, &tangent);
         if made.is_ok() {
             return Ok(tries);
         }

@@ -126,7 +126,7 @@ pub fn equilibrium<const D: usize>(
     fixed: impl Fn(usize, usize) -> bool,
     u: &mut [Vector<D>],
 ) {
-    let mut factor = Factor::<D>::new(body.graph(), &[]).expect("ordered");
+    let mut factor = Factor::<D>::new(body.graph(), &[], &[]).expect("ordered");
     let mut ends = vec![(0, 0); body.graph().entry_count()];
     for row in 0..u.len() {
         body.graph().row(row).for_each(|(entry, column)| ends[entry] = (row, column));

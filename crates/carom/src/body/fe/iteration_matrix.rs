@@ -7,20 +7,23 @@ use carom_mesh::{Matrix, Vector, nodal};
 
 use super::equation::STEADYING;
 use crate::archive::{Archive, CheckpointError};
-use crate::body::Guess;
+use crate::body::{Guess, Tangent};
 use crate::error::StepError;
 use crate::scheme::StepMap;
 
-/// The inertia of the lowest elastic motion, by its scale (c/L)² [1/s²]: what corrections of a load step are held back by.
+/// The inertia of the lowest elastic motion, by its scale (c/L)² [1/s²], c that of shear waves: what corrections of a load step are held back by.
 ///
 /// It is in K̄ alone, never in a residual: each iteration is held back towards the last guess, and the solution is the same.
 fn lowest_inertia<const D: usize>(body: &Body<D>) -> f64 {
-    (body.wave_speed() / body.mesh().diameter()).powi(2)
+    (body.shear_wave_speed() / body.mesh().diameter()).powi(2)
 }
 
 /// The least share of it that a body has which its supports leave loose: below what a contact resists with, and so far above round-off that a shaft
 /// which may turn in a hub does not.
 const LOOSE: f64 = 0.05;
+
+/// Iterations that a new tangent is worth, of small bodies and of large ones.
+const WORTH: [i32; 2] = [3, 12];
 
 /// A pattern of signs without a period, by which round-off of the forces on nodes is summed as chance would.
 fn sign(k: usize) -> f64 {
@@ -235,28 +238,36 @@ impl<const D: usize> IterationMatrix<D> {
         Ok(())
     }
 
-    /// Makes the factor of the tangent at a guess of a load step, with `springs` to the ground [N/m], held back by a `share` of the body's lowest
-    /// inertia, or says that it is indefinite.
+    /// Names the nodes, ascending, that contacts act on with factors made from now on.
+    pub fn expect_contacts(&mut self, nodes: &[u32]) {
+        self.inverse.expect(nodes);
+    }
+
+    /// How many iterations with a kept tangent a new one is worth.
+    pub fn worth(&self) -> i32 {
+        if self.inverse.is_large() { WORTH[1] } else { WORTH[0] }
+    }
+
+    /// Makes the factor of a tangent at a guess of a load step, or says that it is indefinite.
     pub fn linearise(
         &mut self,
         with_history: &BodyWithHistory<'_, D>,
         guess: &Guess<'_, D>,
-        share: f64,
-        springs: &[(u32, Matrix<D>)],
+        tangent: &Tangent<'_, D>,
     ) -> Result<(), StepError> {
         let (body, u) = (with_history.body, guess.displacement);
         let mut stiffness = with_history.stiffness(u);
-        for &(n, block) in springs {
+        for &(n, block) in tangent.springs {
             stiffness.values[body.graph().entry(n, n)] += block;
         }
-        let share = if self.is_loose { share.max(LOOSE) } else { share };
+        let share = if self.is_loose { tangent.held_back.max(LOOSE) } else { tangent.held_back };
         for (k, m) in stiffness.values.iter_mut().zip(&body.mass().values) {
             *k += Matrix::from_diagonal_element(m * share * self.lowest_inertia);
         }
         self.coefficients = None;
         self.note_noise(body, u, &stiffness);
         self.held.uncouple(&mut stiffness);
-        self.inverse.make(Precision::Double, &stiffness)?;
+        self.inverse.make_exact(tangent.is_first, &stiffness)?;
         self.held.clear(&mut self.scratch);
         self.inverse.begin(&mut self.scratch);
         self.inverse.end(&mut self.scratch);

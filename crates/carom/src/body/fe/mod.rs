@@ -23,7 +23,7 @@ use self::drive::Drive;
 use self::equation::{Equation, Pose, ResidualScratch, STRAIGHT};
 use self::iteration_matrix::IterationMatrix;
 use self::part::ModelBody;
-use super::{Balance, Body, BodyEnd, BodyState, Forecast, Guess, Interval};
+use super::{Balance, Body, BodyEnd, BodyState, Forecast, Guess, Interval, Tangent};
 use crate::archive::{Archive, CheckpointError};
 use crate::error::StepError;
 use crate::ledger::{BodyLedger, Energies};
@@ -233,15 +233,18 @@ impl<const D: usize> Body<D> for FeBody<D> {
         self.factorise(guess.interval, guess.start.history, precision)
     }
 
-    fn linearise(
-        &mut self,
-        guess: &Guess<'_, D>,
-        held_back: f64,
-        springs: &[(u32, Matrix<D>)],
-    ) -> Result<(), StepError> {
+    fn tangent_worth(&self) -> i32 {
+        self.matrix.worth()
+    }
+
+    fn expect_contacts(&mut self, nodes: &[u32]) {
+        self.matrix.expect_contacts(nodes);
+    }
+
+    fn linearise(&mut self, guess: &Guess<'_, D>, tangent: &Tangent<'_, D>) -> Result<(), StepError> {
         let growth = self.part.growth_of_forces(guess.interval);
         let with_history = self.part.body.after(guess.start.history).grown(growth);
-        self.matrix.linearise(&with_history, guess, held_back, springs)
+        self.matrix.linearise(&with_history, guess, tangent)
     }
 
     /// Held nodes that move alone would crush the cells beside them. K̄⁻¹ of what the body resists that with, by a difference of its forces.

@@ -80,8 +80,8 @@ pub(crate) struct LoadControl {
     pub unavoidable: f64,
     /// No round-off is trusted to be more than this, in sizes of the largest body.
     pub trusted: f64,
-    /// A new tangent costs as much as so many iterations: it is not made where as many with the present one will do.
-    pub worth: i32,
+    /// What the second iteration is thought to leave of the first one's correction.
+    pub hoped: f64,
     /// After so many iterations a normal that jumps has crossed a kink of its target, which no smaller correction will undo.
     pub late: usize,
     /// Guesses that may be refused before the step is.
@@ -102,7 +102,7 @@ pub(crate) const LOAD_STEP: LoadControl = LoadControl {
     stalled: 4,
     unavoidable: 100.0,
     trusted: 1e-8,
-    worth: 3,
+    hoped: 0.1,
     late: 4,
     refusals: 8,
     first: 1e-3,

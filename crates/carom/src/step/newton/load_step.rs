@@ -27,6 +27,8 @@ pub(crate) struct LoadStep {
     /// Largest correction that may be left, relative to what the model has moved since the start.
     pub tolerance: f64,
     pub max_iterations: usize,
+    /// How many iterations with a kept tangent a new one is worth.
+    pub worth: i32,
     /// The largest displacement at the start of the step [m].
     pub reached: f64,
     /// The last correction that was applied [m], and the largest motion or correction of the step so far.
@@ -40,10 +42,11 @@ pub(crate) struct LoadStep {
 
 impl LoadStep {
     /// Of a step that the model enters with displacements of up to `reached` [m].
-    pub fn new(tolerance: f64, max_iterations: usize, reached: f64) -> Self {
+    pub fn new(tolerance: f64, max_iterations: usize, worth: i32, reached: f64) -> Self {
         Self {
             tolerance,
             max_iterations,
+            worth,
             reached,
             last: f64::INFINITY,
             reach: 0.0,
@@ -93,7 +96,8 @@ impl LoadStep {
         if iteration >= self.max_iterations {
             return Err(failed);
         }
-        let is_fast = correction * contraction.powi(LOAD_STEP.worth) <= wanted;
+        let expected = if is_first { LOAD_STEP.hoped } else { contraction };
+        let is_fast = correction * expected.powi(self.worth) <= wanted;
         Ok(if is_fast { Verdict::Applied } else { Verdict::Renewed })
     }
 
