@@ -11,6 +11,7 @@ mod delassus;
 pub(crate) mod reduced;
 pub(crate) mod slip;
 pub(crate) mod stiffened;
+mod woodbury;
 
 use carom_contact::Contact;
 use carom_friction::ContactProblem;

@@ -12,11 +12,11 @@
 
 use carom_contact::Contact;
 use carom_mesh::{Matrix, Vector};
-use nalgebra::{DMatrix, DVector};
 
 use super::active::ActiveSet;
 use super::compliance::Compliance;
 use super::control::CONTROL;
+use super::woodbury::Woodbury;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
@@ -40,12 +40,10 @@ pub(crate) struct Stiffened<const D: usize> {
     /// P, and the place of every position of the model in it.
     nodes: Vec<usize>,
     places: Vec<u32>,
-    /// Ĝ.
-    missing: DMatrix<f64>,
-    /// (I + C Ĝ)⁻¹ C; empty where nothing is missing.
-    compliance: DMatrix<f64>,
+    /// Ĝ, and (I + C Ĝ)⁻¹ C.
+    missing: Woodbury<D>,
     /// What the correction is at P without new reactions [m].
-    seen: DVector<f64>,
+    seen: Vec<f64>,
 }
 
 /// κ of a contact, by the stiffness of its softest node in the undeformed body.
@@ -86,20 +84,19 @@ impl<const D: usize> Stiffened<D> {
             springs_of_contacts: Vec::new(),
             nodes: Vec::new(),
             places: vec![NONE; assembly.reference.len()],
-            missing: DMatrix::zeros(0, 0),
-            compliance: DMatrix::zeros(0, 0),
-            seen: DVector::zeros(0),
+            missing: Woodbury::default(),
+            seen: Vec::new(),
         }
     }
 
     /// Whether K̄ alone is not the tangent.
     pub fn is_needed(&self) -> bool {
-        !self.compliance.is_empty()
+        self.missing.is_needed()
     }
 
     /// Forgets what a step before has left.
     pub fn clear(&mut self) {
-        self.compliance = DMatrix::zeros(0, 0);
+        self.missing.clear();
     }
 
     /// Takes the springs of the tangents from the contacts that press: those that a step starts with.
@@ -198,20 +195,15 @@ impl<const D: usize> Stiffened<D> {
             return;
         }
         self.list_nodes(given.assembly, active);
-        let count = self.nodes.len() * D;
-        self.missing = DMatrix::zeros(count, count);
+        self.missing.clear();
         self.add_geometric(given, active, motion);
-        // Friction makes it unsymmetric, of which a solver of contacts knows nothing.
-        self.missing = (&self.missing + self.missing.transpose()) * 0.5;
         self.add_springs(given.assembly, active);
-        let compliance = self.compliance_of(given.assembly, compliances);
-        if self.missing.amax() * compliance.amax() <= CONTROL.negligible {
-            self.clear();
-            return;
-        }
-        let mut system = &compliance * &self.missing;
-        (0..count).for_each(|i| system[(i, i)] += 1.0);
-        self.compliance = system.lu().solve(&compliance).unwrap_or(compliance);
+        let nodes = &self.nodes;
+        let block =
+            |row: usize, column: usize| yields(given.assembly, compliances, nodes[row], nodes[column]);
+        // No block is larger than the largest on the diagonal.
+        let softest = (0..nodes.len()).filter_map(|k| block(k, k)).map(|b| b.amax()).fold(0.0, f64::max);
+        self.missing.make(nodes.len(), CONTROL.negligible / softest, block);
     }
 
     /// P: the nodes of bodies that contacts or springs act on.
@@ -262,11 +254,12 @@ impl<const D: usize> Stiffened<D> {
                         moved.add_force(&(r * (-sign / (2.0 * step))), &mut force);
                         for (n, _) in moved.stencil() {
                             let change = std::mem::replace(&mut force[n], Vector::zeros());
-                            if let Some(row) = self.place(n) {
-                                (0..D).for_each(|i| {
-                                    self.missing[(row * D + i, column * D + component)] += change[i];
-                                });
-                            }
+                            let Some(row) = self.place(n) else { continue };
+                            let mut block = Matrix::<D>::zeros();
+                            block.set_column(component, &(change * 0.5));
+                            // Friction makes it unsymmetric, of which a solver of contacts knows nothing.
+                            self.missing.add((row, column), block);
+                            self.missing.add((column, row), block.transpose());
                         }
                     }
                 }
@@ -285,7 +278,7 @@ impl<const D: usize> Stiffened<D> {
                 let Some(row) = self.place(n) else { continue };
                 for (m, b) in contact.stencil() {
                     let Some(column) = self.place(m) else { continue };
-                    add(&mut self.missing, (row, column), &(block * (a * b)));
+                    self.missing.add((row, column), block * (a * b));
                 }
             }
         }
@@ -293,55 +286,51 @@ impl<const D: usize> Stiffened<D> {
             let first = assembly.nodes(b).start;
             for &(own, block) in springs {
                 let Some(place) = self.place(first + own as usize) else { continue };
-                add(&mut self.missing, (place, place), &-block);
+                self.missing.add((place, place), -block);
             }
         }
-    }
-
-    /// C.
-    fn compliance_of(&self, assembly: &Assembly<D>, compliances: &[Compliance<D>]) -> DMatrix<f64> {
-        let count = self.nodes.len() * D;
-        let mut compliance = DMatrix::zeros(count, count);
-        for (column, &m) in self.nodes.iter().enumerate() {
-            let Some((b, own)) = assembly.place_of(m) else { continue };
-            let turn = &compliances[b].turn;
-            for (row, &n) in self.nodes.iter().enumerate().filter(|(_, n)| assembly.body_of(**n) == Some(b)) {
-                if let Some(block) = compliances[b].block(n - (m - own), own) {
-                    add(&mut compliance, (row, column), &(turn * block * turn.transpose()));
-                }
-            }
-        }
-        compliance
     }
 
     /// The block of the compliance between two nodes of P.
     pub fn block(&self, a: usize, b: usize) -> Option<Matrix<D>> {
-        let (row, column) = (self.place(a)?, self.place(b)?);
-        Some(Matrix::from_fn(|i, j| self.compliance[(row * D + i, column * D + j)]))
+        Some(self.missing.block(self.place(a)?, self.place(b)?))
     }
 
     /// Makes what K̄⁻¹ alone gives at P, beside the `motion` so far [m], what the tangent gives.
     pub fn see(&mut self, motion: &[Vector<D>], seen: &mut [Vector<D>]) {
-        let of = |place: usize| self.nodes[place / D];
-        let alone = DVector::from_fn(self.nodes.len() * D, |k, _| seen[of(k)][k % D] - motion[of(k)][k % D]);
-        self.seen = &alone - &self.compliance * (&self.missing * &alone);
-        for (place, &n) in self.nodes.iter().enumerate() {
-            seen[n] = motion[n] + Vector::from_fn(|i, _| self.seen[place * D + i]);
+        let components = self.nodes.iter().flat_map(|&n| (0..D).map(move |i| (n, i)));
+        let mut correction: Vec<f64> = components.map(|(n, i)| seen[n][i] - motion[n][i]).collect();
+        let less = self.missing.yields(&self.missing.resists(&correction));
+        correction.iter_mut().zip(less).for_each(|(c, less)| *c -= less);
+        for (&n, c) in self.nodes.iter().zip(correction.chunks_exact(D)) {
+            seen[n] = motion[n] + Vector::from_column_slice(c);
         }
+        self.seen = correction;
     }
 
     /// Adds what stands in K̄ for the tangent to the `change` of forces [N] by new reactions: −Ĝ c, with the correction c = s + C f that they lead to.
     pub fn stand_in(&self, change: &mut [Vector<D>]) {
-        let forces = DVector::from_fn(self.nodes.len() * D, |k, _| change[self.nodes[k / D]][k % D]);
-        let resisted = &self.missing * (&self.seen + &self.compliance * forces);
-        for (place, &n) in self.nodes.iter().enumerate() {
-            change[n] -= Vector::from_fn(|i, _| resisted[place * D + i]);
+        let forces: Vec<f64> = self.nodes.iter().flat_map(|&n| change[n].iter().copied()).collect();
+        let mut correction = self.missing.yields(&forces);
+        correction.iter_mut().zip(&self.seen).for_each(|(c, seen)| *c += seen);
+        let resisted = self.missing.resists(&correction);
+        for (&n, force) in self.nodes.iter().zip(resisted.chunks_exact(D)) {
+            change[n] -= Vector::from_column_slice(force);
         }
     }
 }
 
-fn add<const D: usize>(matrix: &mut DMatrix<f64>, (row, column): (usize, usize), block: &Matrix<D>) {
-    for i in 0..D {
-        (0..D).for_each(|j| matrix[(row * D + i, column * D + j)] += block[(i, j)]);
+/// The block of C between two nodes, if they are of one body.
+fn yields<const D: usize>(
+    assembly: &Assembly<D>,
+    compliances: &[Compliance<D>],
+    n: usize,
+    m: usize,
+) -> Option<Matrix<D>> {
+    let (b, own) = assembly.place_of(m)?;
+    if assembly.body_of(n) != Some(b) {
+        return None;
     }
+    let turn = &compliances[b].turn;
+    compliances[b].block(n - (m - own), own).map(|block| turn * block * turn.transpose())
 }
