@@ -90,7 +90,7 @@ def fit(shape: str, way: Way, discretisation: Discretisation, divisions: int) ->
     """Fit a slice of a long shaft, or a body of revolution between two plates."""
     if shape == "slice":
         # Mortar integrates over facets: those of equal numbers are as far apart as their nodes.
-        around = divisions * (4 if discretisation == "mortar" else 6)
+        around = divisions * 6
         shaft = carom.Body(
             name="shaft",
             material="steel",

@@ -18,8 +18,9 @@ def test_the_pressure_tends_to_that_of_lame(shape, discretisation, way):
     assert errors[-1] < 1.5e-3
     assert observed_order([1.0 / n for n in DIVISIONS[shape]], errors) > 1.5
     for fit in fits:
-        # Nothing is inside anything by more than the law lets it: the gap of what presses.
-        assert abs(fit.history["min_gap"]) < 2e-13
+        # Nothing is inside anything by more than the law lets it: the gap of nodes, and for mortar
+        # the mean over one, of which they are off by 4e-7 m at most.
+        assert abs(fit.history["min_gap"]) < (1e-6 if discretisation == "mortar" else 2e-13)
         assert abs(fit.history["defect"]) < 1e-11 * fit.history["strain"]
 
 

@@ -85,6 +85,17 @@ impl Curve {
         segment.foot(&offset, x, ENDS[from.unwrap_or(0)], 0.0)
     }
 
+    /// The nodes that a segment is a combination of.
+    pub fn nodes(&self, segment: u32) -> &[u32] {
+        let segment = &self.segments[segment as usize];
+        &segment.nodes[..segment.len]
+    }
+
+    /// Their weights at a point of the segment.
+    pub fn weights(&self, segment: u32, xi: f64) -> [f64; MAX_FACET_NODES] {
+        self.segments[segment as usize].at(&powers(xi))
+    }
+
     /// Points [m] whose convex hull holds a segment.
     pub fn control_points<const D: usize>(
         &self,
@@ -151,6 +162,15 @@ impl Segment {
         Self { nodes, len, weights, neighbours, is_flat }
     }
 
+    /// The weights of the nodes for a combination of 1, ξ, ξ², ξ³.
+    fn at(&self, basis: &[f64; 4]) -> [f64; MAX_FACET_NODES] {
+        let mut weights = [0.0; MAX_FACET_NODES];
+        for (weight, own) in weights.iter_mut().zip(&self.weights[..self.len]) {
+            *weight = own.iter().zip(basis).map(|(c, b)| c * b).sum();
+        }
+        weights
+    }
+
     /// What belongs to the point at `xi`, or straight on from there by `beyond`.
     fn foot<const D: usize>(
         &self,
@@ -161,10 +181,7 @@ impl Segment {
     ) -> Projection<'_, D> {
         let (value, slope) = (powers(xi), slopes(xi));
         let basis: [f64; 4] = std::array::from_fn(|j| value[j] + beyond * slope[j]);
-        let mut weights = [0.0; MAX_FACET_NODES];
-        for (weight, own) in weights.iter_mut().zip(&self.weights[..self.len]) {
-            *weight = own.iter().zip(&basis).map(|(c, b)| c * b).sum();
-        }
+        let weights = self.at(&basis);
         let normal = normal(&[offset.combine(&slope), Vector::zeros()]);
         Projection { nodes: &self.nodes[..self.len], weights, point: x + offset.combine(&basis), normal }
     }

@@ -8,6 +8,7 @@ use crate::edge::Edge;
 use crate::patch::Patch;
 use crate::project::{Projection, Reach, area_normal, normal, project};
 use crate::tolerances::EDGES;
+use carom_mesh::cell::MAX_FACET_NODES;
 
 /// The boundary of a body, its nodes numbered over all bodies.
 #[derive(Debug, Clone, PartialEq)]
@@ -152,6 +153,22 @@ impl ContactSurface {
         match &self.shape {
             Shape::Faceted => project(x, &self.facets[f as usize], reach, position),
             Shape::Curved(curve) => curve.project(f, x, reach, position),
+        }
+    }
+
+    /// The nodes that a point of what the surface is over the facet `f` is a combination of.
+    pub(crate) fn nodes_over(&self, f: u32) -> &[u32] {
+        match &self.shape {
+            Shape::Faceted => &self.facets[f as usize].nodes,
+            Shape::Curved(curve) => curve.nodes(f),
+        }
+    }
+
+    /// Their weights over the point of the facet where its shape functions are `shape`.
+    pub(crate) fn weights_over(&self, f: u32, shape: &[f64; MAX_FACET_NODES]) -> [f64; MAX_FACET_NODES] {
+        match &self.shape {
+            Shape::Faceted => *shape,
+            Shape::Curved(curve) => curve.weights(f, shape[1]),
         }
     }
 

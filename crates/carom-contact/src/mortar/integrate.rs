@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use carom_mesh::{Facet, Vector};
+use carom_mesh::Vector;
 use smallvec::SmallVec;
 
 use super::clip::{intersection, simplices, size};
@@ -10,25 +10,30 @@ use super::parts::{MAX_FACET_NODES, parts};
 use super::plane::{Image, Plane};
 use super::quadrature::rule;
 use super::row::Row;
+use crate::ContactSurface;
 use crate::tolerances::MORTAR;
 
 /// The integrals of two corners' multipliers and the shape functions of a facet.
 type Products = [[f64; MAX_FACET_NODES]; 4];
 
-/// Adds to the rows of the nodes of `source` what they see of the facets `targets`. `row_of` knows the places of the rows.
+/// Adds to the rows of the nodes of the facet `source` what they see of the facets `targets` of the other of two surfaces. `row_of` knows the places
+/// of the rows.
 ///
 /// Each part of the source is a plane, in which the facets are cut against it exactly; along its normal the points of both sides
-/// face one another. Multipliers are the linear shape functions of the parts, and motions the shape functions of the facets. On the
+/// face one another. Multipliers are the linear shape functions of the parts, and places those of the surfaces over the facets: between
+/// the chords of two round sides with unequal facets there would be a clearance, or an overlap, of the size of their sagittas. On the
 /// meridian of a body of revolution a point counts as its circle, 2πr.
-pub(super) fn integrate<'a, const D: usize>(
-    source: &Facet,
-    targets: impl Iterator<Item = &'a Facet> + Clone,
-    is_meridian: bool,
+pub(super) fn integrate<const D: usize>(
+    [of_source, of_target]: [&ContactSurface; 2],
+    source_facet: u32,
+    targets: impl Iterator<Item = u32> + Clone,
     position: &impl Fn(u32) -> Vector<D>,
     row_of: &impl Fn(u32) -> Option<usize>,
     rows: &mut [Row<D>],
 ) {
     let dimension = D - 1;
+    let source = &of_source.facets[source_facet as usize];
+    let source_nodes = of_source.nodes_over(source_facet);
     for &(kind, corners) in parts(source.kind) {
         let places: SmallVec<[Vector<D>; 4]> = corners.iter().map(|&a| position(source.nodes[a])).collect();
         let Some(plane) = Plane::through(&places) else { continue };
@@ -40,7 +45,9 @@ pub(super) fn integrate<'a, const D: usize>(
         let mut covered = [0.0; 4];
         let mut with_source: Products = Default::default();
         let row: SmallVec<[Option<usize>; 4]> = corners.iter().map(|&a| row_of(source.nodes[a])).collect();
-        for target in targets.clone() {
+        for target_facet in targets.clone() {
+            let target = &of_target.facets[target_facet as usize];
+            let target_nodes = of_target.nodes_over(target_facet);
             let other = Image::new(target.kind, target.nodes.iter().map(in_plane));
             let points = rule(dimension, source.kind != kind || parts(target.kind).len() > 1);
             let mut with_target: Products = Default::default();
@@ -67,19 +74,21 @@ pub(super) fn integrate<'a, const D: usize>(
                         }
                         other.shape_at(&point, target_shape);
                         let mut measure = share * simplex_size;
-                        if is_meridian {
+                        if of_source.is_meridian {
                             let nodes = source.nodes.iter().zip(&*source_shape);
                             let radius: f64 = nodes.map(|(&n, shape)| shape * position(n)[0]).sum();
                             measure *= TAU * radius;
                         }
+                        let source_weights = of_source.weights_over(source_facet, source_shape);
+                        let target_weights = of_target.weights_over(target_facet, target_shape);
                         for v in 0..corners.len() {
                             let weight = measure * multiplier[v];
                             covered[v] += weight;
-                            for a in 0..source.nodes.len() {
-                                with_source[v][a] += weight * source_shape[a];
+                            for a in 0..source_nodes.len() {
+                                with_source[v][a] += weight * source_weights[a];
                             }
-                            for c in 0..target.nodes.len() {
-                                with_target[v][c] += weight * target_shape[c];
+                            for c in 0..target_nodes.len() {
+                                with_target[v][c] += weight * target_weights[c];
                             }
                         }
                     }
@@ -88,17 +97,17 @@ pub(super) fn integrate<'a, const D: usize>(
             if overlap > 0.0 {
                 for (row, products) in row.iter().zip(&with_target) {
                     let Some(k) = *row else { continue };
-                    target.nodes.iter().zip(products).for_each(|(&n, &m)| rows[k].add_target(n, m));
+                    target_nodes.iter().zip(products).for_each(|(&n, &m)| rows[k].add_target(n, m));
                 }
             }
         }
         for (v, row) in row.iter().enumerate() {
             let Some(k) = *row else { continue };
-            let circle = if is_meridian { TAU * places[v][0].abs() } else { 1.0 };
+            let circle = if of_source.is_meridian { TAU * places[v][0].abs() } else { 1.0 };
             rows[k].add_whole(whole * circle / corners.len() as f64);
             if covered[v] > 0.0 {
                 rows[k].add_covered(covered[v], &plane.normal());
-                source.nodes.iter().zip(&with_source[v]).for_each(|(&n, &d)| rows[k].add_source(n, d));
+                source_nodes.iter().zip(&with_source[v]).for_each(|(&n, &d)| rows[k].add_source(n, d));
             }
         }
     }

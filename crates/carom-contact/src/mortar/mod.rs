@@ -157,8 +157,9 @@ impl<const D: usize> ContactModel<D> {
         for facing in mortar.facing[mortar.of_pair(pair)].chunk_by(|a, b| a.source == b.source) {
             let facet = &source.facets[facing[0].source as usize];
             if facet.nodes.iter().any(|&n| row_of(n).is_some()) {
-                let targets = facing.iter().map(|f| &target.facets[f.target as usize]);
-                integrate(facet, targets, source.is_meridian, position, &row_of, &mut mortar.rows);
+                let targets = facing.iter().map(|f| f.target);
+                let rows = &mut mortar.rows;
+                integrate([source, target], facing[0].source, targets, position, &row_of, rows);
             }
         }
     }

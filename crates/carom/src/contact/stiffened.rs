@@ -35,6 +35,8 @@ pub(crate) struct Stiffened<const D: usize> {
     pub springs: Vec<Springs<D>>,
     /// Whether it has them.
     pub is_sprung: Vec<bool>,
+    /// Whether reactions have their stiffness even where no body has springs.
+    pub is_geometric: bool,
     /// κ of every contact [N/m], and in how many directions; zero where it does not press.
     springs_of_contacts: Vec<(f64, usize)>,
     /// P, and the place of every position of the model in it.
@@ -81,6 +83,7 @@ impl<const D: usize> Stiffened<D> {
         Self {
             springs: vec![Vec::new(); assembly.body_count()],
             is_sprung: vec![false; assembly.body_count()],
+            is_geometric: false,
             springs_of_contacts: Vec::new(),
             nodes: Vec::new(),
             places: vec![NONE; assembly.reference.len()],
@@ -189,7 +192,7 @@ impl<const D: usize> Stiffened<D> {
         motion: &[Vector<D>],
         compliances: &[Compliance<D>],
     ) {
-        if self.springs_of_contacts.iter().all(|&(stiffness, _)| stiffness == 0.0) {
+        if !self.is_geometric && self.springs_of_contacts.iter().all(|&(stiffness, _)| stiffness == 0.0) {
             // Elastic bodies that pressure takes little of converge without, and a round one that turns in another has nothing against it.
             self.clear();
             return;

@@ -77,6 +77,9 @@ fn approach<const D: usize>(
             return Err(StepError::Runaway { motion: motion.max(correction), size });
         }
         if verdict == Verdict::Renewed {
+            if load_step.is_linear(iteration) {
+                work.contacts.reduced.delassus.stiffened.is_geometric = true;
+            }
             if load_step.is_shrinking() {
                 bodies.iter().for_each(|&i| work.newton.holding[i].lower());
             }
@@ -165,6 +168,7 @@ pub(super) fn set_out<const D: usize>(
     contacts.reduced.expect_those_of(given.state, given.assembly, bodies);
     let stiffened = &mut contacts.reduced.delassus.stiffened;
     stiffened.spring_from_start(given.assembly, &given.state.reactions, bodies);
+    stiffened.is_geometric = false;
     newton.holding.fill(Holding::default());
     for (i, body) in bodies.iter_mut().enumerate() {
         let nodes = given.assembly.nodes(i);

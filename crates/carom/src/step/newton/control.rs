@@ -82,7 +82,9 @@ pub(crate) struct LoadControl {
     pub trusted: f64,
     /// What the second iteration is thought to leave of the first one's correction.
     pub hoped: f64,
-    /// After so many iterations a normal that jumps has crossed a kink of its target, which no smaller correction will undo.
+    /// The tangent lacks the stiffness of reactions where corrections of late iterations shrink by less than this.
+    pub slow: f64,
+    /// After so many an iteration is late, and a normal that jumps has crossed a kink of its target, which no smaller correction will undo.
     pub late: usize,
     /// Guesses that may be refused before the step is.
     pub refusals: usize,
@@ -103,6 +105,7 @@ pub(crate) const LOAD_STEP: LoadControl = LoadControl {
     unavoidable: 100.0,
     trusted: 1e-8,
     hoped: 0.1,
+    slow: 0.3,
     late: 4,
     refusals: 8,
     first: 1e-3,

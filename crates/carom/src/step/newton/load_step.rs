@@ -33,6 +33,8 @@ pub(crate) struct LoadStep {
     pub reached: f64,
     /// The last correction that was applied [m], and the largest motion or correction of the step so far.
     pub last: f64,
+    /// What the last correction was of the one before.
+    contraction: f64,
     reach: f64,
     /// The smallest correction so far [m], and the iterations since.
     least: f64,
@@ -49,6 +51,7 @@ impl LoadStep {
             worth,
             reached,
             last: f64::INFINITY,
+            contraction: 0.0,
             reach: 0.0,
             least: f64::INFINITY,
             stalled: 0,
@@ -82,6 +85,7 @@ impl LoadStep {
         let contraction = if is_first { 1.0 } else { correction / self.last };
         self.reach = self.reach.max(correction);
         self.last = correction;
+        self.contraction = contraction;
         if correction <= 0.5 * self.least {
             (self.least, self.stalled) = (correction, 0);
         } else {
@@ -99,6 +103,11 @@ impl LoadStep {
         let expected = if is_first { LOAD_STEP.hoped } else { contraction };
         let is_fast = correction * expected.powi(self.worth) <= wanted;
         Ok(if is_fast { Verdict::Applied } else { Verdict::Renewed })
+    }
+
+    /// Whether corrections shrink no faster than they would by a tangent that lacks something.
+    pub fn is_linear(&self, iteration: usize) -> bool {
+        iteration > LOAD_STEP.late && self.contraction > LOAD_STEP.slow
     }
 
     /// Whether the last correction is the smallest so far by far.
