@@ -59,8 +59,13 @@ fn approach<const D: usize>(
         let motion = moved.fold(0.0, f64::max);
         let verdict =
             load_step.judge(iteration, correction, motion, left.max(round_off(bodies, given, work)));
+        let is_unsolvable = matches!(reason, Some(StepError::Friction { .. }));
         let verdict = verdict.map_err(|error| reason.unwrap_or(error))?;
         if verdict == Verdict::Refused {
+            if is_unsolvable {
+                // With the stiffness of reactions a compliance may be indefinite.
+                work.contacts.reduced.delassus.stiffened.is_geometric = false;
+            }
             work.newton.return_to_guess(bodies, given.assembly, &mut work.motion, &mut work.contacts.active);
             follow(bodies, given, next, work);
             bodies.iter().for_each(|&i| work.newton.holding[i].raise());
