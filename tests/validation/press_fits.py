@@ -89,7 +89,7 @@ STEEL = carom.LinearElastic(young=YOUNG, poisson=POISSON, density=7800.0)
 def fit(shape: str, way: Way, discretisation: Discretisation, divisions: int) -> Fit:
     """Fit a slice of a long shaft, or a body of revolution between two plates."""
     if shape == "slice":
-        # Mortar integrates over facets: those of equal numbers are as far apart as their nodes.
+        # Unequal facets: their chords are apart by more than the interference.
         around = divisions * 6
         shaft = carom.Body(
             name="shaft",

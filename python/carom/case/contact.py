@@ -128,8 +128,8 @@ class Contact(Description):
     discretisation
         How contact is written between two bodies that do not state their own: as gaps of the nodes
         of the source, or (mortar) as means under their shape functions. Mortar carries a uniform
-        pressure exactly between meshes that do not match. It takes the facets of the mesh as
-        targets, whatever `targets` says, one side as the source, and every condition but
+        pressure exactly between meshes that do not match. `targets` says what both sides are
+        between their nodes. It takes one side as the source, and every condition but
         ``massless``. Obstacles are always checked node by node.
     certificate_tolerance
         Largest distance from Coulomb's law in a step, the sum of bi-potential gaps. It is relative
