@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use carom_mesh::{CellKind, Facet, Vector, tensor};
+use carom_mesh::{CellKind, Facet, Matrix, Vector, tensor};
 
 use crate::Body;
 use crate::quadrature::{Integrand, rule};
@@ -45,6 +45,40 @@ impl FacetPatch {
                 let area = point.area_vector(facet, body, at);
                 for (&node, shape) in facet.nodes.iter().zip(&point.shape) {
                     add(node, area * *shape);
+                }
+            }
+        }
+    }
+
+    /// Calls `add(a, b, ∂(∫ N_a n dA)/∂u_b)` [m] with how the shares of [`Self::area_vectors`] change with the displacements.
+    ///
+    /// By central differences of any width: as functions of one coordinate they are polynomials of the second degree at most, and these are exact.
+    pub fn area_gradients<const D: usize>(
+        &self,
+        body: &Body<D>,
+        u: &[Vector<D>],
+        mut add: impl FnMut(u32, u32, Matrix<D>),
+    ) {
+        let place = |n: u32| body.mesh().nodes()[n as usize] + u[n as usize];
+        for facet in &self.facets {
+            let width = (place(facet.nodes[1]) - place(facet.nodes[0])).norm();
+            for &moved in &facet.nodes {
+                for point in &self.rules[&facet.kind] {
+                    let mut gradient = Matrix::<D>::zeros();
+                    for component in 0..D {
+                        let [ahead, back] = [width, -width].map(|step| {
+                            let at = |n: u32| {
+                                let mut x = place(n);
+                                x[component] += if n == moved { step } else { 0.0 };
+                                x
+                            };
+                            point.area_vector(facet, body, at)
+                        });
+                        gradient.set_column(component, &((ahead - back) / (2.0 * width)));
+                    }
+                    for (&node, shape) in facet.nodes.iter().zip(&point.shape) {
+                        add(node, moved, gradient * *shape);
+                    }
                 }
             }
         }

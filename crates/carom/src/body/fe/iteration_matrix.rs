@@ -7,7 +7,7 @@ use carom_mesh::{Matrix, Vector, nodal};
 
 use super::equation::STEADYING;
 use crate::archive::{Archive, CheckpointError};
-use crate::body::{Guess, Tangent};
+use crate::body::Tangent;
 use crate::error::StepError;
 use crate::scheme::StepMap;
 
@@ -248,15 +248,15 @@ impl<const D: usize> IterationMatrix<D> {
         if self.inverse.is_large() { WORTH[1] } else { WORTH[0] }
     }
 
-    /// Makes the factor of a tangent at a guess of a load step, or says that it is indefinite.
+    /// Makes the factor of a tangent of a load step at displacements `u` [m], from the `stiffness` of the body and its loads, or says that it is
+    /// indefinite.
     pub fn linearise(
         &mut self,
-        with_history: &BodyWithHistory<'_, D>,
-        guess: &Guess<'_, D>,
+        body: &Body<D>,
+        mut stiffness: NodalMatrix<Matrix<D>>,
+        u: &[Vector<D>],
         tangent: &Tangent<'_, D>,
     ) -> Result<(), StepError> {
-        let (body, u) = (with_history.body, guess.displacement);
-        let mut stiffness = with_history.stiffness(u);
         for &(n, block) in tangent.springs {
             stiffness.values[body.graph().entry(n, n)] += block;
         }

@@ -1,5 +1,5 @@
 use carom_fem::{Body, FacetPatch};
-use carom_mesh::{Facet, Vector};
+use carom_mesh::{Facet, Matrix, Vector};
 
 use crate::Signal;
 
@@ -87,6 +87,22 @@ impl<const D: usize> Load<D> {
                 load.patch.area_vectors(body, u, |node, area| f[node as usize] -= area * size);
             }
         }
+    }
+
+    /// Calls `add` with the blocks −∂f/∂u [N/m] of the stiffness at a moment, made symmetric: where a patch has an edge it is not, and K̄ is.
+    pub(crate) fn add_stiffness(
+        &self,
+        body: &Body<D>,
+        value: impl Fn(&Signal) -> f64,
+        u: &[Vector<D>],
+        mut add: impl FnMut(u32, u32, Matrix<D>),
+    ) {
+        let Self::Follower(load) = self else { return };
+        let half = 0.5 * value(&load.pressure);
+        load.patch.area_gradients(body, u, |a, b, gradient| {
+            add(a, b, gradient * half);
+            add(b, a, gradient.transpose() * half);
+        });
     }
 
     /// Whether the force depends on the displacements.

@@ -24,6 +24,7 @@ use self::equation::{Equation, Pose, ResidualScratch, STRAIGHT};
 use self::iteration_matrix::IterationMatrix;
 use self::part::ModelBody;
 use super::{Balance, Body, BodyEnd, BodyState, Forecast, Guess, Interval, Tangent};
+use crate::Signal;
 use crate::archive::{Archive, CheckpointError};
 use crate::error::StepError;
 use crate::ledger::{BodyLedger, Energies};
@@ -244,7 +245,15 @@ impl<const D: usize> Body<D> for FeBody<D> {
     fn linearise(&mut self, guess: &Guess<'_, D>, tangent: &Tangent<'_, D>) -> Result<(), StepError> {
         let growth = self.part.growth_of_forces(guess.interval);
         let with_history = self.part.body.after(guess.start.history).grown(growth);
-        self.matrix.linearise(&with_history, guess, tangent)
+        let mut stiffness = with_history.stiffness(guess.displacement);
+        let body = &self.part.body;
+        for load in &self.part.loads {
+            let value = |signal: &Signal| signal.at(guess.interval.end).value;
+            load.add_stiffness(body, value, guess.displacement, |a, b, block| {
+                stiffness.values[body.graph().entry(a, b)] += block;
+            });
+        }
+        self.matrix.linearise(body, stiffness, guess.displacement, tangent)
     }
 
     /// Held nodes that move alone would crush the cells beside them. K̄⁻¹ of what the body resists that with, by a difference of its forces.
