@@ -102,3 +102,5 @@ def test_a_fluid_presses_an_o_ring_on_its_plates():
     assert ring.seal > o_ring.FLUID
     # Measured: 7.9e-16.
     assert ring.defect < 7e-15
+    # Measured: 8.1. Without the stiffness of the fluid's pressure it takes 108.
+    assert ring.iterations < 12
