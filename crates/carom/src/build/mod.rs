@@ -38,15 +38,50 @@ pub fn build<const D: usize>(
     scenario: &Scenario,
     meshes: Meshes<D>,
 ) -> Result<(Model<D>, Method<D>, State<D>), InputError> {
-    build_with_surfaces(scenario, meshes, Surfaces::new())
+    let Built { model, method, velocity } = built(scenario, meshes, Surfaces::new())?;
+    let state = start(&model, &method, velocity, scenario.analysis.start_time)?;
+    Ok((model, method, state))
 }
 
-/// [`build`] with obstacles whose triangles are not in the scenario itself.
-pub(crate) fn build_with_surfaces<const D: usize>(
+/// The state at `time` [s] in which bodies are as they are drawn, and have these velocities [m/s] unless the analysis is static.
+///
+/// # Errors
+/// If its energy is not finite.
+pub(crate) fn start<const D: usize>(
+    model: &Model<D>,
+    method: &Method<D>,
+    velocity: Vec<Vector<D>>,
+    time: f64,
+) -> Result<State<D>, InputError> {
+    let mut state = match method.scheme {
+        Scheme::Static => model.state_at_rest(),
+        _ => model.initial_state(velocity),
+    };
+    state.time = time;
+    if state.is_finite() {
+        return Ok(state);
+    }
+    let message = "the initial energy is not finite; check velocities and material constants";
+    Err(InputError::new("bodies", message))
+}
+
+/// What a scenario describes but for the state that it starts from.
+pub(crate) struct Built<const D: usize> {
+    pub model: Model<D>,
+    pub method: Method<D>,
+    /// The velocities that its bodies are given [m/s], one per node.
+    pub velocity: Vec<Vector<D>>,
+}
+
+/// Builds model and method. Whether bodies overlap is asked of those alone that are as they are drawn.
+///
+/// # Errors
+/// See [`build`].
+pub(crate) fn built<const D: usize>(
     scenario: &Scenario,
     mut meshes: Meshes<D>,
     surfaces: Surfaces<D>,
-) -> Result<(Model<D>, Method<D>, State<D>), InputError> {
+) -> Result<Built<D>, InputError> {
     if scenario.dimension != D {
         return Err(InputError::new(
             "dimension",
@@ -76,17 +111,9 @@ pub(crate) fn build_with_surfaces<const D: usize>(
     }
     let model = drive::drive(scenario, Model::new(bodies, contact, named_pairs, gravity))?;
     let model = interference::interference(scenario, model)?;
-    overlaps::check_overlaps(scenario, &model)?;
-    let velocity = velocity::initial_velocity(scenario, &model)?;
-    let state = match method.scheme {
-        Scheme::Static => model.state_at_rest(),
-        _ => model.initial_state(velocity),
-    };
-    if !state.is_finite() {
-        return Err(InputError::new(
-            "bodies",
-            "the initial energy is not finite; check velocities and material constants",
-        ));
+    if scenario.analysis.starts_from_nothing() {
+        overlaps::check_overlaps(scenario, &model)?;
     }
-    Ok((model, method, state))
+    let velocity = velocity::initial_velocity(scenario, &model)?;
+    Ok(Built { model, method, velocity })
 }

@@ -2,6 +2,7 @@
 
 mod drive;
 mod mesh_spec;
+mod stage;
 
 use std::collections::BTreeMap;
 
@@ -15,7 +16,11 @@ use serde::{Deserialize, Serialize};
 pub use drive::{Axis, Displacement, LoadEntry, LoadSpec, MotionEntry, MotionSpec};
 
 pub use self::mesh_spec::{Cell, MeshSpec};
+pub use self::stage::StageEntry;
 use crate::{ContactCondition, Scheme, SignalSpec};
+
+/// Moments closer than this to one another, in time steps, differ by round-off alone.
+pub(crate) const SLACK: f64 = 1e-6;
 
 /// A complete case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -45,6 +50,9 @@ pub struct Scenario {
     pub motions: Vec<MotionEntry>,
     /// Contact.
     pub contact: ContactSpec,
+    /// Analyses in sequence. Where there are any, analysis, loads, motions and contact are theirs, and those above are not used.
+    #[serde(default)]
+    pub stages: Vec<StageEntry>,
 }
 
 /// Time, scheme and iterations.
@@ -52,7 +60,10 @@ pub struct Scenario {
 pub struct Analysis {
     /// Kind of analysis.
     pub kind: AnalysisKind,
-    /// End of the run [s].
+    /// When it starts [s]: what comes later than 0 goes on from a state of bodies that moved and deformed before.
+    #[serde(default)]
+    pub start_time: f64,
+    /// When it ends [s].
     pub end_time: f64,
     /// Length of a step [s].
     pub time_step: f64,
@@ -68,6 +79,25 @@ pub struct Analysis {
     pub stabilisation: Stabilisation,
     /// Gravity [m/s²].
     pub gravity: Option<Vec<f64>>,
+}
+
+impl Analysis {
+    /// When it starts and when it ends [s].
+    pub(crate) fn span(&self) -> [f64; 2] {
+        [self.start_time, self.end_time]
+    }
+
+    /// The ends of its steps [s], after its start.
+    pub(crate) fn moments(&self) -> impl Iterator<Item = f64> + use<> {
+        let Self { start_time, end_time, time_step, .. } = *self;
+        let steps = ((end_time - start_time) / time_step).ceil() as u64;
+        (0..=steps).map(move |k| (start_time + k as f64 * time_step).min(end_time))
+    }
+
+    /// Whether bodies are as they are drawn when it starts, and have no past.
+    pub(crate) fn starts_from_nothing(&self) -> bool {
+        self.start_time == 0.0
+    }
 }
 
 /// What a load step does that finds no equilibrium near the last one, as where a body snaps through or loses its hold.
