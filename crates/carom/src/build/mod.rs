@@ -20,6 +20,7 @@ use carom_mesh::{Mesh, Vector};
 
 pub use self::obstacle::Surfaces;
 use self::values::vector;
+pub(crate) use self::velocity::RigidMotion;
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::Model;
@@ -38,24 +39,27 @@ pub fn build<const D: usize>(
     scenario: &Scenario,
     meshes: Meshes<D>,
 ) -> Result<(Model<D>, Method<D>, State<D>), InputError> {
-    let Built { model, method, velocity } = built(scenario, meshes, Surfaces::new())?;
-    let state = start(&model, &method, velocity, scenario.analysis.start_time)?;
+    let Built { model, method, motions } = built(scenario, meshes, Surfaces::new())?;
+    let state = start(&model, &method, &motions, scenario.analysis.start_time)?;
     Ok((model, method, state))
 }
 
-/// The state at `time` [s] in which bodies are as they are drawn, and have these velocities [m/s] unless the analysis is static.
+/// The state at `time` [s] in which bodies are as they are drawn, and move like this unless the analysis is static.
 ///
 /// # Errors
 /// If its energy is not finite.
 pub(crate) fn start<const D: usize>(
     model: &Model<D>,
     method: &Method<D>,
-    velocity: Vec<Vector<D>>,
+    motions: &[RigidMotion<D>],
     time: f64,
 ) -> Result<State<D>, InputError> {
+    let moving = model.bodies.iter().zip(motions);
     let mut state = match method.scheme {
         Scheme::Static => model.state_at_rest(),
-        _ => model.initial_state(velocity),
+        _ => model.initial_state(
+            moving.flat_map(|(b, motion)| motion.velocities(&b.body, b.body.mesh().nodes())).collect(),
+        ),
     };
     state.time = time;
     if state.is_finite() {
@@ -69,8 +73,8 @@ pub(crate) fn start<const D: usize>(
 pub(crate) struct Built<const D: usize> {
     pub model: Model<D>,
     pub method: Method<D>,
-    /// The velocities that its bodies are given [m/s], one per node.
-    pub velocity: Vec<Vector<D>>,
+    /// How its bodies are made to move at the start.
+    pub motions: Vec<RigidMotion<D>>,
 }
 
 /// Builds model and method. Whether bodies overlap is asked of those alone that are as they are drawn.
@@ -114,6 +118,6 @@ pub(crate) fn built<const D: usize>(
     if scenario.analysis.starts_from_nothing() {
         overlaps::check_overlaps(scenario, &model)?;
     }
-    let velocity = velocity::initial_velocity(scenario, &model)?;
-    Ok(Built { model, method, velocity })
+    let motions = velocity::rigid_motions(scenario, &model)?;
+    Ok(Built { model, method, motions })
 }

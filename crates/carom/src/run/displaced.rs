@@ -8,7 +8,7 @@ use crate::build::values::place;
 use crate::error::InputError;
 
 impl<const D: usize> Simulation<D> {
-    /// Starts from these displacements [m], one per node, with the velocities that are there. Elastic bodies are under the stress of them. What is
+    /// Starts from these displacements [m], one per node, and the velocities of the scenario. Elastic bodies are under the stress of them. What is
     /// prescribed counts from there.
     ///
     /// # Errors
@@ -18,7 +18,8 @@ impl<const D: usize> Simulation<D> {
     /// If steps were made already or the number of nodes is not that of the model.
     pub fn set_initial_displacement(&mut self, displacement: &[Vector<D>]) -> Result<(), InputError> {
         assert_eq!(self.step(), 0, "initial displacements belong before the first step");
-        let (model, state) = (&self.stages[self.current].model, &mut self.state);
+        let (stage, state) = (&self.stages[self.current], &mut self.state);
+        let model = &stage.model;
         state.displacement[..model.node_count()].copy_from_slice(displacement);
         for (i, b) in model.bodies.iter().enumerate() {
             let u = &displacement[b.nodes()];
@@ -41,6 +42,7 @@ impl<const D: usize> Simulation<D> {
             }
         }
         model.take_over(state);
+        stage.set_in_motion(state);
         state.refresh(&model.assembly, &self.work.bodies);
         if !state.is_finite() {
             let message = "the energy of the initial displacements is not finite; check their unit, metres";

@@ -137,7 +137,8 @@ impl<const D: usize> Simulation<D> {
         meshes: Meshes<D>,
         surfaces: Surfaces<D>,
     ) -> Result<Self, InputError> {
-        let (stages, state) = Stage::all(scenario, meshes, surfaces)?;
+        let stages = Stage::all(scenario, meshes, surfaces)?;
+        let state = stages[0].start()?;
         let Stage { model, grid, merge, .. } = &stages[0];
         let pairs = model.assembly.named_pairs.len();
         let steps = stages.iter().map(|stage| stage.grid.steps).sum();

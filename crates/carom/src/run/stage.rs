@@ -2,12 +2,12 @@
 
 use carom_mesh::Vector;
 
-use crate::build::{Built, Meshes, Surfaces, built, start};
+use crate::build::{Built, Meshes, RigidMotion, Surfaces, built, start};
 use crate::error::InputError;
 use crate::run::events::EventLog;
 use crate::run::time_grid::TimeGrid;
 use crate::scenario::{Scenario, StageEntry};
-use crate::{Method, Model, State};
+use crate::{Method, Model, Scheme, State};
 
 /// The most steps a stage may have; more is a slip of units.
 const MAX_STEPS: f64 = 1e10;
@@ -22,37 +22,26 @@ pub(crate) struct Stage<const D: usize> {
     pub history_every: f64,
     /// For each named pair: contacts less than this apart are one [s].
     pub merge: Vec<f64>,
-    /// The bodies that are given a velocity when it starts, and the velocities of their nodes [m/s].
-    given: Vec<(usize, Vec<Vector<D>>)>,
+    /// How every body moves that is given a velocity when the stage starts.
+    motions: Vec<RigidMotion<D>>,
+    /// Those that are.
+    given: Vec<usize>,
 }
 
 impl<const D: usize> Stage<D> {
-    /// The stages of a scenario, built from all that it takes from files, and the state that the first of them starts from where bodies are as they
-    /// are drawn.
+    /// The stages of a scenario, built from all that it takes from files.
     ///
     /// # Errors
     /// If one of them cannot be run; the key names the stage.
-    pub fn all(
-        scenario: &Scenario,
-        meshes: Meshes<D>,
-        surfaces: Surfaces<D>,
-    ) -> Result<(Vec<Self>, State<D>), InputError> {
+    pub fn all(scenario: &Scenario, meshes: Meshes<D>, surfaces: Surfaces<D>) -> Result<Vec<Self>, InputError> {
         if scenario.stages.is_empty() {
-            let (stage, velocity) = Self::new(scenario, None, meshes, surfaces)?;
-            let state = start(&stage.model, &stage.method, velocity, stage.grid.start_time)?;
-            return Ok((vec![stage], state));
+            return Ok(vec![Self::new(scenario, None, meshes, surfaces)?]);
         }
-        let mut stages: Vec<Self> = Vec::with_capacity(scenario.stages.len());
-        let mut first = None;
-        for (i, entry) in scenario.stages.iter().enumerate() {
+        let stages = scenario.stages.iter().enumerate().map(|(i, entry)| {
             let made = Self::new(&scenario.in_stage(i), Some(entry), meshes.clone(), surfaces.clone());
-            let (stage, velocity) = made.map_err(|error| of_stage(i, error))?;
-            if i == 0 {
-                first = Some(start(&stage.model, &stage.method, velocity, stage.grid.start_time)?);
-            }
-            stages.push(stage);
-        }
-        first.map(|state| (stages, state)).ok_or_else(|| InputError::new("stages", "there is none"))
+            made.map_err(|error| of_stage(i, error))
+        });
+        stages.collect()
     }
 
     fn new(
@@ -60,8 +49,8 @@ impl<const D: usize> Stage<D> {
         entry: Option<&StageEntry>,
         meshes: Meshes<D>,
         surfaces: Surfaces<D>,
-    ) -> Result<(Self, Vec<Vector<D>>), InputError> {
-        let Built { model, method, velocity } = built(scenario, meshes, surfaces)?;
+    ) -> Result<Self, InputError> {
+        let Built { model, method, motions } = built(scenario, meshes, surfaces)?;
         let analysis = &scenario.analysis;
         for (key, every) in [
             ("output.history_every", scenario.output.history_every),
@@ -80,23 +69,38 @@ impl<const D: usize> Stage<D> {
         let mut given = Vec::new();
         for (k, entry) in entry.iter().flat_map(|entry| &entry.velocities).enumerate() {
             let found = model.bodies.iter().enumerate().find(|(_, b)| b.name == entry.body);
-            let (i, b) = found.ok_or_else(|| {
+            let (i, _) = found.ok_or_else(|| {
                 let known: Vec<&str> = model.bodies.iter().map(|b| b.name.as_str()).collect();
                 let message = format!("there is no body {:?}; known are {known:?}", entry.body);
                 InputError::new(format!("velocities.{k}.body"), message)
             })?;
-            given.push((i, velocity[b.nodes()].to_vec()));
+            given.push(i);
         }
-        let stage = Self {
+        Ok(Self {
             name: entry.map_or_else(String::new, |entry| entry.name.clone()),
             grid: TimeGrid::new(dt, [start, end]),
             history_every: scenario.output.history_every,
             merge: EventLog::merges(&model, method.scheme, dt, scenario.output.merge_contacts),
+            motions,
             given,
             model,
             method,
-        };
-        Ok((stage, velocity))
+        })
+    }
+
+    /// The state that a run starts from in which bodies are as they are drawn.
+    ///
+    /// # Errors
+    /// If its energy is not finite.
+    pub fn start(&self) -> Result<State<D>, InputError> {
+        start(&self.model, &self.method, &self.motions, self.grid.start_time)
+    }
+
+    /// Lets all bodies that are where `state` has them move as they are made to at the start of a run.
+    pub fn set_in_motion(&self, state: &mut State<D>) {
+        if self.method.scheme != Scheme::Static {
+            self.give(0..self.motions.len(), state);
+        }
     }
 
     /// Begins with the `state` that another stage ended in, and returns the energy [J] that every body gets by the velocity that it is given.
@@ -105,13 +109,23 @@ impl<const D: usize> Stage<D> {
         if !self.method.is_blended() {
             state.energy_debt.fill(0.0);
         }
-        let mut gained = vec![0.0; self.model.bodies.len()];
-        if self.given.is_empty() {
+        self.give(self.given.iter().copied(), state)
+    }
+
+    /// Gives bodies their velocities; returns the energy [J] that every body gets.
+    fn give(&self, given: impl Iterator<Item = usize>, state: &mut State<D>) -> Vec<f64> {
+        let Model { assembly, bodies, .. } = &self.model;
+        let mut gained = vec![0.0; bodies.len()];
+        let mut given = given.peekable();
+        if given.peek().is_none() {
             return gained;
         }
-        let bodies = self.model.stepping_bodies();
-        for (i, velocity) in &self.given {
-            gained[*i] = state.give_velocity(&self.model.assembly, &bodies, *i, velocity);
+        let stepping = self.model.stepping_bodies();
+        for i in given {
+            let at = |n: usize| assembly.reference[n] + state.displacement[n];
+            let positions: Vec<Vector<D>> = bodies[i].nodes().map(at).collect();
+            let velocity: Vec<Vector<D>> = self.motions[i].velocities(&bodies[i].body, &positions).collect();
+            gained[i] = state.give_velocity(assembly, &stepping, i, &velocity);
         }
         gained
     }
