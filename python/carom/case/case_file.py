@@ -44,14 +44,14 @@ def with_paths_from(directory: Path, data: dict[str, Any]) -> dict[str, Any]:
         if isinstance(value, dict):
             return {
                 key: str(directory / entry)
-                if key == "file" and isinstance(entry, str)
+                if key in ("file", "result") and isinstance(entry, str)
                 else placed(entry)
                 for key, entry in value.items()
             }
         return [placed(entry) for entry in value] if isinstance(value, list) else value
 
     return {
-        key: placed(value) if key in ("bodies", "obstacles") else value
+        key: placed(value) if key in ("bodies", "obstacles", "initial") else value
         for key, value in data.items()
     }
 

@@ -80,14 +80,16 @@ def units(patient: Patient) -> Iterator[Finding]:
                 f"{body.name} is {built['diameter']:.4g} m large",
                 f"if its file is in millimetres, set scale = {body.mesh.scale * 1e-3:g}",
             )
-    gravity = math.hypot(*(patient.scenario.analysis.gravity or ()))
-    if gravity > STRONG_GRAVITY:
-        yield Finding(
-            "warning",
-            "analysis.gravity",
-            f"gravity is {gravity:.4g} m/s², that of the Earth is 9.81 m/s²",
-            "give it in m/s², not in mm/s²",
-        )
+    for stage in patient.stages:
+        gravity = math.hypot(*(stage.analysis.gravity or ()))
+        if gravity > STRONG_GRAVITY:
+            yield Finding(
+                "warning",
+                f"{stage.key}analysis.gravity",
+                f"gravity is {gravity:.4g} m/s², that of the Earth is 9.81 m/s²",
+                "give it in m/s², not in mm/s²",
+            )
+            return
 
 
 def shear_modulus(material: Material) -> float:

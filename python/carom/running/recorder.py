@@ -14,7 +14,7 @@ from carom.case.scenario import Scenario
 from carom.io import layout
 from carom.io.atomic import sync, write_whole
 from carom.io.audit import AuditWriter
-from carom.io.checkpoint import Checkpoint, write_checkpoint
+from carom.io.checkpoint import Checkpoint, write_checkpoint, write_end_state
 from carom.io.digest import digest
 from carom.io.frame_queue import Frame, FrameQueue
 from carom.io.history import HistoryWriter
@@ -153,6 +153,11 @@ class Recorder:
         names = [layout.HISTORY, layout.LEDGER, layout.FIELDS, layout.SURFACE]
         for name in [*names, layout.AUDIT] if self._queue.keeps_steps else names:
             sync(self._directory / name)
+        if (checkpoint := self._made(frames_due)) is not None:
+            write_checkpoint(self._directory, checkpoint)
+
+    def _made(self, frames_due: int) -> Checkpoint | None:
+        """Return the run as it is now; None, with a doubt, if that is no state to go on from."""
         record = {
             "history": (self._directory / layout.HISTORY).stat().st_size,
             "ledger": (self._directory / layout.LEDGER).stat().st_size,
@@ -173,8 +178,8 @@ class Recorder:
                     layout.CHECKPOINT,
                 )
             )
-            return
-        write_checkpoint(self._directory, Checkpoint(case=self._case, record=record, arrays=arrays))
+            return None
+        return Checkpoint(case=self._case, record=record, arrays=arrays)
 
     def __enter__(self) -> Self:
         return self
@@ -244,6 +249,8 @@ class Recorder:
         # A step that failed has overwritten the start of the last good one.
         self._frame(with_step=status != "failed")
         self._queue.flush()
+        if status == "completed" and (end := self._made(self._frames)) is not None:
+            write_end_state(self._directory, end)
         native = self._simulation.summary()
         summary = {
             "status": status,
