@@ -35,6 +35,7 @@ def refuse_leaps(scenario: Scenario, description: Mapping[str, Any]) -> None:
     for stage in scenario.full_stages():
         if not stage.is_dynamic:
             continue
+        moves: list[tuple[int, Body | GivenVelocity]]
         moves = [(names.index(given.body), given) for given in stage.velocities]
         paths = [f"{stage.key}velocities.{number}" for number in range(len(moves))]
         if stage.start_time == 0.0:

@@ -10,7 +10,8 @@ from carom.case.analysis import Analysis
 from carom.case.contact import Contact, Pair
 from carom.case.load import Load
 from carom.case.motion import Motion
-from carom.case.stage import GivenVelocity, Stage, StageContact
+from carom.case.output import Output
+from carom.case.stage import GivenVelocity, StageContact, StageOutput
 
 if TYPE_CHECKING:
     from carom.case.scenario import Scenario
@@ -121,7 +122,17 @@ def full_stages(scenario: Scenario) -> Iterator[FullStage]:
     start = 0.0 if scenario.initial is None else scenario.initial.start_time
     motions = [Given(motion, f"motions.{i}", start) for i, motion in enumerate(scenario.motions)]
     if scenario.analysis is not None:
-        yield _full(scenario, None, "", start, scenario.analysis, loads, motions, scenario.contact)
+        yield FullStage(
+            name="",
+            key="",
+            start_time=start,
+            analysis=scenario.analysis,
+            loads=tuple(loads),
+            motions=tuple(motions),
+            contact=scenario.contact,
+            velocities=(),
+            **_intervals(scenario.output, None, scenario.analysis, start),
+        )
         return
     gravity: tuple[float, ...] | None = None
     contact = _of_all_stages(scenario)
@@ -145,39 +156,30 @@ def full_stages(scenario: Scenario) -> Iterator[FullStage]:
             dynamic = (stage.analysis.kind == "dynamic" and stage.contact.condition) or dynamic
         condition = "gap" if analysis.kind == "static" else dynamic
         contact = contact.model_copy(update={"condition": condition})
-        yield _full(scenario, stage, key, start, analysis, loads, motions, contact)
+        yield FullStage(
+            name=stage.name,
+            key=key,
+            start_time=start,
+            analysis=analysis,
+            loads=tuple(loads),
+            motions=tuple(motions),
+            contact=contact,
+            velocities=stage.velocities,
+            **_intervals(scenario.output, stage.output, analysis, start),
+        )
         start = analysis.end_time
 
 
-def _full(
-    scenario: Scenario,
-    stage: Stage | None,
-    key: str,
-    start: float,
-    analysis: Analysis,
-    loads: list[Given],
-    motions: list[Given],
-    contact: Contact,
-) -> FullStage:
-    duration, step = analysis.end_time - start, analysis.time_step
-    own, all_stages = None if stage is None else stage.output, scenario.output
-
-    def every(name: str, parts: int) -> float:
-        asked: float | None = getattr(own, name, None) or getattr(all_stages, name)
-        return max(duration / parts if asked is None else asked, step)
-
-    return FullStage(
-        name="" if stage is None else stage.name,
-        key=key,
-        start_time=start,
-        analysis=analysis,
-        loads=tuple(loads),
-        motions=tuple(motions),
-        contact=contact,
-        velocities=() if stage is None else stage.velocities,
-        fields_every=every("fields_every", FRAMES),
-        history_every=every("history_every", ROWS),
-    )
+def _intervals(
+    of_all: Output, own: StageOutput | None, analysis: Analysis, start: float
+) -> dict[str, float]:
+    """Return the times between frames and between rows [s], never less than a step."""
+    found = {}
+    for name, parts in (("fields_every", FRAMES), ("history_every", ROWS)):
+        asked: float | None = getattr(own, name, None) or getattr(of_all, name)
+        every = (analysis.end_time - start) / parts if asked is None else asked
+        found[name] = max(every, analysis.time_step)
+    return found
 
 
 def _replaced(
@@ -208,8 +210,8 @@ def _changed(contact: Contact, change: StageContact) -> Contact:
         two = frozenset(one.between)
         found = [k for k, pair in enumerate(pairs) if frozenset(pair.between) == two]
         if found:
-            friction = {"friction": one.friction}
-            pairs[found[0]] = pairs[found[0]].model_copy(update=friction)
+            own = pairs[found[0]]
+            pairs[found[0]] = own.model_copy(update={"friction": one.friction})
         else:
             pairs.append(Pair(between=one.between, friction=one.friction))
     friction = contact.friction if change.friction is None else change.friction

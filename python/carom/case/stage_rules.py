@@ -99,7 +99,8 @@ def _check_clock(scenario: Scenario) -> None:
         least = full.start_time + full.analysis.time_step
         if full.end_time < least - SLACK * full.analysis.time_step:
             raise problem(
-                f"must be at least one time_step after {full.start_time:g} s, where {where}: it is on the clock of the case; "
+                f"must be at least one time_step after {full.start_time:g} s, where {where}: it is "
+                "on the clock of the case; "
                 f"for a duration of {full.end_time:g} s give {full.start_time + full.end_time:g}",
                 key=f"{full.key}analysis.end_time",
                 value=full.end_time,
@@ -121,19 +122,19 @@ def _check_conditions(scenario: Scenario) -> None:
             )
 
 
-def _check_removed(
-    stage: Stage, before: tuple[Sequence[Given], Sequence[Given]], key: str
-) -> None:
+def _check_removed(stage: Stage, before: tuple[Sequence[Given], Sequence[Given]], key: str) -> None:
     """Refuse to remove what is not there, or what is replaced anyway."""
     loads, motions = ({one.place for one in given} for given in before)
     given = {Given(load, "", 0.0).place for load in stage.loads}
     for index, load in enumerate(stage.removed_loads):
-        place = (load.kind, load.body, load.on)
-        _check_one(load, place, loads, given, f"{key}.removed_loads.{index}")
+        _check_one(
+            load, (load.kind, load.body, load.on), loads, given, f"{key}.removed_loads.{index}"
+        )
     given = {Given(motion, "", 0.0).place for motion in stage.motions}
     for index, motion in enumerate(stage.removed_motions):
-        place = (motion.body, motion.on)
-        _check_one(motion, place, motions, given, f"{key}.removed_motions.{index}")
+        _check_one(
+            motion, (motion.body, motion.on), motions, given, f"{key}.removed_motions.{index}"
+        )
 
 
 def _check_one(

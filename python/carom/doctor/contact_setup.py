@@ -37,10 +37,12 @@ def contact_setup(patient: Patient) -> Iterator[Finding]:
     stands = all(body.velocity is None and not body.spin for body in scenario.bodies)
     if not (first.is_dynamic and stands and scenario.initial is None):
         return
-    drives = [stage.analysis.gravity or stage.loads or stage.motions for stage in patient.stages]
-    drives += [stage.velocities for stage in patient.stages]
+    driven = any(
+        stage.analysis.gravity is not None or stage.loads or stage.motions or stage.velocities
+        for stage in patient.stages
+    )
     moved = any(o.velocity is not None or o.motion is not None for o in scenario.obstacles)
-    if not any(drives) and not moved:
+    if not driven and not moved:
         yield Finding(
             "warning",
             "bodies",

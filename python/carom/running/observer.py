@@ -122,7 +122,9 @@ class Observing:
         """
         time, stop = self._state.time, None
         for look, beat in self._beats:
-            is_due = beat.is_due(self._state.steps) if isinstance(beat, StepBeat) else beat.is_due(time)
+            is_due = (
+                beat.is_due(self._state.steps) if isinstance(beat, StepBeat) else beat.is_due(time)
+            )
             if not is_due and not starts and time < self._end:
                 continue
             try:

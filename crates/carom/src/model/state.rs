@@ -176,8 +176,14 @@ impl<const D: usize> State<D> {
     /// Whether every number is finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        let vectors =
-            [&self.displacement, &self.velocity, &self.internal_force, &self.contact_force, &self.support, &self.anchor];
+        let vectors = [
+            &self.displacement,
+            &self.velocity,
+            &self.internal_force,
+            &self.contact_force,
+            &self.support,
+            &self.anchor,
+        ];
         let numbers = [&self.friction_energy, &self.slip, &self.energy_debt];
         vectors.into_iter().all(|vectors| nodal::is_finite(vectors))
             && numbers.into_iter().flatten().all(|x| x.is_finite())

@@ -32,7 +32,8 @@ impl<const D: usize> Simulation<D> {
                 );
                 return Err(InputError::new(key, message));
             }
-            let bound = b.supports.bound(&b.body).find(|dof| u[dof.node as usize][dof.component as usize] != 0.0);
+            let bound =
+                b.supports.bound(&b.body).find(|dof| u[dof.node as usize][dof.component as usize] != 0.0);
             if let Some(dof) = bound {
                 let message = format!(
                     "node {} of {:?} is on the axis, which it cannot leave; let its radial displacement be 0",

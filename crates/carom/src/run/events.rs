@@ -43,12 +43,7 @@ impl EventLog {
     /// How close contacts of each named pair are that count as one [s]: less than `merge`. Without it a dynamic analysis in steps of `dt` [s] takes
     /// the time of the bodies themselves, see [`crossing_time`]. The time of a static one does not say how long anything lasts, and nothing is
     /// merged there.
-    pub fn merges<const D: usize>(
-        model: &Model<D>,
-        scheme: Scheme,
-        dt: f64,
-        merge: Option<f64>,
-    ) -> Vec<f64> {
+    pub fn merges<const D: usize>(model: &Model<D>, scheme: Scheme, dt: f64, merge: Option<f64>) -> Vec<f64> {
         let own = |pair| match scheme {
             Scheme::Static => 0.0,
             _ => crossing_time(model, pair).max(FLICKER * dt),

@@ -33,7 +33,11 @@ impl<const D: usize> Stage<D> {
     ///
     /// # Errors
     /// If one of them cannot be run; the key names the stage.
-    pub fn all(scenario: &Scenario, meshes: Meshes<D>, surfaces: Surfaces<D>) -> Result<Vec<Self>, InputError> {
+    pub fn all(
+        scenario: &Scenario,
+        meshes: Meshes<D>,
+        surfaces: Surfaces<D>,
+    ) -> Result<Vec<Self>, InputError> {
         if scenario.stages.is_empty() {
             return Ok(vec![Self::new(scenario, None, meshes, surfaces)?]);
         }

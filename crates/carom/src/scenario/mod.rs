@@ -2,7 +2,6 @@
 
 mod drive;
 mod mesh_spec;
-mod stage;
 
 use std::collections::BTreeMap;
 
@@ -16,7 +15,6 @@ use serde::{Deserialize, Serialize};
 pub use drive::{Axis, Displacement, LoadEntry, LoadSpec, MotionEntry, MotionSpec};
 
 pub use self::mesh_spec::{Cell, MeshSpec};
-pub use self::stage::StageEntry;
 use crate::{ContactCondition, Scheme, SignalSpec};
 
 /// Moments closer than this to one another, in time steps, differ by round-off alone.
@@ -53,6 +51,64 @@ pub struct Scenario {
     /// Analyses in sequence. Where there are any, analysis, loads, motions and contact are theirs, and those above are not used.
     #[serde(default)]
     pub stages: Vec<StageEntry>,
+}
+
+/// A stage of a case, complete: what it does not change is written out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StageEntry {
+    /// Name.
+    pub name: String,
+    /// What is computed.
+    pub analysis: Analysis,
+    /// Interval of the history [s].
+    pub history_every: f64,
+    /// Forces on bodies.
+    #[serde(default)]
+    pub loads: Vec<LoadEntry>,
+    /// Prescribed motion of parts of bodies.
+    #[serde(default)]
+    pub motions: Vec<MotionEntry>,
+    /// Contact.
+    pub contact: ContactSpec,
+    /// Velocities that bodies are given when it starts; the others go on with theirs.
+    #[serde(default)]
+    pub velocities: Vec<VelocityEntry>,
+}
+
+/// The velocity that a body is given.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct VelocityEntry {
+    /// Body.
+    pub body: String,
+    /// Velocity [m/s]; none if not given.
+    #[serde(default)]
+    pub velocity: Option<Vec<f64>>,
+    /// Spin about the centre of mass [rad/s].
+    #[serde(default)]
+    pub spin: Spin,
+}
+
+impl Scenario {
+    /// The case as it is in stage number `index`, as a case of one analysis. The velocities of its bodies are those that they are given there.
+    pub(crate) fn in_stage(&self, index: usize) -> Self {
+        let stage = &self.stages[index];
+        let mut case = Self {
+            analysis: stage.analysis.clone(),
+            loads: stage.loads.clone(),
+            motions: stage.motions.clone(),
+            contact: stage.contact.clone(),
+            stages: Vec::new(),
+            ..self.clone()
+        };
+        case.output.history_every = stage.history_every;
+        let goes_on = !stage.analysis.starts_from_nothing();
+        for body in case.bodies.iter_mut().filter(|_| goes_on) {
+            let given = stage.velocities.iter().find(|given| given.body == body.name);
+            body.velocity = given.and_then(|given| given.velocity.clone());
+            body.spin = given.map_or(Spin::None, |given| given.spin);
+        }
+        case
+    }
 }
 
 /// Time, scheme and iterations.

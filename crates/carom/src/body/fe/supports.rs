@@ -72,7 +72,12 @@ impl<const D: usize> Supports<D> {
 
     /// Everything that symmetry holds at zero.
     pub fn bound<'a>(&'a self, body: &'a Body<D>) -> impl Iterator<Item = &'a HeldDof> {
-        body.held().dofs().iter().zip(&self.drivers).filter(|(_, driver)| driver.is_none()).map(|(dof, _)| dof)
+        body.held()
+            .dofs()
+            .iter()
+            .zip(&self.drivers)
+            .filter(|(_, driver)| driver.is_none())
+            .map(|(dof, _)| dof)
     }
 
     /// Everything held that a motion drives, with its place in `Body::held` and the number of the motion in the model.
