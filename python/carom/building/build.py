@@ -7,7 +7,6 @@ from collections.abc import Mapping
 
 from carom._carom import Simulation
 from carom.building.closing import closed
-from carom.building.initial import start
 from carom.building.leaps import refuse_leaps
 from carom.building.magnitudes import refuse_unbounded
 from carom.case.mesh import MeshFile
@@ -54,7 +53,10 @@ def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
         except InputError:  # what has been wrong before is told, not what is left of it
             raise refusal from None
         found += moves
-    start(simulation, scenario)
+    if scenario.initial is not None:
+        from carom.building.initial import start  # noqa: PLC0415 (reads results, for few cases)
+
+        start(simulation, scenario, scenario.initial)
     description = simulation.describe()
     refuse_unbounded(scenario, description)
     refuse_leaps(scenario, description)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from carom._carom import Simulation
 from carom.building.identity import difference, identity, what_lasts
-from carom.case.initial import InitialDisplacement
+from carom.case.initial import Initial, InitialDisplacement
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 from carom.io import layout
@@ -22,7 +22,7 @@ ROUND_OFF = 1e-9
 """Relative difference of times that are the same."""
 
 
-def start(simulation: Simulation, scenario: Scenario) -> None:
+def start(simulation: Simulation, scenario: Scenario, initial: Initial) -> None:
     """Give a simulation the state that its case starts from.
 
     Raises
@@ -30,9 +30,6 @@ def start(simulation: Simulation, scenario: Scenario) -> None:
     InputError
         The state is not there, or not one of these bodies.
     """
-    initial = scenario.initial
-    if initial is None:
-        return
     if initial.result is not None:
         _go_on(simulation, scenario, Path(initial.result), initial.start_time)
         return

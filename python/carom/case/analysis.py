@@ -65,7 +65,7 @@ class Dynamic(Description):
     Parameters
     ----------
     end_time
-        Time at which the run ends [s].
+        Time at which it ends [s].
     time_step
         Length of a step [s].
     scheme
@@ -103,7 +103,7 @@ class Static(Description):
     Parameters
     ----------
     end_time
-        Time at which the run ends [s].
+        Time at which it ends [s].
     time_step
         Largest length of a step [s].
     newton

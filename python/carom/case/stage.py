@@ -60,8 +60,7 @@ class GivenVelocity(Description):
     velocity
         Velocity of the centre of mass [m/s], shape [D]; None is none.
     spin
-        Angular velocity about the centre of mass of the mesh as it is drawn [rad/s]: a number in
-        2D, a vector in 3D.
+        Angular velocity about the centre of mass [rad/s]: a number in 2D, a vector in 3D.
     """
 
     body: str
@@ -102,10 +101,10 @@ class StageContact(Description):
     Parameters
     ----------
     condition
-        Where in time a dynamic stage writes the unilateral condition, see `Contact`; None goes on
-        as before. A static stage rules the gap at the end of the step.
+        Where in time a dynamic stage writes the unilateral condition, see `Contact`; None
+        is as before. A static stage rules the gap at the end of the step.
     friction
-        Coulomb's coefficient of every pair that has none of its own; None goes on as before.
+        Coulomb's coefficient of every pair that has none of its own; None is as before.
     pairs
         Coefficients of single pairs.
     """
@@ -171,11 +170,11 @@ class Stage(Description):
     removed_motions
         Supports that end here.
     contact
-        What of the law of contact is another from here on; None goes on as before.
+        What of the law of contact is another from here on; None is as before.
     velocities
         Velocities that bodies are given when the stage starts, which is dynamic.
     output
-        How often this stage is recorded; None goes by `Output`.
+        How often this stage is recorded; None is as the case says.
     """
 
     name: Name

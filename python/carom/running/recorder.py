@@ -153,11 +153,22 @@ class Recorder:
         names = [layout.HISTORY, layout.LEDGER, layout.FIELDS, layout.SURFACE]
         for name in [*names, layout.AUDIT] if self._queue.keeps_steps else names:
             sync(self._directory / name)
-        if (checkpoint := self._made(frames_due)) is not None:
-            write_checkpoint(self._directory, checkpoint)
+        try:
+            checkpoint = self._made(frames_due)
+        except ValueError as error:
+            what = f"no checkpoint at t = {self._simulation.time:g} s: {error}"
+            self.doubt(Doubt("checkpoint-not-made", what, layout.CHECKPOINT))
+            return
+        write_checkpoint(self._directory, checkpoint)
 
-    def _made(self, frames_due: int) -> Checkpoint | None:
-        """Return the run as it is now; None, with a doubt, if that is no state to go on from."""
+    def _made(self, frames_due: int) -> Checkpoint:
+        """Return the run as it is now.
+
+        Raises
+        ------
+        ValueError
+            That is no state to go on from.
+        """
         record = {
             "history": (self._directory / layout.HISTORY).stat().st_size,
             "ledger": (self._directory / layout.LEDGER).stat().st_size,
@@ -168,18 +179,7 @@ class Recorder:
             "wall": self.wall,
             "warnings": [doubt.as_summary() for doubt in self._doubts],
         }
-        try:
-            arrays = self._simulation.checkpoint()
-        except ValueError as error:
-            self.doubt(
-                Doubt(
-                    "checkpoint-not-made",
-                    f"no checkpoint at t = {self._simulation.time:g} s: {error}",
-                    layout.CHECKPOINT,
-                )
-            )
-            return None
-        return Checkpoint(case=self._case, record=record, arrays=arrays)
+        return Checkpoint(case=self._case, record=record, arrays=self._simulation.checkpoint())
 
     def __enter__(self) -> Self:
         return self
@@ -249,8 +249,8 @@ class Recorder:
         # A step that failed has overwritten the start of the last good one.
         self._frame(with_step=status != "failed")
         self._queue.flush()
-        if status == "completed" and (end := self._made(self._frames)) is not None:
-            write_end_state(self._directory, end)
+        if status == "completed":
+            self._end_state()
         native = self._simulation.summary()
         summary = {
             "status": status,
@@ -271,6 +271,16 @@ class Recorder:
         for doubt in new:
             self._notify(doubt)
         return result
+
+    def _end_state(self) -> None:
+        """Write the state from which other cases may go on."""
+        try:
+            end = self._made(self._frames)
+        except ValueError as error:
+            what = f"no state at the end for others to go on from: {error}"
+            self.doubt(Doubt("end-state-not-made", what, layout.END_STATE))
+            return
+        write_end_state(self._directory, end)
 
 
 def conclude(directory: Path, *, reports: bool) -> Result:
