@@ -308,8 +308,8 @@ impl<const D: usize> Simulation<D> {
 
     /// Whether there are steps left before time `until` [s]. What is left of a run that has come to the end of a stage is in the next, which begins here.
     fn goes_on(&mut self, until: f64) -> bool {
-        let is_last = self.current + 1 == self.stages.len();
-        if self.grid.has_ended() && !is_last && self.grid.is_before(self.state.time, until) {
+        let next = self.stages.get(self.current + 1);
+        if self.grid.has_ended() && next.is_some_and(|next| next.grid.is_before(self.state.time, until)) {
             self.enter(self.current + 1);
             let gained = self.stages[self.current].begin(&mut self.state);
             self.begin_stage(&gained);
