@@ -39,7 +39,7 @@ STAGES = {
         lambda case, preload, hit, rest: rest.update(
             removed_loads=[{"kind": "pressure", "body": "lid", "on": "topp"}]
         ),
-        'stages.2.removed_loads.0: there is no such load to remove: did you mean "pressure lid top"',
+        'stages.2.removed_loads.0: there is no such load .* did you mean "pressure lid top"',
     ),
     "a load removed and given": (
         lambda case, preload, hit, rest: hit.update(
@@ -187,7 +187,7 @@ STAGES = {
     ),
     "rows within a step": (
         lambda case, preload, hit, rest: hit.update(output={"history_every": 1e-9}),
-        r"stages.1.output.history_every = 1e-09: must be at least one analysis.time_step \(5e-07 s\)",
+        r"stages.1.output.history_every = 1e-09: must be at least one analysis.time_step \(5e-07",
     ),
     "a key that is none": (
         lambda case, preload, hit, rest: hit.update(obstacles=[]),
