@@ -63,7 +63,9 @@ RULES = """\
 ## Rules that join several keys
 
 - `analysis.end_time`, `output.fields_every` and `output.history_every` are at least one
-  `analysis.time_step`.
+  `analysis.time_step`; of a case with stages, the shortest.
+- A case has either an `analysis` or `stages`. A stage ends at least one of its steps after the one
+  before.
 - `analysis.max_halvings` is at most 30.
 - `output.fields_every` and `output.history_every` that are left out are never less than a step.
 - Names are unique over bodies, obstacles and tracked points. `bodies.N.material` names a material,
@@ -260,8 +262,12 @@ def what(model: type[Description]) -> str:
 def page() -> str:
     """Return the text of the page."""
     text = [HEAD, "## Top level\n", what(Scenario), "", table(Scenario), ""]
+    written: dict[tuple[type[Description], ...], str] = {}
     for section in sections(Scenario):
         text.append(f"## `{section.header}`\n")
+        if (before := written.setdefault(section.kinds, section.header)) != section.header:
+            text.append(f"As `{before}`.\n")
+            continue
         for model in section.kinds:
             tagged = len(section.kinds) > 1
             if tagged:

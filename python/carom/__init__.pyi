@@ -14,6 +14,8 @@ from carom.case.body import Body as Body
 from carom.case.contact import Contact as Contact
 from carom.case.contact import FrictionSolver as FrictionSolver
 from carom.case.contact import Pair as Pair
+from carom.case.initial import Initial as Initial
+from carom.case.initial import InitialDisplacement as InitialDisplacement
 from carom.case.load import Force as Force
 from carom.case.load import Pressure as Pressure
 from carom.case.load import Traction as Traction
@@ -48,6 +50,13 @@ from carom.case.output import Output as Output
 from carom.case.output import Track as Track
 from carom.case.scenario import Scenario as Scenario
 from carom.case.signal import Table as Table
+from carom.case.stage import GivenVelocity as GivenVelocity
+from carom.case.stage import RemovedLoad as RemovedLoad
+from carom.case.stage import RemovedMotion as RemovedMotion
+from carom.case.stage import Stage as Stage
+from carom.case.stage import StageContact as StageContact
+from carom.case.stage import StageOutput as StageOutput
+from carom.case.stage import StagePair as StagePair
 from carom.errors import CaromError as CaromError
 from carom.errors import CaromWarning as CaromWarning
 from carom.errors import CertificateError as CertificateError

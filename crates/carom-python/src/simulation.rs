@@ -81,6 +81,12 @@ impl Simulation {
         with!(&self.inner, run => run.step())
     }
 
+    /// Number of the present stage, from 0.
+    #[getter]
+    fn stage(&self) -> usize {
+        with!(&self.inner, run => run.stage_number())
+    }
+
     #[getter]
     fn steps(&self) -> u64 {
         with!(&self.inner, run => run.steps())
@@ -221,6 +227,33 @@ impl Simulation {
             run.set_initial_velocity(velocity);
         });
         Ok(())
+    }
+
+    /// Overwrites the displacements [m] of all nodes; ValueError once a step was made, or if they do not fit.
+    fn set_initial_displacement(
+        &mut self,
+        py: Python<'_>,
+        displacement: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<()> {
+        with!(&mut self.inner, run => {
+            if run.step() > 0 {
+                return Err(PyValueError::new_err("steps were made already"));
+            }
+            let displacement = arrays::from_rows(&displacement, run.model().node_count())?;
+            py.detach(|| run.set_initial_displacement(&displacement)).map_err(|e| input_error(py, &e))
+        })
+    }
+
+    /// Starts from the state of another run's checkpoint; ValueError once a step was made, or if it does not fit.
+    fn start_from(&mut self, py: Python<'_>, arrays: &Bound<'_, PyDict>) -> PyResult<()> {
+        let checkpoint = checkpoint::from_python(arrays)?;
+        let done = with!(&mut self.inner, run => {
+            if run.step() > 0 {
+                return Err(PyValueError::new_err("steps were made already"));
+            }
+            py.detach(|| run.start_from(&checkpoint))
+        });
+        done.map_err(|e| PyValueError::new_err(e.to_string()))
     }
 
     fn history_columns(&self) -> Vec<String> {

@@ -241,7 +241,7 @@ class EventChecks:
 
     def _off_grid(self, time: float) -> float:
         """Return how far a time is from the ends of steps, or of their halves, quarters … [s]."""
-        analysis = self._model.scenario.analysis
+        analysis = self._model.analysis
         finest = self._rows.dt * 0.5**analysis.max_halvings
         nominal = np.rint(time / self._rows.dt) * self._rows.dt
         off = abs(time - np.rint(time / finest) * finest)

@@ -49,7 +49,7 @@ class RowChecks:
     ) -> None:
         self._model, self._scales, self._findings = model, scales, findings
         self._rows, self._history, self._summary = rows, rows.history, summary
-        self._dt, self._end = rows.dt, model.scenario.analysis.end_time
+        self._dt, self._end = rows.dt, model.analysis.end_time
         self._times = rows.times
 
     def all(self) -> None:
@@ -83,9 +83,7 @@ class RowChecks:
         self._check("row times", np.maximum(-np.diff(times), 0.0), 0.0)
         self._check("row times", (np.diff(times) == 0.0).astype(float), 0.0)
         # Every step that ends at or after the next multiple of the interval is due a row.
-        scenario = self._model.scenario
-        every = scenario.output.resolved(scenario.analysis).history_every
-        assert every is not None
+        every = self._model.scenario.full_stages()[0].history_every
         ends = np.arange(np.floor(times[-1] / self._dt + GRID) + 1) * self._dt
         due = np.floor((ends + GRID * self._dt) / every)
         missing = np.setdiff1d(ends[1:][np.diff(due) > 0], times)
@@ -140,7 +138,7 @@ class RowChecks:
         damped = any(body.damping.mass > 0 for body in model.bodies)
         lossy = model.massless and not model.conserving
         if not (model.planes or model.gravity.any() or damped or lossy):
-            newton = model.scenario.analysis.newton.tolerance
+            newton = model.analysis.newton.tolerance
             off = SAFETY * ROUND_OFF * scales.mass * scales.speed
             off += SAFETY * steps * newton * scales.mass * scales.speed
             self._check("row: isolated", np.abs(stored - stored[0]).max(axis=1), off)

@@ -154,7 +154,7 @@ class StepChecks:
             # Newton's tolerance is that of the last correction, beside the motion.
             self._findings.report(
                 "residual of a step as a correction, relative to its motion; the case asks for "
-                f"{self._model.scenario.analysis.newton.tolerance:g}",
+                f"{self._model.analysis.newton.tolerance:g}",
                 correction / step.motion,
                 "",
             )

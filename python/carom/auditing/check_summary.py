@@ -43,7 +43,7 @@ class SummaryChecks:
     ) -> None:
         self._model, self._scales, self._findings = model, scales, findings
         self._rows, self._history, self._summary = rows, rows.history, summary
-        self._end = model.scenario.analysis.end_time
+        self._end = model.analysis.end_time
 
     def all(self) -> None:
         """Check everything."""
@@ -188,7 +188,7 @@ class SummaryChecks:
         off = SAFETY * EPS * np.maximum(count, 1.0)
         check("summary: counts", count - np.rint(count), off, "newton_iterations of rows")
         check("summary: counts", np.maximum(steps - count, 0.0), off, "newton_iterations of rows")
-        most = self._model.scenario.analysis.newton.max_iterations
+        most = self._model.analysis.newton.max_iterations
         # A step that contacts turn up in is repeated, four times in all.
         check("summary: counts", np.maximum(mean - 4 * most, 0.0), off, "newton_iterations of rows")
         said = float(self._summary["newton_iterations"])

@@ -39,7 +39,7 @@ def check_warnings(model: AuditModel, summary: Mapping[str, Any], findings: Find
             findings.check("summary: warnings", float(warned["where"] != where), 0.0, code)
     for code, warning in written.items():
         if code == "coarse-step":
-            step = model.scenario.analysis.time_step
+            step = model.analysis.time_step
             _compare(findings, code, warning, (step, float(warning["allowed"] or 0.0)))
         elif code == "wave-speed":
             speeds = [body.law.wave_speed(model.density(body.name)) for body in model.bodies]

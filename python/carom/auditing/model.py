@@ -98,7 +98,12 @@ class AuditModel:
             if not isinstance(entry.mesh, Disc | Rectangle):
                 raise InputError(f"cannot audit a mesh of the kind {entry.mesh.kind!r} yet")
         _refuse_what_is_driven(scenario)
+        if scenario.analysis is None:
+            raise InputError("cannot audit a case with stages yet")
+        if scenario.initial is not None:
+            raise InputError("cannot audit a case that does not start from bodies as drawn yet")
         self.scenario = scenario
+        self.analysis = scenario.analysis
         self.points = points
         condition = scenario.contact.condition
         if condition not in CONDITIONS:
@@ -109,15 +114,15 @@ class AuditModel:
             raise InputError("cannot audit mortar contact yet")
         self.condition = condition
         self.massless = condition == "massless"
-        if isinstance(scenario.analysis, Static):
+        if isinstance(self.analysis, Static):
             raise InputError("cannot audit a static analysis yet")
-        scheme = scenario.analysis.scheme
+        scheme = self.analysis.scheme
         if not isinstance(scheme, Theta | Conserving):
             raise InputError(f"cannot audit the scheme {scheme.kind!r} yet")
         self.conserving = isinstance(scheme, Conserving)
         self.theta, self.xi = (scheme.theta, scheme.xi) if isinstance(scheme, Theta) else (0.5, 0.5)
         self.blended = self.conserving and self.massless
-        self.gravity = np.array(scenario.analysis.gravity or (0.0, 0.0))
+        self.gravity = np.array(self.analysis.gravity or (0.0, 0.0))
         self.bodies = list(self._build_bodies(cells, types))
         smooth = scenario.contact.targets == "smooth"
         self.targets = [Target(b.facets, b.points, smooth=smooth) for b in self.bodies]

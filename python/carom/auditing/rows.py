@@ -30,7 +30,7 @@ class Rows:
     ) -> None:
         self.history = history
         self.times: Array = history["time"]
-        self.dt = model.scenario.analysis.time_step
+        self.dt = model.analysis.time_step
         self.nominal = np.zeros(len(self.times))
         """Nominal steps since the row before, none for the first, [row_count]."""
         self.nominal[1:] = np.maximum(np.ceil(np.diff(self.times) / self.dt - GRID), 1.0)

@@ -46,9 +46,9 @@ class Scales:
         """Largest energy of a state [J]."""
         self.speed = model.fastest_plane
         """Largest speed of a node, or of an obstacle [m/s]."""
-        self.reach = model.fastest_plane * model.scenario.analysis.end_time
+        self.reach = model.fastest_plane * model.analysis.end_time
         """Largest distance of a node from the origin, or of an obstacle from its start [m]."""
-        analysis = model.scenario.analysis
+        analysis = model.analysis
         travel = model.fastest_plane * analysis.end_time
         self.travel = EPS * travel * analysis.end_time / analysis.time_step
         """How far places of obstacles may be off, which the run sums step by step [m]."""
@@ -66,7 +66,7 @@ class Scales:
 
     def penetration(self) -> float:
         """Return how deep nodes may be where gaps are ruled [m]."""
-        analysis = self._model.scenario.analysis
+        analysis = self._model.analysis
         motion = self.speed * analysis.time_step
         if self._model.scenario.contact.targets == "faceted" and len(self._model.bodies) > 1:
             # Facets are frozen for a step: a node that slides on may get behind the next one.
@@ -88,13 +88,13 @@ class Scales:
 
     def displacement(self, step: Step) -> float:
         """Return how far the displacements of a step may be off [m]."""
-        tolerance = self._model.scenario.analysis.newton.tolerance * step.motion
+        tolerance = self._model.analysis.newton.tolerance * step.motion
         return SAFETY * max(tolerance, FLOOR * (self._model.size + self.reach))
 
     def displacement_in(self, dt: Array) -> Array:
         """Return how far displacements of steps of these lengths [s] may be off [m]."""
         motion = (self.speed + float(np.linalg.norm(self._model.gravity)) * dt) * dt
-        tolerance = self._model.scenario.analysis.newton.tolerance * motion
+        tolerance = self._model.analysis.newton.tolerance * motion
         return SAFETY * np.maximum(tolerance, FLOOR * (self._model.size + self.reach))
 
     def geometry(self, step: Step) -> float:

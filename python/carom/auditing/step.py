@@ -112,7 +112,7 @@ class Step:
         Nominal steps are equal but for a shorter last one, and those that failed are halved; the
         difference of two times has more round-off than a step may have.
         """
-        analysis = self.model.scenario.analysis
+        analysis = self.model.analysis
         nominal, end = analysis.time_step, analysis.end_time
         raw = self.time - float(self.start["time"])
         steps = max(int(np.ceil(end / nominal - 1e-6)), 1)

@@ -36,7 +36,10 @@ def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
     meshes, surfaces = _meshes(scenario), _surfaces(scenario)
 
     def make(scenario: Scenario, meshes: Mapping[str, MeshArrays]) -> Simulation:
-        return Simulation(_json(scenario), dict(meshes), surfaces)
+        try:
+            return Simulation(_json(scenario), dict(meshes), surfaces)
+        except InputError as error:
+            raise _at_its_place(error, scenario) from None
 
     found = [note for arrays in meshes.values() for note in arrays.notes]
     try:
@@ -50,6 +53,10 @@ def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
         except InputError:  # what has been wrong before is told, not what is left of it
             raise refusal from None
         found += moves
+    if scenario.initial is not None:
+        from carom.building.initial import start  # noqa: PLC0415 (reads results, for few cases)
+
+        start(simulation, scenario, scenario.initial)
     description = simulation.describe()
     refuse_unbounded(scenario, description)
     refuse_leaps(scenario, description)
@@ -59,6 +66,23 @@ def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
     else:
         notes += found
     return simulation
+
+
+def _at_its_place(error: InputError, scenario: Scenario) -> InputError:
+    """Return a refusal with the key under which the case gives what the core refuses in a stage."""
+    for index, stage in enumerate(scenario.full_stages() if scenario.stages else ()):
+        for name, given in (("loads", stage.loads), ("motions", stage.motions)):
+            for number, one in enumerate(given):
+                path = f"stages.{index}.{name}.{number}."
+                if error.key is not None and error.key.startswith(path):
+                    key = f"{one.key}.{error.key.removeprefix(path)}"
+                    return type(error)(str(error).replace(error.key, key, 1), key)
+        path = f"stages.{index}.contact."
+        if error.key is not None and error.key.startswith(path):
+            # What a stage says of contact is checked before; the rest holds in all stages.
+            key = error.key.removeprefix(f"stages.{index}.")
+            return type(error)(str(error).replace(error.key, key, 1), key)
+    return error
 
 
 def _json(scenario: Scenario) -> str:

@@ -72,16 +72,18 @@ def first_doubts(
     """
     yield from map(of_mesh, notes)
     yield from _doubts_of_units(scenario, description)
-    step, suggested = scenario.analysis.time_step, description["suggested_time_step"]
-    if scenario.analysis.kind == "dynamic" and step > COARSE_STEP * suggested:
-        yield Doubt(
-            "coarse-step",
-            f"analysis.time_step = {step:g} s is {step / suggested:.3g} times the suggested "
-            f"{suggested:.3g} s: waves will not be resolved",
-            "analysis.time_step",
-            step,
-            COARSE_STEP * suggested,
-        )
+    suggested = description["suggested_time_step"]
+    for stage in scenario.full_stages():
+        step, key = stage.analysis.time_step, f"{stage.key}analysis.time_step"
+        if stage.is_dynamic and step > COARSE_STEP * suggested:
+            yield Doubt(
+                "coarse-step",
+                f"{key} = {step:g} s is {step / suggested:.3g} times the suggested "
+                f"{suggested:.3g} s: waves will not be resolved",
+                key,
+                step,
+                COARSE_STEP * suggested,
+            )
 
 
 def _doubts_of_units(scenario: Scenario, description: Mapping[str, Any]) -> Iterator[Doubt]:
@@ -113,16 +115,19 @@ def _doubts_of_units(scenario: Scenario, description: Mapping[str, Any]) -> Iter
 
 def _unlikely(scenario: Scenario, description: Mapping[str, Any]) -> Iterator[Doubt]:
     """Yield what is probably not meant, though the results are as good as others."""
-    step, end = scenario.analysis.time_step, scenario.analysis.end_time
-    rest = end / step - round(end / step)
-    if abs(rest) > SPLIT:
-        yield Doubt(
-            "partial-step",
-            f"analysis.end_time = {end:g} s is not a whole number of time steps of {step:g} s",
-            "analysis.end_time",
-            rest,
-            SPLIT,
-        )
+    for stage in scenario.full_stages():
+        step, key = stage.analysis.time_step, f"{stage.key}analysis.end_time"
+        rest = stage.duration / step - round(stage.duration / step)
+        if abs(rest) > SPLIT:
+            since = f" after {stage.start_time:g} s" if stage.start_time else ""
+            yield Doubt(
+                "partial-step",
+                f"{key} = {stage.end_time:g} s is not a whole number of time steps of {step:g} s"
+                f"{since}",
+                key,
+                rest,
+                SPLIT,
+            )
     if not description["pairs"]:
         yield Doubt(
             "nothing-touches",

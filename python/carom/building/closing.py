@@ -62,7 +62,8 @@ def _apart(scenario: Scenario) -> Scenario:
     pairs = [{"between": pair, "enabled": False} for pair in _pairs(scenario)]
     contact = scenario.contact.model_validate({"pairs": pairs})
     bodies = tuple(body.model_copy(update={"self_contact": False}) for body in scenario.bodies)
-    return scenario.model_copy(update={"contact": contact, "bodies": bodies})
+    stages = tuple(stage.model_copy(update={"contact": None}) for stage in scenario.stages)
+    return scenario.model_copy(update={"contact": contact, "bodies": bodies, "stages": stages})
 
 
 def _pairs(scenario: Scenario) -> Iterator[tuple[str, str]]:

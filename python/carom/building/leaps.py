@@ -6,7 +6,10 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from carom.case.body import Body
+from carom.case.full_stage import FullStage
 from carom.case.scenario import Scenario
+from carom.case.stage import GivenVelocity
 from carom.errors import InputError
 
 LEAP = 10.0
@@ -28,21 +31,35 @@ def refuse_leaps(scenario: Scenario, description: Mapping[str, Any]) -> None:
     InputError
         A body moves by more than `LEAP` times its size in the first step.
     """
-    step = scenario.analysis.time_step
-    if scenario.analysis.kind != "dynamic":
-        return
-    for index, (body, built) in enumerate(zip(scenario.bodies, description["bodies"], strict=True)):
-        size = built["diameter"]
-        spin = body.spin if isinstance(body.spin, tuple) else (body.spin or 0.0,)
-        for key, speed in (
-            ("velocity", math.hypot(*(body.velocity or ()))),
-            ("spin", 0.5 * size * math.hypot(*spin)),
-        ):
-            if step * speed > LEAP * size:
-                place = f"bodies.{index}.{key}"
-                raise InputError(
-                    f"{place}: {body.name} would move by {step * speed:.3g} m in a step of "
-                    f"{step:g} s, and it is {size:.3g} m large; check the unit, or take a "
-                    "shorter analysis.time_step",
-                    place,
-                )
+    names = [body.name for body in scenario.bodies]
+    for stage in scenario.full_stages():
+        if not stage.is_dynamic:
+            continue
+        moves: list[tuple[int, Body | GivenVelocity]]
+        moves = [(names.index(given.body), given) for given in stage.velocities]
+        paths = [f"{stage.key}velocities.{number}" for number in range(len(moves))]
+        if stage.start_time == 0.0:
+            moves += list(enumerate(scenario.bodies))
+            paths += [f"bodies.{index}" for index in range(len(names))]
+        for path, (index, given) in zip(paths, moves, strict=True):
+            _refuse_leap(given, description["bodies"][index], stage, path)
+
+
+def _refuse_leap(
+    given: Body | GivenVelocity, built: Mapping[str, Any], stage: FullStage, path: str
+) -> None:
+    """Refuse a body that leaves everything behind in one step of a stage."""
+    size, step = built["diameter"], stage.analysis.time_step
+    spin = given.spin if isinstance(given.spin, tuple) else (given.spin or 0.0,)
+    for key, speed in (
+        ("velocity", math.hypot(*(given.velocity or ()))),
+        ("spin", 0.5 * size * math.hypot(*spin)),
+    ):
+        if step * speed > LEAP * size:
+            place = f"{path}.{key}"
+            raise InputError(
+                f"{place}: {built['name']} would move by {step * speed:.3g} m in a step of "
+                f"{step:g} s, and it is {size:.3g} m large; check the unit, or take a "
+                f"shorter {stage.key}analysis.time_step",
+                place,
+            )

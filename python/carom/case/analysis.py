@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
@@ -64,7 +65,7 @@ class Dynamic(Description):
     Parameters
     ----------
     end_time
-        Time at which the run ends [s].
+        Time at which it ends [s].
     time_step
         Length of a step [s].
     scheme
@@ -102,7 +103,7 @@ class Static(Description):
     Parameters
     ----------
     end_time
-        Time at which the run ends [s].
+        Time at which it ends [s].
     time_step
         Largest length of a step [s].
     newton
@@ -143,3 +144,11 @@ def _refuse_less_than_a_step(analysis: Dynamic | Static) -> None:
 
 
 Analysis = Annotated[Dynamic | Static, Field(discriminator="kind")]
+
+
+def with_kind(data: object) -> object:
+    """Return a table of the case file whose analysis, if it names no kind, is dynamic."""
+    analysis = data.get("analysis") if isinstance(data, Mapping) else None
+    if not isinstance(data, Mapping) or not isinstance(analysis, Mapping) or "kind" in analysis:
+        return data
+    return {**data, "analysis": {"kind": "dynamic", **analysis}}

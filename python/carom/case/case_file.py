@@ -9,7 +9,7 @@ from typing import Any
 import tomlkit
 from pydantic.fields import FieldInfo
 from tomlkit.exceptions import ParseError, TOMLKitError
-from tomlkit.items import AoT, InlineTable, Item, Table
+from tomlkit.items import AoT, Array, InlineTable, Item, Table
 
 from carom.case.description import Description
 from carom.errors import InputError
@@ -44,14 +44,14 @@ def with_paths_from(directory: Path, data: dict[str, Any]) -> dict[str, Any]:
         if isinstance(value, dict):
             return {
                 key: str(directory / entry)
-                if key == "file" and isinstance(entry, str)
+                if key in ("file", "result") and isinstance(entry, str)
                 else placed(entry)
                 for key, entry in value.items()
             }
         return [placed(entry) for entry in value] if isinstance(value, list) else value
 
     return {
-        key: placed(value) if key in ("bodies", "obstacles") else value
+        key: placed(value) if key in ("bodies", "obstacles", "initial") else value
         for key, value in data.items()
     }
 
@@ -88,7 +88,10 @@ class _Writer:
             return tomlkit.item(value)
         if value and all(isinstance(member, Description) for member in value):
             return AoT([self._table(member) for member in value])
-        # A vector of functions of time has tables, numbers and texts side by side.
+        return self._array(value)
+
+    def _array(self, value: tuple[object, ...]) -> Array:
+        """Return a list in a line; of functions of time there are tables, numbers and texts."""
         array = tomlkit.array()
         for member in value:
             array.append(self._entry(member))
@@ -103,7 +106,8 @@ class _Writer:
     def _inline(self, part: Description) -> InlineTable:
         table = tomlkit.inline_table()
         for key, value in self.stated(part).items():
-            table.add(key, self._entry(value))
+            # No [[…]] begins within a line.
+            table.add(key, self._array(value) if isinstance(value, tuple) else self._entry(value))
         return table
 
     def stated(self, part: Description) -> dict[str, Any]:

@@ -21,6 +21,9 @@ Discretisation = Literal["node-to-segment", "mortar"]
 Friction = Annotated[Number, Field(ge=0, le=1000)]
 """Coulomb's coefficient."""
 
+Condition = Literal["gap", "midpoint", "endpoint", "massless"]
+"""Where in time the unilateral condition is written."""
+
 
 SolverName = Literal[
     "auto",
@@ -152,7 +155,7 @@ class Contact(Description):
         What single pairs do differently.
     """
 
-    condition: Literal["gap", "midpoint", "endpoint", "massless"] = "midpoint"
+    condition: Condition = "midpoint"
     friction: Friction = 0.0
     solver: FrictionSolver = FrictionSolver()
     sources: Sources | None = None

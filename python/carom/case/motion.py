@@ -37,7 +37,7 @@ class Displacement(Description):
 
 
 class Fixed(Description):
-    """A set of nodes that does not move.
+    """A set of nodes that does not move from where it is.
 
     Parameters
     ----------
@@ -68,7 +68,8 @@ class Prescribed(Description):
     on
         Name of a set of its mesh.
     x
-        Displacement along x [m], 0 at t = 0: a number, a formula of ``t`` or a table.
+        Displacement along x [m], 0 at t = 0, or where the stage starts that names it: a number, a
+        formula of ``t`` or a table.
     y
         Displacement along y [m], likewise.
     z

@@ -13,11 +13,15 @@ if TYPE_CHECKING:
 
 def scenario_html(scenario: Scenario) -> Html:
     """Return what a scenario consists of, and its case file to unfold."""
-    analysis, contact = scenario.analysis, scenario.contact
+    contact = scenario.contact
     rows = [
-        (
-            "analysis",
-            f"{analysis.kind}, {analysis.end_time:g} s in steps of {analysis.time_step:g} s",
+        *(
+            (
+                f"stage {stage.name}" if stage.name else "analysis",
+                f"{stage.analysis.kind}, {stage.end_time:g} s in steps of "
+                f"{stage.analysis.time_step:g} s",
+            )
+            for stage in scenario.full_stages()
         ),
         *(("body", f"{b.name}: {b.mesh.kind}, {b.material}") for b in scenario.bodies),
         *(("obstacle", f"{obstacle.name}: {obstacle.kind}") for obstacle in scenario.obstacles),

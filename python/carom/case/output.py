@@ -5,16 +5,8 @@ from __future__ import annotations
 from typing import Annotated
 
 from pydantic import Field
-from typing_extensions import Self
 
-from carom.case.analysis import Analysis
 from carom.case.description import Description, Name, NonNegative, Positive, Vector
-
-FRAMES = 200
-"""Frames of fields in a run that does not say how often."""
-
-ROWS = 1000
-"""Rows of history in a run that does not say how often."""
 
 
 class Track(Description):
@@ -41,9 +33,9 @@ class Output(Description):
     Parameters
     ----------
     fields_every
-        Time between two frames of fields [s]; None takes a 200th of the run.
+        Time between two frames of fields [s]; None takes a 200th of the run, or of each stage.
     history_every
-        Time between two rows of history [s]; None takes a 1000th of the run.
+        Time between two rows of history [s]; None takes a 1000th of the run, or of each stage.
     checkpoint_every
         Time between two checkpoints, from which a run that was stopped goes on [s]; None takes ten
         minutes of wall time.
@@ -68,16 +60,3 @@ class Output(Description):
     track: tuple[Track, ...] = ()
     audit: Annotated[bool, Field(strict=True)] = False
     report: Annotated[bool, Field(strict=True)] = False
-
-    def resolved(self, analysis: Analysis) -> Self:
-        """Return the same with both intervals as numbers, never less than a time step."""
-
-        def every(parts: int) -> float:
-            return max(analysis.end_time / parts, analysis.time_step)
-
-        return self.model_copy(
-            update={
-                "fields_every": self.fields_every or every(FRAMES),
-                "history_every": self.history_every or every(ROWS),
-            }
-        )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -10,15 +11,19 @@ from pydantic import Field, model_validator
 from typing_extensions import Self
 
 from carom.case import case_file, overrides
-from carom.case.analysis import Analysis
+from carom.case.analysis import Analysis, with_kind
 from carom.case.body import Body
 from carom.case.contact import Contact, for_load_steps
 from carom.case.description import Description, Name
+from carom.case.full_stage import FullStage, full_stages
+from carom.case.initial import Initial
 from carom.case.load import Load
 from carom.case.material import Material
 from carom.case.motion import Motion
 from carom.case.obstacle import Obstacle
 from carom.case.output import Output, Track
+from carom.case.stage import Stage, StageOutput
+from carom.case.stage_rules import check_stages
 from carom.errors import naming
 from carom.messages import known, problem
 
@@ -36,7 +41,7 @@ class Scenario(Description):
     dimension
         Dimension of space, 2 or 3. Vectors have as many components.
     analysis
-        How the motion is computed.
+        How the motion is computed. Of a case with stages left out: each has its own.
     output
         What is recorded.
     materials
@@ -50,12 +55,17 @@ class Scenario(Description):
     motions
         Prescribed motion of parts of bodies.
     contact
-        Contact and friction.
+        Contact and friction. Its `condition` is that of the dynamic stages of a case with stages.
+    initial
+        The state that the case starts from; None is bodies as they are drawn.
+    stages
+        Analyses in sequence; a case without any has the one of `analysis`. What stands above them
+        holds from the first on.
     """
 
     title: str = ""
     dimension: Literal[2, 3] = 2
-    analysis: Analysis
+    analysis: Analysis | None = None
     output: Output = Output()
     materials: dict[Name, Material]
     bodies: Annotated[tuple[Body, ...], Field(min_length=1)]
@@ -63,6 +73,8 @@ class Scenario(Description):
     loads: tuple[Load, ...] = ()
     motions: tuple[Motion, ...] = ()
     contact: Contact = Contact()
+    initial: Initial | None = None
+    stages: tuple[Stage, ...] = ()
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
@@ -95,9 +107,31 @@ class Scenario(Description):
         return case_file.write(self, complete=complete)
 
     def to_json(self) -> str:
-        """Return the JSON that the native core reads, with every default written out."""
-        output = self.output.resolved(self.analysis)
-        return self.model_copy(update={"output": output}).model_dump_json()
+        """Return the JSON that the native core reads, with every default written out.
+
+        What a stage does not change is written out in it too.
+        """
+        data = self.model_dump(mode="json")
+        full = self.full_stages()
+        data["output"] |= {
+            "fields_every": full[0].fields_every,
+            "history_every": full[0].history_every,
+        }
+        data |= {key: value for key, value in full[0].to_data().items() if key in data}
+        data["stages"] = [stage.to_data() for stage in full] if self.stages else []
+        return json.dumps(data)
+
+    def full_stages(self) -> tuple[FullStage, ...]:
+        """Return the analyses of the case in sequence, with all that goes on written out.
+
+        A case without stages has one.
+        """
+        return tuple(full_stages(self))
+
+    @property
+    def end_time(self) -> float:
+        """When the case ends [s]."""
+        return self.full_stages()[-1].end_time
 
     def with_overrides(self, assignments: Iterable[str]) -> Self:
         """Return the scenario with some of its values replaced.
@@ -175,12 +209,10 @@ class Scenario(Description):
     @classmethod
     def _kind_of_analysis(cls, data: object) -> object:
         """Take an analysis that names no kind for dynamic; load steps rule the gap."""
+        data = with_kind(data)
         if not isinstance(data, Mapping):
             return data
         analysis = data.get("analysis")
-        if isinstance(analysis, Mapping) and "kind" not in analysis:
-            analysis = {"kind": "dynamic", **analysis}
-            data = {**data, "analysis": analysis}
         kind = analysis["kind"] if isinstance(analysis, Mapping) else getattr(analysis, "kind", "")
         if kind != "static":
             return data
@@ -189,10 +221,16 @@ class Scenario(Description):
     @model_validator(mode="after")
     def _driven_bodies_exist(self) -> Self:
         bodies = [body.name for body in self.bodies]
-        for index, load in enumerate(self.loads):
-            _require(load.body, bodies, what="body", key=f"loads.{index}.body")
-        for index, motion in enumerate(self.motions):
-            _require(motion.body, bodies, what="body", key=f"motions.{index}.body")
+        parts: list[tuple[str, Scenario | Stage]] = [("", self)]
+        parts += [(f"stages.{index}.", stage) for index, stage in enumerate(self.stages)]
+        for path, part in parts:
+            for index, load in enumerate(part.loads):
+                _require(load.body, bodies, what="body", key=f"{path}loads.{index}.body")
+            for index, motion in enumerate(part.motions):
+                _require(motion.body, bodies, what="body", key=f"{path}motions.{index}.body")
+        for index, entry in enumerate(() if self.initial is None else self.initial.displacements):
+            key = f"initial.displacements.{index}.body"
+            _require(entry.body, bodies, what="body", key=key)
         return self
 
     @model_validator(mode="after")
@@ -229,16 +267,18 @@ class Scenario(Description):
         return self
 
     @model_validator(mode="after")
+    def _stages_go_together(self) -> Self:
+        check_stages(self)
+        return self
+
+    @model_validator(mode="after")
     def _records_no_finer_than_steps(self) -> Self:
-        step = self.analysis.time_step
-        for key in ("fields_every", "history_every", "checkpoint_every"):
-            every = getattr(self.output, key)
-            if every is not None and every < step:
-                raise problem(
-                    f"must be at least one analysis.time_step ({step:g} s)",
-                    key=f"output.{key}",
-                    value=every,
-                )
+        full = self.full_stages()
+        least = min(stage.analysis.time_step for stage in full)
+        _refuse_finer(self.output, least, "output")
+        for stage, own in zip(full, self.stages, strict=False):
+            if own.output is not None:
+                _refuse_finer(own.output, stage.analysis.time_step, f"{stage.key}output")
         return self
 
     def _names(self) -> Iterator[tuple[str, str]]:
@@ -251,6 +291,18 @@ class Scenario(Description):
         for group, members in groups.items():
             for index, member in enumerate(members):
                 yield f"{group}.{index}.name", member.name
+
+
+def _refuse_finer(output: Output | StageOutput, step: float, key: str) -> None:
+    """Refuse to record more often than there are steps of so many seconds."""
+    for name in ("fields_every", "history_every", "checkpoint_every"):
+        every = getattr(output, name, None)
+        if every is not None and every < step:
+            raise problem(
+                f"must be at least one analysis.time_step ({step:g} s)",
+                key=f"{key}.{name}",
+                value=every,
+            )
 
 
 def _require(name: str, names: Iterable[str], *, what: str, key: str) -> None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rich.console import Console
 from rich.table import Table
 
 from carom.building import checking
+from carom.case.full_stage import FullStage
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import failures
 from carom.display.tables import add, two_columns
@@ -22,15 +23,20 @@ def check(*, case: CaseFile, overrides: Overrides = None) -> None:
         with naming(case):
             checked = checking.check(scenario)
     console = Console()
-    console.print(_table(checked.description, time_step=scenario.analysis.time_step))
+    console.print(_table(checked.description, scenario.full_stages()))
     for warning in checked.warnings:
         console.print(f"warning: {warning}", markup=False, highlight=False, soft_wrap=True)
 
 
-def _table(description: Mapping[str, Any], *, time_step: float) -> Table:
+def _table(description: Mapping[str, Any], stages: Sequence[FullStage]) -> Table:
     table = two_columns(description["title"] or "Check")
     add(table, "dofs", str(description["dofs"]))
-    add(table, "steps", f"{description['steps']} of {time_step:g} s")
+    if len(stages) == 1:
+        add(table, "steps", f"{description['steps']} of {stages[0].analysis.time_step:g} s")
+    else:
+        add(table, "steps", str(description["steps"]))
+        for stage in stages:
+            add(table, f"stage {stage.name}", _steps(stage))
     add(table, "suggested step", f"{description['suggested_time_step']:.3g} s")
     add(table, "initial energy", f"{description['energy']:.6g} J")
     table.add_section()
@@ -48,6 +54,13 @@ def _table(description: Mapping[str, Any], *, time_step: float) -> Table:
     for pair in description["pairs"]:
         add(table, " – ".join(pair["between"]), _gap(pair))
     return table
+
+
+def _steps(stage: FullStage) -> str:
+    return (
+        f"{stage.analysis.kind}, from {stage.start_time:g} s to {stage.end_time:g} s in steps of "
+        f"{stage.analysis.time_step:g} s"
+    )
 
 
 def _gap(pair: Mapping[str, Any]) -> str:

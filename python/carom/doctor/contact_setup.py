@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from carom.case.analysis import Dynamic
+from carom.case.full_stage import FullStage
 from carom.doctor.finding import Finding
 from carom.doctor.patient import Patient
 
 
 def contact_setup(patient: Patient) -> Iterator[Finding]:
     """Look at friction, at bodies without partners and at the scheme."""
-    scenario, contact = patient.scenario, patient.scenario.contact
+    scenario = patient.scenario
     pairs = patient.description["pairs"]
     partners = {name for pair in pairs for name in pair["between"]}
     for index, body in enumerate(scenario.bodies):
@@ -22,17 +23,43 @@ def contact_setup(patient: Patient) -> Iterator[Finding]:
                 f"{body.name} can touch nothing: every pair with it is disabled",
                 "enable one in contact.pairs, or leave the body out",
             )
-    if pairs and all(pair["friction"] == 0.0 for pair in pairs):
+    if pairs and not any(pair["friction"] for pair in pairs) and not _rubs_later(patient):
         yield Finding(
             "advice",
             "contact.friction",
             "there is no friction: everything slides freely",
             "set contact.friction, if the real surfaces have any (0.2 to 0.6 for most dry ones)",
         )
-    if not isinstance(scenario.analysis, Dynamic):
+    for stage in patient.stages:
+        if isinstance(stage.analysis, Dynamic):
+            yield from _scheme(stage, stage.analysis)
+    first = patient.stages[0]
+    stands = all(body.velocity is None and not body.spin for body in scenario.bodies)
+    if not (first.is_dynamic and stands and scenario.initial is None):
         return
-    scheme = scenario.analysis.scheme.kind
-    if contact.condition == "massless":
+    driven = any(
+        stage.analysis.gravity is not None or stage.loads or stage.motions or stage.velocities
+        for stage in patient.stages
+    )
+    moved = any(o.velocity is not None or o.motion is not None for o in scenario.obstacles)
+    if not driven and not moved:
+        yield Finding(
+            "warning",
+            "bodies",
+            "nothing moves: no velocity, spin, gravity, load or motion is given",
+            "give bodies a velocity, or set analysis.gravity",
+        )
+
+
+def _rubs_later(patient: Patient) -> bool:
+    """Return whether there is friction from a later stage on."""
+    contacts = [stage.contact for stage in patient.stages]
+    return any(c.friction or any(pair.friction for pair in c.pairs) for c in contacts[1:])
+
+
+def _scheme(stage: FullStage, analysis: Dynamic) -> Iterator[Finding]:
+    """Look at how the scheme and the contact condition go together."""
+    if stage.contact.condition == "massless":
         yield Finding(
             "advice",
             "contact.condition",
@@ -40,21 +67,11 @@ def contact_setup(patient: Patient) -> Iterator[Finding]:
             "not bear every case yet",
             'if steps fail, take condition = "midpoint"',
         )
-    elif scheme == "theta" and contact.condition == "midpoint":
+    elif analysis.scheme.kind == "theta" and stage.contact.condition == "midpoint":
         yield Finding(
             "advice",
-            "analysis.scheme",
+            f"{stage.key}analysis.scheme",
             "the scheme theta keeps the energy of linear elasticity only; the rest is in the "
             "defect of the ledger",
             "take the default scheme, conserving, unless the paper's is wanted",
         )
-    if all(body.velocity is None and not body.spin for body in scenario.bodies):
-        still = scenario.analysis.gravity is None and not scenario.loads and not scenario.motions
-        moved = any(o.velocity is not None or o.motion is not None for o in scenario.obstacles)
-        if still and not moved:
-            yield Finding(
-                "warning",
-                "bodies",
-                "nothing moves: no velocity, spin, gravity, load or motion is given",
-                "give bodies a velocity, or set analysis.gravity",
-            )

@@ -37,14 +37,15 @@ def cost(patient: Patient) -> Iterator[Finding]:
     simulation, steps = patient.simulation, patient.description["steps"]
     start = time.perf_counter()
     try:
-        simulation.advance(patient.scenario.analysis.end_time, TRIAL)
+        simulation.advance(patient.scenario.end_time, TRIAL)
     except ConvergenceError as error:
+        stage = patient.stages[simulation.stage]
         yield Finding(
             "error",
-            "analysis.time_step",
+            f"{stage.key}analysis.time_step",
             f"the trial failed at step {simulation.step + 1}: {error}",
             "take a shorter step, or check materials and "
-            + ("velocities" if patient.is_dynamic else "how loads and supports grow"),
+            + ("velocities" if stage.is_dynamic else "how loads and supports grow"),
         )
         return
     taken = max(simulation.step, 1)
@@ -77,15 +78,14 @@ def _memory(used: float) -> Finding:
 
 
 def _output(patient: Patient) -> Iterator[Finding]:
-    output = patient.scenario.output.resolved(patient.scenario.analysis)
-    end = patient.scenario.analysis.end_time
-    frames = math.ceil(end / (output.fields_every or end)) + 1
+    frames = 1 + sum(math.ceil(s.duration / s.fields_every) for s in patient.stages)
     bodies = patient.description["bodies"]
     values = sum(NODE_VALUES * b["nodes"] + CELL_VALUES * b["cells"] for b in bodies)
     size = 8.0 * frames * values
     fact = f"{frames:,} frames of fields, up to {size / 1e6:.3g} MB"
     if size > LARGE_OUTPUT:
-        remedy = f"take fields_every = {end / 200:.2g}, 200 frames"
+        longest = max(stage.duration for stage in patient.stages)
+        remedy = f"take fields_every = {longest / 200:.2g}, 200 frames"
         yield Finding("warning", "output.fields_every", fact, remedy)
     else:
         yield Finding("ok", "output.fields_every", fact)

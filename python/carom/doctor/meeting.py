@@ -56,7 +56,8 @@ def meeting(patient: Patient) -> Iterator[Finding]:
             f"{_place(place)}"
         )
     yield Finding("ok", "bodies", said)
-    if not patient.is_dynamic:
+    # Of what static loads, or a start that is not drawn, make of the bodies nothing is foreseen.
+    if len(patient.stages) > 1 or not patient.stages[0].is_dynamic or scenario.initial is not None:
         return
     yield from _first_touch(patient, foreseen, flights, others=len(pairs) - len(foreseen))
 
@@ -100,7 +101,7 @@ def _first_touch(
     others: int,
 ) -> Iterator[Finding]:
     """Say which of the pairs touches first, as if bodies were rigid."""
-    end = patient.scenario.analysis.end_time
+    end = patient.scenario.end_time
     times, closest = [], []
     for pair in pairs:
         if (gap := _gap_over_time(patient, pair, flights)) is None:
@@ -138,7 +139,7 @@ def _first_touch(
 
 def _flights(patient: Patient, led: Mapping[str, Led | None]) -> Iterator[Flight]:
     scenario, dimension = patient.scenario, patient.scenario.dimension
-    gravity = np.asarray(scenario.analysis.gravity or [0.0] * dimension, dtype=float)
+    gravity = np.asarray(patient.stages[0].analysis.gravity or [0.0] * dimension, dtype=float)
     centres = patient.simulation.centres_of_mass()
     for body, boundary, centre in zip(scenario.bodies, patient.boundaries, centres, strict=True):
         spin: Any = (0.0 if dimension == 2 else [0.0] * 3) if body.spin is None else body.spin

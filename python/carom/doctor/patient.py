@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from carom._carom import Simulation
 from carom.building.simplices import Boundary, boundaries
+from carom.case.full_stage import FullStage
 from carom.case.scenario import Scenario
 
 
@@ -50,10 +51,10 @@ class Patient:
         """What the native core says of the model."""
         return self.simulation.describe()
 
-    @property
-    def is_dynamic(self) -> bool:
-        """Whether there are waves, velocities and impacts."""
-        return self.scenario.analysis.kind == "dynamic"
+    @cached_property
+    def stages(self) -> tuple[FullStage, ...]:
+        """The analyses of the case, one as a rule."""
+        return self.scenario.full_stages()
 
     @cached_property
     def grids(self) -> list[Grid]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from carom.building.checking import COARSE_STEP, SPLIT
+from carom.case.full_stage import FullStage
 from carom.doctor.finding import Finding
 from carom.doctor.patient import Patient
 
@@ -19,19 +20,24 @@ ROWS_PER_IMPACT = 5.0
 
 
 def time_step(patient: Patient) -> Iterator[Finding]:
-    """Compare the step with the time of waves and impacts."""
-    analysis = patient.scenario.analysis
-    step, end = analysis.time_step, analysis.end_time
-    if abs(end / step - round(end / step)) > SPLIT:
+    """Compare the steps of every analysis with the time of waves and impacts."""
+    for stage in patient.stages:
+        yield from _of_stage(patient, stage)
+
+
+def _of_stage(patient: Patient, stage: FullStage) -> Iterator[Finding]:
+    step, length = stage.analysis.time_step, stage.duration
+    if abs(length / step - round(length / step)) > SPLIT:
         yield Finding(
             "advice",
-            "analysis.end_time",
-            f"{end:g} s is not a whole number of steps of {step:g} s: the last step is shorter",
-            f"take end_time = {round(end / step) * step:.6g}",
+            f"{stage.key}analysis.end_time",
+            f"{length:g} s is not a whole number of steps of {step:g} s: the last step is shorter",
+            f"take end_time = {stage.start_time + round(length / step) * step:.6g}",
         )
-    if not patient.is_dynamic:
+    if not stage.is_dynamic:
         return
-    yield _waves(patient, step)
+    key = f"{stage.key}analysis.time_step"
+    yield _waves(patient, step, key)
     durations = [patient.contact_duration(i) for i in range(len(patient.scenario.bodies))]
     shortest = min(durations)
     name = patient.scenario.bodies[durations.index(shortest)].name
@@ -42,23 +48,23 @@ def time_step(patient: Patient) -> Iterator[Finding]:
     if shortest < STEPS_PER_IMPACT * step:
         yield Finding(
             "warning",
-            "analysis.time_step",
+            key,
             fact,
             f"take a time_step of {shortest / STEPS_PER_IMPACT:.2g} s or less to see it",
         )
     else:
-        yield Finding("ok", "analysis.time_step", fact)
-    every = patient.scenario.output.resolved(analysis).history_every or end
-    if every > shortest / ROWS_PER_IMPACT:
+        yield Finding("ok", key, fact)
+    if stage.history_every > shortest / ROWS_PER_IMPACT:
         yield Finding(
             "advice",
-            "output.history_every",
-            f"the history has a row every {every:.3g} s, and an impact takes {shortest:.3g} s",
+            f"{stage.key}output.history_every",
+            f"the history has a row every {stage.history_every:.3g} s, and an impact takes "
+            f"{shortest:.3g} s",
             f"take history_every = {max(step, shortest / 50):.2g} to see how forces rise and fall",
         )
 
 
-def _waves(patient: Patient, step: float) -> Finding:
+def _waves(patient: Patient, step: float, key: str) -> Finding:
     suggested = patient.description["suggested_time_step"]
     ratio = step / suggested
     fact = (
@@ -67,8 +73,8 @@ def _waves(patient: Patient, step: float) -> Finding:
     )
     if ratio > COARSE_STEP:
         remedy = f"take about {suggested:.2g} s, or larger cells, if waves matter"
-        return Finding("warning", "analysis.time_step", f"{fact}: waves are not resolved", remedy)
+        return Finding("warning", key, f"{fact}: waves are not resolved", remedy)
     if ratio < FINE_STEP:
         remedy = f"take up to {suggested:.2g} s; a shorter step only costs time"
-        return Finding("advice", "analysis.time_step", fact, remedy)
-    return Finding("ok", "analysis.time_step", fact)
+        return Finding("advice", key, fact, remedy)
+    return Finding("ok", key, fact)

@@ -64,15 +64,15 @@ def units(patient: Patient) -> Iterator[Finding]:
                     "give moduli in Pa and the density in kg/m³"
                     + _likely_mix(speed, material.density),
                 )
-        velocity = math.hypot(*(body.velocity or ()))
-        if patient.is_dynamic and velocity > FAST * speed:
-            yield Finding(
-                "warning",
-                f"bodies.{index}.velocity",
-                f"{body.name} moves at {velocity:.4g} m/s, {velocity / speed:.2g} of its wave "
-                "speed: an impact strains it by about as much",
-                "check the velocity's unit (m/s); a law of small strains does not bear this",
-            )
+        for place, given in _velocities(patient, index):
+            if (velocity := math.hypot(*given)) > FAST * speed:
+                yield Finding(
+                    "warning",
+                    place,
+                    f"{body.name} moves at {velocity:.4g} m/s, {velocity / speed:.2g} of its wave "
+                    "speed: an impact strains it by about as much",
+                    "check the velocity's unit (m/s); a law of small strains does not bear this",
+                )
         if isinstance(body.mesh, MeshFile) and built["diameter"] > LARGE:
             yield Finding(
                 "warning",
@@ -80,14 +80,25 @@ def units(patient: Patient) -> Iterator[Finding]:
                 f"{body.name} is {built['diameter']:.4g} m large",
                 f"if its file is in millimetres, set scale = {body.mesh.scale * 1e-3:g}",
             )
-    gravity = math.hypot(*(patient.scenario.analysis.gravity or ()))
-    if gravity > STRONG_GRAVITY:
-        yield Finding(
-            "warning",
-            "analysis.gravity",
-            f"gravity is {gravity:.4g} m/s², that of the Earth is 9.81 m/s²",
-            "give it in m/s², not in mm/s²",
-        )
+    for stage in patient.stages:
+        gravity = math.hypot(*(stage.analysis.gravity or ()))
+        if gravity > STRONG_GRAVITY:
+            yield Finding(
+                "warning",
+                f"{stage.key}analysis.gravity",
+                f"gravity is {gravity:.4g} m/s², that of the Earth is 9.81 m/s²",
+                "give it in m/s², not in mm/s²",
+            )
+            return
+
+
+def _velocities(patient: Patient, body: int) -> Iterator[tuple[str, tuple[float, ...]]]:
+    """Yield the velocities that a body is given [m/s], with their keys."""
+    yield f"bodies.{body}.velocity", patient.scenario.bodies[body].velocity or ()
+    for stage in patient.stages:
+        for number, given in enumerate(stage.velocities):
+            if given.body == patient.scenario.bodies[body].name:
+                yield f"{stage.key}velocities.{number}.velocity", given.velocity or ()
 
 
 def shear_modulus(material: Material) -> float:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import io
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -93,6 +93,16 @@ def write_checkpoint(directory: Path, checkpoint: Checkpoint) -> None:
     if latest.exists():
         latest.replace(directory / layout.PREVIOUS_CHECKPOINT)
     fresh.replace(latest)
+
+
+def write_end_state(directory: Path, checkpoint: Checkpoint) -> None:
+    """Write the state of a checkpoint, and nothing of what only a run that goes on needs."""
+    arrays = {
+        name: values
+        for name, values in checkpoint.arrays.items()
+        if name == "schema" or name.startswith("state/")
+    }
+    write_whole(directory / layout.END_STATE, _packed(replace(checkpoint, arrays=arrays)))
 
 
 def read_checkpoint(path: Path) -> Checkpoint:

@@ -27,6 +27,9 @@ PREVIOUS_CHECKPOINT = "checkpoint-previous.h5"
 FRESH_CHECKPOINT = "checkpoint-fresh.h5"
 """A whole one that has not taken the place of the last yet."""
 
+END_STATE = "end_state.h5"
+"""The state in which a completed run ended, from which another case may go on."""
+
 UNFINISHED = ".unfinished"
 """What ends the name of a file that is being written."""
 
@@ -48,6 +51,7 @@ _NAMES = (
     FIELDS,
     SURFACE,
     AUDIT,
+    END_STATE,
     ENERGY_PLOT,
     REPORT,
     FAILED_PROBLEM,
@@ -92,7 +96,7 @@ def clear(directory: Path) -> None:
 
 def forget_outcome(directory: Path) -> None:
     """Remove what is written at the end of a run, and what was being written when it stopped."""
-    for name in (SUMMARY, ENERGY_PLOT, REPORT, FAILED_PROBLEM):
+    for name in (SUMMARY, END_STATE, ENERGY_PLOT, REPORT, FAILED_PROBLEM):
         (directory / name).unlink(missing_ok=True)
     for name in (*_NAMES, PROGRESS):
         (directory / f"{name}{UNFINISHED}").unlink(missing_ok=True)

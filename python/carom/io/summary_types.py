@@ -105,6 +105,21 @@ class WarningSummary(TypedDict):
     allowed: float | None
 
 
+class StageSummary(TypedDict):
+    """What came out of a stage: its own books, from its start to its end."""
+
+    name: str
+    start_time: float
+    end_time: float
+    time_step: float
+    steps: int
+    newton_iterations: int
+    retried_steps: int
+    energy: EnergySummary
+    bodies: list[BodySummary]
+    pairs: list[PairSummary]
+
+
 class Summary(TypedDict):
     """What came out of a run, in a page."""
 
@@ -130,6 +145,7 @@ class Summary(TypedDict):
     penetration: NotRequired[PenetrationSummary]
     cross_check: CrossCheckSummary | None
     contacts: list[ContactEvent]
+    stages: NotRequired[list[StageSummary]]
     files: NotRequired[dict[str, str]]
     warnings: NotRequired[list[WarningSummary]]
     wall_s: float

@@ -112,6 +112,46 @@ def pair_table(summary: Summary) -> Html | None:
     )
 
 
+_STAGE = (("start_time", "from [s]"), ("end_time", "to [s]"), ("steps", "steps"))
+_STAGE_ENERGY = (
+    ("initial", "energy at the start [J]"),
+    ("final", "at the end [J]"),
+    *((term.name, term.label) for term in terms("run") if term.side != "stored"),
+    ("max_defect", "largest defect"),
+)
+
+
+def stage_table(summary: Summary) -> Html | None:
+    """Return the books of every stage."""
+    stages = summary.get("stages")
+    if not stages:
+        return None
+    shown = [
+        (name, label)
+        for name, label in _STAGE_ENERGY
+        if name in ("initial", "final") or any(stage["energy"][name] for stage in stages)
+    ]
+    titles = [label for _, label in (*_STAGE, *shown)]
+    head = element(
+        "tr",
+        element("th", "stage", scope="col"),
+        *(element("th", title, scope="col", class_="number") for title in titles),
+    )
+    rows = []
+    for index, stage in enumerate(stages):
+        key = f"stages.{index}."
+        cells = [number(stage[name], key + name) for name, _ in _STAGE]
+        cells += [number(stage["energy"][name], f"{key}energy.{name}") for name, _ in shown]
+        rows.append(
+            element(
+                "tr",
+                element("th", stage["name"], scope="row"),
+                *(element("td", cell, class_="number") for cell in cells),
+            )
+        )
+    return element("table", element("thead", head), element("tbody", *rows))
+
+
 def _books(
     summary: Summary, part: str, named: Callable[[Summary], str], skip: tuple[str, ...]
 ) -> Html | None:

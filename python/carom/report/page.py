@@ -24,6 +24,7 @@ from carom.report.number_tables import (
     contact_table,
     energy_table,
     pair_table,
+    stage_table,
 )
 from carom.report.obstacles import obstacles
 from carom.report.source import UNFINISHED, Source
@@ -89,6 +90,7 @@ def page(source: Source) -> str:
         head=_head(source),
         figures=key_figures(source.summary) if source.summary else "",
         energy=_section("Where the energy went", "energy-table", energy_table(source.summary)),
+        stages=_section("Books of the stages", "stage-table", stage_table(source.summary)),
         contacts=_section("Contact events", "contact-table", contact_table(source.summary)),
         bodies=_section("Books of the bodies", "body-table", body_table(source.summary)),
         pairs=_section("Books of the pairs", "pair-table", pair_table(source.summary)),

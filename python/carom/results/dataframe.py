@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from carom.results.result import Result
 
-Table = Literal["history", "ledger", "contacts", "bodies", "pairs"]
+Table = Literal["history", "ledger", "contacts", "bodies", "pairs", "stages"]
 """What there is, see `Result.to_pandas`."""
 
 
@@ -45,7 +45,15 @@ def data_frame(result: Result, table: Table) -> pandas.DataFrame:
         ]
         columns = ["first", "second", *ledger_terms.names("pair"), "has_touched"]
         frame = pd.DataFrame(books, columns=columns).set_index(["first", "second"])
+    elif table == "stages":
+        plain = ["name", "start_time", "end_time", "steps"]
+        stages = [
+            {**{key: stage[key] for key in plain}, **stage["energy"]}  # type: ignore[literal-required]
+            for stage in summary.get("stages", [])
+        ]
+        columns = [*plain, "initial", "final", *ledger_terms.names("run"), "max_defect"]
+        frame = pd.DataFrame(stages, columns=columns).set_index("name")
     else:
-        names = ["history", "ledger", "contacts", "bodies", "pairs"]
+        names = ["history", "ledger", "contacts", "bodies", "pairs", "stages"]
         raise InputError(f"{table}: no such table; {known(table, names)}")
     return frame

@@ -46,6 +46,7 @@ def outcome(summary: Mapping[str, Any]) -> Rows:
     )
     yield "energy", f"{energy['initial']:.6g} J → {energy['final']:.6g} J"
     yield "friction", f"{energy['friction']:.6g} J dissipated"
+    yield from _stages(summary)
     yield "largest drift", f"{energy['max_drift']:.3g} J"
     yield "largest defect", f"{energy['max_defect']:.3g} J, of the energy ledger"
     yield (
@@ -59,6 +60,18 @@ def outcome(summary: Mapping[str, Any]) -> Rows:
         yield _cross_check(check)
     for warning in summary.get("warnings", ()):
         yield "warning", warning["message"]
+
+
+def _stages(summary: Mapping[str, Any]) -> Rows:
+    """Yield what came out of every stage."""
+    for stage in summary.get("stages", ()):
+        energy = stage["energy"]
+        yield (
+            f"stage {stage['name']}",
+            f"until {stage['end_time']:g} s in {count(stage['steps'], 'step')}, "
+            f"{energy['initial']:.6g} J → {energy['final']:.6g} J, friction "
+            f"{energy['friction']:.6g} J, largest defect {energy['max_defect']:.3g} J",
+        )
 
 
 def contact_events(summary: Mapping[str, Any]) -> Rows:

@@ -137,7 +137,8 @@ class Result:
             ``"history"``: the columns of ``history.csv`` by time. ``"ledger"``: the energy terms of
             bodies and pairs [J] by entry and time. ``"contacts"``: the contact events with onset
             and release [s], peak force [N] and friction work [J]. ``"bodies"`` and ``"pairs"``:
-            their energy terms at the end [J].
+            their energy terms at the end [J]. ``"stages"``: when each began and ended [s], its
+            steps and its own energy terms [J].
 
         Raises
         ------

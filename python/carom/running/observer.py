@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from carom.errors import InputError
-from carom.running.schedule import SLACK, Beat
+from carom.running.schedule import SLACK, Beat, StepBeat
 from carom.running.state import State
 
 
@@ -90,21 +90,20 @@ class Observing:
                     f"observers: {observer!r} says not when it is called; "
                     "give carom.Observer(look, every=…)"
                 )
-        analysis = state.scenario.analysis
-        slack = SLACK * analysis.time_step
         self._state = state
-        self._beats = [
-            (
-                observer.look,
-                Beat(
-                    observer.every or (observer.steps or 1) * analysis.time_step,
-                    slack=slack,
-                    time=state.time,
-                ),
-            )
-            for observer in observers
-        ]
-        self._end = analysis.end_time - slack
+        stages = state.scenario.full_stages()
+        slack = SLACK * min(stage.analysis.time_step for stage in stages)
+        self._beats: list[tuple[Callable[[State], object], Beat | StepBeat]] = []
+        for observer in observers:
+            beat: Beat | StepBeat
+            if observer.every is None:
+                steps = observer.steps or 1
+                beat = StepBeat(steps, stages=stages, done=state.steps)
+            else:
+                beat = Beat(observer.every, slack=slack, time=state.time)
+            self._beats.append((observer.look, beat))
+        last = stages[-1]
+        self._end = last.end_time - SLACK * last.analysis.time_step
 
     @property
     def next(self) -> float:
@@ -123,7 +122,10 @@ class Observing:
         """
         time, stop = self._state.time, None
         for look, beat in self._beats:
-            if not beat.is_due(time) and not starts and time < self._end:
+            is_due = (
+                beat.is_due(self._state.steps) if isinstance(beat, StepBeat) else beat.is_due(time)
+            )
+            if not is_due and not starts and time < self._end:
                 continue
             try:
                 look(self._state)

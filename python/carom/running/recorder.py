@@ -14,7 +14,7 @@ from carom.case.scenario import Scenario
 from carom.io import layout
 from carom.io.atomic import sync, write_whole
 from carom.io.audit import AuditWriter
-from carom.io.checkpoint import Checkpoint, write_checkpoint
+from carom.io.checkpoint import Checkpoint, write_checkpoint, write_end_state
 from carom.io.digest import digest
 from carom.io.frame_queue import Frame, FrameQueue
 from carom.io.history import HistoryWriter
@@ -153,6 +153,22 @@ class Recorder:
         names = [layout.HISTORY, layout.LEDGER, layout.FIELDS, layout.SURFACE]
         for name in [*names, layout.AUDIT] if self._queue.keeps_steps else names:
             sync(self._directory / name)
+        try:
+            checkpoint = self._made(frames_due)
+        except ValueError as error:
+            what = f"no checkpoint at t = {self._simulation.time:g} s: {error}"
+            self.doubt(Doubt("checkpoint-not-made", what, layout.CHECKPOINT))
+            return
+        write_checkpoint(self._directory, checkpoint)
+
+    def _made(self, frames_due: int) -> Checkpoint:
+        """Return the run as it is now.
+
+        Raises
+        ------
+        ValueError
+            That is no state to go on from.
+        """
         record = {
             "history": (self._directory / layout.HISTORY).stat().st_size,
             "ledger": (self._directory / layout.LEDGER).stat().st_size,
@@ -163,18 +179,7 @@ class Recorder:
             "wall": self.wall,
             "warnings": [doubt.as_summary() for doubt in self._doubts],
         }
-        try:
-            arrays = self._simulation.checkpoint()
-        except ValueError as error:
-            self.doubt(
-                Doubt(
-                    "checkpoint-not-made",
-                    f"no checkpoint at t = {self._simulation.time:g} s: {error}",
-                    layout.CHECKPOINT,
-                )
-            )
-            return
-        write_checkpoint(self._directory, Checkpoint(case=self._case, record=record, arrays=arrays))
+        return Checkpoint(case=self._case, record=record, arrays=self._simulation.checkpoint())
 
     def __enter__(self) -> Self:
         return self
@@ -244,6 +249,8 @@ class Recorder:
         # A step that failed has overwritten the start of the last good one.
         self._frame(with_step=status != "failed")
         self._queue.flush()
+        if status == "completed":
+            self._end_state()
         native = self._simulation.summary()
         summary = {
             "status": status,
@@ -264,6 +271,16 @@ class Recorder:
         for doubt in new:
             self._notify(doubt)
         return result
+
+    def _end_state(self) -> None:
+        """Write the state from which other cases may go on."""
+        try:
+            end = self._made(self._frames)
+        except ValueError as error:
+            what = f"no state at the end for others to go on from: {error}"
+            self.doubt(Doubt("end-state-not-made", what, layout.END_STATE))
+            return
+        write_end_state(self._directory, end)
 
 
 def conclude(directory: Path, *, reports: bool) -> Result:

@@ -2,46 +2,24 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from carom._carom import Simulation
-from carom.case.obstacle import RigidSurface
+from carom.building.identity import difference, what_counts
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.checkpoint import Checkpoint, DamagedError, read_checkpoint
 from carom.io.progress import refuse_running
 from carom.io.summary import read_summary
-from carom.messages import show
 from carom.results.doubts import Doubt
 from carom.results.result import Result, read_case
 from carom.running.recorder import conclude
 
 Notify = Callable[[Doubt], None]
 """What is told that the user should know something."""
-
-
-def identity(scenario: Scenario, simulation: Simulation) -> dict[str, Any]:
-    """Return what two runs must have in common for one to go on where the other stopped.
-
-    Meshes and surfaces out of files count by what is in them, not by where they are. How often
-    checkpoints are made and whether there is a report changes no number and does not count.
-    """
-    case = _what_counts(scenario)
-    for index, obstacle in enumerate(scenario.obstacles):
-        if isinstance(obstacle, RigidSurface):
-            content = Path(obstacle.file).read_bytes()
-            case["obstacles"][index]["file"] = hashlib.sha256(content).hexdigest()
-    for body in case["bodies"]:
-        body["mesh"].pop("file", None)
-    mesh = hashlib.sha256()
-    for _, array in sorted(simulation.mesh().items()):
-        mesh.update(array.tobytes())
-    return {"case": case, "meshes": mesh.hexdigest()}
 
 
 def ended(directory: Path, scenario: Scenario) -> Result | None:
@@ -116,47 +94,16 @@ def refuse_other_results(directory: Path, scenario: Scenario) -> None:
     """
     if not layout.has_results(directory) or not (directory / layout.CASE).exists():
         return
-    here, there = (_what_counts(case) for case in (scenario, read_case(directory)))
+    here, there = (what_counts(case) for case in (scenario, read_case(directory)))
     _refuse_another(directory, here, there)
 
 
-def _what_counts(scenario: Scenario) -> dict[str, Any]:
-    """Return a scenario as plain data, without what changes no number of its results."""
-    case: dict[str, Any] = json.loads(scenario.to_json())
-    for key in ("checkpoint_every", "report"):
-        case["output"].pop(key, None)
-    return case
-
-
-def _refuse_another(directory: Path, here: dict[str, Any], there: Mapping[str, Any]) -> None:
+def _refuse_another(directory: Path, here: Mapping[str, Any], there: Mapping[str, Any]) -> None:
     """Refuse to go on with a run of another case, and say where they differ."""
-    ours, theirs = dict(_leaves(here)), dict(_leaves(there))
-    keys = [key for key in {**theirs, **ours} if ours.get(key) != theirs.get(key)]
-    if not keys:
+    if (found := difference(here, there)) is None:
         return
-    key = keys[0].removeprefix("case.")
-    if key == "meshes":
-        what = "the meshes of the bodies are others"
-    else:
-        now, then = (show(leaves.get(keys[0], "absent")) for leaves in (ours, theirs))
-        what = f"{key} = {now}, there it is {then}"
-    more = f" (and {len(keys) - 1} more)" if len(keys) > 1 else ""
+    key, what = found
     raise InputError(
-        f"{directory} is the run of another case: {what}{more}; give that case, "
-        "or choose another --out",
+        f"{directory} is the run of another case: {what}; give that case, or choose another --out",
         key,
     )
-
-
-def _leaves(value: object, key: str = "") -> Iterator[tuple[str, object]]:
-    """Yield the values of nested tables and lists with their dotted keys."""
-    entries: Iterator[tuple[object, object]] | None = None
-    if isinstance(value, Mapping):
-        entries = iter(value.items())
-    elif isinstance(value, list):
-        entries = iter(enumerate(value))
-    if entries is None:
-        yield key, value
-        return
-    for name, member in entries:
-        yield from _leaves(member, f"{key}.{name}" if key else str(name))

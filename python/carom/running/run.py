@@ -14,6 +14,7 @@ from time import perf_counter
 from carom._carom import Simulation
 from carom.building.build import build
 from carom.building.checking import first_doubts
+from carom.building.identity import identity
 from carom.case.contact import FrictionSolver
 from carom.case.scenario import Scenario
 from carom.errors import (
@@ -30,7 +31,7 @@ from carom.results.doubts import Doubt, depth_of, too_deep, warn, written_doubts
 from carom.results.result import Result
 from carom.running.observer import Observer, ObserverError, Observing, Stop
 from carom.running.recorder import Recorder
-from carom.running.restart import Notify, ended, identity, latest, refuse_other_results
+from carom.running.restart import Notify, ended, latest, refuse_other_results
 from carom.running.schedule import Schedule
 from carom.running.state import State
 from carom.system.interrupt import Terminated
@@ -227,8 +228,7 @@ def _take(
             recorder.frame()
         recorder.checkpoint(frames_due=schedule.frames)
 
-    end_time = scenario.analysis.end_time
-    reporter = _Reporter(simulation, recorder, end_time=end_time, progress=progress)
+    reporter = _Reporter(simulation, recorder, end_time=scenario.end_time, progress=progress)
     try:
         _go(simulation, recorder, schedule, reporter, observing)
     except ConvergenceError as error:

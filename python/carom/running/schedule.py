@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 from time import perf_counter
 
+from carom.case.full_stage import FullStage
 from carom.case.scenario import Scenario
 
 WALL_INTERVAL = 600.0
@@ -46,6 +49,58 @@ class Beat:
         return math.floor((time + self._slack) / self._every)
 
 
+class StepBeat:
+    """Every so many steps of a run, whatever their length.
+
+    Parameters
+    ----------
+    steps
+        So many.
+    stages
+        The analyses of the case.
+    done
+        Steps that are done; those up to here are past.
+    """
+
+    def __init__(self, steps: int, *, stages: Sequence[FullStage], done: int) -> None:
+        self._steps, self._stages = steps, stages
+        self._past = done // steps
+
+    @property
+    def next(self) -> float:
+        """When the next is due [s]."""
+        left = (self._past + 1) * self._steps
+        for stage in self._stages:
+            count = math.ceil(stage.duration / stage.analysis.time_step - SLACK)
+            if left <= count:
+                return min(stage.start_time + left * stage.analysis.time_step, stage.end_time)
+            left -= count
+        return self._stages[-1].end_time
+
+    def is_due(self, done: int) -> bool:
+        """Return whether so many steps are enough for a new one, and count it."""
+        before, self._past = self._past, done // self._steps
+        return self._past > before
+
+
+@dataclass(frozen=True)
+class _Frames:
+    """The frames of an analysis after that at its start."""
+
+    start: float
+    end: float
+    every: float
+    slack: float
+
+    @property
+    def count(self) -> int:
+        """How many there are; none for a rest that is only round-off."""
+        return math.ceil((self.end - self.start) / self.every * (1 - 1e-9))
+
+    def time(self, number: int) -> float:
+        return self.start + number * self.every if number < self.count else self.end
+
+
 class Schedule:
     """When the next frame of fields is due, and the next checkpoint.
 
@@ -60,13 +115,15 @@ class Schedule:
     """
 
     def __init__(self, scenario: Scenario, *, time: float, frames: int) -> None:
-        self._end = scenario.analysis.end_time
-        self._slack = SLACK * scenario.analysis.time_step
-        self._every = scenario.output.resolved(scenario.analysis).fields_every or self._end
-        # No frame for a rest that is only round-off.
-        self._count = math.ceil(self._end / self._every * (1 - 1e-9))
+        stages = scenario.full_stages()
+        self._parts = [
+            _Frames(s.start_time, s.end_time, s.fields_every, SLACK * s.analysis.time_step)
+            for s in stages
+        ]
+        self._count = sum(part.count for part in self._parts)
         every = scenario.output.checkpoint_every
-        self._checkpoints = None if every is None else Beat(every, slack=self._slack, time=time)
+        slack = min(part.slack for part in self._parts)
+        self._checkpoints = None if every is None else Beat(every, slack=slack, time=time)
         self._wall = perf_counter()
         self.frames = frames
         """Frames after the first that were due so far."""
@@ -79,13 +136,16 @@ class Schedule:
     @property
     def next(self) -> float:
         """Time of what is due next [s]."""
-        frame = self._frame_time(self.frames + 1)
+        frame, _ = self._frame(self.frames + 1)
         return frame if self._checkpoints is None else min(frame, self._checkpoints.next)
 
     def frame_is_due(self, time: float) -> bool:
         """Return whether a frame is due at a time [s], and count it."""
         before = self.frames
-        while not self.has_ended and time >= self._frame_time(self.frames + 1) - self._slack:
+        while not self.has_ended:
+            frame, slack = self._frame(self.frames + 1)
+            if time < frame - slack:
+                break
             self.frames += 1
         return self.frames > before
 
@@ -101,5 +161,11 @@ class Schedule:
         self._wall = now
         return True
 
-    def _frame_time(self, frame: int) -> float:
-        return frame * self._every if frame < self._count else self._end
+    def _frame(self, number: int) -> tuple[float, float]:
+        """Return when a frame is due, and what it may be early by [s]."""
+        for part in self._parts[:-1]:
+            if number <= part.count:
+                return part.time(number), part.slack
+            number -= part.count
+        last = self._parts[-1]
+        return last.time(number), last.slack

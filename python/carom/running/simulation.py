@@ -80,7 +80,7 @@ class Simulation(State):
 
     @property
     def has_ended(self) -> bool:
-        """Whether ``analysis.end_time`` is reached."""
+        """Whether the end of the case is reached."""
         return self._native.step >= self._native.steps
 
     def step(self) -> Step:
@@ -159,8 +159,13 @@ class Simulation(State):
         """
         if body not in self.bodies:
             raise InputError(f"{body}: no such body; {known(body, list(self.bodies))}")
-        if self.scenario.analysis.kind != "dynamic":
+        if not self.scenario.full_stages()[0].is_dynamic:
             raise InputError("a static analysis has no velocities")
+        if self.scenario.initial is not None and self.scenario.initial.result is not None:
+            raise InputError(
+                f"{body}: the case goes on from a result, with the velocities of that; give others "
+                "in the velocities of a stage"
+            )
         if self.steps > 0:
             raise InputError(
                 f"{body}: velocities are set before the first step; afterwards the energy would "

@@ -173,6 +173,11 @@ class State:
         return self._native.step
 
     @property
+    def stage(self) -> str:
+        """Name of the stage that the run is in; empty in a case without stages."""
+        return self._scenario.full_stages()[self._native.stage].name
+
+    @property
     def energy(self) -> Energy:
         """Kinetic and strain energy."""
         now = self._native.progress()

@@ -257,7 +257,8 @@ def test_a_checkpoint_that_cannot_be_made_is_told_and_written_down(tmp_path, mon
     case = scenario("analysis.end_time=0.05")
     with pytest.warns(carom.CaromWarning, match="no checkpoint at t = 0.02 s: the state") as caught:
         result = drive(Forgetful(build(case), []), case, tmp_path)
-    assert codes(result) == ["checkpoint-not-made", "checkpoint-not-made"]
+    assert codes(result) == [*["checkpoint-not-made"] * 2, "end-state-not-made"]
+    assert not (tmp_path / "end_state.h5").exists()
     assert {one.filename for one in caught} == {__file__}
 
 

@@ -29,6 +29,7 @@ def test_completed_run_writes_everything(scenario, tmp_path):
 
     assert sorted(file.name for file in out.iterdir()) == [
         "case.toml",
+        "end_state.h5",
         "energy.png",
         "fields.vtkhdf",
         "history.csv",

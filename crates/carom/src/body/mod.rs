@@ -72,6 +72,8 @@ pub struct BodyState<'a, const D: usize> {
     pub internal_force: &'a [Vector<D>],
     /// Contact forces [N].
     pub contact_force: &'a [Vector<D>],
+    /// u where the motion that is prescribed now began [m]; of no use where none is.
+    pub anchor: &'a [Vector<D>],
     /// What its material remembers; empty where it remembers nothing.
     pub history: &'a [PlasticState],
     /// Its energies [J].
@@ -156,8 +158,8 @@ pub trait Body<const D: usize>: Send + Sync {
         Vec::new()
     }
 
-    /// Makes the velocities [m/s] at t = 0 obey what binds and drives the nodes.
-    fn constrain(&self, _velocity: &mut [Vector<D>]) {}
+    /// Makes the velocities [m/s] at time `t` [s] obey what binds and drives the nodes.
+    fn constrain(&self, _velocity: &mut [Vector<D>], _t: f64) {}
 
     /// Writes ∂E/∂u [N] at `state`, whose own forces and energies are not read, and returns its energies.
     fn measure(&self, state: &BodyState<'_, D>, internal_force: &mut [Vector<D>]) -> Energies;

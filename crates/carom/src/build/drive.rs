@@ -15,7 +15,7 @@ const AT_START: f64 = 1e-12;
 
 /// The model with everything that drives it.
 pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Result<Model<D>, InputError> {
-    let end = scenario.analysis.end_time;
+    let span = scenario.analysis.span();
     let mut motions: Vec<Motion<D>> = Vec::new();
     for (k, entry) in scenario.motions.iter().enumerate() {
         let key = format!("motions.{k}");
@@ -28,15 +28,16 @@ pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Res
         })?;
         let components = match &entry.motion {
             MotionSpec::Fixed { components } => fixed(&key, components.as_deref())?,
-            MotionSpec::Prescribed(d) => displacement(&key, d, end, model.assembly.size)?,
+            MotionSpec::Prescribed(d) => displacement(&key, d, span, entry.since, model.assembly.size)?,
         };
-        let motion = Motion { name: name(&motions, &entry.body, &entry.on), body: index, nodes, components };
+        let name = name(&motions, &entry.body, &entry.on);
+        let motion = Motion { name, body: index, nodes, components, since: entry.since };
         refuse_contradictions(&key, &motions, &motion, model.bodies[index].body.mesh().masters().as_slice())?;
         motions.push(motion);
     }
     let mut obstacle_motions = Vec::new();
     for (k, entry) in scenario.obstacles.iter().enumerate() {
-        obstacle_motions.push(obstacle_motion(&format!("obstacles.{k}"), entry, end, model.assembly.size)?);
+        obstacle_motions.push(obstacle_motion(&format!("obstacles.{k}"), entry, span, model.assembly.size)?);
     }
     let mut model = model.with_motions(motions).with_obstacle_motions(obstacle_motions);
     for (k, entry) in scenario.loads.iter().enumerate() {
@@ -50,14 +51,14 @@ pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Res
                         format!("{:?}: body {:?} has no such set; known are {known:?}", entry.on, entry.body);
                     InputError::new(format!("{key}.on"), message)
                 })?;
-                Load::nodal_force(&nodes, signals(&format!("{key}.force"), force, end)?)
+                Load::nodal_force(&nodes, signals(&format!("{key}.force"), force, span)?)
             }
             LoadSpec::Traction { traction } => {
-                let traction = signals(&format!("{key}.traction"), traction, end)?;
+                let traction = signals(&format!("{key}.traction"), traction, span)?;
                 Load::traction(&body.body, facets(&key, body, &entry.on)?, traction)
             }
             LoadSpec::Pressure { pressure, follower } => {
-                let pressure = signal(&format!("{key}.pressure"), pressure, end)?;
+                let pressure = signal(&format!("{key}.pressure"), pressure, span)?;
                 let facets = facets(&key, body, &entry.on)?;
                 if *follower {
                     Load::follower_pressure(&body.body, facets, pressure)
@@ -121,11 +122,12 @@ fn fixed<const D: usize>(key: &str, components: Option<&[Axis]>) -> Result<[Opti
     Ok(signals)
 }
 
-/// The displacement under `key`, which starts from zero.
+/// The displacement under `key`, which starts from zero at the time `since` [s] in a model of this `size` [m].
 fn displacement<const D: usize>(
     key: &str,
     spec: &Displacement,
-    end: f64,
+    span: [f64; 2],
+    since: f64,
     size: f64,
 ) -> Result<[Option<Signal>; D], InputError> {
     let mut signals = std::array::from_fn(|_| None);
@@ -135,17 +137,25 @@ fn displacement<const D: usize>(
         let place = signals
             .get_mut(i)
             .ok_or_else(|| InputError::new(&key, format!("there are {D} dimensions; leave it out")))?;
-        let signal = signal(&key, spec, end)?;
-        let start = signal.at(0.0);
+        let signal = signal(&key, spec, span)?;
+        let start = signal.at(since);
         if start.value.abs() > AT_START * size {
-            let message = format!(
-                "the displacement at t = 0 is {} m, where the run starts from none; let it grow from 0, as t*{0} does",
-                start.value
-            );
+            let message = if since == 0.0 {
+                format!(
+                    "the displacement at t = 0 is {} m, where the run starts from none; let it grow from 0, as t*{0} does",
+                    start.value
+                )
+            } else {
+                format!(
+                    "the displacement at t = {since} s is {} m, where it counts from none: it is the displacement since then; let it \
+                     grow from 0, as (t - {since})*{0} does",
+                    start.value
+                )
+            };
             return Err(InputError::new(&key, message));
         }
         if !start.rate.is_finite() {
-            let message = format!("the velocity at t = 0 is {} m/s: it must be finite", start.rate);
+            let message = format!("the velocity at t = {since} is {} m/s: it must be finite", start.rate);
             return Err(InputError::new(&key, message));
         }
         *place = Some(signal);
@@ -165,7 +175,7 @@ fn refuse_contradictions<const D: usize>(
 ) -> Result<(), InputError> {
     for (k, other) in before.iter().enumerate().filter(|(_, m)| m.body == motion.body) {
         let clash = (0..D).find(|&i| match (&motion.components[i], &other.components[i]) {
-            (Some(a), Some(b)) => a != b,
+            (Some(a), Some(b)) => a != b || (motion.since != other.since && !a.is_zero()),
             _ => false,
         });
         let Some(component) = clash else { continue };
@@ -187,7 +197,7 @@ fn refuse_contradictions<const D: usize>(
 fn obstacle_motion<const D: usize>(
     key: &str,
     entry: &ObstacleEntry,
-    end: f64,
+    span: [f64; 2],
     size: f64,
 ) -> Result<ObstacleMotion<D>, InputError> {
     match (&entry.velocity, &entry.motion) {
@@ -197,7 +207,7 @@ fn obstacle_motion<const D: usize>(
         }
         (Some(v), None) => vector(&format!("{key}.velocity"), v).map(ObstacleMotion::Velocity),
         (None, Some(motion)) => {
-            let signals = displacement::<D>(&format!("{key}.motion"), motion, end, size)?;
+            let signals = displacement::<D>(&format!("{key}.motion"), motion, span, 0.0, size)?;
             let still = || Signal::Constant(0.0);
             Ok(ObstacleMotion::Displacement(Box::new(signals.map(|s| s.unwrap_or_else(still)))))
         }

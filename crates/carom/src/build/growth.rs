@@ -16,10 +16,9 @@ pub(super) fn growth(
 ) -> Result<Option<Signal>, InputError> {
     let Some(spec) = &entry.growth else { return Ok(None) };
     let key = format!("bodies.{index}.growth");
-    let (end, step) = (scenario.analysis.end_time, scenario.analysis.time_step);
-    let growth = signal(&key, spec, end)?;
-    let steps = (end / step).ceil() as u64;
-    for t in (0..=steps).map(|k| (k as f64 * step).min(end)) {
+    let analysis = &scenario.analysis;
+    let growth = signal(&key, spec, analysis.span())?;
+    for t in analysis.moments() {
         let value = growth.at(t).value;
         if !(LEAST..=LARGEST).contains(&value) {
             let message = format!(
@@ -29,7 +28,7 @@ pub(super) fn growth(
         }
     }
     let start = growth.at(0.0).value;
-    if scenario.analysis.kind == AnalysisKind::Dynamic && start != 0.0 {
+    if analysis.kind == AnalysisKind::Dynamic && analysis.starts_from_nothing() && start != 0.0 {
         let message = format!(
             "{start} at t = 0, where a dynamic analysis starts from none; let it grow from 0, as t*{start} does"
         );

@@ -28,13 +28,14 @@ pub(super) fn interference<const D: usize>(
         let mut interference = Interference::default();
         if let Some((i, spec)) = entry.and_then(|(i, entry)| Some((i, entry.interference.as_ref()?))) {
             let key = format!("contact.pairs.{i}.interference");
-            let signal = signal(&key, spec, scenario.analysis.end_time)?;
+            let signal = signal(&key, spec, scenario.analysis.span())?;
             interference.signal = Some(signal);
             check_clearance(&key, scenario, &model, k, &interference)?;
         }
         let own = entry.and_then(|(_, entry)| entry.resolve_overlap);
         if own.unwrap_or(scenario.contact.resolve_overlap) {
-            if scenario.analysis.kind == AnalysisKind::Dynamic {
+            let analysis = &scenario.analysis;
+            if analysis.kind == AnalysisKind::Dynamic && analysis.starts_from_nothing() {
                 let key = match (own, entry) {
                     (Some(_), Some((i, _))) => format!("contact.pairs.{i}.resolve_overlap"),
                     _ => "contact.resolve_overlap".to_string(),
@@ -89,10 +90,7 @@ fn check_clearance<const D: usize>(
     named_pair: usize,
     interference: &Interference,
 ) -> Result<(), InputError> {
-    let (end, step) = (scenario.analysis.end_time, scenario.analysis.time_step);
-    let steps = (end / step).ceil();
-    let times = (0..=steps as u64).map(|k| (k as f64 * step).min(end));
-    let least = times.map(|t| interference.least(t)).fold(0.0, f64::min);
+    let least = scenario.analysis.moments().map(|t| interference.least(t)).fold(0.0, f64::min);
     let deepest = DEEPEST * smallest_facet(model, named_pair);
     if -least > deepest {
         let message = format!(

@@ -3,15 +3,17 @@ use carom_friction::{Criterion, StoppingRule};
 use super::values::number;
 use crate::error::InputError;
 use crate::model::method::{Method, NewtonRule};
-use crate::scenario::{AnalysisKind, Scenario, Spin, Stabilisation};
+use crate::scenario::{AnalysisKind, SLACK, Scenario, Spin, Stabilisation};
 use crate::{ContactCondition, Scheme};
 
 /// How the scenario is taken through time.
 pub(super) fn method<const D: usize>(scenario: &Scenario) -> Result<Method<D>, InputError> {
     let analysis = &scenario.analysis;
-    let (dt, end) = (analysis.time_step, analysis.end_time);
+    let (dt, [start, end]) = (analysis.time_step, analysis.span());
     number("analysis.time_step", dt, dt > 0.0, "the time step must be greater than 0 s")?;
-    number("analysis.end_time", end, end >= dt, "the end time must be at least one time step")?;
+    number("analysis.start_time", start, start >= 0.0, "the start must not be before 0 s")?;
+    let is_one = end >= start + dt * (1.0 - SLACK);
+    number("analysis.end_time", end, is_one, "the end time must be at least one time step after the start")?;
     let scheme = match analysis.kind {
         AnalysisKind::Dynamic => analysis.scheme,
         AnalysisKind::Static => Scheme::Static,

@@ -20,6 +20,7 @@ use carom_mesh::{Mesh, Vector};
 
 pub use self::obstacle::Surfaces;
 use self::values::vector;
+pub(crate) use self::velocity::RigidMotion;
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::Model;
@@ -38,15 +39,53 @@ pub fn build<const D: usize>(
     scenario: &Scenario,
     meshes: Meshes<D>,
 ) -> Result<(Model<D>, Method<D>, State<D>), InputError> {
-    build_with_surfaces(scenario, meshes, Surfaces::new())
+    let Built { model, method, motions } = built(scenario, meshes, Surfaces::new())?;
+    let state = start(&model, &method, &motions, scenario.analysis.start_time)?;
+    Ok((model, method, state))
 }
 
-/// [`build`] with obstacles whose triangles are not in the scenario itself.
-pub(crate) fn build_with_surfaces<const D: usize>(
+/// The state at `time` [s] in which bodies are as they are drawn, and move like this unless the analysis is static.
+///
+/// # Errors
+/// If its energy is not finite.
+pub(crate) fn start<const D: usize>(
+    model: &Model<D>,
+    method: &Method<D>,
+    motions: &[RigidMotion<D>],
+    time: f64,
+) -> Result<State<D>, InputError> {
+    let moving = model.bodies.iter().zip(motions);
+    let mut state = match method.scheme {
+        Scheme::Static => model.state_at_rest(),
+        _ => model.initial_state(
+            moving.flat_map(|(b, motion)| motion.velocities(&b.body, b.body.mesh().nodes())).collect(),
+        ),
+    };
+    state.time = time;
+    if state.is_finite() {
+        return Ok(state);
+    }
+    let message = "the initial energy is not finite; check velocities and material constants";
+    Err(InputError::new("bodies", message))
+}
+
+/// What a scenario describes but for the state that it starts from.
+pub(crate) struct Built<const D: usize> {
+    pub model: Model<D>,
+    pub method: Method<D>,
+    /// How its bodies are made to move at the start.
+    pub motions: Vec<RigidMotion<D>>,
+}
+
+/// Builds model and method. Whether bodies overlap is asked of those alone that are as they are drawn.
+///
+/// # Errors
+/// See [`build`].
+pub(crate) fn built<const D: usize>(
     scenario: &Scenario,
     mut meshes: Meshes<D>,
     surfaces: Surfaces<D>,
-) -> Result<(Model<D>, Method<D>, State<D>), InputError> {
+) -> Result<Built<D>, InputError> {
     if scenario.dimension != D {
         return Err(InputError::new(
             "dimension",
@@ -76,17 +115,9 @@ pub(crate) fn build_with_surfaces<const D: usize>(
     }
     let model = drive::drive(scenario, Model::new(bodies, contact, named_pairs, gravity))?;
     let model = interference::interference(scenario, model)?;
-    overlaps::check_overlaps(scenario, &model)?;
-    let velocity = velocity::initial_velocity(scenario, &model)?;
-    let state = match method.scheme {
-        Scheme::Static => model.state_at_rest(),
-        _ => model.initial_state(velocity),
-    };
-    if !state.is_finite() {
-        return Err(InputError::new(
-            "bodies",
-            "the initial energy is not finite; check velocities and material constants",
-        ));
+    if scenario.analysis.starts_from_nothing() {
+        overlaps::check_overlaps(scenario, &model)?;
     }
-    Ok((model, method, state))
+    let motions = velocity::rigid_motions(scenario, &model)?;
+    Ok(Built { model, method, motions })
 }

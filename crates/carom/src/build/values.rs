@@ -20,7 +20,7 @@ pub(crate) fn vector<const D: usize>(key: &str, values: &[f64]) -> Result<Vector
 }
 
 /// A place as messages show it.
-pub(super) fn place<const D: usize>(x: &Vector<D>) -> String {
+pub(crate) fn place<const D: usize>(x: &Vector<D>) -> String {
     let components: Vec<String> = x.iter().map(|x| format!("{x:.6}")).collect();
     format!("({})", components.join(", "))
 }

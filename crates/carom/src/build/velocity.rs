@@ -1,3 +1,4 @@
+use carom_fem::Body;
 use carom_mesh::{Vector, tensor};
 
 use super::values::{number, vector};
@@ -5,12 +6,29 @@ use crate::error::InputError;
 use crate::model::Model;
 use crate::scenario::{Scenario, Spin};
 
+/// How a body moves that moves as if it were rigid.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RigidMotion<const D: usize> {
+    /// Velocity of the centre of mass [m/s].
+    drift: Vector<D>,
+    /// Angular velocity about it [rad/s].
+    spin: [f64; 3],
+}
+
+impl<const D: usize> RigidMotion<D> {
+    /// The velocities [m/s] of the nodes of a `body` at these `positions` [m].
+    pub fn velocities(&self, body: &Body<D>, positions: &[Vector<D>]) -> impl Iterator<Item = Vector<D>> {
+        let centre = body.mean(positions);
+        positions.iter().map(move |x| self.drift + tensor::rotation_velocity(&self.spin, &(x - centre)))
+    }
+}
+
 /// Translation and spin about the centre of mass of every body.
-pub(super) fn initial_velocity<const D: usize>(
+pub(super) fn rigid_motions<const D: usize>(
     scenario: &Scenario,
     model: &Model<D>,
-) -> Result<Vec<Vector<D>>, InputError> {
-    let mut velocity = Vec::with_capacity(model.node_count());
+) -> Result<Vec<RigidMotion<D>>, InputError> {
+    let mut motions = Vec::with_capacity(model.bodies.len());
     for (i, (entry, b)) in scenario.bodies.iter().zip(&model.bodies).enumerate() {
         let drift: Vector<D> = match &entry.velocity {
             Some(v) => vector(&format!("bodies.{i}.velocity"), v)?,
@@ -39,9 +57,7 @@ pub(super) fn initial_velocity<const D: usize>(
         let free = b.body.mesh().ties().is_empty();
         number(&key, spin[2], free || still, "a periodic body cannot spin; give 0")?;
         number(&key, spin[2], !axial || still, "an axisymmetric body cannot spin; give 0")?;
-        let nodes = b.body.mesh().nodes();
-        let centre = b.body.mean(nodes);
-        velocity.extend(nodes.iter().map(|x| drift + tensor::rotation_velocity(&spin, &(x - centre))));
+        motions.push(RigidMotion { drift, spin });
     }
-    Ok(velocity)
+    Ok(motions)
 }

@@ -8,6 +8,8 @@ mod factors;
 mod progress;
 mod state;
 
+use carom_mesh::Vector;
+
 use crate::Simulation;
 use crate::archive::{Archive, Checkpoint, CheckpointError};
 
@@ -34,15 +36,56 @@ impl<const D: usize> Simulation<D> {
         Ok(())
     }
 
-    fn exchange(&mut self, archive: &mut Archive<'_>) -> Result<(), CheckpointError> {
-        let mut schema = Checkpoint::SCHEMA;
-        archive.integers("schema", [&mut schema])?;
-        if schema != Checkpoint::SCHEMA {
-            let what = format!("is {schema}, this version reads {}", Checkpoint::SCHEMA);
-            return Err(CheckpointError::new("schema", what));
+    /// Starts from the state that a run of the same bodies, obstacles and pairs ended in, which is in a `checkpoint` of it. The books begin anew, and
+    /// what is prescribed counts from there.
+    ///
+    /// # Errors
+    /// If the state does not fit, or is of another time than the run starts at. The simulation is then of no use until another is given.
+    ///
+    /// # Panics
+    /// If steps were made already.
+    pub fn start_from(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
+        assert_eq!(self.step(), 0, "a state to start from belongs before the first step");
+        let mut archive = Archive::Replay(checkpoint);
+        schema(&mut archive)?;
+        let Self { state, stages, grid, .. } = self;
+        state.support.resize(archive.rows("state/support", 0)? / D, Vector::zeros());
+        state::exchange(&mut archive, &stages[0].model.assembly, state)?;
+        if state.time != grid.start_time {
+            let what = format!("is {} s, where the run starts at {} s", state.time, grid.start_time);
+            return Err(CheckpointError::new("state/time", what));
         }
-        state::exchange(archive, &self.model.assembly, &mut self.state)?;
-        progress::exchange(archive, self)?;
-        factors::exchange(archive, &self.method, &mut self.work)
+        state.friction_energy.fill(0.0);
+        state.slip.fill(0.0);
+        stages[0].begin(state);
+        self.restart();
+        Ok(())
     }
+
+    fn exchange(&mut self, archive: &mut Archive<'_>) -> Result<(), CheckpointError> {
+        schema(archive)?;
+        let mut stage = self.current;
+        archive.integers("run/stage", [&mut stage])?;
+        if stage >= self.stages.len() {
+            return Err(CheckpointError::new("run/stage", "is none of the case"));
+        }
+        if archive.replays() {
+            self.enter(stage);
+            self.stages[stage].model.take_over(&mut self.state);
+        }
+        state::exchange(archive, &self.stages[stage].model.assembly, &mut self.state)?;
+        progress::exchange(archive, self)?;
+        factors::exchange(archive, &self.stages[stage].method, &mut self.work)
+    }
+}
+
+/// Records the version of what is kept, or refuses another.
+fn schema(archive: &mut Archive<'_>) -> Result<(), CheckpointError> {
+    let mut schema = Checkpoint::SCHEMA;
+    archive.integers("schema", [&mut schema])?;
+    if schema == Checkpoint::SCHEMA {
+        return Ok(());
+    }
+    let what = format!("is {schema}, this version reads {}", Checkpoint::SCHEMA);
+    Err(CheckpointError::new("schema", what))
 }

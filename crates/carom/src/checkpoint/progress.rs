@@ -5,6 +5,7 @@ use carom_friction::SolverKind;
 
 use crate::archive::{Archive, CheckpointError};
 use crate::contact::cross_check::CrossCheckSummary;
+use crate::run::account::Account;
 use crate::run::events::{ContactEvent, EventLog};
 use crate::run::history::History;
 use crate::run::totals::{Totals, Worst};
@@ -22,22 +23,40 @@ pub(super) fn exchange<const D: usize>(archive: &mut Archive<'_>, run: &mut Simu
     archive.flags("run/asleep", &mut run.work.contacts.finder.asleep)?;
     archive.optional("run/last_recorded", [&mut run.last_recorded])?;
     archive.numbers("run/initial_energies", run.initial_energies.iter_mut().flat_map(|e| e.terms_mut()))?;
-    if run.grid.step > run.grid.steps || run.halvings > run.method.max_halvings {
+    if run.grid.step > run.grid.steps || run.halvings > run.stage().method.max_halvings {
         return Err(CheckpointError::new("run/step", "is beyond the end of the run"));
     }
-    books(archive, &mut run.books)?;
+    books(archive, "books", &mut run.books)?;
+    accounts(archive, run)?;
     totals(archive, &mut run.totals)?;
     cross_checks(archive, &mut run.cross_checks)?;
-    events(archive, &run.model.assembly.named_pairs, &mut run.events)?;
+    events(archive, &run.stages[run.current].model.assembly.named_pairs, &mut run.events)?;
     history(archive, &mut run.history)?;
     archive.pending("ledger/rows", &mut run.ledger_table.rows)
 }
 
-fn books(archive: &mut Archive<'_>, books: &mut Books) -> Done {
-    archive.numbers("books/total", books.total.terms_mut())?;
-    archive.numbers("books/bodies", books.bodies.iter_mut().flat_map(|b| b.terms_mut()))?;
-    archive.numbers("books/pairs", books.pairs.iter_mut().flat_map(|p| p.terms_mut()))?;
-    archive.flags("books/has_touched", books.pairs.iter_mut().map(|p| &mut p.has_touched))
+fn books(archive: &mut Archive<'_>, name: &str, books: &mut Books) -> Done {
+    archive.numbers(&format!("{name}/total"), books.total.terms_mut())?;
+    archive.numbers(&format!("{name}/bodies"), books.bodies.iter_mut().flat_map(|b| b.terms_mut()))?;
+    archive.numbers(&format!("{name}/pairs"), books.pairs.iter_mut().flat_map(|p| p.terms_mut()))?;
+    archive.flags(&format!("{name}/has_touched"), books.pairs.iter_mut().map(|p| &mut p.has_touched))
+}
+
+/// The books of every stage that has begun.
+fn accounts<const D: usize>(archive: &mut Archive<'_>, run: &mut Simulation<D>) -> Done {
+    let blank = Account::new(&run.initial_energies, run.books.pairs.len());
+    run.accounts.resize(run.current + 1, blank);
+    for (i, account) in run.accounts.iter_mut().enumerate() {
+        let name = format!("stages/{i}");
+        let counts = [&mut account.steps, &mut account.newton_iterations, &mut account.retried];
+        archive.integers(&format!("{name}/counts"), counts)?;
+        let sizes = [&mut account.max_drift, &mut account.max_defect, &mut account.max_step_defect];
+        archive.numbers(&format!("{name}/sizes"), sizes)?;
+        let energies = account.start.iter_mut().chain(&mut account.end);
+        archive.numbers(&format!("{name}/energies"), energies.flat_map(|e| e.terms_mut()))?;
+        books(archive, &name, &mut account.books)?;
+    }
+    Ok(())
 }
 
 fn totals(archive: &mut Archive<'_>, t: &mut Totals) -> Done {

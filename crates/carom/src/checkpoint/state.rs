@@ -18,6 +18,7 @@ pub(super) fn exchange<const D: usize>(
     archive.vectors("state/contact_force", &mut state.contact_force)?;
     archive.numbers("state/friction_energy", &mut state.friction_energy)?;
     archive.vectors("state/support", &mut state.support)?;
+    archive.vectors("state/anchor", &mut state.anchor)?;
     archive.numbers("state/slip", &mut state.slip)?;
     archive.vectors("state/internal_force", &mut state.internal_force)?;
     archive.numbers("state/energies", state.energies.terms_mut())?;

@@ -97,7 +97,7 @@ impl<const D: usize> Method<D> {
     }
 
     /// Whether the balance of massless contact nodes is closed by a blend of start and end stresses.
-    fn is_blended(&self) -> bool {
+    pub(crate) fn is_blended(&self) -> bool {
         self.scheme == Scheme::Conserving && self.condition.is_massless()
     }
 }

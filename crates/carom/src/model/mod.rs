@@ -122,6 +122,19 @@ impl<const D: usize> Model<D> {
         State::at_rest(&self.assembly, &self.stepping_bodies())
     }
 
+    /// Takes over a `state` from another model of the same bodies, obstacles and pairs. Nothing moves: what is prescribed from now on counts from
+    /// where the bodies are.
+    pub(crate) fn take_over(&self, state: &mut State<D>) {
+        state.support = vec![Vector::zeros(); self.assembly.supports];
+        for b in &self.bodies {
+            let driven = b.supports.driven(&b.body);
+            for (dof, _) in driven.filter(|&(_, motion)| self.motions[motion].since >= state.time) {
+                let (n, i) = (b.first_node + dof.node as usize, dof.component as usize);
+                state.anchor[n][i] = state.displacement[n][i];
+            }
+        }
+    }
+
     /// Number of nodes of the bodies.
     #[must_use]
     pub fn node_count(&self) -> usize {

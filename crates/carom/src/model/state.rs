@@ -64,6 +64,8 @@ pub struct State<const D: usize> {
     pub friction_energy: Vec<f64>,
     /// What the supports of every motion pressed on their nodes in the last step [N].
     pub support: Vec<Vector<D>>,
+    /// Displacements where the motion that is prescribed now began [m]: what is prescribed adds to them.
+    pub anchor: Vec<Vector<D>>,
     /// What the material of every body remembers, quadrature point by quadrature point; nothing where it is elastic.
     pub history: Vec<Vec<PlasticState>>,
     /// How far every node has slid along what it touches since the start [m], whichever way; where it touches several, their mean.
@@ -94,7 +96,7 @@ impl<const D: usize> State<D> {
     ) -> Self {
         assert_eq!(velocity.len(), assembly.node_count(), "one velocity per node");
         for (i, body) in bodies.iter().enumerate() {
-            body.constrain(&mut velocity[assembly.nodes(i)]);
+            body.constrain(&mut velocity[assembly.nodes(i)], 0.0);
         }
         velocity.extend(assembly.obstacle_motions.iter().map(|m| m.velocity(0.0)));
         let zeros = vec![Vector::zeros(); velocity.len()];
@@ -106,6 +108,7 @@ impl<const D: usize> State<D> {
             contact_force: zeros.clone(),
             friction_energy: vec![0.0; zeros.len()],
             support: vec![Vector::zeros(); assembly.supports],
+            anchor: zeros.clone(),
             history: bodies.iter().map(|body| body.initial_history()).collect(),
             slip: vec![0.0; zeros.len()],
             internal_force: zeros,
@@ -126,8 +129,27 @@ impl<const D: usize> State<D> {
         state
     }
 
+    /// Gives body `index` a velocity [m/s], an entry per node, within what binds and drives it; returns its kinetic energy more [J].
+    pub(crate) fn give_velocity(
+        &mut self,
+        assembly: &Assembly<D>,
+        bodies: &[Box<dyn Body<D>>],
+        index: usize,
+        velocity: &[Vector<D>],
+    ) -> f64 {
+        let before = self.body_energies[index].kinetic;
+        let nodes = assembly.nodes(index);
+        self.velocity[nodes.clone()].copy_from_slice(velocity);
+        bodies[index].constrain(&mut self.velocity[nodes.clone()], self.time);
+        let mut forces = vec![Vector::zeros(); nodes.len()];
+        let energies = bodies[index].measure(&self.body(index, nodes), &mut forces);
+        self.body_energies[index].kinetic = energies.kinetic;
+        self.energies = self.body_energies.iter().copied().sum();
+        energies.kinetic - before
+    }
+
     /// Recomputes forces and energies from displacements and velocities.
-    fn refresh(&mut self, assembly: &Assembly<D>, bodies: &[Box<dyn Body<D>>]) {
+    pub(crate) fn refresh(&mut self, assembly: &Assembly<D>, bodies: &[Box<dyn Body<D>>]) {
         let mut forces = vec![Vector::zeros(); self.internal_force.len()];
         for (i, body) in bodies.iter().enumerate() {
             let nodes = assembly.nodes(i);
@@ -144,7 +166,8 @@ impl<const D: usize> State<D> {
             displacement: &self.displacement[nodes.clone()],
             velocity: &self.velocity[nodes.clone()],
             internal_force: &self.internal_force[nodes.clone()],
-            contact_force: &self.contact_force[nodes],
+            contact_force: &self.contact_force[nodes.clone()],
+            anchor: &self.anchor[nodes],
             history: &self.history[index],
             energies: self.body_energies[index],
         }
@@ -153,8 +176,14 @@ impl<const D: usize> State<D> {
     /// Whether every number is finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        let vectors =
-            [&self.displacement, &self.velocity, &self.internal_force, &self.contact_force, &self.support];
+        let vectors = [
+            &self.displacement,
+            &self.velocity,
+            &self.internal_force,
+            &self.contact_force,
+            &self.support,
+            &self.anchor,
+        ];
         let numbers = [&self.friction_energy, &self.slip, &self.energy_debt];
         vectors.into_iter().all(|vectors| nodal::is_finite(vectors))
             && numbers.into_iter().flatten().all(|x| x.is_finite())

@@ -35,24 +35,25 @@ pub(crate) struct EventLog {
 }
 
 impl EventLog {
-    /// A log that takes contacts less than `merge` [s] apart for one. Without it a dynamic analysis in steps of `dt` [s] takes the time of the
-    /// bodies themselves, see [`crossing_time`]. The time of a static one does not say how long anything lasts, and nothing is merged there.
-    pub fn new<const D: usize>(model: &Model<D>, scheme: Scheme, dt: f64, merge: Option<f64>) -> Self {
+    /// A log that takes contacts of each named pair for one that are less than `merge` [s] apart.
+    pub fn new(merge: Vec<f64>) -> Self {
+        Self { events: Vec::new(), last: vec![None; merge.len()], merge }
+    }
+
+    /// How close contacts of each named pair are that count as one [s]: less than `merge`. Without it a dynamic analysis in steps of `dt` [s] takes
+    /// the time of the bodies themselves, see [`crossing_time`]. The time of a static one does not say how long anything lasts, and nothing is
+    /// merged there.
+    pub fn merges<const D: usize>(model: &Model<D>, scheme: Scheme, dt: f64, merge: Option<f64>) -> Vec<f64> {
         let own = |pair| match scheme {
             Scheme::Static => 0.0,
             _ => crossing_time(model, pair).max(FLICKER * dt),
         };
-        let named_pairs = 0..model.assembly.named_pairs.len();
-        Self {
-            merge: named_pairs.map(|pair| merge.unwrap_or_else(|| own(pair))).collect(),
-            events: Vec::new(),
-            last: vec![None; model.assembly.named_pairs.len()],
-        }
+        (0..model.assembly.named_pairs.len()).map(|pair| merge.unwrap_or_else(|| own(pair))).collect()
     }
 
-    /// How close contacts of a pair are that count as one [s].
-    pub fn merge(&self, named_pair: usize) -> f64 {
-        self.merge[named_pair]
+    /// Goes on where contacts less than this apart are one [s].
+    pub fn go_on(&mut self, merge: &[f64]) {
+        self.merge.copy_from_slice(merge);
     }
 
     /// Records what the named pairs did in a step from `start` to `end` [s].

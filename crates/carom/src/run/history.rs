@@ -1,5 +1,6 @@
 use carom_mesh::{Vector, nodal};
 
+use crate::run::stage::Stage;
 use crate::scenario::Axis;
 use crate::step::report::StepReport;
 use crate::{Ledger, Model, State};
@@ -22,6 +23,10 @@ pub(crate) struct Trail<const D: usize> {
 #[derive(Debug)]
 pub(crate) struct History<const D: usize> {
     tracks: Vec<Track>,
+    /// Whether rows say which stage they are of.
+    has_stages: bool,
+    /// Names of the supports of all stages.
+    supports: Vec<String>,
     pub trails: Vec<Trail<D>>,
     columns: Vec<String>,
     pub rows: Vec<f64>,
@@ -50,10 +55,18 @@ pub(crate) struct Since {
 }
 
 impl<const D: usize> History<D> {
-    /// A history of a run that starts from `state`.
-    pub fn new(model: &Model<D>, state: &State<D>, tracks: Vec<Track>) -> Self {
+    /// A history of a run in these `stages` that starts from `state`.
+    pub fn new(stages: &[Stage<D>], state: &State<D>, tracks: Vec<Track>) -> Self {
         let axes = &Axis::NAMES[..D];
+        let (model, has_stages) = (&stages[0].model, stages.len() > 1);
+        let mut supports: Vec<String> = Vec::new();
+        for motion in stages.iter().flat_map(|stage| &stage.model.motions) {
+            if !supports.contains(&motion.name) {
+                supports.push(motion.name.clone());
+            }
+        }
         let mut columns = vec!["time".to_string()];
+        columns.extend(has_stages.then(|| "stage".to_string()));
         columns.extend(Ledger::NAMES.iter().chain(&["total", "defect"]).map(|name| name.to_string()));
         columns.extend(axes.iter().map(|a| format!("momentum_{a}")));
         if D == 2 {
@@ -86,16 +99,17 @@ impl<const D: usize> History<D> {
             ]
             .map(String::from),
         );
-        for m in &model.motions {
-            columns.extend(axes.iter().map(|a| format!("{}.force_{a}", m.name)));
+        for name in &supports {
+            columns.extend(axes.iter().map(|a| format!("{name}.force_{a}")));
         }
         for t in &tracks {
             for quantity in ["u", "v", "vmid"] {
                 columns.extend(axes.iter().map(|a| format!("{}.{quantity}_{a}", t.name)));
             }
         }
+        let (trails, rows) = (Vec::new(), Vec::new());
         let mut history =
-            Self { trails: Vec::new(), tracks, columns, rows: Vec::new(), since: Since::default() };
+            Self { trails, tracks, has_stages, supports, columns, rows, since: Since::default() };
         history.restart(state);
         history
     }
@@ -146,10 +160,11 @@ impl<const D: usize> History<D> {
         }
     }
 
-    /// Writes a row; returns the smallest gap of all pairs [m].
-    pub fn record(&mut self, model: &Model<D>, state: &State<D>, ledger: &Ledger) -> f64 {
+    /// Writes a row of stage number `stage`, from 0; returns the smallest gap of all pairs [m].
+    pub fn record(&mut self, model: &Model<D>, state: &State<D>, ledger: &Ledger, stage: usize) -> f64 {
         let e = &state.energies;
         self.rows.push(state.time);
+        self.rows.extend(self.has_stages.then_some(stage as f64 + 1.0));
         self.rows.extend(ledger.with_energies(e).terms_mut().map(|term| *term));
         self.rows.extend([e.total(), ledger.defect()]);
         let mut momentum = Vector::<D>::zeros();
@@ -199,7 +214,12 @@ impl<const D: usize> History<D> {
             since.blend,
             since.step_defect,
         ]);
-        state.support.iter().for_each(|force| self.rows.extend(force.iter()));
+        // A support that is not there in this stage presses on nothing.
+        for name in &self.supports {
+            let motion = model.motions.iter().position(|motion| motion.name == *name);
+            let force = motion.map_or_else(Vector::zeros, |k| state.support[k]);
+            self.rows.extend(force.iter());
+        }
         for (t, trail) in self.tracks.iter().zip(&self.trails) {
             self.rows.extend(state.displacement[t.node].iter());
             self.rows.extend(state.velocity[t.node].iter());

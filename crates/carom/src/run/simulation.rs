@@ -5,15 +5,17 @@ use carom_mesh::Vector;
 use serde::Serialize;
 
 use super::error::RunError;
-use crate::build::{Meshes, Surfaces, build_with_surfaces};
+use crate::build::{Meshes, Surfaces};
 use crate::contact::PosedProblem;
 use crate::contact::cross_check::CrossCheckSummary;
 use crate::error::InputError;
 use crate::ledger::table::LedgerTable;
+use crate::run::account::Account;
 use crate::run::describe::{Description, describe};
 use crate::run::events::EventLog;
 use crate::run::history::History;
 use crate::run::nominal_step::NominalStep;
+use crate::run::stage::Stage;
 use crate::run::stepper::{Nominal, Stepper};
 use crate::run::surface_fields::{SurfaceFields, surface_fields};
 use crate::run::time_grid::TimeGrid;
@@ -21,7 +23,7 @@ use crate::run::totals::Totals;
 use crate::run::tracked::tracks;
 use crate::scenario::Scenario;
 use crate::step::workspace::Workspace;
-use crate::{Books, Energies, Ledger, Method, Model, State};
+use crate::{Books, Energies, Ledger, Model, State};
 
 /// How [`Simulation::advance`] ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,27 +34,27 @@ pub enum Outcome {
     Paused,
 }
 
-/// The most steps a run may have; more is a slip of units.
-const MAX_STEPS: f64 = 1e10;
-
-/// A run: the model, its state, and the books.
+/// A run: its stages, the state, and the books.
 pub struct Simulation<const D: usize> {
-    pub(crate) model: Model<D>,
-    pub(crate) method: Method<D>,
+    pub(crate) stages: Vec<Stage<D>>,
+    /// The stage that the run is in.
+    pub(crate) current: usize,
     pub(crate) state: State<D>,
     pub(crate) spare: State<D>,
     pub(crate) work: Workspace<D>,
     pub(crate) description: Description,
+    /// The steps of the stage.
     pub(crate) grid: TimeGrid,
     /// How often the steps of a static analysis are halved at present.
     pub(crate) halvings: u32,
-    pub(crate) history_every: f64,
     pub(crate) history_rows: u64,
     pub(crate) last_recorded: Option<f64>,
     pub(crate) history: History<D>,
     pub(crate) events: EventLog,
     pub(crate) initial_energies: Vec<Energies>,
     pub(crate) books: Books,
+    /// The books of each stage that has begun.
+    pub(crate) accounts: Vec<Account>,
     pub(crate) ledger_table: LedgerTable,
     pub(crate) totals: Totals,
     pub(crate) cross_checks: CrossCheckSummary,
@@ -135,45 +137,32 @@ impl<const D: usize> Simulation<D> {
         meshes: Meshes<D>,
         surfaces: Surfaces<D>,
     ) -> Result<Self, InputError> {
-        let (model, method, state) = build_with_surfaces(scenario, meshes, surfaces)?;
-        let tracks = tracks(&model, &scenario.output.track)?;
-        let (dt, end) = (scenario.analysis.time_step, scenario.analysis.end_time);
-        for (key, every) in [
-            ("output.history_every", scenario.output.history_every),
-            ("output.fields_every", scenario.output.fields_every),
-        ] {
-            if !(every.is_finite() && every > 0.0) {
-                return Err(InputError::new(key, format!("{every}: the interval must be greater than 0 s")));
-            }
-        }
-        if end / dt > MAX_STEPS {
-            let message =
-                format!("{dt}: the run would have {:.1e} steps, more than {MAX_STEPS:.0e}", end / dt);
-            return Err(InputError::new("analysis.time_step", message));
-        }
-        let grid = TimeGrid::new(dt, end);
-        let work = Workspace::new(&model);
+        let stages = Stage::all(scenario, meshes, surfaces)?;
+        let state = stages[0].start()?;
+        let Stage { model, grid, merge, .. } = &stages[0];
+        let pairs = model.assembly.named_pairs.len();
+        let steps = stages.iter().map(|stage| stage.grid.steps).sum();
         let mut simulation = Self {
-            description: describe(&scenario.title, &model, &state, grid.steps),
-            events: EventLog::new(&model, method.scheme, dt, scenario.output.merge_contacts),
-            history: History::new(&model, &state, tracks),
+            description: describe(&scenario.title, model, &state, steps),
+            events: EventLog::new(merge.clone()),
+            history: History::new(&stages, &state, tracks(model, &scenario.output.track)?),
             spare: state.clone(),
-            grid,
+            grid: *grid,
             halvings: 0,
-            history_every: scenario.output.history_every,
             history_rows: 0,
             last_recorded: None,
             initial_energies: state.body_energies.clone(),
-            books: Books::new(model.bodies.len(), model.assembly.named_pairs.len()),
+            books: Books::new(model.bodies.len(), pairs),
+            accounts: vec![Account::new(&state.body_energies, pairs)],
             ledger_table: LedgerTable::default(),
             totals: Totals::new(&state.energies),
             cross_checks: CrossCheckSummary::default(),
             last_step: None,
             nominal_step: NominalStep::default(),
-            model,
-            method,
+            work: Workspace::new(model),
+            current: 0,
+            stages,
             state,
-            work,
         };
         simulation.record();
         Ok(simulation)
@@ -187,10 +176,21 @@ impl<const D: usize> Simulation<D> {
         &self.description
     }
 
-    /// The model.
+    /// The model, as it is in the present stage.
     #[must_use]
     pub fn model(&self) -> &Model<D> {
-        &self.model
+        &self.stage().model
+    }
+
+    /// The present stage.
+    pub(crate) fn stage(&self) -> &Stage<D> {
+        &self.stages[self.current]
+    }
+
+    /// The number of the present stage, from 0; a run without stages has one.
+    #[must_use]
+    pub fn stage_number(&self) -> usize {
+        self.current
     }
 
     /// The present state.
@@ -223,10 +223,18 @@ impl<const D: usize> Simulation<D> {
     /// # Panics
     /// If steps were made already or the number of nodes is not that of the model.
     pub fn set_initial_velocity(&mut self, velocity: Vec<Vector<D>>) {
-        assert_eq!(self.grid.step, 0, "initial velocities belong before the first step");
-        self.state = self.model.initial_state(velocity);
+        assert_eq!(self.step(), 0, "initial velocities belong before the first step");
+        self.state = self.model().initial_state(velocity);
+        self.restart();
+    }
+
+    /// Begins the books anew with the present state.
+    pub(crate) fn restart(&mut self) {
+        self.spare.clone_from(&self.state);
         self.initial_energies.clone_from(&self.state.body_energies);
-        self.description.energy = self.state.energies.total();
+        self.accounts = vec![Account::new(&self.state.body_energies, self.books.pairs.len())];
+        self.description =
+            describe(&self.description.title, self.model(), &self.state, self.description.steps);
         self.totals = Totals::new(&self.state.energies);
         self.ledger_table = LedgerTable::default();
         self.history.restart(&self.state);
@@ -244,13 +252,13 @@ impl<const D: usize> Simulation<D> {
     /// Nominal steps done.
     #[must_use]
     pub fn step(&self) -> u64 {
-        self.grid.step
+        self.stages[..self.current].iter().map(|stage| stage.grid.steps).sum::<u64>() + self.grid.step
     }
 
     /// Nominal steps of the whole run.
     #[must_use]
     pub fn steps(&self) -> u64 {
-        self.grid.steps
+        self.stages.iter().map(|stage| stage.grid.steps).sum()
     }
 
     /// The last contact problem that a step posed; after [`crate::StepError::Friction`] the one that failed, at the shortest
@@ -289,7 +297,7 @@ impl<const D: usize> Simulation<D> {
     /// # Errors
     /// If a step fails after all retries; the state is then that after the last good step.
     pub fn advance(&mut self, until: f64, mut pause: impl FnMut() -> bool) -> Result<Outcome, RunError> {
-        while self.grid.goes_on(self.state.time, until) {
+        while self.goes_on(until) {
             self.one_step()?;
             if pause() {
                 return Ok(Outcome::Paused);
@@ -298,19 +306,67 @@ impl<const D: usize> Simulation<D> {
         Ok(Outcome::Reached)
     }
 
+    /// Whether there are steps left before time `until` [s]. What is left of a run that has come to the end of a stage is in the next, which begins here.
+    fn goes_on(&mut self, until: f64) -> bool {
+        let next = self.stages.get(self.current + 1);
+        if self.grid.has_ended() && next.is_some_and(|next| next.grid.is_before(self.state.time, until)) {
+            self.enter(self.current + 1);
+            let gained = self.stages[self.current].begin(&mut self.state);
+            self.begin_stage(&gained);
+        }
+        self.grid.goes_on(self.state.time, until)
+    }
+
+    /// Makes a stage the present one; its state is still that of another.
+    pub(crate) fn enter(&mut self, stage: usize) {
+        self.current = stage;
+        let stage = &self.stages[stage];
+        self.grid = stage.grid;
+        self.halvings = 0;
+        self.events.go_on(&stage.merge);
+        self.work = Workspace::new(&stage.model).counting_on(&self.work);
+    }
+
+    /// Opens the books of a stage in which bodies begin with so much energy more [J]: the work of what gave them their velocity.
+    fn begin_stage(&mut self, gained: &[f64]) {
+        let Self { state, spare, accounts, books, history_rows, grid, stages, current, .. } = self;
+        let mut account = Account::new(&state.body_energies, books.pairs.len());
+        for (i, gain) in gained.iter().enumerate() {
+            account.start[i].kinetic -= gain;
+            for books in [&mut account.books, &mut *books] {
+                books.bodies[i].external += gain;
+                books.total.external += gain;
+            }
+        }
+        for (books, start) in [(&mut account.books, &account.start), (&mut *books, &self.initial_energies)] {
+            books.set_changes(start, &state.body_energies);
+        }
+        accounts.push(account);
+        *history_rows = grid.intervals(state.time, stages[*current].history_every);
+        self.totals.max_energy = self.totals.max_energy.max(state.energies.total() + books.total.friction);
+        spare.clone_from(state);
+        self.last_step = None;
+    }
+
     fn one_step(&mut self) -> Result<(), RunError> {
         let (dt, end) = self.grid.next_step();
         let nominal = Nominal { end, dt, energy: self.totals.max_energy };
-        let Self { model, method, state, spare, work, halvings, .. } = self;
-        let Self { events, history, books, totals, cross_checks, initial_energies, .. } = self;
+        let Self { stages, current, state, spare, work, halvings, .. } = self;
+        let Self { events, history, books, accounts, totals, cross_checks, initial_energies, .. } = self;
         let Self { last_step, nominal_step, .. } = self;
+        let Stage { model, method, history_every, .. } = &stages[*current];
+        let account = &mut accounts[*current];
         let mut previous_time = state.time;
         let initial = initial_energies.iter().map(Energies::total).sum::<f64>();
         *nominal_step = NominalStep::default();
         let mut stepper = Stepper { model, method, state, spare, work, halvings, failed: 0 };
         let outcome = stepper.advance(nominal, |state, report, work| {
-            books.add(report.ledger, &work.body_ledgers, work.pair_reports.iter().map(|pair| pair.ledger));
+            for books in [&mut *books, &mut account.books] {
+                let pairs = work.pair_reports.iter().map(|pair| pair.ledger);
+                books.add(report.ledger, &work.body_ledgers, pairs);
+            }
             books.set_changes(initial_energies, &state.body_energies);
+            account.note(report, state);
             *last_step = Some(report.ledger);
             nominal_step.note(report);
             events.record(&model.assembly.named_pairs, &work.pair_reports, previous_time, state.time);
@@ -321,12 +377,15 @@ impl<const D: usize> Simulation<D> {
             totals.note_penetration(report, state.time, method);
         });
         let failed = stepper.failed;
+        account.retried += failed;
         self.totals.retried += failed;
         self.history.since.retried += failed;
         outcome?;
+        account.steps += 1;
         self.grid.step += 1;
-        let due = (self.history_rows as f64) * self.history_every;
-        if !self.grid.is_before(self.state.time, due) {
+        let due = self.grid.start_time + (self.history_rows as f64) * history_every;
+        let ends_stage = self.grid.has_ended() && self.stages.len() > 1;
+        if ends_stage || !self.grid.is_before(self.state.time, due) {
             self.record();
         }
         Ok(())
@@ -340,12 +399,13 @@ impl<const D: usize> Simulation<D> {
     }
 
     fn record(&mut self) {
-        let min_gap = self.history.record(&self.model, &self.state, &self.books.total);
+        let stage = &self.stages[self.current];
+        let min_gap = self.history.record(&stage.model, &self.state, &self.books.total, self.current);
         self.ledger_table.record(self.state.time, &self.books);
         self.totals.min_gap = self.totals.min_gap.min(min_gap);
         self.last_recorded = Some(self.state.time);
         // The next multiple of the interval after now.
-        self.history_rows = self.grid.intervals(self.state.time, self.history_every);
+        self.history_rows = self.grid.intervals(self.state.time, stage.history_every);
     }
 
     /// Names of the columns of the history.
@@ -362,7 +422,7 @@ impl<const D: usize> Simulation<D> {
     /// The fields on the boundaries.
     #[must_use]
     pub fn surface_fields(&self) -> SurfaceFields {
-        surface_fields(&self.model, &self.state)
+        surface_fields(self.model(), &self.state)
     }
 
     /// The rows recorded since the last call, one after the other.
@@ -375,7 +435,7 @@ impl<const D: usize> Simulation<D> {
     pub fn progress(&self) -> Progress {
         let e = self.state.energies;
         Progress {
-            step: self.grid.step,
+            step: self.step(),
             time: self.state.time,
             contacts: self.totals.contacts,
             retried: self.totals.retried,
@@ -389,13 +449,13 @@ impl<const D: usize> Simulation<D> {
     /// The fields of the present state.
     #[must_use]
     pub fn fields(&self) -> Fields<'_, D> {
-        let (s, nodes) = (&self.state, self.model.node_count());
+        let (s, nodes) = (&self.state, self.model().node_count());
         Fields {
             displacement: &s.displacement[..nodes],
             velocity: &s.velocity[..nodes],
             reaction: &s.contact_force[..nodes],
             cells: self
-                .model
+                .model()
                 .bodies
                 .iter()
                 .zip(&s.history)

@@ -4,10 +4,12 @@ use serde::Serialize;
 
 use crate::contact::cross_check::CrossCheckSummary;
 use crate::model::assembly::NamedPair;
+use crate::run::account::Account;
 use crate::run::events::ContactEvent;
+use crate::run::stage::Stage;
 use crate::run::totals::Worst;
 use crate::step::report::Inside;
-use crate::{BodyLedger, Energies, Ledger, PairLedger, Simulation};
+use crate::{BodyLedger, Books, Energies, Ledger, PairLedger, Simulation};
 
 /// Energies of a run [J].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -26,6 +28,21 @@ pub struct EnergySummary {
     pub max_defect: f64,
     /// Largest |defect| of a single step.
     pub max_step_defect: f64,
+}
+
+impl EnergySummary {
+    fn of_stage(account: &Account) -> Self {
+        let sum = |energies: &[Energies]| energies.iter().copied().sum::<Energies>();
+        let end = sum(&account.end);
+        Self {
+            initial: sum(&account.start).total(),
+            last: end.total(),
+            terms: account.books.total.with_energies(&end),
+            max_drift: account.max_drift,
+            max_defect: account.max_defect,
+            max_step_defect: account.max_step_defect,
+        }
+    }
 }
 
 /// How far the run was from Coulomb's law.
@@ -146,16 +163,82 @@ pub struct Summary {
     pub cross_check: Option<CrossCheckSummary>,
     /// Contact events.
     pub contacts: Vec<ContactEvent>,
+    /// What came out of each stage that has begun; none of a case that has no stages.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<StageSummary>,
+}
+
+/// What came out of a stage.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StageSummary {
+    /// Name.
+    pub name: String,
+    /// When it started [s].
+    pub start_time: f64,
+    /// Time reached [s].
+    pub end_time: f64,
+    /// Length of a nominal step [s].
+    pub time_step: f64,
+    /// Nominal steps done.
+    pub steps: u64,
+    /// Newton iterations.
+    pub newton_iterations: u64,
+    /// Steps or substeps that failed and were halved.
+    pub retried_steps: u64,
+    /// Its own books.
+    pub energy: EnergySummary,
+    /// Those of every body.
+    pub bodies: Vec<BodySummary>,
+    /// Those of every pair that may touch.
+    pub pairs: Vec<PairSummary>,
 }
 
 impl<const D: usize> Simulation<D> {
     fn penetration(&self) -> PenetrationSummary {
         let worst = self.totals.worst_penetration.map(|Worst { inside, allowed, time }| {
             let Inside { between, depth, cell, at, .. } = inside;
-            let between = between.map(|solid| self.model.assembly.solid_name(solid).to_string());
+            let between = between.map(|solid| self.model().assembly.solid_name(solid).to_string());
             WorstPenetration { between, depth, allowed, cell, time, at }
         });
         PenetrationSummary { max_depth: self.totals.max_penetration, worst }
+    }
+
+    /// The books of every body.
+    fn bodies(&self, books: &Books) -> Vec<BodySummary> {
+        let bodies = self.model().bodies.iter().zip(&books.bodies);
+        bodies.map(|(b, ledger)| BodySummary::new(&b.name, ledger)).collect()
+    }
+
+    /// The books of every pair that may touch, as they are in a stage.
+    fn pairs(&self, books: &Books, stage: &Stage<D>) -> Vec<PairSummary> {
+        let pairs = stage.model.assembly.named_pairs.iter().zip(&stage.merge).zip(&books.pairs);
+        pairs
+            // Every body may touch itself; few do.
+            .filter(|((pair, _), ledger)| !pair.is_of_one_body() || ledger.has_touched)
+            .map(|((pair, merge), ledger)| PairSummary::new(pair, *merge, ledger))
+            .collect()
+    }
+
+    /// What came out of the stages that have begun, where there are any.
+    fn stages_so_far(&self) -> Vec<StageSummary> {
+        if self.stages.len() == 1 {
+            return Vec::new();
+        }
+        let begun = self.stages.iter().zip(&self.accounts).enumerate();
+        begun
+            .map(|(i, (stage, account))| StageSummary {
+                name: stage.name.clone(),
+                start_time: stage.grid.start_time,
+                end_time: if i == self.current { self.state.time } else { stage.grid.end_time },
+                time_step: stage.grid.time_step,
+                steps: account.steps,
+                newton_iterations: account.newton_iterations,
+                retried_steps: account.retried,
+                energy: EnergySummary::of_stage(account),
+                bodies: self.bodies(&account.books),
+                pairs: self.pairs(&account.books, stage),
+            })
+            .collect()
     }
 
     /// The summary so far.
@@ -163,9 +246,9 @@ impl<const D: usize> Simulation<D> {
     pub fn summary(&self) -> Summary {
         let (e, t, l) = (self.state.energies, &self.totals, &self.books.total);
         Summary {
-            steps: self.grid.step,
-            dofs: self.model.dofs(),
-            size: self.model.assembly.size,
+            steps: self.step(),
+            dofs: self.model().dofs(),
+            size: self.model().assembly.size,
             end_time: self.state.time,
             time_step: self.grid.time_step,
             newton_iterations: t.newton_iterations,
@@ -184,32 +267,17 @@ impl<const D: usize> Simulation<D> {
                 solver_joule: t.solver_certificate,
                 max_residual: t.max_residual,
                 reference_joule: t.reference(),
-                tolerance_joule: self.method.certificate_tolerance * t.reference(),
+                tolerance_joule: self.stage().method.certificate_tolerance * t.reference(),
             },
-            bodies: self
-                .model
-                .bodies
-                .iter()
-                .zip(&self.books.bodies)
-                .map(|(b, l)| BodySummary::new(&b.name, l))
-                .collect(),
-            pairs: self
-                .model
-                .assembly
-                .named_pairs
-                .iter()
-                .zip(&self.books.pairs)
-                .enumerate()
-                // Every body may touch itself; few do.
-                .filter(|(_, (pair, l))| !pair.is_of_one_body() || l.has_touched)
-                .map(|(i, (pair, l))| PairSummary::new(pair, self.events.merge(i), l))
-                .collect(),
+            bodies: self.bodies(&self.books),
+            pairs: self.pairs(&self.books, self.stage()),
             max_blend: t.max_blend,
             least_friction: t.least_friction,
             min_gap: t.min_gap,
             penetration: self.penetration(),
-            cross_check: self.method.cross_check.then(|| self.cross_checks.clone()),
+            cross_check: self.stage().method.cross_check.then(|| self.cross_checks.clone()),
             contacts: self.events.events(self.state.time),
+            stages: self.stages_so_far(),
         }
     }
 }

@@ -50,6 +50,9 @@ pub struct MotionEntry {
     /// How it moves.
     #[serde(flatten)]
     pub motion: MotionSpec,
+    /// Since when [s]: displacements are those since then.
+    #[serde(default)]
+    pub since: f64,
 }
 
 /// Kinds of prescribed motion.

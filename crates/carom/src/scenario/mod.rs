@@ -17,6 +17,9 @@ pub use drive::{Axis, Displacement, LoadEntry, LoadSpec, MotionEntry, MotionSpec
 pub use self::mesh_spec::{Cell, MeshSpec};
 use crate::{ContactCondition, Scheme, SignalSpec};
 
+/// Moments closer than this to one another, in time steps, differ by round-off alone.
+pub(crate) const SLACK: f64 = 1e-6;
+
 /// A complete case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Scenario {
@@ -45,6 +48,67 @@ pub struct Scenario {
     pub motions: Vec<MotionEntry>,
     /// Contact.
     pub contact: ContactSpec,
+    /// Analyses in sequence. Where there are any, analysis, loads, motions and contact are theirs, and those above are not used.
+    #[serde(default)]
+    pub stages: Vec<StageEntry>,
+}
+
+/// A stage of a case, complete: what it does not change is written out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StageEntry {
+    /// Name.
+    pub name: String,
+    /// What is computed.
+    pub analysis: Analysis,
+    /// Interval of the history [s].
+    pub history_every: f64,
+    /// Forces on bodies.
+    #[serde(default)]
+    pub loads: Vec<LoadEntry>,
+    /// Prescribed motion of parts of bodies.
+    #[serde(default)]
+    pub motions: Vec<MotionEntry>,
+    /// Contact.
+    pub contact: ContactSpec,
+    /// Velocities that bodies are given when it starts; the others go on with theirs.
+    #[serde(default)]
+    pub velocities: Vec<VelocityEntry>,
+}
+
+/// The velocity that a body is given.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct VelocityEntry {
+    /// Body.
+    pub body: String,
+    /// Velocity [m/s]; none if not given.
+    #[serde(default)]
+    pub velocity: Option<Vec<f64>>,
+    /// Spin about the centre of mass [rad/s].
+    #[serde(default)]
+    pub spin: Spin,
+}
+
+impl Scenario {
+    /// The case as it is in stage number `index`, as a case of one analysis. The velocities of its bodies are those that they are given there.
+    pub(crate) fn in_stage(&self, index: usize) -> Self {
+        let stage = &self.stages[index];
+        let mut case = Self {
+            analysis: stage.analysis.clone(),
+            loads: stage.loads.clone(),
+            motions: stage.motions.clone(),
+            contact: stage.contact.clone(),
+            stages: Vec::new(),
+            ..self.clone()
+        };
+        case.output.history_every = stage.history_every;
+        let goes_on = !stage.analysis.starts_from_nothing();
+        for body in case.bodies.iter_mut().filter(|_| goes_on) {
+            let given = stage.velocities.iter().find(|given| given.body == body.name);
+            body.velocity = given.and_then(|given| given.velocity.clone());
+            body.spin = given.map_or(Spin::None, |given| given.spin);
+        }
+        case
+    }
 }
 
 /// Time, scheme and iterations.
@@ -52,7 +116,10 @@ pub struct Scenario {
 pub struct Analysis {
     /// Kind of analysis.
     pub kind: AnalysisKind,
-    /// End of the run [s].
+    /// When it starts [s]: what comes later than 0 goes on from a state of bodies that moved and deformed before.
+    #[serde(default)]
+    pub start_time: f64,
+    /// When it ends [s].
     pub end_time: f64,
     /// Length of a step [s].
     pub time_step: f64,
@@ -68,6 +135,25 @@ pub struct Analysis {
     pub stabilisation: Stabilisation,
     /// Gravity [m/s²].
     pub gravity: Option<Vec<f64>>,
+}
+
+impl Analysis {
+    /// When it starts and when it ends [s].
+    pub(crate) fn span(&self) -> [f64; 2] {
+        [self.start_time, self.end_time]
+    }
+
+    /// The ends of its steps [s], after its start.
+    pub(crate) fn moments(&self) -> impl Iterator<Item = f64> + use<> {
+        let Self { start_time, end_time, time_step, .. } = *self;
+        let steps = ((end_time - start_time) / time_step).ceil() as u64;
+        (0..=steps).map(move |k| (start_time + k as f64 * time_step).min(end_time))
+    }
+
+    /// Whether bodies are as they are drawn when it starts, and have no past.
+    pub(crate) fn starts_from_nothing(&self) -> bool {
+        self.start_time == 0.0
+    }
 }
 
 /// What a load step does that finds no equilibrium near the last one, as where a body snaps through or loses its hold.

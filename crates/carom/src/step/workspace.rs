@@ -63,6 +63,13 @@ impl<const D: usize> Workspace<D> {
         }
     }
 
+    /// The same with what `before` has counted.
+    pub(crate) fn counting_on(mut self, before: &Self) -> Self {
+        self.factorisations = before.factorisations;
+        self.contacts.reduced.friction_time = before.friction_time();
+        self
+    }
+
     /// The blend α of start and end stresses of every body in the last step.
     #[must_use]
     pub fn blend_weights(&self) -> &[f64] {

@@ -3,7 +3,7 @@
 use carom_mesh::Vector;
 
 use super::part::ModelBody;
-use crate::body::{Guess, Interval};
+use crate::body::{BodyState, Guess, Interval};
 use crate::signal::Signal;
 
 /// What drives a body in a step. Loads are empty where there is none.
@@ -56,20 +56,20 @@ impl<const D: usize> Drive<D> {
         }
     }
 
-    /// Sets the `motion` [m] of everything held, which starts from `start` [m], to what is prescribed. Returns the largest of it [m], or
+    /// Sets the `motion` [m] of everything held, which goes on from `start`, to what is prescribed. Returns the largest of it [m], or
     /// none if a function of time is not finite.
     pub fn prescribe(
         &mut self,
         part: &ModelBody<D>,
         interval: &Interval,
-        start: &[Vector<D>],
+        start: &BodyState<'_, D>,
         motion: &mut [Vector<D>],
     ) -> Option<f64> {
         let end = interval.end;
         let (mut largest, mut sum): (f64, f64) = (0.0, 0.0);
         for ((dof, there), rate) in part.supports.at(&part.body, end).zip(&mut self.rates) {
             let (node, component) = (dof.node as usize, dof.component as usize);
-            let d = there.value - start[node][component];
+            let d = start.anchor[node][component] + there.value - start.displacement[node][component];
             motion[node][component] = d;
             *rate = if interval.is_load_step { 0.0 } else { there.rate };
             largest = largest.max(d.abs());

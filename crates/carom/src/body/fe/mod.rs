@@ -128,12 +128,12 @@ impl<const D: usize> Body<D> for FeBody<D> {
         self.part.body.virgin()
     }
 
-    fn constrain(&self, velocity: &mut [Vector<D>]) {
+    fn constrain(&self, velocity: &mut [Vector<D>], t: f64) {
         let ModelBody { body, supports, .. } = &*self.part;
         for tie in body.mesh().ties() {
             velocity[tie.image as usize] = velocity[tie.master as usize];
         }
-        for (dof, there) in supports.at(body, 0.0) {
+        for (dof, there) in supports.at(body, t) {
             velocity[dof.node as usize][dof.component as usize] = there.rate;
         }
     }
@@ -162,7 +162,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
     ) -> Result<Forecast, StepError> {
         let body = &self.part.body;
         let dt = interval.map.dt;
-        let driven = self.drive.prescribe(&self.part, interval, start.displacement, motion);
+        let driven = self.drive.prescribe(&self.part, interval, start, motion);
         let driven = driven.ok_or(StepError::NotFinite("prescribed motion"))?;
         let [before, after] = self.part.growth_of(interval);
         let driven = driven.max((after - before).abs() * body.mesh().diameter());

@@ -2,7 +2,7 @@ use carom_fem::{Body, HeldDof};
 
 use crate::signal::{Dual, Signal};
 
-/// The displacement of some nodes of a body, component by component, as functions of time.
+/// The displacement of some nodes of a body since a moment, component by component, as functions of time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion<const D: usize> {
     /// Name, for the history.
@@ -13,6 +13,8 @@ pub struct Motion<const D: usize> {
     pub nodes: Vec<u32>,
     /// Displacement [m] of each component; what is `None` is free.
     pub components: [Option<Signal>; D],
+    /// Since when [s].
+    pub since: f64,
 }
 
 /// What drives the held displacements of a body.
@@ -60,12 +62,22 @@ impl<const D: usize> Supports<D> {
         }
     }
 
-    /// Displacement [m] and velocity [m/s] at time `t` [s] of everything held, in the order of `Body::held`.
+    /// Displacement since its motion began [m] and velocity [m/s] at time `t` [s] of everything held, in the order of `Body::held`.
     pub fn at<'a>(&'a self, body: &'a Body<D>, t: f64) -> impl Iterator<Item = (&'a HeldDof, Dual)> {
         body.held().dofs().iter().zip(&self.drivers).map(move |(dof, driver)| {
             let signal = driver.and_then(|k| self.motions[k as usize].1[dof.component as usize].as_ref());
             (dof, signal.map_or_else(Dual::default, |signal| signal.at(t)))
         })
+    }
+
+    /// Everything that symmetry holds at zero.
+    pub fn bound<'a>(&'a self, body: &'a Body<D>) -> impl Iterator<Item = &'a HeldDof> {
+        body.held()
+            .dofs()
+            .iter()
+            .zip(&self.drivers)
+            .filter(|(_, driver)| driver.is_none())
+            .map(|(dof, _)| dof)
     }
 
     /// Everything held that a motion drives, with its place in `Body::held` and the number of the motion in the model.

@@ -1,0 +1,48 @@
+//! The books of one stage.
+
+use crate::step::report::StepReport;
+use crate::{Books, Energies, State};
+
+/// What a stage has done so far.
+#[derive(Debug, Clone)]
+pub(crate) struct Account {
+    /// Energies of the bodies when it began.
+    pub start: Vec<Energies>,
+    /// Energies of the bodies at its end, or now.
+    pub end: Vec<Energies>,
+    pub books: Books,
+    pub steps: u64,
+    pub newton_iterations: u64,
+    pub retried: u64,
+    pub max_drift: f64,
+    pub max_defect: f64,
+    pub max_step_defect: f64,
+}
+
+impl Account {
+    /// Of a stage that begins with these energies of bodies that so many `pairs` may touch.
+    pub fn new(energies: &[Energies], pairs: usize) -> Self {
+        Self {
+            start: energies.to_vec(),
+            end: energies.to_vec(),
+            books: Books::new(energies.len(), pairs),
+            steps: 0,
+            newton_iterations: 0,
+            retried: 0,
+            max_drift: 0.0,
+            max_defect: 0.0,
+            max_step_defect: 0.0,
+        }
+    }
+
+    /// Takes note of a step, or a part of one, that ended in `state`; `books` has been told of it.
+    pub fn note<const D: usize>(&mut self, report: &StepReport, state: &State<D>) {
+        self.end.clone_from(&state.body_energies);
+        self.books.set_changes(&self.start, &self.end);
+        self.newton_iterations += report.newton_iterations as u64;
+        let initial = self.start.iter().map(Energies::total).sum::<f64>();
+        self.max_drift = self.max_drift.max((state.energies.total() - initial).abs());
+        self.max_defect = self.max_defect.max(self.books.total.defect().abs());
+        self.max_step_defect = self.max_step_defect.max(report.ledger.defect().abs());
+    }
+}
