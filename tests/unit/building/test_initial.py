@@ -179,6 +179,15 @@ def test_displacements_of_a_file_are_strain_energy_at_the_start(tmp_path):
     assert np.abs(simulation.history["defect"]).max() < 1e-12 * simulation.energy.total
 
 
+def test_velocities_that_are_set_leave_displacements_as_they_are(tmp_path):
+    simulation = carom.Simulation(carom.Scenario.from_dict(stretched(tmp_path)))
+    energy = simulation.energy
+    simulation.set_velocity("block", [0.0, 2.0])
+    assert simulation.energy.strain == energy.strain
+    assert simulation.energy.kinetic == pytest.approx(0.5 * 7800.0 * 4.0)
+    assert simulation.history["total"][0] == simulation.energy.total
+
+
 def test_displacements_of_a_result_are_its_last(tmp_path):
     case = {
         **BLOCK,
