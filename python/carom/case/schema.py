@@ -41,6 +41,8 @@ def case_file_schema() -> dict[str, Any]:
     }
     for name in sorted(said - {kind.__name__ for kind in KIND_UNSAID}):
         definitions[name]["required"] = ["kind", *definitions[name].get("required", [])]
+    # Either an analysis, or stages that have one each.
+    schema["oneOf"] = [{"required": ["analysis"]}, {"required": ["stages"]}]
     return {"$schema": DRAFT, "title": "carom case file", **schema, "definitions": definitions}
 
 

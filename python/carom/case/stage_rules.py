@@ -109,8 +109,16 @@ def _check_clock(scenario: Scenario) -> None:
 
 
 def _check_conditions(scenario: Scenario) -> None:
-    """Refuse dynamic stages of which some have nodes without mass and others have not."""
+    """Refuse a condition that no stage has, and nodes without mass in some of them."""
     dynamic = [full for full in full_stages(scenario) if full.is_dynamic]
+    condition = scenario.contact.condition
+    if scenario.stages and not dynamic and condition not in ("midpoint", "gap"):
+        raise problem(
+            "is of dynamic stages, and there is none; static ones rule the gap at the end of the "
+            "step; leave it out",
+            key="contact.condition",
+            value=condition,
+        )
     for full in dynamic:
         conditions = {dynamic[0].contact.condition, full.contact.condition}
         if len(conditions) > 1 and "massless" in conditions:

@@ -88,6 +88,11 @@ BAD = [
     ({"analysis.time_step": 0}, "analysis.time_step", "0: the time step must be greater than 0 s"),
     ({"analysis.time_step": 2}, "analysis.end_time", "1: the end time must be at least one time"),
     (
+        {"analysis.start_time": -1.0},
+        "analysis.start_time",
+        "-1: the start must not be before 0 s",
+    ),
+    (
         {"analysis.scheme": {"kind": "theta", "theta": 0, "xi": 0.5}},
         "analysis.scheme.theta",
         "0: theta must be greater than 0 and at most 1",

@@ -179,6 +179,15 @@ def test_displacements_of_a_file_are_strain_energy_at_the_start(tmp_path):
     assert np.abs(simulation.history["defect"]).max() < 1e-12 * simulation.energy.total
 
 
+def test_velocities_that_are_set_leave_displacements_as_they_are(tmp_path):
+    simulation = carom.Simulation(carom.Scenario.from_dict(stretched(tmp_path)))
+    energy = simulation.energy
+    simulation.set_velocity("block", [0.0, 2.0])
+    assert simulation.energy.strain == energy.strain
+    assert simulation.energy.kinetic == pytest.approx(0.5 * 7800.0 * 4.0)
+    assert simulation.history["total"][0] == simulation.energy.total
+
+
 def test_displacements_of_a_result_are_its_last(tmp_path):
     case = {
         **BLOCK,
@@ -295,3 +304,43 @@ def test_displacements_that_break_what_binds_nodes_are_refused(tmp_path):
 def test_a_start_that_says_nothing_or_too_much_is_refused(initial, message):
     with pytest.raises(carom.InputError, match=message):
         carom.Scenario.from_dict({**BLOCK, "initial": initial})
+
+
+def test_velocities_of_a_run_from_a_result_are_not_set(preload):
+    simulation = carom.Simulation(
+        carom.Scenario.from_dict(
+            {key: value for key, value in rest_of(preload).items() if key != "stages"}
+            | {"analysis": {"end_time": 1.1, "time_step": 1e-3}}
+        )
+    )
+    with pytest.raises(carom.InputError, match="lid: the case goes on from a result, with the"):
+        simulation.set_velocity("lid", [1.0, 0.0])
+
+
+def test_a_state_of_another_time_or_size_does_not_fit(preload, tmp_path):
+    from carom.io.checkpoint import read_checkpoint, write_end_state
+
+    other = tmp_path / "other"
+    shutil.copytree(preload, other)
+    end = read_checkpoint(other / "end_state.h5")
+    slip = end.arrays.pop("state/slip")
+    write_end_state(other, end)
+    with pytest.raises(carom.InputError, match=r"does not fit: state/slip: is missing; run that"):
+        carom.check(carom.Scenario.from_dict(rest_of(other)))
+    simulation = carom.Simulation(carom.Scenario.from_dict(rest_of(preload)))._native
+    end.arrays["state/slip"] = slip
+    end.arrays["state/time"][0] = 0.5
+    with pytest.raises(ValueError, match=r"state/time: is 0\.5 s, where the run starts at 1 s"):
+        simulation.start_from(end.arrays)
+
+
+def test_what_the_auditor_does_not_know_is_said(preload, tmp_path):
+    case = {**BLOCK, "obstacles": [], "initial": stretched(tmp_path)["initial"]}
+    result = carom.run(carom.Scenario.from_dict(case), out=tmp_path / "run")
+    with pytest.raises(carom.InputError, match="cannot audit a case that does not start from"):
+        carom.audit(result.path)
+    staged = {key: value for key, value in BLOCK.items() if key != "analysis"}
+    staged["stages"] = [{"name": "only", "analysis": BLOCK["analysis"]}]
+    result = carom.run(carom.Scenario.from_dict(staged), out=tmp_path / "staged")
+    with pytest.raises(carom.InputError, match="cannot audit a case with stages yet"):
+        carom.audit(result.path)

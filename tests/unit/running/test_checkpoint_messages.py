@@ -45,6 +45,7 @@ BAD = [
     ),
     ("schema", first(99), f"schema: is 99, this version reads {CHECKPOINT_SCHEMA}"),
     ("schema", lambda a: a.astype(np.float32), "schema: neither float64 nor uint64 in one dimens"),
+    ("run/stage", first(9), "run/stage: is none of the case"),
     ("run/step", first(10**9), "run/step: is beyond the end of the run"),
     ("run/halvings", first(2**40), "run/halvings: is too large a number"),
     ("state/time", lambda a: np.repeat(a, 2), "state/time: has 2 entries, not 1"),

@@ -391,3 +391,10 @@ def test_commands_tell_of_stages(joint, capsys):
     assert list(joint.to_pandas("stages").index) == ["preload", "hit", "rest"]
     with pytest.raises(carom.InputError, match="cannot audit a case with"):
         carom.audit(joint.path)
+
+
+def test_a_single_stage_is_a_stage(joint):
+    simulation = carom.Simulation(spring(static("pull", 1.0, loads=[PULL])))
+    simulation.advance(1.0)
+    assert set(simulation.history["stage"]) == {1.0}
+    assert simulation.stage == "pull"

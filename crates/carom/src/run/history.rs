@@ -58,7 +58,7 @@ impl<const D: usize> History<D> {
     /// A history of a run in these `stages` that starts from `state`.
     pub fn new(stages: &[Stage<D>], state: &State<D>, tracks: Vec<Track>) -> Self {
         let axes = &Axis::NAMES[..D];
-        let (model, has_stages) = (&stages[0].model, stages.len() > 1);
+        let (model, has_stages) = (&stages[0].model, !stages[0].name.is_empty());
         let mut supports: Vec<String> = Vec::new();
         for motion in stages.iter().flat_map(|stage| &stage.model.motions) {
             if !supports.contains(&motion.name) {

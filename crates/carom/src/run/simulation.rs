@@ -187,6 +187,11 @@ impl<const D: usize> Simulation<D> {
         &self.stages[self.current]
     }
 
+    /// Whether the case has stages, and be it one.
+    pub(crate) fn has_stages(&self) -> bool {
+        !self.stages[0].name.is_empty()
+    }
+
     /// The number of the present stage, from 0; a run without stages has one.
     #[must_use]
     pub fn stage_number(&self) -> usize {
@@ -224,7 +229,12 @@ impl<const D: usize> Simulation<D> {
     /// If steps were made already or the number of nodes is not that of the model.
     pub fn set_initial_velocity(&mut self, velocity: Vec<Vector<D>>) {
         assert_eq!(self.step(), 0, "initial velocities belong before the first step");
-        self.state = self.model().initial_state(velocity);
+        let Self { stages, current, state, work, .. } = self;
+        let model = &stages[*current].model;
+        let still = std::mem::replace(state, model.initial_state(velocity));
+        state.time = still.time;
+        (state.displacement, state.anchor) = (still.displacement, still.anchor);
+        state.refresh(&model.assembly, &work.bodies);
         self.restart();
     }
 
@@ -384,7 +394,7 @@ impl<const D: usize> Simulation<D> {
         account.steps += 1;
         self.grid.step += 1;
         let due = self.grid.start_time + (self.history_rows as f64) * history_every;
-        let ends_stage = self.grid.has_ended() && self.stages.len() > 1;
+        let ends_stage = self.grid.has_ended() && self.has_stages();
         if ends_stage || !self.grid.is_before(self.state.time, due) {
             self.record();
         }

@@ -14,7 +14,7 @@ const MAX_STEPS: f64 = 1e10;
 
 /// An analysis of a run: what is driven how, the method, and the steps.
 pub(crate) struct Stage<const D: usize> {
-    /// Empty where it is the only one.
+    /// Empty in a case without stages.
     pub name: String,
     pub model: Model<D>,
     pub method: Method<D>,

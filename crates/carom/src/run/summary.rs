@@ -221,7 +221,7 @@ impl<const D: usize> Simulation<D> {
 
     /// What came out of the stages that have begun, where there are any.
     fn stages_so_far(&self) -> Vec<StageSummary> {
-        if self.stages.len() == 1 {
+        if !self.has_stages() {
             return Vec::new();
         }
         let begun = self.stages.iter().zip(&self.accounts).enumerate();

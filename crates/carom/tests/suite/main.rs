@@ -32,6 +32,7 @@ mod scales;
 mod self_contact;
 mod space;
 mod sphere_impact;
+mod stages;
 mod step_control;
 mod surface_pressure;
 mod threads;

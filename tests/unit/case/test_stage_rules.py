@@ -128,6 +128,13 @@ STAGES = {
         ),
         'stages.3.contact.condition = "massless": contact nodes have mass in some dynamic stages',
     ),
+    "a condition of dynamic stages where there is none": (
+        lambda case, preload, hit, rest: (
+            case.update(stages=[preload]),
+            case["contact"].update(condition="endpoint"),
+        ),
+        'contact.condition = "endpoint": is of dynamic stages, and there is none',
+    ),
     "a contact that changes nothing": (
         lambda case, preload, hit, rest: hit.update(contact={}),
         "stages.1.contact: changes nothing",
