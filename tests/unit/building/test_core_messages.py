@@ -327,7 +327,7 @@ def test_a_static_body_that_nothing_holds_is_named():
         build(scenario).advance(1.0, 1.0)
 
 
-PULL = {"kind": "pressure", "body": "block", "on": "top", "pressure": "-1e7*t", "follower": True}
+PULL = {"kind": "pressure", "body": "block", "on": "top", "pressure": "-1e7*t", "follower": False}
 RUBBER = {**MATERIAL, "kind": "neo-hookean"}
 HELD = {"kind": "fixed", "body": "block", "on": "bottom"}
 
