@@ -1,5 +1,6 @@
 use std::collections::BTreeMap;
 
+use carom_mesh::cell::MAX_FACET_NODES;
 use carom_mesh::{CellKind, Facet, Surface, Vector};
 
 use crate::aabb::Aabb;
@@ -8,7 +9,6 @@ use crate::edge::Edge;
 use crate::patch::Patch;
 use crate::project::{Projection, Reach, area_normal, normal, project};
 use crate::tolerances::EDGES;
-use carom_mesh::cell::MAX_FACET_NODES;
 
 /// The boundary of a body, its nodes numbered over all bodies.
 #[derive(Debug, Clone, PartialEq)]

@@ -16,7 +16,7 @@ use crate::tolerances::MORTAR;
 /// The integrals of two corners' multipliers and the shape functions of a facet.
 type Products = [[f64; MAX_FACET_NODES]; 4];
 
-/// Adds to the rows of the nodes of the facet `source` what they see of the facets `targets` of the other of two surfaces. `row_of` knows the places
+/// Adds to the rows of the nodes of the facet `source_facet` what they see of the facets `targets` of the other of two surfaces. `row_of` knows the places
 /// of the rows.
 ///
 /// Each part of the source is a plane, in which the facets are cut against it exactly; along its normal the points of both sides
