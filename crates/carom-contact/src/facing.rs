@@ -44,6 +44,34 @@ impl<const D: usize> Projected<D> {
         beside <= self.gap.max(0.0) + SEARCH.aligned * self.size
     }
 
+    /// Whether the node is straight behind the facet.
+    fn is_behind(&self) -> bool {
+        self.gap < 0.0 && self.distance <= -self.gap + SEARCH.aligned * self.size
+    }
+
+    /// Of a facet and an `other`, both of which the node is straight behind, whether it came in through this one. `before` tells how far in
+    /// front of a facet it started [m]. It came in through the plane that it was behind last. A node that started on both goes
+    /// through the one that looks more towards its `outward` normal. None if that decides nothing.
+    ///
+    /// The closer of the two would be the wrong one for a node that a step presses through one side of a corner, next to the other side.
+    fn is_entered(&self, other: &Self, outward: &Vector<D>, before: impl Fn(u32) -> f64) -> Option<bool> {
+        if !self.is_behind() || !other.is_behind() {
+            return None;
+        }
+        let tie = SEARCH.tie * self.size.max(other.size);
+        let [own, others] = [self, other].map(|p| before(p.facet));
+        // The part of its way on which it was in front.
+        let part = |before: f64, p: &Self| before.max(0.0) / (before.max(0.0) - p.gap);
+        match [own, others].map(|before| before.abs() <= tie) {
+            [true, true] => {
+                let [own, others] = [self, other].map(|p| -p.normal.dot(outward) / outward.norm());
+                ((own - others).abs() > SEARCH.aligned).then_some(own > others)
+            }
+            _ if own < -tie && others < -tie => None,
+            _ => Some(part(own, self) > part(others, other)),
+        }
+    }
+
     /// Whether the node is before an edge or corner, farther in front of this facet than of the others there, although still farther
     /// beside it. So there is no hole between the facets before corners in space, and before sharp edges. Likewise behind concave
     /// edges. All such places lie in the cone of the normals there.
@@ -62,11 +90,12 @@ impl<const D: usize> Projected<D> {
 
 /// The facet that a node with this `outward` normal faces: the closest of those that look towards it and come within `margin` [m].
 ///
-/// `facets` are all that are as close, in ascending order.
+/// `facets` are all that are as close, in ascending order; `before` tells how far in front of one the node started [m].
 pub(crate) fn faced<const D: usize>(
     facets: &[Projected<D>],
     outward: &Vector<D>,
     margin: f64,
+    before: impl Fn(u32) -> f64,
 ) -> Option<u32> {
     let mut best: Option<&Projected<D>> = None;
     for p in facets {
@@ -77,9 +106,10 @@ pub(crate) fn faced<const D: usize>(
         // one, where both sides have to hold, the one that it is deepest behind.
         let tie = SEARCH.tie * p.size;
         let decides = |gap: f64, other: f64| if gap.max(other) > 0.0 { gap > other } else { gap < other };
-        let better = |b: &Projected<D>| {
+        let closer = |b: &Projected<D>| {
             p.distance < b.distance - tie || (p.distance <= b.distance + tie && decides(p.gap, b.gap))
         };
+        let better = |b: &Projected<D>| p.is_entered(b, outward, &before).unwrap_or_else(|| closer(b));
         if best.is_none_or(better) {
             best = Some(p);
         }

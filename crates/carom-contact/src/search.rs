@@ -158,6 +158,8 @@ impl<const D: usize> Search<D> {
             let outward = source.node_normal(node, &middle);
             projected.clear();
             let mut reach = f64::INFINITY;
+            // No farther is it behind a facet that it was in front of.
+            let way_in = (x - (path.start)(node)).norm();
             for &(at_least, facet, size) in near.iter() {
                 // Nothing farther away than a facet that the node faces squarely has a say.
                 if at_least > reach + SEARCH.tie * size {
@@ -170,12 +172,13 @@ impl<const D: usize> Search<D> {
                     continue;
                 }
                 if p.faces(&outward) && p.gap <= path.margin && p.is_square() {
-                    reach = reach.min(p.distance);
+                    reach = reach.min(if p.gap < 0.0 { p.distance.max(way_in) } else { p.distance });
                 }
                 projected.push(p);
             }
             projected.sort_unstable_by_key(|p| p.facet);
-            if let Some(facet) = faced(projected, &outward, path.margin) {
+            let before = |f: u32| target.gap_at(f, &(path.start)(node), path.start);
+            if let Some(facet) = faced(projected, &outward, path.margin, before) {
                 found(node, facet);
             }
         }

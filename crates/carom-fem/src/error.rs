@@ -75,7 +75,9 @@ pub enum FemError {
         at: Vec<f64>,
     },
     /// A matrix that should be positive definite is not.
-    #[error("the iteration matrix is not positive definite; a smaller time step makes it so")]
+    #[error(
+        "the iteration matrix is not positive definite: the step is too long for the inertia of what moves in it"
+    )]
     NotPositiveDefinite,
     /// The ordering of a sparse matrix failed.
     #[error("the symbolic factorisation failed: {0}")]

@@ -110,6 +110,15 @@ pub enum StepError {
         /// What nothing resists, in words.
         motion: String,
     },
+    /// In a static analysis nothing near the last state resists: its tangent is indefinite however much holds its motion back.
+    #[error(
+        "no state near the last one is in stable equilibrium: body {body:?} buckles, snaps through or is pulled apart; drive it by a \
+         displacement in place of a load, or let it move on by analysis.stabilisation = \"dynamic\""
+    )]
+    Unstable {
+        /// The body.
+        body: String,
+    },
     /// Something was not a finite number.
     #[error("the {0} is not finite")]
     NotFinite(&'static str),

@@ -123,7 +123,7 @@ def depth_of(worst: Mapping[str, Any]) -> str:
     remedy = (
         "let it touch itself, which bodies.self_contact = false forbids"
         if first == second
-        else 'have the nodes of both bodies checked, contact.sources = "both"'
+        else 'check both sides where one alone is checked, contact.sources = "both"'
     )
     return (
         f"{who} up to {worst['depth']:.2g} m inside {whom} at t = {worst['time']:.3g} s, more than "

@@ -328,6 +328,7 @@ def test_a_static_body_that_nothing_holds_is_named():
 
 
 PULL = {"kind": "pressure", "body": "block", "on": "top", "pressure": "-1e7*t", "follower": False}
+FOLLOWING = {**PULL, "follower": True}
 RUBBER = {**MATERIAL, "kind": "neo-hookean"}
 HELD = {"kind": "fixed", "body": "block", "on": "bottom"}
 
@@ -342,6 +343,10 @@ HELD = {"kind": "fixed", "body": "block", "on": "bottom"}
         (
             {"analysis": STATIC, "motions": [HELD], "loads": [PULL], "contact": {}},
             r"a body moves by \S+ m, and the largest is 1\.414e0 m large: the loads outgrow what b",
+        ),
+        (
+            {"analysis": STATIC, "motions": [HELD], "loads": [FOLLOWING], "contact": {}},
+            r'no state near the last one is in stable equilibrium: body "block" buckles, snaps thr',
         ),
         (
             {"analysis.newton": {"max_iterations": 1}, "bodies.0.spin": 10.0},

@@ -138,11 +138,12 @@ impl<const D: usize> ActiveSet<D> {
         self.follow_frames();
     }
 
-    /// [`Self::evaluate`] where the last correction was of `correction` [m], late in the iterations of a load step. A contact whose normal turns by
+    /// [`Self::evaluate`] where the last correction was of `correction` [m], late in the iterations of a step. A contact whose normal turns by
     /// more than such a motion explains stands at a kink of its target. It keeps its normal and stencil from now on: any normal between those of
     /// both sides will do there, and with either of them the reaction would push it to the other side.
     pub fn evaluate_late(&mut self, given: &Given<'_, D>, motion: &[Vector<D>], correction: f64) {
-        let position = |n: u32| given.position(n) + motion[n as usize];
+        let weight = given.method.condition.evaluation_weight();
+        let position = |n: u32| given.position(n) + motion[n as usize] * weight;
         let contact = &given.assembly.contact;
         std::mem::swap(&mut self.before, &mut self.contacts);
         contact.evaluate_all(&self.candidates, &position, &mut self.mortar, &mut self.contacts);
@@ -156,7 +157,7 @@ impl<const D: usize> ActiveSet<D> {
                 *contact_now = before.moved(&position);
             }
         }
-        self.stand_off(1.0);
+        self.stand_off(weight);
         self.follow_frames();
     }
 

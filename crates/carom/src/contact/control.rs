@@ -36,6 +36,9 @@ pub(super) struct Control {
     pub spring: f64,
     /// The difference of places that gives the stiffness of reactions, in sizes of the smaller body: it leaves eight digits of it.
     pub difference: f64,
+    /// Contacts up to which a dynamic step whose iterations are slow takes the stiffness of reactions. All respond to all then, in a dense matrix
+    /// that is made in every iteration: 0.05 s for so many in the plane.
+    pub stiffened: usize,
     /// What the tangent of a load step has more than K̄ is nothing below this, relative to K̄ at the contacts.
     pub negligible: f64,
 }
@@ -56,5 +59,6 @@ pub(super) const CONTROL: Control = Control {
     sliding: 1e-6,
     spring: 10.0,
     difference: 1e-6,
+    stiffened: 300,
     negligible: 1e-8,
 };

@@ -20,6 +20,7 @@ use carom_mesh::Vector;
 use self::active::ActiveSet;
 use self::candidates::Finder;
 use self::contact_work::ContactWork;
+use self::control::CONTROL;
 use self::reduced::Reduced;
 use self::slip::Slip;
 use crate::body::{Body, ContactWeights};
@@ -79,22 +80,37 @@ impl<const D: usize> Contacts<D> {
         }
     }
 
-    /// Evaluates the contacts at a guess and gets the bodies ready to respond to them.
-    pub fn evaluate(&mut self, given: &Given<'_, D>, motion: &[Vector<D>], bodies: &mut [Box<dyn Body<D>>]) {
-        self.active.evaluate(given, motion);
-        self.reduced.prepare(given, &self.active, bodies);
-    }
-
-    /// The same late in the iterations of a load step: see [`ActiveSet::evaluate_late`].
-    pub fn evaluate_late(
+    /// Evaluates the contacts at a guess and gets the bodies ready to respond to them; late in the iterations of a step the last correction [m] is
+    /// given, see [`ActiveSet::evaluate_late`].
+    pub fn evaluate(
         &mut self,
         given: &Given<'_, D>,
         motion: &[Vector<D>],
-        correction: f64,
+        late: Option<f64>,
         bodies: &mut [Box<dyn Body<D>>],
     ) {
-        self.active.evaluate_late(given, motion, correction);
+        match late {
+            Some(correction) => self.active.evaluate_late(given, motion, correction),
+            None => self.active.evaluate(given, motion),
+        }
         self.reduced.prepare(given, &self.active, bodies);
+    }
+
+    /// Whether reactions have their stiffness in the tangent.
+    pub fn is_stiffened(&self) -> bool {
+        self.reduced.delassus.stiffened.is_geometric
+    }
+
+    /// From now on they have, in the rest of the step, unless they are so many that it costs more than it saves. Returns whether they have.
+    pub fn take_stiffness_of_reactions(&mut self) -> bool {
+        let stiffened = &mut self.reduced.delassus.stiffened;
+        stiffened.is_geometric = self.active.contacts.len() <= CONTROL.stiffened;
+        stiffened.is_geometric
+    }
+
+    /// From now on they have none.
+    pub fn soften(&mut self) {
+        self.reduced.delassus.stiffened.clear();
     }
 
     /// Makes what contacts add to the tangents of a load step: see [`Reduced::stiffen`].

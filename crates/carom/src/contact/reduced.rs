@@ -157,6 +157,7 @@ impl<const D: usize> Reduced<D> {
         let Self { delassus, problem, offsets, known_motion, .. } = self;
         delassus.condense(assembly, active, offsets, known_motion, problem);
         self.guess.clone_from(&active.reactions);
+        let motions = size(&self.problem, &[]);
         let size = size(&self.problem, &active.reactions);
         let tolerance = tolerance(active.reactions.len(), size, error, method.stopping.tolerance);
         let stopping = StoppingRule { tolerance, ..method.stopping };
@@ -172,6 +173,8 @@ impl<const D: usize> Reduced<D> {
             });
         }
         self.give(assembly, active, bodies);
+        // With the stiffness of reactions W may be indefinite, and has no natural stiffness by which reactions were motions.
+        let size = if self.delassus.stiffened.is_geometric { motions } else { size };
         Ok(method.stopping.tolerance * size)
     }
 

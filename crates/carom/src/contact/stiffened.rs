@@ -1,4 +1,4 @@
-//! What contacts add to the tangents of a load step.
+//! What contacts add to the tangents of a load step, and of other steps whose iterations are slow.
 //!
 //! The tangent of a model in contact is K + G + Hᵀκ H. G = −∂(Hᵀr)/∂u is the stiffness of the reactions themselves, as normals turn and
 //! targets curve. Hᵀκ H are springs in the directions that contacts hold, the normal of those that press and all of those that stick, as stiff as the
@@ -100,6 +100,8 @@ impl<const D: usize> Stiffened<D> {
     /// Forgets what a step before has left.
     pub fn clear(&mut self) {
         self.missing.clear();
+        self.is_sprung.fill(false);
+        self.is_geometric = false;
     }
 
     /// Takes the springs of the tangents from the contacts that press: those that a step starts with.
@@ -194,7 +196,7 @@ impl<const D: usize> Stiffened<D> {
     ) {
         if !self.is_geometric && self.springs_of_contacts.iter().all(|&(stiffness, _)| stiffness == 0.0) {
             // Elastic bodies that pressure takes little of converge without, and a round one that turns in another has nothing against it.
-            self.clear();
+            self.missing.clear();
             return;
         }
         self.list_nodes(given.assembly, active);
@@ -232,6 +234,7 @@ impl<const D: usize> Stiffened<D> {
     /// G: how the forces of the reactions change as nodes move, by central differences of what the search makes of their places.
     fn add_geometric(&mut self, given: &Given<'_, D>, active: &ActiveSet<D>, motion: &[Vector<D>]) {
         let contact_model = &given.assembly.contact;
+        let weight = given.method.condition.evaluation_weight();
         let mut force = vec![Vector::<D>::zeros(); motion.len()];
         let contacts = active.candidates.iter().zip(&active.contacts).zip(&active.reactions);
         for (k, ((candidate, contact), r)) in contacts.enumerate() {
@@ -246,7 +249,7 @@ impl<const D: usize> Stiffened<D> {
                 for component in 0..D {
                     for sign in [1.0, -1.0] {
                         let position = |n: u32| {
-                            let mut x = given.position(n) + motion[n as usize];
+                            let mut x = given.position(n) + motion[n as usize] * weight;
                             if n as usize == node {
                                 x[component] += sign * step;
                             }
@@ -259,7 +262,7 @@ impl<const D: usize> Stiffened<D> {
                             let change = std::mem::replace(&mut force[n], Vector::zeros());
                             let Some(row) = self.place(n) else { continue };
                             let mut block = Matrix::<D>::zeros();
-                            block.set_column(component, &(change * 0.5));
+                            block.set_column(component, &(change * (0.5 * weight)));
                             // Friction makes it unsymmetric, of which a solver of contacts knows nothing.
                             self.missing.add((row, column), block);
                             self.missing.add((column, row), block.transpose());

@@ -1,5 +1,6 @@
 //! Newton's iterations of a load step: see [`super::newton::load_step`].
 
+use carom_fem::FemError;
 use carom_mesh::{Matrix, Vector, nodal};
 
 use super::correction::{begin_solves, correct, end_solves, residuals};
@@ -104,10 +105,8 @@ fn solve<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<f64, StepError> {
     let touched = bodies.iter().any(|&i| work.contacts.active.touched[i]);
-    if let (true, Some(correction)) = (touched, late) {
-        work.contacts.evaluate_late(given, &work.motion, correction, &mut work.bodies);
-    } else if touched {
-        work.contacts.evaluate(given, &work.motion, &mut work.bodies);
+    if touched {
+        work.contacts.evaluate(given, &work.motion, late, &mut work.bodies);
     }
     residuals(bodies, given, next, work);
     let reacts = touched && !work.contacts.active.contacts.is_empty();
@@ -128,7 +127,7 @@ fn solve<const D: usize>(
 }
 
 /// Writes the displacements [m] of the present guess.
-fn follow<const D: usize>(
+pub(super) fn follow<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
     next: &mut State<D>,
@@ -153,13 +152,9 @@ fn linearise<const D: usize>(
     reduced.expect_more(all);
     for &i in bodies {
         let guess = given.guess(i, motion, &next.displacement);
-        work.factorisations += hold(
-            &mut *all[i],
-            &guess,
-            false,
-            &mut work.newton.holding[i],
-            reduced.delassus.stiffened.support(i),
-        )?;
+        let holding = &mut work.newton.holding[i];
+        let held = hold(&mut *all[i], &guess, false, holding, reduced.delassus.stiffened.support(i));
+        work.factorisations += held.map_err(|error| unstable(error, given, i))?;
     }
     Ok(())
 }
@@ -185,11 +180,21 @@ pub(super) fn set_out<const D: usize>(
             ..given.guess(i, motion, &given.state.displacement)
         };
         stiffened.is_sprung[i] = false;
-        let held = hold(&mut **body, &guess, true, &mut newton.holding[i], stiffened.support(i))?;
-        work.factorisations += held;
+        let held = hold(&mut **body, &guess, true, &mut newton.holding[i], stiffened.support(i));
+        work.factorisations += held.map_err(|error| unstable(error, given, i))?;
         body.follow(given.interval, &given.start(i), &mut motion[nodes]);
     }
     Ok(())
+}
+
+/// What it says of a body that its tangent has no inverse whatever holds it back.
+fn unstable<const D: usize>(error: StepError, given: &Given<'_, D>, body: usize) -> StepError {
+    match error {
+        StepError::Matrix(FemError::NotPositiveDefinite) => {
+            StepError::Unstable { body: given.assembly.name(body).to_string() }
+        }
+        error => error,
+    }
 }
 
 /// Makes the tangent of a body at a guess, with the springs of its contacts where it has no inverse without, and held back by as much as

@@ -3,9 +3,10 @@
 use carom_mesh::nodal;
 
 use super::correction::{begin_solves, correct, end_solves, residuals};
-use super::equilibrate::equilibrate;
+use super::equilibrate::{equilibrate, follow};
 use super::newton::Newton;
 use super::newton::acceleration::Last;
+use super::newton::control::CONTROL;
 use super::newton::convergence::{BodyProgress, Convergence};
 use super::workspace::Workspace;
 use crate::error::StepError;
@@ -55,13 +56,20 @@ fn iterate_bodies<const D: usize>(
 ) -> Result<usize, StepError> {
     let mut convergence = Convergence::new(given);
     let touched = bodies.iter().any(|&i| work.contacts.active.touched[i]);
-    let (mut renewed, mut nearly_settled) = (0, false);
+    let (mut renewed, mut nearly_settled, mut may_stiffen) = (0, false, true);
     for iteration in 1.. {
         if touched {
-            work.contacts.evaluate(given, &work.motion, &mut work.bodies);
+            let Workspace { contacts, motion, bodies: all, newton, .. } = work;
+            let late =
+                (iteration > CONTROL.late).then(|| convergence.largest_correction(bodies, &newton.progress));
+            contacts.evaluate(given, motion, late, all);
         }
         residuals(bodies, given, next, work);
         let reacts = touched && !work.contacts.active.contacts.is_empty();
+        if reacts && work.contacts.is_stiffened() {
+            let Workspace { contacts, motion, bodies, newton, .. } = work;
+            contacts.stiffen(given, motion, bodies, &mut newton.residual);
+        }
         begin_solves(bodies, given, reacts, work);
         let mut error = 0.0;
         if reacts {
@@ -69,24 +77,62 @@ fn iterate_bodies<const D: usize>(
                 let count = work.contacts.active.contacts.len();
                 error = convergence.contact_error(count, bodies, &work.newton.progress);
             }
-            convergence.left_by_contacts =
-                work.contacts.solve(given, &work.motion, error, &mut work.bodies)?;
+            match work.contacts.solve(given, &work.motion, error, &mut work.bodies) {
+                Ok(left) => convergence.left_by_contacts = left,
+                Err(StepError::Friction { .. }) if work.contacts.is_stiffened() => {
+                    // With the stiffness of reactions a compliance may be indefinite.
+                    soften(bodies, given, next, work);
+                    may_stiffen = false;
+                    continue;
+                }
+                Err(error) => return Err(error),
+            }
         }
         end_solves(bodies, given, work)?;
         correct(bodies, given, next, work);
-        if convergence.settle(iteration, bodies, &work.newton.progress)? {
+        let settled = convergence.settle(iteration, bodies, &work.newton.progress);
+        if settled.is_err() && work.contacts.is_stiffened() && iteration < given.method.newton.max_iterations
+        {
+            soften(bodies, given, next, work);
+            convergence.has_returned();
+            may_stiffen = false;
+            continue;
+        }
+        if settled? {
             if error == 0.0 {
                 return Ok(iteration);
             }
             nearly_settled = true;
         }
         accelerate(bodies, given, iteration == 1, next, work);
+        if may_stiffen
+            && reacts
+            && iteration > CONTROL.late
+            && convergence.is_linear(bodies, &work.newton.progress)
+        {
+            work.newton.keep_guess(bodies, given.assembly, &work.motion, &work.contacts.active);
+            may_stiffen = work.contacts.take_stiffness_of_reactions();
+            work.newton.acceleration.restart();
+        }
         if convergence.is_slow(iteration, iteration - renewed, bodies, &work.newton.progress) {
             renew(bodies, given, next, renewed > 0, work)?;
             renewed = iteration;
         }
     }
     unreachable!("the loop ends at max_iterations")
+}
+
+/// Goes back to where the reactions were given their stiffness, and on without it.
+fn soften<const D: usize>(
+    bodies: &[usize],
+    given: &Given<'_, D>,
+    next: &mut State<D>,
+    work: &mut Workspace<D>,
+) {
+    work.newton.return_to_guess(bodies, given.assembly, &mut work.motion, &mut work.contacts.active);
+    follow(bodies, given, next, work);
+    work.contacts.soften();
+    work.newton.acceleration.restart();
 }
 
 /// Moves the `bodies` on to better guesses.

@@ -36,6 +36,8 @@ pub(crate) struct Control {
     pub loose_at_first: f64,
     /// An iteration may be the last one if the correction that is expected of it is within so many times of what is wanted.
     pub near: f64,
+    /// After so many an iteration is late, and a normal that jumps has crossed a kink of its target, which no smaller correction will undo.
+    pub late: usize,
     /// A free body whose corrections shrink faster than this is not accelerated: it would cost more than it saves.
     pub fast: f64,
     /// Differences of corrections that are parallel up to this, relative and squared, say nothing new to the acceleration.
@@ -60,6 +62,7 @@ pub(crate) const CONTROL: Control = Control {
     loose: 1e-3,
     loose_at_first: 1e-9,
     near: 30.0,
+    late: 6,
     fast: 0.05,
     parallel: 1e-12,
     largest_weight: 2.0,

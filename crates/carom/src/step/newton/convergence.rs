@@ -99,6 +99,21 @@ impl Convergence {
         Err(StepError::Newton { iterations: iteration, correction, wanted })
     }
 
+    /// The largest component of the last corrections of the `bodies` [m].
+    pub fn largest_correction(&self, bodies: &[usize], progress: &[BodyProgress]) -> f64 {
+        bodies.iter().map(|&i| progress[i].correction).fold(0.0, f64::max)
+    }
+
+    /// Whether corrections shrink no faster than they would by a K̄ that lacks something.
+    pub fn is_linear(&self, bodies: &[usize], progress: &[BodyProgress]) -> bool {
+        bodies.iter().map(|&i| progress[i].contraction).fold(0.0, f64::max) > CONTROL.slow_contraction
+    }
+
+    /// Takes note that the iterations go on from an earlier guess.
+    pub fn has_returned(&mut self) {
+        self.stalled = 0;
+    }
+
     /// How wrong the motion of so many `contacts` may be after the next iteration [m]. Where that may be the last one, it must
     /// not be wrong at all, but for the tolerance of their problem.
     pub fn contact_error(&self, contacts: usize, bodies: &[usize], progress: &[BodyProgress]) -> f64 {
@@ -170,8 +185,7 @@ impl Convergence {
     ) -> bool {
         let is_patient =
             if self.is_changing { iteration < CONTROL.changed_patience } else { since < CONTROL.patience };
-        !is_patient
-            && bodies.iter().map(|&i| progress[i].contraction).fold(0.0, f64::max) > CONTROL.slow_contraction
+        !is_patient && self.is_linear(bodies, progress)
     }
 }
 
