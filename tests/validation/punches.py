@@ -11,8 +11,7 @@ where the rounded punch is flat over |x| < b and parabolic with radius R beyond.
 last are equations 2.64 and 3.36 of Johnson, Contact Mechanics (1985); those of the rounded punch
 are by Ciavarella, Hills & Monno, Proc. Instn Mech. Engrs C 212 (1998) 319–328.
 
-The corner of a flat punch is in the middle of a cell: a node right under it would be kept from
-sliding below by the side of the punch.
+The corner of a flat punch is in the middle of a cell, or on a node.
 """
 
 from __future__ import annotations
@@ -93,12 +92,15 @@ def press(
     return Pressed(across, -force, float(np.mean(iterations)))
 
 
-def towards_the_corner(first: float, reach: float, growth: float) -> Array:
-    """Return places along a top [m] with the corner of the punch in the middle of the smallest."""
-    half = 0.5 * first
+def towards_the_corner(first: float, reach: float, growth: float, *, on_node: bool) -> Array:
+    """Return places along a top [m] with the corner of the punch in the middle of the smallest.
+
+    Or `on_node`, between two of these.
+    """
+    half = 0.0 if on_node else 0.5 * first
     inside = HALF_WIDTH - half - grids.away_from(first, growth, HALF_WIDTH - half)[::-1]
     outside = HALF_WIDTH + half + grids.away_from(first, growth, reach - HALF_WIDTH - half)
-    return np.append(inside, outside)
+    return np.append(inside, outside[1:] if on_node else outside)
 
 
 def flat_box() -> carom.RigidBox:
@@ -147,18 +149,16 @@ def _pressure_at_centre(pressed: Pressed) -> float:
     return float(pressed.force[0] / (0.5 * pressed.x[1]))
 
 
-def flat_of_revolution(cell: float, growth: float, size: float = 80.0) -> Compared:
-    """Press a flat punch of revolution into cylinders of two sizes.
+def flat_of_revolution(
+    cell: float, growth: float, size: float = 80.0, *, on_node: bool = False
+) -> Compared:
+    """Press a flat punch of revolution into cylinders of two sizes, its corner `on_node` or not.
 
     The force is too large by a part that goes with a over the size: twice the larger cylinder's
     less the smaller one's is that of a half space.
     """
-    runs = [
-        press(
-            flat_box(), towards_the_corner(cell, s, growth), s, cell, "axisymmetric", growth=growth
-        )
-        for s in (0.5 * size, size)
-    ]
+    across = {s: towards_the_corner(cell, s, growth, on_node=on_node) for s in (0.5 * size, size)}
+    runs = [press(flat_box(), x, s, cell, "axisymmetric", growth=growth) for s, x in across.items()]
     return Compared(
         f"flat punch of revolution, cells of {cell} a, force [N]",
         2.0 * runs[1].total - runs[0].total,
@@ -170,7 +170,7 @@ def flat_of_revolution(cell: float, growth: float, size: float = 80.0) -> Compar
 
 def flat_in_the_plane(cell: float, growth: float, size: float = 80.0) -> Compared:
     """Press a flat punch into a block in plane strain."""
-    across = towards_the_corner(cell, size, growth)
+    across = towards_the_corner(cell, size, growth, on_node=False)
     pressed = press(flat_box(), across, size, cell, growth=growth)
     return Compared(
         f"flat punch, cells of {cell} a, p(0) [Pa]",

@@ -23,7 +23,7 @@ DEEPEST = {
     "cube on its corner": 1e-12,
     "corner on corner": 5e-6,
     "spike and wedge": 2e-6,
-    "wedge between two blocks": 9e-7,
+    "wedge between two blocks": 3e-6,
     "needle on a coarse sheet": 6e-4,
     "plate over a post": 8e-14,
     "plate over a post in the plane": 8e-15,

@@ -170,3 +170,5 @@ def test_a_block_that_loses_its_hold_moves_on_to_the_next(tmp_path):
     assert history["block.x"][-1] - history["block.x"][0] == pytest.approx(0.002, rel=0.02), pairs
     # What friction on the floor does not bear, the wall does: 600 N of traction against 300 N.
     assert history["kinetic"][-1] == 0.0
+    # All that the way there took is the scheme's. Measured: 4e-15 J.
+    assert max(abs(history["defect"])) < 1e-13 * history["external"][-1]

@@ -328,7 +328,7 @@ def test_a_static_body_that_nothing_holds_is_named():
 
 
 PULL = {"kind": "pressure", "body": "block", "on": "top", "pressure": "-1e7*t", "follower": False}
-FOLLOWING = {**PULL, "follower": True}
+FOLLOWING = {**PULL, "pressure": "-1e8*t", "follower": True}
 RUBBER = {**MATERIAL, "kind": "neo-hookean"}
 HELD = {"kind": "fixed", "body": "block", "on": "bottom"}
 
