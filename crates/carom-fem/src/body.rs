@@ -5,7 +5,7 @@ use carom_mesh::{Facet, Matrix, Mesh, Surface, Vector};
 use crate::elements::{Dashpots, Elements, Past, add_mass, add_scaled_diagonal_mass, dashpots, elements};
 use crate::held::{Held, HeldDof};
 use crate::massless::{followers, redistributed};
-use crate::material::PlasticState;
+use crate::material::{Mat3, PlasticState};
 use crate::shape_table::{Cells, Depth, facet_area};
 use crate::sparse::{NodalMatrix, NodeGraph};
 use crate::{BodySpec, FemError, Growth, Hypothesis, MassKind, RayleighDamping};
@@ -85,15 +85,13 @@ impl<const D: usize> Body<D> {
         let graph = Arc::clone(mass.shared_graph());
         spec.viscosity.check()?;
         let (mut blocks, mut viscous) = (Vec::new(), Vec::new());
-        let mut first_cell = 0;
-        for block in mesh.blocks() {
-            let cells = Cells { mesh: &mesh, block, first: first_cell, depth };
-            blocks.push(elements(spec, &cells, &graph)?);
+        for_each_block(&mesh, depth, |cells| {
+            blocks.push(elements(spec, cells, &graph)?);
             if spec.viscosity.is_active() {
-                viscous.push(dashpots(spec, law.is_objective(), &cells, &graph)?);
+                viscous.push(dashpots(spec, law.is_objective(), cells, &graph)?);
             }
-            first_cell += block.cells().len();
-        }
+            Ok(())
+        })?;
         let nodal_mass = mass.row_sums();
         let (_, tangent) = law.stress_and_tangent(&Matrix::identity());
         let total_mass: f64 = nodal_mass.iter().sum();
@@ -124,7 +122,7 @@ impl<const D: usize> Body<D> {
         body.frame_arms = body.reference_arms();
         body.hold(body.axis_nodes().into_iter().map(|node| HeldDof { node, component: 0 }));
         if spec.massless_contact {
-            let stiffness = body.stiffness(&vec![Vector::zeros(); body.node_count()]);
+            let stiffness = body.unstressed_stiffness(spec)?;
             body.massless_stiffness = body
                 .massless()
                 .iter()
@@ -132,7 +130,7 @@ impl<const D: usize> Body<D> {
                 .collect();
         }
         if spec.damping.stiffness > 0.0 {
-            body.damping_stiffness = Some(body.stiffness(&vec![Vector::zeros(); body.node_count()]));
+            body.damping_stiffness = Some(body.unstressed_stiffness(spec)?);
         }
         Ok(body)
     }
@@ -309,6 +307,23 @@ impl<const D: usize> Body<D> {
         k
     }
 
+    /// The stiffness [N/m] that the body, which is like `spec`, has where nothing has moved but for its initial stress: rigid motions meet no
+    /// resistance of it.
+    fn unstressed_stiffness(&self, spec: &BodySpec) -> Result<NodalMatrix<Matrix<D>>, FemError> {
+        let rest = vec![Vector::zeros(); self.node_count()];
+        if spec.initial_stress == Mat3::zeros() {
+            return Ok(self.stiffness(&rest));
+        }
+        let spec = BodySpec { initial_stress: Mat3::zeros(), ..spec.clone() };
+        let past = Past { history: &[], growth: Growth::default() };
+        let mut k = NodalMatrix::filled(&self.graph, Matrix::zeros());
+        for_each_block(&self.mesh, self.depth, |cells| {
+            elements(&spec, cells, &self.graph)?.add_stiffness(&rest, past, &mut k);
+            Ok(())
+        })?;
+        Ok(k)
+    }
+
     /// The stiffness K₀ that damping is made of, if there is any.
     #[must_use]
     pub fn damping_stiffness(&self) -> Option<&NodalMatrix<Matrix<D>>> {
@@ -397,6 +412,20 @@ fn depth<const D: usize>(mesh: &Mesh<D>, spec: &BodySpec) -> Result<Depth, FemEr
     }
 }
 
+/// Does something with the cells of every block of a mesh.
+fn for_each_block<const D: usize>(
+    mesh: &Mesh<D>,
+    depth: Depth,
+    mut with: impl FnMut(&Cells<'_, D>) -> Result<(), FemError>,
+) -> Result<(), FemError> {
+    let mut first = 0;
+    for block in mesh.blocks() {
+        with(&Cells { mesh, block, first, depth })?;
+        first += block.cells().len();
+    }
+    Ok(())
+}
+
 /// The mass matrix on the graph of the body.
 fn mass_matrix<const D: usize>(
     mesh: &Mesh<D>,
@@ -406,16 +435,13 @@ fn mass_matrix<const D: usize>(
 ) -> Result<NodalMatrix<f64>, FemError> {
     let graph = Arc::new(NodeGraph::of(mesh));
     let mut mass = NodalMatrix::filled(&graph, 0.0);
-    let mut first_cell = 0;
-    for block in mesh.blocks() {
-        let cells = Cells { mesh, block, first: first_cell, depth };
-        if spec.mass == MassKind::Lumped && block.kind.is_quadratic() {
-            add_scaled_diagonal_mass(&cells, spec.density, &mut mass)?;
+    for_each_block(mesh, depth, |cells| {
+        if spec.mass == MassKind::Lumped && cells.block.kind.is_quadratic() {
+            add_scaled_diagonal_mass(cells, spec.density, &mut mass)
         } else {
-            add_mass(&cells, spec.density, &mut mass)?;
+            add_mass(cells, spec.density, &mut mass)
         }
-        first_cell += block.cells().len();
-    }
+    })?;
     if spec.mass == MassKind::Lumped {
         let sums = mass.row_sums();
         for node in 0..graph.node_count() {

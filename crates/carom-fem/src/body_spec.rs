@@ -1,7 +1,9 @@
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
-use crate::material::{LawSpec, Viscosity};
-use crate::{Formulation, Hypothesis};
+use crate::material::{LawSpec, Mat3, PointLaw, Prestressed, Viscosity};
+use crate::{FemError, Formulation, Hypothesis};
 
 /// How the mass of a body is shared among its nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -51,8 +53,37 @@ pub struct BodySpec {
     pub formulation: Formulation,
     /// Thickness in 2D [m], but of a body of revolution; 1 in 3D.
     pub thickness: f64,
+    /// The stress that the body is under where it has not moved [Pa], symmetric; zero is none. There it is Cauchy's and the second of
+    /// Piola and Kirchhoff, which it stays with the body as it moves.
+    pub initial_stress: Mat3,
     /// Whether the body may grow.
     pub grows: bool,
     /// Whether the mass of the nodes that may touch others moves inside; total mass, centre and inertia stay.
     pub massless_contact: bool,
+}
+
+impl BodySpec {
+    /// The law as elements see it that see D dimensions, under the initial stress.
+    ///
+    /// # Errors
+    /// If a material constant is out of range or there can be no initial stress.
+    pub(crate) fn point_law<const D: usize>(
+        &self,
+        hypothesis: Hypothesis,
+    ) -> Result<Arc<dyn PointLaw<D>>, FemError> {
+        let law = self.law.point_law::<D>(hypothesis)?;
+        if self.initial_stress == Mat3::zeros() {
+            return Ok(law);
+        }
+        if law.remembers() {
+            let remedy =
+                "its flow would not see it; choose an elastic law, or reach the stress in a stage before";
+            return Err(FemError::InitialStress { what: "a body whose material flows", remedy });
+        }
+        if hypothesis == Hypothesis::PlaneStress {
+            let remedy = "its change of thickness would not see it; choose another hypothesis";
+            return Err(FemError::InitialStress { what: "a sheet in plane stress", remedy });
+        }
+        Ok(Arc::new(Prestressed::new(law, &self.initial_stress)))
+    }
 }

@@ -45,6 +45,14 @@ pub enum FemError {
         /// What the material has.
         what: &'static str,
     },
+    /// A body that can be under no initial stress.
+    #[error("{what} cannot be under an initial stress: {remedy}")]
+    InitialStress {
+        /// What it is.
+        what: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
     /// A formulation is not one for the cells, the law or the hypothesis of a body.
     #[error("formulation \"mean-dilatation\" does not suit this body of {cell} cells: {remedy}")]
     Formulation {

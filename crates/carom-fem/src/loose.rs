@@ -70,6 +70,7 @@ mod tests {
             thickness: 1.0,
             hypothesis: Hypothesis::PlaneStrain,
             formulation: Formulation::Standard,
+            initial_stress: crate::material::Mat3::zeros(),
             grows: false,
             massless_contact: false,
         };

@@ -54,7 +54,7 @@ class AuditBody:
         self.name = entry.name
         self.points = points
         self.span = slice(first_node, first_node + len(points))
-        self.law = Law.of(material)
+        self.law = Law.of(material, entry.initial_stress)
         self.masters = _masters(entry, points)
         """For every node the one that it moves with, itself as a rule, [node_count]."""
         self.images: Indices = np.flatnonzero(self.masters != np.arange(len(points)))

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.auditing.arrays import Array, einsum
+from carom.case.body import InitialStress
 from carom.case.material import (
     LinearElastic,
     Material,
@@ -46,15 +47,18 @@ class Law:
         Its name in the case file.
     first, second
         Lamé's λ and μ [Pa].
+    initial
+        Stress where nothing has moved [Pa], shape [3, 3].
     """
 
     kind: str
     first: float
     second: float
+    initial: Array
 
     @classmethod
-    def of(cls, material: Material) -> Law:
-        """Return the law of a material.
+    def of(cls, material: Material, stress: InitialStress | None = None) -> Law:
+        """Return the law of a material under an initial stress.
 
         Raises
         ------
@@ -67,7 +71,10 @@ class Law:
             raise InputError("cannot audit a material with viscosity yet")
         young, poisson = material.young, material.poisson
         first = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
-        return cls(kind=material.kind, first=first, second=young / (2 * (1 + poisson)))
+        s = stress or InitialStress()
+        initial = np.array([[s.xx, s.xy, s.xz], [s.xy, s.yy, s.yz], [s.xz, s.yz, s.zz]])
+        second = young / (2 * (1 + poisson))
+        return cls(kind=material.kind, first=first, second=second, initial=initial)
 
     @property
     def objective(self) -> bool:
@@ -83,8 +90,56 @@ class Law:
         """λ + 2μ [Pa], the stiffness against a strain with no way to yield."""
         return self.first + 2 * self.second
 
+    @property
+    def _held(self) -> Array:
+        """The initial stress in the plane [Pa], shape [2, 2]."""
+        return self.initial[:2, :2]
+
+    @property
+    def _stored(self) -> float:
+        """½ S₀:E₀ [J/m³] where E₀ is the strain that S₀ takes, in plane strain."""
+        stress = self._held
+        pressure = self.first / (2 * (self.first + self.second)) * np.trace(stress)
+        return 0.25 / self.second * float(np.sum(stress * (stress - pressure * IDENTITY)))
+
+    def _initial_piola(self, f: Array) -> Array:
+        """Return what the initial stress is at F, or at the mean F of a step, [..., 2, 2]."""
+        return f @ self._held if self.objective else np.broadcast_to(self._held, f.shape)
+
     def energy(self, f: Array) -> Array:
-        """Return ψ [J/m³] of F, shape [..., 2, 2], shape [...]."""
+        """Return ψ [J/m³] of F, shape [..., 2, 2], shape [...].
+
+        An initial stress adds its work S₀:E and what it has stored at F = 1.
+        """
+        strain = self._strain(f)
+        energy: Array = self._energy(f) + contracted(self._held, strain) + self._stored
+        return energy
+
+    def stress(self, f: Array) -> Array:
+        """Return the first Piola–Kirchhoff stress P = ∂ψ/∂F [Pa], shape [..., 2, 2]."""
+        return self._stress(f) + self._initial_piola(f)
+
+    def cauchy_stress(self, f: Array) -> Array:
+        """Return P Fᵀ/J [Pa] in space, shape [..., 3, 3]."""
+        full = np.zeros((*f.shape[:-2], 3, 3))
+        j = np.linalg.det(f)
+        full[..., :2, :2] = self.stress(f) @ transposed(f) / j[..., None, None]
+        if self.kind == "neo-hookean":
+            full[..., 2, 2] = self.first * np.log(j) / j
+        else:
+            full[..., 2, 2] = self.first * np.trace(self._strain(f), axis1=-2, axis2=-1) / j
+        full[..., 2, 2] += self.initial[2, 2] / j
+        return full
+
+    def discrete_stress(self, f0: Array, f1: Array) -> Array:
+        """Return the stress P̄ [Pa] with P̄ : (F₁ − F₀) = ψ(F₁) − ψ(F₀), shape [..., 2, 2].
+
+        P̄ = ½(F₀ + F₁) S̄. A law that is quadratic in its strain has the mean of both stresses for
+        S̄ (Simo & Tarnow 1992), another the discrete gradient in the strain (Gonzalez 2000).
+        """
+        return self._discrete_stress(f0, f1) + self._initial_piola(0.5 * (f0 + f1))
+
+    def _energy(self, f: Array) -> Array:
         if self.kind == "neo-hookean":
             log_j = np.log(np.linalg.det(f))
             # |F|² − 3 with F₃₃ = 1.
@@ -96,29 +151,12 @@ class Law:
         energy: Array = 0.5 * self.first * trace**2 + self.second * contracted(strain, strain)
         return energy
 
-    def stress(self, f: Array) -> Array:
-        """Return the first Piola–Kirchhoff stress P = ∂ψ/∂F [Pa], shape [..., 2, 2]."""
+    def _stress(self, f: Array) -> Array:
         if self.kind == "linear-elastic":
             return self._hooke(self._strain(f))
         return f @ self._second_piola(f)
 
-    def cauchy_stress(self, f: Array) -> Array:
-        """Return P Fᵀ/J [Pa] in space, shape [..., 3, 3]."""
-        full = np.zeros((*f.shape[:-2], 3, 3))
-        j = np.linalg.det(f)
-        full[..., :2, :2] = self.stress(f) @ transposed(f) / j[..., None, None]
-        if self.kind == "neo-hookean":
-            full[..., 2, 2] = self.first * np.log(j) / j
-        else:
-            full[..., 2, 2] = self.first * np.trace(self._strain(f), axis1=-2, axis2=-1) / j
-        return full
-
-    def discrete_stress(self, f0: Array, f1: Array) -> Array:
-        """Return the stress P̄ [Pa] with P̄ : (F₁ − F₀) = ψ(F₁) − ψ(F₀), shape [..., 2, 2].
-
-        P̄ = ½(F₀ + F₁) S̄. A law that is quadratic in its strain has the mean of both stresses for
-        S̄ (Simo & Tarnow 1992), another the discrete gradient in the strain (Gonzalez 2000).
-        """
+    def _discrete_stress(self, f0: Array, f1: Array) -> Array:
         mean = 0.5 * (f0 + f1)
         if self.kind == "linear-elastic":
             return self._hooke(self._strain(mean))
@@ -128,7 +166,7 @@ class Law:
         stress = self._neo_hookean(0.5 * (c0 + c1))
         change = 0.5 * (c1 - c0)
         size = contracted(change, change)
-        missing = self.energy(f1) - self.energy(f0) - contracted(stress, change)
+        missing = self._energy(f1) - self._energy(f0) - contracted(stress, change)
         large = size > SMALL_STRAIN**2
         factor = np.where(large, missing / np.where(large, size, 1.0), 0.0)
         return mean @ (stress + change * factor[..., None, None])
@@ -136,7 +174,7 @@ class Law:
     def stress_difference(self, f0: Array, f1: Array) -> Array:
         """Return ½(F₀ + F₁)(S₁ − S₀) [Pa], which has no moment, shape [..., 2, 2]."""
         if self.kind == "linear-elastic":
-            return self.stress(f1) - self.stress(f0)
+            return self._stress(f1) - self._stress(f0)
         return 0.5 * (f0 + f1) @ (self._second_piola(f1) - self._second_piola(f0))
 
     def _strain(self, f: Array) -> Array:

@@ -13,6 +13,37 @@ from carom.case.signal import Signal
 from carom.messages import known, problem
 
 
+class InitialStress(Description):
+    """The stress that a body is under where it is drawn, the same everywhere in it.
+
+    It is Cauchy's stress there. As the body moves it stays with it, as a second Piola–Kirchhoff
+    stress, beside what the law adds. Nothing needs to balance it: a static analysis finds the
+    equilibrium in its first step, a dynamic one starts to move.
+
+    Parameters
+    ----------
+    xx
+        Normal stress along x [Pa], positive in tension.
+    yy
+        Along y [Pa].
+    zz
+        Along z [Pa]; around the axis of a body of revolution.
+    xy
+        Shear stress [Pa].
+    yz
+        Shear stress [Pa], in 3D.
+    xz
+        Shear stress [Pa], in 3D.
+    """
+
+    xx: Number = 0.0
+    yy: Number = 0.0
+    zz: Number = 0.0
+    xy: Number = 0.0
+    yz: Number = 0.0
+    xz: Number = 0.0
+
+
 class Body(Description):
     """A deformable body.
 
@@ -35,6 +66,10 @@ class Body(Description):
         Mass matrix: consistent, or lumped to the nodes.
     mesh
         Reference geometry and its cells.
+    initial_stress
+        Stress that the body is under where it is drawn: residual stress, the tension of a bolt or a
+        string. Its energy counts as stored. Not of plastic bodies, nor in plane stress. None is
+        none.
     growth
         Linear strain by which the body would grow in all directions if nothing held it, a number or
         a function of time: for a body that is heated by ΔT, α ΔT. A static analysis applies in its
@@ -57,6 +92,7 @@ class Body(Description):
     thickness: Positive = 1.0
     mass: Literal["consistent", "lumped"] = "consistent"
     mesh: Mesh
+    initial_stress: InitialStress | None = None
     growth: Signal | None = None
     contact_sets: tuple[str, ...] | None = None
     self_contact: Annotated[bool | None, Field(strict=True)] = None

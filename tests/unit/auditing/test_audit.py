@@ -75,6 +75,11 @@ def test_every_method_is_confirmed(results, method):
         {"bodies.1": LAYER, "bodies.0.mesh.centre": [0.3, 1.23], "analysis.end_time": 0.1},
         {"materials.m.damping": {"mass": 0.1, "stiffness": 1e-3}, "bodies.1.mesh.cell": "tri3"},
         {"analysis.scheme": {"kind": "theta", "theta": 0.6, "xi": 0.7}},
+        {
+            "bodies.0.initial_stress": {"xx": 50.0, "yy": -40.0, "zz": 30.0, "xy": 20.0},
+            "materials.m.damping": {"mass": 0.0, "stiffness": 1e-4},
+        },
+        {"materials.m.kind": "linear-elastic", "bodies.0.initial_stress": {"yy": 5.0}},
         {"analysis.end_time": 0.195, "output.history_every": 0.05},
     ],
 )

@@ -8,6 +8,7 @@ from carom.auditing.body import AuditBody
 from carom.auditing.cells import VTK_QUAD, VTK_TRIANGLE, boundary
 from carom.auditing.mass import affine_weights
 
+STRESSES = (None, carom.InitialStress(xx=0.4, yy=-0.2, zz=0.1, xy=0.3))
 LAWS = ("saint-venant-kirchhoff", "linear-elastic", "neo-hookean")
 
 # Skewed quadrilaterals, 4 by 3: the six nodes inside can carry the mass of the others.
@@ -26,12 +27,20 @@ TRIANGLES = np.concatenate([QUADS[:, [0, 1, 2]], QUADS[:, [0, 2, 3]]])
 MOTIONS = np.random.default_rng(7).normal(scale=0.02, size=(2, len(POINTS), 2))
 
 
-def body(law="saint-venant-kirchhoff", *, triangles=False, mass="consistent", massless=False):
+def body(
+    law="saint-venant-kirchhoff",
+    *,
+    triangles=False,
+    mass="consistent",
+    massless=False,
+    initial_stress=None,
+):
     entry = carom.Body(
         name="b",
         material="m",
         thickness=0.3,
         mass=mass,
+        initial_stress=initial_stress,
         mesh=carom.Rectangle(corner=[0, 0], size=[1, 1], divisions=[1, 1]),
     )
     classes = (carom.SaintVenantKirchhoff, carom.LinearElastic, carom.NeoHookean)
@@ -49,17 +58,20 @@ def body(law="saint-venant-kirchhoff", *, triangles=False, mass="consistent", ma
     )
 
 
+@pytest.mark.parametrize("stress", STRESSES)
 @pytest.mark.parametrize("triangles", [False, True])
 @pytest.mark.parametrize("law", LAWS)
-def test_internal_force_is_the_derivative_of_the_energy(law, triangles):
-    b, (u, direction), h = body(law, triangles=triangles), MOTIONS, 1e-5
+def test_internal_force_is_the_derivative_of_the_energy(law, triangles, stress):
+    b = body(law, triangles=triangles, initial_stress=stress)
+    (u, direction), h = MOTIONS, 1e-5
     slope = (b.strain_energy(u + h * direction) - b.strain_energy(u - h * direction)) / (2 * h)
     assert (b.internal_force(u) * direction).sum() == pytest.approx(slope, rel=1e-8)
 
 
+@pytest.mark.parametrize("stress", STRESSES)
 @pytest.mark.parametrize("law", LAWS)
-def test_conserving_force_does_the_change_of_energy_and_has_no_moment(law):
-    b, (u0, u1) = body(law), MOTIONS
+def test_conserving_force_does_the_change_of_energy_and_has_no_moment(law, stress):
+    b, (u0, u1) = body(law, initial_stress=stress), MOTIONS
     force = b.conserving_force(u0, u1)
     change = b.strain_energy(u1) - b.strain_energy(u0)
     assert (force * (u1 - u0)).sum() == pytest.approx(change, rel=1e-12)

@@ -24,7 +24,7 @@ pub fn elements<const D: usize>(
     let kind = cells.block.kind;
     match (spec.formulation, spec.hypothesis) {
         (Formulation::MeanDilatation, hypothesis) => {
-            let law = spec.law.point_law::<3>(Hypothesis::PlaneStrain)?;
+            let law = spec.point_law::<3>(Hypothesis::PlaneStrain)?;
             let refuse = |remedy| FemError::Formulation { cell: kind.reference().name, remedy };
             if hypothesis == Hypothesis::PlaneStress {
                 return Err(refuse("a sheet in plane stress does not lock; leave the formulation out"));
@@ -50,13 +50,13 @@ pub fn elements<const D: usize>(
             if hypothesis == Hypothesis::Axisymmetric
                 || D == 2 && hypothesis == Hypothesis::PlaneStrain && spec.grows =>
         {
-            let law = spec.law.point_law::<3>(spec.hypothesis)?;
+            let law = spec.point_law::<3>(spec.hypothesis)?;
             Ok(with_node_count!(kind, N => {
                 Box::new(Block::<D, 3, N, Embedded> { law, grid: Grid::new(cells, graph)? })
             }))
         }
         (Formulation::Standard, _) => {
-            let law = spec.law.point_law::<D>(spec.hypothesis)?;
+            let law = spec.point_law::<D>(spec.hypothesis)?;
             Ok(with_node_count!(kind, N => {
                 Box::new(Block::<D, D, N, Solid> { law, grid: Grid::new(cells, graph)? })
             }))

@@ -19,6 +19,7 @@ mod plane_stress;
 #[cfg(test)]
 mod plasticity_contract;
 mod point_law;
+mod prestressed;
 pub(crate) mod ranges;
 #[cfg(test)]
 mod rubber_contract;
@@ -49,6 +50,7 @@ pub use ogden::Ogden;
 pub use plane_stress::PlaneStress;
 pub use point_law::{Confined, PointLaw};
 pub(crate) use point_law::{embed, restrict};
+pub(crate) use prestressed::Prestressed;
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 pub use spectrum::{ByStretches, Spectrum, StretchEnergy};
 pub(crate) use strain_law::green_lagrange;

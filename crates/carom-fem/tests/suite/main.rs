@@ -6,6 +6,7 @@ mod convergence;
 mod generated_bodies;
 mod growth;
 mod impulse;
+mod initial_stress;
 mod locking;
 mod patch_test;
 mod revolution;

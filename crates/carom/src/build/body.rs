@@ -1,13 +1,14 @@
 use std::collections::BTreeSet;
 
-use carom_fem::material::LawSpec;
+use carom_fem::material::{LawSpec, Mat3};
 use carom_fem::{Body, BodySpec, FemError};
 use carom_mesh::sets::facet_key;
 use carom_mesh::{Mesh, Surface};
 
 use super::mesh::mesh;
+use super::values::number;
 use crate::error::InputError;
-use crate::scenario::{BodyEntry, PairEntry, Scenario};
+use crate::scenario::{BodyEntry, InitialStress, PairEntry, Scenario};
 
 /// Body number `index`; `given` is its mesh if that comes from a file.
 pub(super) fn body<const D: usize>(
@@ -45,6 +46,7 @@ pub(super) fn body<const D: usize>(
         hypothesis: entry.hypothesis,
         formulation: entry.formulation,
         thickness: entry.thickness,
+        initial_stress: initial_stress::<D>(&format!("{key}.initial_stress"), entry.initial_stress)?,
         grows: entry.growth.is_some(),
         massless_contact,
     };
@@ -59,6 +61,7 @@ pub(super) fn body<const D: usize>(
         FemError::Hypothesis { .. } | FemError::PlaneStress { .. } => {
             InputError::new(format!("{key}.hypothesis"), e.to_string())
         }
+        FemError::InitialStress { .. } => InputError::new(format!("{key}.initial_stress"), e.to_string()),
         FemError::Formulation { .. } => InputError::new(format!("{key}.formulation"), e.to_string()),
         _ => InputError::mesh(format!("{key}.mesh"), e.to_string()),
     })
@@ -79,6 +82,20 @@ pub(super) fn may_touch(scenario: &Scenario, name: &str) -> bool {
         .filter(|b| b.name != name || b.self_contact == Some(true))
         .map(|b| b.name.as_str());
     others.chain(scenario.obstacles.iter().map(|o| o.name.as_str())).any(enabled)
+}
+
+/// The stress [Pa] under `key` in the case file; zero if there is none.
+fn initial_stress<const D: usize>(key: &str, given: Option<InitialStress>) -> Result<Mat3, InputError> {
+    let Some(InitialStress { xx, yy, zz, xy, yz, xz }) = given else { return Ok(Mat3::zeros()) };
+    let across = [("yz", yz), ("xz", xz)];
+    for (name, value) in [("xx", xx), ("yy", yy), ("zz", zz), ("xy", xy)].into_iter().chain(across) {
+        number(&format!("{key}.{name}"), value, value.is_finite(), "give a stress [Pa]")?;
+    }
+    for (name, value) in across {
+        let remedy = "a body of the plane has no shear across it; give 0";
+        number(&format!("{key}.{name}"), value, D == 3 || value == 0.0, remedy)?;
+    }
+    Ok(Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz))
 }
 
 /// The boundary of a body, or the sets of it that may touch others.

@@ -248,6 +248,9 @@ pub struct BodyEntry {
     pub mass: MassKind,
     /// Mesh.
     pub mesh: MeshSpec,
+    /// Stress that it is under where it is drawn.
+    #[serde(default)]
+    pub initial_stress: Option<InitialStress>,
     /// Linear strain by which it would grow if nothing held it.
     #[serde(default)]
     pub growth: Option<SignalSpec>,
@@ -263,6 +266,18 @@ pub struct BodyEntry {
     /// Initial spin about the centre of mass [rad/s].
     #[serde(default)]
     pub spin: Spin,
+}
+
+/// A symmetric stress [Pa].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs)]
+pub struct InitialStress {
+    pub xx: f64,
+    pub yy: f64,
+    pub zz: f64,
+    pub xy: f64,
+    pub yz: f64,
+    pub xz: f64,
 }
 
 /// Angular velocity of a body.

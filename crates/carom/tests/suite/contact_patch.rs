@@ -5,7 +5,7 @@
 //! nothing rubs. The exact solution is uniaxial stress: −E δ/2h for blocks of height h = 1, with E/(1 − ν²) in plane strain.
 
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Mortar, Pair, Path, Search, Target};
-use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
+use carom_fem::material::{ElasticConstants, LawSpec, Mat3, Viscosity};
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_friction::{BlockMatrix, ContactProblem, Criterion, SolverKind, StoppingRule};
 use carom_mesh::{CellBlock, CellKind, Mesh, Vector, generate};
@@ -36,6 +36,7 @@ fn body<const D: usize>(mesh: Mesh<D>) -> Body<D> {
         hypothesis: Hypothesis::PlaneStrain,
         formulation: Formulation::Standard,
         thickness: 1.0,
+        initial_stress: Mat3::zeros(),
         grows: false,
         massless_contact: false,
     };

@@ -7,7 +7,7 @@ use carom::{
     SignalSpec, State, Workspace, step,
 };
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
-use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
+use carom_fem::material::{ElasticConstants, LawSpec, Mat3, Viscosity};
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
 use carom_mesh::{Facet, Mesh, Vector, generate};
@@ -26,6 +26,7 @@ fn spec(law: LawSpec, density: f64, massless_contact: bool) -> BodySpec {
         thickness: 1.0,
         hypothesis: Hypothesis::PlaneStrain,
         formulation: Formulation::Standard,
+        initial_stress: Mat3::zeros(),
         grows: false,
         massless_contact,
     }

@@ -5,7 +5,7 @@ use carom::{
     step,
 };
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
-use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
+use carom_fem::material::{ElasticConstants, LawSpec, Mat3, Viscosity};
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
 use carom_mesh::{CellKind, Vector, generate};
@@ -42,6 +42,7 @@ fn block_of(
         hypothesis: Hypothesis::PlaneStrain,
         formulation: Formulation::Standard,
         thickness: 1.0,
+        initial_stress: Mat3::zeros(),
         grows: false,
         massless_contact: massless,
     };

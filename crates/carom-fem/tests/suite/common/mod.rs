@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use carom_fem::material::{ElasticConstants, LawSpec, Viscosity};
+use carom_fem::material::{ElasticConstants, LawSpec, Mat3, Viscosity};
 use carom_fem::sparse::{Factor, Precision};
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_mesh::{CellBlock, CellKind, Matrix, Mesh, Vector, generate};
@@ -32,6 +32,7 @@ pub fn spec(law: LawSpec) -> BodySpec {
         hypothesis: Hypothesis::PlaneStrain,
         formulation: Formulation::Standard,
         thickness: 1.0,
+        initial_stress: Mat3::zeros(),
         grows: false,
         massless_contact: false,
     }
