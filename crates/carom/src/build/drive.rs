@@ -4,6 +4,7 @@ use carom_mesh::{Facet, Surface};
 
 use super::guide::{Course, guided, resultant};
 use super::signals::{signal, signals, starting_from_none};
+use super::support_name::support_name;
 use super::values::vector;
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
@@ -23,6 +24,11 @@ pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Res
             motions.push(guided(&key, entry, (index, &rigid.shape), &motions, &course)?);
             continue;
         }
+        if matches!(entry.motion, MotionSpec::Guided { .. }) {
+            let message =
+                format!("body {:?} deforms and is guided by none; choose \"prescribed\"", entry.body);
+            return Err(InputError::new(format!("{key}.kind"), message));
+        }
         let nodes = body.body.mesh().nodes_of(&entry.on).ok_or_else(|| {
             let known = body.body.mesh().sets().names();
             let message =
@@ -31,14 +37,10 @@ pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Res
         })?;
         let components = match &entry.motion {
             MotionSpec::Fixed { components } => fixed(&key, components.as_deref())?,
-            MotionSpec::Guided { .. } => {
-                let message =
-                    format!("body {:?} deforms and is guided by none; choose \"prescribed\"", entry.body);
-                return Err(InputError::new(format!("{key}.kind"), message));
-            }
+            MotionSpec::Guided { .. } => continue,
             MotionSpec::Prescribed(d) => displacement(&key, d, span, entry.since, model.assembly.size)?,
         };
-        let name = name(&motions, &entry.body, &entry.on);
+        let name = support_name(&motions, &entry.body, &entry.on);
         let turns = [None, None, None];
         let motion = Motion { name, body: index, nodes, components, turns, since: entry.since };
         refuse_contradictions(&key, &motions, &motion, model.bodies[index].body.mesh().masters().as_slice())?;
@@ -102,14 +104,6 @@ fn find_body<'a, const D: usize>(
         let known: Vec<&str> = model.bodies.iter().map(|b| b.name.as_str()).collect();
         InputError::new(format!("{key}.body"), format!("there is no body {name:?}; known are {known:?}"))
     })
-}
-
-/// What the supports of a motion are called in the history: its body and set, and a number where that is not unique.
-pub(super) fn name<const D: usize>(before: &[Motion<D>], body: &str, on: &str) -> String {
-    let plain = if on.is_empty() { body.to_string() } else { format!("{body}.{on}") };
-    let taken = |name: &str| before.iter().any(|m| m.name == name);
-    let numbered = (2..).map(|k| format!("{plain}.{k}"));
-    std::iter::once(plain.clone()).chain(numbered).find(|name| !taken(name)).unwrap_or(plain)
 }
 
 /// The facets of a set on the boundary of a body.

@@ -2,8 +2,8 @@
 
 use carom_mesh::Vector;
 
-use super::drive::name;
 use super::signals::{signal, signals, starting_from_none};
+use super::support_name::support_name;
 use super::values::vector;
 use crate::body::fe::part::ModelBody;
 use crate::body::rigid::guide::Resultant;
@@ -71,7 +71,7 @@ pub(super) fn guided<const D: usize>(
         );
         return Err(InputError::new(key, message));
     }
-    let name = name(before, &entry.body, "");
+    let name = support_name(before, &entry.body, "");
     Ok(Motion { name, body: index, nodes: Vec::new(), components, turns, since })
 }
 

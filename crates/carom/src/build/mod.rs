@@ -14,6 +14,7 @@ mod overlaps;
 mod restitution;
 mod rigid;
 mod signals;
+mod support_name;
 pub(crate) mod values;
 mod velocity;
 
