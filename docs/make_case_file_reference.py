@@ -41,7 +41,8 @@ status 2) that name the file, the key and the value.
 [examples/two_cylinders.toml](../examples/two_cylinders.toml) and
 [examples/two_bars.toml](../examples/two_bars.toml) are complete cases. Every table is a class of
 the Python package with the same field names; the class is named under the heading of the table. An
-object of a class knows its `kind`; where a table of the file can be of several kinds, it must say.
+object of a class knows its `kind`; where a table of the file can be of several kinds, it must say,
+but for a dynamic analysis and a deformable body.
 
 A *signal* is a function of time: a number; a formula of the time `t` as text, such as
 `"0.1*(1 - cos(pi*t))"`; or a table `{ time = [0, 1], value = [0, 5] }` with straight lines between
@@ -213,7 +214,7 @@ def default(field: FieldInfo) -> str:
     if field.is_required():
         return "required"
     value: Any = field.get_default(call_default_factory=True)
-    if value is None:
+    if value is None or value == {}:
         return "–"
     if isinstance(value, Description):
         return f'`"{value.kind}"`' if hasattr(value, "kind") else "see below"

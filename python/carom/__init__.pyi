@@ -12,6 +12,7 @@ from carom.case.analysis import Static as Static
 from carom.case.analysis import Theta as Theta
 from carom.case.body import Body as Body
 from carom.case.body import InitialStress as InitialStress
+from carom.case.body import RigidBody as RigidBody
 from carom.case.contact import Contact as Contact
 from carom.case.contact import FrictionSolver as FrictionSolver
 from carom.case.contact import Pair as Pair
@@ -19,6 +20,7 @@ from carom.case.initial import Initial as Initial
 from carom.case.initial import InitialDisplacement as InitialDisplacement
 from carom.case.load import Force as Force
 from carom.case.load import Pressure as Pressure
+from carom.case.load import Resultant as Resultant
 from carom.case.load import Traction as Traction
 from carom.case.material import BlatzKo as BlatzKo
 from carom.case.material import Damping as Damping
@@ -40,6 +42,7 @@ from carom.case.mesh import Ring as Ring
 from carom.case.mesh import Tube as Tube
 from carom.case.motion import Displacement as Displacement
 from carom.case.motion import Fixed as Fixed
+from carom.case.motion import Guided as Guided
 from carom.case.motion import Prescribed as Prescribed
 from carom.case.obstacle import Plane as Plane
 from carom.case.obstacle import RigidBox as RigidBox

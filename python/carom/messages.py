@@ -42,6 +42,10 @@ DATA_MESSAGES = {
 """What carom says by pydantic's error type, formatted with the numbers pydantic gives."""
 
 
+UNNAMED_KINDS = ("deformable", "dynamic")
+"""Kinds of tables that need not say so."""
+
+
 def problem(what: str, *, key: str | None = None, value: object = _ABSENT) -> PydanticCustomError:
     """Make the exception that a validator raises.
 
@@ -141,7 +145,7 @@ def _without_tags(location: Sequence[int | str], data: object) -> list[str]:
         if isinstance(part, str) and isinstance(data, int | float | str | Sequence):
             continue  # a member of a union of plain types
         if isinstance(data, Mapping):
-            if data is not entered and _kind(data) == part:
+            if data is not entered and _is_kind(part, data):
                 entered = data
                 continue
             data = data.get(part)
@@ -151,6 +155,8 @@ def _without_tags(location: Sequence[int | str], data: object) -> list[str]:
     return [part for part in path if not part.startswith("[")]
 
 
-def _kind(table: Mapping[str, object]) -> object:
-    """Return the kind of a table; a mesh with a file need not say that it is one."""
-    return table.get("kind", "file" if "file" in table else None)
+def _is_kind(part: int | str, table: Mapping[str, object]) -> bool:
+    """Return whether a part of a location is the kind of a table, which some need not name."""
+    if "kind" in table:
+        return table["kind"] == part
+    return (part == "file" and "file" in table) or (part in UNNAMED_KINDS and part not in table)

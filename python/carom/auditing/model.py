@@ -11,6 +11,7 @@ from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
 from carom.auditing.target import Target
 from carom.case.analysis import Conserving, Static, Theta
+from carom.case.body import Body, RigidBody
 from carom.case.contact import Pair
 from carom.case.mesh import Disc, Rectangle
 from carom.case.obstacle import Obstacle, Plane
@@ -143,7 +144,7 @@ class AuditModel:
     def density(self, body: str) -> float:
         """Return the density of a body by name [kg/m³]."""
         entry = next(entry for entry in self.scenario.bodies if entry.name == body)
-        return self.scenario.materials[entry.material].density
+        return self.scenario.materials[_deformable(entry).material].density
 
     def name(self, index: int) -> str:
         """Return the name of a body, or of the obstacle −1 − index; no name if there is none."""
@@ -173,7 +174,8 @@ class AuditModel:
 
     def _build_bodies(self, cells: list[Indices], types: list[int]) -> Iterator[AuditBody]:
         first = 0
-        for entry, nodes, vtk_type in zip(self.scenario.bodies, cells, types, strict=True):
+        for any_entry, nodes, vtk_type in zip(self.scenario.bodies, cells, types, strict=True):
+            entry = _deformable(any_entry)
             last = int(nodes.max()) + 1
             if int(nodes.min()) != first or last > len(self.points):
                 raise InputError(f"body {entry.name!r}: the mesh is not numbered body after body")
@@ -251,6 +253,12 @@ class AuditModel:
         return float(lengths.mean())
 
 
+def _deformable(entry: Body | RigidBody) -> Body:
+    if isinstance(entry, RigidBody):
+        raise InputError(f"cannot audit a rigid body yet, as {entry.name!r} is")
+    return entry
+
+
 def _plane(entry: Obstacle) -> AuditPlane:
     if not isinstance(entry, Plane):
         raise InputError(f"cannot audit obstacles of kind {entry.kind!r} yet")
@@ -272,5 +280,5 @@ def _refuse_what_is_driven(scenario: Scenario) -> None:
         raise InputError("cannot audit an obstacle with a motion yet")
     if any(pair.interference is not None for pair in scenario.contact.pairs):
         raise InputError("cannot audit a pair with an interference yet")
-    if any(body.growth is not None for body in scenario.bodies):
+    if any(isinstance(body, Body) and body.growth is not None for body in scenario.bodies):
         raise InputError("cannot audit a body that grows yet")

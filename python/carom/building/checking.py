@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from carom.building.build import build
+from carom.case.body import Body
 from carom.case.mesh import MeshFile
 from carom.case.scenario import Scenario
 from carom.mesh_file import Note
@@ -33,7 +34,8 @@ class Check:
     ----------
     description
         Numbers of the built scenario: ``dofs``, ``steps``, ``energy`` [J],
-        ``suggested_time_step`` [s], and lists of ``bodies`` and ``pairs``.
+        ``suggested_time_step`` [s], which is None where all bodies are rigid, and lists of
+        ``bodies`` and ``pairs``.
     warnings
         What is allowed but probably not meant, a line each.
     """
@@ -75,7 +77,7 @@ def first_doubts(
     suggested = description["suggested_time_step"]
     for stage in scenario.full_stages():
         step, key = stage.analysis.time_step, f"{stage.key}analysis.time_step"
-        if stage.is_dynamic and step > COARSE_STEP * suggested:
+        if suggested is not None and stage.is_dynamic and step > COARSE_STEP * suggested:
             yield Doubt(
                 "coarse-step",
                 f"{key} = {step:g} s is {step / suggested:.3g} times the suggested "
@@ -91,7 +93,7 @@ def _doubts_of_units(scenario: Scenario, description: Mapping[str, Any]) -> Iter
     slowest, fastest = WAVE_SPEEDS
     for index, (body, built) in enumerate(zip(scenario.bodies, description["bodies"], strict=True)):
         speed, size = built["wave_speed"], built["diameter"]
-        if not slowest <= speed <= fastest:
+        if isinstance(body, Body) and not slowest <= speed <= fastest:
             density = scenario.materials[body.material].density
             yield Doubt(
                 "wave-speed",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from carom.case.body import RigidBody
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 
@@ -17,6 +18,9 @@ OF_BODIES = {
     "suggested_time_step": "time of a wave through its shortest edge",
 }
 """Numbers of a body that must be finite and more than zero, and what they are called."""
+
+OF_WAVES = ("wave_speed", "suggested_time_step")
+"""Those that a rigid body has none of."""
 
 
 def refuse_unbounded(scenario: Scenario, description: Mapping[str, Any]) -> None:
@@ -37,15 +41,17 @@ def refuse_unbounded(scenario: Scenario, description: Mapping[str, Any]) -> None
     for index, (body, built) in enumerate(zip(scenario.bodies, description["bodies"], strict=True)):
         for key, what in OF_BODIES.items():
             value = built[key]
+            if isinstance(body, RigidBody):
+                if key not in OF_WAVES and (value is None or not value > 0.0):
+                    raise _vanishing(index, body.name, what, value, "its density or mass")
+                continue
             if value is None or not value > 0.0:
                 density = scenario.materials[body.material].density
-                place, how = f"bodies.{index}", "zero" if value == 0.0 else "infinite"
-                raise InputError(
-                    f"{place}: the {what} of {body.name} is {how} for a computer; check the "
-                    f"constants and the density ({density:g} kg/m³) of "
-                    f"materials.{body.material}, and the size of the mesh",
-                    place,
+                made_of = (
+                    f"the constants and the density ({density:g} kg/m³) of "
+                    f"materials.{body.material}"
                 )
+                raise _vanishing(index, body.name, what, value, made_of)
     for pair in description["pairs"]:
         if pair["initial_gap"] is None or None in pair["at"]:
             one, other = pair["between"]
@@ -54,3 +60,12 @@ def refuse_unbounded(scenario: Scenario, description: Mapping[str, Any]) -> None
                 "where they are, and the sizes of both",
                 "contact",
             )
+
+
+def _vanishing(index: int, name: str, what: str, value: float | None, made_of: str) -> InputError:
+    place, how = f"bodies.{index}", "zero" if value == 0.0 else "infinite"
+    return InputError(
+        f"{place}: the {what} of {name} is {how} for a computer; check {made_of}, and the size of "
+        "the mesh",
+        place,
+    )

@@ -1,13 +1,22 @@
-"""Deformable bodies."""
+"""Bodies: deformable and rigid ones."""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from typing_extensions import Self
 
-from carom.case.description import Description, Name, Number, Positive, SpaceVector, Vector
+from carom.case.description import (
+    Description,
+    InSpace,
+    Name,
+    Number,
+    Positive,
+    SpaceVector,
+    Vector,
+)
 from carom.case.mesh import Mesh, Rectangle
 from carom.case.signal import Signal
 from carom.messages import known, problem
@@ -85,6 +94,7 @@ class Body(Description):
         Initial angular velocity about the centre of mass [rad/s]: a number in 2D, a vector in 3D.
     """
 
+    kind: Literal["deformable"] = "deformable"
     name: Name
     material: str
     hypothesis: Literal["plane-strain", "plane-stress", "axisymmetric"] = "plane-strain"
@@ -107,9 +117,103 @@ class Body(Description):
 
     @model_validator(mode="after")
     def _contact_sets_exist(self) -> Self:
-        sets = self.mesh.facet_sets
-        for name in self.contact_sets or ():
-            if sets is not None and name not in sets:
-                what = f"no such set of facets; {known(name, sets)}"
-                raise problem(what, key="contact_sets", value=name)
+        _require_sets(self.mesh, self.contact_sets)
         return self
+
+
+class RigidBody(Description):
+    """A body that does not deform: the points of its mesh move as one.
+
+    It can touch and be touched as a deformable body can. Its unknowns are how its centre of mass
+    moves and how it turns; a body of revolution moves along its axis alone. It has no stress, and
+    its cells show none.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    density
+        Density [kg/m³], which with the cells of the mesh makes mass, centre and inertia.
+    mass
+        Mass [kg], in place of a density.
+    inertia
+        Inertia about the centre of mass [kg m²] where it is not that of the cells: a number in 2D,
+        in 3D the moments about the axes of space if these are principal, or three rows of three.
+    hypothesis
+        What a body of the plane is in space: plane-strain for a slice of `thickness`, or
+        axisymmetric, a body of revolution around x = 0.
+    thickness
+        Thickness in the third direction [m]; not used of a body of revolution.
+    mesh
+        Reference geometry and its cells.
+    contact_sets
+        Sets of facets that may touch others, such as the sides of a rectangle; None for all.
+    velocity
+        Initial velocity of the centre of mass [m/s], shape [D]; None is none.
+    spin
+        Initial angular velocity [rad/s]: a number in 2D, a vector in 3D.
+    """
+
+    kind: Literal["rigid"] = "rigid"
+    name: Name
+    density: Positive | None = None
+    mass: Positive | None = None
+    inertia: Positive | SpaceVector | Annotated[tuple[SpaceVector, ...], InSpace] | None = None
+    hypothesis: Literal["plane-strain", "axisymmetric"] = "plane-strain"
+    thickness: Positive = 1.0
+    mesh: Mesh
+    contact_sets: tuple[str, ...] | None = None
+    velocity: Vector | None = None
+    spin: Number | SpaceVector | None = None
+
+    @model_validator(mode="after")
+    def _has_one_mass(self) -> Self:
+        if self.density is None and self.mass is None:
+            raise problem("required key is missing; give it, or the mass", key="density")
+        if self.density is not None and self.mass is not None:
+            raise problem(
+                "a rigid body has a density or a mass, not both; leave one out",
+                key="mass",
+                value=self.mass,
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _is_not_periodic(self) -> Self:
+        if isinstance(self.mesh, Rectangle) and self.mesh.periodic:
+            raise problem(
+                "a rigid body cannot be periodic; leave it out", key="mesh.periodic", value=True
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _contact_sets_exist(self) -> Self:
+        _require_sets(self.mesh, self.contact_sets)
+        return self
+
+
+AnyBody = Annotated[Body | RigidBody, Field(discriminator="kind")]
+"""A body of any kind."""
+
+
+def with_kinds(data: object) -> object:
+    """Return a table of the case file whose bodies, where they name no kind, are deformable."""
+    bodies = data.get("bodies") if isinstance(data, Mapping) else None
+    if not isinstance(data, Mapping) or not isinstance(bodies, list | tuple):
+        return data
+    return {**data, "bodies": [_with_kind(body) for body in bodies]}
+
+
+def _with_kind(body: Any) -> Any:  # noqa: ANN401 (checked where it is used)
+    if isinstance(body, Mapping) and "kind" not in body:
+        return {"kind": "deformable", **body}
+    return body
+
+
+def _require_sets(mesh: Mesh, names: tuple[str, ...] | None) -> None:
+    """Refuse sets of facets that the mesh does not have."""
+    sets = mesh.facet_sets
+    for name in names or ():
+        if sets is not None and name not in sets:
+            what = f"no such set of facets; {known(name, sets)}"
+            raise problem(what, key="contact_sets", value=name)

@@ -121,6 +121,6 @@ class _Writer:
 
     def _is_written(self, value: object, field: FieldInfo) -> bool:
         default = field.get_default(call_default_factory=True)
-        if value is None or value == ():
+        if value is None or value in ((), {}):
             return bool(value != default)
         return self.complete or bool(value != default)

@@ -21,6 +21,9 @@ Discretisation = Literal["node-to-segment", "mortar"]
 Friction = Annotated[Number, Field(ge=0, le=1000)]
 """Coulomb's coefficient."""
 
+Restitution = Annotated[Number, Field(ge=0, le=1)]
+"""Coefficient of restitution."""
+
 Condition = Literal["gap", "midpoint", "endpoint", "massless"]
 """Where in time the unilateral condition is written."""
 
@@ -72,6 +75,9 @@ class Pair(Description):
         Names of two bodies, or of a body and an obstacle; twice that of a body that touches itself.
     friction
         Coulomb's coefficient; None takes the default of `Contact`.
+    restitution
+        Coefficient of restitution e of two rigid bodies, or of a rigid one and an obstacle; None
+        takes the default of `Contact`.
     sources
         Whose nodes are checked, as seen from `between`; None takes the default of `Contact`.
     discretisation
@@ -90,6 +96,7 @@ class Pair(Description):
 
     between: tuple[str, ...]
     friction: Friction | None = None
+    restitution: Restitution | None = None
     sources: Sources | None = None
     discretisation: Discretisation | None = None
     interference: Signal | None = None
@@ -118,6 +125,10 @@ class Contact(Description):
         every case yet.
     friction
         Coulomb's coefficient of every pair that does not state its own.
+    restitution
+        Coefficient of restitution e of every pair of what is rigid that does not state its own,
+        with the condition ``endpoint``: what meets at v_n parts at -e v_n (Moreau), and friction
+        acts against the velocity that is left. None is 0.
     solver
         Solver of the reduced contact problem.
     sources
@@ -157,6 +168,7 @@ class Contact(Description):
 
     condition: Condition = "midpoint"
     friction: Friction = 0.0
+    restitution: Restitution | None = None
     solver: FrictionSolver = FrictionSolver()
     sources: Sources | None = None
     targets: Literal["smooth", "faceted"] = "smooth"

@@ -44,7 +44,7 @@ class Given:
     @property
     def place(self) -> tuple[str, ...]:
         """What another that takes its place must share with it."""
-        if self.what.kind in ("fixed", "prescribed"):
+        if self.what.kind in ("fixed", "prescribed", "guided"):
             return (self.what.body, self.what.on)
         return (self.what.kind, self.what.body, self.what.on)
 

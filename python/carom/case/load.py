@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
+from typing_extensions import Self
 
-from carom.case.description import Description
+from carom.case.description import Description, InSpace, Vector
 from carom.case.signal import Signal, SignalVector
+from carom.messages import problem
 
 
 class Force(Description):
@@ -72,4 +74,38 @@ class Pressure(Description):
     follower: Annotated[bool, Field(strict=True)] = False
 
 
-Load = Annotated[Force | Traction | Pressure, Field(discriminator="kind")]
+class Resultant(Description):
+    """A force and a moment on a rigid body, in directions that stay.
+
+    Parameters
+    ----------
+    body
+        Name of the rigid body.
+    force
+        The force [N], shape [D]; numbers, formulas of ``t`` or tables.
+    moment
+        The moment [N m]: in 2D a number, a formula of ``t`` or a table, in 3D one per axis.
+    point
+        Where the force acts, as the body is drawn [m], shape [D]: a point that moves with the body.
+        None is its centre of mass.
+    """
+
+    kind: Literal["resultant"] = "resultant"
+    body: str
+    force: SignalVector | None = None
+    moment: Signal | Annotated[tuple[Signal, ...], InSpace] | None = None
+    point: Vector | None = None
+
+    @property
+    def on(self) -> str:
+        """The set of the body that it acts on: none, as it acts on all of it."""
+        return ""
+
+    @model_validator(mode="after")
+    def _acts(self) -> Self:
+        if self.force is None and self.moment is None:
+            raise problem("give a force or a moment")
+        return self
+
+
+Load = Annotated[Force | Traction | Pressure | Resultant, Field(discriminator="kind")]

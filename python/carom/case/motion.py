@@ -90,4 +90,54 @@ class Prescribed(Description):
         return self
 
 
-Motion = Annotated[Fixed | Prescribed, Field(discriminator="kind")]
+class Guided(Description):
+    """The part of the motion of a rigid body that is given; what is left out is free.
+
+    The work of what guides it is in the ledger as ``prescribed``, and its force in the history as
+    ``BODY.force_x`` and so on.
+
+    Parameters
+    ----------
+    body
+        Name of the rigid body.
+    x
+        Displacement of the centre of mass along x [m], 0 at t = 0, or where the stage starts that
+        names it: a number, a formula of ``t`` or a table.
+    y
+        Displacement along y [m], likewise.
+    z
+        Displacement along z [m], likewise.
+    turn_x
+        Angle by which the body has turned about x [rad], likewise; in 3D.
+    turn_y
+        Angle about y [rad], likewise; in 3D.
+    turn_z
+        Angle about z [rad], likewise. Where a body turns about several axes at once, these are the
+        turns of every time step.
+    """
+
+    kind: Literal["guided"] = "guided"
+    body: str
+    x: Signal | None = None
+    y: Signal | None = None
+    z: Signal | None = None
+    turn_x: Signal | None = None
+    turn_y: Signal | None = None
+    turn_z: Signal | None = None
+
+    @property
+    def on(self) -> str:
+        """The set of the body that it moves: none, as it moves all of it."""
+        return ""
+
+    @model_validator(mode="after")
+    def _moves(self) -> Self:
+        given = (self.x, self.y, self.z, self.turn_x, self.turn_y, self.turn_z)
+        if all(signal is None for signal in given):
+            raise problem(
+                "give one of x, y, z, turn_x, turn_y, turn_z at least; those left out are free"
+            )
+        return self
+
+
+Motion = Annotated[Fixed | Prescribed | Guided, Field(discriminator="kind")]

@@ -8,6 +8,7 @@ from carom.display.markup import Html, element
 from carom.display.tables import html_table
 
 if TYPE_CHECKING:
+    from carom.case.body import Body, RigidBody
     from carom.case.scenario import Scenario
 
 
@@ -23,7 +24,7 @@ def scenario_html(scenario: Scenario) -> Html:
             )
             for stage in scenario.full_stages()
         ),
-        *(("body", f"{b.name}: {b.mesh.kind}, {b.material}") for b in scenario.bodies),
+        *(("body", _body_text(body)) for body in scenario.bodies),
         *(("obstacle", f"{obstacle.name}: {obstacle.kind}") for obstacle in scenario.obstacles),
         *(("load", f"{load.kind} on {load.body}") for load in scenario.loads),
         *(("motion", f"{motion.kind}: {motion.body}") for motion in scenario.motions),
@@ -31,3 +32,8 @@ def scenario_html(scenario: Scenario) -> Html:
     ]
     case = element("details", element("summary", "case file"), element("pre", scenario.to_toml()))
     return element("div", element("strong", scenario.title or "Scenario"), html_table(rows), case)
+
+
+def _body_text(body: Body | RigidBody) -> str:
+    made_of = "rigid" if body.kind == "rigid" else body.material
+    return f"{body.name}: {body.mesh.kind}, {made_of}"

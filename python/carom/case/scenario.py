@@ -12,7 +12,7 @@ from typing_extensions import Self
 
 from carom.case import case_file, overrides
 from carom.case.analysis import Analysis, with_kind
-from carom.case.body import Body
+from carom.case.body import AnyBody, Body, RigidBody, with_kinds
 from carom.case.contact import Contact, for_load_steps
 from carom.case.description import Description, Name
 from carom.case.full_stage import FullStage, full_stages
@@ -47,7 +47,7 @@ class Scenario(Description):
     materials
         Materials by name.
     bodies
-        Deformable bodies, at least one.
+        Bodies, deformable or rigid, at least one.
     obstacles
         Rigid obstacles.
     loads
@@ -67,8 +67,8 @@ class Scenario(Description):
     dimension: Literal[2, 3] = 2
     analysis: Analysis | None = None
     output: Output = Output()
-    materials: dict[Name, Material]
-    bodies: Annotated[tuple[Body, ...], Field(min_length=1)]
+    materials: dict[Name, Material] = Field(default_factory=dict)
+    bodies: Annotated[tuple[AnyBody, ...], Field(min_length=1)]
     obstacles: tuple[Obstacle, ...] = ()
     loads: tuple[Load, ...] = ()
     motions: tuple[Motion, ...] = ()
@@ -202,6 +202,8 @@ class Scenario(Description):
     @model_validator(mode="after")
     def _materials_exist(self) -> Self:
         for index, body in enumerate(self.bodies):
+            if isinstance(body, RigidBody):
+                continue
             _require(body.material, self.materials, what="material", key=f"bodies.{index}.material")
         return self
 
@@ -209,7 +211,7 @@ class Scenario(Description):
     @classmethod
     def _kind_of_analysis(cls, data: object) -> object:
         """Take an analysis that names no kind for dynamic; load steps rule the gap."""
-        data = with_kind(data)
+        data = with_kinds(with_kind(data))
         if not isinstance(data, Mapping):
             return data
         analysis = data.get("analysis")
@@ -243,7 +245,11 @@ class Scenario(Description):
     @model_validator(mode="after")
     def _pairs_exist_once(self) -> Self:
         obstacles = {obstacle.name for obstacle in self.obstacles}
-        touch_themselves = {body.name for body in self.bodies if body.self_contact is not False}
+        touch_themselves = {
+            body.name
+            for body in self.bodies
+            if isinstance(body, Body) and body.self_contact is not False
+        }
         names = [body.name for body in self.bodies] + sorted(obstacles)
         first_use: dict[frozenset[str], str] = {}
         for index, pair in enumerate(self.contact.pairs):
@@ -283,7 +289,7 @@ class Scenario(Description):
 
     def _names(self) -> Iterator[tuple[str, str]]:
         """Yield every name with the dotted path of where it is given."""
-        groups: dict[str, tuple[Body | Obstacle | Track, ...]] = {
+        groups: dict[str, tuple[Body | RigidBody | Obstacle | Track, ...]] = {
             "bodies": self.bodies,
             "obstacles": self.obstacles,
             "output.track": self.output.track,

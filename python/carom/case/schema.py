@@ -10,6 +10,7 @@ from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 from pydantic_core import core_schema
 
 from carom.case.analysis import Dynamic
+from carom.case.body import Body
 from carom.case.description import PER_DIMENSION, InPlane, InSpace, asked_of
 from carom.case.docstrings import documented, summary
 from carom.case.mesh import MeshFile
@@ -18,7 +19,7 @@ from carom.case.scenario import Scenario
 DRAFT = "http://json-schema.org/draft-07/schema#"
 """The draft that editors of TOML know."""
 
-KIND_UNSAID = (Dynamic, MeshFile)
+KIND_UNSAID = (Body, Dynamic, MeshFile)
 """Classes of which a table may be without saying its kind."""
 
 _LENGTHS = ((PER_DIMENSION, (2, 3)), (InPlane, (2, 2)), (InSpace, (3, 3)))

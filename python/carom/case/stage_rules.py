@@ -194,7 +194,10 @@ def _check_pairs(scenario: Scenario, stage: Stage, key: str) -> None:
 
 
 def _touches_not_itself(scenario: Scenario, name: str) -> bool:
-    return any(body.name == name and body.self_contact is False for body in scenario.bodies)
+    return any(
+        body.name == name and (body.kind == "rigid" or body.self_contact is False)
+        for body in scenario.bodies
+    )
 
 
 def _check_velocities(scenario: Scenario, stage: Stage, index: int) -> None:

@@ -37,7 +37,8 @@ def _table(description: Mapping[str, Any], stages: Sequence[FullStage]) -> Table
         add(table, "steps", str(description["steps"]))
         for stage in stages:
             add(table, f"stage {stage.name}", _steps(stage))
-    add(table, "suggested step", f"{description['suggested_time_step']:.3g} s")
+    if (suggested := description["suggested_time_step"]) is not None:
+        add(table, "suggested step", f"{suggested:.3g} s")
     add(table, "initial energy", f"{description['energy']:.6g} J")
     table.add_section()
     for body in description["bodies"]:
@@ -46,14 +47,19 @@ def _table(description: Mapping[str, Any], stages: Sequence[FullStage]) -> Table
             body["name"],
             f"{body['nodes']} nodes, {body['cells']} cells, {body['dofs']} dofs, "
             f"mass {body['mass']:.6g} kg, volume {body['volume']:.6g} m³, "
-            f"wave speed {body['wave_speed']:.4g} m/s, "
-            f"smallest edge {body['smallest_edge']:.3g} m, "
-            f"suggested Δt {body['suggested_time_step']:.3g} s",
+            f"smallest edge {body['smallest_edge']:.3g} m, " + _waves(body),
         )
     table.add_section()
     for pair in description["pairs"]:
         add(table, " – ".join(pair["between"]), _gap(pair))
     return table
+
+
+def _waves(body: Mapping[str, Any]) -> str:
+    if body["is_rigid"]:
+        return "rigid"
+    speed, step = body["wave_speed"], body["suggested_time_step"]
+    return f"wave speed {speed:.4g} m/s, suggested Δt {step:.3g} s"
 
 
 def _steps(stage: FullStage) -> str:

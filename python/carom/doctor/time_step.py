@@ -37,10 +37,16 @@ def _of_stage(patient: Patient, stage: FullStage) -> Iterator[Finding]:
     if not stage.is_dynamic:
         return
     key = f"{stage.key}analysis.time_step"
+    durations = {
+        body["name"]: patient.contact_duration(i)
+        for i, body in enumerate(patient.description["bodies"])
+        if not body["is_rigid"]
+    }
+    if not durations:
+        # There are no waves in rigid bodies, and their impacts take no time.
+        return
     yield _waves(patient, step, key)
-    durations = [patient.contact_duration(i) for i in range(len(patient.scenario.bodies))]
-    shortest = min(durations)
-    name = patient.scenario.bodies[durations.index(shortest)].name
+    name, shortest = min(durations.items(), key=lambda item: item[1])
     fact = (
         f"the impact of {name} takes about {shortest:.3g} s (a wave through it, there and back): "
         f"{shortest / step:.3g} steps"

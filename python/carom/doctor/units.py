@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from carom.building.checking import LARGE, WAVE_SPEEDS
+from carom.case.body import RigidBody
 from carom.case.material import BlatzKo, Material, MooneyRivlin, Ogden, Yeoh
 from carom.case.mesh import MeshFile
 from carom.doctor.finding import Finding
@@ -42,6 +43,8 @@ def units(patient: Patient) -> Iterator[Finding]:
     seen: set[str] = set()
     for index, (body, built) in enumerate(zip(patient.scenario.bodies, bodies, strict=True)):
         speed = built["wave_speed"]
+        if isinstance(body, RigidBody):
+            continue
         key = f"materials.{body.material}"
         if body.material not in seen:
             seen.add(body.material)

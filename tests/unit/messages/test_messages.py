@@ -24,7 +24,7 @@ BAD = [
     ("materials.elastic.young", True, "materials.elastic.young = true: must be a number"),
     ("materials.elastic.kind", "linear", 'materials.elastic.kind = "linear": must be one of'),
     ("materials.elastic.kind", ABSENT, "materials.elastic.kind: required key is missing"),
-    ("materials", ABSENT, "materials: required key is missing"),
+    ("materials", ABSENT, 'bodies.0.material = "elastic": no such material; known: none'),
     ("materials.el astic", {}, "materials.el astic"),
     (
         "materials.elastic",

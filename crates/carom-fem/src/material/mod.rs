@@ -26,6 +26,7 @@ mod rubber_contract;
 mod saint_venant_kirchhoff;
 mod spectrum;
 mod strain_law;
+mod unstressed;
 mod viscosity;
 mod volumetric;
 mod yeoh;
@@ -55,6 +56,7 @@ pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 pub use spectrum::{ByStretches, Spectrum, StretchEnergy};
 pub(crate) use strain_law::green_lagrange;
 pub use strain_law::{Hyperelastic, StrainLaw};
+pub use unstressed::Unstressed;
 pub use viscosity::Viscosity;
 pub use yeoh::Yeoh;
 
@@ -150,6 +152,9 @@ pub enum LawSpec {
     /// Elastoplasticity: metal.
     #[serde(rename = "j2-plasticity")]
     J2Plasticity(J2Plasticity),
+    /// No law: that of rigid bodies, which the case file knows by their kind.
+    #[serde(skip)]
+    Unstressed,
 }
 
 impl LawSpec {
@@ -182,6 +187,7 @@ impl LawSpec {
                 return Err(FemError::PlaneStress { what: "j2-plasticity" });
             }
             Self::J2Plasticity(c) => Arc::new(Flowing(c.checked()?)),
+            Self::Unstressed => Arc::new(Confined(Unstressed)),
         })
     }
 }

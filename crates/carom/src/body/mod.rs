@@ -1,11 +1,10 @@
 //! What a step asks of a body, whatever it is made of.
 //!
 //! A step knows nodes, forces on them and how they yield; it knows nothing of cells. A body owns its factors and its scratch and answers for
-//! itself, stage by stage; the [`fe`] body of finite elements is one of these.
+//! itself, stage by stage; the [`fe`] body of finite elements is one of these, the [`rigid`] one another.
 
 pub(crate) mod fe;
-
-use std::ops::Range;
+pub(crate) mod rigid;
 
 use carom_fem::material::PlasticState;
 use carom_fem::sparse::Precision;
@@ -158,8 +157,8 @@ pub trait Body<const D: usize>: Send + Sync {
         Vec::new()
     }
 
-    /// Makes the velocities [m/s] at time `t` [s] obey what binds and drives the nodes.
-    fn constrain(&self, _velocity: &mut [Vector<D>], _t: f64) {}
+    /// Makes the velocities [m/s] at time `t` [s], where nodes have these displacements [m], obey what binds and drives the nodes.
+    fn constrain(&self, _displacement: &[Vector<D>], _velocity: &mut [Vector<D>], _t: f64) {}
 
     /// Writes ∂E/∂u [N] at `state`, whose own forces and energies are not read, and returns its energies.
     fn measure(&self, state: &BodyState<'_, D>, internal_force: &mut [Vector<D>]) -> Energies;
@@ -227,7 +226,7 @@ pub trait Body<const D: usize>: Send + Sync {
     /// Lets the rest of the body follow the part of `motion` [m] that is prescribed, from the start of a load step, as its K̄ says.
     fn follow(&mut self, _interval: &Interval, _start: &BodyState<'_, D>, _motion: &mut [Vector<D>]) {}
 
-    /// How stiff it is at a node, where nothing has moved [N/m]. Zero wants no springs there.
+    /// How stiff it is at a node, where nothing has moved [N/m]. Zero wants no springs there; what is rigid is infinitely stiff.
     fn stiffness_at(&mut self, _node: u32) -> f64 {
         0.0
     }
@@ -291,8 +290,8 @@ pub trait Body<const D: usize>: Send + Sync {
     fn response(&self, a: u32, b: u32, number: usize) -> Matrix<D>;
 
     /// The numbers of the rigid motions that it has where nothing holds it: see [`carom_fem::rigid_motion`].
-    fn rigid_motions(&self) -> Range<usize> {
-        0..D
+    fn rigid_motions(&self) -> Vec<usize> {
+        (0..D).collect()
     }
 
     /// Memory of its factor [bytes].

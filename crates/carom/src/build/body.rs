@@ -1,14 +1,14 @@
 use std::collections::BTreeSet;
 
 use carom_fem::material::{LawSpec, Mat3};
-use carom_fem::{Body, BodySpec, FemError};
+use carom_fem::{Body, BodySpec, FemError, MassKind};
 use carom_mesh::sets::facet_key;
 use carom_mesh::{Mesh, Surface};
 
 use super::mesh::mesh;
 use super::values::number;
 use crate::error::InputError;
-use crate::scenario::{BodyEntry, InitialStress, PairEntry, Scenario};
+use crate::scenario::{BodyEntry, BodyKind, BodyMass, InitialStress, PairEntry, Scenario};
 
 /// Body number `index`; `given` is its mesh if that comes from a file.
 pub(super) fn body<const D: usize>(
@@ -18,9 +18,10 @@ pub(super) fn body<const D: usize>(
     given: Option<Mesh<D>>,
 ) -> Result<Body<D>, InputError> {
     let key = format!("bodies.{index}");
-    let material = scenario.materials.get(&entry.material).ok_or_else(|| {
+    let name = entry.material.as_deref().unwrap_or_default();
+    let material = scenario.materials.get(name).ok_or_else(|| {
         let known: Vec<&str> = scenario.materials.keys().map(String::as_str).collect();
-        let message = format!("there is no material {:?}; known are {known:?}", entry.material);
+        let message = format!("there is no material {name:?}; known are {known:?}");
         InputError::new(format!("{key}.material"), message)
     })?;
     let mesh = mesh(&format!("{key}.mesh"), &entry.mesh, given)?;
@@ -42,7 +43,7 @@ pub(super) fn body<const D: usize>(
         density: material.density,
         damping: material.damping,
         viscosity: material.viscosity,
-        mass: entry.mass,
+        mass: mass_kind(&key, entry)?,
         hypothesis: entry.hypothesis,
         formulation: entry.formulation,
         thickness: entry.thickness,
@@ -56,7 +57,8 @@ pub(super) fn body<const D: usize>(
             InputError::new(format!("{key}.thickness"), e.to_string())
         }
         FemError::MaterialConstant { name, .. } => {
-            InputError::new(format!("materials.{}.{name}", entry.material), e.to_string())
+            let material = entry.material.as_deref().unwrap_or_default();
+            InputError::new(format!("materials.{material}.{name}"), e.to_string())
         }
         FemError::Hypothesis { .. } | FemError::PlaneStress { .. } => {
             InputError::new(format!("{key}.hypothesis"), e.to_string())
@@ -65,6 +67,19 @@ pub(super) fn body<const D: usize>(
         FemError::Formulation { .. } => InputError::new(format!("{key}.formulation"), e.to_string()),
         _ => InputError::mesh(format!("{key}.mesh"), e.to_string()),
     })
+}
+
+/// How the mass of a deformable body is shared.
+fn mass_kind(key: &str, entry: &BodyEntry) -> Result<MassKind, InputError> {
+    match entry.mass {
+        None => Ok(MassKind::default()),
+        Some(BodyMass::Shared(kind)) => Ok(kind),
+        Some(BodyMass::Given(mass)) => {
+            let message =
+                format!("{mass}: a mass is given of a rigid body; choose \"consistent\" or \"lumped\"");
+            Err(InputError::new(format!("{key}.mass"), message))
+        }
+    }
 }
 
 /// Whether anything is there that a body may touch.
@@ -79,7 +94,7 @@ pub(super) fn may_touch(scenario: &Scenario, name: &str) -> bool {
     let others = scenario
         .bodies
         .iter()
-        .filter(|b| b.name != name || b.self_contact == Some(true))
+        .filter(|b| b.name != name || b.self_contact == Some(true) && b.kind == BodyKind::Deformable)
         .map(|b| b.name.as_str());
     others.chain(scenario.obstacles.iter().map(|o| o.name.as_str())).any(enabled)
 }
@@ -99,7 +114,7 @@ fn initial_stress<const D: usize>(key: &str, given: Option<InitialStress>) -> Re
 }
 
 /// The boundary of a body, or the sets of it that may touch others.
-fn contact_surface<const D: usize>(
+pub(super) fn contact_surface<const D: usize>(
     key: &str,
     entry: &BodyEntry,
     mesh: &Mesh<D>,

@@ -9,7 +9,7 @@ use super::values::{number, place};
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::assembly::NamedPair;
-use crate::scenario::{Scenario, Sources, Targets};
+use crate::scenario::{BodyEntry, BodyKind, Scenario, Sources, Targets};
 
 /// The largest friction coefficient.
 const MAX_FRICTION: f64 = 1e3;
@@ -39,7 +39,7 @@ pub(super) fn contact<const D: usize>(
         if scenario.contact.targets == Targets::Smooth {
             surface = surface.smoothed(&reference);
         }
-        let touches_itself = entry.self_contact != Some(false);
+        let touches_itself = touches_itself(entry);
         model.surfaces.push(if touches_itself { surface.touching_itself(&reference) } else { surface });
     }
     for (i, entry) in scenario.obstacles.iter().enumerate() {
@@ -53,8 +53,7 @@ pub(super) fn contact<const D: usize>(
     let obstacle_names: Vec<&str> = scenario.obstacles.iter().map(|o| o.name.as_str()).collect();
     for (a, &first) in names.iter().enumerate() {
         let others = names.iter().enumerate().skip(a).map(|(b, &name)| (Target::Surface(b), name));
-        let others = others
-            .filter(|&(t, _)| t != Target::Surface(a) || scenario.bodies[a].self_contact != Some(false));
+        let others = others.filter(|&(t, _)| t != Target::Surface(a) || touches_itself(&scenario.bodies[a]));
         let obstacles = obstacle_names.iter().enumerate().map(|(o, &name)| (Target::Obstacle(o), name));
         for (target, second) in others.chain(obstacles) {
             let found = scenario.contact.pairs.iter().enumerate().find(|(_, p)| {
@@ -103,6 +102,11 @@ pub(super) fn contact<const D: usize>(
         }
     }
     Ok((model, named_pairs))
+}
+
+/// Whether a body may touch itself. What is rigid cannot.
+fn touches_itself(entry: &BodyEntry) -> bool {
+    entry.self_contact != Some(false) && entry.kind != BodyKind::Rigid
 }
 
 /// Refuses a surface that has no two sides everywhere.

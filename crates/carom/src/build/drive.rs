@@ -2,16 +2,15 @@
 
 use carom_mesh::{Facet, Surface};
 
-use super::signals::{signal, signals};
+use super::guide::{Course, guided, resultant};
+use super::signals::{signal, signals, starting_from_none};
+use super::support_name::support_name;
 use super::values::vector;
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::Model;
 use crate::scenario::{Axis, Displacement, LoadSpec, MotionSpec, ObstacleEntry, Scenario};
 use crate::{Load, Motion, ObstacleMotion, Signal};
-
-/// A displacement below this at the start, relative to the model, is round-off [1].
-const AT_START: f64 = 1e-12;
 
 /// The model with everything that drives it.
 pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Result<Model<D>, InputError> {
@@ -20,6 +19,16 @@ pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Res
     for (k, entry) in scenario.motions.iter().enumerate() {
         let key = format!("motions.{k}");
         let (index, body) = find_body(&model, &key, &entry.body)?;
+        if let Some(rigid) = &body.rigid {
+            let course = Course { span, size: model.assembly.size };
+            motions.push(guided(&key, entry, (index, &rigid.shape), &motions, &course)?);
+            continue;
+        }
+        if matches!(entry.motion, MotionSpec::Guided { .. }) {
+            let message =
+                format!("body {:?} deforms and is guided by none; choose \"prescribed\"", entry.body);
+            return Err(InputError::new(format!("{key}.kind"), message));
+        }
         let nodes = body.body.mesh().nodes_of(&entry.on).ok_or_else(|| {
             let known = body.body.mesh().sets().names();
             let message =
@@ -28,10 +37,12 @@ pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Res
         })?;
         let components = match &entry.motion {
             MotionSpec::Fixed { components } => fixed(&key, components.as_deref())?,
+            MotionSpec::Guided { .. } => continue,
             MotionSpec::Prescribed(d) => displacement(&key, d, span, entry.since, model.assembly.size)?,
         };
-        let name = name(&motions, &entry.body, &entry.on);
-        let motion = Motion { name, body: index, nodes, components, since: entry.since };
+        let name = support_name(&motions, &entry.body, &entry.on);
+        let turns = [None, None, None];
+        let motion = Motion { name, body: index, nodes, components, turns, since: entry.since };
         refuse_contradictions(&key, &motions, &motion, model.bodies[index].body.mesh().masters().as_slice())?;
         motions.push(motion);
     }
@@ -44,6 +55,17 @@ pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Res
         let key = format!("loads.{k}");
         let (index, body) = find_body(&model, &key, &entry.body)?;
         let load = match &entry.load {
+            LoadSpec::Resultant { force, moment, point } => {
+                let resultant = resultant(
+                    &key,
+                    body,
+                    &entry.body,
+                    (force.as_deref(), moment.as_ref(), point.as_deref()),
+                    span,
+                )?;
+                model = model.with_resultant(index, resultant);
+                continue;
+            }
             LoadSpec::Force { force } => {
                 let nodes = body.body.mesh().nodes_of(&entry.on).ok_or_else(|| {
                     let known = body.body.mesh().sets().names();
@@ -82,14 +104,6 @@ fn find_body<'a, const D: usize>(
         let known: Vec<&str> = model.bodies.iter().map(|b| b.name.as_str()).collect();
         InputError::new(format!("{key}.body"), format!("there is no body {name:?}; known are {known:?}"))
     })
-}
-
-/// What the supports of a motion are called in the history: its body and set, and a number where that is not unique.
-fn name<const D: usize>(before: &[Motion<D>], body: &str, on: &str) -> String {
-    let plain = format!("{body}.{on}");
-    let taken = |name: &str| before.iter().any(|m| m.name == name);
-    let numbered = (2..).map(|k| format!("{plain}.{k}"));
-    std::iter::once(plain.clone()).chain(numbered).find(|name| !taken(name)).unwrap_or(plain)
 }
 
 /// The facets of a set on the boundary of a body.
@@ -137,28 +151,7 @@ fn displacement<const D: usize>(
         let place = signals
             .get_mut(i)
             .ok_or_else(|| InputError::new(&key, format!("there are {D} dimensions; leave it out")))?;
-        let signal = signal(&key, spec, span)?;
-        let start = signal.at(since);
-        if start.value.abs() > AT_START * size {
-            let message = if since == 0.0 {
-                format!(
-                    "the displacement at t = 0 is {} m, where the run starts from none; let it grow from 0, as t*{0} does",
-                    start.value
-                )
-            } else {
-                format!(
-                    "the displacement at t = {since} s is {} m, where it counts from none: it is the displacement since then; let it \
-                     grow from 0, as (t - {since})*{0} does",
-                    start.value
-                )
-            };
-            return Err(InputError::new(&key, message));
-        }
-        if !start.rate.is_finite() {
-            let message = format!("the velocity at t = {since} is {} m/s: it must be finite", start.rate);
-            return Err(InputError::new(&key, message));
-        }
-        *place = Some(signal);
+        *place = Some(starting_from_none(&key, spec, span, since, size)?);
     }
     if signals.iter().all(Option::is_none) {
         return Err(InputError::new(key, "give one of x, y, z at least; those left out are free"));

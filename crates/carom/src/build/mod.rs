@@ -4,13 +4,17 @@ mod body;
 mod contact;
 mod drive;
 mod growth;
+mod guide;
 mod interference;
 mod mesh;
 mod method;
 mod mortar;
 mod obstacle;
 mod overlaps;
+mod restitution;
+mod rigid;
 mod signals;
+mod support_name;
 pub(crate) mod values;
 mod velocity;
 
@@ -25,7 +29,7 @@ use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::Model;
 use crate::model::method::Method;
-use crate::scenario::Scenario;
+use crate::scenario::{BodyKind, Scenario};
 use crate::{Scheme, State};
 
 /// Meshes that a scenario takes from files, by the names of their bodies.
@@ -96,9 +100,15 @@ pub(crate) fn built<const D: usize>(
     let mut bodies: Vec<ModelBody<D>> = Vec::new();
     for (i, entry) in scenario.bodies.iter().enumerate() {
         let first_node = bodies.last().map_or(0, |b| b.nodes().end);
-        let body = body::body(scenario, i, entry, meshes.remove(&entry.name))?;
-        let growth = growth::growth(scenario, i, entry)?;
-        bodies.push(ModelBody { growth, ..ModelBody::new(&entry.name, body, first_node) });
+        let given = meshes.remove(&entry.name);
+        bodies.push(if entry.kind == BodyKind::Rigid {
+            let (body, inertia) = rigid::rigid_body(scenario, i, entry, given)?;
+            ModelBody::new(&entry.name, body, first_node).rigid(inertia)
+        } else {
+            let body = body::body(scenario, i, entry, given)?;
+            let growth = growth::growth(scenario, i, entry)?;
+            ModelBody { growth, ..ModelBody::new(&entry.name, body, first_node) }
+        });
     }
     if bodies.is_empty() {
         return Err(InputError::new("bodies", "there is no body; add one [[bodies]] table at least"));
@@ -115,6 +125,7 @@ pub(crate) fn built<const D: usize>(
     }
     let model = drive::drive(scenario, Model::new(bodies, contact, named_pairs, gravity))?;
     let model = interference::interference(scenario, model)?;
+    let model = restitution::restitution(scenario, model)?;
     if scenario.analysis.starts_from_nothing() {
         overlaps::check_overlaps(scenario, &model)?;
     }

@@ -22,6 +22,41 @@ pub(super) fn signal(key: &str, spec: &SignalSpec, [start, end]: [f64; 2]) -> Re
     Ok(signal)
 }
 
+/// A displacement below this at the start, relative to the model, is round-off [1].
+const AT_START: f64 = 1e-12;
+
+/// The displacement over time under `key`, which starts from zero at the time `since` [s] in a model of this `size` [m].
+pub(super) fn starting_from_none(
+    key: &str,
+    spec: &SignalSpec,
+    span: [f64; 2],
+    since: f64,
+    size: f64,
+) -> Result<Signal, InputError> {
+    let signal = signal(key, spec, span)?;
+    let start = signal.at(since);
+    if start.value.abs() > AT_START * size {
+        let message = if since == 0.0 {
+            format!(
+                "the displacement at t = 0 is {} m, where the run starts from none; let it grow from 0, as t*{0} does",
+                start.value
+            )
+        } else {
+            format!(
+                "the displacement at t = {since} s is {} m, where it counts from none: it is the displacement since then; let it \
+                 grow from 0, as (t - {since})*{0} does",
+                start.value
+            )
+        };
+        return Err(InputError::new(key, message));
+    }
+    if !start.rate.is_finite() {
+        let message = format!("the velocity at t = {since} is {} m/s: it must be finite", start.rate);
+        return Err(InputError::new(key, message));
+    }
+    Ok(signal)
+}
+
 /// A vector of functions of time.
 pub(super) fn signals<const D: usize>(
     key: &str,

@@ -5,7 +5,7 @@ use carom_mesh::{Matrix, Vector};
 
 use super::control::CONTROL;
 use crate::model::assembly::Assembly;
-use crate::model::condition::Opening;
+use crate::model::condition::{Opening, impact_offset};
 use crate::model::given::Given;
 use crate::model::state::Reaction;
 
@@ -176,18 +176,26 @@ impl<const D: usize> ActiveSet<D> {
         }
     }
 
-    /// What the normal motions of the contacts lack of the variable of the condition [m], at a guess.
+    /// What the motions of the contacts lack of the variables of condition and friction [m], at a guess.
     pub fn offsets<'a>(
         &'a self,
         given: &'a Given<'_, D>,
         motion: &'a [Vector<D>],
-    ) -> impl Iterator<Item = f64> + 'a {
-        let Given { method, state, interval, .. } = *given;
+    ) -> impl Iterator<Item = Vector<D>> + 'a {
+        let Given { assembly, method, state, interval, .. } = *given;
         let contacts = self.contacts.iter().zip(&self.start_gaps).zip(&self.interferences);
-        contacts.map(move |((contact, &start_gap), [h0, h1])| {
+        contacts.zip(&self.candidates).map(move |(((contact, &start_gap), [h0, h1]), candidate)| {
             let opening = Opening { start_gap, widening: h1 - h0 };
             let velocity = |n: usize| state.velocity[n];
-            method.condition.normal_offset(contact, opening, &interval.map, |n| motion[n], velocity)
+            let map = &interval.map;
+            let along = method.condition.normal_offset(contact, opening, map, |n| motion[n], velocity);
+            let mut offset = Vector::zeros();
+            let pair = &assembly.contact.pairs[candidate.pair as usize];
+            if let Some(restitution) = assembly.restitutions[pair.named_pair] {
+                offset = impact_offset(&contact.relative(velocity), restitution, map);
+            }
+            offset[0] += along;
+            offset
         })
     }
 

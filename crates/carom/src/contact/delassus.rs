@@ -37,13 +37,13 @@ impl<const D: usize> Delassus<D> {
     /// Writes W, q and μ of the contacts to `problem`.
     ///
     /// `motion` is the nodal motion d that the step would make with the reactions known so far, and q what W leaves of it without them. Once
-    /// these no longer change, the law holds for the motion itself, however accurate W is. `offsets` are what the normal components lack of
+    /// these no longer change, the law holds for the motion itself, however accurate W is. `offsets` are what the motions lack of
     /// the contact condition's variable. The columns of W were prepared.
     pub fn condense(
         &mut self,
         assembly: &Assembly<D>,
         active: &ActiveSet<D>,
-        offsets: &[f64],
+        offsets: &[Vector<D>],
         motion: &[Vector<D>],
         problem: &mut ContactProblem<D>,
     ) {
@@ -57,7 +57,7 @@ impl<const D: usize> Delassus<D> {
         coupling.list(assembly, contacts);
         for (i, row) in contacts.iter().enumerate() {
             let mut q = row.relative(|n| motion[n]);
-            q[0] += offsets[i];
+            q += offsets[i];
             problem.q.push(q);
             row_blocks.clear();
             // Through one another's contacts all respond to all.

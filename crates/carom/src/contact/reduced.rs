@@ -35,7 +35,7 @@ pub(crate) struct Reduced<const D: usize> {
     pub delassus: Delassus<D>,
     pub problem: ContactProblem<D>,
     /// What the normal motions lack of the variable of the condition [m].
-    pub offsets: Vec<f64>,
+    pub offsets: Vec<Vector<D>>,
     /// The reactions that the friction solver last started from.
     pub guess: Vec<Vector<D>>,
     /// The solver that gave the last reactions.

@@ -179,7 +179,7 @@ impl<const D: usize> Stiffened<D> {
             self.springs_of_contacts.push((stiffness, directions));
             if stiffness > 0.0 {
                 let mut w = contact.relative(|n| motion[n]);
-                w[0] += offset;
+                w += offset;
                 let force = Vector::from_fn(|i, _| if i < directions { -stiffness * w[i] } else { 0.0 });
                 contact.add_force(&force, residual);
             }

@@ -48,6 +48,9 @@ pub struct Assembly<const D: usize> {
     pub named_pairs: Vec<NamedPair>,
     /// By how much each named pair is pushed apart.
     pub interferences: Vec<Interference>,
+    /// The coefficients of restitution of the named pairs of which both sides are rigid, where velocities are ruled: see
+    /// [`ContactCondition::Endpoint`](super::condition::ContactCondition::Endpoint).
+    pub restitutions: Vec<Option<f64>>,
     /// Reference positions of all nodes [m]; after those of the bodies, zero for every obstacle, whose displacement says how far
     /// it has moved.
     pub reference: Vec<Vector<D>>,
@@ -96,6 +99,7 @@ impl<const D: usize> Assembly<D> {
         let may_meet = contact.pairs.iter().map(between).collect();
         let mut assembly = Self {
             interferences: vec![Interference::default(); named_pairs.len()],
+            restitutions: vec![None; named_pairs.len()],
             obstacle_motions: vec![ObstacleMotion::Velocity(Vector::zeros()); obstacles],
             supports: 0,
             size: members.iter().map(|m| m.diameter).fold(0.0, f64::max),

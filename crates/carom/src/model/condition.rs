@@ -35,6 +35,14 @@ pub enum ContactCondition {
     Massless,
 }
 
+/// What the motion of a contact lacks, beside what its [condition](ContactCondition::Endpoint) makes of it, of the variable of an impact of
+/// rigid bodies that meet at the velocity `v` [m/s] with a coefficient of restitution e (Moreau). With v₊ = a v + b d, that is
+/// (v₊ + e v)/b along the normal and v₊/b across it: they part at −e v, and friction acts against the velocity that is left.
+pub(crate) fn impact_offset<const D: usize>(v: &Vector<D>, restitution: f64, map: &StepMap) -> Vector<D> {
+    let kept = map.velocity_of_velocity;
+    Vector::from_fn(|i, _| v[i] * if i == 0 { restitution } else { kept } / map.velocity_of_motion)
+}
+
 impl ContactCondition {
     /// The configuration where contacts are evaluated, as a weight between start (0) and end (1) of the step.
     #[must_use]

@@ -1,4 +1,4 @@
-//! What does not change during a run: bodies of finite elements in their places, and the method that takes them through time.
+//! What does not change during a run: bodies in their places, and the method that takes them through time.
 
 pub(crate) mod assembly;
 pub(crate) mod condition;
@@ -22,8 +22,10 @@ use crate::body::fe::FeBody;
 use crate::body::fe::load::Load;
 use crate::body::fe::part::ModelBody;
 use crate::body::fe::supports::{Motion, Supports};
+use crate::body::rigid::RigidBody;
+use crate::body::rigid::guide::{Guide, Resultant};
 
-/// Bodies of finite elements in their places, and what drives them. Everything that does not change during a run.
+/// Bodies in their places, and what drives them. Everything that does not change during a run.
 #[derive(Debug)]
 pub struct Model<const D: usize> {
     /// What a step needs to know of all this.
@@ -52,8 +54,12 @@ impl<const D: usize> Model<D> {
             held: b.held(),
         };
         let assembly = Assembly::new(bodies.iter().map(member).collect(), contact, named_pairs);
-        let bodies = bodies.into_iter().map(|b| Arc::new(ModelBody { gravity, ..b })).collect();
-        Self { assembly, bodies, motions: Vec::new() }
+        let surroundings = stiffness_of_deformable(&bodies);
+        let bodies = bodies.into_iter().map(|mut b| {
+            b.rigid.iter_mut().for_each(|rigid| rigid.surroundings = surroundings);
+            Arc::new(ModelBody { gravity, ..b })
+        });
+        Self { assembly, bodies: bodies.collect(), motions: Vec::new() }
     }
 
     /// The same with obstacles that move like this.
@@ -72,6 +78,14 @@ impl<const D: usize> Model<D> {
         self
     }
 
+    /// The same with these coefficients of restitution of its named pairs.
+    #[must_use]
+    pub fn with_restitutions(mut self, restitutions: Vec<Option<f64>>) -> Self {
+        assert_eq!(restitutions.len(), self.assembly.named_pairs.len(), "one restitution per named pair");
+        self.assembly.restitutions = restitutions;
+        self
+    }
+
     /// The same with these prescribed motions instead of its own. Of two that prescribe the same displacement the first has it.
     ///
     /// # Panics
@@ -80,12 +94,26 @@ impl<const D: usize> Model<D> {
     pub fn with_motions(mut self, motions: Vec<Motion<D>>) -> Self {
         for i in 0..self.bodies.len() {
             let b = self.own(i);
-            b.supports = Supports::of(i, &mut b.body, &motions);
+            match &mut b.rigid {
+                Some(rigid) => rigid.guide = guide(i, &motions),
+                None => b.supports = Supports::of(i, &mut b.body, &motions),
+            }
             let held = b.held();
             self.assembly.hold(i, &held);
         }
         self.assembly.supports = motions.len();
         self.motions = motions;
+        self
+    }
+
+    /// The same with a force and a moment more on the rigid body `index`.
+    ///
+    /// # Panics
+    /// If its bodies step already or this one is not rigid.
+    #[must_use]
+    pub(crate) fn with_resultant(mut self, index: usize, resultant: Resultant) -> Self {
+        let rigid = self.own(index).rigid.as_mut().expect("resultants act on rigid bodies");
+        rigid.resultants.push(resultant);
         self
     }
 
@@ -107,7 +135,14 @@ impl<const D: usize> Model<D> {
     /// The bodies as they step, each with scratch of its own.
     #[must_use]
     pub fn stepping_bodies(&self) -> Vec<Box<dyn Body<D>>> {
-        self.bodies.iter().map(|b| Box::new(FeBody::new(Arc::clone(b))) as Box<dyn Body<D>>).collect()
+        let stepping = |b: &Arc<ModelBody<D>>| -> Box<dyn Body<D>> {
+            if b.is_rigid() {
+                Box::new(RigidBody::new(Arc::clone(b)))
+            } else {
+                Box::new(FeBody::new(Arc::clone(b)))
+            }
+        };
+        self.bodies.iter().map(stepping).collect()
     }
 
     /// The state at t = 0 with these velocities of the nodes of all bodies: see [`State::initial`].
@@ -132,6 +167,10 @@ impl<const D: usize> Model<D> {
                 let (n, i) = (b.first_node + dof.node as usize, dof.component as usize);
                 state.anchor[n][i] = state.displacement[n][i];
             }
+            let guide = b.rigid.as_ref().and_then(|rigid| rigid.guide.as_ref());
+            if guide.is_some_and(|guide| self.motions[guide.number].since >= state.time) {
+                state.anchor[b.nodes()].copy_from_slice(&state.displacement[b.nodes()]);
+            }
         }
     }
 
@@ -144,6 +183,22 @@ impl<const D: usize> Model<D> {
     /// Number of unknown displacements.
     #[must_use]
     pub fn dofs(&self) -> usize {
-        self.bodies.iter().map(|b| b.body.dofs()).sum()
+        self.bodies.iter().map(|b| b.dofs()).sum()
     }
+}
+
+/// What guides the rigid body `index`: the first of the motions that does.
+fn guide<const D: usize>(index: usize, motions: &[Motion<D>]) -> Option<Guide> {
+    let (number, motion) = motions.iter().enumerate().find(|(_, m)| m.body == index)?;
+    let along = std::array::from_fn(|i| motion.components.get(i).cloned().flatten());
+    Some(Guide { number, along, about: motion.turns.clone() })
+}
+
+/// How stiff the softest of the deformable bodies is [N/m], by the time that waves take through it; zero if all are rigid.
+fn stiffness_of_deformable<const D: usize>(bodies: &[ModelBody<D>]) -> f64 {
+    let stiffness = bodies.iter().filter_map(|b| {
+        let frequency = b.wave_speed()? / b.body.mesh().diameter();
+        Some(b.body.total_mass() * frequency * frequency)
+    });
+    stiffness.reduce(f64::min).unwrap_or(0.0)
 }

@@ -95,8 +95,9 @@ impl<const D: usize> State<D> {
         mut velocity: Vec<Vector<D>>,
     ) -> Self {
         assert_eq!(velocity.len(), assembly.node_count(), "one velocity per node");
+        let still = vec![Vector::zeros(); velocity.len()];
         for (i, body) in bodies.iter().enumerate() {
-            body.constrain(&mut velocity[assembly.nodes(i)], 0.0);
+            body.constrain(&still[assembly.nodes(i)], &mut velocity[assembly.nodes(i)], 0.0);
         }
         velocity.extend(assembly.obstacle_motions.iter().map(|m| m.velocity(0.0)));
         let zeros = vec![Vector::zeros(); velocity.len()];
@@ -140,7 +141,8 @@ impl<const D: usize> State<D> {
         let before = self.body_energies[index].kinetic;
         let nodes = assembly.nodes(index);
         self.velocity[nodes.clone()].copy_from_slice(velocity);
-        bodies[index].constrain(&mut self.velocity[nodes.clone()], self.time);
+        let displacement = &self.displacement[nodes.clone()];
+        bodies[index].constrain(displacement, &mut self.velocity[nodes.clone()], self.time);
         let mut forces = vec![Vector::zeros(); nodes.len()];
         let energies = bodies[index].measure(&self.body(index, nodes), &mut forces);
         self.body_energies[index].kinetic = energies.kinetic;

@@ -37,7 +37,7 @@ impl<const D: usize> Stepper<'_, D> {
         end: f64,
         observe: &mut impl FnMut(&State<D>, &StepReport, &Workspace<D>),
     ) -> bool {
-        let waves = self.model.bodies.iter().map(|b| b.body.mesh().diameter() / b.body.wave_speed());
+        let waves = self.model.bodies.iter().filter_map(|b| Some(b.body.mesh().diameter() / b.wave_speed()?));
         let time = waves.fold(0.0, f64::max);
         let mut dt = LENGTHS[0] * time;
         let mut since = 0;

@@ -13,8 +13,8 @@ pub struct Description {
     pub steps: u64,
     /// Initial energy [J].
     pub energy: f64,
-    /// Time that a pressure wave needs through the smallest edge of all bodies [s].
-    pub suggested_time_step: f64,
+    /// Time that a pressure wave needs through the smallest edge of all bodies [s]; none where all are rigid.
+    pub suggested_time_step: Option<f64>,
     /// The bodies.
     pub bodies: Vec<BodyDescription>,
     /// The pairs that may touch.
@@ -26,6 +26,8 @@ pub struct Description {
 pub struct BodyDescription {
     /// Name.
     pub name: String,
+    /// Whether it is rigid.
+    pub is_rigid: bool,
     /// Nodes.
     pub nodes: usize,
     /// Cells.
@@ -36,14 +38,14 @@ pub struct BodyDescription {
     pub mass: f64,
     /// Volume [m³].
     pub volume: f64,
-    /// Speed of pressure waves [m/s].
-    pub wave_speed: f64,
+    /// Speed of pressure waves [m/s]; none of a rigid body.
+    pub wave_speed: Option<f64>,
     /// Length of the diagonal of the bounding box [m].
     pub diameter: f64,
     /// Shortest edge [m].
     pub smallest_edge: f64,
-    /// Time of a pressure wave through it [s].
-    pub suggested_time_step: f64,
+    /// Time of a pressure wave through it [s]; none of a rigid body.
+    pub suggested_time_step: Option<f64>,
 }
 
 /// A pair before anything has moved.
@@ -70,18 +72,19 @@ pub(crate) fn describe<const D: usize>(
         .bodies
         .iter()
         .map(|b| {
-            let (wave_speed, smallest_edge) = (b.body.wave_speed(), b.body.mesh().smallest_edge());
+            let (wave_speed, smallest_edge) = (b.wave_speed(), b.body.mesh().smallest_edge());
             BodyDescription {
                 name: b.name.clone(),
                 nodes: b.body.node_count(),
                 cells: b.body.mesh().cell_count(),
-                dofs: b.body.dofs(),
+                is_rigid: b.is_rigid(),
+                dofs: b.dofs(),
                 mass: b.body.total_mass(),
                 volume: b.body.volume(),
                 wave_speed,
                 diameter: b.body.mesh().diameter(),
                 smallest_edge,
-                suggested_time_step: smallest_edge / wave_speed,
+                suggested_time_step: wave_speed.map(|speed| smallest_edge / speed),
             }
         })
         .collect();
@@ -111,7 +114,7 @@ pub(crate) fn describe<const D: usize>(
         dofs: model.dofs(),
         steps,
         energy: state.energies.total(),
-        suggested_time_step: bodies.iter().map(|b| b.suggested_time_step).fold(f64::INFINITY, f64::min),
+        suggested_time_step: bodies.iter().filter_map(|b| b.suggested_time_step).reduce(f64::min),
         bodies,
         pairs,
     }

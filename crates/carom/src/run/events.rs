@@ -99,13 +99,13 @@ impl EventLog {
     }
 }
 
-/// How long a pressure wave takes along the longest side of a body of the pair [s], of the body where that is shortest. While waves are on
+/// How long a pressure wave takes along the longest side of a deformable body of the pair [s], of the body where that is shortest. While waves are on
 /// their way a contact may open and close again; who is out of it for longer has parted.
 fn crossing_time<const D: usize>(model: &Model<D>, named_pair: usize) -> f64 {
     let of_body = |index: usize| {
-        let body = &model.bodies[index].body;
-        let (low, high) = body.mesh().bounds();
-        (high - low).max() / body.wave_speed()
+        let body = &model.bodies[index];
+        let (low, high) = body.body.mesh().bounds();
+        Some((high - low).max() / body.wave_speed()?)
     };
     let pairs = model.assembly.contact.pairs.iter().filter(|pair| pair.named_pair == named_pair);
     let bodies = pairs.flat_map(|pair| {
@@ -115,7 +115,7 @@ fn crossing_time<const D: usize>(model: &Model<D>, named_pair: usize) -> f64 {
         };
         std::iter::once(pair.source).chain(target)
     });
-    let shortest = bodies.map(of_body).fold(f64::INFINITY, f64::min);
+    let shortest = bodies.filter_map(of_body).fold(f64::INFINITY, f64::min);
     if shortest.is_finite() { shortest } else { 0.0 }
 }
 

@@ -1,4 +1,4 @@
-use carom_mesh::{Vector, nodal};
+use carom_mesh::Vector;
 
 use crate::run::stage::Stage;
 use crate::scenario::Axis;
@@ -171,10 +171,8 @@ impl<const D: usize> History<D> {
         let mut moment = [0.0; 3];
         for b in &model.bodies {
             let (u, v) = (&state.displacement[b.nodes()], &state.velocity[b.nodes()]);
-            let mut mv = vec![Vector::zeros(); v.len()];
-            b.body.mass().multiply(v, &mut mv);
-            momentum += b.body.resultant(nodal::total(&mv));
-            let l = b.body.angular_momentum(u, &mv);
+            let (own, l) = b.momenta(u, v);
+            momentum += own;
             (0..3).for_each(|i| moment[i] += l[i]);
         }
         self.rows.extend(momentum.iter());

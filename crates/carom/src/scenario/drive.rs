@@ -9,7 +9,8 @@ use crate::SignalSpec;
 pub struct LoadEntry {
     /// Body.
     pub body: String,
-    /// The set.
+    /// The set; of resultants none.
+    #[serde(default)]
     pub on: String,
     /// What acts on it.
     #[serde(flatten)]
@@ -38,6 +39,28 @@ pub enum LoadSpec {
         #[serde(default)]
         follower: bool,
     },
+    /// A force and a moment on a rigid body.
+    Resultant {
+        /// The force [N].
+        #[serde(default)]
+        force: Option<Vec<SignalSpec>>,
+        /// The moment [N m].
+        #[serde(default)]
+        moment: Option<MomentSpec>,
+        /// Where the force acts, as the body is drawn [m]; its centre of mass if not given.
+        #[serde(default)]
+        point: Option<Vec<f64>>,
+    },
+}
+
+/// A moment [N m].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum MomentSpec {
+    /// In space, about its axes.
+    InSpace(Vec<SignalSpec>),
+    /// In the plane.
+    InPlane(SignalSpec),
 }
 
 /// Prescribed displacements of a named set of a body.
@@ -45,7 +68,8 @@ pub enum LoadSpec {
 pub struct MotionEntry {
     /// Body.
     pub body: String,
-    /// The set.
+    /// The set; of guided bodies none.
+    #[serde(default)]
     pub on: String,
     /// How it moves.
     #[serde(flatten)]
@@ -67,6 +91,27 @@ pub enum MotionSpec {
     },
     /// Displacements [m]; components that are not given are free.
     Prescribed(Displacement),
+    /// Displacements of the centre of mass of a rigid body [m] and angles about the axes of space [rad]; what is not given is free.
+    Guided {
+        /// Along x.
+        #[serde(default)]
+        x: Option<SignalSpec>,
+        /// Along y.
+        #[serde(default)]
+        y: Option<SignalSpec>,
+        /// Along z.
+        #[serde(default)]
+        z: Option<SignalSpec>,
+        /// About x.
+        #[serde(default)]
+        turn_x: Option<SignalSpec>,
+        /// About y.
+        #[serde(default)]
+        turn_y: Option<SignalSpec>,
+        /// About z.
+        #[serde(default)]
+        turn_z: Option<SignalSpec>,
+    },
 }
 
 /// A displacement by components [m].

@@ -2,19 +2,21 @@
 
 mod drive;
 mod mesh_spec;
+mod rigid;
 
 use std::collections::BTreeMap;
 
 use carom_contact::Discretisation;
+use carom_fem::RayleighDamping;
 use carom_fem::material::{LawSpec, Viscosity};
 pub use carom_fem::{Formulation, Hypothesis};
-use carom_fem::{MassKind, RayleighDamping};
 use carom_friction::SolverKind;
 use serde::{Deserialize, Serialize};
 
-pub use drive::{Axis, Displacement, LoadEntry, LoadSpec, MotionEntry, MotionSpec};
+pub use drive::{Axis, Displacement, LoadEntry, LoadSpec, MomentSpec, MotionEntry, MotionSpec};
 
 pub use self::mesh_spec::{Cell, MeshSpec};
+pub use self::rigid::{BodyKind, BodyMass, Inertia};
 use crate::{ContactCondition, Scheme, SignalSpec};
 
 /// Moments closer than this to one another, in time steps, differ by round-off alone.
@@ -35,7 +37,7 @@ pub struct Scenario {
     pub output: Output,
     /// Materials by name.
     pub materials: BTreeMap<String, MaterialSpec>,
-    /// Deformable bodies.
+    /// Bodies.
     pub bodies: Vec<BodyEntry>,
     /// Rigid obstacles.
     #[serde(default)]
@@ -229,13 +231,23 @@ pub struct MaterialSpec {
     pub viscosity: Viscosity,
 }
 
-/// A deformable body.
+/// A body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BodyEntry {
     /// Name.
     pub name: String,
-    /// Name of its material.
-    pub material: String,
+    /// Whether it deforms.
+    #[serde(default)]
+    pub kind: BodyKind,
+    /// Name of its material; of deformable bodies.
+    #[serde(default)]
+    pub material: Option<String>,
+    /// Density [kg/m³] of a rigid body that does not give its mass.
+    #[serde(default)]
+    pub density: Option<f64>,
+    /// Inertia of a rigid body about its centre of mass; that of its volume if not given.
+    #[serde(default)]
+    pub inertia: Option<Inertia>,
     /// What it is in space, in 2D.
     #[serde(default)]
     pub hypothesis: Hypothesis,
@@ -244,8 +256,9 @@ pub struct BodyEntry {
     pub formulation: Formulation,
     /// Thickness in 2D [m]; not used of a body of revolution.
     pub thickness: f64,
-    /// Mass matrix.
-    pub mass: MassKind,
+    /// Mass matrix, or the mass of a rigid body.
+    #[serde(default)]
+    pub mass: Option<BodyMass>,
     /// Mesh.
     pub mesh: MeshSpec,
     /// Stress that it is under where it is drawn.
@@ -389,6 +402,9 @@ pub struct ContactSpec {
     /// When they are [s]; at the end of the run if not given.
     #[serde(default)]
     pub overlap_resolved_at: Option<f64>,
+    /// Coefficient of restitution of every pair of what is rigid that names none.
+    #[serde(default)]
+    pub restitution: Option<f64>,
     /// Exceptions for pairs.
     #[serde(default)]
     pub pairs: Vec<PairEntry>,
@@ -440,6 +456,9 @@ pub struct PairEntry {
     pub between: [String; 2],
     /// Friction coefficient.
     pub friction: Option<f64>,
+    /// Coefficient of restitution.
+    #[serde(default)]
+    pub restitution: Option<f64>,
     /// Whose nodes are checked.
     pub sources: Option<Sources>,
     /// How contact between the two is written.

@@ -87,7 +87,7 @@ fn keep_contacts<const D: usize>(
     for (i, (candidate, contact)) in active.candidates.iter().zip(&active.contacts).enumerate() {
         let r = active.reactions[i] / weight;
         let mut w = contact.relative(|n| motion[n]);
-        w[0] += reduced.offsets[i];
+        w += reduced.offsets[i];
         report.certificate += cone::bipotential_gap(&w, &r, active.friction[i]);
         report.reaction_work += r.dot(&reduced.problem.q[i]).abs();
         contact.add_force(&r, &mut next.contact_force);

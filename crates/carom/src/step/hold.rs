@@ -37,7 +37,7 @@ impl<'a, const D: usize> Motions<'a, D> {
         Self {
             bodies,
             columns: columns
-                .flat_map(|(k, &i)| work.bodies[i].rigid_motions().map(move |m| (k, m)))
+                .flat_map(|(k, &i)| work.bodies[i].rigid_motions().into_iter().map(move |m| (k, m)))
                 .collect(),
             centres: bodies.iter().map(|&i| centre(assembly.nodes(i))).collect(),
             size: assembly.size,

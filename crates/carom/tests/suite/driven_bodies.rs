@@ -77,7 +77,7 @@ fn model_of<const D: usize>(body: Body<D>) -> Model<D> {
 }
 
 fn motion<const D: usize>(nodes: Vec<u32>, components: [Option<Signal>; D]) -> Motion<D> {
-    Motion { name: "support".into(), body: 0, nodes, components, since: 0.0 }
+    Motion { name: "support".into(), body: 0, nodes, components, turns: [None, None, None], since: 0.0 }
 }
 
 /// Largest |defect| of a step, the state at the end, and the sums of (external, prescribed) work.

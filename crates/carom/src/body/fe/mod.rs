@@ -1,7 +1,7 @@
 //! A body of finite elements.
 
 mod blended;
-mod drive;
+pub(crate) mod drive;
 mod equation;
 mod growing;
 mod iteration_matrix;
@@ -10,7 +10,6 @@ mod load_step;
 pub(crate) mod part;
 pub(crate) mod supports;
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use carom_fem::MassSolver;
@@ -128,7 +127,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         self.part.body.virgin()
     }
 
-    fn constrain(&self, velocity: &mut [Vector<D>], t: f64) {
+    fn constrain(&self, _displacement: &[Vector<D>], velocity: &mut [Vector<D>], t: f64) {
         let ModelBody { body, supports, .. } = &*self.part;
         for tie in body.mesh().ties() {
             velocity[tie.image as usize] = velocity[tie.master as usize];
@@ -435,8 +434,8 @@ impl<const D: usize> Body<D> for FeBody<D> {
         self.matrix.response(a as usize, (number, b as usize))
     }
 
-    fn rigid_motions(&self) -> Range<usize> {
-        self.part.body.rigid_motions()
+    fn rigid_motions(&self) -> Vec<usize> {
+        self.part.body.rigid_motions().collect()
     }
 
     fn factor_bytes(&self) -> usize {

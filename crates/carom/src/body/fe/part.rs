@@ -1,13 +1,14 @@
 use std::ops::Range;
 
 use carom_fem::Body;
-use carom_mesh::Vector;
+use carom_mesh::{Matrix, Vector, nodal};
 
 use super::load::Load;
 use super::supports::Supports;
+use crate::body::rigid::part::RigidPart;
 use crate::signal::Signal;
 
-/// A body of finite elements in its place in the model, and what drives it.
+/// A body in its place in the model, and what drives it. Its cells are those of finite elements; of a rigid body they make the mass.
 #[derive(Debug)]
 pub struct ModelBody<const D: usize> {
     /// Name.
@@ -23,6 +24,8 @@ pub struct ModelBody<const D: usize> {
     /// The linear strain by which it would grow if nothing held it.
     pub growth: Option<Signal>,
     pub(crate) supports: Supports<D>,
+    /// What makes it rigid, if it is.
+    pub(crate) rigid: Option<RigidPart<D>>,
 }
 
 impl<const D: usize> ModelBody<D> {
@@ -31,7 +34,51 @@ impl<const D: usize> ModelBody<D> {
     pub fn new(name: impl Into<String>, body: Body<D>, first_node: usize) -> Self {
         let supports = Supports::none(&body);
         let gravity = Vector::zeros();
-        Self { name: name.into(), body, first_node, loads: Vec::new(), gravity, growth: None, supports }
+        Self {
+            name: name.into(),
+            body,
+            first_node,
+            loads: Vec::new(),
+            gravity,
+            growth: None,
+            supports,
+            rigid: None,
+        }
+    }
+
+    /// The same, rigid: with the mass of its cells, and with this inertia about its centre [kg m²] if that is given.
+    #[must_use]
+    pub fn rigid(self, inertia: Option<Matrix<3>>) -> Self {
+        Self { rigid: Some(RigidPart::new(&self.body, inertia)), ..self }
+    }
+
+    /// Whether it is rigid.
+    #[must_use]
+    pub fn is_rigid(&self) -> bool {
+        self.rigid.is_some()
+    }
+
+    /// Number of its unknowns.
+    #[must_use]
+    pub fn dofs(&self) -> usize {
+        self.rigid.as_ref().map_or_else(|| self.body.dofs(), RigidPart::dofs)
+    }
+
+    /// Speed of pressure waves in it [m/s]; none of a rigid body, in which they need no time.
+    #[must_use]
+    pub fn wave_speed(&self) -> Option<f64> {
+        (!self.is_rigid()).then(|| self.body.wave_speed())
+    }
+
+    /// Momentum [kg m/s] and angular momentum about the origin [kg m²/s] at these displacements [m] and velocities [m/s] of its nodes.
+    #[must_use]
+    pub fn momenta(&self, u: &[Vector<D>], v: &[Vector<D>]) -> (Vector<D>, [f64; 3]) {
+        if let Some(rigid) = &self.rigid {
+            return rigid.momenta(u, v);
+        }
+        let mut mv = vec![Vector::zeros(); v.len()];
+        self.body.mass().multiply(v, &mut mv);
+        (self.body.resultant(nodal::total(&mv)), self.body.angular_momentum(u, &mv))
     }
 
     /// The numbers of its nodes.
@@ -42,6 +89,10 @@ impl<const D: usize> ModelBody<D> {
 
     /// Which components of the displacement of every node are prescribed; empty where none is.
     pub(crate) fn held(&self) -> Vec<[bool; D]> {
+        if let Some(rigid) = &self.rigid {
+            let held = rigid.held();
+            return if held == [false; D] { Vec::new() } else { vec![held; self.body.node_count()] };
+        }
         let held = self.body.held();
         let of_node = |node| std::array::from_fn(|component| held.holds(node, component));
         if held.is_empty() { Vec::new() } else { (0..self.body.node_count()).map(of_node).collect() }

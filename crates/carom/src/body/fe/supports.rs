@@ -13,6 +13,9 @@ pub struct Motion<const D: usize> {
     pub nodes: Vec<u32>,
     /// Displacement [m] of each component; what is `None` is free.
     pub components: [Option<Signal>; D],
+    /// Of a rigid body: angles by which it has turned about the axes of space [rad]; what is `None` is free. Its components are those of its
+    /// centre of mass, and its nodes are not named.
+    pub turns: [Option<Signal>; 3],
     /// Since when [s].
     pub since: f64,
 }

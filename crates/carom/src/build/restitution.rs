@@ -1,0 +1,51 @@
+//! Impacts of rigid bodies.
+
+use super::interference::entry_of;
+use super::values::number;
+use crate::ContactCondition;
+use crate::error::InputError;
+use crate::model::Model;
+use crate::scenario::{AnalysisKind, Scenario};
+
+/// The model with the coefficients of restitution of its pairs of what is rigid: 0 where nothing is said.
+pub(super) fn restitution<const D: usize>(
+    scenario: &Scenario,
+    model: Model<D>,
+) -> Result<Model<D>, InputError> {
+    let default = scenario.contact.restitution;
+    if let Some(e) = default {
+        check(scenario, "contact.restitution", e)?;
+    }
+    let deforms = |name: &String| model.bodies.iter().find(|b| b.name == *name && !b.is_rigid());
+    let mut restitutions = Vec::new();
+    for named in &model.assembly.named_pairs {
+        let own = entry_of(scenario, &named.between).and_then(|(k, entry)| Some((k, entry.restitution?)));
+        let soft = named.between.iter().find_map(deforms);
+        if let Some((k, e)) = own {
+            let key = format!("contact.pairs.{k}.restitution");
+            check(scenario, &key, e)?;
+            if let Some(soft) = soft {
+                let message = format!(
+                    "{:?} deforms, and its impacts follow from that; a restitution is of two that are rigid; leave it out",
+                    soft.name
+                );
+                return Err(InputError::new(key, message));
+            }
+        }
+        let rules = scenario.contact.condition == ContactCondition::Endpoint && soft.is_none();
+        restitutions.push(rules.then(|| own.map(|(_, e)| e).or(default).unwrap_or(0.0)));
+    }
+    Ok(model.with_restitutions(restitutions))
+}
+
+/// Refuses coefficients out of range, and where velocities are not ruled.
+fn check(scenario: &Scenario, key: &str, e: f64) -> Result<(), InputError> {
+    number(key, e, (0.0..=1.0).contains(&e), "a restitution is between 0 and 1")?;
+    if scenario.analysis.kind == AnalysisKind::Dynamic
+        && scenario.contact.condition != ContactCondition::Endpoint
+    {
+        let message = "a restitution rules the velocity at the end of an impact; write condition = \"endpoint\", or leave it out";
+        return Err(InputError::new(key, message));
+    }
+    Ok(())
+}

@@ -1,0 +1,113 @@
+//! Rigid bodies of a scenario.
+
+use carom_fem::material::{LawSpec, Mat3, Viscosity};
+use carom_fem::{Body, BodySpec, FemError, Formulation, MassKind, RayleighDamping};
+use carom_mesh::{Matrix, Mesh};
+
+use super::body::contact_surface;
+use super::mesh::mesh;
+use super::values::number;
+use crate::error::InputError;
+use crate::scenario::{BodyEntry, BodyMass, Inertia, Scenario};
+
+/// Inertia may be short of what moments of real masses obey by so much of itself: that of a rod about its axis is none.
+const ROUND_OFF: f64 = 1e-12;
+
+/// Rigid body number `index`, whose cells make its mass, and its inertia about the centre where that is given; `given` is its mesh if that
+/// comes from a file.
+pub(super) fn rigid_body<const D: usize>(
+    scenario: &Scenario,
+    index: usize,
+    entry: &BodyEntry,
+    given: Option<Mesh<D>>,
+) -> Result<(Body<D>, Option<Matrix<3>>), InputError> {
+    let key = format!("bodies.{index}");
+    if scenario.contact.condition.is_massless() {
+        let message = format!(
+            "\"massless\" contact, where body {:?} is rigid and has its mass at its surface too; choose \"midpoint\", \"gap\" or \
+             \"endpoint\"",
+            entry.name
+        );
+        return Err(InputError::new("contact.condition", message));
+    }
+    let mesh = mesh(&format!("{key}.mesh"), &entry.mesh, given)?;
+    if !mesh.ties().is_empty() {
+        let message = format!("body {:?} is rigid and cannot be periodic; leave periodic out", entry.name);
+        return Err(InputError::mesh(format!("{key}.mesh.periodic"), message));
+    }
+    let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
+    let made = |density: f64| {
+        let spec = BodySpec {
+            law: LawSpec::Unstressed,
+            density,
+            damping: RayleighDamping::default(),
+            viscosity: Viscosity::default(),
+            mass: MassKind::Consistent,
+            hypothesis: entry.hypothesis,
+            formulation: Formulation::default(),
+            thickness: entry.thickness,
+            initial_stress: Mat3::zeros(),
+            grows: false,
+            massless_contact: false,
+        };
+        Body::with_contact_surface(mesh.clone(), surface.clone(), &spec).map_err(|e| match e {
+            FemError::MaterialConstant { name, .. } => {
+                InputError::new(format!("{key}.{name}"), e.to_string())
+            }
+            FemError::Hypothesis { .. } => InputError::new(format!("{key}.hypothesis"), e.to_string()),
+            _ => InputError::mesh(format!("{key}.mesh"), e.to_string()),
+        })
+    };
+    let body = match (entry.density, entry.mass) {
+        (Some(_), Some(_)) => {
+            let message = "a rigid body has a density or a mass, not both; leave one out";
+            return Err(InputError::new(format!("{key}.mass"), message));
+        }
+        (Some(density), None) => made(density)?,
+        (None, Some(BodyMass::Given(mass))) => {
+            number(&format!("{key}.mass"), mass, mass > 0.0, "the mass must be greater than 0 kg")?;
+            made(mass / made(1.0)?.volume())?
+        }
+        (None, _) => {
+            let message = format!("body {:?} is rigid and has no density; give it, or its mass", entry.name);
+            return Err(InputError::new(format!("{key}.density"), message));
+        }
+    };
+    let inertia = match entry.inertia {
+        Some(given) => Some(inertia::<D>(&format!("{key}.inertia"), given)?),
+        None => None,
+    };
+    Ok((body, inertia))
+}
+
+/// The inertia tensor that is given.
+fn inertia<const D: usize>(key: &str, given: Inertia) -> Result<Matrix<3>, InputError> {
+    let tensor = match (given, D) {
+        (Inertia::InPlane(j), 2) => {
+            number(key, j, j > 0.0, "the inertia must be greater than 0 kg m²")?;
+            return Ok(Matrix::<3>::from_diagonal_element(j));
+        }
+        (Inertia::Principal(j), 3) => Matrix::<3>::from_diagonal(&j.into()),
+        (Inertia::Tensor(rows), 3) => Matrix::<3>::from_fn(|i, j| rows[i][j]),
+        _ => {
+            let form = ["a number", "three numbers, or three rows of three"][D - 2];
+            return Err(InputError::new(key, format!("an inertia in {D}D is {form}")));
+        }
+    };
+    number(key, tensor.sum(), true, "the inertia must be of finite numbers")?;
+    if tensor != tensor.transpose() {
+        return Err(InputError::new(key, "the inertia must be symmetric; Jxy is the same as Jyx"));
+    }
+    let moments = tensor.symmetric_eigenvalues();
+    let most = moments.max();
+    // tr J = 2 Σ m r², and about each axis there is less than all of it.
+    if !(moments.min() > 0.0 && 2.0 * most <= moments.sum() * (1.0 + ROUND_OFF)) {
+        let values: Vec<String> = moments.iter().map(|j| format!("{j:.4e}")).collect();
+        let message = format!(
+            "principal moments {}: no mass has them; each is greater than 0 and none greater than the sum of the others",
+            values.join(", ")
+        );
+        return Err(InputError::new(key, message));
+    }
+    Ok(tensor)
+}
