@@ -4,7 +4,7 @@ use carom_fem::FemError;
 use carom_mesh::{Matrix, Vector, nodal};
 
 use super::correction::{begin_solves, correct, end_solves, residuals};
-use super::hold::not_held;
+use super::hold::{driven_least, left_alone, not_held};
 use super::newton::control::LOAD_STEP;
 use super::newton::holding::Holding;
 use super::newton::load_step::{LoadStep, Verdict};
@@ -46,11 +46,15 @@ fn approach<const D: usize>(
     let worth = bodies.iter().map(|&i| work.bodies[i].tangent_worth()).max().unwrap_or(1);
     let mut load_step = LoadStep::new(rule.tolerance, rule.max_iterations, worth, reached);
     work.newton.keep_guess(bodies, given.assembly, &work.motion, &work.contacts.active);
+    work.newton.left_alone.clear();
     for iteration in 1.. {
         let late = (iteration > LOAD_STEP.late).then_some(load_step.last);
         let solved = solve(bodies, late, given, next, work);
         let (correction, left, reason) = match solved {
-            Ok(left) => (work.newton.largest_correction(bodies, given.assembly), left, None),
+            Ok(left) => {
+                work.newton.leave_out();
+                (work.newton.largest_correction(bodies, given.assembly), left, None)
+            }
             Err(reason @ (StepError::Friction { .. } | StepError::NotFinite(_))) => {
                 (f64::INFINITY, 0.0, Some(reason))
             }
@@ -76,11 +80,22 @@ fn approach<const D: usize>(
         work.newton.keep_guess(bodies, given.assembly, &work.motion, &work.contacts.active);
         correct(bodies, given, next, work);
         if verdict == Verdict::Last {
+            if !work.newton.left_alone.is_empty() {
+                work.newton.free_motion = driven_least(bodies, given, next, work)?;
+            }
             return Ok(iteration);
         }
         let size = given.assembly.size;
         if motion.max(correction) > LOAD_STEP.runaway * size {
             return Err(StepError::Runaway { motion: motion.max(correction), size });
+        }
+        if load_step.has_stalled()
+            && let Some(motion) = left_alone(bodies, given, next, work)
+        {
+            // No iteration comes to an end in what nothing resists. What is left out is small where inertia resists it.
+            bodies.iter().for_each(|&i| work.newton.holding[i].raise_to(LOAD_STEP.left_alone));
+            work.newton.left_alone.push(motion);
+            load_step.has_other_corrections();
         }
         if verdict == Verdict::Renewed {
             if load_step.is_linear(iteration) {

@@ -31,6 +31,7 @@ pub(super) fn iterate<const D: usize>(
         *progress = BodyProgress::new(nodal::largest(&motion[given.assembly.nodes(i)]));
     }
     newton.acceleration.restart();
+    newton.free_motion = None;
     nodal::each(&mut next.displacement, [&given.state.displacement, motion], |u1, [u0, d]| *u1 = u0 + d);
     let solve: Solve<D> = if given.interval.map.is_static() { equilibrate } else { iterate_bodies };
     let mut in_contact = std::mem::take(&mut newton.in_contact);

@@ -95,6 +95,8 @@ pub(crate) struct LoadControl {
     pub first: f64,
     /// By how much it changes.
     pub change: f64,
+    /// The share where a free motion is left alone: what it would move in an iteration is small, and its square no gap.
+    pub left_alone: f64,
     /// With more of it nothing moves.
     pub largest: f64,
 }
@@ -113,5 +115,6 @@ pub(crate) const LOAD_STEP: LoadControl = LoadControl {
     refusals: 8,
     first: 1e-3,
     change: 4.0,
+    left_alone: 1.0,
     largest: 1e4,
 };

@@ -23,6 +23,12 @@ impl Holding {
         self.least = self.share;
     }
 
+    /// This `share` at least, to the end of the step.
+    pub fn raise_to(&mut self, share: f64) {
+        self.share = self.share.max(share);
+        self.least = self.share;
+    }
+
     /// Less of it.
     pub fn lower(&mut self) {
         let share = self.share / LOAD_STEP.change;

@@ -92,8 +92,7 @@ impl LoadStep {
             self.stalled += 1;
         }
         let left = (LOAD_STEP.safety * contraction).min(1.0);
-        let is_round_off =
-            self.stalled >= LOAD_STEP.stalled && correction <= LOAD_STEP.unavoidable * round_off;
+        let is_round_off = self.has_stalled() && correction <= LOAD_STEP.unavoidable * round_off;
         if correction * left <= wanted || is_round_off {
             return Ok(Verdict::Last);
         }
@@ -103,6 +102,16 @@ impl LoadStep {
         let expected = if is_first { LOAD_STEP.hoped } else { contraction };
         let is_fast = correction * expected.powi(self.worth) <= wanted;
         Ok(if is_fast { Verdict::Applied } else { Verdict::Renewed })
+    }
+
+    /// Takes note that from now on corrections leave something out: they say nothing of those before.
+    pub fn has_other_corrections(&mut self) {
+        (self.last, self.least, self.stalled) = (f64::INFINITY, f64::INFINITY, 0);
+    }
+
+    /// Whether corrections do not shrink.
+    pub fn has_stalled(&self) -> bool {
+        self.stalled >= LOAD_STEP.stalled
     }
 
     /// Whether corrections shrink no faster than they would by a tangent that lacks something.

@@ -11,6 +11,7 @@ use carom_mesh::{Vector, nodal};
 use self::acceleration::Acceleration;
 use self::convergence::BodyProgress;
 use self::holding::Holding;
+use super::hold::{FreeMotion, leave_out};
 use crate::contact::active::ActiveSet;
 use crate::model::assembly::Assembly;
 
@@ -28,6 +29,10 @@ pub(crate) struct Newton<const D: usize> {
     /// The last guess of a load step that led on: d [m] and the reactions known there.
     guess: Vec<Vector<D>>,
     guess_reactions: Vec<Vector<D>>,
+    /// Orthonormal motions of all nodes that corrections of this load step leave out, as nothing resists them,
+    pub left_alone: Vec<Vec<Vector<D>>>,
+    /// and what drives them at its end.
+    pub free_motion: Option<FreeMotion>,
     /// The bodies that contacts act on.
     pub in_contact: Vec<usize>,
 }
@@ -44,6 +49,8 @@ impl<const D: usize> Newton<D> {
             holding: vec![Holding::default(); assembly.body_count()],
             guess: Vec::new(),
             guess_reactions: Vec::new(),
+            left_alone: Vec::new(),
+            free_motion: None,
             in_contact: Vec::with_capacity(assembly.body_count()),
         }
     }
@@ -75,6 +82,13 @@ impl<const D: usize> Newton<D> {
             motion[nodes.clone()].copy_from_slice(&self.guess[nodes]);
         }
         active.reactions.clone_from(&self.guess_reactions);
+    }
+
+    /// Leaves out of the correction what is left alone.
+    pub fn leave_out(&mut self) {
+        for field in &self.left_alone {
+            leave_out(field, &mut self.correction[..field.len()]);
+        }
     }
 
     /// The largest component of the last correction of the `bodies` [m].
