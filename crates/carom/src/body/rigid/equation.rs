@@ -139,7 +139,7 @@ impl Equation {
             let of_moment = (dyad - Matrix::from_diagonal_element(dyad.trace())) * tangent;
             let correction = self.solve_on_free(&(of_momentum - of_moment * dt), &residual);
             let size = correction.norm();
-            if !(size < last) {
+            if size.is_nan() || size >= last {
                 break;
             }
             turn += correction;
