@@ -116,9 +116,10 @@ def test_a_turning_drum_drags_what_it_presses(tmp_path):
         output=carom.Output(history_every=end, fields_every=end),
     )
     history = run(tmp_path, case).history
-    # What presses is its weight, less what lets its centre follow the corner that it turns on.
+    # What presses is its weight, less what lets its centre follow the corner that it
+    # turns on, but for half a step at the start.
     pressing = weight * (gravity - rate**2)
-    assert history["block.v_x"][-1] == pytest.approx(friction * pressing * end, rel=1e-4)
+    assert history["block.v_x"][-1] == pytest.approx(friction * pressing * end, rel=1e-3)
 
 
 @pytest.mark.parametrize(

@@ -39,10 +39,13 @@ impl<const D: usize> ContactModel<D> {
         for (p, pair) in self.pairs.iter().enumerate().filter(|(_, pair)| count(pair)) {
             match pair.target {
                 Target::Obstacle(o) => match &self.obstacles[o].faceted {
-                    None => {
-                        self.detect_round(p, &self.obstacles[o], path, out);
-                        self.detect_between(p, &self.obstacles[o], path, out);
-                    }
+                    None => match &self.surfaces[pair.source].ball {
+                        Some(ball) => self.detect_ball((p, ball), &self.obstacles[o], path, out),
+                        None => {
+                            self.detect_round(p, &self.obstacles[o], path, out);
+                            self.detect_between(p, &self.obstacles[o], path, out);
+                        }
+                    },
                     Some(faceted) => {
                         let obstacle = &self.obstacles[o];
                         let (start, end) = (&obstacle.placed(path.start), &obstacle.placed(path.end));
@@ -51,6 +54,7 @@ impl<const D: usize> ContactModel<D> {
                         self.detect_faceted(p, target, &path, search, out);
                     }
                 },
+                Target::Surface(_) if self.balls(p).is_some() => self.detect_balls(p, path, out),
                 Target::Surface(t) => {
                     let target = SolidSurface { solid: Solid::Body(t), surface: &self.surfaces[t] };
                     self.detect_faceted(p, target, path, search, out);
@@ -134,9 +138,9 @@ impl<const D: usize> ContactModel<D> {
                     let c = Crossing::new(source.map(position), target.map(position)).clamped();
                     Contact::of_crossing(&c, source, target)
                 }
-                _ => {
-                    unreachable!("detect gives nodes before a surface their facet, and corners to obstacles")
-                }
+                _ => self
+                    .between_balls(candidate.pair as usize, position)
+                    .expect("detect gives nodes before a surface their facet, and corners to obstacles"),
             },
         }
     }
@@ -149,6 +153,12 @@ impl<const D: usize> ContactModel<D> {
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Contact<D> {
         let position = &obstacle.placed(position);
+        if let Some(contact) = self.ball_before_obstacle(candidate.pair as usize, obstacle, position)
+            && matches!(candidate.site, Site::Node(_))
+        {
+            return contact;
+        }
+        let source = &self.surfaces[self.pairs[candidate.pair as usize].source];
         let contact = |gap, normal: &Vector<D>, nodes: &[u32], weights: &[f64]| {
             Contact::before_obstacle(gap, frame(normal), nodes, weights, obstacle.node)
         };
@@ -163,7 +173,6 @@ impl<const D: usize> ContactModel<D> {
                 contact(gap, &normal, &[node], &[1.0])
             }
             (Site::Corner(corner), _, Some(f)) => {
-                let source = &self.surfaces[self.pairs[candidate.pair as usize].source];
                 let x = position(corner);
                 let p = source.project(f, &x, Reach::Beyond, position);
                 contact(p.normal.dot(&(x - p.point)), &-p.normal, p.nodes, &p.weights)

@@ -81,7 +81,7 @@ impl<const D: usize> ContactModel<D> {
     ) -> bool {
         let pair = candidate.pair as usize;
         let Pair { source, target, .. } = self.pairs[pair];
-        if self.is_mortar(pair) || self.is_self_contact(pair) {
+        if self.is_mortar(pair) || self.is_self_contact(pair) || self.balls(pair).is_some() {
             return false;
         }
         let from = |x: &Vector<D>, solid: Solid, surface: &ContactSurface| {

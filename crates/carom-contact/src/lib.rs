@@ -8,6 +8,8 @@
 //! materials, forces or friction laws.
 
 mod aabb;
+mod ball;
+mod balls;
 mod bvh;
 mod candidate;
 mod contact;

@@ -4,6 +4,7 @@ use carom_mesh::cell::MAX_FACET_NODES;
 use carom_mesh::{CellKind, Facet, Surface, Vector};
 
 use crate::aabb::Aabb;
+use crate::ball::Ball;
 use crate::curve::Curve;
 use crate::edge::Edge;
 use crate::patch::Patch;
@@ -34,6 +35,8 @@ pub struct ContactSurface {
     /// The node that every image follows.
     masters: BTreeMap<u32, u32>,
     shape: Shape,
+    /// What it is before obstacles without corners and other balls, if that is round.
+    pub(crate) ball: Option<Ball>,
 }
 
 /// What a surface is between its nodes.
@@ -74,6 +77,7 @@ impl ContactSurface {
             has_features: false,
             masters,
             shape: Shape::Faceted,
+            ball: None,
         }
     }
 
@@ -92,7 +96,20 @@ impl ContactSurface {
             has_features: false,
             masters: BTreeMap::new(),
             shape: Shape::Faceted,
+            ball: None,
         }
+    }
+
+    /// The same boundary, before obstacles without corners and before others that are round a ball with this `centre` and `radius` where the nodes are at
+    /// `reference` [m]; as it was if its nodes are all in one plane.
+    #[must_use]
+    pub fn round<const D: usize>(
+        self,
+        centre: &Vector<D>,
+        radius: f64,
+        reference: &impl Fn(u32) -> Vector<D>,
+    ) -> Self {
+        Self { ball: Ball::new(centre, radius, &self.nodes, reference), ..self }
     }
 
     /// The same boundary as the meridian of a body of revolution.

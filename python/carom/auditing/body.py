@@ -11,8 +11,8 @@ from carom.auditing.arrays import Array, Indices, cross, einsum
 from carom.auditing.cells import Cells, boundary
 from carom.auditing.laws import Law
 from carom.auditing.mass import Mass
-from carom.case.body import Body
-from carom.case.material import Material
+from carom.case.body import Body, RigidBody
+from carom.case.material import Damping, Material
 from carom.case.mesh import Rectangle
 from carom.errors import InputError
 
@@ -28,7 +28,7 @@ class AuditBody:
     entry
         What the case says of it.
     material
-        Its material.
+        Its material; None of a rigid body.
     vtk_type, nodes, points
         Its cells and reference positions, see `Cells`.
     first_node
@@ -39,8 +39,8 @@ class AuditBody:
 
     def __init__(
         self,
-        entry: Body,
-        material: Material,
+        entry: Body | RigidBody,
+        material: Material | None,
         *,
         vtk_type: int,
         nodes: Indices,
@@ -48,20 +48,24 @@ class AuditBody:
         first_node: int,
         massless: bool,
     ) -> None:
-        for what in (entry.hypothesis, entry.formulation):
+        forms = (entry.hypothesis, entry.formulation if isinstance(entry, Body) else "standard")
+        for what in forms:
             if what not in ("plane-strain", "standard"):
                 raise InputError(f"cannot audit a body in {what!r} yet")
         self.name = entry.name
         self.points = points
         self.span = slice(first_node, first_node + len(points))
-        self.law = Law.of(material, entry.initial_stress)
+        self.rigid = isinstance(entry, RigidBody)
+        """Whether its nodes move as one."""
+        stress = None if isinstance(entry, RigidBody) else entry.initial_stress
+        self.law = Law.none() if material is None else Law.of(material, stress)
         self.masters = _masters(entry, points)
         """For every node the one that it moves with, itself as a rule, [node_count]."""
         self.images: Indices = np.flatnonzero(self.masters != np.arange(len(points)))
         """Nodes that move with another: of a body that repeats itself."""
         self.turns = self.law.objective and not self.images.size
         """Whether it can turn without storing energy."""
-        self.damping = material.damping
+        self.damping = Damping() if material is None else material.damping
         self.cells = Cells(vtk_type, nodes, points, entry.thickness)
         outer = boundary(nodes)
         if self.images.size:
@@ -76,11 +80,17 @@ class AuditBody:
         self.mass = Mass(
             self.cells,
             points,
-            material.density,
+            _density(entry, material, self.cells),
             lumped=entry.mass == "lumped",
             massless=self.massless,
             facets=self.facets,
         )
+        arms = points - self.mass.mean(points)
+        self._solid_inertia = float((arms * self.mass.times(arms)).sum())
+        given = entry.inertia if isinstance(entry, RigidBody) else None
+        self.inertia = float(given) if isinstance(given, float | int) else self._solid_inertia
+        """Inertia about the centre of the undeformed body, or that of a rigid one [kg m²]."""
+        self._size = float(self.mass.nodal @ (arms**2).sum(axis=1))
         self._stiffness = self._reference_stiffness()
         diagonal = einsum("caiai->ca", self._stiffness)
         self.holding = 0.5 * self._gathered(diagonal)[self.massless]
@@ -139,8 +149,20 @@ class AuditBody:
         return rotation
 
     def kinetic_energy(self, v: Array) -> float:
-        """Return ½ vᵀMv [J]."""
-        return 0.5 * float((v * self.mass.times(v)).sum())
+        """Return ½ vᵀMv [J]; a rigid body may have another inertia than its cells."""
+        energy = 0.5 * float((v * self.mass.times(v)).sum())
+        more = self.inertia - self._solid_inertia
+        if more == 0.0:
+            return energy
+        # Σ m |v − v̄|² = ω² Σ m |y|², wherever it has turned to.
+        beside = self.mass.nodal @ ((v - self.mass.mean(v)) ** 2).sum(axis=1)
+        return energy + 0.5 * more * float(beside) / self._size
+
+    def angular_momentum(self, u: Array, v: Array) -> float:
+        """Return that about the origin [kg m²/s]."""
+        own = float(cross(self.points + u, self.mass.times(v)).sum())
+        more = self.inertia - self._solid_inertia
+        return own + (more * self.spin(u, v) if more else 0.0)
 
     def spin(self, u: Array, v: Array) -> float:
         """Return Σ m y × (v − v̄) / Σ m |y|² about the centre [rad/s]."""
@@ -171,7 +193,18 @@ class AuditBody:
         return stiffness
 
 
-def _contact_facets(entry: Body, facets: Indices, points: Array) -> Indices:
+def _density(entry: Body | RigidBody, material: Material | None, cells: Cells) -> float:
+    """Return the density of a body [kg/m³]; the mass of a rigid one may be given."""
+    if material is not None:
+        return material.density
+    assert isinstance(entry, RigidBody)
+    if entry.density is not None:
+        return entry.density
+    assert entry.mass is not None
+    return entry.mass / float(cells.shared_volumes.sum())
+
+
+def _contact_facets(entry: Body | RigidBody, facets: Indices, points: Array) -> Indices:
     """Return the facets of a boundary that may touch others."""
     if entry.contact_sets is None or not isinstance(entry.mesh, Rectangle):
         return facets
@@ -179,7 +212,7 @@ def _contact_facets(entry: Body, facets: Indices, points: Array) -> Indices:
 
 
 def _on_sides(
-    entry: Body, facets: Indices, points: Array, sides: Iterable[str]
+    entry: Body | RigidBody, facets: Indices, points: Array, sides: Iterable[str]
 ) -> NDArray[np.bool_]:
     """Return whether facets of a rectangle lie on one of these sides."""
     assert isinstance(entry.mesh, Rectangle)
@@ -195,7 +228,7 @@ def _on_sides(
     return keep
 
 
-def _masters(entry: Body, points: Array) -> Indices:
+def _masters(entry: Body | RigidBody, points: Array) -> Indices:
     """Return the node that each moves with: on the right side of what repeats itself another."""
     masters = np.arange(len(points))
     if not isinstance(entry.mesh, Rectangle) or not entry.mesh.periodic:

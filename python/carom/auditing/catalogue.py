@@ -9,6 +9,7 @@ CHECKS: dict[str, tuple[str, str]] = {
     "initial velocity": ("the run starts at rest in shape, with the velocities of the case", "m/s"),
     # The states at output times.
     "plane": ("fields have no z component", ""),
+    "rigid motion": ("nodes of a rigid body are where it has them, and move so", "m"),
     "tied nodes": ("both sides of a body that repeats itself move alike", "m, m/s"),
     "stress": ("stresses are the law's at the stored displacement", "Pa"),
     "energy density": ("energy densities are the law's at the stored displacement", "J/m³"),

@@ -277,9 +277,10 @@ class EventChecks:
             body.name: float(np.ptp(body.points, axis=0).max())
             / body.law.wave_speed(self._model.density(body.name))
             for body in self._model.bodies
+            if not body.rigid
         }
         for pair, merge in self._merge.items():
-            own = min(waves[name] for name in pair.split("|") if name in waves)
+            own = min((waves[name] for name in pair.split("|") if name in waves), default=0.0)
             wanted = max(own, FLICKER * self._rows.dt) if given is None else given
             off = ROUND_OFF * wanted if given is None else 0.0
             self._check("events: times", merge - wanted, off, f"{pair}, merge_contacts")

@@ -6,13 +6,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from carom.auditing.arrays import Array, cross
+from carom.auditing.arrays import Array
 from carom.auditing.body import AuditBody
 from carom.auditing.contacts import smallest_gaps
 from carom.auditing.files import Frame
 from carom.auditing.inside import deepest_node
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
+from carom.auditing.rigid import bent
 from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
 
 Row = Mapping[str, float]
@@ -48,6 +49,11 @@ class FrameChecks:
                     self._check(
                         "tied nodes", mine - mine[body.masters], 0.0, f"{body.name}, {where}"
                     )
+            if body.rigid:
+                bending = bent(body, frame.displacement[body.span])
+                self._check(
+                    "rigid motion", bending, self._round_off_of_places(), f"{body.name}, {where}"
+                )
         self._check("free nodes", frame.reaction[self._free], 0.0, where)
         if not self._model.planes:
             total = np.abs(frame.reaction).sum()
@@ -118,9 +124,9 @@ class FrameChecks:
     def _momenta(self, frame: Frame, row: Row, where: str) -> None:
         momentum, moment = np.zeros(2), 0.0
         for body in self._model.bodies:
-            mv = body.mass.times(frame.velocity[body.span])
-            momentum += mv.sum(axis=0)
-            moment += float(cross(body.points + frame.displacement[body.span], mv).sum())
+            u, v = frame.displacement[body.span], frame.velocity[body.span]
+            momentum += body.mass.times(v).sum(axis=0)
+            moment += body.angular_momentum(u, v)
         stored = np.array([row["momentum_x"], row["momentum_y"]])
         off = ROUND_OFF * self._scales.mass * self._scales.speed
         self._check("momentum", stored - momentum, off, where)

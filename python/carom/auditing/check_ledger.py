@@ -122,7 +122,7 @@ class LedgerChecks:
             self._check("books: external", entry["prescribed"], 0.0, f"{body.name}, no supports")
             work = (centre - centre[0]) @ weight
             self._check("books: external", entry["external"] - work, off, body.name)
-        rubs = model.condition != "massless" or self._summary["least_friction"] >= 0
+        rubs = not (model.massless or model.impacts) or self._summary["least_friction"] >= 0
         for name, entry in self._touched.items():
             if rubs:
                 fall = np.maximum(-np.diff(entry["friction"], prepend=0.0), 0.0)

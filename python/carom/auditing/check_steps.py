@@ -59,7 +59,11 @@ class StepChecks:
         for index, body in enumerate(self._model.bodies):
             at = f"{body.name}, {where}"
             self._motion(step, index, at)
-            self._impulse(step, index, contact[body.span], at)
+            if body.rigid:
+                # Its equation of motion is that of its momenta.
+                self._rigid(step, index, at)
+            else:
+                self._impulse(step, index, contact[body.span], at)
         self._ledger(step, where)
         self._places(step.contacts, step.end, step, where)
         if self._model.condition in ("gap", "massless"):
@@ -128,6 +132,10 @@ class StepChecks:
         # d is known from displacements, with their round-off.
         off = (np.abs(step.u0) + np.abs(step.u1)) * rate + np.abs(step.v0) / self._model.theta
         off = 4 * EPS * (off + np.abs(step.v1))
+        for body in self._model.bodies:
+            if body.rigid:
+                # Its velocities are those of its momenta, its motion that of the iterations.
+                off[body.span] += self._scales.displacement(step) * rate
         change = step.v1 - step.v_scheme
         total = step.dt * sum(float(np.abs(part.reaction).sum()) for part in step.impulses)
         if total == 0.0:
@@ -137,7 +145,10 @@ class StepChecks:
         turn = self._turn(step)
         for body in self._model.bodies:
             mass = body.mass
-            error = body.folded(mass.times(change[body.span]) - step.impulse(body))
+            impulse = step.impulse(body)
+            if body.rigid:
+                impulse = step.rigid(body).borne(impulse)
+            error = body.folded(mass.times(change[body.span]) - impulse)
             allowed = mass.nodal[:, None] * off[body.span].max() + total * (turn + IMPULSE)
             self._check("velocity update", error, allowed, f"{body.name}, {where}")
 
@@ -160,6 +171,19 @@ class StepChecks:
             )
         if held.any():
             self._check("massless nodes", size[held], off[held], at)
+
+    def _rigid(self, step: Step, index: int, at: str) -> None:
+        """Check that nodes move as one, and both momenta change by what acts."""
+        body = self._model.bodies[index]
+        motion = step.rigid(body)
+        off = self._scales.displacement(step)
+        self._check("rigid motion", motion.bending(step.d[body.span]), off, at)
+        residual, forces = step.residual(index), self._scales.force(step, index)
+        self._check("impulse", step.dt * residual.sum(axis=0), step.dt * forces.sum(), at)
+        arms = motion.arms[1]
+        moment = step.dt * float(cross(arms, residual).sum())
+        off = step.dt * float(forces.sum()) * float(np.abs(arms).max())
+        self._check("angular impulse", moment, off, at)
 
     def _impulse(self, step: Step, index: int, contact: Array, at: str) -> None:
         model, body, f = self._model, self._model.bodies[index], step.forces[index]
@@ -339,7 +363,13 @@ class StepChecks:
             landed = w_n + np.maximum(step.start_gaps, 0.0)
             w_n = np.where(np.abs(landed) < np.abs(w_n), landed, w_n)
         elif model.condition == "endpoint":
-            w_n = w_n + (model.theta - 1) * step.dt * found.relative(step.v0, 1.0)[0]
+            before, across = found.relative(step.met, 1.0)
+            w_n = w_n + (model.theta - 1) * step.dt * before
+            given = [None if side is None else side.restitution for side in found.side]
+            bounce = np.array([0.0 if e is None else e for e in given])
+            w_n = w_n + model.theta * step.dt * bounce * before
+            ruled = np.array([e is not None for e in given], dtype=bool)
+            w_t = np.where(ruled, w_t + (model.theta - 1) * step.dt * across, w_t)
         slip = found.friction * found.normal_force * np.abs(w_t) + found.friction_force * w_t
         return w_n * found.normal_force, slip
 

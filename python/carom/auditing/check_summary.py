@@ -113,7 +113,7 @@ class SummaryChecks:
         """Check that the run's least friction says whether friction of any step gave energy."""
         least, h = _number(self._summary["least_friction"]), self._history
         self._findings.check("summary: extremes", max(least, 0.0), 0.0, "least_friction")
-        if self._model.massless:
+        if self._model.massless or self._model.impacts:
             self._findings.leave("the least friction of a step", "summary.json: least_friction")
             return
         # No step may give back more than this, and none can have taken less than nothing.
@@ -159,7 +159,10 @@ class SummaryChecks:
         steps = np.ceil(end / rows.dt - GRID)
         if summary["status"] == "failed":
             steps = min(steps, summary["steps"])
-        dofs = sum(2 * (len(body.points) - len(body.images)) for body in self._model.bodies)
+        dofs = sum(
+            3 if body.rigid else 2 * (len(body.points) - len(body.images))
+            for body in self._model.bodies
+        )
         for name, figure in (
             ("steps", summary["steps"] - steps),
             ("end_time", summary["end_time"] - end),

@@ -76,6 +76,11 @@ class Law:
         second = young / (2 * (1 + poisson))
         return cls(kind=material.kind, first=first, second=second, initial=initial)
 
+    @classmethod
+    def none(cls) -> Law:
+        """Return the law of a rigid body: no stress and no energy."""
+        return cls(kind="saint-venant-kirchhoff", first=0.0, second=0.0)
+
     @property
     def objective(self) -> bool:
         """Whether a rotation strains nothing."""

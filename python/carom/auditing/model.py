@@ -11,7 +11,7 @@ from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
 from carom.auditing.target import Target
 from carom.case.analysis import Conserving, Static, Theta
-from carom.case.body import Body, RigidBody
+from carom.case.body import Body
 from carom.case.contact import Pair
 from carom.case.mesh import Disc, Rectangle
 from carom.case.obstacle import Obstacle, Plane
@@ -38,12 +38,15 @@ class Side:
         Coulomb's coefficient.
     two_sided
         Whether the pair is checked from the other side too.
+    restitution
+        Coefficient of restitution of what is rigid where velocities are ruled; None elsewhere.
     """
 
     source: int
     target: int
     friction: float
     two_sided: bool
+    restitution: float | None = None
 
 
 @dataclass(frozen=True)
@@ -142,9 +145,10 @@ class AuditModel:
         return next(mine, len(self.bodies))
 
     def density(self, body: str) -> float:
-        """Return the density of a body by name [kg/m³]."""
+        """Return the density of a deformable body by name [kg/m³]."""
         entry = next(entry for entry in self.scenario.bodies if entry.name == body)
-        return self.scenario.materials[_deformable(entry).material].density
+        assert isinstance(entry, Body)
+        return self.scenario.materials[entry.material].density
 
     def name(self, index: int) -> str:
         """Return the name of a body, or of the obstacle −1 − index; no name if there is none."""
@@ -174,14 +178,13 @@ class AuditModel:
 
     def _build_bodies(self, cells: list[Indices], types: list[int]) -> Iterator[AuditBody]:
         first = 0
-        for any_entry, nodes, vtk_type in zip(self.scenario.bodies, cells, types, strict=True):
-            entry = _deformable(any_entry)
+        for entry, nodes, vtk_type in zip(self.scenario.bodies, cells, types, strict=True):
             last = int(nodes.max()) + 1
             if int(nodes.min()) != first or last > len(self.points):
                 raise InputError(f"body {entry.name!r}: the mesh is not numbered body after body")
             yield AuditBody(
                 entry,
-                self.scenario.materials[entry.material],
+                self.scenario.materials[entry.material] if isinstance(entry, Body) else None,
                 vtk_type=vtk_type,
                 nodes=nodes - first,
                 points=self.points[first:last],
@@ -196,6 +199,23 @@ class AuditModel:
         """Return what the case says of a pair by name."""
         entries = self.scenario.contact.pairs
         return next((entry for entry in entries if {a, b} == set(entry.between)), None)
+
+    @property
+    def impacts(self) -> bool:
+        """Whether friction of some pair acts against the velocity at the end of a step.
+
+        Its work is that of the motion of the step, which may be of either sign.
+        """
+        return any(side.restitution is not None for side in self.sides)
+
+    def _restitution(self, a: str, b: str) -> float | None:
+        """Return that of two by name, if both are rigid and velocities are ruled."""
+        soft = {body.name for body in self.bodies if not body.rigid}
+        if self.condition != "endpoint" or {a, b} & soft:
+            return None
+        entry = self._pair(a, b)
+        own = None if entry is None else entry.restitution
+        return self.scenario.contact.restitution or 0.0 if own is None else own
 
     @property
     def jolts(self) -> bool:
@@ -228,8 +248,9 @@ class AuditModel:
                     friction = friction if entry.friction is None else entry.friction
                     if entry.sources is not None:
                         sources, swapped = entry.sources, entry.between[0] == second
+                bounce = self._restitution(first, second)
                 if b < 0:
-                    yield Side(a, b, friction, two_sided=False)
+                    yield Side(a, b, friction, two_sided=False, restitution=bounce)
                     continue
                 # The auditor has no mortar rows, of which one side has the multipliers.
                 sources = sources or ("finer" if self.massless else "both")
@@ -243,20 +264,14 @@ class AuditModel:
                     forward, backward = backward, forward
                 both = forward and backward
                 if forward:
-                    yield Side(a, b, friction, two_sided=both)
+                    yield Side(a, b, friction, two_sided=both, restitution=bounce)
                 if backward:
-                    yield Side(b, a, friction, two_sided=both)
+                    yield Side(b, a, friction, two_sided=both, restitution=bounce)
 
     def _mean_facet(self, body: int) -> float:
         points, facets = self.bodies[body].points, self.bodies[body].facets
         lengths = np.linalg.norm(points[facets[:, 1]] - points[facets[:, 0]], axis=1)
         return float(lengths.mean())
-
-
-def _deformable(entry: Body | RigidBody) -> Body:
-    if isinstance(entry, RigidBody):
-        raise InputError(f"cannot audit a rigid body yet, as {entry.name!r} is")
-    return entry
 
 
 def _plane(entry: Obstacle) -> AuditPlane:

@@ -86,6 +86,10 @@ class Pressing:
         known: dict[str, Force] = {}
         if not self._rows.single[row] or self._model.massless:
             return known
+        if self._model.condition == "midpoint" and any(b.rigid for b in self._bodies.values()):
+            # What arrives with the end of a step has a reaction that no row has: it is small, but
+            # where a whole body is in its way, not as small as round-off.
+            return known
         unknown = set(active)
         # Of whatever touches only one more, that one's force is what is left.
         while True:

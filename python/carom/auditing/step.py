@@ -14,6 +14,7 @@ from carom.auditing.arrays import Array, Indices, cross, rotation, turned
 from carom.auditing.body import STEADYING, AuditBody
 from carom.auditing.contacts import Contacts
 from carom.auditing.model import AuditModel
+from carom.auditing.rigid import RigidStep
 from carom.ledger_terms import names
 
 BODY_ENERGIES = ("kinetic", "strain", "external", "viscous", "scheme")
@@ -135,7 +136,25 @@ class Step:
         velocity: Array = (1 - 1 / theta) * self.v0 + self.d / (theta * self.dt)
         for body in self.model.bodies:
             velocity[body.span][body.massless] = self.d[body.span][body.massless] / self.dt
+            if body.rigid:
+                u0, v0 = self.u0[body.span], self.v0[body.span]
+                velocity[body.span] = self.rigid(body).scheme(u0, v0, theta, self.dt)[0]
         return velocity
+
+    @cached_property
+    def met(self) -> Array:
+        """Velocities at the start [m/s], of rigid bodies where they have turned half way."""
+        met: Array = self.v0.copy()
+        for body in self.model.bodies:
+            if body.rigid:
+                u0, v0 = self.u0[body.span], self.v0[body.span]
+                arms = self.rigid(body).arms[1]
+                met[body.span] = body.mass.mean(v0) + turned(arms, body.spin(u0, v0))
+        return met
+
+    def rigid(self, body: AuditBody) -> RigidStep:
+        """Return the motion of a rigid body."""
+        return RigidStep.of(body, self.u0[body.span], self.d[body.span])
 
     def position(self, weight: float) -> Array:
         """Return the positions between start (0) and end (1) of the step [m]."""
@@ -276,6 +295,11 @@ class Step:
         """
         body, f = self.model.bodies[index], self.forces[index]
         contact = self.contact_force(body)
+        if body.rigid:
+            states = (self.u1[body.span], self.v0[body.span], self.v1[body.span])
+            impulses = self.impulse(body) / self.dt
+            forces = (contact - impulses + f.gravity, impulses)
+            return self.rigid(body).residual(states, forces, self.dt)
         residual = f.inertia - f.gravity + f.internal + f.viscous - contact
         static = f.end + f.viscous + f.steadying - contact
         residual[body.massless] = static[body.massless]
@@ -298,7 +322,10 @@ class Step:
     def _body_terms(self, index: int, body: AuditBody) -> dict[str, float]:
         model, f = self.model, self.forces[index]
         u0, u1, v0, v1, d = (a[body.span] for a in (self.u0, self.u1, self.v0, self.v1, self.d))
-        scheme = (model.theta - 0.5) * 2 * body.kinetic_energy(self.v_scheme[body.span] - v0)
+        jump = self.v_scheme[body.span] - v0
+        if body.rigid:
+            jump = self.rigid(body).scheme(u0, v0, model.theta, self.dt)[1]
+        scheme = (model.theta - 0.5) * 2 * body.kinetic_energy(jump)
         scheme += (model.xi - 0.5) * float(((f.end - f.start) * d).sum())
         if model.blended:
             contact = f.missing - float(self.blend[index]) * f.available

@@ -17,7 +17,7 @@ from carom.case.description import (
     SpaceVector,
     Vector,
 )
-from carom.case.mesh import Mesh, Rectangle
+from carom.case.mesh import Ball, Disc, Mesh, Rectangle
 from carom.case.signal import Signal
 from carom.messages import known, problem
 
@@ -146,6 +146,9 @@ class RigidBody(Description):
         Thickness in the third direction [m]; not used of a body of revolution.
     mesh
         Reference geometry and its cells.
+    round
+        Whether the body, whose mesh is a disc or a ball, is as round as that to planes, spheres and
+        cylinders, and to other round bodies. To all others it is its mesh.
     contact_sets
         Sets of facets that may touch others, such as the sides of a rectangle; None for all.
     velocity
@@ -162,6 +165,7 @@ class RigidBody(Description):
     hypothesis: Literal["plane-strain", "axisymmetric"] = "plane-strain"
     thickness: Positive = 1.0
     mesh: Mesh
+    round: Annotated[bool, Field(strict=True)] = False
     contact_sets: tuple[str, ...] | None = None
     velocity: Vector | None = None
     spin: Number | SpaceVector | None = None
@@ -176,6 +180,13 @@ class RigidBody(Description):
                 key="mass",
                 value=self.mass,
             )
+        return self
+
+    @model_validator(mode="after")
+    def _is_as_round_as_its_mesh(self) -> Self:
+        if self.round and not isinstance(self.mesh, Disc | Ball):
+            what = "is of bodies whose mesh is a disc or a ball; leave it out"
+            raise problem(what, key="round", value=True)
         return self
 
     @model_validator(mode="after")

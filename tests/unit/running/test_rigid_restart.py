@@ -1,4 +1,4 @@
-"""A rigid body's place and velocity are those of its nodes: a run that stopped goes on with them."""
+"""Rigid bodies are where their nodes are: a run that stopped goes on with them."""
 
 import pytest
 

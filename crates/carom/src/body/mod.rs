@@ -260,6 +260,12 @@ pub trait Body<const D: usize>: Send + Sync {
     /// motion, Δv·C Δv, where the body is at the end of a step in `state`. It is asked of no body with nodes without mass.
     fn jolt(&mut self, impulse: &mut [Vector<D>], state: &BodyState<'_, D>, change: &mut [Vector<D>]) -> f64;
 
+    /// The velocity [m/s] of a node, `velocity` at the start of the step, where the body has turned half way through it as was last guessed. A rigid
+    /// body knows it better than its nodes.
+    fn velocity_half_way(&self, _node: u32, velocity: &Vector<D>) -> Vector<D> {
+        *velocity
+    }
+
     /// Grows with every K̄.
     fn generation(&self) -> u64;
 

@@ -5,11 +5,11 @@ use carom_mesh::{Facet, Vector};
 use super::body::may_touch;
 use super::mortar::discretisation;
 use super::obstacle::{Surfaces, obstacle};
-use super::values::{number, place};
+use super::values::{number, place, vector};
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::assembly::NamedPair;
-use crate::scenario::{BodyEntry, BodyKind, Scenario, Sources, Targets};
+use crate::scenario::{BodyEntry, BodyKind, MeshSpec, Scenario, Sources, Targets};
 
 /// The largest friction coefficient.
 const MAX_FRICTION: f64 = 1e3;
@@ -38,6 +38,10 @@ pub(super) fn contact<const D: usize>(
         surface = surface.edged(&reference);
         if scenario.contact.targets == Targets::Smooth {
             surface = surface.smoothed(&reference);
+        }
+        if entry.round {
+            let (centre, radius) = roundness(&format!("bodies.{i}"), entry)?;
+            surface = surface.round(&centre, radius, &reference);
         }
         let touches_itself = touches_itself(entry);
         model.surfaces.push(if touches_itself { surface.touching_itself(&reference) } else { surface });
@@ -102,6 +106,25 @@ pub(super) fn contact<const D: usize>(
         }
     }
     Ok((model, named_pairs))
+}
+
+/// The centre and the radius [m] of a body that is round.
+fn roundness<const D: usize>(key: &str, entry: &BodyEntry) -> Result<(Vector<D>, f64), InputError> {
+    let key = format!("{key}.round");
+    let (centre, radius): (&[f64], f64) = match &entry.mesh {
+        MeshSpec::Disc { centre, radius, .. } => (centre, *radius),
+        MeshSpec::Ball { centre, radius, .. } => (centre, *radius),
+        _ => {
+            let message =
+                format!("body {:?} is round with a disc or a ball as its mesh; leave it out", entry.name);
+            return Err(InputError::new(key, message));
+        }
+    };
+    if entry.kind != BodyKind::Rigid {
+        let message = format!("body {:?} deforms and is what its mesh makes it; leave it out", entry.name);
+        return Err(InputError::new(key, message));
+    }
+    Ok((vector(&key, centre)?, radius))
 }
 
 /// Whether a body may touch itself. What is rigid cannot.

@@ -1,5 +1,7 @@
 //! Impacts of rigid bodies.
 
+use std::collections::BTreeSet;
+
 use super::interference::entry_of;
 use super::values::number;
 use crate::ContactCondition;
@@ -16,18 +18,19 @@ pub(super) fn restitution<const D: usize>(
     if let Some(e) = default {
         check(scenario, "contact.restitution", e)?;
     }
-    let deforms = |name: &String| model.bodies.iter().find(|b| b.name == *name && !b.is_rigid());
+    let soft: BTreeSet<&str> =
+        model.bodies.iter().filter(|b| !b.is_rigid()).map(|b| b.name.as_str()).collect();
     let mut restitutions = Vec::new();
     for named in &model.assembly.named_pairs {
         let own = entry_of(scenario, &named.between).and_then(|(k, entry)| Some((k, entry.restitution?)));
-        let soft = named.between.iter().find_map(deforms);
+        let soft = named.between.iter().find(|name| soft.contains(name.as_str()));
         if let Some((k, e)) = own {
             let key = format!("contact.pairs.{k}.restitution");
             check(scenario, &key, e)?;
             if let Some(soft) = soft {
                 let message = format!(
                     "{:?} deforms, and its impacts follow from that; a restitution is of two that are rigid; leave it out",
-                    soft.name
+                    soft
                 );
                 return Err(InputError::new(key, message));
             }

@@ -94,7 +94,6 @@ fn inertia<const D: usize>(key: &str, given: Inertia) -> Result<Matrix<3>, Input
             return Err(InputError::new(key, format!("an inertia in {D}D is {form}")));
         }
     };
-    number(key, tensor.sum(), true, "the inertia must be of finite numbers")?;
     if tensor != tensor.transpose() {
         return Err(InputError::new(key, "the inertia must be symmetric; Jxy is the same as Jyx"));
     }

@@ -4,6 +4,7 @@ use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Target};
 use carom_mesh::{Matrix, Vector};
 
 use super::control::CONTROL;
+use crate::body::Body;
 use crate::model::assembly::Assembly;
 use crate::model::condition::{Opening, impact_offset};
 use crate::model::given::Given;
@@ -24,6 +25,8 @@ pub(crate) struct ActiveSet<const D: usize> {
     pub interferences: Vec<[f64; 2]>,
     /// Reactions [N] that the step starts with, in the frame of the last step.
     pub start_forces: Vec<Vector<D>>,
+    /// The velocities [m/s] at which contacts of rigid pairs meet, in their frames; zeros of others: see [`Self::meet`].
+    meeting: Vec<Vector<D>>,
     /// The contacts as they were evaluated before, and those that stand at a kink: see [`Self::evaluate_late`].
     before: Vec<Contact<D>>,
     pub at_kink: Vec<bool>,
@@ -184,19 +187,35 @@ impl<const D: usize> ActiveSet<D> {
     ) -> impl Iterator<Item = Vector<D>> + 'a {
         let Given { assembly, method, state, interval, .. } = *given;
         let contacts = self.contacts.iter().zip(&self.start_gaps).zip(&self.interferences);
-        contacts.zip(&self.candidates).map(move |(((contact, &start_gap), [h0, h1]), candidate)| {
+        let contacts = contacts.zip(self.candidates.iter().zip(&self.meeting));
+        contacts.map(move |(((contact, &start_gap), [h0, h1]), (candidate, met))| {
             let opening = Opening { start_gap, widening: h1 - h0 };
-            let velocity = |n: usize| state.velocity[n];
-            let map = &interval.map;
-            let along = method.condition.normal_offset(contact, opening, map, |n| motion[n], velocity);
-            let mut offset = Vector::zeros();
             let pair = &assembly.contact.pairs[candidate.pair as usize];
             if let Some(restitution) = assembly.restitutions[pair.named_pair] {
-                offset = impact_offset(&contact.relative(velocity), restitution, map);
+                return impact_offset(met, opening.widening, restitution, &interval.map);
             }
-            offset[0] += along;
-            offset
+            let velocity = |n: usize| state.velocity[n];
+            let along =
+                method.condition.normal_offset(contact, opening, &interval.map, |n| motion[n], velocity);
+            Vector::from_fn(|i, _| if i == 0 { along } else { 0.0 })
         })
+    }
+
+    /// Notes at which velocities the contacts of rigid pairs meet: those of the start of the step, where bodies have turned half way.
+    pub fn meet(&mut self, given: &Given<'_, D>, bodies: &[Box<dyn Body<D>>]) {
+        let Given { assembly, state, .. } = *given;
+        let of_node = |n: usize| match assembly.place_of(n) {
+            Some((body, own)) => bodies[body].velocity_half_way(own as u32, &state.velocity[n]),
+            None => state.velocity[n],
+        };
+        self.meeting.clear();
+        self.meeting.extend(self.candidates.iter().zip(&self.contacts).map(|(candidate, contact)| {
+            let pair = &assembly.contact.pairs[candidate.pair as usize];
+            match assembly.restitutions[pair.named_pair] {
+                Some(_) => contact.relative(of_node),
+                None => Vector::zeros(),
+            }
+        }));
     }
 
     /// Those of the contacts that have one of these `reactions`, which are in the order of their candidates: the place of the contact, then that

@@ -93,6 +93,7 @@ impl<const D: usize> Contacts<D> {
             Some(correction) => self.active.evaluate_late(given, motion, correction),
             None => self.active.evaluate(given, motion),
         }
+        self.active.meet(given, bodies);
         self.reduced.prepare(given, &self.active, bodies);
     }
 

@@ -1,4 +1,4 @@
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use carom_contact::{Boundaries, ContactModel, Pair, Solid, Target};
@@ -62,7 +62,8 @@ pub struct Assembly<const D: usize> {
     pub size: f64,
     /// The boundaries of all bodies and obstacles.
     pub(crate) boundaries: Boundaries<D>,
-    may_meet: BTreeSet<[Solid; 2]>,
+    /// The named pair of any two solids that may touch.
+    may_meet: BTreeMap<[Solid; 2], usize>,
     names: Vec<String>,
     /// The numbers of the nodes of every body.
     nodes: Vec<Range<usize>>,
@@ -96,7 +97,7 @@ impl<const D: usize> Assembly<D> {
             .map(|(o, obstacle)| obstacle.numbered((count + o) as u32, (count + obstacles) as u32))
             .collect();
         let boundaries: Vec<Surface> = members.iter().map(|m| m.boundary.clone()).collect();
-        let may_meet = contact.pairs.iter().map(between).collect();
+        let may_meet = contact.pairs.iter().map(|pair| (between(pair), pair.named_pair)).collect();
         let mut assembly = Self {
             interferences: vec![Interference::default(); named_pairs.len()],
             restitutions: vec![None; named_pairs.len()],
@@ -141,7 +142,7 @@ impl<const D: usize> Assembly<D> {
 
     /// Whether two solids may touch, and so must not be inside one another; of a body with itself that is never meant.
     pub(crate) fn must_not_overlap(&self, [a, b]: [Solid; 2]) -> bool {
-        a == b || self.may_meet.contains(&a.pair(b))
+        a == b || self.may_meet.contains_key(&a.pair(b))
     }
 
     /// The interference of a pair of the contact model.
@@ -156,9 +157,7 @@ impl<const D: usize> Assembly<D> {
 
     /// The interference of the pair of two solids that may touch.
     pub(crate) fn interference_between(&self, [a, b]: [Solid; 2]) -> Option<&Interference> {
-        let wanted = a.pair(b);
-        let pair = self.contact.pairs.iter().find(|pair| between(pair) == wanted)?;
-        Some(&self.interferences[pair.named_pair])
+        self.may_meet.get(&a.pair(b)).map(|&named_pair| &self.interferences[named_pair])
     }
 
     /// How deep two solids may be inside one another at time `t` [s] by the interference of their pair, in metres.

@@ -35,12 +35,21 @@ pub enum ContactCondition {
     Massless,
 }
 
-/// What the motion of a contact lacks, beside what its [condition](ContactCondition::Endpoint) makes of it, of the variable of an impact of
-/// rigid bodies that meet at the velocity `v` [m/s] with a coefficient of restitution e (Moreau). With v₊ = a v + b d, that is
-/// (v₊ + e v)/b along the normal and v₊/b across it: they part at −e v, and friction acts against the velocity that is left.
-pub(crate) fn impact_offset<const D: usize>(v: &Vector<D>, restitution: f64, map: &StepMap) -> Vector<D> {
-    let kept = map.velocity_of_velocity;
-    Vector::from_fn(|i, _| v[i] * if i == 0 { restitution } else { kept } / map.velocity_of_motion)
+/// What the motion of a contact lacks of the variable of an impact of rigid bodies that meet at the velocity `v` [m/s], where their interference
+/// grows by `widening` [m], with a coefficient of restitution e (Moreau). With v₊ = a v + b d, that is (v₊ + e v)/b along the normal and v₊/b across
+/// it: they part at −e v, and friction acts against the velocity that is left.
+pub(crate) fn impact_offset<const D: usize>(
+    v: &Vector<D>,
+    widening: f64,
+    restitution: f64,
+    map: &StepMap,
+) -> Vector<D> {
+    let closing = v[0] - widening / map.dt;
+    let mut offset = v * map.velocity_of_velocity;
+    offset[0] = closing * (map.velocity_of_velocity + restitution);
+    offset /= map.velocity_of_motion;
+    offset[0] -= widening;
+    offset
 }
 
 impl ContactCondition {

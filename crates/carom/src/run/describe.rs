@@ -1,6 +1,10 @@
+use carom_contact::Proximity;
 use serde::Serialize;
 
 use crate::{Model, State};
+
+/// Beyond so many pairs no one reads of all of them: where hundreds of bodies may touch, most never come near one another.
+pub(crate) const MANY_PAIRS: usize = 1000;
 
 /// What would run: the answer of `carom check`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -17,7 +21,7 @@ pub struct Description {
     pub suggested_time_step: Option<f64>,
     /// The bodies.
     pub bodies: Vec<BodyDescription>,
-    /// The pairs that may touch.
+    /// The pairs that may touch; of more than a thousand those that are near one another.
     pub pairs: Vec<PairDescription>,
 }
 
@@ -88,27 +92,7 @@ pub(crate) fn describe<const D: usize>(
             }
         })
         .collect();
-    let at = |n: u32| model.assembly.reference[n as usize] + state.displacement[n as usize];
-    let mut pairs: Vec<PairDescription> = Vec::new();
-    for (k, pair) in model.assembly.named_pairs.iter().enumerate().filter(|(_, pair)| !pair.is_of_one_body())
-    {
-        let closest = model
-            .assembly
-            .contact
-            .pairs
-            .iter()
-            .filter(|p| p.named_pair == k)
-            .filter_map(|p| model.assembly.contact.proximity(p, &at))
-            .min_by(|a, b| a.gap.total_cmp(&b.gap));
-        if let Some(closest) = closest {
-            pairs.push(PairDescription {
-                between: pair.between.clone(),
-                friction: pair.friction,
-                initial_gap: closest.gap,
-                at: closest.at.iter().copied().collect(),
-            });
-        }
-    }
+    let pairs = describe_pairs(model, state);
     Description {
         title: title.to_string(),
         dofs: model.dofs(),
@@ -118,4 +102,33 @@ pub(crate) fn describe<const D: usize>(
         bodies,
         pairs,
     }
+}
+
+/// The pairs that may touch, in their order: of more than [`MANY_PAIRS`] those that are no farther apart than the smaller of the two is large.
+fn describe_pairs<const D: usize>(model: &Model<D>, state: &State<D>) -> Vec<PairDescription> {
+    let Model { assembly, .. } = model;
+    let at = |n: u32| assembly.reference[n as usize] + state.displacement[n as usize];
+    let mut closest: Vec<Option<Proximity<D>>> = vec![None; assembly.named_pairs.len()];
+    for pair in &assembly.contact.pairs {
+        let known = &mut closest[pair.named_pair];
+        let near = assembly.contact.proximity(pair, &at);
+        let is_far = |near: &Proximity<D>| {
+            assembly.named_pairs.len() > MANY_PAIRS && near.gap > assembly.pair_size(pair)
+        };
+        if let Some(near) = near.filter(|near| !is_far(near)) {
+            *known = Some(known.filter(|known| known.gap <= near.gap).unwrap_or(near));
+        }
+    }
+    let named = assembly.named_pairs.iter().zip(closest).filter(|(pair, _)| !pair.is_of_one_body());
+    named
+        .filter_map(|(pair, closest)| {
+            let Proximity { gap, at } = closest?;
+            Some(PairDescription {
+                between: pair.between.clone(),
+                friction: pair.friction,
+                initial_gap: gap,
+                at: at.iter().copied().collect(),
+            })
+        })
+        .collect()
 }

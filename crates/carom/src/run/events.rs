@@ -41,14 +41,15 @@ impl EventLog {
     }
 
     /// How close contacts of each named pair are that count as one [s]: less than `merge`. Without it a dynamic analysis in steps of `dt` [s] takes
-    /// the time of the bodies themselves, see [`crossing_time`]. The time of a static one does not say how long anything lasts, and nothing is
+    /// the time of the bodies themselves, see [`crossing_times`]. The time of a static one does not say how long anything lasts, and nothing is
     /// merged there.
     pub fn merges<const D: usize>(model: &Model<D>, scheme: Scheme, dt: f64, merge: Option<f64>) -> Vec<f64> {
-        let own = |pair| match scheme {
-            Scheme::Static => 0.0,
-            _ => crossing_time(model, pair).max(FLICKER * dt),
-        };
-        (0..model.assembly.named_pairs.len()).map(|pair| merge.unwrap_or_else(|| own(pair))).collect()
+        let count = model.assembly.named_pairs.len();
+        match (merge, scheme) {
+            (Some(merge), _) => vec![merge; count],
+            (None, Scheme::Static) => vec![0.0; count],
+            (None, _) => crossing_times(model).into_iter().map(|time| time.max(FLICKER * dt)).collect(),
+        }
     }
 
     /// Goes on where contacts less than this apart are one [s].
@@ -99,24 +100,25 @@ impl EventLog {
     }
 }
 
-/// How long a pressure wave takes along the longest side of a deformable body of the pair [s], of the body where that is shortest. While waves are on
-/// their way a contact may open and close again; who is out of it for longer has parted.
-fn crossing_time<const D: usize>(model: &Model<D>, named_pair: usize) -> f64 {
+/// For every named pair, how long a pressure wave takes along the longest side of a deformable body of the pair [s], of the body where that is
+/// shortest. While waves are on their way a contact may open and close again; who is out of it for longer has parted.
+fn crossing_times<const D: usize>(model: &Model<D>) -> Vec<f64> {
     let of_body = |index: usize| {
         let body = &model.bodies[index];
         let (low, high) = body.body.mesh().bounds();
         Some((high - low).max() / body.wave_speed()?)
     };
-    let pairs = model.assembly.contact.pairs.iter().filter(|pair| pair.named_pair == named_pair);
-    let bodies = pairs.flat_map(|pair| {
+    let of_bodies: Vec<Option<f64>> = (0..model.bodies.len()).map(of_body).collect();
+    let mut times = vec![f64::INFINITY; model.assembly.named_pairs.len()];
+    for pair in &model.assembly.contact.pairs {
         let target = match pair.target {
-            Target::Surface(target) => Some(target),
+            Target::Surface(target) => of_bodies[target],
             Target::Obstacle(_) => None,
         };
-        std::iter::once(pair.source).chain(target)
-    });
-    let shortest = bodies.filter_map(of_body).fold(f64::INFINITY, f64::min);
-    if shortest.is_finite() { shortest } else { 0.0 }
+        let time = &mut times[pair.named_pair];
+        *time = of_bodies[pair.source].into_iter().chain(target).fold(*time, f64::min);
+    }
+    times.into_iter().map(|time| if time.is_finite() { time } else { 0.0 }).collect()
 }
 
 #[cfg(test)]

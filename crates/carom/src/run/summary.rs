@@ -5,6 +5,7 @@ use serde::Serialize;
 use crate::contact::cross_check::CrossCheckSummary;
 use crate::model::assembly::NamedPair;
 use crate::run::account::Account;
+use crate::run::describe::MANY_PAIRS;
 use crate::run::events::ContactEvent;
 use crate::run::stage::Stage;
 use crate::run::totals::Worst;
@@ -211,10 +212,11 @@ impl<const D: usize> Simulation<D> {
 
     /// The books of every pair that may touch, as they are in a stage.
     fn pairs(&self, books: &Books, stage: &Stage<D>) -> Vec<PairSummary> {
+        let are_many = books.pairs.len() > MANY_PAIRS;
         let pairs = stage.model.assembly.named_pairs.iter().zip(&stage.merge).zip(&books.pairs);
         pairs
-            // Every body may touch itself; few do.
-            .filter(|((pair, _), ledger)| !pair.is_of_one_body() || ledger.has_touched)
+            // Every body may touch itself; few do. Of many pairs most never meet.
+            .filter(|((pair, _), ledger)| !(pair.is_of_one_body() || are_many) || ledger.has_touched)
             .map(|((pair, merge), ledger)| PairSummary::new(pair, *merge, ledger))
             .collect()
     }

@@ -267,6 +267,9 @@ pub struct BodyEntry {
     /// Linear strain by which it would grow if nothing held it.
     #[serde(default)]
     pub growth: Option<SignalSpec>,
+    /// Whether what it touches sees a ball or disc in place of its mesh, of rigid bodies.
+    #[serde(default)]
+    pub round: bool,
     /// Sets of facets that may touch others; the whole boundary if not given.
     #[serde(default)]
     pub contact_sets: Option<Vec<String>>,

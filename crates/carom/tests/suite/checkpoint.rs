@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use crate::common::{body, disc, parse, plane, scenario};
 use crate::large_bodies;
+use crate::rigid_bodies::meeting;
 
 /// Two discs, one spinning, that meet above a floor and then hit it.
 fn discs(scheme: &str, condition: &str) -> Value {
@@ -72,6 +73,14 @@ fn goes_on_identically<const D: usize>(case: &Value, stops: usize) -> Simulation
         assert!(resumed.state() == whole.state(), "{from}");
     }
     whole
+}
+
+#[test]
+fn rigid_bodies_go_on_identically() {
+    for condition in ["midpoint", "endpoint"] {
+        let whole = goes_on_identically::<2>(&meeting(condition), 3);
+        assert!(!whole.summary().contacts.is_empty(), "they meet");
+    }
 }
 
 #[test]

@@ -28,6 +28,7 @@ mod plasticity;
 mod press_fit;
 mod promises;
 mod rest;
+mod rigid_bodies;
 mod scales;
 mod self_contact;
 mod space;

@@ -68,10 +68,11 @@ impl<const D: usize> RigidBody<D> {
         let left = on(&along, &all.force).dot(&shift) + on(&about, &moment).dot(&turn);
         end.velocity.fill(Vector::zeros());
         let kinetic = guess.start.energies.kinetic;
+        let is_guided = part(&self.body).guide.is_some();
         let ledger = BodyLedger {
             kinetic: -kinetic,
             external: self.work(&external, &self.moved),
-            prescribed: left - self.work(&all, &self.moved),
+            prescribed: if is_guided { left - self.work(&all, &self.moved) } else { 0.0 },
             scheme: left + kinetic,
             contact: self.work(&contact, &self.moved),
             ..BodyLedger::default()

@@ -2,6 +2,7 @@
 //!
 //! Its place and its velocity are read from those of the nodes, so that a state is complete without it.
 
+mod books;
 mod equation;
 pub(crate) mod guide;
 mod load_step;
@@ -265,53 +266,10 @@ impl<const D: usize> Body<D> for RigidBody<D> {
     ) -> (BodyLedger, Energies) {
         self.take(guess);
         end.internal_force.fill(Vector::zeros());
-        let Some(equation) = self.equation else {
-            return self.end_load_step(guess, end);
-        };
-        let map = &guess.interval.map;
-        let external = self.external(guess, map.xi);
-        let contact = self.free_part(end.mean_contact_force);
-        let shape = &self.part().shape;
-        let pose = shape.pose(guess.displacement);
-        let done = equation.end(&(external + contact), pose);
-        shape.velocities(&pose, &done.twist, end.velocity);
-        let kinetic = shape.kinetic(&pose, &done.twist);
-        let Displaced { shift, turn } = self.moved;
-        let jump = done.twist.velocity - equation.twist.velocity;
-        // What is prescribed moves so, not as the scheme would have it: see `Equation::support_work` of the deformable.
-        let off = |v0: &Vector<3>, v1: &Vector<3>, d: &Vector<3>| (v0 + v1) * 0.5 - d / map.dt;
-        let along = off(&equation.twist.velocity, &done.twist.velocity, &shift);
-        let moved = self.part().shape.moves_along;
-        let driven_along = Vector::<3>::from_fn(|i, _| {
-            if moved[i] && !equation.moves_along[i] { jump[i] * along[i] * shape.mass } else { 0.0 }
-        });
-        let mut prescribed =
-            driven_along.sum() + (done.impulse.dot(&shift) + done.moment.dot(&turn)) / map.dt;
-        let mut scheme = on(&equation.moves_along, &jump).norm_squared() * shape.mass;
-        let inertia = &shape.inertia;
-        let [before, after] = [(&self.start, &equation.twist), (&pose, &done.twist)]
-            .map(|(pose, twist)| pose.rotation.tr_mul(&twist.spin));
-        if equation.turns_about == shape.turns_about {
-            scheme += (after - before).dot(&(inertia * (after - before)));
-        } else {
-            let turn = self.start.rotation.tr_mul(&turn);
-            prescribed += (inertia * (after - before)).dot(&off(&before, &after, &turn));
+        match self.equation {
+            Some(equation) => self.end_in_time(&equation, guess, end),
+            None => self.end_load_step(guess, end),
         }
-        let ledger = BodyLedger {
-            kinetic: kinetic - guess.start.energies.kinetic,
-            external: self.work(&external, &self.moved),
-            prescribed,
-            scheme: map.kinetic_dissipation * scheme,
-            contact: self.work(&contact, &self.moved),
-            ..BodyLedger::default()
-        };
-        if let Some(guide) = &self.part().guide {
-            let force: Vector<D> = pose::lower(&(done.impulse / map.dt));
-            let whole: Vector<D> =
-                pose::lower(&(self.part().shape.gather(end.mean_contact_force).force - contact.force));
-            end.support[guide.number] += force - whole;
-        }
-        (ledger, Energies { kinetic, strain: 0.0 })
     }
 
     /// The mass that a force at the node moves, in the mean of all directions.
@@ -340,6 +298,12 @@ impl<const D: usize> Body<D> for RigidBody<D> {
             shape.spread(&pose.rotation, &push, &moment, impulse);
         }
         0.0
+    }
+
+    fn velocity_half_way(&self, node: u32, velocity: &Vector<D>) -> Vector<D> {
+        let Some(equation) = &self.equation else { return *velocity };
+        let arm = self.moved.mean_rotation(&self.start) * self.part().shape.arm(node as usize);
+        pose::lower(&(equation.twist.velocity + equation.twist.spin.cross(&arm)))
     }
 
     fn generation(&self) -> u64 {

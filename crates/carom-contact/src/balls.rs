@@ -1,0 +1,134 @@
+//! Contacts of balls, with obstacles without corners and with one another.
+
+use carom_mesh::Vector;
+
+use crate::ball::Ball;
+use crate::frame::frame;
+use crate::{Candidate, Contact, ContactModel, Obstacle, Path, Target};
+
+/// The contact with an `obstacle` without corners.
+fn before_obstacle<const D: usize>(
+    ball: &Ball,
+    obstacle: &Obstacle<D>,
+    position: &impl Fn(u32) -> Vector<D>,
+) -> Contact<D> {
+    let (gap, normal) = obstacle.gap(&ball.centre(position), position);
+    let sources = ball.touching(&normal, position);
+    let stencil = sources.chain(std::iter::once((obstacle.node, -1.0)));
+    Contact::of_stencil(gap - ball.radius, frame(&normal), 0.0, stencil, D + 1)
+}
+
+/// The contact with another ball.
+fn before_ball<const D: usize>(
+    ball: &Ball,
+    other: &Ball,
+    position: &impl Fn(u32) -> Vector<D>,
+) -> Contact<D> {
+    let apart = ball.centre(position) - other.centre(position);
+    let distance = apart.norm();
+    // Two that have the same centre are pushed apart along the first axis.
+    let normal = if distance > 0.0 {
+        apart / distance
+    } else {
+        Vector::from_fn(|i, _| if i == 0 { 1.0 } else { 0.0 })
+    };
+    let back = -normal;
+    let targets = other.touching(&back, position).map(|(node, weight)| (node, -weight));
+    let stencil = ball.touching(&normal, position).chain(targets);
+    let gap = distance - ball.radius - other.radius;
+    Contact::of_stencil(gap, frame(&normal), 0.0, stencil, D + 1)
+}
+
+impl<const D: usize> ContactModel<D> {
+    /// The balls of a pair of bodies that are both round.
+    pub(crate) fn balls(&self, pair: usize) -> Option<[&Ball; 2]> {
+        let pair = &self.pairs[pair];
+        let Target::Surface(target) = pair.target else { return None };
+        Some([self.surfaces[pair.source].ball.as_ref()?, self.surfaces[target].ball.as_ref()?])
+    }
+
+    /// Adds to `out` a pair of balls that come near one another, once for both directions.
+    pub(crate) fn detect_balls<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &self,
+        pair: usize,
+        path: &Path<'_, D, S, E>,
+        out: &mut Vec<Candidate>,
+    ) {
+        let Some([ball, other]) = self.balls(pair) else { return };
+        if self.directions(pair).start != pair {
+            return;
+        }
+        let near = |contact: Contact<D>| contact.gap <= path.margin;
+        if near(before_ball(ball, other, path.start)) || near(before_ball(ball, other, path.end)) {
+            out.push(Candidate::at_node(pair as u32, ball.node(), None));
+        }
+    }
+
+    /// Adds to `out` a ball that comes near an obstacle without corners.
+    pub(crate) fn detect_ball<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &self,
+        (pair, ball): (usize, &Ball),
+        obstacle: &Obstacle<D>,
+        path: &Path<'_, D, S, E>,
+        out: &mut Vec<Candidate>,
+    ) {
+        let near = path.margin + ball.radius;
+        if obstacle.is_near(&ball.centre(path.start), near, path.start)
+            || obstacle.is_near(&ball.centre(path.end), near, path.end)
+        {
+            out.push(Candidate::at_node(pair as u32, ball.node(), None));
+        }
+    }
+
+    /// The contact of a pair of balls.
+    pub(crate) fn between_balls(
+        &self,
+        pair: usize,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Option<Contact<D>> {
+        let [ball, other] = self.balls(pair)?;
+        Some(before_ball(ball, other, position))
+    }
+
+    /// The contact of a ball with an obstacle without corners.
+    pub(crate) fn ball_before_obstacle(
+        &self,
+        pair: usize,
+        obstacle: &Obstacle<D>,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Option<Contact<D>> {
+        let ball = self.surfaces[self.pairs[pair].source].ball.as_ref()?;
+        (!obstacle.has_corners()).then(|| before_obstacle(ball, obstacle, position))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Its lowest point moves as the rigid body there, whichever nodes it follows.
+    #[test]
+    fn the_point_that_touches_moves_with_the_body() {
+        let nodes = [[1.0, 0.0, 0.0], [0.0, 0.6, 0.8], [-0.6, 0.0, 0.8], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]];
+        let place = |n: u32| Vector::<3>::from(nodes[n as usize]) + Vector::<3>::new(0.0, 0.0, 1.2);
+        let centre = Vector::<3>::new(0.0, 0.0, 1.2);
+        let ball = Ball::new(&centre, 1.0, &[0, 1, 2, 3, 4], &place).expect("they are not in a plane");
+        let floor = Obstacle::plane(Vector::zeros(), Vector::<3>::new(0.0, 0.0, 1.0), 9);
+        let with_floor = |n: u32| if n == 9 { Vector::zeros() } else { place(n) };
+        let contact = before_obstacle(&ball, &floor, &with_floor);
+        assert!((contact.gap - 0.2).abs() < 1e-15);
+        let (drift, spin) = (Vector::<3>::new(0.3, -0.2, 0.1), Vector::<3>::new(1.0, 2.0, -3.0));
+        let velocity = |n: usize| match n {
+            9 => Vector::zeros(),
+            n => drift + spin.cross(&(place(n as u32) - centre)),
+        };
+        let exact = drift + spin.cross(&Vector::<3>::new(0.0, 0.0, -1.0));
+        assert!((contact.frame.tr_mul(&contact.relative(velocity)) - exact).norm() < 1e-14);
+    }
+
+    #[test]
+    fn nodes_in_a_plane_carry_no_ball() {
+        let place = |n: u32| Vector::<3>::new(f64::from(n), f64::from(n * n), 0.0);
+        assert!(Ball::new(&Vector::zeros(), 1.0, &[0, 1, 2, 3], &place).is_none());
+    }
+}
