@@ -18,9 +18,9 @@ mod gregory;
 mod jet;
 mod network;
 mod tangents;
-mod tile;
 #[cfg(test)]
 mod tests;
+mod tile;
 
 use std::ops::Range;
 

@@ -31,7 +31,8 @@ fn sheet(mesh: &Mesh<3>) -> Sheet {
 
 /// Stretch, shear, a bend, and a scatter of nodes that no smooth deformation has.
 fn deformed(nodes: &[Vector3]) -> Vec<Vector3> {
-    let noise = |k: usize| Vector3::from_fn(|i, _| 4e-3 * (1.0 + (2.4 * (k * k) as f64 + 1.7 * i as f64)).sin());
+    let noise =
+        |k: usize| Vector3::from_fn(|i, _| 4e-3 * (1.0 + (2.4 * (k * k) as f64 + 1.7 * i as f64)).sin());
     let bent = |x: &Vector3| {
         Vector3::new(1.1 * x[0] + 0.2 * x[1], 0.9 * x[1] + 0.1 * x[2] * x[2], 1.05 * x[2] - 0.3 * x[0] * x[1])
     };
@@ -84,7 +85,11 @@ fn tiles_have_one_tangent_plane_where_they_meet_however_nodes_move() {
 }
 
 /// Largest error of position and of normal, relative to the radius.
-fn errors(mesh: &Mesh<3>, radial: impl Fn(&Vector3) -> Vector3, on_it: impl Fn(&Vector3) -> bool) -> (f64, f64) {
+fn errors(
+    mesh: &Mesh<3>,
+    radial: impl Fn(&Vector3) -> Vector3,
+    on_it: impl Fn(&Vector3) -> bool,
+) -> (f64, f64) {
     let sheet = sheet(mesh);
     let at = |n: u32| mesh.nodes()[n as usize];
     let (mut of_points, mut of_normals) = (0.0_f64, 0.0_f64);
@@ -92,7 +97,11 @@ fn errors(mesh: &Mesh<3>, radial: impl Fn(&Vector3) -> Vector3, on_it: impl Fn(&
         let controls = tile.seen_from(&Vector3::zeros(), &at);
         for (i, j) in (0..=8).flat_map(|i| (0..=8).map(move |j| (i, j))) {
             let [a, b] = [i, j].map(|k| f64::from(k) / 8.0);
-            let xi = if tile.domain == Domain::Triangle { [a, b * (1.0 - a)] } else { [2.0 * a - 1.0, 2.0 * b - 1.0] };
+            let xi = if tile.domain == Domain::Triangle {
+                [a, b * (1.0 - a)]
+            } else {
+                [2.0 * a - 1.0, 2.0 * b - 1.0]
+            };
             let middle = controls.local(&tile.domain.middle());
             if !on_it(&middle.point) {
                 continue;
@@ -106,21 +115,58 @@ fn errors(mesh: &Mesh<3>, radial: impl Fn(&Vector3) -> Vector3, on_it: impl Fn(&
     (of_points, of_normals)
 }
 
+/// Checks the errors of a shape with 4, 8 and 16 divisions: of fourth order in position and of third in the normal.
+fn is_round(name: &str, errors: [(f64, f64); 3]) {
+    let rate = |of: fn(&(f64, f64)) -> f64| (of(&errors[1]) / of(&errors[2])).log2();
+    let (points, normals) = (rate(|e| e.0), rate(|e| e.1));
+    println!(
+        "{name}: position {:e}, rate {points:.2}, normal {:e}, rate {normals:.2}",
+        errors[2].0, errors[2].1
+    );
+    assert!(points > 3.8 && normals > 2.6, "{name}: {errors:?}");
+    assert!(errors[2].0 < 5e-6 && errors[2].1 < 4e-4, "{name}: {errors:?}");
+}
+
 #[test]
-fn spheres_and_cylinders_are_round() {
-    for is_ball in [true, false] {
-        let kinds: Vec<CellKind> = if is_ball { ball_kinds().collect() } else { solid_kinds().collect() };
-        for kind in kinds {
-            let errors = [4, 8, 16].map(|n| {
-                if is_ball {
-                    errors(&ball(kind, n), |x| *x, |_| true)
-                } else {
-                    errors(&cylinder(kind, n), |x| Vector3::new(x[0], x[1], 0.0), |x| x[2] > 1e-9 && x[2] < 2.0 - 1e-9)
+fn spheres_and_cylinders_are_round_to_fourth_order() {
+    for kind in ball_kinds() {
+        is_round(&format!("ball, {kind:?}"), [4, 8, 16].map(|n| errors(&ball(kind, n), |x| *x, |_| true)));
+    }
+    let around = |x: &Vector3| Vector3::new(x[0], x[1], 0.0);
+    let on_side = |x: &Vector3| x[2] > 1e-9 && x[2] < 2.0 - 1e-9;
+    for kind in solid_kinds() {
+        let errors = [4, 8, 16].map(|n| errors(&cylinder(kind, n), around, on_side));
+        is_round(&format!("cylinder, {kind:?}"), errors);
+    }
+}
+
+/// A run of it tells how long the closest point of a smooth surface and of facets takes to find.
+#[test]
+#[ignore = "a measurement"]
+fn time_of_a_closest_point() {
+    use crate::ContactSurface;
+    for kind in ball_kinds() {
+        let mesh = ball(kind, 8);
+        let at = |n: u32| mesh.nodes()[n as usize];
+        let faceted = ContactSurface::new(&Surface::of(&mesh), 0);
+        let smooth = faceted.clone().smoothed(&at);
+        let nodes = (0..smooth.facets.len() as u32).map(|f| smooth.nodes_over(f, 0).len());
+        println!("{kind:?}: {} nodes in a stencil at most", nodes.max().expect("facets"));
+        for (name, surface) in [("smooth", smooth), ("faceted", faceted)] {
+            let start = std::time::Instant::now();
+            let mut count = 0;
+            for (f, facet) in (0..).zip(&surface.facets) {
+                for &n in &facet.nodes {
+                    let x = at(n) * 1.01 + Vector3::new(0.01, 0.02, 0.03);
+                    assert!(surface.project(f, &x, Reach::Beyond, &at).point.norm() > 0.5);
+                    count += 1;
                 }
-            });
-            let rates: Vec<_> =
-                errors.windows(2).map(|e| ((e[0].0 / e[1].0).log2(), (e[0].1 / e[1].1).log2())).collect();
-            println!("{is_ball} {kind:?}: {errors:?} {rates:.2?}");
+            }
+            println!("  {name}: {:?} each", start.elapsed() / count);
+            let start = std::time::Instant::now();
+            let boxes = (0..surface.facets.len() as u32).map(|f| surface.bounds(f, &at).diameter());
+            let sum: f64 = boxes.sum();
+            println!("  a box {:?} {sum}", start.elapsed() / surface.facets.len() as u32);
         }
     }
 }
