@@ -1,7 +1,6 @@
-use carom_mesh::cell::MAX_FACET_NODES;
 use carom_mesh::{Facet, Vector};
 
-use crate::project::{Projection, Reach, normal};
+use crate::project::{Projection, Reach, Weights, normal};
 use crate::tolerances::{EDGES, SEARCH};
 
 /// A curve through the nodes of a boundary line with a continuous tangent, except at corners and on sides that are straight in the
@@ -92,7 +91,7 @@ impl Curve {
     }
 
     /// Their weights at a point of the segment.
-    pub fn weights(&self, segment: u32, xi: f64) -> [f64; MAX_FACET_NODES] {
+    pub fn weights(&self, segment: u32, xi: f64) -> Weights {
         self.segments[segment as usize].at(&powers(xi))
     }
 
@@ -163,12 +162,9 @@ impl Segment {
     }
 
     /// The weights of the nodes for a combination of 1, ξ, ξ², ξ³.
-    fn at(&self, basis: &[f64; 4]) -> [f64; MAX_FACET_NODES] {
-        let mut weights = [0.0; MAX_FACET_NODES];
-        for (weight, own) in weights.iter_mut().zip(&self.weights[..self.len]) {
-            *weight = own.iter().zip(basis).map(|(c, b)| c * b).sum();
-        }
-        weights
+    fn at(&self, basis: &[f64; 4]) -> Weights {
+        let weight = |own: &[f64; 4]| own.iter().zip(basis).map(|(c, b)| c * b).sum();
+        self.weights[..self.len].iter().map(weight).collect()
     }
 
     /// What belongs to the point at `xi`, or straight on from there by `beyond`.

@@ -121,7 +121,8 @@ impl<const D: usize> ContactModel<D> {
     /// Gap, frame and stencil of a candidate where the nodes are at `position`.
     ///
     /// The normal row of the map from nodal to relative motion is the gradient of the gap. It is not half a facet or more
-    /// beyond the edge of a facet, or beyond a corner of a smooth target.
+    /// beyond the edge of a facet, or beyond a corner of a smooth target. Beyond an edge in space that is warped, or round, it is the gradient
+    /// where the tangent plane does not turn along the edge.
     #[must_use]
     pub fn evaluate(&self, candidate: &Candidate, position: &impl Fn(u32) -> Vector<D>) -> Contact<D> {
         let pair = &self.pairs[candidate.pair as usize];

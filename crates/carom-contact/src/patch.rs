@@ -1,10 +1,9 @@
 use carom_mesh::cell::MAX_FACET_NODES;
 use carom_mesh::{CellKind, Facet, Vector};
 
+use crate::closest::{Local, Parametric};
+use crate::domain::Domain;
 use crate::tolerances::SEARCH;
-
-/// Newton steps; on facets of moderate curvature four are enough, on straight ones one.
-const MAX_STEPS: usize = 50;
 
 /// Intervals of the grid of starting points.
 const GRID: u32 = 6;
@@ -38,20 +37,6 @@ impl<const D: usize> Patch<D> {
         Self { kind: facet.kind, count: facet.nodes.len(), nodes }
     }
 
-    /// The corners in ξ of a segment, a triangle or a square.
-    fn corners(&self) -> &'static [[f64; 2]] {
-        match self.kind.corner_count() {
-            2 => &[[-1.0, 0.0], [1.0, 0.0]],
-            3 => &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
-            _ => &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]],
-        }
-    }
-
-    /// Whether s is affine.
-    fn is_straight(&self) -> bool {
-        matches!(self.kind, CellKind::Line2 | CellKind::Tri3)
-    }
-
     /// What is at ξ.
     pub fn at(&self, xi: &[f64; 2]) -> Point<D> {
         let reference = self.kind.reference();
@@ -75,44 +60,18 @@ impl<const D: usize> Patch<D> {
 
     /// What is in the middle.
     pub fn middle(&self) -> Point<D> {
-        self.at(&if self.kind.corner_count() == 3 { [1.0 / 3.0; 2] } else { [0.0; 2] })
+        self.at(&self.domain().middle())
     }
 
-    /// ξ of the point closest to `x`.
-    ///
-    /// Newton's method from the best of a few points. Each step minimises the quadratic model of ½|x − s|² over the reference domain,
-    /// exactly, and is shortened until the distance falls. So edges and corners need no cases of their own.
+    /// ξ of the point closest to `x`: from the best of a few points.
     pub fn closest(&self, x: &Vector<D>) -> [f64; 2] {
-        let mut xi = self.start(x);
-        let mut at = self.at(&xi);
-        for _ in 0..MAX_STEPS {
-            let Some(mut step) = self.model_step(x, &xi, &at) else { break };
-            let change = step[0].abs().max(step[1].abs());
-            let mut next = [xi[0] + step[0], xi[1] + step[1]];
-            let mut there = self.at(&next);
-            if !self.is_straight() && change > 1e-7 {
-                let distance = (x - at.point).norm_squared();
-                let mut halvings = 0;
-                while (x - there.point).norm_squared() > distance && halvings < 30 {
-                    step = step.map(|s| 0.5 * s);
-                    next = [xi[0] + step[0], xi[1] + step[1]];
-                    there = self.at(&next);
-                    halvings += 1;
-                }
-            }
-            (xi, at) = (next, there);
-            if change < 1e-14 {
-                break;
-            }
-        }
-        xi
+        self.closest_from(x, self.start(x)).0
     }
 
     /// Where to start from: the middle or, on a facet that is clearly curved, the closest point of a grid. Such a facet may have
     /// several points where the distance is least.
     fn start(&self, x: &Vector<D>) -> [f64; 2] {
-        let corners = self.corners();
-        let middle = [0, 1].map(|i| corners.iter().map(|c| c[i]).sum::<f64>() / corners.len() as f64);
+        let middle = self.domain().middle();
         if self.is_straight() || !self.is_clearly_curved(&middle) {
             return middle;
         }
@@ -120,10 +79,10 @@ impl<const D: usize> Patch<D> {
         // A line has one row; a triangle the half of a square.
         for (j, i) in (0..if D == 2 { 1 } else { GRID + 1 }).flat_map(|j| (0..=GRID).map(move |i| (j, i))) {
             let [s, t] = [i, j].map(|k| f64::from(k) / f64::from(GRID));
-            let xi = match corners.len() {
-                2 => [2.0 * s - 1.0, 0.0],
-                3 => [s * (1.0 - t), t],
-                _ => [2.0 * s - 1.0, 2.0 * t - 1.0],
+            let xi = match self.domain() {
+                Domain::Segment => [2.0 * s - 1.0, 0.0],
+                Domain::Triangle => [s * (1.0 - t), t],
+                Domain::Square => [2.0 * s - 1.0, 2.0 * t - 1.0],
             };
             let distance = (x - self.at(&xi).point).norm_squared();
             if distance < best.0 {
@@ -141,63 +100,6 @@ impl<const D: usize> Patch<D> {
             let flat = m.point + m.tangents[0] * (xi[0] - middle[0]) + m.tangents[1] * (xi[1] - middle[1]);
             (x - flat).norm_squared() > SEARCH.curved * SEARCH.curved * size
         })
-    }
-
-    /// The step to the minimum of a convex quadratic model of ½|x − s|² over the reference domain; `None` where the facet has collapsed
-    /// and the model no minimum.
-    fn model_step(&self, x: &Vector<D>, xi: &[f64; 2], at: &Point<D>) -> Option<[f64; 2]> {
-        let d = x - at.point;
-        let t = &at.tangents;
-        let g = [-d.dot(&t[0]), -d.dot(&t[1])];
-        // Gauss–Newton; and Newton, with the curvature, where that is convex.
-        let metric = [t[0].norm_squared(), t[0].dot(&t[1]), t[1].norm_squared()];
-        let mut h = metric;
-        if !self.is_straight() {
-            for (h, bend) in h.iter_mut().zip(self.bends(xi)) {
-                *h -= d.dot(&bend);
-            }
-            if h[0] <= 0.0 || (D == 3 && h[0] * h[2] - h[1] * h[1] <= 1e-6 * h[0] * h[2]) {
-                h = metric;
-            }
-        }
-        if D == 2 {
-            let step = -g[0] / h[0];
-            return step.is_finite().then(|| [(xi[0] + step).clamp(-1.0, 1.0) - xi[0], 0.0]);
-        }
-        let det = h[0] * h[2] - h[1] * h[1];
-        let free = [(h[1] * g[1] - h[2] * g[0]) / det, (h[1] * g[0] - h[0] * g[1]) / det];
-        if det > 0.0 && self.holds([xi[0] + free[0], xi[1] + free[1]]) {
-            return Some(free);
-        }
-        // The minimum is on an edge.
-        let corners = self.corners();
-        let mut best: Option<(f64, [f64; 2])> = None;
-        for (k, a) in corners.iter().enumerate() {
-            let b = &corners[(k + 1) % corners.len()];
-            let (from, along) = ([a[0] - xi[0], a[1] - xi[1]], [b[0] - a[0], b[1] - a[1]]);
-            let h_along = [h[0] * along[0] + h[1] * along[1], h[1] * along[0] + h[2] * along[1]];
-            let bend = along[0] * h_along[0] + along[1] * h_along[1];
-            let slope = g[0] * along[0] + g[1] * along[1] + from[0] * h_along[0] + from[1] * h_along[1];
-            let s = if bend > 0.0 { (-slope / bend).clamp(0.0, 1.0) } else { f64::from(slope < 0.0) };
-            let step = [from[0] + s * along[0], from[1] + s * along[1]];
-            let value = g[0] * step[0]
-                + g[1] * step[1]
-                + 0.5 * (h[0] * step[0] * step[0] + h[2] * step[1] * step[1])
-                + h[1] * step[0] * step[1];
-            if value.is_finite() && best.is_none_or(|(v, _)| value < v) {
-                best = Some((value, step));
-            }
-        }
-        best.map(|(_, step)| step)
-    }
-
-    /// Whether ξ is in the reference domain.
-    fn holds(&self, xi: [f64; 2]) -> bool {
-        if self.kind.corner_count() == 3 {
-            xi[0] >= 0.0 && xi[1] >= 0.0 && xi[0] + xi[1] <= 1.0
-        } else {
-            xi.iter().all(|x| x.abs() <= 1.0)
-        }
     }
 
     /// ∂²s/∂ξ², ∂²s/∂ξ∂η and ∂²s/∂η² [m], but on a quad4 by central differences. These are exact: no shape function of a facet is of
@@ -218,6 +120,22 @@ impl<const D: usize> Patch<D> {
             }
         }
         bends
+    }
+}
+
+impl<const D: usize> Parametric<D> for Patch<D> {
+    fn domain(&self) -> Domain {
+        Domain::of(self.kind)
+    }
+
+    fn is_straight(&self) -> bool {
+        matches!(self.kind, CellKind::Line2 | CellKind::Tri3)
+    }
+
+    fn local(&self, xi: &[f64; 2]) -> Local<D> {
+        let Point { point, tangents, .. } = self.at(xi);
+        let bends = if self.is_straight() { [Vector::zeros(); 3] } else { self.bends(xi) };
+        Local { point, tangents, bends }
     }
 }
 
@@ -302,7 +220,7 @@ mod tests {
                 for z in [-0.5, 0.03, 0.6] {
                     let x = Vector::<3>::new(x, y, z);
                     let xi = patch.closest(&x);
-                    assert!(patch.holds(xi.map(|x| x * (1.0 - 1e-14))), "{kind:?} {xi:?}");
+                    assert!(patch.domain().holds(xi.map(|x| x * (1.0 - 1e-14))), "{kind:?} {xi:?}");
                     let point = patch.at(&xi);
                     let distance = (x - point.point).norm();
                     assert!(
@@ -324,7 +242,7 @@ mod tests {
                 let x = Vector::<3>::new(x, y, z);
                 let xi = patch.closest(&x);
                 let [from_middle, middle] = [1.01, 1.0 / 3.0];
-                if !patch.holds(xi.map(|x| {
+                if !patch.domain().holds(xi.map(|x| {
                     if patch.kind.corner_count() == 3 {
                         middle + (x - middle) * from_middle
                     } else {

@@ -1,16 +1,19 @@
-use carom_mesh::cell::MAX_FACET_NODES;
-use carom_mesh::{CellKind, Facet, Vector};
+use carom_mesh::{Facet, Vector};
+use smallvec::SmallVec;
 
+use crate::domain::Domain;
 use crate::patch::Patch;
-use crate::tolerances::SEARCH;
 
-/// The point of a facet, or of the curve over it, closest to a given one.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Weights of the nodes that a point follows; without an allocation for as many as there are around most facets.
+pub type Weights = SmallVec<[f64; 32]>;
+
+/// The point of a facet, or of the curve or smooth surface over it, closest to a given one.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Projection<'a, const D: usize> {
     /// The nodes that the point follows.
     pub nodes: &'a [u32],
     /// Their weights.
-    pub weights: [f64; MAX_FACET_NODES],
+    pub weights: Weights,
     /// The point [m].
     pub point: Vector<D>,
     /// Outward unit normal there.
@@ -40,26 +43,11 @@ pub fn project<'a, const D: usize>(
     if reach == Reach::Beyond {
         // Only at an edge is there a way to go on; inside, the distance is at right angles to the tangents already.
         let foot = at.foot(x);
-        let straight = clamp(facet.kind, [xi[0] + foot[0], xi[1] + foot[1]]);
+        let straight = Domain::of(facet.kind).reached([xi[0] + foot[0], xi[1] + foot[1]]);
         at.go_on([straight[0] - xi[0], straight[1] - xi[1]]);
     }
-    Projection { nodes: &facet.nodes, weights: at.weights, point: at.point, normal: normal(&at.tangents) }
-}
-
-/// The closest point of what a facet with `Reach::Beyond` covers, component by component.
-fn clamp(kind: CellKind, xi: [f64; 2]) -> [f64; 2] {
-    if kind.corner_count() != 3 {
-        let end = 1.0 + 2.0 * SEARCH.beyond;
-        return xi.map(|x| x.clamp(-end, end));
-    }
-    let mut xi = xi.map(|x| x.max(-SEARCH.beyond));
-    let sum = 1.0 + SEARCH.beyond;
-    let excess = xi[0] + xi[1] - sum;
-    if excess > 0.0 {
-        xi[0] = (xi[0] - 0.5 * excess).clamp(-SEARCH.beyond, sum + SEARCH.beyond);
-        xi[1] = sum - xi[0];
-    }
-    xi
+    let weights = Weights::from_slice(&at.weights[..facet.nodes.len()]);
+    Projection { nodes: &facet.nodes, weights, point: at.point, normal: normal(&at.tangents) }
 }
 
 /// The tangents' product [m^(D−1)], outward by the right-hand rule; in 2D to the right of the tangent.
@@ -84,6 +72,8 @@ pub fn normal<const D: usize>(t: &[Vector<D>; 2]) -> Vector<D> {
 
 #[cfg(test)]
 mod tests {
+    use carom_mesh::CellKind;
+
     use super::*;
 
     #[test]

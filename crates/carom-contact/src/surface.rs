@@ -1,6 +1,5 @@
 use std::collections::BTreeMap;
 
-use carom_mesh::cell::MAX_FACET_NODES;
 use carom_mesh::{CellKind, Facet, Surface, Vector};
 
 use crate::aabb::Aabb;
@@ -8,7 +7,8 @@ use crate::ball::Ball;
 use crate::curve::Curve;
 use crate::edge::Edge;
 use crate::patch::Patch;
-use crate::project::{Projection, Reach, area_normal, normal, project};
+use crate::project::{Projection, Reach, Weights, area_normal, normal, project};
+use crate::sheet::Sheet;
 use crate::tolerances::EDGES;
 
 /// The boundary of a body, its nodes numbered over all bodies.
@@ -46,6 +46,8 @@ enum Shape {
     Faceted,
     /// A curve with one segment per facet.
     Curved(Curve),
+    /// A smooth surface in space over some of its facets.
+    Tiled(Sheet),
 }
 
 impl ContactSurface {
@@ -118,15 +120,17 @@ impl ContactSurface {
         Self { is_meridian: true, ..self }
     }
 
-    /// The same boundary with a normal that turns continuously from facet to facet. As a target, a line is a cubic curve through
-    /// its nodes, so the gap of a node is a C¹ function of all positions.
+    /// The same boundary with a normal that turns continuously from facet to facet. As a target, a line is a cubic curve through its nodes, and
+    /// a surface in space a sheet of Gregory patches through them. So the gap of a node is a C¹ function of all positions.
     ///
-    /// `reference` are the positions [m] without deformation. Their distances weigh the tangents, and where the line turns by
-    /// more than 40° there it keeps its corner. Surfaces in space stay faceted.
+    /// `reference` are the positions [m] without deformation. Where the boundary turns by more than 40° there it keeps its edge or corner.
+    /// Lines of second order stay faceted.
     #[must_use]
     pub fn smoothed<const D: usize>(mut self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
         if self.facets.iter().all(|f| f.kind == CellKind::Line2) {
             self.shape = Shape::Curved(Curve::through(&self.facets, &|node| self.around(node), reference));
+        } else if self.facets.iter().all(|f| f.kind.dimension() == 2) {
+            self.shape = Shape::Tiled(Sheet::through(&self.facets, reference));
         }
         self
     }
@@ -168,24 +172,29 @@ impl ContactSurface {
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Projection<'_, D> {
         match &self.shape {
-            Shape::Faceted => project(x, &self.facets[f as usize], reach, position),
             Shape::Curved(curve) => curve.project(f, x, reach, position),
+            Shape::Tiled(sheet) if sheet.covers(f) => sheet.project(f, x, reach, position),
+            Shape::Tiled(_) | Shape::Faceted => project(x, &self.facets[f as usize], reach, position),
         }
     }
 
-    /// The nodes that a point of what the surface is over the facet `f` is a combination of.
-    pub(crate) fn nodes_over(&self, f: u32) -> &[u32] {
+    /// The nodes that a point of what the surface is over a part of the facet `f` is a combination of; parts are numbered as in `parts`.
+    pub(crate) fn nodes_over(&self, f: u32, part: usize) -> &[u32] {
         match &self.shape {
-            Shape::Faceted => &self.facets[f as usize].nodes,
             Shape::Curved(curve) => curve.nodes(f),
+            Shape::Tiled(sheet) if sheet.covers(f) => sheet.nodes(f, part),
+            Shape::Tiled(_) | Shape::Faceted => &self.facets[f as usize].nodes,
         }
     }
 
-    /// Their weights over the point of the facet where its shape functions are `shape`.
-    pub(crate) fn weights_over(&self, f: u32, shape: &[f64; MAX_FACET_NODES]) -> [f64; MAX_FACET_NODES] {
+    /// Their weights over the point where the shape functions of the facet are `shape` and the linear ones of the part `of_part`.
+    pub(crate) fn weights_over(&self, f: u32, part: usize, shape: &[f64], of_part: &[f64]) -> Weights {
         match &self.shape {
-            Shape::Faceted => *shape,
             Shape::Curved(curve) => curve.weights(f, shape[1]),
+            Shape::Tiled(sheet) if sheet.covers(f) => sheet.weights(f, part, of_part),
+            Shape::Tiled(_) | Shape::Faceted => {
+                Weights::from_slice(&shape[..self.facets[f as usize].nodes.len()])
+            }
         }
     }
 
@@ -203,11 +212,12 @@ impl ContactSurface {
     /// A box around what the surface is over the facet `f`.
     pub(crate) fn bounds<const D: usize>(&self, f: u32, position: &impl Fn(u32) -> Vector<D>) -> Aabb<D> {
         match &self.shape {
-            Shape::Faceted => {
+            Shape::Curved(curve) => Aabb::of(curve.control_points(f, position)),
+            Shape::Tiled(sheet) if sheet.covers(f) => Aabb::of(sheet.control_points(f, position)),
+            Shape::Tiled(_) | Shape::Faceted => {
                 let facet = &self.facets[f as usize];
                 Aabb::of(facet.nodes.iter().map(|&n| position(n))).scaled(overshoot(facet.kind))
             }
-            Shape::Curved(curve) => Aabb::of(curve.control_points(f, position)),
         }
     }
 

@@ -347,10 +347,3 @@ fn no_node_that_presses_into_a_valley_or_a_hill_is_missed() {
         }
     }
 }
-
-#[test]
-fn surfaces_in_space_stay_faceted() {
-    let mesh = generate::grid([0.0; 3], [1.0; 3], [2, 2, 2]).expect("valid");
-    let surface = ContactSurface::new(&Surface::of(&mesh), 0);
-    assert_eq!(surface.clone().smoothed(&|n| mesh.nodes()[n as usize]), surface);
-}

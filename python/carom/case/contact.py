@@ -136,9 +136,10 @@ class Contact(Description):
         one side, or of the body with the finer boundary. If the boundaries are alike, the finer is
         the first-named one. Left out, it is both; of mortar pairs and with ``massless`` the finer.
     targets
-        What they are checked against: a smooth curve through the boundary nodes of the other body,
-        or the facets of its mesh. The curve has a continuous tangent but for corners of more than
-        40° and along sides that are straight without deformation.
+        What they are checked against: a smooth curve, in space a smooth surface, through the
+        boundary nodes of the other body, or the facets of its mesh. Curve and surface have a
+        continuous tangent but for corners and edges of more than 40°, and along sides that are
+        straight or flat without deformation. In the plane, cells of second order have facets.
     discretisation
         How contact is written between two bodies that do not state their own: as gaps of the nodes
         of the source, or (mortar) as means under their shape functions. Mortar carries a uniform

@@ -6,15 +6,21 @@ use carom_mesh::Vector;
 use smallvec::SmallVec;
 
 use super::clip::{intersection, simplices, size};
-use super::parts::{MAX_FACET_NODES, parts};
 use super::plane::{Image, Plane};
 use super::quadrature::rule;
 use super::row::Row;
 use crate::ContactSurface;
+use crate::parts::{MAX_FACET_NODES, parts};
+use crate::project::Weights;
 use crate::tolerances::MORTAR;
 
-/// The integrals of two corners' multipliers and the shape functions of a facet.
-type Products = [[f64; MAX_FACET_NODES]; 4];
+/// The integrals of the multipliers of the corners of a part and the weights of the nodes over it.
+type Products = [Weights; 4];
+
+/// Nothing yet of this many nodes.
+fn products(nodes: usize) -> Products {
+    std::array::from_fn(|_| Weights::from_elem(0.0, nodes))
+}
 
 /// Adds to the rows of the nodes of the facet `source_facet` what they see of the facets `targets` of the other of two surfaces. `row_of` knows the places
 /// of the rows.
@@ -33,8 +39,8 @@ pub(super) fn integrate<const D: usize>(
 ) {
     let dimension = D - 1;
     let source = &of_source.facets[source_facet as usize];
-    let source_nodes = of_source.nodes_over(source_facet);
-    for &(kind, corners) in parts(source.kind) {
+    for (source_part, &(kind, corners)) in parts(source.kind).iter().enumerate() {
+        let source_nodes = of_source.nodes_over(source_facet, source_part);
         let places: SmallVec<[Vector<D>; 4]> = corners.iter().map(|&a| position(source.nodes[a])).collect();
         let Some(plane) = Plane::through(&places) else { continue };
         let in_plane = |&n: &u32| plane.coordinates(&position(n));
@@ -43,16 +49,18 @@ pub(super) fn integrate<const D: usize>(
         let outline = own.polygon(corners);
         let whole: f64 = simplices(dimension, &outline).map(|s| size(dimension, &s)).sum();
         let mut covered = [0.0; 4];
-        let mut with_source: Products = Default::default();
+        let mut with_source = products(source_nodes.len());
         let row: SmallVec<[Option<usize>; 4]> = corners.iter().map(|&a| row_of(source.nodes[a])).collect();
         for target_facet in targets.clone() {
             let target = &of_target.facets[target_facet as usize];
-            let target_nodes = of_target.nodes_over(target_facet);
             let other = Image::new(target.kind, target.nodes.iter().map(in_plane));
             let points = rule(dimension, source.kind != kind || parts(target.kind).len() > 1);
-            let mut with_target: Products = Default::default();
-            let mut overlap = 0.0;
-            for &(_, target_corners) in parts(target.kind) {
+            for (target_part, &(target_kind, target_corners)) in parts(target.kind).iter().enumerate() {
+                let target_nodes = of_target.nodes_over(target_facet, target_part);
+                let its_corners = target_corners.iter().map(|&c| other.node(c));
+                let other_part = Image::new(target_kind, its_corners);
+                let mut with_target = products(target_nodes.len());
+                let mut overlap = 0.0;
                 let common = intersection(dimension, &outline, &other.polygon(target_corners));
                 for simplex in simplices(dimension, &common) {
                     let simplex_size = size(dimension, &simplex);
@@ -60,12 +68,12 @@ pub(super) fn integrate<const D: usize>(
                         continue;
                     }
                     overlap += simplex_size;
-                    let mut values = [[0.0; MAX_FACET_NODES]; 3];
+                    let mut values = [[0.0; MAX_FACET_NODES]; 4];
                     for (barycentric, share) in points {
                         let point = std::array::from_fn(|i| {
                             barycentric.iter().zip(&simplex).map(|(l, corner)| l * corner[i]).sum()
                         });
-                        let [multiplier, source_shape, target_shape] = &mut values;
+                        let [multiplier, source_shape, target_shape, over_target] = &mut values;
                         own.shape_at(&point, source_shape);
                         if kind == source.kind {
                             *multiplier = *source_shape;
@@ -73,14 +81,21 @@ pub(super) fn integrate<const D: usize>(
                             part.shape_at(&point, multiplier);
                         }
                         other.shape_at(&point, target_shape);
+                        if target_kind == target.kind {
+                            *over_target = *target_shape;
+                        } else {
+                            other_part.shape_at(&point, over_target);
+                        }
                         let mut measure = share * simplex_size;
                         if of_source.is_meridian {
                             let nodes = source.nodes.iter().zip(&*source_shape);
                             let radius: f64 = nodes.map(|(&n, shape)| shape * position(n)[0]).sum();
                             measure *= TAU * radius;
                         }
-                        let source_weights = of_source.weights_over(source_facet, source_shape);
-                        let target_weights = of_target.weights_over(target_facet, target_shape);
+                        let source_weights =
+                            of_source.weights_over(source_facet, source_part, source_shape, multiplier);
+                        let target_weights =
+                            of_target.weights_over(target_facet, target_part, target_shape, over_target);
                         for v in 0..corners.len() {
                             let weight = measure * multiplier[v];
                             covered[v] += weight;
@@ -93,11 +108,11 @@ pub(super) fn integrate<const D: usize>(
                         }
                     }
                 }
-            }
-            if overlap > 0.0 {
-                for (row, products) in row.iter().zip(&with_target) {
-                    let Some(k) = *row else { continue };
-                    target_nodes.iter().zip(products).for_each(|(&n, &m)| rows[k].add_target(n, m));
+                if overlap > 0.0 {
+                    for (row, products) in row.iter().zip(&with_target) {
+                        let Some(k) = *row else { continue };
+                        target_nodes.iter().zip(products).for_each(|(&n, &m)| rows[k].add_target(n, m));
+                    }
                 }
             }
         }

@@ -23,7 +23,6 @@
 mod clip;
 mod facing;
 mod integrate;
-mod parts;
 mod plane;
 mod quadrature;
 mod row;

@@ -3,8 +3,8 @@
 use carom_mesh::{CellKind, Matrix, Vector};
 
 use super::clip::{Point, Polygon, orient};
-use super::parts::{self, MAX_FACET_NODES};
 use crate::frame::frame;
+use crate::parts::{self, MAX_FACET_NODES};
 use crate::project;
 
 /// A plane in space, or a line in the plane, with coordinates of its own.
@@ -63,6 +63,11 @@ impl Image {
         let mut image = Self { kind, nodes: [[0.0; 2]; MAX_FACET_NODES] };
         image.nodes.iter_mut().zip(nodes).for_each(|(own, node)| *own = node);
         image
+    }
+
+    /// Where a node is.
+    pub fn node(&self, a: usize) -> Point {
+        self.nodes[a]
     }
 
     /// The polygon with these nodes as corners.

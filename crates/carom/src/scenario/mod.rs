@@ -445,7 +445,7 @@ pub enum Sources {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Targets {
-    /// A curve through the nodes with a continuous tangent, but for corners of more than 40°.
+    /// A curve or, in space, a surface through the nodes with a continuous tangent, but for corners and edges of more than 40°.
     #[default]
     Smooth,
     /// The facets of the mesh.

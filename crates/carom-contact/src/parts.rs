@@ -2,13 +2,13 @@
 
 use carom_mesh::CellKind;
 
-pub(super) use carom_mesh::cell::MAX_FACET_NODES;
+pub(crate) use carom_mesh::cell::MAX_FACET_NODES;
 
 /// A part of a facet: its kind and the nodes of the facet that are its corners.
-pub(super) type Part = (CellKind, &'static [usize]);
+pub(crate) type Part = (CellKind, &'static [usize]);
 
 /// The parts of a facet. Every node of the facet is a corner of one at least.
-pub(super) fn parts(kind: CellKind) -> &'static [Part] {
+pub(crate) fn parts(kind: CellKind) -> &'static [Part] {
     match kind {
         CellKind::Line2 => &[(CellKind::Line2, &[0, 1])],
         CellKind::Tri3 => &[(CellKind::Tri3, &[0, 1, 2])],
@@ -39,6 +39,6 @@ pub(super) fn parts(kind: CellKind) -> &'static [Part] {
 }
 
 /// Whether the reference domain is a triangle.
-pub(super) fn is_triangle(kind: CellKind) -> bool {
+pub(crate) fn is_triangle(kind: CellKind) -> bool {
     matches!(kind, CellKind::Tri3 | CellKind::Tri6)
 }

@@ -1,0 +1,43 @@
+"""Round bodies in space meet as smooth surfaces: what is kept, and what facets miss."""
+
+import pytest
+import round_targets
+
+CONDITIONS = ("gap", "midpoint", "massless")
+
+
+@pytest.mark.parametrize("condition", CONDITIONS)
+@pytest.mark.parametrize("friction", [0.0, 0.2])
+def test_books_of_a_collision_close_to_round_off(condition, friction):
+    run = round_targets.collision("smooth", condition=condition, friction=friction)
+    assert run.history["contacts"].max() > 0
+    assert run.energy("max_defect") < 2e-13
+    if condition != "gap":
+        assert abs(run.energy("normal_contact")) < 2e-13
+        if friction == 0.0:
+            assert run.energy("max_drift") < 2e-13
+    momentum, angular = round_targets.momentum_changes(run)
+    assert momentum < 1e-14
+    # With friction, a contact that lands within a step is rubbed across the gap that it had.
+    if condition == "massless" or (condition, friction) == ("midpoint", 0.0):
+        assert angular < 1e-13
+
+
+@pytest.mark.parametrize("cell", ["tet4", "tet10", "hex20", "hex27"])
+def test_any_cells_conserve_energy(cell):
+    divisions = 4 if cell == "tet4" else 2
+    run = round_targets.collision(
+        "smooth", condition="midpoint", friction=0.0, cell=cell, divisions=divisions
+    )
+    assert run.history["contacts"].max() > 0
+    assert run.energy("max_drift") < 1e-12
+    assert max(round_targets.momentum_changes(run)) < 1e-12
+
+
+def test_a_shaft_fits_into_a_hub_with_other_facets():
+    """Facets of 24 on 16 are inside one another by six times the interference."""
+    faceted, smooth = (
+        round_targets.fit(targets, "node-to-segment", "hex8") for targets in round_targets.TARGETS
+    )
+    assert abs(smooth.error) < 0.005
+    assert abs(faceted.error) > 1.0
