@@ -83,6 +83,24 @@ def _contact(way: Way, discretisation: Discretisation, friction: float) -> carom
     return carom.Contact(friction=friction, discretisation=discretisation)
 
 
+def free_to_turn(cell: str, discretisation: Discretisation) -> carom.Scenario:
+    """Return the fit of a slice that nothing supports, without friction."""
+    steel = carom.NeoHookean(young=YOUNG, poisson=POISSON, density=7800.0)
+    shaft = carom.Disc(centre=(0.0, 0.0), radius=RADIUS, divisions=8, cell=cell)
+    hub = carom.Ring(
+        centre=(0.0, 0.0), inner_radius=RADIUS, outer_radius=OUTER, divisions=(48, 8), cell=cell
+    )
+    return carom.Scenario(
+        analysis=carom.Static(end_time=1.0, time_step=0.25),
+        materials={"steel": steel},
+        bodies=[
+            carom.Body(name=name, material="steel", mesh=mesh)
+            for name, mesh in (("shaft", shaft), ("hub", hub))
+        ],
+        contact=_contact("interference", discretisation, 0.0),
+    )
+
+
 STEEL = carom.LinearElastic(young=YOUNG, poisson=POISSON, density=7800.0)
 
 

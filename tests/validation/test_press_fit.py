@@ -1,9 +1,13 @@
 """A shaft in a hub presses as Lamé says, however it was fitted, and comes out at μ p A."""
 
+import warnings
+
 import press_fits
 import pytest
 from press_fits import DISCRETISATIONS, WAYS
 from runs import observed_order
+
+import carom
 
 DIVISIONS = {"slice": (8, 16, 32), "revolution": (4, 8, 16)}
 
@@ -31,6 +35,28 @@ def test_a_shaft_is_pulled_out_by_what_friction_bears(discretisation, way):
     # Measured: 3.1e-4; the slide of 20 µm takes the shaft a thousandth of its length out.
     assert abs(pull.error) < 1e-3
     assert pull.force == pytest.approx(press_fits.FRICTION * pull.history["normal_force"], rel=5e-4)
+
+
+@pytest.mark.parametrize("discretisation", DISCRETISATIONS)
+@pytest.mark.parametrize(
+    ("cell", "bound"), [("tri3", 0.02), ("tri6", 1e-3), ("quad8", 1e-3), ("quad9", 1e-3)]
+)
+def test_a_fit_that_nothing_keeps_from_turning_presses_as_lame_says(
+    cell, bound, discretisation, tmp_path
+):
+    # Between facets that do not match there is a moment; without friction nothing bears it.
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always")
+        result = carom.run(press_fits.free_to_turn(cell, discretisation), out=tmp_path)
+    assert result.summary["status"] == "completed"
+    # Measured: 6.4e-3 (tri3) and 3.8e-4.
+    assert result.history["normal_force"][-1] == pytest.approx(press_fits.lame(1.0), rel=bound)
+    left = result.summary.get("free_motion")
+    codes = {warning.message.code for warning in heard if hasattr(warning.message, "code")}
+    assert ("free-motion" in codes) == (left is not None)
+    if cell == "tri3":
+        assert left["motion"] == "turn about z"
+        assert 0.0 < left["driving"] < 1e-5
 
 
 @pytest.mark.parametrize("discretisation", DISCRETISATIONS)

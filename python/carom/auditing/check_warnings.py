@@ -65,6 +65,8 @@ def _due(summary: Mapping[str, Any]) -> Iterator[tuple[str, str, Figures]]:
         yield "ledger-defect", "energy.max_defect", (share, LARGE_DEFECT)
     worst = summary["penetration"]["worst"] or {"depth": 0.0, "allowed": 0.0}
     yield "penetration", "penetration.worst", (worst["depth"], worst["allowed"])
+    free = summary.get("free_motion") or {"driving": 0.0}
+    yield "free-motion", "free_motion.driving", (free["driving"], 0.0)
     second = summary["cross_check"] or {"disagreements": 0, "unsolved": 0}
     for code, key in (("contact-not-unique", "disagreements"), ("contact-unchecked", "unsolved")):
         yield code, f"cross_check.{key}", (float(second[key]), 0.0)

@@ -79,7 +79,7 @@ class Law:
     @classmethod
     def none(cls) -> Law:
         """Return the law of a rigid body: no stress and no energy."""
-        return cls(kind="saint-venant-kirchhoff", first=0.0, second=0.0)
+        return cls("saint-venant-kirchhoff", first=0.0, second=0.0, initial=np.zeros((3, 3)))
 
     @property
     def objective(self) -> bool:
@@ -104,6 +104,8 @@ class Law:
     def _stored(self) -> float:
         """½ S₀:E₀ [J/m³] where E₀ is the strain that S₀ takes, in plane strain."""
         stress = self._held
+        if not stress.any():
+            return 0.0
         pressure = self.first / (2 * (self.first + self.second)) * np.trace(stress)
         return 0.25 / self.second * float(np.sum(stress * (stress - pressure * IDENTITY)))
 

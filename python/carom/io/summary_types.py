@@ -57,6 +57,17 @@ class PenetrationSummary(TypedDict):
     worst: WorstPenetration | None
 
 
+class FreeMotionSummary(TypedDict):
+    """A motion that nothing resists and next to nothing drives, which static steps left undone.
+
+    ``driving`` is what drives it in terms of the sum of all reactions.
+    """
+
+    body: str
+    motion: str
+    driving: float
+
+
 class BodySummary(BodyTerms):
     """The books of a body."""
 
@@ -142,6 +153,7 @@ class Summary(TypedDict):
     max_blend: float
     least_friction: float
     min_gap: float | None
+    free_motion: NotRequired[FreeMotionSummary]
     penetration: NotRequired[PenetrationSummary]
     cross_check: CrossCheckSummary | None
     contacts: list[ContactEvent]

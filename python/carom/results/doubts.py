@@ -108,6 +108,15 @@ def doubts(summary: Mapping[str, Any]) -> Iterator[Doubt]:
             worst["depth"],
             worst["allowed"],
         )
+    if (free := summary.get("free_motion")) is not None:
+        yield Doubt(
+            "free-motion",
+            f"body {free['body']!r} is free to {free['motion']}: it was left where it is, as no more "
+            f"than {free['driving']:.1g} of what presses drives it; support it, or give friction",
+            "free_motion.driving",
+            free["driving"],
+            0.0,
+        )
     if (check := summary["cross_check"]) is not None:
         yield from _unconfirmed(check)
 

@@ -9,6 +9,7 @@ use crate::run::account::Account;
 use crate::run::events::{ContactEvent, EventLog};
 use crate::run::history::History;
 use crate::run::totals::{Totals, Worst};
+use crate::step::hold::FreeMotion;
 use crate::step::report::Inside;
 use crate::{Books, NamedPair, Simulation};
 
@@ -76,6 +77,7 @@ fn totals(archive: &mut Archive<'_>, t: &mut Totals) -> Done {
     ];
     archive.numbers("totals/sizes", sizes)?;
     penetration(archive, t)?;
+    free_motion(archive, t)?;
     archive.extremes("totals/min_gap", [&mut t.min_gap])
 }
 
@@ -93,6 +95,19 @@ fn penetration(archive: &mut Archive<'_>, t: &mut Totals) -> Done {
     *between = who.map(|[kind, i]| if kind == 0 { Solid::Body(i) } else { Solid::Obstacle(i) });
     archive.numbers("totals/worst_place", [depth, cell, arcs, allowed, time].into_iter().chain(at))?;
     t.worst_penetration = (worst.inside.depth > 0.0).then_some(worst);
+    Ok(())
+}
+
+fn free_motion(archive: &mut Archive<'_>, t: &mut Totals) -> Done {
+    // Nothing is left undone that nothing drives.
+    let none = FreeMotion { body: 0, along: [0.0; 3], spin: [0.0; 3], touches: false, driving: 0.0 };
+    let mut motion = t.free_motion.unwrap_or(none);
+    let FreeMotion { body, along, spin, touches, driving } = &mut motion;
+    let mut touching = usize::from(*touches);
+    archive.integers("totals/free_body", [body, &mut touching])?;
+    *touches = touching == 1;
+    archive.numbers("totals/free_motion", along.iter_mut().chain(spin).chain([driving]))?;
+    t.free_motion = (motion.driving > 0.0).then_some(motion);
     Ok(())
 }
 

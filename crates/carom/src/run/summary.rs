@@ -89,6 +89,17 @@ pub struct WorstPenetration {
     pub at: [f64; 3],
 }
 
+/// A motion of a body that neither supports nor contacts resist, that next to nothing drives, and that static steps left undone.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FreeMotionSummary {
+    /// Name of the body.
+    pub body: String,
+    /// The motion in words, such as "turn about z".
+    pub motion: String,
+    /// What drives it, in terms of the sum of all reactions: the largest of the run.
+    pub driving: f64,
+}
+
 /// The books of a body at the end.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BodySummary {
@@ -160,6 +171,9 @@ pub struct Summary {
     pub min_gap: f64,
     /// How deep solids were in one another.
     pub penetration: PenetrationSummary,
+    /// The motion that static steps left undone, if they did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub free_motion: Option<FreeMotionSummary>,
     /// What a second solver said of the contact problems, if it was asked.
     pub cross_check: Option<CrossCheckSummary>,
     /// Contact events.
@@ -195,6 +209,12 @@ pub struct StageSummary {
 }
 
 impl<const D: usize> Simulation<D> {
+    fn free_motion(&self) -> Option<FreeMotionSummary> {
+        let found = self.totals.free_motion?;
+        let body = self.model().assembly.name(found.body).to_string();
+        Some(FreeMotionSummary { body, motion: found.in_words::<D>(), driving: found.driving })
+    }
+
     fn penetration(&self) -> PenetrationSummary {
         let worst = self.totals.worst_penetration.map(|Worst { inside, allowed, time }| {
             let Inside { between, depth, cell, at, .. } = inside;
@@ -277,6 +297,7 @@ impl<const D: usize> Simulation<D> {
             least_friction: t.least_friction,
             min_gap: t.min_gap,
             penetration: self.penetration(),
+            free_motion: self.free_motion(),
             cross_check: self.stage().method.cross_check.then(|| self.cross_checks.clone()),
             contacts: self.events.events(self.state.time),
             stages: self.stages_so_far(),

@@ -1,3 +1,4 @@
+use crate::step::hold::FreeMotion;
 use crate::step::report::{Inside, StepReport};
 use crate::{Books, Energies, Method};
 
@@ -26,6 +27,8 @@ pub(crate) struct Totals {
     pub max_travel: f64,
     /// Largest depth of solids in one another at the end of a step [m].
     pub max_penetration: f64,
+    /// The free motion of a load step that was driven most, and left undone.
+    pub free_motion: Option<FreeMotion>,
     /// Where they were deepest in terms of what is allowed.
     pub worst_penetration: Option<Worst>,
 }
@@ -67,6 +70,7 @@ impl Totals {
             min_gap: f64::INFINITY,
             max_travel: 0.0,
             max_penetration: 0.0,
+            free_motion: None,
             worst_penetration: None,
         }
     }
@@ -94,6 +98,10 @@ impl Totals {
         self.min_gap = self.min_gap.min(report.min_gap);
         self.max_travel = self.max_travel.max(report.travel);
         self.max_penetration = self.max_penetration.max(report.penetration.depth);
+        let driving = |motion: Option<FreeMotion>| motion.map_or(0.0, |motion| motion.driving);
+        if driving(report.free_motion) > driving(self.free_motion) {
+            self.free_motion = report.free_motion;
+        }
     }
 
     /// Takes note of how deep solids were in one another at a `time` [s], by what the `method` allows.

@@ -24,7 +24,12 @@ pub(super) fn commit<const D: usize>(
     newton_iterations: usize,
 ) -> Result<StepReport, StepError> {
     let Given { assembly, interval, .. } = *given;
-    let mut report = StepReport { newton_iterations, min_gap: f64::INFINITY, ..StepReport::default() };
+    let mut report = StepReport {
+        newton_iterations,
+        min_gap: f64::INFINITY,
+        free_motion: work.newton.free_motion,
+        ..StepReport::default()
+    };
     next.time = interval.end;
     keep_contacts(given, next, work, &mut report);
     if interval.is_blended {

@@ -254,13 +254,13 @@ pub(super) fn not_held<const D: usize>(
 pub struct FreeMotion {
     /// The body.
     pub body: usize,
-    /// What drives it, in terms of what presses: along the axes,
-    along: [f64; 3],
-    /// about them,
-    spin: [f64; 3],
+    /// What drives it [N]: along the axes,
+    pub along: [f64; 3],
+    /// about them, by the size of the body,
+    pub spin: [f64; 3],
     /// and whether it touches anything.
-    touches: bool,
-    /// Force that drives it, or moment by the size of the body, in terms of the sum of the reactions.
+    pub touches: bool,
+    /// All that drives free motions, in terms of the sum of the reactions.
     pub driving: f64,
 }
 

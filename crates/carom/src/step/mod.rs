@@ -5,7 +5,7 @@ mod commit;
 mod control;
 mod correction;
 mod equilibrate;
-mod hold;
+pub(crate) mod hold;
 mod impulse;
 mod iterate;
 mod landing;

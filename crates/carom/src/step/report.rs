@@ -2,6 +2,7 @@ use carom_contact::Solid;
 
 use crate::contact::cross_check::CrossCheck;
 use crate::ledger::{Ledger, PairLedger};
+use crate::step::hold::FreeMotion;
 
 /// What a pair did in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -65,6 +66,8 @@ pub struct StepReport {
     pub reaction_work: f64,
     /// What a second solver says of the last contact problem, if it was asked.
     pub cross_check: Option<CrossCheck>,
+    /// What drives a motion of a load step that nothing resists, and that was left undone.
+    pub free_motion: Option<FreeMotion>,
     /// What happened to the energy.
     pub ledger: Ledger,
 }
