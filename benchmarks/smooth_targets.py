@@ -62,7 +62,7 @@ def box() -> str:
 def slide() -> str:
     """Return the table of the sliding ball."""
     rows = []
-    for divisions in (6, 12):
+    for divisions in (6, 10):
         for targets in round_targets.TARGETS:
             run = round_targets.slide(targets, divisions=divisions)
             ripple = f"{100 * round_targets.ripple(run, 1.0, 1):.1f} %"
