@@ -34,10 +34,14 @@ def test_any_cells_conserve_energy(cell):
     assert max(round_targets.momentum_changes(run)) < 1e-12
 
 
-def test_a_shaft_fits_into_a_hub_with_other_facets():
-    """Facets of 24 on 16 are inside one another by six times the interference."""
+@pytest.mark.parametrize("discretisation", ["node-to-segment", "mortar"])
+def test_a_shaft_fits_into_a_hub_with_other_facets(discretisation):
+    """The chords of 48 and 32 facets are inside one another by more than the interference.
+
+    Nodes press far too much on them, and multipliers, which mean over chords, do not press at all.
+    """
     faceted, smooth = (
-        round_targets.fit(targets, "node-to-segment", "hex8") for targets in round_targets.TARGETS
+        round_targets.fit_error(targets, discretisation, 8) for targets in round_targets.TARGETS
     )
-    assert abs(smooth.error) < 0.005
-    assert abs(faceted.error) > 1.0
+    assert abs(smooth) < 0.04
+    assert abs(faceted) >= 1.0

@@ -84,6 +84,11 @@ impl Curve {
         segment.foot(&offset, x, ENDS[from.unwrap_or(0)], 0.0)
     }
 
+    /// Whether a segment is more than the straight line between its ends.
+    pub fn is_curved(&self, segment: u32) -> bool {
+        self.segments[segment as usize].len > 2
+    }
+
     /// The nodes that a segment is a combination of.
     pub fn nodes(&self, segment: u32) -> &[u32] {
         let segment = &self.segments[segment as usize];

@@ -178,6 +178,15 @@ impl ContactSurface {
         }
     }
 
+    /// Whether the surface is not what the cells say over a facet.
+    pub(crate) fn is_smooth_over(&self, f: u32) -> bool {
+        match &self.shape {
+            Shape::Curved(curve) => curve.is_curved(f),
+            Shape::Tiled(sheet) => sheet.covers(f),
+            Shape::Faceted => false,
+        }
+    }
+
     /// The nodes that a point of what the surface is over a part of the facet `f` is a combination of; parts are numbered as in `parts`.
     pub(crate) fn nodes_over(&self, f: u32, part: usize) -> &[u32] {
         match &self.shape {

@@ -11,7 +11,7 @@ use super::quadrature::rule;
 use super::row::Row;
 use crate::ContactSurface;
 use crate::parts::{MAX_FACET_NODES, parts};
-use crate::project::Weights;
+use crate::project::{Reach, Weights};
 use crate::tolerances::MORTAR;
 
 /// The integrals of the multipliers of the corners of a part and the weights of the nodes over it.
@@ -27,7 +27,9 @@ fn products(nodes: usize) -> Products {
 ///
 /// Each part of the source is a plane, in which the facets are cut against it exactly; along its normal the points of both sides
 /// face one another. Multipliers are the linear shape functions of the parts, and places those of the surfaces over the facets: between
-/// the chords of two round sides with unequal facets there would be a clearance, or an overlap, of the size of their sagittas. On the
+/// the chords of two round sides with unequal facets there would be a clearance, or an overlap, of the size of their sagittas. What faces a point
+/// of the source is then the closest point of the target. Where two smooth sides were only compared at one place of their planes, these
+/// points were beside one another, and the pair of forces had a moment. On the
 /// meridian of a body of revolution a point counts as its circle, 2πr.
 pub(super) fn integrate<const D: usize>(
     [of_source, of_target]: [&ContactSurface; 2],
@@ -55,12 +57,10 @@ pub(super) fn integrate<const D: usize>(
             let target = &of_target.facets[target_facet as usize];
             let other = Image::new(target.kind, target.nodes.iter().map(in_plane));
             let points = rule(dimension, source.kind != kind || parts(target.kind).len() > 1);
-            for (target_part, &(target_kind, target_corners)) in parts(target.kind).iter().enumerate() {
-                let target_nodes = of_target.nodes_over(target_facet, target_part);
-                let its_corners = target_corners.iter().map(|&c| other.node(c));
-                let other_part = Image::new(target_kind, its_corners);
-                let mut with_target = products(target_nodes.len());
-                let mut overlap = 0.0;
+            let is_smooth = of_target.is_smooth_over(target_facet);
+            let mut with_target = products(target.nodes.len());
+            let mut overlap = 0.0;
+            for &(_, target_corners) in parts(target.kind) {
                 let common = intersection(dimension, &outline, &other.polygon(target_corners));
                 for simplex in simplices(dimension, &common) {
                     let simplex_size = size(dimension, &simplex);
@@ -68,12 +68,12 @@ pub(super) fn integrate<const D: usize>(
                         continue;
                     }
                     overlap += simplex_size;
-                    let mut values = [[0.0; MAX_FACET_NODES]; 4];
+                    let mut values = [[0.0; MAX_FACET_NODES]; 3];
                     for (barycentric, share) in points {
                         let point = std::array::from_fn(|i| {
                             barycentric.iter().zip(&simplex).map(|(l, corner)| l * corner[i]).sum()
                         });
-                        let [multiplier, source_shape, target_shape, over_target] = &mut values;
+                        let [multiplier, source_shape, target_shape] = &mut values;
                         own.shape_at(&point, source_shape);
                         if kind == source.kind {
                             *multiplier = *source_shape;
@@ -81,11 +81,6 @@ pub(super) fn integrate<const D: usize>(
                             part.shape_at(&point, multiplier);
                         }
                         other.shape_at(&point, target_shape);
-                        if target_kind == target.kind {
-                            *over_target = *target_shape;
-                        } else {
-                            other_part.shape_at(&point, over_target);
-                        }
                         let mut measure = share * simplex_size;
                         if of_source.is_meridian {
                             let nodes = source.nodes.iter().zip(&*source_shape);
@@ -94,25 +89,37 @@ pub(super) fn integrate<const D: usize>(
                         }
                         let source_weights =
                             of_source.weights_over(source_facet, source_part, source_shape, multiplier);
-                        let target_weights =
-                            of_target.weights_over(target_facet, target_part, target_shape, over_target);
-                        for v in 0..corners.len() {
-                            let weight = measure * multiplier[v];
+                        let weights: SmallVec<[f64; 4]> =
+                            multiplier[..corners.len()].iter().map(|m| measure * m).collect();
+                        for (v, weight) in weights.iter().enumerate() {
                             covered[v] += weight;
-                            for a in 0..source_nodes.len() {
-                                with_source[v][a] += weight * source_weights[a];
+                            for (sum, source_weight) in with_source[v].iter_mut().zip(&source_weights) {
+                                *sum += weight * source_weight;
                             }
-                            for c in 0..target_nodes.len() {
-                                with_target[v][c] += weight * target_weights[c];
+                        }
+                        if is_smooth {
+                            let nodes = source_nodes.iter().zip(&source_weights);
+                            let x = nodes.fold(Vector::zeros(), |x, (&n, &w)| x + position(n) * w);
+                            let foot = of_target.project(target_facet, &x, Reach::Beyond, position);
+                            for (row, weight) in row.iter().zip(&weights) {
+                                let Some(k) = *row else { continue };
+                                let shares = foot.nodes.iter().zip(&foot.weights);
+                                shares.for_each(|(&n, &w)| rows[k].add_target(n, weight * w));
+                            }
+                            continue;
+                        }
+                        for (products, weight) in with_target.iter_mut().zip(&weights) {
+                            for (sum, shape) in products.iter_mut().zip(&*target_shape) {
+                                *sum += weight * shape;
                             }
                         }
                     }
                 }
-                if overlap > 0.0 {
-                    for (row, products) in row.iter().zip(&with_target) {
-                        let Some(k) = *row else { continue };
-                        target_nodes.iter().zip(products).for_each(|(&n, &m)| rows[k].add_target(n, m));
-                    }
+            }
+            if overlap > 0.0 && !is_smooth {
+                for (row, products) in row.iter().zip(&with_target) {
+                    let Some(k) = *row else { continue };
+                    target.nodes.iter().zip(products).for_each(|(&n, &m)| rows[k].add_target(n, m));
                 }
             }
         }

@@ -65,11 +65,6 @@ impl Image {
         image
     }
 
-    /// Where a node is.
-    pub fn node(&self, a: usize) -> Point {
-        self.nodes[a]
-    }
-
     /// The polygon with these nodes as corners.
     pub fn polygon(&self, corners: &[usize]) -> Polygon {
         let mut polygon: Polygon = corners.iter().map(|&a| self.nodes[a]).collect();
