@@ -111,8 +111,9 @@ def doubts(summary: Mapping[str, Any]) -> Iterator[Doubt]:
     if (free := summary.get("free_motion")) is not None:
         yield Doubt(
             "free-motion",
-            f"body {free['body']!r} is free to {free['motion']}: it was left where it is, as no more "
-            f"than {free['driving']:.1g} of what presses drives it; support it, or give friction",
+            f"body {free['body']!r} is free to {free['motion']}: it was left where it is, as no "
+            f"more than {free['driving']:.1g} of what presses drives it; support it, or give "
+            "friction",
             "free_motion.driving",
             free["driving"],
             0.0,

@@ -9,7 +9,7 @@ use crate::run::account::Account;
 use crate::run::events::{ContactEvent, EventLog};
 use crate::run::history::History;
 use crate::run::totals::{Totals, Worst};
-use crate::step::hold::FreeMotion;
+use crate::step::free_motion::FreeMotion;
 use crate::step::report::Inside;
 use crate::{Books, NamedPair, Simulation};
 

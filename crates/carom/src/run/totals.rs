@@ -1,4 +1,4 @@
-use crate::step::hold::FreeMotion;
+use crate::step::free_motion::FreeMotion;
 use crate::step::report::{Inside, StepReport};
 use crate::{Books, Energies, Method};
 

@@ -1,9 +1,11 @@
 //! Which rigid motion neither supports nor closed contacts resist, of bodies that do not come to rest in a load step.
 
 use carom_fem::rigid_motion;
-use carom_mesh::Vector;
+use carom_mesh::{Vector, nodal};
 use nalgebra::{DMatrix, DVector};
 
+use super::free_motion::FreeMotion;
+use super::newton::left_alone::{leave_out, normalise};
 use super::workspace::Workspace;
 use crate::contact::stiffened::held_directions;
 use crate::error::StepError;
@@ -198,7 +200,7 @@ impl<'a, const D: usize> FreeMotions<'a, D> {
             leave_out(&field, &mut rest);
             known.push(field);
         }
-        dot(&rest, &rest) <= ALIKE * ALIKE * dot(motion, motion)
+        nodal::dot(&rest, &rest) <= ALIKE * ALIKE * nodal::dot(motion, motion)
     }
 }
 
@@ -234,7 +236,7 @@ pub(super) fn driven_least<const D: usize>(
     let free = FreeMotions::of(bodies, NEARLY_FREE, given, next, work);
     let driven = free.driven();
     match driven {
-        Some(found) if !free.is_nearly_at_rest() => Err(found.as_error(given)),
+        Some(found) if !free.is_nearly_at_rest() => Err(as_error(&found, given)),
         _ => Ok(driven),
     }
 }
@@ -246,68 +248,10 @@ pub(super) fn not_held<const D: usize>(
     next: &State<D>,
     work: &Workspace<D>,
 ) -> Option<StepError> {
-    Some(FreeMotions::of(bodies, FREE, given, next, work).driven()?.as_error(given))
+    Some(as_error(&FreeMotions::of(bodies, FREE, given, next, work).driven()?, given))
 }
 
-/// A rigid motion of a body that nothing resists and something drives.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FreeMotion {
-    /// The body.
-    pub body: usize,
-    /// What drives it [N]: along the axes,
-    pub along: [f64; 3],
-    /// about them, by the size of the body,
-    pub spin: [f64; 3],
-    /// and whether it touches anything.
-    pub touches: bool,
-    /// All that drives free motions, in terms of the sum of the reactions.
-    pub driving: f64,
-}
-
-impl FreeMotion {
-    /// How the motion in D dimensions is called.
-    #[must_use]
-    pub fn in_words<const D: usize>(&self) -> String {
-        in_words(&self.along[..D], &self.spin, self.touches)
-    }
-
-    fn as_error<const D: usize>(&self, given: &Given<'_, D>) -> StepError {
-        StepError::NotHeld { body: given.assembly.name(self.body).to_string(), motion: self.in_words::<D>() }
-    }
-}
-
-/// Leaves a motion of unit length out of another.
-pub(super) fn leave_out<const D: usize>(unit: &[Vector<D>], of: &mut [Vector<D>]) {
-    let part = dot(unit, of);
-    of.iter_mut().zip(unit).for_each(|(x, unit)| *x -= unit * part);
-}
-
-fn normalise<const D: usize>(motion: &mut [Vector<D>]) {
-    let length = dot(motion, motion).sqrt();
-    motion.iter_mut().for_each(|x| *x /= length);
-}
-
-fn dot<const D: usize>(a: &[Vector<D>], b: &[Vector<D>]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
-}
-
-/// How a rigid motion along and about these axes, of a body that touches others or none, is called.
-fn in_words(along: &[f64], spin: &[f64; 3], touches: bool) -> String {
-    let size = |axis: &[f64]| axis.iter().map(|x| x * x).sum::<f64>();
-    let turns = size(spin) > size(along);
-    let (verb, axis) = match (turns, touches) {
-        (true, _) => ("turn about", &spin[..]),
-        (false, true) => ("slide along", along),
-        (false, false) => ("move along", along),
-    };
-    let length = size(axis).sqrt();
-    let main = axis.iter().position(|x| x.abs() > 0.99 * length);
-    let name = main.map_or_else(
-        || {
-            let parts: Vec<String> = axis.iter().map(|x| format!("{:.2}", x / length)).collect();
-            format!("({})", parts.join(", "))
-        },
-        |k| ["x", "y", "z"][k].to_string(),
-    );
-    format!("{verb} {name}")
+fn as_error<const D: usize>(found: &FreeMotion, given: &Given<'_, D>) -> StepError {
+    let body = given.assembly.name(found.body).to_string();
+    StepError::NotHeld { body, motion: found.in_words::<D>() }
 }

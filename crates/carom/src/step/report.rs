@@ -2,7 +2,7 @@ use carom_contact::Solid;
 
 use crate::contact::cross_check::CrossCheck;
 use crate::ledger::{Ledger, PairLedger};
-use crate::step::hold::FreeMotion;
+use crate::step::free_motion::FreeMotion;
 
 /// What a pair did in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

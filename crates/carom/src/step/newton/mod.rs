@@ -4,6 +4,7 @@ pub(super) mod acceleration;
 pub(super) mod control;
 pub(super) mod convergence;
 pub(super) mod holding;
+pub(super) mod left_alone;
 pub(super) mod load_step;
 
 use carom_mesh::{Vector, nodal};
@@ -11,7 +12,8 @@ use carom_mesh::{Vector, nodal};
 use self::acceleration::Acceleration;
 use self::convergence::BodyProgress;
 use self::holding::Holding;
-use super::hold::{FreeMotion, leave_out};
+use self::left_alone::leave_out;
+use super::free_motion::FreeMotion;
 use crate::contact::active::ActiveSet;
 use crate::model::assembly::Assembly;
 
