@@ -122,6 +122,37 @@ def test_a_turning_drum_drags_what_it_presses(tmp_path):
     assert history["block.v_x"][-1] == pytest.approx(friction * pressing * end, rel=1e-3)
 
 
+@pytest.mark.parametrize("condition", ["midpoint", "gap", "endpoint"])
+@pytest.mark.parametrize(
+    "guide",
+    [
+        {"x": "0.1*t"},
+        {"x": "0.1*t", "turn_z": "2*t"},
+    ],
+)
+def test_what_guides_a_body_that_lands_is_in_the_books(tmp_path, condition, guide):
+    """Friction on landing pulls at what moves as told: the work of that is of the guide."""
+    body = carom.RigidBody(
+        name="b",
+        mass=2.0,
+        mesh=carom.Box(corner=[0.1, 0.2, 0.05], size=[0.4, 0.3, 0.2], divisions=[1, 1, 1]),
+    )
+    case = flying(
+        body,
+        dimension=3,
+        end_time=0.2,
+        time_step=2e-3,
+        motions=[carom.Guided(body="b", **guide)],
+        gravity=[0.0, 0.0, -9.81],
+        obstacles=[carom.Plane(name="floor", point=[0.0] * 3, normal=[0.0, 0.0, 1.0])],
+        contact=carom.Contact(condition=condition, friction=0.3),
+    )
+    result = run(tmp_path, case)
+    history = result.history
+    assert history["friction"][-1] > 1e-3
+    assert np.abs(history["defect"]).max() < 1e-12 * np.max(history["total"])
+
+
 @pytest.mark.parametrize(
     ("motion", "message"),
     [

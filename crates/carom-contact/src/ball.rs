@@ -2,6 +2,9 @@
 
 use carom_mesh::{Matrix, Vector, tensor};
 
+/// A node that is no farther than this from a plane, in radii, is in it.
+const FLAT: f64 = 1e-9;
+
 /// The weights of up to four nodes.
 type Weights = [f64; 4];
 
@@ -36,7 +39,7 @@ impl Ball {
             };
             let farthest =
                 nodes.iter().copied().max_by(|&a, &b| beside(a).norm().total_cmp(&beside(b).norm()))?;
-            axes.push(beside(farthest).try_normalize(f64::EPSILON * radius)?);
+            axes.push(beside(farthest).try_normalize(FLAT * radius)?);
             chosen.push(farthest);
         }
         let mut ball = Self { nodes: chosen, centre: Weights::default(), radius };

@@ -55,6 +55,9 @@ pub(crate) struct Swept<const D: usize> {
     pub tree: Bvh<D>,
     /// The boxes of the paths of its edges, with the room in which one that crosses it is found.
     pub edges: Bvh<D>,
+    /// Whether its sources, and its facets, belong to a pair that counts.
+    is_source: bool,
+    is_faced: bool,
     is_swept: bool,
     is_fitted: bool,
     edges_are_fitted: bool,
@@ -93,21 +96,25 @@ impl<const D: usize> Search<D> {
     ) {
         self.surfaces.resize_with(model.surfaces.len(), Swept::default);
         self.obstacles.resize_with(model.obstacles.len(), Swept::default);
-        let pairs = || model.pairs.iter().filter(|p| counts(p));
-        let is_faceted = |target: Target| match target {
-            Target::Surface(_) => true,
-            Target::Obstacle(o) => model.obstacles[o].faceted.is_some(),
-        };
-        for (s, (swept, surface)) in self.surfaces.iter_mut().zip(&model.surfaces).enumerate() {
-            swept.forget();
-            if pairs().any(|p| p.source == s && is_faceted(p.target)) {
+        self.surfaces.iter_mut().for_each(Swept::forget);
+        for pair in model.pairs.iter().filter(|pair| counts(pair)) {
+            match pair.target {
+                Target::Surface(t) => {
+                    self.surfaces[pair.source].is_source = true;
+                    self.surfaces[t].is_faced = true;
+                }
+                Target::Obstacle(o) if model.obstacles[o].faceted.is_some() => {
+                    let source = &mut self.surfaces[pair.source];
+                    (source.is_source, source.is_faced) = (true, true);
+                }
+                Target::Obstacle(_) => {}
+            }
+        }
+        for (swept, surface) in self.surfaces.iter_mut().zip(&model.surfaces) {
+            if swept.is_source {
                 swept.sources = Aabb::of(surface.sources.iter().flat_map(|&n| path.ends(n)));
             }
-            let is_faced = |p: &Pair| match p.target {
-                Target::Surface(t) => t == s,
-                Target::Obstacle(_) => p.source == s && is_faceted(p.target),
-            };
-            if pairs().any(is_faced) {
+            if swept.is_faced {
                 swept.sweep_facets(surface, path);
                 swept.whole = swept.facets.iter().fold(Aabb::of([]), |all, b| all.union(b));
             }
@@ -205,6 +212,8 @@ impl<const D: usize> Default for Swept<D> {
             whole: Aabb::of([]),
             tree: Bvh::new([].into_iter()),
             edges: Bvh::new([].into_iter()),
+            is_source: false,
+            is_faced: false,
             is_swept: false,
             is_fitted: false,
             edges_are_fitted: false,
@@ -214,6 +223,7 @@ impl<const D: usize> Default for Swept<D> {
 
 impl<const D: usize> Swept<D> {
     fn forget(&mut self) {
+        (self.is_source, self.is_faced) = (false, false);
         (self.is_swept, self.is_fitted, self.edges_are_fitted) = (false, false, false);
     }
 

@@ -33,7 +33,7 @@ pub use archive::{Archive, Checkpoint, CheckpointError};
 pub use body::fe::load::{DeadLoad, FollowerPressure, Load};
 pub use body::fe::part::ModelBody;
 pub use body::fe::supports::Motion;
-pub use body::{Balance, Body, BodyEnd, BodyState, ContactWeights, Forecast, Guess, Interval, Tangent};
+pub use body::{Balance, Body, BodyEnd, BodyState, ContactWeights, Forecast, Guess, Interval, Jolt, Tangent};
 pub use build::{Meshes, build};
 pub use contact::PosedProblem;
 pub use contact::cross_check::{CrossCheck, CrossCheckSummary};

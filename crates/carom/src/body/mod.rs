@@ -128,6 +128,15 @@ pub struct Balance {
     pub motion: f64,
 }
 
+/// What an impulse meant for a body.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Jolt {
+    /// The power [W] that damping and viscosity would take from the motion that it makes, Δv·C Δv.
+    pub power: f64,
+    /// The work [J] of what guides the body as a whole against its part of the impulse: it moves on as it did.
+    pub borne: f64,
+}
+
 /// What a body writes at the end of a step, beside its displacements.
 #[derive(Debug)]
 pub struct BodyEnd<'a, const D: usize> {
@@ -256,9 +265,10 @@ pub trait Body<const D: usize>: Send + Sync {
     fn mass_of(&self, node: u32) -> f64;
 
     /// What an `impulse` [N s] makes of the velocities: writes Δv = M⁻¹ p [m/s] to `change`, zero where displacements are held, and where they
-    /// are replaces the impulse by M Δv, which the supports see to. Returns the power [W] that damping and viscosity would take from that
-    /// motion, Δv·C Δv, where the body is at the end of a step in `state`. It is asked of no body with nodes without mass.
-    fn jolt(&mut self, impulse: &mut [Vector<D>], state: &BodyState<'_, D>, change: &mut [Vector<D>]) -> f64;
+    /// are replaces the impulse by M Δv, which the supports see to. The body is at the end of a step in `state`. It is asked of no body with
+    /// nodes without mass.
+    fn jolt(&mut self, impulse: &mut [Vector<D>], state: &BodyState<'_, D>, change: &mut [Vector<D>])
+    -> Jolt;
 
     /// The velocity [m/s] of a node, `velocity` at the start of the step, where the body has turned half way through it as was last guessed. A rigid
     /// body knows it better than its nodes.

@@ -4,7 +4,7 @@ use carom_contact::{Contact, Target};
 use carom_mesh::Vector;
 
 use super::control::IMPULSIVE;
-use crate::body::Body;
+use crate::body::{Body, Jolt};
 use crate::contact::contact_work::driven;
 use crate::ledger::BodyLedger;
 use crate::model::assembly::Assembly;
@@ -67,6 +67,8 @@ pub(crate) struct Impulses<const D: usize> {
     change: Vec<Vector<D>>,
     /// Whether bodies have a part.
     takes_part: Vec<bool>,
+    /// What guides would do against the impulses on every body [J].
+    borne: Vec<f64>,
     /// For every body one that it is connected with; the one that stands for its group stands for itself.
     next: Vec<usize>,
     groups: Vec<Group>,
@@ -83,6 +85,7 @@ impl<const D: usize> Impulses<D> {
             force: vec![Vector::zeros(); nodes],
             change: vec![Vector::zeros(); nodes],
             takes_part: vec![false; bodies],
+            borne: vec![0.0; bodies],
             next: vec![0; bodies],
             groups: vec![Group::default(); bodies],
         }
@@ -216,7 +219,9 @@ impl<const D: usize> Impulses<D> {
             if self.takes_part[i] {
                 let (nodes, group) = (given.assembly.nodes(i), self.group(i));
                 let (force, change) = (&mut self.force[nodes.clone()], &mut self.change[nodes.clone()]);
-                self.groups[group].power += body.jolt(force, &new.body(i, nodes), change);
+                let Jolt { power, borne } = body.jolt(force, &new.body(i, nodes), change);
+                self.groups[group].power += power;
+                self.borne[i] = borne;
             }
         }
     }
@@ -235,7 +240,7 @@ impl<const D: usize> Impulses<D> {
             }
             let group = self.group(i);
             let scale = scale(&self.groups[group]);
-            let (mut contact, mut supports) = (0.0, 0.0);
+            let (mut contact, mut supports) = (0.0, self.borne[i] * scale);
             for n in given.assembly.nodes(i) {
                 let (momentum, change) = (self.force[n] * scale, self.change[n] * scale);
                 let mean = new.velocity[n] + change * 0.5;

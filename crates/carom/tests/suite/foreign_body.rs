@@ -2,7 +2,7 @@
 
 use carom::{
     Assembly, Body, BodyEnd, BodyLedger, BodyState, ContactCondition, Energies, Forecast, Guess, Interval,
-    Member, Method, NamedPair, NewtonRule, Scheme, State, StepError, StressRule, Workspace, step,
+    Jolt, Member, Method, NamedPair, NewtonRule, Scheme, State, StepError, StressRule, Workspace, step,
 };
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
@@ -138,9 +138,9 @@ impl Body<2> for PointMass {
         impulse: &mut [Vector<2>],
         _state: &BodyState<'_, 2>,
         change: &mut [Vector<2>],
-    ) -> f64 {
+    ) -> Jolt {
         change[0] = impulse[0] / MASS;
-        0.0
+        Jolt::default()
     }
 
     fn generation(&self) -> u64 {

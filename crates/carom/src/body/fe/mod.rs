@@ -22,7 +22,7 @@ use self::drive::Drive;
 use self::equation::{Equation, Pose, ResidualScratch, STRAIGHT};
 use self::iteration_matrix::IterationMatrix;
 use self::part::ModelBody;
-use super::{Balance, Body, BodyEnd, BodyState, Forecast, Guess, Interval, Tangent};
+use super::{Balance, Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt, Tangent};
 use crate::Signal;
 use crate::archive::{Archive, CheckpointError};
 use crate::error::StepError;
@@ -379,7 +379,12 @@ impl<const D: usize> Body<D> for FeBody<D> {
         self.nodal_mass[node as usize]
     }
 
-    fn jolt(&mut self, impulse: &mut [Vector<D>], state: &BodyState<'_, D>, change: &mut [Vector<D>]) -> f64 {
+    fn jolt(
+        &mut self,
+        impulse: &mut [Vector<D>],
+        state: &BodyState<'_, D>,
+        change: &mut [Vector<D>],
+    ) -> Jolt {
         let Self { part, mass_solver, pose, scratch, momentum, .. } = self;
         let body = &part.body;
         mass_solver.solve(body, impulse, change);
@@ -391,9 +396,10 @@ impl<const D: usize> Body<D> for FeBody<D> {
             }
         }
         if !body.is_damped() {
-            return 0.0;
+            return Jolt::default();
         }
-        nodal::dot(change, scratch.resistance(body, &pose.frame, state.displacement, change))
+        let power = nodal::dot(change, scratch.resistance(body, &pose.frame, state.displacement, change));
+        Jolt { power, ..Jolt::default() }
     }
 
     fn generation(&self) -> u64 {

@@ -20,7 +20,7 @@ use self::pose::{Displaced, Pose, Twist, lift, on};
 use self::shape::Wrench;
 use super::fe::drive::Drive;
 use super::fe::part::ModelBody;
-use super::{Body, BodyEnd, BodyState, Forecast, Guess, Interval, Tangent};
+use super::{Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt, Tangent};
 use crate::error::StepError;
 use crate::ledger::{BodyLedger, Energies};
 use crate::signal::Signal;
@@ -283,21 +283,28 @@ impl<const D: usize> Body<D> for RigidBody<D> {
         D as f64 / shape.response(&Matrix::identity(), &compliance, node, node).trace()
     }
 
-    fn jolt(&mut self, impulse: &mut [Vector<D>], state: &BodyState<'_, D>, change: &mut [Vector<D>]) -> f64 {
+    fn jolt(
+        &mut self,
+        impulse: &mut [Vector<D>],
+        state: &BodyState<'_, D>,
+        change: &mut [Vector<D>],
+    ) -> Jolt {
         let part = part(&self.body);
-        let (shape, [along, about]) = (&part.shape, part.free());
+        let (shape, [along, about], held) = (&part.shape, part.free(), part.held());
+        // What presses on held displacements of nodes changes none of them.
+        for force in impulse.iter_mut() {
+            *force = Vector::from_fn(|i, _| if held[i] { 0.0 } else { force[i] });
+        }
         let pose = shape.pose(state.displacement);
         let wrench = shape.gather(impulse);
-        let (push, moment) = (on(&along, &wrench.force), on(&about, &wrench.moment_at(&pose.rotation)));
+        let moment = wrench.moment_at(&pose.rotation);
+        let (push, turning) = (on(&along, &wrench.force), on(&about, &moment));
         let inertia = shape.inertia_at(&pose.rotation);
-        let twist = Twist { velocity: push / shape.mass, spin: pose::inverse_on(&about, &inertia) * moment };
+        let twist = Twist { velocity: push / shape.mass, spin: pose::inverse_on(&about, &inertia) * turning };
         shape.velocities(&pose, &twist, change);
-        if part.guide.is_some() {
-            // What is prescribed takes none.
-            impulse.fill(Vector::zeros());
-            shape.spread(&pose.rotation, &push, &moment, impulse);
-        }
-        0.0
+        let before = shape.twist(&pose, state.velocity);
+        let borne = (push - wrench.force).dot(&before.velocity) + (turning - moment).dot(&before.spin);
+        Jolt { power: 0.0, borne: if part.guide.is_some() { borne } else { 0.0 } }
     }
 
     fn velocity_half_way(&self, node: u32, velocity: &Vector<D>) -> Vector<D> {
