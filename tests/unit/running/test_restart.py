@@ -262,6 +262,13 @@ def test_any_flipped_bit_of_a_checkpoint_is_found(tmp_path):
             read_checkpoint(file)
 
 
+def test_a_first_line_with_the_same_words_is_not_the_same(tmp_path):
+    file = stopped(tmp_path) / "checkpoint.h5"
+    file.write_bytes(file.read_bytes().replace(b" ", b"\t", 1))
+    with pytest.raises(DamagedError, match="is damaged: its first line is another"):
+        read_checkpoint(file)
+
+
 @pytest.mark.parametrize("name", ["history.csv", "ledger.csv", "fields.vtkhdf", "audit.h5"])
 def test_results_that_lack_what_the_checkpoint_knows_of_are_refused(tmp_path, name):
     directory = stopped(tmp_path)

@@ -20,14 +20,14 @@ const DRIVEN: f64 = 1e-6;
 
 /// A free motion may stay undone where less than this share of what presses drives it: between curved sides whose facets do not match there is
 /// a moment of that kind. Measured: 1.2e-6 of press fits with 32 facets in 48.
-const NEARLY_AT_REST: f64 = 1e-4;
+const NEARLY_AT_REST: f64 = 1e-5;
 
 /// A correction is a free motion if all but this share of it is.
 const ALIKE: f64 = 1e-2;
 
 /// A rigid motion is next to free if supports and contacts see no more of it than this. Measured: 7.5e-6 of the turn of
 /// these fits.
-const NEARLY_FREE: f64 = 1e-4;
+const NEARLY_FREE: f64 = 5e-5;
 
 /// The rigid motions of some bodies, one after the other.
 struct Motions<'a, const D: usize> {

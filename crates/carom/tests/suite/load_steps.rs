@@ -85,7 +85,7 @@ fn body_that_nothing_holds_is_named() {
         ([0.0, 10.0], 0.0, "move along y"),
         ([4.0, -10.0], 0.3, "slide along x"),
         ([1.0, -10.0], 0.0, "slide along x"),
-        // What is left undone is less than a tenth of this.
+        // What is left undone is less than a hundredth of this.
         ([1e-2, -10.0], 0.0, "slide along x"),
     ] {
         let mut case = block(1);
