@@ -1,70 +1,26 @@
 //! Targets that are smooth curves: gaps without kinks, and the forces that follow from them.
 
+mod common;
+
 use std::f64::consts::PI;
 
-use carom_contact::{
-    Candidate, Contact, ContactModel, ContactSurface, Discretisation, Pair, Path, Search, Target,
-};
-use carom_mesh::{Matrix, Mesh, Surface, Vector, generate};
+use carom_contact::{Candidate, Contact, Path, Search, Target};
+use carom_mesh::{Matrix, Mesh, Vector, generate};
+
+use crate::common::Scene;
 
 type Vector2 = Vector<2>;
 
-/// A target and, behind its nodes, a source.
-struct Scene {
-    model: ContactModel<2>,
-    reference: Vec<Vector2>,
-    /// The first node of the source.
-    probe: u32,
+/// A smooth target; the source is a cell whose first node is placed freely.
+fn smooth(target: &Mesh<2>, shape: impl Fn(Vector2) -> Vector2) -> Scene<2> {
+    Scene::new(target, shape, &generate::grid([0.0; 2], [1.0; 2], [1, 1]).expect("valid"), true)
 }
 
-impl Scene {
-    /// The nodes of `target`, moved to `shape`, are the reference configuration of the target.
-    fn new(target: &Mesh<2>, shape: impl Fn(Vector2) -> Vector2, source: &Mesh<2>, smooth: bool) -> Self {
-        let probe = target.nodes().len() as u32;
-        let reference: Vec<Vector2> =
-            target.nodes().iter().map(|&x| shape(x)).chain(source.nodes().iter().copied()).collect();
-        let faceted = ContactSurface::new(&Surface::of(target), 0);
-        let target = if smooth { faceted.smoothed(&|n| reference[n as usize]) } else { faceted };
-        let model = ContactModel {
-            surfaces: vec![target, ContactSurface::new(&Surface::of(source), probe)],
-            obstacles: vec![],
-            pairs: vec![Pair {
-                source: 1,
-                target: Target::Surface(0),
-                friction: 0.3,
-                named_pair: 0,
-                discretisation: Discretisation::NodeToSegment,
-            }],
-        };
-        Self { model, reference, probe }
-    }
-
-    /// A smooth target; the source is a cell whose first node is placed freely.
-    fn smooth(target: &Mesh<2>, shape: impl Fn(Vector2) -> Vector2) -> Self {
-        Self::new(target, shape, &generate::grid([0.0; 2], [1.0; 2], [1, 1]).expect("valid"), true)
-    }
-
-    /// The first node of the source at `x`, the others at `nodes`, where it started over the facet `facet`.
-    fn contact(&self, nodes: &[Vector2], x: Vector2, facet: u32) -> Contact<2> {
-        let at = |n: u32| if n == self.probe { x } else { nodes[n as usize] };
-        let candidate = Candidate::at_node(0, self.probe, Some(facet));
-        self.model.evaluate(&candidate, &at)
-    }
-
-    /// The facet closest to `x`.
-    fn facet(&self, nodes: &[Vector2], x: &Vector2) -> u32 {
-        let facets = self.model.surfaces[0].facets.iter().enumerate();
-        let middle = |n: &[u32]| (nodes[n[0] as usize] + nodes[n[1] as usize]) * 0.5;
-        let distance = facets.map(|(f, facet)| ((middle(&facet.nodes) - x).norm(), f as u32));
-        distance.min_by(|a, b| a.0.total_cmp(&b.0)).expect("a surface has facets").1
-    }
-
-    fn detect(&self, nodes: &[Vector2], margin: f64) -> Vec<Candidate> {
-        let at = |n: u32| nodes[n as usize];
-        let mut candidates = Vec::new();
-        self.model.detect(&Path::resting(&at, margin), &mut Search::default(), &mut candidates);
-        candidates
-    }
+fn detect(scene: &Scene<2>, nodes: &[Vector2], margin: f64) -> Vec<Candidate> {
+    let at = |n: u32| nodes[n as usize];
+    let mut candidates = Vec::new();
+    scene.model.detect(&Path::resting(&at, margin), &mut Search::default(), &mut candidates);
+    candidates
 }
 
 /// A disc of radius 1 with this number of nodes on its boundary, a multiple of 8.
@@ -101,7 +57,7 @@ fn row(frame: &Matrix<2>, k: usize) -> Vector2 {
 
 #[test]
 fn a_node_that_slides_over_vertices_feels_no_jump() {
-    let scene = Scene::smooth(&disc(32), graded);
+    let scene = smooth(&disc(32), graded);
     let nodes = deformed(&scene.reference);
     let f = Matrix::<2>::new(1.1, 0.2, -0.1, 0.95);
     for radius in [0.99, 1.0, 1.05] {
@@ -138,7 +94,7 @@ fn a_node_that_slides_over_vertices_feels_no_jump() {
 #[test]
 fn the_gradient_of_the_gap_is_the_normal_row() {
     let h = 1e-6;
-    let check = |scene: &Scene, nodes: &[Vector2], x: Vector2, facet: u32| {
+    let check = |scene: &Scene<2>, nodes: &[Vector2], x: Vector2, facet: u32| {
         let contact = scene.contact(nodes, x, facet);
         for n in 0..=scene.probe as usize {
             for i in 0..2 {
@@ -162,7 +118,7 @@ fn the_gradient_of_the_gap_is_the_normal_row() {
             }
         }
     };
-    let round = Scene::smooth(&disc(32), graded);
+    let round = smooth(&disc(32), graded);
     let nodes = deformed(&round.reference);
     for node in &round.model.surfaces[0].nodes {
         // Before, at and behind a vertex, and in the middle of a facet.
@@ -173,7 +129,7 @@ fn the_gradient_of_the_gap_is_the_normal_row() {
         }
     }
     // Next to the corners of a rectangle, and beyond them by up to half a facet.
-    let bar = Scene::smooth(&generate::grid([0.0; 2], [2.0, 1.0], [4, 4]).expect("valid"), |x| x);
+    let bar = smooth(&generate::grid([0.0; 2], [2.0, 1.0], [4, 4]).expect("valid"), |x| x);
     let nodes = deformed(&bar.reference);
     let corner = nodes[4];
     for (dx, dy) in [(0.01, 0.05), (0.01, -0.01), (0.01, -0.1), (0.01, -1e-7), (-0.01, 0.0), (-0.02, 0.01)] {
@@ -184,7 +140,7 @@ fn the_gradient_of_the_gap_is_the_normal_row() {
 
 #[test]
 fn rigid_motion_leaves_gap_and_weights_and_turns_the_frame() {
-    let scene = Scene::smooth(&disc(24), graded);
+    let scene = smooth(&disc(24), graded);
     let nodes = deformed(&scene.reference);
     let (sin, cos) = 0.7_f64.sin_cos();
     let rotation = Matrix::<2>::new(cos, -sin, sin, cos);
@@ -209,7 +165,7 @@ fn rigid_motion_leaves_gap_and_weights_and_turns_the_frame() {
 
 #[test]
 fn a_force_pair_has_no_resultant_and_where_it_touches_no_moment() {
-    let scene = Scene::smooth(&disc(24), graded);
+    let scene = smooth(&disc(24), graded);
     let nodes = deformed(&scene.reference);
     let moment = |x: Vector2, facet: u32, r: Vector2| {
         let contact = scene.contact(&nodes, x, facet);
@@ -234,7 +190,7 @@ fn a_force_pair_has_no_resultant_and_where_it_touches_no_moment() {
 /// Also from the opposite side, and where the distance is the same everywhere the walk ends.
 #[test]
 fn a_node_far_from_its_facet_finds_the_closest_point() {
-    let scene = Scene::smooth(&disc(32), |x| x);
+    let scene = smooth(&disc(32), |x| x);
     let nodes = &scene.reference;
     for facet in 0..scene.model.surfaces[0].facets.len() as u32 {
         for x in [Vector2::new(1.3, 0.2), Vector2::new(-0.02, 0.9), Vector2::new(100.0, 3.0)] {
@@ -271,7 +227,7 @@ fn rectangles_keep_their_sides_and_corners() {
 
 /// Largest distance between a circle and the curve through nodes on it.
 fn radius_error(boundary: usize, shape: impl Fn(Vector2) -> Vector2) -> f64 {
-    let scene = Scene::smooth(&disc(boundary), shape);
+    let scene = smooth(&disc(boundary), shape);
     let gap = |k: u32| {
         let x = polar(1.0, 0.000_628_4 * f64::from(k));
         scene.contact(&scene.reference, x, scene.facet(&scene.reference, &x)).gap.abs()
@@ -295,7 +251,7 @@ fn circles_are_round_to_fourth_order() {
 
 #[test]
 fn signed_distance_and_gap_are_measured_to_the_same_curve() {
-    let scene = Scene::smooth(&disc(32), graded);
+    let scene = smooth(&disc(32), graded);
     let nodes = deformed(&scene.reference);
     for k in 0..1000 {
         let x = polar(0.8 + 0.4 * (0.37 * f64::from(k)).sin().abs(), 0.02 * f64::from(k));
@@ -318,7 +274,7 @@ fn a_node_between_chord_and_curve_is_found() {
         for x in &mut nodes[scene.probe as usize..] {
             x[0] += 1.295;
         }
-        let candidates = scene.detect(&nodes, 0.0);
+        let candidates = detect(&scene, &nodes, 0.0);
         assert_eq!(candidates.len(), found);
         for candidate in &candidates {
             let gap = scene.model.evaluate(candidate, &|n| nodes[n as usize]).gap;
@@ -340,7 +296,7 @@ fn no_node_that_presses_into_a_valley_or_a_hill_is_missed() {
             for x in &mut nodes[scene.probe as usize..] {
                 *x += shift;
             }
-            let candidates = scene.detect(&nodes, 0.0);
+            let candidates = detect(&scene, &nodes, 0.0);
             let probe = candidates.iter().find(|c| c.node() == Some(scene.probe));
             let gap = scene.model.evaluate(probe.expect("found"), &|n| nodes[n as usize]).gap;
             assert!((-0.0205..-0.018).contains(&gap), "{gap} at {}", shift[0]);

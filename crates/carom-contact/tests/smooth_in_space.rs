@@ -1,58 +1,22 @@
 //! Targets in space that are smooth surfaces: gaps without kinks, and the forces that follow from them.
 
-use carom_contact::{
-    Candidate, Contact, ContactModel, ContactSurface, Discretisation, Pair, Path, Search, Target,
-};
-use carom_mesh::{CellBlock, CellKind, Facet, Matrix, Mesh, Surface, Vector, generate};
+mod common;
+
+use carom_contact::{Contact, Path, Search, Target};
+use carom_mesh::{CellBlock, CellKind, Facet, Matrix, Mesh, Vector, generate};
+
+use crate::common::Scene;
 
 type Vector3 = Vector<3>;
 
-/// A target and, behind its nodes, a source.
-struct Scene {
-    model: ContactModel<3>,
-    reference: Vec<Vector3>,
-    /// The first node of the source.
-    probe: u32,
+/// The source is a cell whose first node is placed freely.
+fn scene_of(target: &Mesh<3>, is_smooth: bool) -> Scene<3> {
+    Scene::new(target, |x| x, &generate::grid([0.0; 3], [1.0; 3], [1, 1, 1]).expect("valid"), is_smooth)
 }
 
-impl Scene {
-    fn new(target: &Mesh<3>, is_smooth: bool) -> Self {
-        let source = generate::grid([0.0; 3], [1.0; 3], [1, 1, 1]).expect("valid");
-        let probe = target.nodes().len() as u32;
-        let reference: Vec<Vector3> = target.nodes().iter().chain(source.nodes()).copied().collect();
-        let faceted = ContactSurface::new(&Surface::of(target), 0);
-        let target = if is_smooth { faceted.smoothed(&|n| reference[n as usize]) } else { faceted };
-        let model = ContactModel {
-            surfaces: vec![target, ContactSurface::new(&Surface::of(&source), probe)],
-            obstacles: vec![],
-            pairs: vec![Pair {
-                source: 1,
-                target: Target::Surface(0),
-                friction: 0.3,
-                named_pair: 0,
-                discretisation: Discretisation::NodeToSegment,
-            }],
-        };
-        Self { model, reference, probe }
-    }
-
-    /// The first node of the source at `x`, the others at `nodes`, where it started over the facet `facet`.
-    fn contact(&self, nodes: &[Vector3], x: Vector3, facet: u32) -> Contact<3> {
-        let at = |n: u32| if n == self.probe { x } else { nodes[n as usize] };
-        self.model.evaluate(&Candidate::at_node(0, self.probe, Some(facet)), &at)
-    }
-
-    /// The facet whose corners are closest to `x`.
-    fn facet(&self, nodes: &[Vector3], x: &Vector3) -> u32 {
-        let facets = self.model.surfaces[0].facets.iter().enumerate();
-        let distance = facets.map(|(f, facet)| ((middle(facet, nodes) - x).norm(), f as u32));
-        distance.min_by(|a, b| a.0.total_cmp(&b.0)).expect("a surface has facets").1
-    }
-
-    fn distance(&self, nodes: &[Vector3], x: Vector3) -> f64 {
-        let at = |n: u32| nodes[n as usize];
-        self.model.closest(std::iter::once(x), Target::Surface(0), &at).expect("a point").gap
-    }
+fn distance(scene: &Scene<3>, nodes: &[Vector3], x: Vector3) -> f64 {
+    let at = |n: u32| nodes[n as usize];
+    scene.model.closest(std::iter::once(x), Target::Surface(0), &at).expect("a point").gap
 }
 
 fn middle(facet: &Facet, nodes: &[Vector3]) -> Vector3 {
@@ -106,7 +70,7 @@ fn foot(contact: &Contact<3>, nodes: &[Vector3]) -> Vector3 {
 #[test]
 fn a_node_that_slides_over_edges_feels_no_jump() {
     for kind in KINDS {
-        let scene = Scene::new(&ball(kind), true);
+        let scene = scene_of(&ball(kind), true);
         let nodes = deformed(&scene.reference);
         for (turn, radius) in [(0.3, 0.99), (1.7, 1.0), (2.9, 1.05)] {
             let axis = Vector3::new(0.3, 0.2, 1.0).normalize();
@@ -136,7 +100,7 @@ fn a_node_that_slides_over_edges_feels_no_jump() {
                 last = Some((x, contact));
             }
             let (x, end) = last.expect("steps");
-            assert!((end.gap - scene.distance(&nodes, x)).abs() < 1e-14, "{kind:?}: {}", end.gap);
+            assert!((end.gap - distance(&scene, &nodes, x)).abs() < 1e-14, "{kind:?}: {}", end.gap);
         }
     }
 }
@@ -144,7 +108,7 @@ fn a_node_that_slides_over_edges_feels_no_jump() {
 #[test]
 fn the_gradient_of_the_gap_is_the_normal_row() {
     let h = 1e-6;
-    let check = |scene: &Scene, nodes: &[Vector3], x: Vector3, facet: u32| {
+    let check = |scene: &Scene<3>, nodes: &[Vector3], x: Vector3, facet: u32| {
         let contact = scene.contact(nodes, x, facet);
         let stencil: Vec<usize> = contact.stencil().map(|(n, _)| n).collect();
         for &n in &stencil {
@@ -166,7 +130,7 @@ fn the_gradient_of_the_gap_is_the_normal_row() {
         }
     };
     for kind in KINDS {
-        let scene = Scene::new(&ball(kind), true);
+        let scene = scene_of(&ball(kind), true);
         let nodes = deformed(&scene.reference);
         for (k, x) in directions(11).enumerate() {
             let x = bend(&(x * (1.0 + 0.02 * (k as f64).sin())));
@@ -178,7 +142,7 @@ fn the_gradient_of_the_gap_is_the_normal_row() {
     }
     // Next to the rim of a cylinder.
     for kind in KINDS.into_iter().chain([CellKind::Wedge6, CellKind::Wedge15]) {
-        let scene = Scene::new(&cylinder(kind), true);
+        let scene = scene_of(&cylinder(kind), true);
         let nodes = deformed(&scene.reference);
         for (angle, z) in [(0.1, 0.9), (1.2, 0.95), (2.2, 0.97)] {
             let at = |z: f64| bend(&Vector3::new(1.03 * f64::cos(angle), 1.03 * f64::sin(angle), z));
@@ -190,7 +154,7 @@ fn the_gradient_of_the_gap_is_the_normal_row() {
 #[test]
 fn beyond_a_rim_the_distance_is_along_the_normal() {
     for kind in KINDS.into_iter().chain([CellKind::Wedge6, CellKind::Wedge15]) {
-        let scene = Scene::new(&cylinder(kind), true);
+        let scene = scene_of(&cylinder(kind), true);
         let nodes = deformed(&scene.reference);
         for k in 0..200 {
             let (sin, cos) = (0.031_4 * f64::from(k)).sin_cos();
@@ -210,7 +174,7 @@ fn rigid_motion_leaves_gap_and_weights_and_turns_the_normal() {
     let turn = Matrix::<3>::new(0.36, 0.48, -0.8, -0.8, 0.6, 0.0, 0.48, 0.64, 0.6);
     let moved = |x: &Vector3| turn * x + Vector3::new(3.0, -2.0, 1.0);
     for kind in KINDS {
-        let scene = Scene::new(&ball(kind), true);
+        let scene = scene_of(&ball(kind), true);
         let nodes = deformed(&scene.reference);
         let turned: Vec<Vector3> = nodes.iter().map(moved).collect();
         // The surface made of a body that was drawn elsewhere, and turned, is the same one, too.
@@ -218,7 +182,7 @@ fn rigid_motion_leaves_gap_and_weights_and_turns_the_normal() {
             let mesh = ball(kind);
             let blocks = mesh.blocks().iter();
             let blocks = blocks.map(|b| CellBlock { kind: b.kind, connectivity: b.connectivity.clone() });
-            Scene::new(
+            scene_of(
                 &Mesh::new(mesh.nodes().iter().map(moved).collect(), blocks.collect()).expect("valid"),
                 true,
             )
@@ -257,8 +221,8 @@ fn numbers_of_nodes_do_not_matter() {
             let cells = b.connectivity.chunks_exact(b.kind.node_count()).rev();
             CellBlock { kind: b.kind, connectivity: cells.flatten().map(|&n| number(n)).collect() }
         });
-        let other = Scene::new(&Mesh::new(nodes, blocks.collect()).expect("valid"), true);
-        let scene = Scene::new(&mesh, true);
+        let other = scene_of(&Mesh::new(nodes, blocks.collect()).expect("valid"), true);
+        let scene = scene_of(&mesh, true);
         let placed = deformed(mesh.nodes());
         let mut renumbered = placed.clone();
         (0..count).for_each(|n| renumbered[number(n as u32) as usize] = placed[n]);
@@ -279,7 +243,7 @@ fn numbers_of_nodes_do_not_matter() {
 #[test]
 fn a_force_pair_has_no_resultant_and_where_it_touches_no_moment() {
     for kind in KINDS {
-        let scene = Scene::new(&ball(kind), true);
+        let scene = scene_of(&ball(kind), true);
         let nodes = deformed(&scene.reference);
         let moment = |x: Vector3, facet: u32, r: Vector3| {
             let contact = scene.contact(&nodes, x, facet);
@@ -307,14 +271,14 @@ fn boxes_keep_their_sides_and_edges() {
     for kind in [CellKind::Tet4, CellKind::Tet10, CellKind::Hex8, CellKind::Hex20, CellKind::Hex27] {
         let grid = generate::Grid { corner: [0.0; 3], size: [2.0, 1.0, 1.0], divisions: [3, 2, 2] };
         let mesh = grid.mesh(kind).expect("valid");
-        let [smooth, faceted] = [true, false].map(|is_smooth| Scene::new(&mesh, is_smooth));
+        let [smooth, faceted] = [true, false].map(|is_smooth| scene_of(&mesh, is_smooth));
         assert_eq!(smooth.model.surfaces[0].facets, faceted.model.surfaces[0].facets);
         let nodes = deformed(&smooth.reference);
         for x in directions(200) {
             let x = bend(&(Vector3::new(1.0, 0.5, 0.5) + Vector3::new(1.1 * x[0], 0.6 * x[1], 0.6 * x[2])));
             let facet = smooth.facet(&nodes, &x);
             assert_eq!(smooth.contact(&nodes, x, facet), faceted.contact(&nodes, x, facet));
-            assert_eq!(smooth.distance(&nodes, x), faceted.distance(&nodes, x));
+            assert_eq!(distance(&smooth, &nodes, x), distance(&faceted, &nodes, x));
         }
     }
 }
@@ -323,18 +287,18 @@ fn boxes_keep_their_sides_and_edges() {
 #[test]
 fn a_cylinder_keeps_its_rim_and_its_plane_ends() {
     for kind in KINDS.into_iter().chain([CellKind::Wedge6, CellKind::Wedge15]) {
-        let scene = Scene::new(&cylinder(kind), true);
+        let scene = scene_of(&cylinder(kind), true);
         let nodes = &scene.reference;
         for k in 0..200 {
             let (sin, cos) = (0.031_4 * f64::from(k)).sin_cos();
             let at = |r: f64, z: f64| Vector3::new(r * cos, r * sin, z);
             for r in [0.2, 0.6, 0.9, 0.99] {
-                let gap = scene.distance(nodes, at(r, 1.01));
+                let gap = distance(&scene, nodes, at(r, 1.01));
                 assert!((gap - 0.01).abs() < 1e-15, "{kind:?}: {gap} at {r}");
             }
-            let gap = scene.distance(nodes, at(1.02, 0.6));
+            let gap = distance(&scene, nodes, at(1.02, 0.6));
             assert!((gap - 0.02).abs() < 1e-3, "{kind:?}: {gap}");
-            let corner = scene.distance(nodes, at(1.03, 1.04));
+            let corner = distance(&scene, nodes, at(1.03, 1.04));
             assert!((corner - 0.05).abs() < 1e-3, "{kind:?}: {corner}");
         }
     }
@@ -343,12 +307,12 @@ fn a_cylinder_keeps_its_rim_and_its_plane_ends() {
 #[test]
 fn signed_distance_and_gap_are_measured_to_the_same_surface() {
     for kind in KINDS {
-        let scene = Scene::new(&ball(kind), true);
+        let scene = scene_of(&ball(kind), true);
         let nodes = deformed(&scene.reference);
         for (k, x) in directions(300).enumerate() {
             let x = bend(&(x * (0.9 + 0.2 * (0.37 * k as f64).sin().abs())));
             let gap = scene.contact(&nodes, x, scene.facet(&nodes, &x)).gap;
-            let distance = scene.distance(&nodes, x);
+            let distance = distance(&scene, &nodes, x);
             assert!((gap - distance).abs() < 1e-14, "{kind:?}: {gap} for {distance} at {x}");
         }
     }
@@ -357,7 +321,7 @@ fn signed_distance_and_gap_are_measured_to_the_same_surface() {
 #[test]
 fn a_node_between_facet_and_surface_is_found() {
     for (is_smooth, count) in [(true, 1), (false, 0)] {
-        let scene = Scene::new(&ball(CellKind::Hex8), is_smooth);
+        let scene = scene_of(&ball(CellKind::Hex8), is_smooth);
         let facets = &scene.model.surfaces[0].facets;
         // The first node of the source is its corner that looks this way.
         let towards = Vector3::new(1.0, 1.0, 1.0).normalize();
