@@ -119,6 +119,15 @@ pub enum StepError {
         /// The body.
         body: String,
     },
+    /// The same where inertia took it to no other either.
+    #[error(
+        "no state near the last one is in stable equilibrium, and with inertia, as analysis.stabilisation says, body {body:?} comes to rest in \
+         none: lower the load, drive it by a displacement in its place, or choose a dynamic analysis"
+    )]
+    Restless {
+        /// The body.
+        body: String,
+    },
     /// Something was not a finite number.
     #[error("the {0} is not finite")]
     NotFinite(&'static str),

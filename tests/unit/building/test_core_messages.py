@@ -349,6 +349,15 @@ HELD = {"kind": "fixed", "body": "block", "on": "bottom"}
             r'no state near the last one is in stable equilibrium: body "block" buckles, snaps t',
         ),
         (
+            {
+                "analysis": {**STATIC, "stabilisation": "dynamic"},
+                "motions": [HELD],
+                "loads": [FOLLOWING],
+                "contact": {},
+            },
+            r'no state near the last one is .*, body "block" comes to rest in none: lower the load',
+        ),
+        (
             {"analysis.newton": {"max_iterations": 1}, "bodies.0.spin": 10.0},
             r"Newton's iterations stopped after 1 with a last correction of \S+ m \(wanted \S+ m\)",
         ),

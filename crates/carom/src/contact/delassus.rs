@@ -48,6 +48,7 @@ impl<const D: usize> Delassus<D> {
         problem: &mut ContactProblem<D>,
     ) {
         let stiffened = self.stiffened.is_needed();
+        let leaves_out = self.stiffened.leaves_out();
         let Self { compliances, coupling, row_blocks, stiffened: tangent } = self;
         let ActiveSet { contacts, reactions, .. } = active;
         problem.w.clear();
@@ -58,6 +59,9 @@ impl<const D: usize> Delassus<D> {
         for (i, row) in contacts.iter().enumerate() {
             let mut q = row.relative(|n| motion[n]);
             q += offsets[i];
+            if leaves_out {
+                q[0] += tangent.unseen(i);
+            }
             problem.q.push(q);
             row_blocks.clear();
             // Through one another's contacts all respond to all.
@@ -65,11 +69,15 @@ impl<const D: usize> Delassus<D> {
             let near = if stiffened { &[] } else { coupling.partners(assembly, compliances, i, row) };
             for j in all.chain(near.iter().copied()) {
                 let j = j as usize;
-                // W is symmetric, also where round-off is not.
-                let block = if j < i {
+                // W is symmetric, also where round-off is not, unless rows leave something out.
+                let block = if j < i && !leaves_out {
                     problem.w.block(j, i).map(Matrix::transpose)
                 } else if stiffened {
-                    Some(stiffened_block(tangent, row, &contacts[j]))
+                    let mut block = stiffened_block(tangent, row, &contacts[j]);
+                    if leaves_out {
+                        block.set_row(0, &(block.row(0) + tangent.unseen_block(i, &contacts[j]).transpose()));
+                    }
+                    Some(block)
                 } else {
                     coupling_block(assembly, compliances, row, &contacts[j])
                 };

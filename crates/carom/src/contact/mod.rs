@@ -8,6 +8,7 @@ mod control;
 mod coupling;
 pub(crate) mod cross_check;
 mod delassus;
+mod left_out;
 pub(crate) mod reduced;
 pub(crate) mod slip;
 pub(crate) mod stiffened;

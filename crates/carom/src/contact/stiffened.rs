@@ -9,6 +9,8 @@
 //! Bodies are uncoupled in K̄. It has springs to the ground, B, in place of those between bodies, and what is missing, Ĝ = G + Hᵀκ H − B,
 //! lives on the nodes of the contacts, P. With C = Pᵀ K̄⁻¹ P, the compliance that the reduced problem is made of,
 //! Pᵀ(K̄ + P Ĝ Pᵀ)⁻¹P = (I + C Ĝ)⁻¹ C (Woodbury), and no factor is needed but K̄'s.
+//!
+//! The gaps of mortar rows change by more than the rows say (`left_out.rs`), which the reduced problem takes note of as well.
 
 use carom_contact::Contact;
 use carom_mesh::{Matrix, Vector};
@@ -16,6 +18,7 @@ use carom_mesh::{Matrix, Vector};
 use super::active::ActiveSet;
 use super::compliance::Compliance;
 use super::control::CONTROL;
+use super::left_out::LeftOut;
 use super::woodbury::Woodbury;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
@@ -23,7 +26,7 @@ use crate::model::given::Given;
 use crate::model::state::Reaction;
 
 /// No place.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 /// Springs to the ground in K̄ of a body [N/m], by its own nodes, ascending.
 pub(crate) type Springs<const D: usize> = Vec<(u32, Matrix<D>)>;
@@ -46,6 +49,8 @@ pub(crate) struct Stiffened<const D: usize> {
     missing: Woodbury<D>,
     /// What the correction is at P without new reactions [m].
     seen: Vec<f64>,
+    /// What mortar rows leave out of the gradients of their gaps.
+    left_out: LeftOut<D>,
 }
 
 /// κ of a contact, by the stiffness of its softest node in the undeformed body.
@@ -89,6 +94,7 @@ impl<const D: usize> Stiffened<D> {
             places: vec![NONE; assembly.reference.len()],
             missing: Woodbury::default(),
             seen: Vec::new(),
+            left_out: LeftOut::default(),
         }
     }
 
@@ -100,6 +106,7 @@ impl<const D: usize> Stiffened<D> {
     /// Forgets what a step before has left.
     pub fn clear(&mut self) {
         self.missing.clear();
+        self.left_out.clear();
         self.is_sprung.fill(false);
         self.is_geometric = false;
     }
@@ -197,11 +204,16 @@ impl<const D: usize> Stiffened<D> {
         if !self.is_geometric && self.springs_of_contacts.iter().all(|&(stiffness, _)| stiffness == 0.0) {
             // Elastic bodies that pressure takes little of converge without, and a round one that turns in another has nothing against it.
             self.missing.clear();
+            self.left_out.clear();
             return;
         }
         self.list_nodes(given.assembly, active);
         self.missing.clear();
+        self.left_out.clear();
         self.add_geometric(given, active, motion);
+        if given.interval.map.is_static() {
+            self.left_out.make(given, active, motion, &self.places, &mut self.missing);
+        }
         self.add_springs(given.assembly, active);
         let nodes = &self.nodes;
         let block =
@@ -300,6 +312,37 @@ impl<const D: usize> Stiffened<D> {
     /// The block of the compliance between two nodes of P.
     pub fn block(&self, a: usize, b: usize) -> Option<Matrix<D>> {
         Some(self.missing.block(self.place(a)?, self.place(b)?))
+    }
+
+    /// Whether W is not symmetric, as rows leave something out of the gradients of their gaps.
+    pub fn leaves_out(&self) -> bool {
+        self.is_needed() && self.left_out.is_some()
+    }
+
+    /// Whether the row of contact `i` does.
+    pub fn leaves_out_of(&self, i: usize) -> bool {
+        !self.left_out.of(i).is_empty()
+    }
+
+    /// What the row of contact `i` leaves out of the change of its gap [m] that the correction without new reactions makes.
+    pub fn unseen(&self, i: usize) -> f64 {
+        let of_place = |(place, part): &(u32, Vector<D>)| {
+            let correction = &self.seen[*place as usize * D..][..D];
+            part.iter().zip(correction).map(|(p, c)| p * c).sum::<f64>()
+        };
+        self.left_out.of(i).iter().map(of_place).sum()
+    }
+
+    /// What it leaves out of its row of the block of W with another contact.
+    pub fn unseen_block(&self, i: usize, other: &Contact<D>) -> Vector<D> {
+        let mut sum = Vector::zeros();
+        for (place, part) in self.left_out.of(i) {
+            for (m, weight) in other.stencil() {
+                let Some(column) = self.place(m) else { continue };
+                sum += self.missing.block(*place as usize, column).tr_mul(part) * weight;
+            }
+        }
+        other.frame * sum
     }
 
     /// Makes what K̄⁻¹ alone gives at P, beside the `motion` so far [m], what the tangent gives.
