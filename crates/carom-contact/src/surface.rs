@@ -242,6 +242,16 @@ impl ContactSurface {
     }
 }
 
+/// The largest distance between two nodes of a facet [m].
+pub(crate) fn diameter<const D: usize>(facet: &Facet, position: &impl Fn(u32) -> Vector<D>) -> f64 {
+    let nodes = &facet.nodes;
+    let from = |(k, a): (usize, &u32)| {
+        let x = position(*a);
+        nodes[k + 1..].iter().map(|b| (position(*b) - x).norm_squared()).fold(0.0, f64::max)
+    };
+    nodes.iter().enumerate().map(from).fold(0.0, f64::max).sqrt()
+}
+
 /// How far a facet of this kind may bulge out of the box around its nodes, in half sides of the box. It is the largest sum of the
 /// absolute values of its shape functions, less 1.
 pub(crate) fn overshoot(kind: CellKind) -> f64 {

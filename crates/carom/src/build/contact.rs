@@ -11,6 +11,8 @@ use crate::error::InputError;
 use crate::model::assembly::NamedPair;
 use crate::scenario::{BodyEntry, BodyKind, MeshSpec, Scenario, Sources, Targets};
 
+/// Widths and masses apart by no more than this part are alike: files of meshes in single precision lose as much.
+const ALIKE: f64 = 1e-6;
 /// The largest friction coefficient.
 const MAX_FRICTION: f64 = 1e3;
 
@@ -149,12 +151,14 @@ fn check_manifold<const D: usize>(
     Err(InputError::mesh(key, message))
 }
 
-/// Whether the facets of `a` are on average clearly smaller than those of `b`.
+/// Whether the facets of `a` are on average smaller than those of `b`, or as large and it is the lighter one.
 fn is_finer<const D: usize>(a: &ModelBody<D>, b: &ModelBody<D>) -> bool {
     let mean_width = |body: &ModelBody<D>| {
         let facets = body.body.surface().facets();
         let width = |f: &Facet| f.area_vector(body.body.mesh()).norm().powf(1.0 / (D as f64 - 1.0));
         facets.iter().map(width).sum::<f64>() / facets.len() as f64
     };
-    mean_width(a) < 0.99 * mean_width(b)
+    let is_less = |x: f64, y: f64| x < (1.0 - ALIKE) * y;
+    let [wide_a, wide_b] = [a, b].map(mean_width);
+    is_less(wide_a, wide_b) || !is_less(wide_b, wide_a) && is_less(a.body.total_mass(), b.body.total_mass())
 }
