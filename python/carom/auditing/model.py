@@ -132,7 +132,7 @@ class AuditModel:
         self.targets = [Target(b.facets, b.points, smooth=smooth) for b in self.bodies]
         self.planes = [_plane(obstacle) for obstacle in scenario.obstacles]
         self.sides = list(self._build_sides())
-        self.size = max(float(np.linalg.norm(np.ptp(b.points, axis=0))) for b in self.bodies)
+        self.size = max(_diameter(b.points) for b in self.bodies)
 
     @property
     def fastest_plane(self) -> float:
@@ -277,6 +277,11 @@ class AuditModel:
         points, facets = self.bodies[body].points, self.bodies[body].facets
         lengths = np.linalg.norm(points[facets[:, 1]] - points[facets[:, 0]], axis=1)
         return float(lengths.mean())
+
+
+def _diameter(points: Array) -> float:
+    """Return the diameter of the smallest ball around the mean of all points [m]."""
+    return 2.0 * float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())
 
 
 def _plane(entry: Obstacle) -> AuditPlane:
