@@ -187,6 +187,7 @@ impl<const D: usize> ContactModel<D> {
                 .before_round(candidate, obstacle, position)
                 .expect("detect finds these before round obstacles alone"),
             (Site::Corner(_), _, None) => unreachable!("detect gives corners their facet"),
+            (Site::Multiplier(..), ..) => unreachable!("obstacles have no facets to integrate over"),
         }
     }
 }

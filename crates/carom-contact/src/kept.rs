@@ -18,7 +18,13 @@ impl<const D: usize> ContactModel<D> {
         out: &mut Vec<Candidate>,
     ) {
         let found = out.len();
-        for candidate in known.iter().filter(|c| !self.is_multiplier(c)) {
+        // Multipliers are what the search finds of them. A pair may have been of nodes in an analysis before.
+        let lasts = |c: &&Candidate| match c.site {
+            Site::Node(_) => !self.is_mortar(c.pair as usize),
+            Site::Multiplier(..) => false,
+            _ => true,
+        };
+        for candidate in known.iter().filter(lasts) {
             if out[..found].binary_search_by_key(&candidate.key(), Candidate::key).is_err() {
                 out.push(Candidate { redundant: false, ..*candidate });
             }
@@ -49,7 +55,7 @@ impl<const D: usize> ContactModel<D> {
                 })
             }
             // Found again wherever they come near.
-            Site::Facet(_) | Site::Edge(_) => false,
+            Site::Multiplier(..) | Site::Facet(_) | Site::Edge(_) => false,
             Site::Crossing(source, target) => {
                 let [a, b] = [source.map(position), target.map(position)];
                 let length = (a[1] - a[0]).norm().min((b[1] - b[0]).norm());

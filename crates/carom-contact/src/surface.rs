@@ -9,6 +9,7 @@ use crate::edge::Edge;
 use crate::patch::Patch;
 use crate::project::{Projection, Reach, Weights, area_normal, normal, project};
 use crate::sheet::Sheet;
+use crate::sides::Sides;
 use crate::tolerances::EDGES;
 
 /// The boundary of a body, its nodes numbered over all bodies.
@@ -35,6 +36,8 @@ pub struct ContactSurface {
     /// The node that every image follows.
     masters: BTreeMap<u32, u32>,
     shape: Shape,
+    /// The sides of its nodes, once it is [`sided`](Self::sided).
+    sides: Sides,
     /// What it is before obstacles without corners and other balls, if that is round.
     pub(crate) ball: Option<Ball>,
 }
@@ -79,6 +82,7 @@ impl ContactSurface {
             has_features: false,
             masters,
             shape: Shape::Faceted,
+            sides: Sides::default(),
             ball: None,
         }
     }
@@ -98,6 +102,7 @@ impl ContactSurface {
             has_features: false,
             masters: BTreeMap::new(),
             shape: Shape::Faceted,
+            sides: Sides::default(),
             ball: None,
         }
     }
@@ -133,6 +138,19 @@ impl ContactSurface {
             self.shape = Shape::Tiled(Sheet::through(&self.facets, reference));
         }
         self
+    }
+
+    /// The same boundary with sides: as the source of a mortar pair it has a multiplier for every side of a node. Facets around the node are on
+    /// one side where they go on into one another without a corner or an edge, which is where the boundary turns by more than 40° in
+    /// the `reference` configuration [m]. Else a node has one side.
+    #[must_use]
+    pub fn sided<const D: usize>(self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
+        Self { sides: Sides::of(&self.facets, &|node| self.around(node), reference), ..self }
+    }
+
+    /// The side of node `a` of the facet `f` that the facet is on: a number among those of the node.
+    pub(crate) fn side(&self, f: u32, a: usize) -> u32 {
+        self.sides.of_facet(f, a)
     }
 
     /// The same boundary without the sources that nothing flat can touch first: those around which it is flat in the `reference`

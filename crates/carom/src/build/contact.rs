@@ -28,6 +28,8 @@ pub(super) fn contact<const D: usize>(
     mut surfaces: Surfaces<D>,
 ) -> Result<(ContactModel<D>, Vec<NamedPair>), InputError> {
     let mut model = ContactModel::default();
+    let pairs = scenario.contact.pairs.iter().filter_map(|pair| pair.discretisation);
+    let has_mortar = pairs.chain([scenario.contact.discretisation]).any(|d| d == Discretisation::Mortar);
     for (i, (b, entry)) in bodies.iter().zip(&scenario.bodies).enumerate() {
         let mut surface = ContactSurface::new(b.body.surface(), b.first_node as u32);
         if entry.hypothesis == Hypothesis::Axisymmetric {
@@ -40,6 +42,9 @@ pub(super) fn contact<const D: usize>(
         surface = surface.edged(&reference);
         if scenario.contact.targets == Targets::Smooth {
             surface = surface.smoothed(&reference);
+        }
+        if has_mortar {
+            surface = surface.sided(&reference);
         }
         if entry.round {
             let (centre, radius) = roundness(&format!("bodies.{i}"), entry)?;
