@@ -37,7 +37,7 @@ use self::row::Row;
 use crate::{Candidate, Contact, ContactModel, Discretisation, Path, Site, Target};
 
 /// What the mortar pairs of a model have found in a step, and scratch. It may be dropped at any moment between two steps.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mortar<const D: usize> {
     /// Facets that may face one another, ascending.
     facing: Vec<Facing>,
@@ -118,17 +118,40 @@ impl<const D: usize> ContactModel<D> {
             let (multipliers, crossings) = of_pair.split_at(nodes.len());
             mortar.nodes = nodes;
             for (candidate, row) in multipliers.iter().zip(&mortar.rows) {
-                out.push(row.contact(position).unwrap_or_else(|| mortar.found(candidate).moved(position)));
+                let contact =
+                    row.contact(position).or_else(|| Some(mortar.found(candidate)?.moved(position)));
+                out.push(contact.unwrap_or_else(|| self.evaluate(candidate, position)));
             }
             out.extend(crossings.iter().map(|c| self.evaluate(c, position)));
         }
+    }
+
+    /// The contact of a single multiplier, integrated over all that faces it at this `position`. Of one that the target does not cover it is that
+    /// of its node.
+    pub(crate) fn multiplier(
+        &self,
+        candidate: &Candidate,
+        node: u32,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Contact<D> {
+        let pair = candidate.pair as usize;
+        let mut mortar = Mortar::default();
+        let nearest = self.before_nearest(pair, node, position);
+        let margin = nearest.relative(|n| position(n as u32)).norm();
+        self.find_facing(pair, &Path::resting(position, margin), &mut mortar.facing);
+        self.integrate_rows(pair, &[node], position, &mut mortar);
+        mortar.rows[0].contact(position).unwrap_or(nearest)
     }
 
     /// Whether the rows of a pair are those of multipliers.
     #[must_use]
     pub fn is_mortar(&self, pair: usize) -> bool {
         let pair = &self.pairs[pair];
-        pair.discretisation == Discretisation::Mortar && matches!(pair.target, Target::Surface(_))
+        let has_facets = |target: Target| match target {
+            Target::Surface(t) => !self.surfaces[t].facets.is_empty(),
+            Target::Obstacle(_) => false,
+        };
+        pair.discretisation == Discretisation::Mortar && has_facets(pair.target)
     }
 
     /// Whether a candidate is a multiplier of a mortar pair, and not edges that cross.
@@ -165,12 +188,9 @@ impl<const D: usize> ContactModel<D> {
 }
 
 impl<const D: usize> Mortar<D> {
-    /// A candidate where it was found.
-    fn found(&self, candidate: &Candidate) -> &Contact<D> {
-        match self.found.binary_search_by_key(candidate, |(c, _)| *c) {
-            Ok(k) => &self.found[k].1,
-            Err(_) => unreachable!("candidates of mortar pairs come from detect_mortar"),
-        }
+    /// A candidate where it was found; none if it was not found here.
+    fn found(&self, candidate: &Candidate) -> Option<&Contact<D>> {
+        self.found.binary_search_by_key(candidate, |(c, _)| *c).ok().map(|k| &self.found[k].1)
     }
 
     /// The facing facets of a pair.

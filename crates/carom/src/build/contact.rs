@@ -27,15 +27,14 @@ pub(super) fn contact<const D: usize>(
 ) -> Result<(ContactModel<D>, Vec<NamedPair>), InputError> {
     let mut model = ContactModel::default();
     for (i, (b, entry)) in bodies.iter().zip(&scenario.bodies).enumerate() {
-        let mut surface = ContactSurface::new(b.body.surface(), b.first_node as u32);
+        let reference = |n: u32| b.body.mesh().nodes()[n as usize - b.first_node];
+        let mut surface = ContactSurface::new(b.body.surface(), b.first_node as u32, &reference);
         if entry.hypothesis == Hypothesis::Axisymmetric {
             surface = surface.revolved();
         }
-        let reference = |n: u32| b.body.mesh().nodes()[n as usize - b.first_node];
         if may_touch(scenario, &b.name) {
             check_manifold(&format!("bodies.{i}.mesh"), &surface, &reference)?;
         }
-        surface = surface.edged(&reference);
         if scenario.contact.targets == Targets::Smooth {
             surface = surface.smoothed(&reference);
         }
