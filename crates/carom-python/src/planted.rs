@@ -91,6 +91,12 @@ impl PlantedContact {
         })
     }
 
+    /// How many of what was found take part in the step.
+    #[getter]
+    fn count(&self) -> usize {
+        with!(&self.inner, planted => planted.candidates().len())
+    }
+
     #[getter]
     fn time(&self) -> f64 {
         with!(&self.inner, planted => planted.time())
@@ -104,12 +110,11 @@ impl PlantedContact {
         velocity: PyReadonlyArray2<'_, f64>,
         time_step: f64,
         reach: Option<f64>,
-    ) -> PyResult<usize> {
+    ) -> PyResult<()> {
         with!(&mut self.inner, planted => {
             let (points, velocity) = (rows(&points)?, rows(&velocity)?);
             let found = py.detach(|| planted.search(&points, &velocity, time_step, reach));
-            found.map_err(|e| step_error::<2>(py, &e, None))?;
-            Ok(planted.candidates().len())
+            found.map_err(|e| step_error::<2>(py, &e, None))
         })
     }
 

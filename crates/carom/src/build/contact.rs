@@ -1,10 +1,11 @@
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Pair, Target};
 use carom_fem::Hypothesis;
-use carom_mesh::{Facet, Surface, Vector};
+use carom_mesh::Vector;
 
 use super::body::may_touch;
 use super::mortar::discretisation;
 use super::obstacle::{Surfaces, obstacle};
+use super::side::{Side, facet_width};
 use super::values::{number, place, vector};
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
@@ -60,33 +61,6 @@ pub(super) fn contact<const D: usize>(
     let (pairs, named_pairs) = pairs(&scenario.contact, &sides, &obstacles)?;
     model.pairs = pairs;
     Ok((model, named_pairs))
-}
-
-/// What the pairs of a body depend on.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Side {
-    pub name: String,
-    pub touches_itself: bool,
-    pub is_periodic: bool,
-    /// Mean width of its facets [m].
-    pub facet_width: f64,
-}
-
-impl Side {
-    /// Whether the facets are on average clearly smaller than those of another.
-    fn is_finer_than(&self, other: &Self) -> bool {
-        self.facet_width < 0.99 * other.facet_width
-    }
-}
-
-/// Mean width of the facets of a surface [m], of which nodes are at `position`.
-pub(crate) fn facet_width<const D: usize>(
-    surface: &Surface,
-    position: impl Fn(usize) -> Vector<D> + Copy,
-) -> f64 {
-    let facets = surface.facets();
-    let width = |f: &Facet| f.area_vector_at(position).norm().powf(1.0 / (D as f64 - 1.0));
-    facets.iter().map(width).sum::<f64>() / facets.len() as f64
 }
 
 /// Every pair of a body with another body or an obstacle, less the exceptions, and the named pairs they belong to.

@@ -13,6 +13,7 @@ pub(crate) mod obstacle;
 mod overlaps;
 mod restitution;
 mod rigid;
+pub(crate) mod side;
 mod signals;
 mod support_name;
 pub(crate) mod values;

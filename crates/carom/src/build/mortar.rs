@@ -1,6 +1,6 @@
 use carom_contact::Discretisation;
 
-use super::contact::Side;
+use super::side::Side;
 use crate::error::InputError;
 use crate::scenario::{ContactSpec, PairEntry, Sources};
 

@@ -6,13 +6,14 @@ use carom_contact::{ContactModel, ContactSurface};
 use carom_mesh::{Facet, Surface, Vector};
 use serde::Deserialize;
 
-use super::PlantedContact;
+use super::contact::PlantedContact;
 use super::numbering::Numbering;
 use crate::build::Surfaces;
-use crate::build::contact::{Side, check_manifold, facet_width, pairs};
+use crate::build::contact::{check_manifold, pairs};
 use crate::build::drive::obstacle_motion;
 use crate::build::method::{check_solver, stopping};
 use crate::build::obstacle::obstacle;
+use crate::build::side::{Side, facet_width};
 use crate::build::values::number;
 use crate::error::InputError;
 use crate::model::assembly::{Assembly, Member};
