@@ -67,7 +67,7 @@ class Surface:
 def _kinds(facets: Any) -> list[Any]:  # noqa: ANN401 (arrays, or sequences of them)
     """Return the facets kind by kind."""
     try:
-        is_one = np.asarray(facets).ndim == 2
+        is_one = np.asarray(facets).ndim <= 2
     except ValueError:
         is_one = False
     return [facets] if is_one else list(facets)
