@@ -5,6 +5,7 @@ Needs scikit-fem: pip install scikit-fem.
 
 import argparse
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import skfem
@@ -34,29 +35,29 @@ class Discs:
         self.mass = skfem.BilinearForm(lambda u, v, w: DENSITY * dot(u, v)).assemble(self.basis)
 
     @staticmethod
-    def _stress(w):
+    def _stress(w: Any) -> tuple[Any, Any, Any]:
         gradient = grad(w["u"])
         deformation = gradient + identity(gradient)
         strain = 0.5 * (mul(transpose(deformation), deformation) - identity(gradient))
         stress = LAMBDA * trace(strain) * identity(gradient) + 2 * SHEAR * strain
         return deformation, stress, strain
 
-    def _assemble(self, form, u: Array):
+    def _assemble(self, form: Any, u: Array) -> Any:
         return form.assemble(self.basis, u=self.basis.interpolate(u))
 
-    def force(self, u: Array) -> Array:
+    def force(self, u: Array) -> Any:
         """Return the internal forces [N]."""
 
-        def form(v, w):
+        def form(v: Any, w: Any) -> Any:
             deformation, stress, _ = self._stress(w)
             return ddot(mul(deformation, stress), grad(v))
 
         return self._assemble(skfem.LinearForm(form), u)
 
-    def stiffness(self, u: Array):
+    def stiffness(self, u: Array) -> Any:
         """Return the tangent [N/m]."""
 
-        def form(u, v, w):
+        def form(u: Any, v: Any, w: Any) -> Any:
             deformation, stress, _ = self._stress(w)
             change = mul(transpose(deformation), grad(u))
             strain = 0.5 * (change + transpose(change))
@@ -68,7 +69,7 @@ class Discs:
     def strain_energy(self, u: Array) -> float:
         """Return the strain energy [J]."""
 
-        def form(w):
+        def form(w: Any) -> Any:
             _, stress, strain = self._stress(w)
             return 0.5 * ddot(stress, strain)
 
@@ -107,6 +108,7 @@ def collide(discs: Discs, end_time: float = 0.6, condition: str = "gap") -> Run:
     force = discs.force(u)
     for _ in range(round(end_time / TIME_STEP)):
         start = reference + u[dofs]
+        candidates: contact.Candidates | None
         candidates = touch.search(start, velocity=v[dofs], time_step=TIME_STEP)
         d = TIME_STEP * v
         while candidates is not None:
@@ -146,8 +148,8 @@ def main(end_time: float = 0.6) -> None:
     print(
         f"{discs.basis.N} unknowns, {ledger.steps} steps, {run.iterations} iterations; "
         f"friction took {ledger.friction:.4f} J of {initial:.4f} J, "
-        f"normal reactions {ledger.normal_contact:.4f} J, the scheme {-defect:.1e} J; certificate {ledger.certificate:.1e} J, least gap "
-        f"{ledger.min_gap:.1e} m"
+        f"normal reactions {ledger.normal_contact:.4f} J, the scheme {-defect:.1e} J; "
+        f"certificate {ledger.certificate:.1e} J, least gap {ledger.min_gap:.1e} m"
     )
     assert ledger.friction > 0.01 * initial
     assert abs(defect) < 1e-3 * initial
