@@ -1,12 +1,13 @@
 """What cannot be is refused with its place, its value and what to do."""
 
+import json
 import re
 
 import numpy as np
 import pytest
 
 import carom
-from carom import InputError, contact
+from carom import InputError, _carom, contact
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 EDGES = np.array([[0, 1], [1, 2], [2, 3], [3, 0]])
@@ -158,3 +159,27 @@ def test_a_problem_without_a_solution_is_told_with_the_problem():
     assert refused.value.report["friction"]["status"] == "iteration-limit"
     with refuses("the contacts have no reactions: solve first, or give reactions"):
         touch.accept(SQUARE)
+
+
+def test_what_passes_python_by_is_refused_by_the_core():
+    spec = json.dumps({"obstacles": [], "contact": contact_data(), "theta": 0.5})
+    held = np.zeros((4, 2), dtype=bool)
+
+    def native(spec=spec, facets=EDGES):
+        return _carom.PlantedContact(spec, SQUARE, [("square", [facets], False)], held, None)
+
+    with pytest.raises(ValueError, match="-1 is no node"):
+        native(facets=EDGES - 1)
+    with pytest.raises(ValueError, match="no contact: missing field"):
+        native(spec="{}")
+    planted = native()
+    planted.search(SQUARE, np.zeros((4, 2)), 1.0, 0.1)
+    planted.evaluate(SQUARE)
+    with pytest.raises(ValueError, match=r"W has shape \(2, 2\)"):
+        planted.solve(np.eye(2), np.zeros((0, 2)))
+    with pytest.raises(ValueError, match=r"shape \(1, 2\) instead of \(0, 2\)"):
+        planted.set_reactions(np.zeros((1, 2)))
+
+
+def contact_data():
+    return carom.Contact(condition="gap").model_dump(mode="json")
