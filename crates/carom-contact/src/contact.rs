@@ -29,16 +29,16 @@ impl<const D: usize> Contact<D> {
         Self { gap, frame, area: 0.0, stencil, sources: 1 }
     }
 
-    /// The contact of a source point, which follows `nodes` with these `weights`, with the `obstacle` that has this number.
+    /// The contact of a source point, which follows `nodes` with these `weights`, with the `obstacle` that has this number if it may move.
     pub(crate) fn before_obstacle(
         gap: f64,
         frame: Matrix<D>,
         nodes: &[u32],
         weights: &[f64],
-        obstacle: u32,
+        obstacle: Option<u32>,
     ) -> Self {
         let source = nodes.iter().zip(weights).map(|(&node, &weight)| (node, weight));
-        let stencil = source.chain(std::iter::once((obstacle, -1.0))).collect();
+        let stencil = source.chain(obstacle.map(|node| (node, -1.0))).collect();
         Self { gap, frame, area: 0.0, stencil, sources: nodes.len() }
     }
 
@@ -78,6 +78,11 @@ impl<const D: usize> Contact<D> {
         let stencil: SmallVec<_> = stencil.collect();
         assert!(sources <= stencil.len(), "source nodes are part of the stencil");
         Self { gap, frame, area, stencil, sources }
+    }
+
+    /// That of a candidate which its pair cannot have: as far from everything as can be, and nothing moves in it.
+    pub(crate) fn with_nothing() -> Self {
+        Self { gap: f64::MAX, frame: Matrix::identity(), area: 0.0, stencil: SmallVec::new(), sources: 0 }
     }
 
     /// Turns the tangents to where those of an earlier frame of the contact were (`carried` in frame.rs). A frame of zeros stands for none.

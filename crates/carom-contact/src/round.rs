@@ -69,7 +69,7 @@ impl<const D: usize> ContactModel<D> {
                 }
             }
             RigidShape::Sphere { centre, .. } => {
-                let way = path.ends(obstacle.node).map(|shift| centre + shift);
+                let way = [obstacle.shift(path.start), obstacle.shift(path.end)].map(|shift| centre + shift);
                 let way = Aabb::of(way).inflated(radius + path.margin);
                 for f in 0..source.facets.len() as u32 {
                     let room = source.bounds(f, path.start).union(&source.bounds(f, path.end));
@@ -145,7 +145,7 @@ impl ContactSurface {
         obstacle: &Obstacle<D>,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Option<Nearest<D>> {
-        let shift = position(obstacle.node);
+        let shift = obstacle.shift(position);
         match (site, &obstacle.shape) {
             (Site::Facet(f), RigidShape::Sphere { centre, .. }) => {
                 let centre = centre + shift;

@@ -27,7 +27,7 @@ pub struct ContactSurface {
     facets_around: Vec<Vec<u32>>,
     /// For every source, the facets of this surface that it never touches, ascending; empty if it touches none of them.
     pub(crate) never_touched: Vec<Vec<u32>>,
-    /// Its convex edges in space, by their nodes, once it is [`edged`](Self::edged).
+    /// Its convex edges in space, by their nodes.
     pub(crate) edges: Vec<Edge>,
     /// Its other edges: an edge of an obstacle may lie on the facets beside them, with no node near.
     pub(crate) flat_edges: Vec<Edge>,
@@ -54,9 +54,18 @@ enum Shape {
 }
 
 impl ContactSurface {
-    /// The boundary of a body whose first node has the number `first_node`. As a target it consists of its facets.
+    /// The boundary of a body whose first node has the number `first_node`, with its edges if it is one in space, convex ones and all others.
+    /// They are those of the `reference` configuration [m]. As a target it consists of its facets.
     #[must_use]
-    pub fn new(surface: &Surface, first_node: u32) -> Self {
+    pub fn new<const D: usize>(
+        surface: &Surface,
+        first_node: u32,
+        reference: &impl Fn(u32) -> Vector<D>,
+    ) -> Self {
+        Self::without_edges(surface, first_node).edged(reference)
+    }
+
+    fn without_edges(surface: &Surface, first_node: u32) -> Self {
         let facets: Vec<Facet> = surface.facets().iter().map(|f| f.numbered_from(first_node)).collect();
         let nodes: Vec<u32> = surface.nodes().iter().map(|n| n + first_node).collect();
         let masters: BTreeMap<u32, u32> =

@@ -2,7 +2,7 @@
 
 /// How far around the bodies contacts are looked for, and how often.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Search {
+pub(crate) struct Search {
     /// Margin of the contact search, in largest predicted motions of a node in the step.
     pub margin: f64,
     /// The largest margin, in sizes of the model, where no body moves as a whole by half of that. With more, one very fast node would
@@ -17,7 +17,7 @@ pub(super) struct Search {
 }
 
 /// Those of every search.
-pub(super) const SEARCH: Search =
+pub(crate) const SEARCH: Search =
     Search { margin: 2.0, largest_margin: 0.1, static_margin: 1e-3, repetitions: 8, measured: 4 };
 
 /// Which contacts land, stick or settle by an impulse.
