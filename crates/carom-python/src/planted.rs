@@ -37,6 +37,11 @@ macro_rules! with {
 type Facets<'py> = (String, Vec<PyReadonlyArray2<'py, i64>>, bool);
 
 fn outline((name, kinds, touches_itself): &Facets<'_>) -> PyResult<Outline> {
+    Ok(Outline { name: name.clone(), facets: facets_of(kinds)?, touches_itself: *touches_itself })
+}
+
+/// Facets by their nodes, of all kinds.
+pub fn facets_of(kinds: &[PyReadonlyArray2<'_, i64>]) -> PyResult<Vec<Vec<u32>>> {
     let number = |n: &i64| u32::try_from(*n).map_err(|_| PyValueError::new_err(format!("{n} is no node")));
     let mut facets = Vec::new();
     for kind in kinds {
@@ -44,10 +49,11 @@ fn outline((name, kinds, touches_itself): &Facets<'_>) -> PyResult<Outline> {
             facets.push(row.iter().map(number).collect::<PyResult<_>>()?);
         }
     }
-    Ok(Outline { name: name.clone(), facets, touches_itself: *touches_itself })
+    Ok(facets)
 }
 
-fn rows<const D: usize>(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Vector<D>>> {
+/// One vector per row.
+pub fn rows<const D: usize>(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Vector<D>>> {
     arrays::from_rows(array, array.shape()[0])
 }
 
