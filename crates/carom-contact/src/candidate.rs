@@ -1,8 +1,11 @@
 /// Where a contact is, the same from step to step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Site {
-    /// A node; of a mortar pair the node of a multiplier.
+    /// A node.
     Node(u32),
+    /// A multiplier of a mortar pair: its node, and the number of the side of the source there that it is on. At a corner every side has
+    /// one of its own.
+    Multiplier(u32, u32),
     /// Where two edges cross, that of the source first, each from its first node to its second. Their vector product points
     /// from the target to the source.
     Crossing([u32; 2], [u32; 2]),
@@ -37,11 +40,17 @@ impl Candidate {
         Self { pair, site: Site::Node(node), facet, redundant: false }
     }
 
+    /// The multiplier of the source `node` of a mortar pair on a `side` of the source there.
+    #[must_use]
+    pub fn of_multiplier(pair: u32, (node, side): (u32, u32)) -> Self {
+        Self { pair, site: Site::Multiplier(node, side), facet: None, redundant: false }
+    }
+
     /// The node, if it is at one.
     #[must_use]
     pub fn node(&self) -> Option<u32> {
         match self.site {
-            Site::Node(node) => Some(node),
+            Site::Node(node) | Site::Multiplier(node, _) => Some(node),
             _ => None,
         }
     }

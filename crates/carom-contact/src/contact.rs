@@ -114,6 +114,11 @@ impl<const D: usize> Contact<D> {
         self.sources().fold(Vector::zeros(), |x, (n, weight)| x + position(n as u32) * weight)
     }
 
+    /// Where it is on the target [m], if that deforms or has nodes of its own.
+    pub fn target_point(&self, position: &impl Fn(u32) -> Vector<D>) -> Vector<D> {
+        self.targets().fold(Vector::zeros(), |x, (n, weight)| x - position(n as u32) * weight)
+    }
+
     /// The part of the stencil on the target.
     pub fn targets(&self) -> impl ExactSizeIterator<Item = (usize, f64)> + Clone {
         self.stencil().skip(self.sources)

@@ -1,5 +1,6 @@
 use carom_mesh::{Facet, Vector};
 
+use crate::parts::parts;
 use crate::project::{Projection, Reach, Weights, normal};
 use crate::tolerances::{EDGES, SEARCH};
 
@@ -33,6 +34,32 @@ const MAX_STEPS: usize = 100;
 
 /// The ends of a segment in ξ.
 const ENDS: [f64; 2] = [0.0, 1.0];
+
+/// The facet of a boundary line that goes on behind an end of facet `f`, 0 or 1, without a corner in the `reference` configuration; `around` are
+/// the facets around a node.
+///
+/// Quadratic facets have the directions of their halves.
+pub(crate) fn smooth_neighbour<'a, const D: usize>(
+    facets: &[Facet],
+    f: u32,
+    end: usize,
+    around: &impl Fn(u32) -> &'a [u32],
+    reference: &impl Fn(u32) -> Vector<D>,
+) -> Option<u32> {
+    let direction = |f: u32, end: usize| {
+        let facet = &facets[f as usize];
+        let parts = parts(facet.kind);
+        let (_, ends) = parts[if end == 0 { 0 } else { parts.len() - 1 }];
+        reference(facet.nodes[ends[1]]) - reference(facet.nodes[ends[0]])
+    };
+    let node = |f: u32, end: usize| facets[f as usize].nodes[end];
+    // More than two facets at a node: two parts of the boundary touch there, which is a corner.
+    let &[g, h] = around(node(f, end)) else { return None };
+    let (next, own) = (if g == f { h } else { g }, direction(f, end));
+    let there = direction(next, 1 - end);
+    let goes_on = there.dot(&own) >= SEARCH.corner * there.norm() * own.norm();
+    (node(next, 1 - end) == node(f, end) && goes_on).then_some(next)
+}
 
 impl Curve {
     /// The curve through the nodes of `facets`, which are lines, one segment per facet; `around` are the facets around a node.
@@ -127,15 +154,7 @@ impl Segment {
             reference(b) - reference(a)
         };
         let length = chord(f).norm();
-        // More than two facets at a node: two parts of the boundary touch there, which is a corner.
-        let neighbour = |end: usize| match *around(ends(f)[end]) {
-            [g, h] => Some(if g == f { h } else { g }).filter(|&g| {
-                let c = chord(g);
-                ends(g)[1 - end] == ends(f)[end] && c.dot(&chord(f)) >= SEARCH.corner * c.norm() * length
-            }),
-            _ => None,
-        };
-        let neighbours = [0, 1].map(neighbour);
+        let neighbours = [0, 1].map(|end| smooth_neighbour(facets, f, end, around, reference));
         let [a, b] = ends(f);
         let (mut nodes, mut len) = ([a, b, b, b], 2);
         // The tangents as weights of the nodes: the chord, and where there is a neighbour, a share of its slope.

@@ -143,8 +143,8 @@ impl<const D: usize> ContactModel<D> {
                     let c = Crossing::new(source.map(position), target.map(position)).clamped();
                     Contact::of_crossing(&c, source, target)
                 }
-                (Site::Node(node), None) if self.is_mortar(candidate.pair as usize) => {
-                    self.multiplier(candidate, node, position)
+                (Site::Multiplier(node, side), _) => {
+                    self.multiplier(candidate.pair as usize, (node, side), position)
                 }
                 (site, _) => {
                     let pair = candidate.pair as usize;
@@ -221,7 +221,7 @@ impl<const D: usize> ContactModel<D> {
             (Site::Facet(_) | Site::Edge(_), ..) => {
                 self.before_round(candidate, obstacle, position).unwrap_or_else(Contact::with_nothing)
             }
-            (Site::Corner(_), _, None) => Contact::with_nothing(),
+            (Site::Corner(_), _, None) | (Site::Multiplier(..), ..) => Contact::with_nothing(),
         }
     }
 }

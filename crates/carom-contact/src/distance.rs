@@ -88,9 +88,15 @@ impl<const D: usize> ContactModel<D> {
             signed_distance(x, surface, &search.swept(solid).tree, position)
         };
         match (candidate.site, target) {
-            (_, Target::Surface(t)) => {
+            (site, Target::Surface(t)) => {
                 let x = contact.source_point(position);
-                from(&x, Solid::Body(t), &self.surfaces[t]) > distance
+                from(&x, Solid::Body(t), &self.surfaces[t]) > distance || {
+                    // Of two edges neither is the source by right.
+                    let y = contact.target_point(position);
+                    matches!(site, Site::Crossing(..))
+                        && self.is_two_sided(pair)
+                        && from(&y, Solid::Body(source), &self.surfaces[source]) > distance
+                }
             }
             (Site::Corner(corner), Target::Obstacle(o)) => {
                 let x = self.obstacles[o].placed(position)(corner);

@@ -4,6 +4,7 @@ use carom_mesh::Vector;
 
 use crate::edge::Crossing;
 use crate::project::Reach;
+use crate::surface::diameter;
 use crate::tolerances::{EDGES, SEARCH};
 use crate::{Candidate, ContactModel, Path, Site};
 
@@ -17,7 +18,13 @@ impl<const D: usize> ContactModel<D> {
         out: &mut Vec<Candidate>,
     ) {
         let found = out.len();
-        for candidate in known.iter().filter(|c| !self.is_multiplier(c)) {
+        // Multipliers are what the search finds of them. A pair may have been of nodes in an analysis before.
+        let lasts = |c: &&Candidate| match c.site {
+            Site::Node(_) => !self.is_mortar(c.pair as usize),
+            Site::Multiplier(..) => false,
+            _ => true,
+        };
+        for candidate in known.iter().filter(lasts) {
             if out[..found].binary_search_by_key(&candidate.key(), Candidate::key).is_err() {
                 out.push(Candidate { redundant: false, ..*candidate });
             }
@@ -43,12 +50,12 @@ impl<const D: usize> ContactModel<D> {
                 let faced = self.faced_surface(candidate).zip(candidate.facet);
                 faced.is_some_and(|(surface, f)| {
                     let x = position(node);
-                    let near = apart + SEARCH.kept * surface.bounds(f, position).diameter();
+                    let near = apart + SEARCH.kept * diameter(&surface.facets[f as usize], position);
                     (x - surface.project(f, &x, Reach::Facet, position).point).norm() <= near
                 })
             }
             // Found again wherever they come near.
-            Site::Facet(_) | Site::Edge(_) => false,
+            Site::Multiplier(..) | Site::Facet(_) | Site::Edge(_) => false,
             Site::Crossing(source, target) => {
                 let [a, b] = [source.map(position), target.map(position)];
                 let length = (a[1] - a[0]).norm().min((b[1] - b[0]).norm());

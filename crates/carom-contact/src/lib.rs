@@ -36,6 +36,7 @@ mod round;
 mod search;
 mod self_contact;
 mod sheet;
+mod sides;
 mod surface;
 mod tolerances;
 mod witness;

@@ -8,6 +8,7 @@ use crate::edge::{Edge, SurfaceEdge};
 use crate::frame::frame;
 use crate::path::Path;
 use crate::project::Reach;
+use crate::surface::diameter;
 use crate::tolerances::SEARCH;
 use crate::{Candidate, Contact, ContactModel, ContactSurface, Obstacle, Pair, RigidShape, Site, Target};
 
@@ -51,7 +52,7 @@ impl<const D: usize> ContactModel<D> {
     ) {
         let Some(radius) = obstacle.shape.bulging_radius() else { return };
         let source = &self.surfaces[self.pairs[pair].source];
-        let is_large = |f: u32| source.bounds(f, path.start).diameter() > radius;
+        let is_large = |f: u32| diameter(&source.facets[f as usize], path.start) > radius;
         let comes_near = |site: Site| {
             let Some(first) = source.nearest(site, obstacle, path.start) else { return false };
             let last = source.nearest(site, obstacle, path.end);

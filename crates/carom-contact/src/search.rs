@@ -5,6 +5,7 @@ use crate::bvh::Bvh;
 use crate::edge::Found;
 use crate::facing::{Projected, faced};
 use crate::project::Reach;
+use crate::surface::diameter;
 use crate::tolerances::SEARCH;
 use crate::{ContactModel, ContactSurface, Mortar, Pair, Path, Solid, Target};
 
@@ -178,9 +179,11 @@ impl<const D: usize> Search<D> {
                 }
                 let p = Projected::new(facet, size, &x, &target.project(facet, &x, Reach::Facet, &middle));
                 // Through its own walls a node does not come.
-                let deepest = -SEARCH.depth * swept.facets[facet as usize].diameter();
-                if is_own && target.gap_at(facet, &(path.start)(node), path.start) < deepest {
-                    continue;
+                if is_own {
+                    let deepest = -SEARCH.depth * diameter(&target.facets[facet as usize], path.start);
+                    if target.gap_at(facet, &(path.start)(node), path.start) < deepest {
+                        continue;
+                    }
                 }
                 if p.faces(&outward) && p.gap <= path.margin && p.is_square() {
                     reach = reach.min(if p.gap < 0.0 { p.distance.max(way_in) } else { p.distance });

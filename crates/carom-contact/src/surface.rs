@@ -9,6 +9,7 @@ use crate::edge::Edge;
 use crate::patch::Patch;
 use crate::project::{Projection, Reach, Weights, area_normal, normal, project};
 use crate::sheet::Sheet;
+use crate::sides::Sides;
 use crate::tolerances::EDGES;
 
 /// The boundary of a body, its nodes numbered over all bodies.
@@ -35,6 +36,8 @@ pub struct ContactSurface {
     /// The node that every image follows.
     masters: BTreeMap<u32, u32>,
     shape: Shape,
+    /// The sides of its nodes, once it is [`sided`](Self::sided).
+    sides: Sides,
     /// What it is before obstacles without corners and other balls, if that is round.
     pub(crate) ball: Option<Ball>,
 }
@@ -88,6 +91,7 @@ impl ContactSurface {
             has_features: false,
             masters,
             shape: Shape::Faceted,
+            sides: Sides::default(),
             ball: None,
         }
     }
@@ -107,6 +111,7 @@ impl ContactSurface {
             has_features: false,
             masters: BTreeMap::new(),
             shape: Shape::Faceted,
+            sides: Sides::default(),
             ball: None,
         }
     }
@@ -142,6 +147,19 @@ impl ContactSurface {
             self.shape = Shape::Tiled(Sheet::through(&self.facets, reference));
         }
         self
+    }
+
+    /// The same boundary with sides: as the source of a mortar pair it has a multiplier for every side of a node. Facets around the node are on
+    /// one side where they go on into one another without a corner or an edge, which is where the boundary turns by more than 40° in
+    /// the `reference` configuration [m]. Else a node has one side.
+    #[must_use]
+    pub fn sided<const D: usize>(self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
+        Self { sides: Sides::of(&self.facets, &|node| self.around(node), reference), ..self }
+    }
+
+    /// The side of node `a` of the facet `f` that the facet is on: a number among those of the node.
+    pub(crate) fn side(&self, f: u32, a: usize) -> u32 {
+        self.sides.of_facet(f, a)
     }
 
     /// The same boundary without the sources that nothing flat can touch first: those around which it is flat in the `reference`
@@ -249,6 +267,16 @@ impl ContactSurface {
             sum + area_normal(&Patch::new(&self.facets[f as usize], position).middle().tangents)
         })
     }
+}
+
+/// The largest distance between two nodes of a facet [m].
+pub(crate) fn diameter<const D: usize>(facet: &Facet, position: &impl Fn(u32) -> Vector<D>) -> f64 {
+    let nodes = &facet.nodes;
+    let from = |(k, a): (usize, &u32)| {
+        let x = position(*a);
+        nodes[k + 1..].iter().map(|b| (position(*b) - x).norm_squared()).fold(0.0, f64::max)
+    };
+    nodes.iter().enumerate().map(from).fold(0.0, f64::max).sqrt()
 }
 
 /// How far a facet of this kind may bulge out of the box around its nodes, in half sides of the box. It is the largest sum of the

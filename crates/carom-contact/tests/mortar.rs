@@ -19,7 +19,7 @@ impl<const D: usize> Scene<D> {
         let nodes: Vec<Vector<D>> = source.nodes().iter().chain(target.nodes()).copied().collect();
         let at = |n: u32| nodes[n as usize];
         let surfaces = vec![
-            ContactSurface::new(&Surface::of(source), 0, &at),
+            ContactSurface::new(&Surface::of(source), 0, &at).sided(&at),
             ContactSurface::new(&Surface::of(target), sources as u32, &at),
         ];
         let pair = Pair {
@@ -194,6 +194,82 @@ fn uniform_pressure_is_exact_where_one_side_reaches_beyond_the_other() {
             assert!(total.norm() < 1e-14, "{total}");
             assert!(moment.iter().all(|m| m.abs() < 1e-13), "{moment:?}");
         }
+    }
+}
+
+/// ∫ N n over the sides of a body in the planes x_i = 0, along the axis of every side.
+fn load_on_walls<const D: usize>(mesh: &Mesh<D>) -> Vec<Vector<D>> {
+    let mut load = vec![Vector::zeros(); mesh.nodes().len()];
+    for facet in Surface::of(mesh).facets() {
+        let is_on = |i: &usize| facet.nodes.iter().all(|&n| mesh.nodes()[n as usize][*i] == 0.0);
+        if let Some(i) = (0..D).find(is_on) {
+            let share = facet.area_vector(mesh).norm() / facet.nodes.len() as f64;
+            facet.nodes.iter().for_each(|&n| load[n as usize][i] += share);
+        }
+    }
+    load
+}
+
+/// A block of this many cells a side in the inner corner of another, which is larger by its own size and lacks the quadrant of the first.
+fn corner_in_corner<const D: usize>(own: usize, other: usize) {
+    let source = block([0.0; D], [1.0; D], [own; D]);
+    let whole = block([-1.0; D], [2.0; D], [2 * other; D]);
+    let is_left = |cell: &&[u32]| {
+        let centre: Vector<D> = cell.iter().map(|&n| whole.nodes()[n as usize]).sum();
+        centre.iter().any(|&x| x < 0.0)
+    };
+    let CellBlock { kind, .. } = whole.blocks()[0];
+    let connectivity: Vec<u32> = whole.blocks()[0].cells().filter(is_left).flatten().copied().collect();
+    let mut kept = connectivity.clone();
+    kept.sort_unstable();
+    kept.dedup();
+    let number = |n: &u32| kept.binary_search(n).expect("kept") as u32;
+    let connectivity = connectivity.iter().map(number).collect();
+    let nodes = kept.iter().map(|&n| whole.nodes()[n as usize]).collect();
+    let target = Mesh::new(nodes, vec![CellBlock { kind, connectivity }]);
+    let target = target.expect("an angle");
+    let scene = Scene::new(&source, &target);
+    let force = scene.uniform_pressure();
+    let loads = load_on_walls(&target).into_iter().map(|load| -load);
+    for (k, (f, load)) in force.iter().zip(load_on_walls(&source).into_iter().chain(loads)).enumerate() {
+        assert!((f - load).norm() < 1e-14, "node {k}: {f} and not {load}");
+    }
+    let corners = scene.contacts(&scene.nodes, 0.1).0.iter().filter(|c| c.node() == Some(0)).count();
+    assert_eq!(corners, D, "the corner has a multiplier on every side");
+}
+
+/// Each side of a corner has the forces of its own pressure, in the plane and in space; one multiplier there would have the resultant of the
+/// mean of their normals.
+#[test]
+fn uniform_pressure_in_an_inner_corner_loads_every_side_consistently() {
+    for (own, other) in [(1, 1), (3, 2), (2, 3)] {
+        corner_in_corner::<2>(own, other);
+        corner_in_corner::<3>(own, other);
+    }
+}
+
+/// A block on a corner is turned until its second side comes to face the ground, as it does from 30° on: nothing happens to the rows of the first.
+#[test]
+fn rows_beside_a_corner_do_not_leap_when_its_other_side_comes_to_face_the_target() {
+    let ground = block([-3.0, -1.0], [6.0, 1.0], [7, 1]);
+    let upright = block([0.0, 0.0], [1.0, 1.0], [4, 4]);
+    let scene = Scene::new(&upright, &ground);
+    let rows = |turn: f64| {
+        let (s, c) = turn.sin_cos();
+        let turned = |x: &Vector<2>| Vector::<2>::new(c * x[0] - s * x[1], s * x[0] + c * x[1]);
+        let (own, other) = scene.nodes.split_at(scene.sources);
+        let nodes: Vec<Vector<2>> = own.iter().map(turned).chain(other.iter().copied()).collect();
+        let (candidates, contacts) = scene.contacts(&nodes, 1.0);
+        candidates.into_iter().zip(contacts).collect::<Vec<_>>()
+    };
+    let before = rows(29.99_f64.to_radians());
+    let after = rows(30.01_f64.to_radians());
+    assert!(before.len() < after.len(), "the second side faces the ground: {} rows", after.len());
+    for (candidate, contact) in &before {
+        let (_, there) = after.iter().find(|(other, _)| other == candidate).expect("still there");
+        // The gap is x tan of the turn at x ≤ 1 m along the side: 0.02° more make it 4.7e-4 m larger.
+        assert!((there.gap - contact.gap).abs() < 4.7e-4, "{candidate:?}: {} {}", contact.gap, there.gap);
+        assert!((there.frame - contact.frame).norm() < 1e-3, "{candidate:?}");
     }
 }
 

@@ -218,7 +218,9 @@ fn describe<'py, const D: usize>(
     let named = planted.candidates().iter().map(|c| pairs[c.pair as usize].named_pair as i64);
     out.set_item("pair", PyArray1::from_iter(py, named))?;
     let node = |site: Site| match site {
-        Site::Node(node) => planted.callers_node(node as usize).map_or(-1, i64::from),
+        Site::Node(node) | Site::Multiplier(node, _) => {
+            planted.callers_node(node as usize).map_or(-1, i64::from)
+        }
         _ => -1,
     };
     out.set_item("node", PyArray1::from_iter(py, planted.candidates().iter().map(|c| node(c.site))))?;

@@ -3,6 +3,7 @@
 use carom_mesh::{Facet, Vector};
 use smallvec::SmallVec;
 
+use super::clip::{Polygon, intersection, orient};
 use super::plane::Plane;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
@@ -69,7 +70,8 @@ struct Near<const D: usize> {
     facet: u32,
     /// The box around its path and what it reaches [m].
     room: Aabb<D>,
-    /// Its plane in the middle of the step.
+    /// Its corners [m] and its plane in the middle of the step.
+    corners: SmallVec<[Vector<D>; 4]>,
     plane: Plane<D>,
     /// Diameter [m].
     size: f64,
@@ -80,13 +82,27 @@ impl<const D: usize> Near<D> {
         let corners: SmallVec<[Vector<D>; 4]> =
             facet.nodes[..facet.kind.corner_count()].iter().map(|&n| position(n)).collect();
         let size = Aabb::of(corners.iter().copied()).diameter();
-        Some(Self { facet: number, room, plane: Plane::through(&corners)?, size })
+        let plane = Plane::through(&corners)?;
+        Some(Self { facet: number, room, corners, plane, size })
     }
 
-    /// Whether a facet is opposite and not far behind.
+    /// Whether a facet is opposite and not far behind: neither its centre nor all of it that covers this one. Of a facet that is long or inclined
+    /// the centre alone may be.
     fn faces(&self, other: &Self, margin: f64) -> bool {
-        let depth = -self.plane.normal().dot(&(other.plane.centre() - self.plane.centre()));
+        let limit = margin + MORTAR.depth * self.size.min(other.size);
+        let depth = || -self.plane.normal().dot(&(other.plane.centre() - self.plane.centre()));
         self.plane.normal().dot(&other.plane.normal()) < -MORTAR.opposed
-            && depth < margin + MORTAR.depth * self.size.min(other.size)
+            && (depth() < limit
+                || self.covered(other).iter().any(|p| -self.plane.height(&other.plane, p) < limit))
+    }
+
+    /// The part of this facet that another covers, in its plane.
+    fn covered(&self, other: &Self) -> Polygon {
+        let [own, window] = [self, other].map(|facet| {
+            let mut polygon: Polygon = facet.corners.iter().map(|x| self.plane.coordinates(x)).collect();
+            orient(D - 1, &mut polygon);
+            polygon
+        });
+        intersection(D - 1, &own, &window)
     }
 }

@@ -23,7 +23,7 @@ fn products(nodes: usize) -> Products {
 }
 
 /// Adds to the rows of the nodes of the facet `source_facet` what they see of the facets `targets` of the other of two surfaces. `row_of` knows the places
-/// of the rows.
+/// of the rows of its nodes, counted in the facet.
 ///
 /// Each part of the source is a plane, in which the facets are cut against it exactly; along its normal the points of both sides
 /// face one another. Multipliers are the linear shape functions of the parts, and places those of the surfaces over the facets: between
@@ -36,7 +36,7 @@ pub(super) fn integrate<const D: usize>(
     source_facet: u32,
     targets: impl Iterator<Item = u32> + Clone,
     position: &impl Fn(u32) -> Vector<D>,
-    row_of: &impl Fn(u32) -> Option<usize>,
+    row_of: &impl Fn(usize) -> Option<usize>,
     rows: &mut [Row<D>],
 ) {
     let dimension = D - 1;
@@ -52,7 +52,7 @@ pub(super) fn integrate<const D: usize>(
         let whole: f64 = simplices(dimension, &outline).map(|s| size(dimension, &s)).sum();
         let mut covered = [0.0; 4];
         let mut with_source = products(source_nodes.len());
-        let row: SmallVec<[Option<usize>; 4]> = corners.iter().map(|&a| row_of(source.nodes[a])).collect();
+        let row: SmallVec<[Option<usize>; 4]> = corners.iter().map(|&a| row_of(a)).collect();
         for target_facet in targets.clone() {
             let target = &of_target.facets[target_facet as usize];
             let other = Image::new(target.kind, target.nodes.iter().map(in_plane));

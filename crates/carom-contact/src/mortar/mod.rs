@@ -11,6 +11,10 @@
 //! positions, along n_A. The rows have the form of those of nodes, so the reduced problem and its solvers know no difference. A
 //! reaction is a force [N], spread by the same weights, and r_n/∫Φ_A (and the thickness) is the pressure at the node.
 //!
+//! **A multiplier on every side of a corner.** Where the source has a corner or a sharp edge, facets around a node look different ways, and the
+//! target may lie before some of them alone. One multiplier would be a mean of two duties, and leap as facets of the second come
+//! to face the target. So a node has a multiplier for every side of it (`sides.rs`), whose Φ_A ends at the edge.
+//!
 //! **Standard, not dual multipliers.** Φ_A is the linear shape function of the node, on quadratic facets that of their parts. It is
 //! nowhere negative: the gap is a mean, p ≥ 0 holds everywhere and not at nodes only.
 //!
@@ -36,6 +40,9 @@ use self::integrate::integrate;
 use self::row::Row;
 use crate::{Candidate, Contact, ContactModel, Discretisation, Path, Site, Target};
 
+/// The node of a multiplier and the side of it that it is on.
+pub(crate) type Multiplier = (u32, u32);
+
 /// What the mortar pairs of a model have found in a step, and scratch. It may be dropped at any moment between two steps.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mortar<const D: usize> {
@@ -44,7 +51,8 @@ pub struct Mortar<const D: usize> {
     /// The rows of the candidates where they were found: of one that the target leaves within the step, the last there is.
     found: Vec<(Candidate, Contact<D>)>,
     rows: Vec<Row<D>>,
-    nodes: Vec<u32>,
+    /// The multipliers that the rows are of.
+    multipliers: Vec<Multiplier>,
 }
 
 impl<const D: usize> ContactModel<D> {
@@ -64,31 +72,33 @@ impl<const D: usize> ContactModel<D> {
             let first = mortar.facing.len();
             self.find_facing(pair, path, &mut mortar.facing);
             let surface = &self.surfaces[self.pairs[pair].source];
-            let mut nodes = std::mem::take(&mut mortar.nodes);
-            nodes.clear();
-            for facing in &mortar.facing[first..] {
-                nodes.extend(&surface.facets[facing.source as usize].nodes);
+            let mut multipliers = std::mem::take(&mut mortar.multipliers);
+            multipliers.clear();
+            for facing in mortar.facing[first..].chunk_by(|a, b| a.source == b.source) {
+                let f = facing[0].source;
+                let nodes = surface.facets[f as usize].nodes.iter().enumerate();
+                multipliers.extend(nodes.map(|(a, &node)| (node, surface.side(f, a))));
             }
-            nodes.sort_unstable();
-            nodes.dedup();
-            nodes.retain(|n| surface.sources.binary_search(n).is_ok());
-            let candidate = |&node: &u32| Candidate::at_node(pair as u32, node, None);
+            multipliers.sort_unstable();
+            multipliers.dedup();
+            multipliers.retain(|(n, _)| surface.sources.binary_search(n).is_ok());
+            let candidate = |&multiplier: &Multiplier| Candidate::of_multiplier(pair as u32, multiplier);
             let first = mortar.found.len();
-            self.integrate_rows(pair, &nodes, &middle, mortar);
-            for (node, row) in nodes.iter().zip(&mortar.rows) {
+            self.integrate_rows(pair, &multipliers, &middle, mortar);
+            for (multiplier, row) in multipliers.iter().zip(&mortar.rows) {
                 let contact = row.contact(&middle).filter(|c| c.gap <= path.margin);
-                mortar.found.extend(contact.map(|c| (candidate(node), c)));
+                mortar.found.extend(contact.map(|c| (candidate(multiplier), c)));
             }
             let known = mortar.found.len();
-            self.integrate_rows(pair, &nodes, end, mortar);
-            for (node, row) in nodes.iter().zip(&mortar.rows) {
-                let known = &mortar.found[first..known];
-                let is_new = known.binary_search_by_key(&Site::Node(*node), |(c, _)| c.site).is_err();
+            self.integrate_rows(pair, &multipliers, end, mortar);
+            for (multiplier, row) in multipliers.iter().zip(&mortar.rows) {
+                let (known, candidate) = (&mortar.found[first..known], candidate(multiplier));
+                let is_new = known.binary_search_by_key(&candidate.site, |(c, _)| c.site).is_err();
                 let contact = row.contact(end).filter(|c| is_new && c.gap <= path.margin);
-                mortar.found.extend(contact.map(|c| (candidate(node), c)));
+                mortar.found.extend(contact.map(|c| (candidate, c)));
             }
             mortar.found[first..].sort_unstable_by_key(|(c, _)| *c);
-            mortar.nodes = nodes;
+            mortar.multipliers = multipliers;
         }
         if !mortar.found.is_empty() {
             out.extend(mortar.found.iter().map(|(c, _)| *c));
@@ -111,13 +121,16 @@ impl<const D: usize> ContactModel<D> {
                 out.extend(of_pair.iter().map(|c| self.evaluate(c, position)));
                 continue;
             }
-            let mut nodes = std::mem::take(&mut mortar.nodes);
-            nodes.clear();
-            nodes.extend(of_pair.iter().map_while(Candidate::node));
-            self.integrate_rows(pair, &nodes, position, mortar);
-            let (multipliers, crossings) = of_pair.split_at(nodes.len());
-            mortar.nodes = nodes;
-            for (candidate, row) in multipliers.iter().zip(&mortar.rows) {
+            let mut multipliers = std::mem::take(&mut mortar.multipliers);
+            multipliers.clear();
+            multipliers.extend(of_pair.iter().map_while(|c| match c.site {
+                Site::Multiplier(node, side) => Some((node, side)),
+                _ => None,
+            }));
+            self.integrate_rows(pair, &multipliers, position, mortar);
+            let (of_multipliers, crossings) = of_pair.split_at(multipliers.len());
+            mortar.multipliers = multipliers;
+            for (candidate, row) in of_multipliers.iter().zip(&mortar.rows) {
                 let contact =
                     row.contact(position).or_else(|| Some(mortar.found(candidate)?.moved(position)));
                 out.push(contact.unwrap_or_else(|| self.evaluate(candidate, position)));
@@ -130,16 +143,15 @@ impl<const D: usize> ContactModel<D> {
     /// of its node.
     pub(crate) fn multiplier(
         &self,
-        candidate: &Candidate,
-        node: u32,
+        pair: usize,
+        (node, side): Multiplier,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Contact<D> {
-        let pair = candidate.pair as usize;
         let mut mortar = Mortar::default();
         let nearest = self.before_nearest(pair, node, position);
         let margin = nearest.relative(|n| position(n as u32)).norm();
         self.find_facing(pair, &Path::resting(position, margin), &mut mortar.facing);
-        self.integrate_rows(pair, &[node], position, &mut mortar);
+        self.integrate_rows(pair, &[(node, side)], position, &mut mortar);
         mortar.rows[0].contact(position).unwrap_or(nearest)
     }
 
@@ -154,34 +166,30 @@ impl<const D: usize> ContactModel<D> {
         pair.discretisation == Discretisation::Mortar && has_facets(pair.target)
     }
 
-    /// Whether a candidate is a multiplier of a mortar pair, and not edges that cross.
-    pub(crate) fn is_multiplier(&self, candidate: &Candidate) -> bool {
-        candidate.node().is_some() && self.is_mortar(candidate.pair as usize)
-    }
-
     fn mortar_pairs(&self) -> impl Iterator<Item = usize> {
         (0..self.pairs.len()).filter(|&p| self.is_mortar(p))
     }
 
-    /// Fills `mortar.rows`, one for each of `nodes`, which ascend.
+    /// Fills `mortar.rows`, one for each of `multipliers`, which ascend.
     fn integrate_rows(
         &self,
         pair: usize,
-        nodes: &[u32],
+        multipliers: &[Multiplier],
         position: &impl Fn(u32) -> Vector<D>,
         mortar: &mut Mortar<D>,
     ) {
         let Target::Surface(target) = self.pairs[pair].target else { return };
         let (source, target) = (&self.surfaces[self.pairs[pair].source], &self.surfaces[target]);
-        mortar.rows.resize_with(nodes.len(), Row::default);
+        mortar.rows.resize_with(multipliers.len(), Row::default);
         mortar.rows.iter_mut().for_each(Row::clear);
-        let row_of = |n: u32| nodes.binary_search(&n).ok();
         for facing in mortar.facing[mortar.of_pair(pair)].chunk_by(|a, b| a.source == b.source) {
-            let facet = &source.facets[facing[0].source as usize];
-            if facet.nodes.iter().any(|&n| row_of(n).is_some()) {
+            let f = facing[0].source;
+            let nodes = &source.facets[f as usize].nodes;
+            let row_of = |a: usize| multipliers.binary_search(&(nodes[a], source.side(f, a))).ok();
+            if (0..nodes.len()).any(|a| row_of(a).is_some()) {
                 let targets = facing.iter().map(|f| f.target);
                 let rows = &mut mortar.rows;
-                integrate([source, target], facing[0].source, targets, position, &row_of, rows);
+                integrate([source, target], f, targets, position, &row_of, rows);
             }
         }
     }

@@ -45,6 +45,13 @@ impl<const D: usize> Plane<D> {
         let offset = self.frame * (x - self.origin);
         std::array::from_fn(|k| if k + 1 < D { offset[k + 1] } else { 0.0 })
     }
+
+    /// How high `other`, which is not at right angles to it, is above a point of the plane [m].
+    pub fn height(&self, other: &Self, point: &Point) -> f64 {
+        let across = |k: usize| self.frame.row(k + 1).transpose() * point[k];
+        let x = (0..D - 1).fold(self.origin, |x, k| x + across(k));
+        other.normal().dot(&(other.origin - x)) / other.normal().dot(&self.normal())
+    }
 }
 
 /// A facet in a plane.

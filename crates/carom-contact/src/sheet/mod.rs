@@ -28,7 +28,7 @@ use carom_mesh::{Facet, Vector};
 use smallvec::SmallVec;
 
 use self::gregory::MAX_CONTROLS;
-use self::network::Network;
+pub(crate) use self::network::Network;
 use self::tangents::Tangents;
 use self::tile::{Controls, Tile};
 use crate::closest::{Local, Parametric};

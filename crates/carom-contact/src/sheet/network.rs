@@ -10,11 +10,11 @@ use crate::project::area_normal;
 use crate::tolerances::{EDGES, SEARCH};
 
 /// A corner of a tile: the tile, and the number of the corner in it.
-pub(super) type CornerOf = (u32, u32);
+pub(crate) type CornerOf = (u32, u32);
 
 /// A triangle or quadrilateral between nodes of a facet: the facet itself or, of a quadratic one, a part of it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Cut {
+pub(crate) struct Cut {
     pub facet: u32,
     /// Its corners.
     pub nodes: SmallVec<[u32; 4]>,
@@ -24,14 +24,14 @@ pub(super) struct Cut {
 
 /// A side of a tile that is half of a side of a quadratic facet.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Half {
+pub(crate) struct Half {
     pub middle: u32,
     pub ends: [u32; 2],
 }
 
 /// The corners around a node between two sharp edges, one after the other against the clock, or all around it.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Sector {
+pub(crate) struct Sector {
     pub node: u32,
     pub corners: Vec<CornerOf>,
     /// Whether no sharp edge bounds it.
@@ -41,7 +41,7 @@ pub(super) struct Sector {
 }
 
 /// The tiles of a surface in its reference configuration.
-pub(super) struct Network {
+pub(crate) struct Network {
     pub tiles: Vec<Cut>,
     /// The tile across every side, and its side; none at a sharp edge.
     pub neighbours: Vec<SmallVec<[Option<CornerOf>; 4]>>,
@@ -54,7 +54,7 @@ pub(super) struct Network {
 
 /// A sharp edge, seen from one of its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Sharp {
+pub(crate) struct Sharp {
     /// Its other end.
     to: u32,
     /// Where it comes from, if it passes the node by less of a turn than at a corner, and whether it is straight there.
@@ -63,7 +63,7 @@ pub(super) struct Sharp {
 
 /// What a sharp edge is at one of its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Passage {
+pub(crate) enum Passage {
     /// It comes from this node.
     From(u32),
     /// It ends at a corner.

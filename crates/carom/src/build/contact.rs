@@ -3,7 +3,7 @@ use carom_fem::Hypothesis;
 use carom_mesh::Vector;
 
 use super::body::may_touch;
-use super::mortar::discretisation;
+use super::mortar::{discretisation, has_mortar};
 use super::obstacle::{Surfaces, obstacle};
 use super::side::{Side, facet_width};
 use super::values::{number, place, vector};
@@ -39,6 +39,9 @@ pub(super) fn contact<const D: usize>(
         if scenario.contact.targets == Targets::Smooth {
             surface = surface.smoothed(&reference);
         }
+        if has_mortar(&scenario.contact) {
+            surface = surface.sided(&reference);
+        }
         if entry.round {
             let (centre, radius) = roundness(&format!("bodies.{i}"), entry)?;
             surface = surface.round(&centre, radius, &reference);
@@ -55,6 +58,7 @@ pub(super) fn contact<const D: usize>(
         touches_itself: touches_itself(entry),
         is_periodic: !b.body.mesh().ties().is_empty(),
         facet_width: facet_width(b.body.surface(), |n| b.body.mesh().nodes()[n]),
+        mass: b.body.total_mass(),
     };
     let sides: Vec<Side> = bodies.iter().zip(&scenario.bodies).map(side).collect();
     let obstacles: Vec<&str> = scenario.obstacles.iter().map(|o| o.name.as_str()).collect();

@@ -8,7 +8,7 @@ mod guide;
 mod interference;
 mod mesh;
 pub(crate) mod method;
-mod mortar;
+pub(crate) mod mortar;
 pub(crate) mod obstacle;
 mod overlaps;
 mod restitution;

@@ -4,6 +4,12 @@ use super::side::Side;
 use crate::error::InputError;
 use crate::scenario::{ContactSpec, PairEntry, Sources};
 
+/// Whether a pair may be one of mortar contact.
+pub(crate) fn has_mortar(spec: &ContactSpec) -> bool {
+    let of_pairs = spec.pairs.iter().filter_map(|pair| pair.discretisation);
+    of_pairs.chain([spec.discretisation]).any(|d| d == Discretisation::Mortar)
+}
+
 /// How contact between two bodies is written, which the exception `pair` may say with its index.
 ///
 /// # Errors

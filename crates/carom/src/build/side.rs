@@ -2,6 +2,9 @@
 
 use carom_mesh::{Facet, Surface, Vector};
 
+/// Widths and masses apart by no more than this part are alike: files of meshes in single precision lose as much.
+const ALIKE: f64 = 1e-6;
+
 /// A body in its pairs.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Side {
@@ -10,12 +13,16 @@ pub(crate) struct Side {
     pub is_periodic: bool,
     /// Mean width of its facets [m].
     pub facet_width: f64,
+    /// Its mass [kg]; zero where nobody knows it.
+    pub mass: f64,
 }
 
 impl Side {
-    /// Whether the facets are on average clearly smaller than those of another.
+    /// Whether the facets are on average smaller than those of another, or as large and the body is the lighter one.
     pub fn is_finer_than(&self, other: &Self) -> bool {
-        self.facet_width < 0.99 * other.facet_width
+        let is_less = |x: f64, y: f64| x < (1.0 - ALIKE) * y;
+        let [width, other_width] = [self.facet_width, other.facet_width];
+        is_less(width, other_width) || !is_less(other_width, width) && is_less(self.mass, other.mass)
     }
 }
 

@@ -53,11 +53,12 @@ struct Reactions<const D: usize> {
 
 const PREFIX: &str = "state/reactions";
 
-/// A site as four nodes: those of two edges, or one node or corner four times; of what is before a round obstacle those of an edge, or the number
-/// of a facet twice, and twice none.
+/// A site as four numbers: the nodes of two edges, or one node or corner four times; of a multiplier its node twice, its side, and none; of what is
+/// before a round obstacle the nodes of an edge, or the number of a facet twice, and twice none.
 fn to_nodes(site: Site) -> [u32; 4] {
     match site {
         Site::Node(n) | Site::Corner(n) => [n; 4],
+        Site::Multiplier(n, side) => [n, n, side, u32::MAX],
         Site::Crossing([a, b], [c, d]) => [a, b, c, d],
         Site::Facet(f) => [f, f, u32::MAX, u32::MAX],
         Site::Edge([a, b]) => [a, b, u32::MAX, u32::MAX],
@@ -75,6 +76,9 @@ fn to_site<const D: usize>(assembly: &Assembly<D>, pair: u32, [a, b, c, d]: [u32
     if [c, d] == [u32::MAX; 2] {
         let site = if a == b { Site::Facet(a) } else { Site::Edge([a, b]) };
         return contact.has_before_round(pair as usize, site).then_some(site);
+    }
+    if d == u32::MAX {
+        return (a == b && is_node(&a)).then_some(Site::Multiplier(a, c));
     }
     if a != b {
         let is_crossing = [a, b].iter().all(is_node) && [c, d].iter().all(|n| is_node(n) || is_corner(n));

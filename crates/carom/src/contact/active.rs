@@ -1,6 +1,6 @@
 //! Which contacts take part in a step, and the reactions known of them.
 
-use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Target};
+use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Site, Target};
 use carom_mesh::{Matrix, Vector};
 
 use super::control::CONTROL;
@@ -229,6 +229,11 @@ impl<const D: usize> ActiveSet<D> {
             let (k, reaction) = reactions.next_if(|(_, r)| r.key() == candidate.key())?;
             Some((i, k, reaction))
         })
+    }
+
+    /// Whether some of them are rows of mortar pairs.
+    pub fn has_multipliers(&self) -> bool {
+        self.candidates.iter().any(|c| matches!(c.site, Site::Multiplier(..)))
     }
 
     /// Adds the reactions known so far to `forces` [N].

@@ -12,6 +12,7 @@ use crate::build::Surfaces;
 use crate::build::contact::{check_manifold, pairs};
 use crate::build::drive::obstacle_motion;
 use crate::build::method::{check_solver, stopping};
+use crate::build::mortar::has_mortar;
 use crate::build::obstacle::obstacle;
 use crate::build::side::{Side, facet_width};
 use crate::build::values::number;
@@ -109,6 +110,9 @@ pub(super) fn touching<const D: usize>(
     if contact.targets == Targets::Smooth {
         surface = surface.smoothed(&at);
     }
+    if has_mortar(contact) {
+        surface = surface.sided(&at);
+    }
     if outline.touches_itself {
         surface = surface.touching_itself(&at);
     }
@@ -117,6 +121,7 @@ pub(super) fn touching<const D: usize>(
         touches_itself: outline.touches_itself,
         is_periodic: false,
         facet_width: facet_width(own, |n| reference[n]),
+        mass: 0.0,
     };
     Ok((surface, side))
 }

@@ -9,6 +9,7 @@ use crate::body::Body;
 use crate::body::foreign::ForeignBody;
 use crate::body::foreign::code::{Blocks, ForeignCode};
 use crate::build::Surfaces;
+use crate::build::side::Side;
 use crate::contact::PosedProblem;
 use crate::error::{InputError, StepError};
 use crate::model::assembly::{Assembly, Member};
@@ -79,7 +80,8 @@ impl<const D: usize> ForeignRun<D> {
                 .map_err(|e| InputError::mesh(key, e.to_string()))?;
             let (surface, side) = touching(&outline, &spec.planted.contact, &own, first, &points)?;
             model.surfaces.push(surface);
-            sides.push(side);
+            let total: f64 = mass.iter().map(|(_, _, block)| block.trace() / D as f64).sum();
+            sides.push(Side { mass: total, ..side });
             let body = ForeignBody::new(points.clone(), mass, code).map_err(|_| {
                 let message = format!("the mass of body {:?} is not positive definite", outline.name);
                 InputError::new(format!("bodies.{}.mass", outline.name), message + "; give every node a mass")

@@ -1,8 +1,9 @@
-//! One correction of the iterations of a step: residuals, and both halves of the solves for them.
+//! One correction of the iterations of a step: residuals, both halves of the solves for them, and what Anderson makes of it.
 
 use carom_mesh::nodal;
 
 use super::newton::Newton;
+use super::newton::acceleration::Last;
 use super::workspace::Workspace;
 use crate::error::StepError;
 use crate::model::given::Given;
@@ -97,4 +98,19 @@ pub(super) fn correct<const D: usize>(
         });
         progress[i].note(size, nodal::largest(motion));
     }
+}
+
+/// Moves the `bodies` on to better guesses than the last correction led to; `is_first` in the step it was.
+pub(super) fn accelerate<const D: usize>(
+    bodies: &[usize],
+    given: &Given<'_, D>,
+    is_first: bool,
+    next: &mut State<D>,
+    work: &mut Workspace<D>,
+) {
+    let Workspace { contacts, newton: Newton { acceleration, correction, progress, .. }, motion, .. } = work;
+    let touched = &contacts.active.touched;
+    let last = Last { is_first, touched, progress, motion, correction };
+    acceleration.take_note(bodies, &last, |i| given.assembly.nodes(i));
+    acceleration.accelerate(bodies, touched, given, motion, next);
 }

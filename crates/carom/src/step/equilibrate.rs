@@ -3,7 +3,7 @@
 use carom_fem::FemError;
 use carom_mesh::{Matrix, Vector, nodal};
 
-use super::correction::{begin_solves, correct, end_solves, residuals};
+use super::correction::{accelerate, begin_solves, correct, end_solves, residuals};
 use super::hold::{driven_least, left_alone, not_held};
 use super::newton::control::LOAD_STEP;
 use super::newton::holding::Holding;
@@ -74,6 +74,7 @@ fn approach<const D: usize>(
             work.newton.return_to_guess(bodies, given.assembly, &mut work.motion, &mut work.contacts.active);
             follow(bodies, given, next, work);
             bodies.iter().for_each(|&i| work.newton.holding[i].raise());
+            work.newton.acceleration.restart();
             linearise(bodies, given, next, work)?;
             continue;
         }
@@ -95,10 +96,15 @@ fn approach<const D: usize>(
             // No iteration comes to an end in what nothing resists. What is left out is small where inertia resists it.
             bodies.iter().for_each(|&i| work.newton.holding[i].raise_to(LOAD_STEP.left_alone));
             work.newton.left_alone.push(motion);
+            work.newton.acceleration.restart();
             load_step.has_other_corrections();
         }
         if verdict == Verdict::Renewed {
             if load_step.is_linear(iteration) {
+                if work.contacts.is_stiffened() && work.contacts.active.has_multipliers() {
+                    // The gradient of mortar rows leaves out how their weights change, which no tangent makes up for.
+                    accelerate(bodies, given, false, next, work);
+                }
                 work.contacts.reduced.delassus.stiffened.is_geometric = true;
             }
             if load_step.is_shrinking() {

@@ -2,11 +2,9 @@
 
 use carom_mesh::nodal;
 
-use super::correction::{begin_solves, correct, end_solves, residuals};
+use super::correction::{accelerate, begin_solves, correct, end_solves, residuals};
 use super::equilibrate::{equilibrate, follow};
-use super::newton::Newton;
-use super::newton::acceleration::Last;
-use super::newton::control::CONTROL;
+use super::newton::control::{CONTROL, LOAD_STEP};
 use super::newton::convergence::{BodyProgress, Convergence};
 use super::workspace::Workspace;
 use crate::error::StepError;
@@ -31,9 +29,12 @@ pub(super) fn iterate<const D: usize>(
         *progress = BodyProgress::new(nodal::largest(&motion[given.assembly.nodes(i)]));
     }
     newton.acceleration.restart();
+    let is_static = given.interval.map.is_static();
+    newton.acceleration.largest_weight =
+        if is_static { LOAD_STEP.largest_weight } else { CONTROL.largest_weight };
     newton.free_motion = None;
     nodal::each(&mut next.displacement, [&given.state.displacement, motion], |u1, [u0, d]| *u1 = u0 + d);
-    let solve: Solve<D> = if given.interval.map.is_static() { equilibrate } else { iterate_bodies };
+    let solve: Solve<D> = if is_static { equilibrate } else { iterate_bodies };
     let mut in_contact = std::mem::take(&mut newton.in_contact);
     in_contact.clear();
     in_contact.extend((0..work.bodies.len()).filter(|&i| contacts.active.touched[i]));
@@ -134,21 +135,6 @@ fn soften<const D: usize>(
     follow(bodies, given, next, work);
     work.contacts.soften();
     work.newton.acceleration.restart();
-}
-
-/// Moves the `bodies` on to better guesses.
-fn accelerate<const D: usize>(
-    bodies: &[usize],
-    given: &Given<'_, D>,
-    is_first: bool,
-    next: &mut State<D>,
-    work: &mut Workspace<D>,
-) {
-    let Workspace { contacts, newton: Newton { acceleration, correction, progress, .. }, motion, .. } = work;
-    let touched = &contacts.active.touched;
-    let last = Last { is_first, touched, progress, motion, correction };
-    acceleration.take_note(bodies, &last, |i| given.assembly.nodes(i));
-    acceleration.accelerate(bodies, touched, given, motion, next);
 }
 
 /// Renews K̄ of the `bodies`, at the present guess; once more if it has been `renewed` before.

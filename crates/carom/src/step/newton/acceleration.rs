@@ -25,6 +25,8 @@ pub(crate) struct Acceleration<const D: usize> {
     /// Differences from correction to correction, alike.
     corrections: [Vec<Vector<D>>; DEPTH],
     bodies: Vec<Record>,
+    /// Largest weight of a difference.
+    pub largest_weight: f64,
 }
 
 /// What is known of a body.
@@ -62,8 +64,9 @@ impl Products {
         }
     }
 
-    /// The weights of the first `count` differences of the ring that leave least of the correction; the latest is in `slot`.
-    fn weights(&self, count: usize, slot: usize) -> [f64; DEPTH] {
+    /// The weights of the first `count` differences of the ring that leave least of the correction, if none is beyond the `largest`; the latest is
+    /// in `slot`.
+    fn weights(&self, count: usize, slot: usize, largest: f64) -> [f64; DEPTH] {
         // Older differences are left out where newer ones say as much: elimination from the latest on.
         let places: [usize; DEPTH] = std::array::from_fn(|i| (slot + DEPTH - i) % DEPTH);
         let (mut l, mut y) = ([[0.0; DEPTH]; DEPTH], [0.0; DEPTH]);
@@ -86,7 +89,7 @@ impl Products {
             y[i] = (y[i] - (i + 1..used).map(|k| l[k][i] * y[k]).sum::<f64>()) / l[i][i];
             weights[places[i]] = y[i];
         }
-        if weights.iter().all(|w| w.abs() <= CONTROL.largest_weight) { weights } else { [0.0; DEPTH] }
+        if weights.iter().all(|w| w.abs() <= largest) { weights } else { [0.0; DEPTH] }
     }
 }
 
@@ -113,6 +116,7 @@ impl<const D: usize> Acceleration<D> {
             guesses: std::array::from_fn(|_| zeros.clone()),
             corrections: std::array::from_fn(|_| zeros.clone()),
             bodies: vec![Record::default(); bodies],
+            largest_weight: CONTROL.largest_weight,
         }
     }
 
@@ -175,7 +179,7 @@ impl<const D: usize> Acceleration<D> {
             let nodes = given.assembly.nodes(i);
             let record = &self.bodies[i];
             let products = if touched[i] { &together } else { &record.products };
-            let weights = products.weights(record.differences(), record.slot());
+            let weights = products.weights(record.differences(), record.slot(), self.largest_weight);
             for (k, weight) in weights.into_iter().enumerate().filter(|&(_, weight)| weight != 0.0) {
                 let (guesses, corrections) =
                     (&self.guesses[k][nodes.clone()], &self.corrections[k][nodes.clone()]);
