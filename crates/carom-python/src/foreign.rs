@@ -130,6 +130,8 @@ macro_rules! with {
 fn part<const D: usize>(body: &Bound<'_, PyAny>, calls: &Arc<Calls>) -> PyResult<ForeignPart<D>> {
     let points: PyReadonlyArray2<'_, f64> = body.getattr("points")?.extract()?;
     let velocity: PyReadonlyArray2<'_, f64> = body.getattr("velocity")?.extract()?;
+    let fixed: PyReadonlyArray2<'_, bool> = body.getattr("fixed")?.extract()?;
+    let fixed = fixed.as_array();
     let surface = body.getattr("surface")?;
     let kinds: Vec<PyReadonlyArray2<'_, i64>> = surface.getattr("facets")?.extract()?;
     Ok(ForeignPart {
@@ -140,6 +142,7 @@ fn part<const D: usize>(body: &Bound<'_, PyAny>, calls: &Arc<Calls>) -> PyResult
         },
         velocity: arrays::from_rows(&velocity, points.shape()[0])?,
         points: rows(&points)?,
+        held: fixed.rows().into_iter().map(|row| std::array::from_fn(|i| row[i])).collect(),
         mass: blocks(&body.getattr("mass_entries")?)?,
         code: Box::new(Law { body: body.clone().unbind(), calls: Arc::clone(calls) }),
     })

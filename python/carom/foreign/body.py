@@ -44,6 +44,8 @@ class ForeignBody:
         how fast iterations converge, and nothing else, so it may be approximate.
     velocity
         Velocities of the nodes at the start [m/s], shape [point_count, D] or [D]; None is none.
+    fixed
+        Which components of which nodes do not move, shape [point_count, D]; None is none.
     dofs
         The number of the unknown of each node and component, shape [point_count, D]; without it
         component i of node n is D n + i.
@@ -67,6 +69,7 @@ class ForeignBody:
         force: Callable[[NDArray[np.float64]], NDArray[np.float64]],
         stiffness: Callable[[NDArray[np.float64]], Any],
         velocity: ArrayLike | None = None,
+        fixed: ArrayLike | None = None,
         dofs: ArrayLike | None = None,
         self_contact: bool = False,
     ) -> None:
@@ -80,6 +83,7 @@ class ForeignBody:
                 "[point_count, 3]",
             )
         self.velocity = self._moving(velocity)
+        self.fixed = self._held(fixed)
         self._dofs = self._numbered(dofs)
         # The node and component of every unknown.
         self._place = np.argsort(self._dofs.ravel())
@@ -166,6 +170,18 @@ class ForeignBody:
                 f"{shown(self.points.shape[1:])}",
             )
         return np.array(np.broadcast_to(given, self.points.shape))
+
+    def _held(self, fixed: ArrayLike | None) -> NDArray[np.bool_]:
+        if fixed is None:
+            return np.zeros(self.points.shape, dtype=np.bool_)
+        array = np.asarray(fixed)
+        if array.shape != self.points.shape or array.dtype != np.bool_:
+            raise self._refusal(
+                "fixed",
+                f"has shape {shown(array.shape)} and type {array.dtype}; must be true or false, of "
+                f"shape {shown(self.points.shape)}",
+            )
+        return array
 
     def _numbered(self, dofs: ArrayLike | None) -> NDArray[np.int64]:
         every = np.arange(self.points.size, dtype=np.int64)

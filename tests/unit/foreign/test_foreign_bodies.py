@@ -154,12 +154,39 @@ def test_a_mass_on_a_spring_swings_as_the_scheme_says():
         assert np.abs(run.displacement("square") - [0.0, expected]).max() < 1e-12
 
 
+def test_a_floor_bears_what_a_body_presses_that_is_held_from_above():
+    """Closed form: two masses on springs swing, and the floor turns them half way down."""
+    corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    fixed = corners[:, 1:] > 0.5
+    fixed = np.column_stack([np.ones(4, dtype=bool), fixed[:, 0]])
+    body = spring(fixed=fixed, velocity=[3.0, -1.0])
+    floor = carom.Plane(name="floor", point=[0.0, -0.05], normal=[0.0, 1.0])
+    contact = carom.Contact(condition="midpoint")
+    run = carom.ForeignRun([body], [floor], time_step=1e-2, contact=contact)
+    assert run.energy == pytest.approx(1.0, rel=1e-14), "what is held does not move"
+    turns, before = 0, -1.0
+    for _ in range(300):
+        step = run.step()
+        assert abs(run.energy - 1.0) < 1e-12
+        assert abs(step.defect) < 1e-13
+        assert run.displacement("square")[:2, 1].min() > -0.05 - 1e-14
+        moved = run.displacement("square")
+        assert (moved[:, 0] == 0.0).all()
+        assert (moved[2:] == 0.0).all()
+        velocity = run.velocity("square")[0, 1]
+        turns += before < 0.0 < velocity and moved[0, 1] < -0.04
+        before = velocity
+    # It swings with ω = 10 from floor to 0.1 and back: two thirds of a period.
+    assert abs(turns - 3.0 / (2.0 / 3.0 * 2.0 * np.pi / 10.0)) < 1.5
+
+
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
         ({"mass": np.eye(7)}, "bodies.square.mass: has shape [7, 7]; must be [8, 8], 2 unknowns"),
         ({"mass": -np.eye(8)}, "bodies.square.mass: the mass of body"),
         ({"velocity": [1.0]}, "bodies.square.velocity: has shape [1]; must be [4, 2] or [2]"),
+        ({"fixed": [True]}, "bodies.square.fixed: has shape [1] and type bool; must be true or"),
         ({"dofs": np.zeros((4, 2), int)}, "bodies.square.dofs: must have shape [4, 2] and every"),
         ({"energy": lambda u: u}, "bodies.square.energy: returned [0.0, 0.0"),
         ({"energy": lambda u: np.nan}, "bodies.square.energy: returned nan; must be one finite"),

@@ -28,6 +28,8 @@ pub struct ForeignPart<const D: usize> {
     pub points: Vec<Vector<D>>,
     /// Velocities at the start [m/s].
     pub velocity: Vec<Vector<D>>,
+    /// Which components of the motion of every node are held; none if empty.
+    pub held: Vec<[bool; D]>,
     /// Mass matrix [kg].
     pub mass: Blocks<D>,
     /// Its law.
@@ -74,7 +76,7 @@ impl<const D: usize> ForeignRun<D> {
         let (mut members, mut sides, mut model) = (Vec::new(), Vec::new(), ContactModel::default());
         let (mut bodies, mut velocities, mut first): (Vec<Box<dyn Body<D>>>, _, _) =
             (Vec::new(), Vec::new(), 0);
-        for ForeignPart { outline, points, velocity, mass, code } in parts {
+        for ForeignPart { outline, points, velocity, held, mass, code } in parts {
             let key = format!("surfaces.{}.facets", outline.name);
             let own = Surface::from_facets(&points, &outline.facets)
                 .map_err(|e| InputError::mesh(key, e.to_string()))?;
@@ -82,7 +84,7 @@ impl<const D: usize> ForeignRun<D> {
             model.surfaces.push(surface);
             let total: f64 = mass.iter().map(|(_, _, block)| block.trace() / D as f64).sum();
             sides.push(Side { mass: total, ..side });
-            let body = ForeignBody::new(points.clone(), mass, code).map_err(|_| {
+            let body = ForeignBody::new(points.clone(), &held, mass, code).map_err(|_| {
                 let message = format!("the mass of body {:?} is not positive definite", outline.name);
                 InputError::new(format!("bodies.{}.mass", outline.name), message + "; give every node a mass")
             })?;
@@ -93,7 +95,7 @@ impl<const D: usize> ForeignRun<D> {
                 diameter: diameter(&points),
                 reference: points,
                 boundary: if own.is_closed() { own } else { Surface::default() },
-                held: Vec::new(),
+                held,
             });
             bodies.push(Box::new(body));
         }

@@ -7,6 +7,7 @@ mod mean_force;
 
 use std::sync::Arc;
 
+use carom_fem::Held;
 use carom_fem::sparse::{Inverse, NodalMatrix, NodeGraph, Precision};
 use carom_mesh::{Matrix, Vector, nodal};
 
@@ -21,6 +22,7 @@ use crate::scheme::StepMap;
 pub struct ForeignBody<const D: usize> {
     code: Box<dyn ForeignCode<D>>,
     mean_force: MeanForce<D>,
+    held: Held,
     mass_blocks: Blocks<D>,
     mass: NodalMatrix<Matrix<D>>,
     /// Sum of every row of the mass, in the mean of the directions [kg].
@@ -35,26 +37,30 @@ pub struct ForeignBody<const D: usize> {
 }
 
 impl<const D: usize> ForeignBody<D> {
-    /// A body with nodes at `reference` [m], and a mass matrix [kg] that is positive definite.
+    /// A body with nodes at `reference` [m], of which these components are `held` (none if empty), and a mass matrix [kg] that is positive definite.
     ///
     /// # Errors
     /// If the mass is not positive definite.
     pub fn new(
         reference: Vec<Vector<D>>,
+        held: &[[bool; D]],
         mass_blocks: Blocks<D>,
         code: Box<dyn ForeignCode<D>>,
     ) -> Result<Self, StepError> {
         let count = reference.len();
         let graph = Arc::new(NodeGraph::of_pairs(count, mass_blocks.iter().map(|&(a, b, _)| (a, b))));
-        let mass = filled(&graph, &mass_blocks);
+        let (mass, held) = (filled(&graph, &mass_blocks), Held::of(held));
         let mut mass_inverse = Inverse::new(&[]);
-        mass_inverse.make_exact(false, &mass)?;
+        let mut free_mass = mass.clone();
+        held.uncouple(&mut free_mass);
+        mass_inverse.make_exact(false, &free_mass)?;
         let mut nodal_mass = vec![0.0; count];
         mass_blocks.iter().for_each(|(a, _, block)| nodal_mass[*a as usize] += block.trace() / D as f64);
         let zeros = vec![Vector::zeros(); count];
         Ok(Self {
             code,
             mean_force: MeanForce::new(reference),
+            held,
             mass_blocks,
             mass,
             nodal_mass,
@@ -83,6 +89,7 @@ impl<const D: usize> ForeignBody<D> {
         blocks.iter_mut().for_each(|(_, _, block)| *block *= k);
         let mut matrix = filled(self.mass.shared_graph(), &blocks);
         matrix.values.iter_mut().zip(&self.mass.values).for_each(|(k, mass)| *k += mass * m);
+        self.held.uncouple(&mut matrix);
         self.inverse.make(Precision::Double, &matrix)?;
         self.made_for = Some(map.dt);
         self.generation += 1;
@@ -107,6 +114,10 @@ fn filled<const D: usize>(graph: &Arc<NodeGraph>, blocks: &Blocks<D>) -> NodalMa
 }
 
 impl<const D: usize> Body<D> for ForeignBody<D> {
+    fn constrain(&self, _displacement: &[Vector<D>], velocity: &mut [Vector<D>], _t: f64) {
+        self.held.clear(velocity);
+    }
+
     fn measure(&self, state: &BodyState<'_, D>, internal_force: &mut [Vector<D>]) -> Energies {
         self.code.force(state.displacement, internal_force);
         let mut momentum = vec![Vector::zeros(); state.velocity.len()];
@@ -146,6 +157,7 @@ impl<const D: usize> Body<D> for ForeignBody<D> {
 
     fn begin_solve(&mut self, residual: &[Vector<D>]) {
         self.scratch.copy_from_slice(residual);
+        self.held.clear(&mut self.scratch);
         self.inverse.begin(&mut self.scratch);
     }
 
@@ -159,7 +171,9 @@ impl<const D: usize> Body<D> for ForeignBody<D> {
     }
 
     fn add_forces(&mut self, nodes: &[u32], forces: &[Vector<D>]) {
-        self.inverse.add(nodes.iter().map(|&n| (n as usize, forces[n as usize])));
+        let Self { inverse, held, .. } = self;
+        let nodes = nodes.iter().map(|&n| n as usize);
+        inverse.add(nodes.map(|n| (n, held.free_part(n, &forces[n]))));
     }
 
     fn end_solve(&mut self, correction: &mut [Vector<D>]) {
@@ -206,7 +220,7 @@ impl<const D: usize> Body<D> for ForeignBody<D> {
             kinetic: kinetic - start.energies.kinetic,
             strain: strain - start.energies.strain,
             scheme,
-            contact: nodal::dot(guess.motion, end.mean_contact_force),
+            contact: self.held.free_dot(guess.motion, end.mean_contact_force),
             ..BodyLedger::default()
         };
         (ledger, Energies { kinetic, strain })
@@ -222,6 +236,7 @@ impl<const D: usize> Body<D> for ForeignBody<D> {
         _state: &BodyState<'_, D>,
         change: &mut [Vector<D>],
     ) -> Jolt {
+        self.held.clear(impulse);
         change.copy_from_slice(impulse);
         self.mass_inverse.begin(change);
         self.mass_inverse.end(change);
@@ -244,8 +259,12 @@ impl<const D: usize> Body<D> for ForeignBody<D> {
         self.inverse.respond(nodes.iter().map(|&n| n as usize));
     }
 
-    fn response(&self, a: u32, _b: u32, number: usize) -> Matrix<D> {
-        self.inverse.response(number, a as usize)
+    fn response(&self, a: u32, b: u32, number: usize) -> Matrix<D> {
+        let mut block = self.inverse.response(number, a as usize);
+        for i in (0..D).filter(|&i| self.held.holds(b as usize, i)) {
+            block.set_column(i, &Vector::zeros());
+        }
+        block
     }
 
     fn factor_bytes(&self) -> usize {
