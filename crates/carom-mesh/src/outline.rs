@@ -90,6 +90,14 @@ impl Surface {
     }
 }
 
+impl Surface {
+    /// Whether every facet has a neighbour at each of its borders.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        connected(self.facets()).is_ok_and(|parts| parts.iter().all(|part| part.is_closed))
+    }
+}
+
 /// Facets that hang together.
 struct Part {
     /// Which they are, and whether they are to be turned to agree with the first.
@@ -304,6 +312,7 @@ mod tests {
         let pieces = surface.facets().iter().flat_map(|f| pieces(&points, f));
         let enclosed = pieces.map(|p| determinant(&p)).sum::<f64>() / 6.0;
         assert!((enclosed - 26.0).abs() < 1e-13, "{enclosed}");
+        assert!(surface.is_closed());
     }
 
     /// Of the side of a body that alone may touch, most facets say where the outside is.
@@ -313,6 +322,7 @@ mod tests {
         let facets = vec![vec![1, 0], vec![1, 2], vec![3, 2], vec![4, 3], vec![5, 4]];
         let surface = Surface::from_facets(&points, &facets).expect("a surface");
         assert!(surface.facets().iter().all(|f| f.nodes[0] > f.nodes[1]), "{surface:?}");
+        assert!(!surface.is_closed());
     }
 
     #[test]

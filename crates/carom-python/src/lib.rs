@@ -4,6 +4,7 @@
 mod arrays;
 mod checkpoint;
 mod error;
+mod foreign;
 mod friction;
 mod friction_global;
 mod mesh;
@@ -19,6 +20,7 @@ fn _carom(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("CHECKPOINT_SCHEMA", carom::Checkpoint::SCHEMA)?;
     module.add_class::<simulation::Simulation>()?;
     module.add_class::<planted::PlantedContact>()?;
+    module.add_class::<foreign::ForeignRun>()?;
     module.add_function(wrap_pyfunction!(signal::signal_values, module)?)?;
     module.add_function(wrap_pyfunction!(friction::friction_solvers, module)?)?;
     module.add_function(wrap_pyfunction!(friction::solve_friction, module)?)?;

@@ -37,6 +37,11 @@ macro_rules! with {
 type Facets<'py> = (String, Vec<PyReadonlyArray2<'py, i64>>, bool);
 
 fn outline((name, kinds, touches_itself): &Facets<'_>) -> PyResult<Outline> {
+    Ok(Outline { name: name.clone(), facets: facets_of(kinds)?, touches_itself: *touches_itself })
+}
+
+/// Facets by their nodes, of all kinds.
+pub fn facets_of(kinds: &[PyReadonlyArray2<'_, i64>]) -> PyResult<Vec<Vec<u32>>> {
     let number = |n: &i64| u32::try_from(*n).map_err(|_| PyValueError::new_err(format!("{n} is no node")));
     let mut facets = Vec::new();
     for kind in kinds {
@@ -44,10 +49,11 @@ fn outline((name, kinds, touches_itself): &Facets<'_>) -> PyResult<Outline> {
             facets.push(row.iter().map(number).collect::<PyResult<_>>()?);
         }
     }
-    Ok(Outline { name: name.clone(), facets, touches_itself: *touches_itself })
+    Ok(facets)
 }
 
-fn rows<const D: usize>(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Vector<D>>> {
+/// One vector per row.
+pub fn rows<const D: usize>(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Vector<D>>> {
     arrays::from_rows(array, array.shape()[0])
 }
 
@@ -212,7 +218,9 @@ fn describe<'py, const D: usize>(
     let named = planted.candidates().iter().map(|c| pairs[c.pair as usize].named_pair as i64);
     out.set_item("pair", PyArray1::from_iter(py, named))?;
     let node = |site: Site| match site {
-        Site::Node(node) => planted.callers_node(node as usize).map_or(-1, i64::from),
+        Site::Node(node) | Site::Multiplier(node, _) => {
+            planted.callers_node(node as usize).map_or(-1, i64::from)
+        }
         _ => -1,
     };
     out.set_item("node", PyArray1::from_iter(py, planted.candidates().iter().map(|c| node(c.site))))?;

@@ -92,7 +92,7 @@ class ContactModel:
             sources=sources,
             solver=solver or FrictionSolver(),
         )
-        _check_names(surfaces, obstacles, pairs)
+        check_names(surfaces, obstacles, pairs)
         self._moving = [o.name for o in obstacles if o.velocity is not None or o.motion is not None]
         self._needs_velocity = condition == "endpoint"
         spec = {
@@ -338,7 +338,7 @@ def _points(points: ArrayLike) -> tuple[int, int]:
     return shape
 
 
-def _check_names(
+def check_names(
     surfaces: Sequence[Surface], obstacles: Sequence[Obstacle], pairs: Sequence[Pair]
 ) -> None:
     """Refuse names that are there twice or not at all, and what pairs cannot have here."""

@@ -155,3 +155,62 @@ def test_multipliers_share_what_both_sides_cover():
     for side in (contacts.nodes < 5, contacts.nodes >= 5):
         sums = np.bincount(owner[side], contacts.weights[side])
         assert np.allclose(np.abs(sums), 1.0, rtol=0, atol=1e-14)
+
+
+def test_what_was_not_foreseen_is_missed_and_searched_from_then_on():
+    """A block is found to have gone through the floor, takes part, and lands on it."""
+    corners, touch = block(2)
+    start = corners + np.array([0.0, 0.01])
+    candidates = touch.search(start, reach=1e-3)
+    assert len(candidates) == 0
+    contacts = touch.evaluate(candidates, start)
+    found = contact.solve(contacts, lambda b: b / 1e3, free=np.array([0.0, -0.02]))
+    assert found.motion[1] == -0.02, "nothing is in its way"
+    candidates = touch.missed(start + found.motion)
+    assert len(candidates) == 2
+    contacts = touch.evaluate(candidates, start + found.motion)
+    assert contacts.gap == pytest.approx([-0.01, -0.01])
+    found = contact.solve(contacts, lambda b: b / 1e3, free=np.array([0.0, -0.02]))
+    assert found.motion[1] == pytest.approx(-0.01, rel=1e-12)
+    assert touch.missed(start + found.motion) is None
+    step = touch.accept(start + found.motion)
+    # 10 N over the way that was in front of them.
+    assert step.work.normal_contact == pytest.approx(0.1, rel=1e-12)
+    assert abs(step.min_gap) < 1e-15
+
+
+@pytest.mark.parametrize("kind", ["tri6", "quad8", "quad9"])
+def test_facets_of_second_order_touch_with_all_their_nodes(kind):
+    """A quadratic side above a linear one, turned the wrong way: the gap is that of the sides."""
+    corners, sides = cuboid(3)
+    middles = {}
+    points = [*corners]
+
+    def node(*ends):
+        key = tuple(sorted(ends))
+        if key not in middles:
+            middles[key] = len(points)
+            points.append(np.mean([corners[e] for e in ends], axis=0))
+        return middles[key]
+
+    facets = []
+    for a, b, c, d in sides:
+        if kind == "tri6":
+            for p, q, r in ((a, c, b), (a, d, c)):
+                facets.append([p, q, r, node(p, q), node(q, r), node(r, p)])
+        else:
+            ring = [a, d, c, b, node(a, d), node(d, c), node(c, b), node(b, a)]
+            facets.append([*ring, node(a, b, c, d)] if kind == "quad9" else ring)
+    upper = np.array(points) + np.array([0.0, 0.0, 1.001])
+    below = corners * [3.0, 3.0, 1.0] - [1.0, 1.0, 0.0]
+    touch = contact.ContactModel(
+        np.vstack([upper, below]),
+        [contact.Surface("upper", facets), contact.Surface("below", np.array(sides) + len(upper))],
+    )
+    contacts = touch.evaluate(
+        touch.search(np.vstack([upper, below]), reach=0.01), np.vstack([upper, below])
+    )
+    bottom = np.flatnonzero(upper[:, 2] < 1.01)
+    assert set(contacts.node) == set(bottom)
+    assert contacts.gap == pytest.approx(np.full(len(bottom), 1e-3), abs=1e-12)
+    assert np.abs(contacts.frame[:, 0] - [0.0, 0.0, 1.0]).max() < 1e-12

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from plain_fem import Triangles
 from scipy.sparse.linalg import splu
 
 import carom
 from carom import contact
 from carom.building.build import build
+from plain_fem import Triangles, outer_edges
 
 LAW = {"young": 2700.0, "poisson": 0.33, "density": 1.0}
 TIME_STEP = 1e-3
@@ -38,13 +38,6 @@ def scenario(steps, condition, targets, obstacles=(), pairs=()):
         obstacles=obstacles,
         contact=carom.Contact(condition=condition, friction=FRICTION, targets=targets, pairs=pairs),
     )
-
-
-def outer_edges(cells):
-    """The edges that belong to one cell, turned as they come."""
-    edges = np.sort(np.concatenate([cells[:, [0, 1]], cells[:, [1, 2]], cells[:, [2, 0]]]), axis=1)
-    edges, counts = np.unique(edges, axis=0, return_counts=True)
-    return edges[counts == 1]
 
 
 def take_through(case, steps, solver=lambda factor: factor.solve):

@@ -56,7 +56,7 @@ impl<const D: usize> PlantedContact<D> {
         points: &[Vector<D>],
         outlines: &[Outline],
         held: &[[bool; D]],
-        mut surfaces: Surfaces<D>,
+        surfaces: Surfaces<D>,
     ) -> Result<Self, InputError> {
         let mut numbering = Numbering::default();
         let mut owner: BTreeMap<u32, &str> = BTreeMap::new();
@@ -76,64 +76,93 @@ impl<const D: usize> PlantedContact<D> {
             }
             let first = numbering.count();
             numbering.add(nodes);
-            let own = renumbered(&whole);
+            let own = renumbered(&whole, |n| nodes.binary_search(&n).unwrap_or_default() as u32);
             let reference: Vec<Vector<D>> = nodes.iter().map(|&n| points[n as usize]).collect();
-            let at = |n: u32| reference[n as usize - first];
-            let mut surface = ContactSurface::new(&own, first as u32, &at);
-            check_manifold(&key, &surface, &at)?;
-            if spec.contact.targets == Targets::Smooth {
-                surface = surface.smoothed(&at);
-            }
-            if has_mortar(&spec.contact) {
-                surface = surface.sided(&at);
-            }
-            if outline.touches_itself {
-                surface = surface.touching_itself(&at);
-            }
+            let (surface, side) = touching(outline, &spec.contact, &own, first, &reference)?;
             model.surfaces.push(surface);
-            sides.push(Side {
-                name: outline.name.clone(),
-                touches_itself: outline.touches_itself,
-                is_periodic: false,
-                facet_width: facet_width(&own, |n| reference[n]),
-                mass: 0.0,
-            });
-            let start = reference.first().copied().unwrap_or_else(Vector::zeros);
-            let (low, high) = reference.iter().fold((start, start), |(l, h), x| (l.inf(x), h.sup(x)));
+            sides.push(side);
             members.push(Member {
                 name: outline.name.clone(),
+                diameter: diameter(&reference),
                 reference,
-                diameter: (high - low).norm(),
                 // What is inside what is not measured: an outline need not be the whole boundary of a body.
                 boundary: Surface::default(),
                 held: nodes.iter().filter_map(|&n| held.get(n as usize).copied()).collect(),
             });
         }
         let method = method(spec)?;
-        let mut motions = Vec::new();
-        let size = members.iter().map(|m| m.diameter).fold(0.0, f64::max);
-        for (i, entry) in spec.obstacles.iter().enumerate() {
-            let key = format!("obstacles.{i}");
-            model.obstacles.push(obstacle(&key, &entry.shape, surfaces.remove(&entry.name))?);
-            motions.push(obstacle_motion(&key, entry, [0.0, f64::INFINITY], size)?);
-        }
-        let names: Vec<&str> = spec.obstacles.iter().map(|o| o.name.as_str()).collect();
-        let (pairs, named_pairs) = pairs(&spec.contact, &sides, &names)?;
-        model.pairs = pairs;
-        let mut assembly = Assembly::new(members, model, named_pairs);
-        assembly.obstacle_motions = motions;
+        let assembly = assembled(spec, members, &sides, model, surfaces)?;
         Ok(Self::new(assembly, method, numbering))
     }
 }
 
-/// The surface with its nodes numbered among themselves.
-fn renumbered(surface: &Surface) -> Surface {
-    let own = |n: &u32| surface.nodes().binary_search(n).unwrap_or_default() as u32;
-    let facet = |f: &Facet| Facet { kind: f.kind, nodes: f.nodes.iter().map(own).collect() };
+/// The surface of an outline, whose nodes are numbered from `first` on over all bodies and from 0 in `reference` [m].
+pub(super) fn touching<const D: usize>(
+    outline: &Outline,
+    contact: &ContactSpec,
+    own: &Surface,
+    first: usize,
+    reference: &[Vector<D>],
+) -> Result<(ContactSurface, Side), InputError> {
+    let at = |n: u32| reference[n as usize - first];
+    let mut surface = ContactSurface::new(own, first as u32, &at);
+    check_manifold(&format!("surfaces.{}.facets", outline.name), &surface, &at)?;
+    if contact.targets == Targets::Smooth {
+        surface = surface.smoothed(&at);
+    }
+    if has_mortar(contact) {
+        surface = surface.sided(&at);
+    }
+    if outline.touches_itself {
+        surface = surface.touching_itself(&at);
+    }
+    let side = Side {
+        name: outline.name.clone(),
+        touches_itself: outline.touches_itself,
+        is_periodic: false,
+        facet_width: facet_width(own, |n| reference[n]),
+        mass: 0.0,
+    };
+    Ok((surface, side))
+}
+
+/// The diagonal of a box around points [m].
+pub(super) fn diameter<const D: usize>(points: &[Vector<D>]) -> f64 {
+    let start = points.first().copied().unwrap_or_else(Vector::zeros);
+    let (low, high) = points.iter().fold((start, start), |(low, high), x| (low.inf(x), high.sup(x)));
+    (high - low).norm()
+}
+
+/// The bodies with the obstacles, and the pairs of both.
+pub(super) fn assembled<const D: usize>(
+    spec: &PlantedSpec,
+    members: Vec<Member<D>>,
+    sides: &[Side],
+    mut model: ContactModel<D>,
+    mut surfaces: Surfaces<D>,
+) -> Result<Assembly<D>, InputError> {
+    let mut motions = Vec::new();
+    let size = members.iter().map(|m| m.diameter).fold(0.0, f64::max);
+    for (i, entry) in spec.obstacles.iter().enumerate() {
+        let key = format!("obstacles.{i}");
+        model.obstacles.push(obstacle(&key, &entry.shape, surfaces.remove(&entry.name))?);
+        motions.push(obstacle_motion(&key, entry, [0.0, f64::INFINITY], size)?);
+    }
+    let names: Vec<&str> = spec.obstacles.iter().map(|o| o.name.as_str()).collect();
+    let (pairs, named_pairs) = pairs(&spec.contact, sides, &names)?;
+    model.pairs = pairs;
+    let mut assembly = Assembly::new(members, model, named_pairs);
+    assembly.obstacle_motions = motions;
+    Ok(assembly)
+}
+
+/// The surface with its nodes numbered anew.
+fn renumbered(surface: &Surface, number: impl Fn(u32) -> u32) -> Surface {
+    let facet = |f: &Facet| Facet { kind: f.kind, nodes: f.nodes.iter().map(|&n| number(n)).collect() };
     Surface::of_facets(surface.facets().iter().map(facet).collect(), &[])
 }
 
-fn method<const D: usize>(spec: &PlantedSpec) -> Result<Method<D>, InputError> {
+pub(super) fn method<const D: usize>(spec: &PlantedSpec) -> Result<Method<D>, InputError> {
     let ContactSpec { condition, solver, .. } = &spec.contact;
     let refuse = |key: &str, message: &str| Err(InputError::new(key, message));
     let scheme = match spec.theta {

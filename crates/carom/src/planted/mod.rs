@@ -8,3 +8,4 @@
 pub(crate) mod build;
 pub(crate) mod contact;
 mod numbering;
+pub(crate) mod run;

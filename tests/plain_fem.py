@@ -10,6 +10,7 @@ class Triangles:
     def __init__(self, points, cells, *, young, poisson, density):
         self.lame = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
         self.shear = young / (2 * (1 + poisson))
+        self.points = points
         self.count = 2 * len(points)
         corners = points[cells]
         edges = np.stack([corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]], axis=2)
@@ -58,3 +59,10 @@ class Triangles:
         strain = 0.5 * (change + change.swapaxes(-1, -2))
         blocks += np.einsum("e,eaikl,ebjkl->eaibj", self.area, strain, self._stress(strain))
         return self._matrix(blocks)
+
+
+def outer_edges(cells):
+    """The edges that belong to one cell alone, turned either way."""
+    edges = np.sort(np.concatenate([cells[:, [0, 1]], cells[:, [1, 2]], cells[:, [2, 0]]]), axis=1)
+    edges, counts = np.unique(edges, axis=0, return_counts=True)
+    return edges[counts == 1]
