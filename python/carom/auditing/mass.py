@@ -151,7 +151,9 @@ def _leaders(
 
     def nearest(layer: list[int], count: int) -> list[int]:
         # Those that are as far aside as the last one go with it.
-        last = aside[layer[count - 1]] + TIE * far[layer[count - 1]] if count <= len(layer) else np.inf
+        last = (
+            aside[layer[count - 1]] + TIE * far[layer[count - 1]] if count <= len(layer) else np.inf
+        )
         return [n for n in layer if aside[n] <= last]
 
     best: tuple[float, Indices, Array] | None = None
