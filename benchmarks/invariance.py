@@ -217,6 +217,26 @@ def energies(scene: Scene, contact: dict[str, Any]) -> np.ndarray:
     return kept
 
 
+def differences(condition: str, seed: int) -> dict[str, tuple[float, int]]:
+    """Return for every change of a scene how far it moves otherwise, and from which step on.
+
+    The first is the largest difference of an energy term at any time, relative to the largest
+    energy; infinite where the one run came farther than the other.
+    """
+    rng = np.random.default_rng(seed)
+    scene = made(rng, 2 + seed % 2)
+    base = energies(scene, {"condition": condition})
+    apart = {}
+    for name, change in CHANGES.items():
+        other = energies(change(scene, rng), {"condition": condition})
+        by = np.abs(other - base) / np.nanmax(np.abs(base))
+        if (np.isnan(other) != np.isnan(base)).any():
+            by[0, 0] = np.inf
+        value = float(np.nanmax(by))
+        apart[name] = value, int(np.argmax((by > 0.1 * value).any(axis=1)))
+    return apart
+
+
 def main() -> None:
     """Print the table."""
     words = sys.argv[1:]
@@ -224,17 +244,8 @@ def main() -> None:
     for condition in [word for word in words if word in CONDITIONS] or CONDITIONS:
         worst = dict.fromkeys(CHANGES, (0.0, ""))
         for seed in range(count):
-            rng = np.random.default_rng(seed)
-            scene = made(rng, 2 + seed % 2)
-            base = energies(scene, {"condition": condition})
-            for name, change in CHANGES.items():
-                other = energies(change(scene, rng), {"condition": condition})
-                apart = np.abs(other - base) / np.nanmax(np.abs(base))
-                if (np.isnan(other) != np.isnan(base)).any():
-                    apart[0, 0] = np.inf
-                value = float(np.nanmax(apart))
+            for name, (value, step) in differences(condition, seed).items():
                 if value > worst[name][0]:
-                    step = int(np.argmax((apart > 0.1 * value).any(axis=1)))
                     worst[name] = value, f"scene {seed}, from step {step}"
         for name, (value, where) in worst.items():
             print(f"{condition:10} {name:16}{value:10.1e}  {where}", flush=True)

@@ -142,7 +142,7 @@ def run(count: int, first: int = 0) -> dict[tuple[str, str], Tally]:
                 out = Path(directory) / "run"
                 try:
                     result = carom.run(scene(seed, scheme, condition), out=out, force=True)
-                except carom.ConvergenceError as error:
+                except (carom.ConvergenceError, carom.PenetrationError) as error:
                     tally.failures.append(f"scene {seed}: {error}")
                     continue
                 tally.add(result.summary, perf_counter() - start)

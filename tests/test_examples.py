@@ -2,6 +2,8 @@
 
 import importlib.util
 
+import meshio
+import numpy as np
 import pytest
 
 import carom
@@ -46,3 +48,49 @@ def test_a_part_that_gmsh_meshes_falls_on_the_floor(example, examples, tmp_path)
     energy = result.summary["energy"]
     assert result.summary["contacts"][0]["pair"] == ["bracket", "floor"]
     assert 0.9 * energy["initial"] < energy["final"] < 1.001 * energy["initial"]
+
+
+def test_discs_of_scikit_fem_collide_as_those_of_carom_do(example, tmp_path):
+    """The first touch, on the same triangles and by the same scheme."""
+    skfem_discs = pytest.importorskip("skfem") and example("scikit_fem_discs")
+    discs = skfem_discs.Discs(refinements=2)
+    points, triangles = discs.mesh.p.T, discs.mesh.t.T
+    bodies = []
+    for name, is_left, speed in (("left", True, 1.0), ("right", False, -1.0)):
+        own = triangles[(triangles[:, 0] < discs.nodes) == is_left]
+        first = own.min()
+        file = tmp_path / f"{name}.vtu"
+        places = np.column_stack([points[first : first + discs.nodes], np.zeros(discs.nodes)])
+        meshio.Mesh(places, [("triangle", turned(places, own - first))]).write(file)
+        mesh = carom.MeshFile(file=str(file))
+        bodies.append(carom.Body(name=name, material="elastic", mesh=mesh, velocity=[speed, 0.0]))
+    law = carom.SaintVenantKirchhoff(
+        young=skfem_discs.YOUNG, poisson=skfem_discs.POISSON, density=skfem_discs.DENSITY
+    )
+    analysis = carom.Dynamic(
+        end_time=0.2,
+        time_step=skfem_discs.TIME_STEP,
+        scheme=carom.Theta(),
+        newton=carom.Newton(tolerance=1e-13),
+    )
+    case = carom.Scenario(
+        analysis=analysis,
+        output=carom.Output(history_every=skfem_discs.TIME_STEP),
+        materials={"elastic": law},
+        bodies=bodies,
+        contact=carom.Contact(condition="gap", friction=skfem_discs.FRICTION),
+    )
+    history = carom.run(case, out=tmp_path / "run").history
+    found = skfem_discs.collide(discs, 0.2)
+    initial = history["total"][0]
+    assert found.ledger.friction > 0.001 * initial
+    for term in ("kinetic", "strain", "friction"):
+        difference = np.abs(getattr(found, term) - history[term][1:])
+        assert difference.max() < 4e-12 * initial, term
+
+
+def turned(points, triangles):
+    """Triangles that go around counter-clockwise."""
+    edges = points[triangles[:, 1:]] - points[triangles[:, :1]]
+    clockwise = np.linalg.det(edges[:, :, :2]) < 0.0
+    return np.where(clockwise[:, None], triangles[:, [0, 2, 1]], triangles)

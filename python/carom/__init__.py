@@ -9,10 +9,13 @@ _HOME_OF = {name: home for home, name in re.findall(r"from (\S+) import (\w+) as
 
 __all__ = sorted(_HOME_OF)  # noqa: PLE0605 (type checkers read the list itself)
 
+_ROOMS = ("contact", "friction")
+"""Modules with public names of their own."""
+
 
 def __getattr__(name: str) -> object:
-    if name == "friction":
-        return import_module("carom.friction")
+    if name in _ROOMS:
+        return import_module(f"carom.{name}")
     if name not in _HOME_OF:
         raise AttributeError(f"module 'carom' has no attribute {name!r}")
     value: object = getattr(import_module(_HOME_OF[name]), name)
@@ -21,4 +24,4 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__, "friction"})
+    return sorted({*globals(), *__all__, *_ROOMS})

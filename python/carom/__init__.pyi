@@ -69,6 +69,9 @@ from carom.errors import InputError as InputError
 from carom.errors import MeshError as MeshError
 from carom.errors import PenetrationError as PenetrationError
 from carom.errors import StorageError as StorageError
+from carom.foreign.body import ForeignBody as ForeignBody
+from carom.foreign.run import ForeignRun as ForeignRun
+from carom.foreign.run import ForeignStep as ForeignStep
 from carom.io.history import read_history as read_history
 from carom.io.summary_types import Summary as Summary
 from carom.ledger_terms import Ledger as Ledger

@@ -21,7 +21,6 @@ def test_books_close_up_to_what_waits_for_a_later_step(loaded):
     assert loaded.energy("max_defect") <= 1e-6
 
 
-@pytest.mark.xfail(reason="2e-7: hard impacts under gravity exhaust the blend", strict=True)
 def test_books_close_to_1e_9_with_loads(loaded):
     assert loaded.energy("max_defect") <= 1e-9
 

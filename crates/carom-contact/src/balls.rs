@@ -14,7 +14,7 @@ fn before_obstacle<const D: usize>(
 ) -> Contact<D> {
     let (gap, normal) = obstacle.gap(&ball.centre(position), position);
     let sources = ball.touching(&normal, position);
-    let stencil = sources.chain(std::iter::once((obstacle.node, -1.0)));
+    let stencil = sources.chain(obstacle.node.map(|node| (node, -1.0)));
     Contact::of_stencil(gap - ball.radius, frame(&normal), 0.0, stencil, D + 1)
 }
 
@@ -113,7 +113,7 @@ mod tests {
         let place = |n: u32| Vector::<3>::from(nodes[n as usize]) + Vector::<3>::new(0.0, 0.0, 1.2);
         let centre = Vector::<3>::new(0.0, 0.0, 1.2);
         let ball = Ball::new(&centre, 1.0, &[0, 1, 2, 3, 4], &place).expect("they are not in a plane");
-        let floor = Obstacle::plane(Vector::zeros(), Vector::<3>::new(0.0, 0.0, 1.0), 9);
+        let floor = Obstacle::plane(Vector::zeros(), Vector::<3>::new(0.0, 0.0, 1.0)).numbered(9, 10);
         let with_floor = |n: u32| if n == 9 { Vector::zeros() } else { place(n) };
         let contact = before_obstacle(&ball, &floor, &with_floor);
         assert!((contact.gap - 0.2).abs() < 1e-15);

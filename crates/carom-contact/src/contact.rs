@@ -29,16 +29,16 @@ impl<const D: usize> Contact<D> {
         Self { gap, frame, area: 0.0, stencil, sources: 1 }
     }
 
-    /// The contact of a source point, which follows `nodes` with these `weights`, with the `obstacle` that has this number.
+    /// The contact of a source point, which follows `nodes` with these `weights`, with the `obstacle` that has this number if it may move.
     pub(crate) fn before_obstacle(
         gap: f64,
         frame: Matrix<D>,
         nodes: &[u32],
         weights: &[f64],
-        obstacle: u32,
+        obstacle: Option<u32>,
     ) -> Self {
         let source = nodes.iter().zip(weights).map(|(&node, &weight)| (node, weight));
-        let stencil = source.chain(std::iter::once((obstacle, -1.0))).collect();
+        let stencil = source.chain(obstacle.map(|node| (node, -1.0))).collect();
         Self { gap, frame, area: 0.0, stencil, sources: nodes.len() }
     }
 
@@ -80,6 +80,11 @@ impl<const D: usize> Contact<D> {
         Self { gap, frame, area, stencil, sources }
     }
 
+    /// That of a candidate which its pair cannot have: as far from everything as can be, and nothing moves in it.
+    pub(crate) fn with_nothing() -> Self {
+        Self { gap: f64::MAX, frame: Matrix::identity(), area: 0.0, stencil: SmallVec::new(), sources: 0 }
+    }
+
     /// Turns the tangents to where those of an earlier frame of the contact were (`carried` in frame.rs). A frame of zeros stands for none.
     pub fn carry_frame(&mut self, before: &Matrix<D>) {
         self.frame = carried(&self.frame, before);
@@ -107,6 +112,11 @@ impl<const D: usize> Contact<D> {
     #[must_use]
     pub fn source_point(&self, position: &impl Fn(u32) -> Vector<D>) -> Vector<D> {
         self.sources().fold(Vector::zeros(), |x, (n, weight)| x + position(n as u32) * weight)
+    }
+
+    /// Where it is on the target [m], if that deforms or has nodes of its own.
+    pub fn target_point(&self, position: &impl Fn(u32) -> Vector<D>) -> Vector<D> {
+        self.targets().fold(Vector::zeros(), |x, (n, weight)| x - position(n as u32) * weight)
     }
 
     /// The part of the stencil on the target.

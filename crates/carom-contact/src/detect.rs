@@ -2,7 +2,7 @@ use carom_mesh::Vector;
 
 use crate::edge::Crossing;
 use crate::frame::frame;
-use crate::project::Reach;
+use crate::project::{Projection, Reach};
 use crate::search::SolidSurface;
 use crate::{Candidate, Contact, ContactModel, Obstacle, Pair, Path, Search, Site, Solid, Target};
 
@@ -13,7 +13,7 @@ impl<const D: usize> ContactModel<D> {
     ///
     /// A node keeps its facet for the whole step: the closest one at the predicted middle among those that face it. Facing decides at corners, where
     /// the closest facet alone is ambiguous. Nodes are found inside a target to a depth of half a facet. On a smooth target
-    /// the closest point may move on to other facets. Nodes of mortar pairs are left to `detect_mortar`.
+    /// the closest point may move on to other facets. Of mortar pairs it finds the multipliers.
     ///
     /// A node that slides over the rim of its target while it is a little
     /// inside, as the condition `midpoint` lets it, is beside the target from then on.
@@ -24,9 +24,12 @@ impl<const D: usize> ContactModel<D> {
         out: &mut Vec<Candidate>,
     ) {
         self.detect_among(|_| true, path, search, out);
+        let mut mortar = std::mem::take(&mut search.mortar);
+        self.detect_mortar(path, &mut mortar, out);
+        search.mortar = mortar;
     }
 
-    /// [`ContactModel::detect`] of the pairs that `count`.
+    /// [`ContactModel::detect`] of the pairs that `count`, but for multipliers, which [`ContactModel::detect_mortar`] finds.
     pub fn detect_among<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
         count: impl Fn(&Pair) -> bool,
@@ -118,7 +121,8 @@ impl<const D: usize> ContactModel<D> {
         }
     }
 
-    /// Gap, frame and stencil of a candidate where the nodes are at `position`.
+    /// Gap, frame and stencil of a candidate where the nodes are at `position`. Many are evaluated at once by [`ContactModel::evaluate_all`], which
+    /// integrates every facet of a mortar pair once for all its multipliers.
     ///
     /// The normal row of the map from nodal to relative motion is the gradient of the gap. It is not half a facet or more
     /// beyond the edge of a facet, or beyond a corner of a smooth target. Beyond an edge in space that is warped, or round, it is the gradient
@@ -139,10 +143,41 @@ impl<const D: usize> ContactModel<D> {
                     let c = Crossing::new(source.map(position), target.map(position)).clamped();
                     Contact::of_crossing(&c, source, target)
                 }
-                _ => self
-                    .between_balls(candidate.pair as usize, position)
-                    .expect("detect gives nodes before a surface their facet, and corners to obstacles"),
+                (Site::Multiplier(node, side), _) => {
+                    self.multiplier(candidate.pair as usize, (node, side), position)
+                }
+                (site, _) => {
+                    let pair = candidate.pair as usize;
+                    let nearest = || match site {
+                        Site::Node(node) => self.before_nearest(pair, node, position),
+                        _ => Contact::with_nothing(),
+                    };
+                    self.between_balls(pair, position).unwrap_or_else(nearest)
+                }
             },
+        }
+    }
+
+    /// The contact of a node of a pair with the facet of its target that is nearest to it; where that has no facets, one with nothing.
+    pub(crate) fn before_nearest(
+        &self,
+        pair: usize,
+        node: u32,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Contact<D> {
+        let x = position(node);
+        let target = match self.pairs[pair].target {
+            Target::Surface(t) => Some(&self.surfaces[t]),
+            Target::Obstacle(_) => None,
+        };
+        let facets = target.into_iter().flat_map(|t| (0..t.facets.len() as u32).map(move |f| (t, f)));
+        let projections = facets.map(|(t, f)| t.project(f, &x, Reach::Facet, position));
+        let distance = |p: &Projection<'_, D>| (x - p.point).norm_squared();
+        match projections.min_by(|a, b| distance(a).total_cmp(&distance(b))) {
+            Some(p) => {
+                Contact::new(p.normal.dot(&(x - p.point)), frame(&p.normal), node, p.nodes, &p.weights)
+            }
+            None => Contact::with_nothing(),
         }
     }
 
@@ -183,11 +218,10 @@ impl<const D: usize> ContactModel<D> {
                 let [s, _] = c.along;
                 contact(c.gap, &c.normal, &source, &[1.0 - s, s])
             }
-            (Site::Facet(_) | Site::Edge(_), ..) => self
-                .before_round(candidate, obstacle, position)
-                .expect("detect finds these before round obstacles alone"),
-            (Site::Corner(_), _, None) => unreachable!("detect gives corners their facet"),
-            (Site::Multiplier(..), ..) => unreachable!("obstacles have no facets to integrate over"),
+            (Site::Facet(_) | Site::Edge(_), ..) => {
+                self.before_round(candidate, obstacle, position).unwrap_or_else(Contact::with_nothing)
+            }
+            (Site::Corner(_), _, None) | (Site::Multiplier(..), ..) => Contact::with_nothing(),
         }
     }
 }

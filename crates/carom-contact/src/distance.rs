@@ -88,9 +88,15 @@ impl<const D: usize> ContactModel<D> {
             signed_distance(x, surface, &search.swept(solid).tree, position)
         };
         match (candidate.site, target) {
-            (_, Target::Surface(t)) => {
+            (site, Target::Surface(t)) => {
                 let x = contact.source_point(position);
-                from(&x, Solid::Body(t), &self.surfaces[t]) > distance
+                from(&x, Solid::Body(t), &self.surfaces[t]) > distance || {
+                    // Of two edges neither is the source by right.
+                    let y = contact.target_point(position);
+                    matches!(site, Site::Crossing(..))
+                        && self.is_two_sided(pair)
+                        && from(&y, Solid::Body(source), &self.surfaces[source]) > distance
+                }
             }
             (Site::Corner(corner), Target::Obstacle(o)) => {
                 let x = self.obstacles[o].placed(position)(corner);
@@ -141,16 +147,14 @@ mod tests {
                 .expect("valid")
         };
         let (a, b) = (disc(0.0), disc(distance));
+        let x: Vec<Vector<2>> = a.nodes().iter().chain(b.nodes()).copied().collect();
+        let at = |n: u32| x[n as usize];
         let model = ContactModel {
             surfaces: vec![
-                ContactSurface::new(&Surface::of(&a), 0),
-                ContactSurface::new(&Surface::of(&b), a.nodes().len() as u32),
+                ContactSurface::new(&Surface::of(&a), 0, &at),
+                ContactSurface::new(&Surface::of(&b), a.nodes().len() as u32, &at),
             ],
-            obstacles: vec![Obstacle::plane(
-                Vector::<2>::new(0.0, -2.0),
-                Vector::<2>::new(0.0, 1.0),
-                (a.nodes().len() + b.nodes().len()) as u32,
-            )],
+            obstacles: vec![Obstacle::plane(Vector::<2>::new(0.0, -2.0), Vector::<2>::new(0.0, 1.0))],
             pairs: vec![
                 Pair {
                     source: 0,
@@ -219,11 +223,12 @@ mod tests {
         let right = generate::grid([1e-9, 0.0], [1.0, 1.0], [4, 4]).expect("valid");
         let count = left.nodes().len() as u32;
         let x: Vec<Vector<2>> = left.nodes().iter().chain(right.nodes()).copied().collect();
-        let faceted = ContactSurface::new(&Surface::of(&right), count);
-        let smooth = faceted.clone().smoothed(&|n| x[n as usize]);
+        let at = |n: u32| x[n as usize];
+        let faceted = ContactSurface::new(&Surface::of(&right), count, &at);
+        let smooth = faceted.clone().smoothed(&at);
         for target in [faceted, smooth] {
             let model = ContactModel::<2> {
-                surfaces: vec![ContactSurface::new(&Surface::of(&left), 0), target],
+                surfaces: vec![ContactSurface::new(&Surface::of(&left), 0, &at), target],
                 obstacles: vec![],
                 pairs: vec![Pair {
                     source: 0,

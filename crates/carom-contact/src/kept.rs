@@ -4,6 +4,7 @@ use carom_mesh::Vector;
 
 use crate::edge::Crossing;
 use crate::project::Reach;
+use crate::surface::diameter;
 use crate::tolerances::{EDGES, SEARCH};
 use crate::{Candidate, ContactModel, Path, Site};
 
@@ -49,7 +50,7 @@ impl<const D: usize> ContactModel<D> {
                 let faced = self.faced_surface(candidate).zip(candidate.facet);
                 faced.is_some_and(|(surface, f)| {
                     let x = position(node);
-                    let near = apart + SEARCH.kept * surface.bounds(f, position).diameter();
+                    let near = apart + SEARCH.kept * diameter(&surface.facets[f as usize], position);
                     (x - surface.project(f, &x, Reach::Facet, position).point).norm() <= near
                 })
             }

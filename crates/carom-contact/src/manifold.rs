@@ -29,7 +29,7 @@ mod tests {
     #[test]
     fn cubes_that_share_an_edge_alone_are_told_of() {
         let grid = generate::grid([0.0; 3], [2.0, 2.0, 1.0], [2, 2, 1]).expect("valid");
-        let whole = ContactSurface::new(&Surface::of(&grid), 10);
+        let whole = ContactSurface::new(&Surface::of(&grid), 10, &|n| grid.nodes()[n as usize - 10]);
         assert_eq!(whole.non_manifold_edges(), Vec::<[u32; 2]>::new());
         // Two cubes of the chequerboard, with the edge in the middle in common.
         let cells: Vec<&[u32]> = grid.blocks()[0].cells().collect();
@@ -41,7 +41,8 @@ mod tests {
         let kept = nodes.iter().map(|&n| grid.nodes()[n as usize]).collect();
         let block = CellBlock { kind: CellKind::Hex8, connectivity };
         let mesh = Mesh::new(kept, vec![block]).expect("two cubes");
-        let edges = ContactSurface::new(&Surface::of(&mesh), 10).non_manifold_edges();
+        let at = |n: u32| mesh.nodes()[n as usize - 10];
+        let edges = ContactSurface::new(&Surface::of(&mesh), 10, &at).non_manifold_edges();
         assert_eq!(edges.len(), 1);
         for end in edges[0] {
             let x = mesh.nodes()[end as usize - 10];

@@ -8,6 +8,7 @@ use crate::edge::{Edge, SurfaceEdge};
 use crate::frame::frame;
 use crate::path::Path;
 use crate::project::Reach;
+use crate::surface::diameter;
 use crate::tolerances::SEARCH;
 use crate::{Candidate, Contact, ContactModel, ContactSurface, Obstacle, Pair, RigidShape, Site, Target};
 
@@ -51,7 +52,7 @@ impl<const D: usize> ContactModel<D> {
     ) {
         let Some(radius) = obstacle.shape.bulging_radius() else { return };
         let source = &self.surfaces[self.pairs[pair].source];
-        let is_large = |f: u32| source.bounds(f, path.start).diameter() > radius;
+        let is_large = |f: u32| diameter(&source.facets[f as usize], path.start) > radius;
         let comes_near = |site: Site| {
             let Some(first) = source.nearest(site, obstacle, path.start) else { return false };
             let last = source.nearest(site, obstacle, path.end);
@@ -68,7 +69,7 @@ impl<const D: usize> ContactModel<D> {
                 }
             }
             RigidShape::Sphere { centre, .. } => {
-                let way = path.ends(obstacle.node).map(|shift| centre + shift);
+                let way = [obstacle.shift(path.start), obstacle.shift(path.end)].map(|shift| centre + shift);
                 let way = Aabb::of(way).inflated(radius + path.margin);
                 for f in 0..source.facets.len() as u32 {
                     let room = source.bounds(f, path.start).union(&source.bounds(f, path.end));
@@ -144,7 +145,7 @@ impl ContactSurface {
         obstacle: &Obstacle<D>,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Option<Nearest<D>> {
-        let shift = position(obstacle.node);
+        let shift = obstacle.shift(position);
         match (site, &obstacle.shape) {
             (Site::Facet(f), RigidShape::Sphere { centre, .. }) => {
                 let centre = centre + shift;

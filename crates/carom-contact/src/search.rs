@@ -5,8 +5,9 @@ use crate::bvh::Bvh;
 use crate::edge::Found;
 use crate::facing::{Projected, faced};
 use crate::project::Reach;
+use crate::surface::diameter;
 use crate::tolerances::SEARCH;
-use crate::{ContactModel, ContactSurface, Pair, Path, Solid, Target};
+use crate::{ContactModel, ContactSurface, Mortar, Pair, Path, Solid, Target};
 
 /// What the search for contacts keeps from one call to the next: room for boxes, and the trees over them.
 ///
@@ -21,6 +22,8 @@ pub struct Search<const D: usize> {
     projected: Vec<Projected<D>>,
     /// Edges of a pair that cross.
     pub(crate) crossings: Vec<Found>,
+    /// What [`ContactModel::detect`] knows of mortar pairs.
+    pub mortar: Mortar<D>,
 }
 
 impl<const D: usize> Default for Search<D> {
@@ -31,6 +34,7 @@ impl<const D: usize> Default for Search<D> {
             near: Vec::new(),
             projected: Vec::new(),
             crossings: Vec::new(),
+            mortar: Mortar::default(),
         }
     }
 }
@@ -122,7 +126,8 @@ impl<const D: usize> Search<D> {
         for (swept, obstacle) in self.obstacles.iter_mut().zip(&model.obstacles) {
             swept.forget();
             if let Some(faceted) = &obstacle.faceted {
-                let [start, end] = path.ends(obstacle.node).map(|shift| faceted.bounds.moved(&shift));
+                let ends = [obstacle.shift(path.start), obstacle.shift(path.end)];
+                let [start, end] = ends.map(|shift| faceted.bounds.moved(&shift));
                 swept.whole = start.union(&end);
                 swept.sources = swept.whole;
             }
@@ -174,9 +179,11 @@ impl<const D: usize> Search<D> {
                 }
                 let p = Projected::new(facet, size, &x, &target.project(facet, &x, Reach::Facet, &middle));
                 // Through its own walls a node does not come.
-                let deepest = -SEARCH.depth * swept.facets[facet as usize].diameter();
-                if is_own && target.gap_at(facet, &(path.start)(node), path.start) < deepest {
-                    continue;
+                if is_own {
+                    let deepest = -SEARCH.depth * diameter(&target.facets[facet as usize], path.start);
+                    if target.gap_at(facet, &(path.start)(node), path.start) < deepest {
+                        continue;
+                    }
                 }
                 if p.faces(&outward) && p.gap <= path.margin && p.is_square() {
                     reach = reach.min(if p.gap < 0.0 { p.distance.max(way_in) } else { p.distance });
@@ -305,10 +312,11 @@ mod tests {
     fn same_candidates_as_a_scan<const D: usize>(divisions: usize) {
         let mesh = ball::<D>(divisions);
         let count = mesh.nodes().len() as u32;
+        let reference = |n: u32| mesh.nodes()[(n % count) as usize];
         let model = ContactModel::<D> {
             surfaces: vec![
-                ContactSurface::new(&Surface::of(&mesh), 0),
-                ContactSurface::new(&Surface::of(&mesh), count),
+                ContactSurface::new(&Surface::of(&mesh), 0, &reference),
+                ContactSurface::new(&Surface::of(&mesh), count, &reference),
             ],
             obstacles: vec![],
             pairs: vec![
@@ -371,8 +379,9 @@ mod tests {
         let mesh = generate::grid([0.0; 3], [1.0, 1.0, 0.1], [67, 67, 4]).expect("valid");
         let count = mesh.nodes().len() as u32;
         let surface = Surface::of(&mesh);
+        let reference = |n: u32| mesh.nodes()[(n % count) as usize];
         let model = ContactModel::<3> {
-            surfaces: vec![ContactSurface::new(&surface, 0), ContactSurface::new(&surface, count)],
+            surfaces: [0, count].map(|first| ContactSurface::new(&surface, first, &reference)).to_vec(),
             obstacles: vec![],
             pairs: vec![Pair {
                 source: 0,

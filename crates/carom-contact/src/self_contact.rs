@@ -6,6 +6,7 @@ use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::edge::Edge;
 use crate::project::Reach;
+use crate::surface::diameter;
 use crate::tolerances::SEARCH;
 use crate::{ContactModel, ContactSurface, Target};
 
@@ -28,7 +29,9 @@ impl ContactSurface {
             let x = reference(node);
             tree.overlapping(&Aabb::of([x]), |f, _| {
                 let p = self.project(f, &x, Reach::Facet, reference);
-                if p.normal.dot(&(x - p.point)) < 0.0 {
+                let is_near =
+                    (x - p.point).norm() <= SEARCH.wall * diameter(&self.facets[f as usize], reference);
+                if is_near && p.normal.dot(&(x - p.point)) < 0.0 {
                     never.push(f);
                 }
             });

@@ -88,7 +88,8 @@ mod tests {
 
     /// How many sides every node of the boundary of a mesh has.
     fn side_counts<const D: usize>(mesh: &Mesh<D>) -> BTreeMap<u32, usize> {
-        let surface = ContactSurface::new(&Surface::of(mesh), 0).sided(&|n| mesh.nodes()[n as usize]);
+        let at = |n: u32| mesh.nodes()[n as usize];
+        let surface = ContactSurface::new(&Surface::of(mesh), 0, &at).sided(&at);
         let mut sides: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for (f, facet) in (0..).zip(&surface.facets) {
             for (a, &n) in facet.nodes.iter().enumerate() {

@@ -27,7 +27,7 @@ pub struct ContactSurface {
     facets_around: Vec<Vec<u32>>,
     /// For every source, the facets of this surface that it never touches, ascending; empty if it touches none of them.
     pub(crate) never_touched: Vec<Vec<u32>>,
-    /// Its convex edges in space, by their nodes, once it is [`edged`](Self::edged).
+    /// Its convex edges in space, by their nodes.
     pub(crate) edges: Vec<Edge>,
     /// Its other edges: an edge of an obstacle may lie on the facets beside them, with no node near.
     pub(crate) flat_edges: Vec<Edge>,
@@ -54,9 +54,18 @@ enum Shape {
 }
 
 impl ContactSurface {
-    /// The boundary of a body whose first node has the number `first_node`. As a target it consists of its facets.
+    /// The boundary of a body whose first node has the number `first_node`, with its edges if it is one in space, convex ones and all others.
+    /// They are those of the `reference` configuration [m]. As a target it consists of its facets.
     #[must_use]
-    pub fn new(surface: &Surface, first_node: u32) -> Self {
+    pub fn new<const D: usize>(
+        surface: &Surface,
+        first_node: u32,
+        reference: &impl Fn(u32) -> Vector<D>,
+    ) -> Self {
+        Self::without_edges(surface, first_node).edged(reference)
+    }
+
+    fn without_edges(surface: &Surface, first_node: u32) -> Self {
         let facets: Vec<Facet> = surface.facets().iter().map(|f| f.numbered_from(first_node)).collect();
         let nodes: Vec<u32> = surface.nodes().iter().map(|n| n + first_node).collect();
         let masters: BTreeMap<u32, u32> =
@@ -258,6 +267,16 @@ impl ContactSurface {
             sum + area_normal(&Patch::new(&self.facets[f as usize], position).middle().tangents)
         })
     }
+}
+
+/// The largest distance between two nodes of a facet [m].
+pub(crate) fn diameter<const D: usize>(facet: &Facet, position: &impl Fn(u32) -> Vector<D>) -> f64 {
+    let nodes = &facet.nodes;
+    let from = |(k, a): (usize, &u32)| {
+        let x = position(*a);
+        nodes[k + 1..].iter().map(|b| (position(*b) - x).norm_squared()).fold(0.0, f64::max)
+    };
+    nodes.iter().enumerate().map(from).fold(0.0, f64::max).sqrt()
 }
 
 /// How far a facet of this kind may bulge out of the box around its nodes, in half sides of the box. It is the largest sum of the

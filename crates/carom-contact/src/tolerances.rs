@@ -34,7 +34,7 @@ pub(crate) struct SearchTolerances {
 /// The tolerances of every search.
 pub(crate) const SEARCH: SearchTolerances = SearchTolerances {
     depth: 0.5,
-    wall: 2.0,
+    wall: 3.0,
     beyond: 0.5,
     aligned: 1e-6,
     kept: 1e-4,

@@ -34,8 +34,12 @@ fn tetrahedra(mesh: &Mesh<3>) -> Mesh<3> {
 fn contact(target: &Mesh<3>, surface: &Surface, x: &Vector3, back: &Vector3) -> Option<Contact<3>> {
     let tip = tip(x, back);
     let count = tip.nodes().len() as u32;
+    let at = |n: u32| if n < count { tip.nodes()[n as usize] } else { target.nodes()[(n - count) as usize] };
     let model = ContactModel::<3> {
-        surfaces: vec![ContactSurface::new(&Surface::of(&tip), 0), ContactSurface::new(surface, count)],
+        surfaces: vec![
+            ContactSurface::new(&Surface::of(&tip), 0, &at),
+            ContactSurface::new(surface, count, &at),
+        ],
         obstacles: vec![],
         pairs: vec![Pair {
             source: 0,
@@ -45,7 +49,6 @@ fn contact(target: &Mesh<3>, surface: &Surface, x: &Vector3, back: &Vector3) -> 
             discretisation: Discretisation::default(),
         }],
     };
-    let at = |n: u32| if n < count { tip.nodes()[n as usize] } else { target.nodes()[(n - count) as usize] };
     let mut found: Vec<Candidate> = Vec::new();
     model.detect(&Path::resting(&at, 0.1), &mut Search::default(), &mut found);
     let contact = found.iter().find(|c| c.node() == Some(0)).map(|c| model.evaluate(c, &at))?;

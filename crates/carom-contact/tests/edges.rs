@@ -49,9 +49,8 @@ impl Scene {
         let x: Vec<Vector3> = a.nodes().iter().chain(b.nodes()).copied().collect();
         let first_of_second = a.nodes().len();
         let reference = |n: u32| x[n as usize];
-        let surface = |mesh: &Mesh<3>, first: usize| {
-            ContactSurface::new(&Surface::of(mesh), first as u32).edged(&reference)
-        };
+        let surface =
+            |mesh: &Mesh<3>, first: usize| ContactSurface::new(&Surface::of(mesh), first as u32, &reference);
         let pair = |source: usize, target: usize| Pair {
             source,
             target: Target::Surface(target),

@@ -16,9 +16,11 @@ struct Scene<const D: usize> {
 impl<const D: usize> Scene<D> {
     fn new(source: &Mesh<D>, target: &Mesh<D>) -> Self {
         let sources = source.nodes().len();
+        let nodes: Vec<Vector<D>> = source.nodes().iter().chain(target.nodes()).copied().collect();
+        let at = |n: u32| nodes[n as usize];
         let surfaces = vec![
-            ContactSurface::new(&Surface::of(source), 0).sided(&|n| source.nodes()[n as usize]),
-            ContactSurface::new(&Surface::of(target), sources as u32),
+            ContactSurface::new(&Surface::of(source), 0, &at).sided(&at),
+            ContactSurface::new(&Surface::of(target), sources as u32, &at),
         ];
         let pair = Pair {
             source: 0,
@@ -28,7 +30,7 @@ impl<const D: usize> Scene<D> {
             discretisation: Discretisation::Mortar,
         };
         let model = ContactModel { surfaces, obstacles: vec![], pairs: vec![pair] };
-        Self { model, nodes: source.nodes().iter().chain(target.nodes()).copied().collect(), sources }
+        Self { model, nodes, sources }
     }
 
     /// The contacts within `margin` [m] where the nodes are at `nodes`, and their candidates.

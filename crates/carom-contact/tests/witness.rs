@@ -22,7 +22,7 @@ impl Scene {
         let at = |n: u32| start[n as usize];
         let firsts = [0, bodies[0].nodes().len() as u32];
         let outlines = bodies.map(Surface::of);
-        let surfaces = [0, 1].map(|i| ContactSurface::new(&outlines[i], firsts[i]).edged(&at)).to_vec();
+        let surfaces = [0, 1].map(|i| ContactSurface::new(&outlines[i], firsts[i], &at)).to_vec();
         let pair = |source: usize| Pair {
             source,
             target: Target::Surface(1 - source),

@@ -20,6 +20,16 @@ pub struct Held {
 }
 
 impl Held {
+    /// What is held in a body, of which every node says it component by component; nothing if there is no entry.
+    #[must_use]
+    pub fn of<const D: usize>(held: &[[bool; D]]) -> Self {
+        let all =
+            held.iter().enumerate().flat_map(|(n, held)| (0..D).filter(|&i| held[i]).map(move |i| (n, i)));
+        let mut of = Self::default();
+        of.add(held.len(), all.map(|(n, i)| HeldDof { node: n as u32, component: i as u8 }));
+        of
+    }
+
     /// Adds to what is held in a body of `nodes` nodes.
     pub(crate) fn add(&mut self, nodes: usize, dofs: impl IntoIterator<Item = HeldDof>) {
         self.dofs.extend(dofs);

@@ -30,10 +30,13 @@ struct Control {
     amplification: f64,
     /// How well affine fields must be reproduced.
     reproduced: f64,
+    /// Nodes this alike, relative to how far away they are, are as far aside from the inward normal.
+    tie: f64,
 }
 
 /// The thresholds of every mesh.
-const CONTROL: Control = Control { layers: 5, nodes_per_layer: 4, amplification: 2.5, reproduced: 1e-9 };
+const CONTROL: Control =
+    Control { layers: 5, nodes_per_layer: 4, amplification: 2.5, reproduced: 1e-9, tie: 1e-9 };
 
 /// For every node of `surface`, the massive nodes that it follows.
 ///
@@ -75,14 +78,22 @@ fn follower<const D: usize>(
     }
     let mut best: Option<(f64, Follower)> = None;
     for count in 1..=CONTROL.nodes_per_layer {
-        let nodes: Vec<u32> = layers.iter().flat_map(|layer| layer.iter().take(count).copied()).collect();
+        // Nodes that are equally far aside go together: which of them has the lower number decides nothing.
+        let as_far = |layer: &[u32]| {
+            let last =
+                layer.get(count - 1).map_or(f64::INFINITY, |&n| aside(n) + CONTROL.tie * arm(n).norm());
+            layer.iter().take_while(|&&n| aside(n) <= last).count()
+        };
+        let nodes: Vec<u32> =
+            layers.iter().flat_map(|layer| layer[..as_far(layer)].iter().copied()).collect();
         let arms: Vec<Vector<D>> = nodes.iter().map(|&n| arm(n)).collect();
         let Some(weights) = affine_weights(&arms) else { continue };
-        let amplification = weights.iter().map(|w| w.abs()).sum();
-        if best.as_ref().is_none_or(|(least, _)| amplification < *least) {
+        let amplification: f64 = weights.iter().map(|w| w.abs()).sum();
+        // Round-off decides neither whether more nodes are better nor whether these will do.
+        if best.as_ref().is_none_or(|(least, _)| amplification < least * (1.0 - CONTROL.tie)) {
             best = Some((amplification, nodes.into_iter().zip(weights).collect()));
         }
-        if amplification <= CONTROL.amplification {
+        if amplification <= CONTROL.amplification * (1.0 + CONTROL.tie) {
             break;
         }
     }

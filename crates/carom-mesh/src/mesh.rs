@@ -173,11 +173,11 @@ impl<const D: usize> Mesh<D> {
         self.blocks.iter().map(|b| b.cells().len()).sum()
     }
 
-    /// Length of the diagonal of the bounding box [m].
+    /// Diameter of the smallest ball around the mean of the nodes that has them all [m]: the diagonal of a box, however it is turned.
     #[must_use]
     pub fn diameter(&self) -> f64 {
-        let (low, high) = self.bounds();
-        (high - low).norm()
+        let mean = self.nodes.iter().sum::<Vector<D>>() / self.nodes.len() as f64;
+        2.0 * self.nodes.iter().map(|x| (x - mean).norm_squared()).fold(0.0, f64::max).sqrt()
     }
 
     /// The smallest and the largest coordinates of its nodes [m].

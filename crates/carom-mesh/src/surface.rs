@@ -31,8 +31,9 @@ impl Facet {
         area.try_normalize(0.0).unwrap_or(area)
     }
 
-    /// ∫ n dA, which its rim alone decides: the right-hand normal of the chord in 2D, ½∮ x × dx in 3D.
-    fn area_vector_at<const D: usize>(&self, position: impl Fn(usize) -> Vector<D>) -> Vector<D> {
+    /// ∫ n dA [m^(D−1)] where its nodes are at `position`. Its rim alone decides: the right-hand normal of the chord in 2D, ½∮ x × dx in 3D.
+    #[must_use]
+    pub fn area_vector_at<const D: usize>(&self, position: impl Fn(usize) -> Vector<D>) -> Vector<D> {
         let x = |k: usize| position(self.nodes[k] as usize) - position(self.nodes[0] as usize);
         let mut n = Vector::<D>::zeros();
         if D == 2 {

@@ -23,6 +23,37 @@ pub fn input_error(py: Python<'_>, error: &InputError) -> PyErr {
     make().map_or_else(|e| e, PyErr::from_value)
 }
 
+/// `ConvergenceError` of a step that somebody else makes, with the contact problem that was posed last where that is what failed.
+pub fn step_error<const D: usize>(
+    py: Python<'_>,
+    error: &StepError,
+    posed: Option<PosedProblem<'_, D>>,
+) -> PyErr {
+    let make = || {
+        let report = PyDict::new(py);
+        report.set_item("reason", error.to_string())?;
+        let contact = contact_problem(py, error, posed, &report)?;
+        class(py, "ConvergenceError")?.call((error.to_string(), report), Some(&contact))
+    };
+    make().map_or_else(|e| e, PyErr::from_value)
+}
+
+/// The contact problem that could not be solved and its guess, if that is what failed; what its solver said joins the report.
+fn contact_problem<'py, const D: usize>(
+    py: Python<'py>,
+    error: &StepError,
+    posed: Option<PosedProblem<'_, D>>,
+    report: &Bound<'py, PyDict>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let contact = PyDict::new(py);
+    if let (StepError::Friction { report: solve, .. }, Some(posed)) = (error, posed) {
+        report.set_item("friction", friction::describe(py, solve)?)?;
+        contact.set_item("problem", friction::to_python(py, posed.problem)?)?;
+        contact.set_item("guess", arrays::vectors(py, posed.guess)?)?;
+    }
+    Ok(contact)
+}
+
 /// `ConvergenceError` with its report and, where that is what failed, the contact problem that was posed last.
 pub fn run_error<const D: usize>(
     py: Python<'_>,
@@ -35,12 +66,7 @@ pub fn run_error<const D: usize>(
         report.set_item("time_step", error.time_step)?;
         report.set_item("halvings", error.halvings)?;
         report.set_item("reason", error.reason.to_string())?;
-        let contact = PyDict::new(py);
-        if let (StepError::Friction { report: solve, .. }, Some(posed)) = (&error.reason, posed) {
-            report.set_item("friction", friction::describe(py, solve)?)?;
-            contact.set_item("problem", friction::to_python(py, posed.problem)?)?;
-            contact.set_item("guess", arrays::vectors(py, posed.guess)?)?;
-        }
+        let contact = contact_problem(py, &error.reason, posed, &report)?;
         class(py, "ConvergenceError")?.call((error.to_string(), report), Some(&contact))
     };
     make().map_or_else(|e| e, PyErr::from_value)

@@ -1,12 +1,14 @@
-//! The native module `carom._carom`: one class that takes a scenario as JSON and gives back numbers, and functions for contact
-//! problems on their own.
+//! The native module `carom._carom`: a class that takes a scenario as JSON and gives back numbers, one for contact in somebody
+//! else's time loop, and functions for contact problems on their own.
 
 mod arrays;
 mod checkpoint;
 mod error;
+mod foreign;
 mod friction;
 mod friction_global;
 mod mesh;
+mod planted;
 mod signal;
 mod simulation;
 
@@ -17,6 +19,8 @@ fn _carom(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("CHECKPOINT_SCHEMA", carom::Checkpoint::SCHEMA)?;
     module.add_class::<simulation::Simulation>()?;
+    module.add_class::<planted::PlantedContact>()?;
+    module.add_class::<foreign::ForeignRun>()?;
     module.add_function(wrap_pyfunction!(signal::signal_values, module)?)?;
     module.add_function(wrap_pyfunction!(friction::friction_solvers, module)?)?;
     module.add_function(wrap_pyfunction!(friction::solve_friction, module)?)?;

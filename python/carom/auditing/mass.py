@@ -21,6 +21,9 @@ AMPLIFICATION = 2.5
 REPRODUCED = 1e-9
 """How well the weights must reproduce affine fields."""
 
+TIE = 1e-9
+"""Nodes are as far aside as one another up to this part of how far away they are."""
+
 
 class Mass:
     """Multiplication by the mass matrix of a body.
@@ -144,16 +147,25 @@ def _leaders(
     arms = points - points[node]
     aside = np.linalg.norm(arms - np.outer(arms @ inward, inward), axis=1)
     layers = [sorted(layer, key=lambda n: aside[n]) for layer in _layers(node, near, without)]
+    far = np.linalg.norm(arms, axis=1)
+
+    def nearest(layer: list[int], count: int) -> list[int]:
+        # Those that are as far aside as the last one go with it.
+        last = (
+            aside[layer[count - 1]] + TIE * far[layer[count - 1]] if count <= len(layer) else np.inf
+        )
+        return [n for n in layer if aside[n] <= last]
+
     best: tuple[float, Indices, Array] | None = None
     for count in range(1, NODES_PER_LAYER + 1):
-        massive = np.array([n for layer in layers for n in layer[:count]], dtype=np.int64)
+        massive = np.array([n for layer in layers for n in nearest(layer, count)], dtype=np.int64)
         weights = affine_weights(arms[massive])
         if weights is None:
             continue
         amplification = float(np.abs(weights).sum())
-        if best is None or amplification < best[0]:
+        if best is None or amplification < best[0] * (1 - TIE):
             best = (amplification, massive, weights)
-        if amplification <= AMPLIFICATION:
+        if amplification <= AMPLIFICATION * (1 + TIE):
             break
     if best is None:
         raise InputError(f"node {node} has no massive nodes near that could carry its mass")

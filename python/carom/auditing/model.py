@@ -20,8 +20,8 @@ from carom.errors import InputError
 
 CONDITIONS = ("gap", "midpoint", "endpoint", "massless")
 
-FINER = 0.99
-"""A boundary is finer if its mean facet is shorter than this part of the other's."""
+ALIKE = 1e-6
+"""Facets and masses apart by no more than this part are alike."""
 
 
 @dataclass(frozen=True)
@@ -132,7 +132,7 @@ class AuditModel:
         self.targets = [Target(b.facets, b.points, smooth=smooth) for b in self.bodies]
         self.planes = [_plane(obstacle) for obstacle in scenario.obstacles]
         self.sides = list(self._build_sides())
-        self.size = max(float(np.linalg.norm(np.ptp(b.points, axis=0))) for b in self.bodies)
+        self.size = max(_diameter(b.points) for b in self.bodies)
 
     @property
     def fastest_plane(self) -> float:
@@ -255,9 +255,7 @@ class AuditModel:
                 # The auditor has no mortar rows, of which one side has the multipliers.
                 sources = sources or ("finer" if self.massless else "both")
                 if sources == "finer":
-                    sources = (
-                        "second" if self._mean_facet(b) < FINER * self._mean_facet(a) else "first"
-                    )
+                    sources = "second" if self._is_finer(b, a) else "first"
                     swapped = False
                 forward, backward = sources in ("first", "both"), sources in ("second", "both")
                 if swapped:
@@ -268,10 +266,22 @@ class AuditModel:
                 if backward:
                     yield Side(b, a, friction, two_sided=both, restitution=bounce)
 
+    def _is_finer(self, body: int, other: int) -> bool:
+        wide, wide_other = self._mean_facet(body), self._mean_facet(other)
+        if abs(wide - wide_other) > ALIKE * max(wide, wide_other):
+            return wide < wide_other
+        mass, mass_other = (self.bodies[b].mass.total for b in (body, other))
+        return bool(mass < (1 - ALIKE) * mass_other)
+
     def _mean_facet(self, body: int) -> float:
         points, facets = self.bodies[body].points, self.bodies[body].facets
         lengths = np.linalg.norm(points[facets[:, 1]] - points[facets[:, 0]], axis=1)
         return float(lengths.mean())
+
+
+def _diameter(points: Array) -> float:
+    """Return the diameter of the smallest ball around the mean of all points [m]."""
+    return 2.0 * float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())
 
 
 def _plane(entry: Obstacle) -> AuditPlane:

@@ -135,7 +135,10 @@ class Step:
         theta = self.model.theta
         velocity: Array = (1 - 1 / theta) * self.v0 + self.d / (theta * self.dt)
         for body in self.model.bodies:
-            velocity[body.span][body.massless] = self.d[body.span][body.massless] / self.dt
+            if len(body.massless):
+                mean = self.d[body.span] / self.dt
+                faster = body.mass.mean(velocity[body.span] - mean)
+                velocity[body.span][body.massless] = (mean + faster)[body.massless]
             if body.rigid:
                 u0, v0 = self.u0[body.span], self.v0[body.span]
                 velocity[body.span] = self.rigid(body).scheme(u0, v0, theta, self.dt)[0]
@@ -223,10 +226,12 @@ class Step:
         viscous = body.damping_force(u0 + 0.5 * dt * v0, mean)
         start, end = body.internal_force(u0), body.internal_force(u1)
         steadying, missing, available = np.zeros_like(d), 0.0, 0.0
-        # A body that moves rigidly is not resisted.
+        # A body that moves rigidly, or falls as it does, is not resisted.
         turn = rotation(dt * body.spin(u0, v0) if body.turns else 0.0)
         drift = body.mass.mean(v0)
-        resisted = (d - dt * (drift + (v0 - drift) @ turn.T))[body.massless]
+        pressed = self.start["contact_force"][span].sum(axis=0)
+        fall = dt * dt * model.theta * (model.gravity + pressed / body.mass.total)
+        resisted = (d - fall - dt * (drift + (v0 - drift) @ turn.T))[body.massless]
         steadying[body.massless] = STEADYING * body.holding[:, None] * resisted
         if model.blended:
             held = end + viscous + steadying

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from carom._carom import Simulation
 from carom.building.closing import closed
 from carom.building.leaps import refuse_leaps
 from carom.building.magnitudes import refuse_unbounded
 from carom.case.mesh import MeshFile
-from carom.case.obstacle import RigidSurface
+from carom.case.obstacle import Obstacle, RigidSurface
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 from carom.mesh_file import MeshArrays, Note, SurfaceArrays, read_body_mesh, read_surface
@@ -33,7 +33,7 @@ def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
     InputError
         The scenario cannot be run, such as bodies that overlap at the start.
     """
-    meshes, surfaces = _meshes(scenario), _surfaces(scenario)
+    meshes, surfaces = _meshes(scenario), obstacle_surfaces(scenario.obstacles)
 
     def make(scenario: Scenario, meshes: Mapping[str, MeshArrays]) -> Simulation:
         try:
@@ -109,10 +109,10 @@ def _meshes(scenario: Scenario) -> dict[str, MeshArrays]:
     }
 
 
-def _surfaces(scenario: Scenario) -> dict[str, SurfaceArrays]:
+def obstacle_surfaces(obstacles: Sequence[Obstacle]) -> dict[str, SurfaceArrays]:
     """Read the surfaces of the obstacles that have theirs in a file."""
     return {
         obstacle.name: read_surface(obstacle.file, scale=obstacle.scale, key=f"obstacles.{index}")
-        for index, obstacle in enumerate(scenario.obstacles)
+        for index, obstacle in enumerate(obstacles)
         if isinstance(obstacle, RigidSurface)
     }

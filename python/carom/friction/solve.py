@@ -8,10 +8,13 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.sparse.linalg import LinearOperator
 
 from carom import _carom
 from carom.errors import InputError
+from carom.friction.arrays import matrix
 from carom.friction.global_problem import GlobalProblem
+from carom.friction.operator import condensed, is_operator, responses
 from carom.friction.problem import Problem
 from carom.friction.record import AnyProblem
 from carom.friction.solution import Solution
@@ -32,6 +35,7 @@ def solve(
     q: ArrayLike | None = None,
     mu: ArrayLike | None = None,
     *,
+    H: Any = None,  # noqa: ANN401 (NumPy or any scipy.sparse)
     solver: str = SOLVERS[0],
     method: str = METHODS[0],
     tolerance: float = DEFAULT_TOLERANCE,
@@ -46,13 +50,17 @@ def solve(
     Parameters
     ----------
     W
-        Delassus operator [m/N], shape [n D, n D], NumPy or scipy.sparse; or a `Problem` or
-        `GlobalProblem`, then without `q` and `mu`.
+        Delassus operator [m/N], shape [n D, n D], NumPy or scipy.sparse or a ``LinearOperator`` of
+        scipy; or a `Problem` or `GlobalProblem`, then without `q` and `mu`. With `H` it is K̄⁻¹, a
+        function from right-hand sides [N] to solutions [m] of shape [dof_count, k] or [dof_count],
+        or a ``LinearOperator``, and Hᵀ K̄⁻¹ H the Delassus operator.
     q
         Relative motion without reactions [m], component 0 of each contact normal, shape [n, D] or
         [n D].
     mu
         Friction coefficients, shape [n].
+    H
+        Map from reactions to forces, shape [dof_count, n D], NumPy or scipy.sparse.
     solver
         One of `SOLVERS`.
     method
@@ -76,7 +84,7 @@ def solve(
         only after a solver gave up.
     """
     begin = time.perf_counter()
-    problem = _problem(W, q, mu)
+    problem = _problem(_delassus(W, H), q, mu)
     rule = _checked_rule(solver, method, tolerance, max_iterations, time_limit)
     start = np.zeros_like(problem.b if isinstance(problem, GlobalProblem) else problem.q)
     if guess is not None:
@@ -97,6 +105,24 @@ def solve(
         return Solution(**_carom.solve_global_friction(problem, start, method=method, **rule))
     except ValueError as error:
         raise InputError(str(error), "M") from error
+
+
+def _delassus(W: Any, H: Any) -> Any:  # noqa: ANN401
+    """Return W itself, or made of what is known by its action alone."""
+    if H is not None:
+        if not is_operator(W):
+            raise InputError(
+                f"H goes with a function or a LinearOperator that solves with K̄, not with "
+                f"{type(W).__name__}: leave it out, or give both as a GlobalProblem",
+                "H",
+            )
+        rows = matrix("H", H)
+        return condensed(rows, responses(W, rows))
+    if isinstance(W, LinearOperator):
+        return condensed(np.eye(W.shape[1]), responses(W, np.eye(W.shape[1])))
+    if callable(W):
+        raise InputError("H is missing: with a function that solves with K̄, give H too", "H")
+    return W
 
 
 def _problem(W: Any, q: ArrayLike | None, mu: ArrayLike | None) -> AnyProblem:  # noqa: ANN401

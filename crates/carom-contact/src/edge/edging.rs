@@ -14,8 +14,7 @@ use crate::tolerances::{EDGES, SEARCH};
 impl ContactSurface {
     /// The same boundary with its edges, if it is one in space: convex ones, at which facets meet at an angle in the `reference`
     /// configuration [m], and all others.
-    #[must_use]
-    pub fn edged<const D: usize>(mut self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
+    pub(crate) fn edged<const D: usize>(mut self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
         let mut open: BTreeMap<[u32; 2], ([u32; 2], Side)> = BTreeMap::new();
         for (f, facet) in (0..).zip(&self.facets).filter(|(_, facet)| facet.kind.dimension() == 2) {
             for ([a, b], middle) in lines(facet.kind) {

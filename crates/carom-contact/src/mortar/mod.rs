@@ -41,10 +41,10 @@ use self::row::Row;
 use crate::{Candidate, Contact, ContactModel, Discretisation, Path, Site, Target};
 
 /// The node of a multiplier and the side of it that it is on.
-type Multiplier = (u32, u32);
+pub(crate) type Multiplier = (u32, u32);
 
 /// What the mortar pairs of a model have found in a step, and scratch. It may be dropped at any moment between two steps.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mortar<const D: usize> {
     /// Facets that may face one another, ascending.
     facing: Vec<Facing>,
@@ -131,17 +131,39 @@ impl<const D: usize> ContactModel<D> {
             let (of_multipliers, crossings) = of_pair.split_at(multipliers.len());
             mortar.multipliers = multipliers;
             for (candidate, row) in of_multipliers.iter().zip(&mortar.rows) {
-                out.push(row.contact(position).unwrap_or_else(|| mortar.found(candidate).moved(position)));
+                let contact =
+                    row.contact(position).or_else(|| Some(mortar.found(candidate)?.moved(position)));
+                out.push(contact.unwrap_or_else(|| self.evaluate(candidate, position)));
             }
             out.extend(crossings.iter().map(|c| self.evaluate(c, position)));
         }
+    }
+
+    /// The contact of a single multiplier, integrated over all that faces it at this `position`. Of one that the target does not cover it is that
+    /// of its node.
+    pub(crate) fn multiplier(
+        &self,
+        pair: usize,
+        (node, side): Multiplier,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Contact<D> {
+        let mut mortar = Mortar::default();
+        let nearest = self.before_nearest(pair, node, position);
+        let margin = nearest.relative(|n| position(n as u32)).norm();
+        self.find_facing(pair, &Path::resting(position, margin), &mut mortar.facing);
+        self.integrate_rows(pair, &[(node, side)], position, &mut mortar);
+        mortar.rows[0].contact(position).unwrap_or(nearest)
     }
 
     /// Whether the rows of a pair are those of multipliers.
     #[must_use]
     pub fn is_mortar(&self, pair: usize) -> bool {
         let pair = &self.pairs[pair];
-        pair.discretisation == Discretisation::Mortar && matches!(pair.target, Target::Surface(_))
+        let has_facets = |target: Target| match target {
+            Target::Surface(t) => !self.surfaces[t].facets.is_empty(),
+            Target::Obstacle(_) => false,
+        };
+        pair.discretisation == Discretisation::Mortar && has_facets(pair.target)
     }
 
     fn mortar_pairs(&self) -> impl Iterator<Item = usize> {
@@ -174,12 +196,9 @@ impl<const D: usize> ContactModel<D> {
 }
 
 impl<const D: usize> Mortar<D> {
-    /// A candidate where it was found.
-    fn found(&self, candidate: &Candidate) -> &Contact<D> {
-        match self.found.binary_search_by_key(candidate, |(c, _)| *c) {
-            Ok(k) => &self.found[k].1,
-            Err(_) => unreachable!("candidates of mortar pairs come from detect_mortar"),
-        }
+    /// A candidate where it was found; none if it was not found here.
+    fn found(&self, candidate: &Candidate) -> Option<&Contact<D>> {
+        self.found.binary_search_by_key(candidate, |(c, _)| *c).ok().map(|k| &self.found[k].1)
     }
 
     /// The facing facets of a pair.

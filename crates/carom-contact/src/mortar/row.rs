@@ -7,7 +7,7 @@ use crate::frame::frame;
 use crate::tolerances::MORTAR;
 
 /// The integrals of a multiplier Φ over the part of the source that faces the target.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Row<const D: usize> {
     /// ∫ Φ [m^(D−1)], or [m²] of a body of revolution.
     area: f64,

@@ -29,8 +29,8 @@ impl<const D: usize> Faceted<D> {
             }
         };
         let at = |n: u32| corners[(n - first) as usize];
-        let surface = ContactSurface::new(&Surface::of_facets(facets, &[]), first);
-        let surface = surface.edged(&at).without_flat_sources(&at);
+        let surface = ContactSurface::new(&Surface::of_facets(facets, &[]), first, &at);
+        let surface = surface.without_flat_sources(&at);
         Some(Self { surface, bounds: Aabb::of(corners.iter().copied()), corners, first })
     }
 

@@ -14,14 +14,18 @@ pub use closed::{ClosedSurface, SurfaceDefect};
 pub(crate) use faceted::{Faceted, box_corners};
 pub use polygon::PolygonDefect;
 
+/// Corners of obstacles without a number are numbered from here on, beyond any node.
+const FIRST_CORNER: u32 = 1 << 31;
+
 /// A rigid body that moves as prescribed, without turning.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Obstacle<const D: usize> {
     /// Its shape where it has not moved.
     pub shape: RigidShape<D>,
-    /// The number under which positions say how far it has moved [m]: to contact it is one more node.
-    pub node: u32,
-    /// What of it has corners, once it is [numbered](Self::numbered).
+    /// The number under which positions say how far it has moved [m], once it is [numbered](Self::numbered): to contact it is one more
+    /// node. Without a number it rests where its shape says.
+    pub node: Option<u32>,
+    /// What of it has corners.
     pub(crate) faceted: Option<Faceted<D>>,
 }
 
@@ -67,29 +71,35 @@ pub enum RigidShape<const D: usize> {
 }
 
 impl<const D: usize> Obstacle<D> {
-    /// An obstacle of this shape; the model gives it the number of its motion.
+    /// An obstacle of this shape that rests; a model of bodies gives it the number of its motion.
     #[must_use]
     pub fn new(shape: RigidShape<D>) -> Self {
-        Self { shape, node: u32::MAX, faceted: None }
+        Self { node: None, faceted: Faceted::of(&shape, FIRST_CORNER), shape }
     }
 
     /// The same with the number `node` of its motion, and its corners numbered from `first_corner` on: after all nodes and motions.
     #[must_use]
     pub fn numbered(self, node: u32, first_corner: u32) -> Self {
-        Self { node, faceted: Faceted::of(&self.shape, first_corner), shape: self.shape }
+        Self { node: Some(node), faceted: Faceted::of(&self.shape, first_corner), shape: self.shape }
     }
 
-    /// A half space; `node` is the number of its motion.
+    /// A half space that rests.
     #[must_use]
-    pub fn plane(point: Vector<D>, normal: Vector<D>, node: u32) -> Self {
-        Self { shape: RigidShape::Plane { point, normal }, node, faceted: None }
+    pub fn plane(point: Vector<D>, normal: Vector<D>) -> Self {
+        Self::new(RigidShape::Plane { point, normal })
+    }
+
+    /// How far it has moved [m], the nodes being at `position`.
+    #[inline]
+    pub(crate) fn shift(&self, position: &impl Fn(u32) -> Vector<D>) -> Vector<D> {
+        self.node.map_or_else(Vector::zeros, position)
     }
 
     /// Signed distance of `x` [m], negative inside the obstacle, and the unit normal there: the gradient of the distance.
     #[inline]
     #[must_use]
     pub fn gap(&self, x: &Vector<D>, position: &impl Fn(u32) -> Vector<D>) -> (f64, Vector<D>) {
-        self.shape.gap(&(x - position(self.node)))
+        self.shape.gap(&(x - self.shift(position)))
     }
 
     /// Whether `x` is within `margin` [m] of the obstacle or inside it.
@@ -119,7 +129,7 @@ impl<const D: usize> Obstacle<D> {
     /// Where nodes and the corners of this obstacle are, the nodes being at `position`.
     pub(crate) fn placed(&self, position: &impl Fn(u32) -> Vector<D>) -> impl Fn(u32) -> Vector<D> {
         move |n| match self.faceted.as_ref().and_then(|f| f.corner(n)) {
-            Some(corner) => corner + position(self.node),
+            Some(corner) => corner + self.shift(position),
             None => position(n),
         }
     }

@@ -158,7 +158,7 @@ impl<const D: usize> Boundaries<D> {
             for (o, (skin, obstacle)) in skins.iter().zip(obstacles).enumerate() {
                 let other = Solid::Obstacle(o);
                 if counts([me, other]) {
-                    let shift = position(obstacle.node);
+                    let shift = obstacle.shift(position);
                     tell([me, other], shell.inside_of_obstacle(&obstacle.shape, &shift));
                     tell([other, me], shell.deepest_of(skin, &shift));
                 }
@@ -180,7 +180,7 @@ impl<const D: usize> Boundaries<D> {
             let is_asked = counts([me, me])
                 || meets.into_iter().any(|(j, _)| counts([me, Solid::Body(j)]))
                 || self.skins.iter().zip(obstacles).enumerate().any(|(o, (skin, obstacle))| {
-                    let shift = position(obstacle.node);
+                    let shift = obstacle.shift(position);
                     let comes_near = skin.corners.iter().any(|x| bounds.contains(&(x + shift)))
                         || skin.edges.iter().any(|ends| bounds.overlaps(&Aabb::of(ends.map(|x| x + shift))));
                     comes_near && counts([me, Solid::Obstacle(o)])

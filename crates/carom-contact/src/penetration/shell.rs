@@ -11,18 +11,19 @@ use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::patch::{Patch, foot, rim};
 use crate::project::normal;
-use crate::surface::overshoot;
+use crate::surface::{diameter, overshoot};
 use crate::tolerances::{MEASURE, SEARCH};
 
 /// The facets, nodes and edges of the boundary of a body.
 #[derive(Debug, Clone)]
 pub(super) struct Shell<const D: usize> {
     pub facets: Vec<Facet>,
-    /// Its nodes, ascending, and the facets around each.
+    /// Its nodes, ascending, and the facets around each, the smallest first.
     pub nodes: Vec<(u32, Vec<u32>)>,
-    /// Its edges from node to node, and a facet of each; in the plane the facets themselves.
+    /// Its edges from node to node, and the smaller of their facets; in the plane the facets themselves.
     pub edges: Vec<([u32; 2], u32)>,
-    /// Diameters of its smallest and of its largest facet [m].
+    /// Diameters of its facets [m] where it was first, and of its smallest and its largest one.
+    cells: Vec<f64>,
     pub least_cell: f64,
     largest_cell: f64,
     /// The arcs that its facets stand for where it was first [m].
@@ -64,6 +65,7 @@ impl<const D: usize> Shell<D> {
             is_quadratic: facets.iter().any(|f| f.kind.is_quadratic()),
             is_fitted: false,
             facets,
+            cells: Vec::new(),
             least_cell: f64::INFINITY,
             largest_cell: 0.0,
             arcs: Vec::new(),
@@ -111,11 +113,21 @@ impl<const D: usize> Shell<D> {
 
     /// Takes note of how large and how round its facets are.
     pub fn size_up(&mut self) {
-        let facets = 0..self.facets.len() as u32;
-        (self.least_cell, self.largest_cell) = facets
-            .map(|f| self.diameter(f))
-            .fold((f64::INFINITY, 0.0), |(least, largest), d| (d.min(least), d.max(largest)));
-        self.arcs = (0..self.facets.len() as u32).map(|f| self.arc(f)).collect();
+        let facets = || 0..self.facets.len() as u32;
+        let cells: Vec<f64> = facets().map(|f| self.diameter(f)).collect();
+        self.arcs = facets().map(|f| self.arc(f)).collect();
+        let bounds = (f64::INFINITY, 0.0);
+        (self.least_cell, self.largest_cell) =
+            cells.iter().fold(bounds, |(least, largest), d| (d.min(least), d.max(largest)));
+        // Which of its facets stands for a node or an edge must not hang on their numbers.
+        let smaller = |f: &u32, g: &u32| cells[*f as usize].total_cmp(&cells[*g as usize]);
+        self.nodes.iter_mut().for_each(|(_, around)| around.sort_by(smaller));
+        let mut edges = std::mem::take(&mut self.edges);
+        for ([a, b], f) in &mut edges {
+            let beside = self.around(*a).iter().find(|f| self.facets[**f as usize].nodes.contains(b));
+            *f = *beside.unwrap_or(f);
+        }
+        (self.edges, self.cells) = (edges, cells);
     }
 
     /// The largest [`Self::arc`] where its facets were first [m].
@@ -134,7 +146,7 @@ impl<const D: usize> Shell<D> {
 
     /// Diameter of a facet [m].
     pub fn diameter(&self, facet: u32) -> f64 {
-        Aabb::of(self.facets[facet as usize].nodes.iter().map(|&n| self.at(n))).diameter()
+        diameter(&self.facets[facet as usize], &|n| self.at(n))
     }
 
     /// How far the arc through a facet, whose neighbours are turned against it, is in front of its middle [m]; not at corners.
@@ -199,7 +211,7 @@ impl<const D: usize> Shell<D> {
         let mut deepest = Deep::none();
         let mut note = |deep: Deep<D>, feature: Feature, f: u32| {
             let arcs = self.arcs[f as usize] + deep.other.map_or(0.0, |o| other.arcs[o as usize]);
-            if deep.depth > MEASURE.witnessed * self.diameter(f) + arcs {
+            if deep.depth > MEASURE.witnessed * self.cells[f as usize] + arcs {
                 witness(feature, deep.depth);
             }
             deepest = deepest.deeper(deep);

@@ -45,7 +45,7 @@ impl<const D: usize> Boundaries<D> {
                 }
             }
             for (o, (obstacle, skin)) in obstacles.iter().zip(&self.skins).enumerate() {
-                let ends = [start(obstacle.node), end(obstacle.node)];
+                let ends = [obstacle.shift(start), obstacle.shift(end)];
                 let own = ends[1] - ends[0];
                 let reach = 0.5 * a.path.diameter() + own.norm();
                 let is_near = obstacle.shape.gap(&(a.path.centre() - ends[0])).0 <= reach;

@@ -148,7 +148,7 @@ fn time_of_a_closest_point() {
     for kind in ball_kinds() {
         let mesh = ball(kind, 8);
         let at = |n: u32| mesh.nodes()[n as usize];
-        let faceted = ContactSurface::new(&Surface::of(&mesh), 0);
+        let faceted = ContactSurface::new(&Surface::of(&mesh), 0, &at);
         let smooth = faceted.clone().smoothed(&at);
         let nodes = (0..smooth.facets.len() as u32).map(|f| smooth.nodes_over(f, 0).len());
         println!("{kind:?}: {} nodes in a stencil at most", nodes.max().expect("facets"));

@@ -22,10 +22,11 @@ impl<const D: usize> Scene<D> {
         let probe = target.nodes().len() as u32;
         let reference: Vec<Vector<D>> =
             target.nodes().iter().map(|&x| shape(x)).chain(source.nodes().iter().copied()).collect();
-        let faceted = ContactSurface::new(&Surface::of(target), 0);
-        let target = if is_smooth { faceted.smoothed(&|n| reference[n as usize]) } else { faceted };
+        let at = |n: u32| reference[n as usize];
+        let faceted = ContactSurface::new(&Surface::of(target), 0, &at);
+        let target = if is_smooth { faceted.smoothed(&at) } else { faceted };
         let model = ContactModel {
-            surfaces: vec![target, ContactSurface::new(&Surface::of(source), probe)],
+            surfaces: vec![target, ContactSurface::new(&Surface::of(source), probe, &at)],
             obstacles: vec![],
             pairs: vec![Pair {
                 source: 1,

@@ -24,6 +24,14 @@ impl NodeGraph {
         Self::of_rows(rows)
     }
 
+    /// The graph of so many nodes, each with itself, and of these `pairs`.
+    #[must_use]
+    pub fn of_pairs(count: usize, pairs: impl Iterator<Item = (u32, u32)>) -> Self {
+        let mut rows: Vec<Vec<u32>> = (0..count as u32).map(|n| vec![n]).collect();
+        pairs.for_each(|(a, b)| rows[a as usize].push(b));
+        Self::of_rows(rows)
+    }
+
     /// This graph and the node pairs `more`.
     #[must_use]
     pub fn extended(&self, more: impl Iterator<Item = (u32, u32)>) -> Self {
@@ -80,6 +88,13 @@ impl NodeGraph {
     pub(super) fn neighbours(&self, node: usize) -> (Range<usize>, &[u32]) {
         let range = self.starts[node]..self.starts[node + 1];
         (range.clone(), &self.neighbours[range])
+    }
+
+    /// Where the pair (a, b) stands, if it does.
+    #[must_use]
+    pub fn find(&self, a: u32, b: u32) -> Option<usize> {
+        let (range, row) = self.neighbours(a as usize);
+        row.binary_search(&b).ok().map(|k| range.start + k)
     }
 
     /// Where the pair (a, b) stands.

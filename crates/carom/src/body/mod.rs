@@ -1,9 +1,10 @@
 //! What a step asks of a body, whatever it is made of.
 //!
 //! A step knows nodes, forces on them and how they yield; it knows nothing of cells. A body owns its factors and its scratch and answers for
-//! itself, stage by stage; the [`fe`] body of finite elements is one of these, the [`rigid`] one another.
+//! itself, stage by stage; the [`fe`] body of finite elements is one of these, the [`rigid`] one another, and the [`foreign`] one that of somebody else's code.
 
 pub(crate) mod fe;
+pub(crate) mod foreign;
 pub(crate) mod rigid;
 
 use carom_fem::material::PlasticState;

@@ -1,15 +1,16 @@
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Pair, Target};
 use carom_fem::Hypothesis;
-use carom_mesh::{Facet, Vector};
+use carom_mesh::Vector;
 
 use super::body::may_touch;
-use super::mortar::discretisation;
+use super::mortar::{discretisation, has_mortar};
 use super::obstacle::{Surfaces, obstacle};
+use super::side::{Side, facet_width};
 use super::values::{number, place, vector};
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::assembly::NamedPair;
-use crate::scenario::{BodyEntry, BodyKind, MeshSpec, Scenario, Sources, Targets};
+use crate::scenario::{BodyEntry, BodyKind, ContactSpec, MeshSpec, Scenario, Sources, Targets};
 
 /// The largest friction coefficient.
 const MAX_FRICTION: f64 = 1e3;
@@ -26,22 +27,19 @@ pub(super) fn contact<const D: usize>(
     mut surfaces: Surfaces<D>,
 ) -> Result<(ContactModel<D>, Vec<NamedPair>), InputError> {
     let mut model = ContactModel::default();
-    let pairs = scenario.contact.pairs.iter().filter_map(|pair| pair.discretisation);
-    let has_mortar = pairs.chain([scenario.contact.discretisation]).any(|d| d == Discretisation::Mortar);
     for (i, (b, entry)) in bodies.iter().zip(&scenario.bodies).enumerate() {
-        let mut surface = ContactSurface::new(b.body.surface(), b.first_node as u32);
+        let reference = |n: u32| b.body.mesh().nodes()[n as usize - b.first_node];
+        let mut surface = ContactSurface::new(b.body.surface(), b.first_node as u32, &reference);
         if entry.hypothesis == Hypothesis::Axisymmetric {
             surface = surface.revolved();
         }
-        let reference = |n: u32| b.body.mesh().nodes()[n as usize - b.first_node];
         if may_touch(scenario, &b.name) {
             check_manifold(&format!("bodies.{i}.mesh"), &surface, &reference)?;
         }
-        surface = surface.edged(&reference);
         if scenario.contact.targets == Targets::Smooth {
             surface = surface.smoothed(&reference);
         }
-        if has_mortar {
+        if has_mortar(&scenario.contact) {
             surface = surface.sided(&reference);
         }
         if entry.round {
@@ -55,21 +53,41 @@ pub(super) fn contact<const D: usize>(
         let key = format!("obstacles.{i}");
         model.obstacles.push(obstacle(&key, &entry.shape, surfaces.remove(&entry.name))?);
     }
-    let default = scenario.contact.friction;
+    let side = |(b, entry): (&ModelBody<D>, &BodyEntry)| Side {
+        name: b.name.clone(),
+        touches_itself: touches_itself(entry),
+        is_periodic: !b.body.mesh().ties().is_empty(),
+        facet_width: facet_width(b.body.surface(), |n| b.body.mesh().nodes()[n]),
+        mass: b.body.total_mass(),
+    };
+    let sides: Vec<Side> = bodies.iter().zip(&scenario.bodies).map(side).collect();
+    let obstacles: Vec<&str> = scenario.obstacles.iter().map(|o| o.name.as_str()).collect();
+    let (pairs, named_pairs) = pairs(&scenario.contact, &sides, &obstacles)?;
+    model.pairs = pairs;
+    Ok((model, named_pairs))
+}
+
+/// Every pair of a body with another body or an obstacle, less the exceptions, and the named pairs they belong to.
+pub(crate) fn pairs(
+    spec: &ContactSpec,
+    sides: &[Side],
+    obstacles: &[&str],
+) -> Result<(Vec<Pair>, Vec<NamedPair>), InputError> {
+    let default = spec.friction;
     check_friction("contact.friction", default)?;
-    let mut named_pairs = Vec::new();
-    let names: Vec<&str> = bodies.iter().map(|b| b.name.as_str()).collect();
-    let obstacle_names: Vec<&str> = scenario.obstacles.iter().map(|o| o.name.as_str()).collect();
-    for (a, &first) in names.iter().enumerate() {
-        let others = names.iter().enumerate().skip(a).map(|(b, &name)| (Target::Surface(b), name));
-        let others = others.filter(|&(t, _)| t != Target::Surface(a) || touches_itself(&scenario.bodies[a]));
-        let obstacles = obstacle_names.iter().enumerate().map(|(o, &name)| (Target::Obstacle(o), name));
+    let (mut pairs, mut named_pairs) = (Vec::new(), Vec::new());
+    for (a, side) in sides.iter().enumerate() {
+        let first = side.name.as_str();
+        let others =
+            sides.iter().enumerate().skip(a).map(|(b, side)| (Target::Surface(b), side.name.as_str()));
+        let others = others.filter(|&(t, _)| t != Target::Surface(a) || side.touches_itself);
+        let obstacles = obstacles.iter().enumerate().map(|(o, &name)| (Target::Obstacle(o), name));
         for (target, second) in others.chain(obstacles) {
-            let found = scenario.contact.pairs.iter().enumerate().find(|(_, p)| {
+            let found = spec.pairs.iter().enumerate().find(|(_, p)| {
                 let [x, y] = &p.between;
                 (x == first && y == second) || (x == second && y == first)
             });
-            let (mut friction, mut sources, mut swapped) = (default, scenario.contact.sources, false);
+            let (mut friction, mut sources, mut swapped) = (default, spec.sources, false);
             if let Some((k, entry)) = found {
                 if !entry.enabled {
                     continue;
@@ -83,34 +101,33 @@ pub(super) fn contact<const D: usize>(
             let discretisation = match target {
                 // Nodes of a body against its own facets: neither side is the source.
                 Target::Surface(b) if b == a => Discretisation::NodeToSegment,
-                Target::Surface(b) => discretisation(scenario, found, sources, [&bodies[a], &bodies[b]])?,
+                Target::Surface(b) => discretisation(spec, found, sources, [side, &sides[b]])?,
                 Target::Obstacle(_) => Discretisation::NodeToSegment,
             };
             // Neither side sees all that the other does. But multipliers are on one, and nodes without mass that are in static balance on
             // both sides at once take energy.
-            let one_side =
-                discretisation == Discretisation::Mortar || scenario.contact.condition.is_massless();
+            let one_side = discretisation == Discretisation::Mortar || spec.condition.is_massless();
             let sources = sources.unwrap_or(if one_side { Sources::Finer } else { Sources::Both });
             let named_pair = named_pairs.len();
             named_pairs.push(NamedPair { between: [first.to_string(), second.to_string()], friction });
             let forward = Pair { source: a, target, friction, named_pair, discretisation };
             match target {
-                Target::Obstacle(_) => model.pairs.push(forward),
-                Target::Surface(b) if b == a => model.pairs.push(forward),
+                Target::Obstacle(_) => pairs.push(forward),
+                Target::Surface(b) if b == a => pairs.push(forward),
                 Target::Surface(b) => {
                     let backward = Pair { source: b, target: Target::Surface(a), ..forward };
                     match (sources, swapped) {
-                        (Sources::Finer, _) if is_finer(&bodies[b], &bodies[a]) => model.pairs.push(backward),
-                        (Sources::Finer, _) => model.pairs.push(forward),
-                        (Sources::Both, _) => model.pairs.extend([forward, backward]),
-                        (Sources::First, false) | (Sources::Second, true) => model.pairs.push(forward),
-                        (Sources::First, true) | (Sources::Second, false) => model.pairs.push(backward),
+                        (Sources::Finer, _) if sides[b].is_finer_than(side) => pairs.push(backward),
+                        (Sources::Finer, _) => pairs.push(forward),
+                        (Sources::Both, _) => pairs.extend([forward, backward]),
+                        (Sources::First, false) | (Sources::Second, true) => pairs.push(forward),
+                        (Sources::First, true) | (Sources::Second, false) => pairs.push(backward),
                     }
                 }
             }
         }
     }
-    Ok((model, named_pairs))
+    Ok((pairs, named_pairs))
 }
 
 /// The centre and the radius [m] of a body that is round.
@@ -138,7 +155,7 @@ fn touches_itself(entry: &BodyEntry) -> bool {
 }
 
 /// Refuses a surface that has no two sides everywhere.
-fn check_manifold<const D: usize>(
+pub(crate) fn check_manifold<const D: usize>(
     key: &str,
     surface: &ContactSurface,
     position: &impl Fn(u32) -> Vector<D>,
@@ -152,14 +169,4 @@ fn check_manifold<const D: usize>(
          join the parts that touch there by a face, or separate them"
     );
     Err(InputError::mesh(key, message))
-}
-
-/// Whether the facets of `a` are on average clearly smaller than those of `b`.
-fn is_finer<const D: usize>(a: &ModelBody<D>, b: &ModelBody<D>) -> bool {
-    let mean_width = |body: &ModelBody<D>| {
-        let facets = body.body.surface().facets();
-        let width = |f: &Facet| f.area_vector(body.body.mesh()).norm().powf(1.0 / (D as f64 - 1.0));
-        facets.iter().map(width).sum::<f64>() / facets.len() as f64
-    };
-    mean_width(a) < 0.99 * mean_width(b)
 }

@@ -187,7 +187,7 @@ fn refuse_contradictions<const D: usize>(
 }
 
 /// How the obstacle under `key` moves.
-fn obstacle_motion<const D: usize>(
+pub(crate) fn obstacle_motion<const D: usize>(
     key: &str,
     entry: &ObstacleEntry,
     span: [f64; 2],

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use carom_contact::{Candidate, ContactModel, Mortar, Path, Search, Site};
+use carom_contact::{Candidate, ContactModel, Path, Search, Site};
 use carom_mesh::Vector;
 
 use super::signals::signal;
@@ -114,12 +114,10 @@ fn smallest_facet<const D: usize>(model: &Model<D>, named_pair: usize) -> f64 {
 fn overlaps<const D: usize>(model: &Model<D>) -> BTreeMap<usize, BTreeMap<(u32, Site), f64>> {
     let contact: &ContactModel<D> = &model.assembly.contact;
     let at = |n: u32| -> Vector<D> { model.assembly.reference[n as usize] };
-    let (mut search, mut mortar) = (Search::default(), Mortar::default());
+    let mut search = Search::default();
     let (mut candidates, mut contacts): (Vec<Candidate>, _) = (Vec::new(), Vec::new());
-    let path = Path::resting(&at, 0.0);
-    contact.detect(&path, &mut search, &mut candidates);
-    contact.detect_mortar(&path, &mut mortar, &mut candidates);
-    contact.evaluate_all(&candidates, &at, &mut mortar, &mut contacts);
+    contact.detect(&Path::resting(&at, 0.0), &mut search, &mut candidates);
+    contact.evaluate_all(&candidates, &at, &mut search.mortar, &mut contacts);
     let mut depths: BTreeMap<usize, BTreeMap<(u32, Site), f64>> = BTreeMap::new();
     for (candidate, there) in candidates.iter().zip(&contacts) {
         if there.gap < 0.0 && !contact.is_beyond(candidate, there, 0.0, &at, &search) {

@@ -3,7 +3,7 @@ use carom_friction::{Criterion, StoppingRule};
 use super::values::number;
 use crate::error::InputError;
 use crate::model::method::{Method, NewtonRule};
-use crate::scenario::{AnalysisKind, SLACK, Scenario, Spin, Stabilisation};
+use crate::scenario::{AnalysisKind, SLACK, Scenario, SolverSpec, Spin, Stabilisation};
 use crate::{ContactCondition, Scheme};
 
 /// How the scenario is taken through time.
@@ -42,18 +42,12 @@ pub(super) fn method<const D: usize>(scenario: &Scenario) -> Result<Method<D>, I
     let key = "analysis.newton.tolerance";
     number(key, newton.tolerance, newton.tolerance > 0.0, "the tolerance must be greater than 0")?;
     let solver = scenario.contact.solver;
-    let key = "contact.solver.tolerance";
-    number(key, solver.tolerance, solver.tolerance > 0.0, "the tolerance must be greater than 0")?;
+    check_solver(&solver)?;
     let (key, tolerance) = ("contact.certificate_tolerance", scenario.contact.certificate_tolerance);
     number(key, tolerance, tolerance > 0.0, "the tolerance must be greater than 0")?;
     let (key, tolerance) = ("contact.penetration_tolerance", scenario.contact.penetration_tolerance);
     number(key, tolerance, tolerance > 0.0, "the tolerance must be greater than 0")?;
-    for (key, count) in [
-        ("analysis.newton.max_iterations", newton.max_iterations),
-        ("contact.solver.max_iterations", solver.max_iterations),
-    ] {
-        number(key, count as f64, count > 0, "at least 1 iteration is needed")?;
-    }
+    check_iterations("analysis.newton.max_iterations", newton.max_iterations)?;
     let key = "analysis.max_halvings";
     number(
         key,
@@ -65,12 +59,7 @@ pub(super) fn method<const D: usize>(scenario: &Scenario) -> Result<Method<D>, I
         scheme,
         condition: scenario.contact.condition,
         solver: solver.kind.solver(),
-        stopping: StoppingRule {
-            tolerance: solver.tolerance,
-            criterion: Criterion::Natural,
-            max_iterations: solver.max_iterations,
-            ..StoppingRule::default()
-        },
+        stopping: stopping(&solver),
         cross_check: solver.cross_check,
         newton: NewtonRule { tolerance: newton.tolerance, max_iterations: newton.max_iterations },
         max_halvings: analysis.max_halvings,
@@ -78,6 +67,27 @@ pub(super) fn method<const D: usize>(scenario: &Scenario) -> Result<Method<D>, I
         certificate_tolerance: scenario.contact.certificate_tolerance,
         penetration_tolerance: scenario.contact.penetration_tolerance,
     })
+}
+
+fn check_iterations(key: &str, count: usize) -> Result<(), InputError> {
+    number(key, count as f64, count > 0, "at least 1 iteration is needed")
+}
+
+/// Refuses a friction solver that cannot stop, or cannot begin.
+pub(crate) fn check_solver(solver: &SolverSpec) -> Result<(), InputError> {
+    let key = "contact.solver.tolerance";
+    number(key, solver.tolerance, solver.tolerance > 0.0, "the tolerance must be greater than 0")?;
+    check_iterations("contact.solver.max_iterations", solver.max_iterations)
+}
+
+/// When the friction solver stops.
+pub(crate) fn stopping(solver: &SolverSpec) -> StoppingRule {
+    StoppingRule {
+        tolerance: solver.tolerance,
+        criterion: Criterion::Natural,
+        max_iterations: solver.max_iterations,
+        ..StoppingRule::default()
+    }
 }
 
 /// Refuses initial velocities where there is no inertia.

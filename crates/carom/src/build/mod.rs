@@ -1,18 +1,19 @@
 //! From a scenario to a model, a method and the state at t = 0. Everything that can be wrong is found here.
 
 mod body;
-mod contact;
-mod drive;
+pub(crate) mod contact;
+pub(crate) mod drive;
 mod growth;
 mod guide;
 mod interference;
 mod mesh;
-mod method;
-mod mortar;
-mod obstacle;
+pub(crate) mod method;
+pub(crate) mod mortar;
+pub(crate) mod obstacle;
 mod overlaps;
 mod restitution;
 mod rigid;
+pub(crate) mod side;
 mod signals;
 mod support_name;
 pub(crate) mod values;

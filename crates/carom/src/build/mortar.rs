@@ -1,29 +1,35 @@
 use carom_contact::Discretisation;
 
-use crate::body::fe::part::ModelBody;
+use super::side::Side;
 use crate::error::InputError;
-use crate::scenario::{PairEntry, Scenario, Sources};
+use crate::scenario::{ContactSpec, PairEntry, Sources};
+
+/// Whether a pair may be one of mortar contact.
+pub(crate) fn has_mortar(spec: &ContactSpec) -> bool {
+    let of_pairs = spec.pairs.iter().filter_map(|pair| pair.discretisation);
+    of_pairs.chain([spec.discretisation]).any(|d| d == Discretisation::Mortar)
+}
 
 /// How contact between two bodies is written, which the exception `pair` may say with its index.
 ///
 /// # Errors
 /// If mortar rows are asked for and cannot be written.
-pub(super) fn discretisation<const D: usize>(
-    scenario: &Scenario,
+pub(super) fn discretisation(
+    spec: &ContactSpec,
     pair: Option<(usize, &PairEntry)>,
     sources: Option<Sources>,
-    bodies: [&ModelBody<D>; 2],
+    sides: [&Side; 2],
 ) -> Result<Discretisation, InputError> {
     let own = pair.and_then(|(k, entry)| Some((k, entry.discretisation?)));
     let (key, discretisation) = match own {
         Some((k, own)) => (format!("contact.pairs.{k}.discretisation"), own),
-        None => ("contact.discretisation".to_string(), scenario.contact.discretisation),
+        None => ("contact.discretisation".to_string(), spec.discretisation),
     };
     if discretisation == Discretisation::NodeToSegment {
         return Ok(discretisation);
     }
     let refuse = |reason: String| Err(InputError::new(key, format!("mortar: {reason}")));
-    if scenario.contact.condition.is_massless() {
+    if spec.condition.is_massless() {
         let reason = "the condition \"massless\" is written for nodes; choose \"node-to-segment\" or another condition";
         return refuse(reason.to_string());
     }
@@ -31,8 +37,8 @@ pub(super) fn discretisation<const D: usize>(
         let reason = "one side has the multipliers; choose \"finer\", \"first\" or \"second\" for sources";
         return refuse(reason.to_string());
     }
-    match bodies.iter().find(|b| !b.body.mesh().ties().is_empty()) {
-        Some(b) => refuse(format!("body {:?} is periodic; choose \"node-to-segment\"", b.name)),
+    match sides.iter().find(|side| side.is_periodic) {
+        Some(side) => refuse(format!("body {:?} is periodic; choose \"node-to-segment\"", side.name)),
         None => Ok(discretisation),
     }
 }

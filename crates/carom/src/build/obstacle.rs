@@ -15,7 +15,7 @@ pub type Triangles<const D: usize> = (Vec<Vector<D>>, Vec<[u32; 3]>);
 pub type Surfaces<const D: usize> = BTreeMap<String, Triangles<D>>;
 
 /// The obstacle under `key` in the case file; a surface `from_file` stands for the triangles that its shape does not say.
-pub(super) fn obstacle<const D: usize>(
+pub(crate) fn obstacle<const D: usize>(
     key: &str,
     shape: &ObstacleShape,
     from_file: Option<Triangles<D>>,

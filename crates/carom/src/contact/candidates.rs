@@ -78,7 +78,9 @@ impl<const D: usize> Finder<D> {
         }
         let assembly = given.assembly;
         let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
-        let at_end = Path::resting(&end, assembly.reach(given.interval.end));
+        // What is closed counts whatever the sign of round-off: an edge that goes on keeps others from being found at its end.
+        let closed = CONTROL.closed * assembly.size;
+        let at_end = Path::resting(&end, assembly.reach(given.interval.end) + closed);
         let Self { search, asleep, found, missed, missed_mortar, missed_contacts, .. } = self;
         assembly.contact.detect_among(|p| !is_asleep(asleep, p), &at_end, search, missed);
         assembly.contact.detect_mortar(&at_end, missed_mortar, missed);

@@ -100,7 +100,7 @@ impl<const D: usize> Delassus<D> {
 }
 
 /// What makes the compliance `block` of a contact regular where supports hold its nodes along the facet and W would be singular.
-fn support<const D: usize>(
+pub(crate) fn support<const D: usize>(
     assembly: &Assembly<D>,
     contact: &Contact<D>,
     q: &Vector<D>,

@@ -2,12 +2,13 @@
 
 pub(crate) mod active;
 pub(crate) mod candidates;
+pub(crate) mod closing;
 pub(crate) mod compliance;
 pub(crate) mod contact_work;
 mod control;
 mod coupling;
 pub(crate) mod cross_check;
-mod delassus;
+pub(crate) mod delassus;
 mod left_out;
 pub(crate) mod reduced;
 pub(crate) mod slip;

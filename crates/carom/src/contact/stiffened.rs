@@ -319,11 +319,6 @@ impl<const D: usize> Stiffened<D> {
         self.is_needed() && self.left_out.is_some()
     }
 
-    /// Whether the row of contact `i` does.
-    pub fn leaves_out_of(&self, i: usize) -> bool {
-        !self.left_out.of(i).is_empty()
-    }
-
     /// What the row of contact `i` leaves out of the change of its gap [m] that the correction without new reactions makes.
     pub fn unseen(&self, i: usize) -> f64 {
         let of_place = |(place, part): &(u32, Vector<D>)| {

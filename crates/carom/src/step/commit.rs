@@ -1,7 +1,6 @@
 //! The end of a step: the new state, and what happened to the energy.
 
-use carom_contact::{Candidate, Contact, shares};
-use carom_friction::cone;
+use carom_contact::{Contact, shares};
 use carom_mesh::Vector;
 
 use super::landing::restore;
@@ -10,7 +9,7 @@ use super::settling::settle;
 use super::workspace::Workspace;
 use crate::body::BodyEnd;
 use crate::contact::Contacts;
-use crate::contact::contact_work::driven;
+use crate::contact::closing::{for_each_work, keep};
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
@@ -71,41 +70,22 @@ fn keep_contacts<const D: usize>(
     work: &mut Workspace<D>,
     report: &mut StepReport,
 ) {
-    next.reactions.clear();
-    next.contact_force.fill(Vector::zeros());
     let Workspace { contacts: Contacts { active, reduced, at_end, .. }, motion, .. } = work;
     if active.contacts.is_empty() {
+        next.reactions.clear();
+        next.contact_force.fill(Vector::zeros());
         return;
     }
     let weight = given.reaction_weight();
     let measure = carom_friction::measure(&reduced.problem, &active.reactions);
     report.residual = measure.natural_residual;
     report.solver_certificate = measure.certificate / weight;
-    let assembly = given.assembly;
-    let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
-    assembly.contact.evaluate_all(&active.candidates, &end, &mut active.mortar, at_end);
-    for ((contact, before), [_, h1]) in at_end.iter_mut().zip(&active.contacts).zip(&active.interferences) {
-        contact.gap -= h1;
-        contact.carry_frame(&before.frame);
-        report.min_gap = report.min_gap.min(contact.gap);
-    }
-    for (i, (candidate, contact)) in active.candidates.iter().zip(&active.contacts).enumerate() {
-        let r = active.reactions[i] / weight;
-        let mut w = contact.relative(|n| motion[n]);
-        w += reduced.offsets[i];
-        if reduced.delassus.stiffened.leaves_out_of(i) {
-            // The last correction moved the gap by more than the row says.
-            w[0] = at_end[i].gap;
-        }
-        report.certificate += cone::bipotential_gap(&w, &r, active.friction[i]);
-        report.reaction_work += r.dot(&reduced.problem.q[i]).abs();
-        contact.add_force(&r, &mut next.contact_force);
-        if r[0] > 0.0 {
-            report.contacts += 1;
-            let Candidate { pair, site, facet, .. } = *candidate;
-            next.reactions.push(Reaction { pair, site, facet, contact: contact.clone(), force: r });
-        }
-    }
+    let kept = keep(given, active, &reduced.offsets, motion, at_end, next);
+    report.min_gap = kept.min_gap;
+    report.certificate = kept.certificate;
+    report.contacts = next.reactions.len();
+    let reactions = active.reactions.iter().zip(&reduced.problem.q);
+    report.reaction_work = reactions.map(|(r, q)| (r / weight).dot(q).abs()).sum();
 }
 
 /// Completes the states of the bodies and closes their books.
@@ -198,24 +178,12 @@ fn close_contacts<const D: usize>(
         blend.carry(surplus, &contacts.work, &mut next.energy_debt);
         return;
     }
-    for (end, reactions) in [&state.reactions, &next.reactions].into_iter().enumerate() {
-        for reaction in reactions {
-            let Reaction { contact, force, pair, .. } = reaction;
-            let force = interval.contact_weights.part(end, force);
-            if force == Vector::<D>::zeros() {
-                continue;
-            }
-            let [h0, h1] = given.interference(reaction.key());
-            let w = contact.relative(|n| motion[n]);
-            let report = &mut pair_reports[assembly.contact.pairs[*pair as usize].named_pair];
-            // What pushes the surfaces apart does the work of its growth; the rest is that of the reactions themselves.
-            let widening = h1 - h0;
-            report.ledger.normal_contact -= force[0] * (w[0] - widening);
-            report.ledger.prescribed += driven(assembly, contact, &force, motion) + force[0] * widening;
-            let dissipation = -(1..D).map(|t| force[t] * w[t]).sum::<f64>();
-            book(report, contact, dissipation);
-        }
-    }
+    for_each_work(given, motion, [&state.reactions, &next.reactions], |reaction, work| {
+        let report = &mut pair_reports[pair_of(reaction)];
+        report.ledger.normal_contact -= work.normal;
+        report.ledger.prescribed += work.prescribed;
+        book(report, &reaction.contact, work.dissipation);
+    });
 }
 
 /// Leaves the energy that friction takes at a contact to its nodes: half to the source, half to those of a deformable target.

@@ -2,7 +2,7 @@
 
 /// How far around the bodies contacts are looked for, and how often.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Search {
+pub(crate) struct Search {
     /// Margin of the contact search, in largest predicted motions of a node in the step.
     pub margin: f64,
     /// The largest margin, in sizes of the model, where no body moves as a whole by half of that. With more, one very fast node would
@@ -17,7 +17,7 @@ pub(super) struct Search {
 }
 
 /// Those of every search.
-pub(super) const SEARCH: Search =
+pub(crate) const SEARCH: Search =
     Search { margin: 2.0, largest_margin: 0.1, static_margin: 1e-3, repetitions: 8, measured: 4 };
 
 /// Which contacts land, stick or settle by an impulse.
@@ -26,6 +26,8 @@ pub(super) struct Impulsive {
     /// A contact that is pressed by less than this part of what it would take to turn it round has come to its target with the end of the
     /// step, and lands in the next.
     pub has_landed: f64,
+    /// What approaches at the end of a step by more than so many times what its landing makes good did not land: see `landing::restoring`.
+    pub pushed: f64,
     /// Above this part the reaction itself says whether the contact sticks; below, its direction may be round-off.
     pub is_known: f64,
     /// So often is friction looked for that takes energy at every contact.
@@ -39,8 +41,15 @@ pub(super) struct Impulsive {
 }
 
 /// Those of every impulse.
-pub(super) const IMPULSIVE: Impulsive =
-    Impulsive { has_landed: 1e-8, is_known: 1e-4, rounds: 4, sticking: 1e-6, at_rest: 1e-14, borne: 2.0 };
+pub(super) const IMPULSIVE: Impulsive = Impulsive {
+    has_landed: 1e-8,
+    pushed: 2.0,
+    is_known: 1e-4,
+    rounds: 4,
+    sticking: 1e-6,
+    at_rest: 1e-14,
+    borne: 2.0,
+};
 
 /// When a body is looked at for touching itself, in diameters of its smallest facet where nothing else is said.
 #[derive(Debug, Clone, Copy, PartialEq)]

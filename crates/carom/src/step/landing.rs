@@ -47,15 +47,24 @@ pub(super) fn restore<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, 
     impulses.give(given, &contacts.at_end, new, body_ledgers, restoring);
 }
 
-/// The number that impulses are to be scaled by to give their energy: s λ·H v + ½ s² λ·H Δv = E along the normals, of which one solution
-/// is positive.
+/// The number that impulses are to be scaled by to give their energy: s λ·H v + ½ s² λ·H Δv = E along the normals. One solution is positive and
+/// turns round what still approaches; it would be 1 for a node alone.
+///
+/// What parted faster at the start than it could close its gap was pushed there and approaches at the end by far more than λ makes good. There
+/// was no landing, and as gaps get smaller, E vanishes and the positive solution does not: such a group takes the negative one, which does.
 fn restoring(group: &Group) -> f64 {
     let ([work, _], [square, _], energy) = (group.work, group.square, group.energy);
     if square <= 0.0 || energy <= 0.0 {
         return 0.0;
     }
     let root = (work * work + 2.0 * square * energy).sqrt();
-    if work > 0.0 { 2.0 * energy / (root + work) } else { (root - work) / square }
+    if work > 0.0 {
+        2.0 * energy / (root + work)
+    } else if -work > IMPULSIVE.pushed * square {
+        -2.0 * energy / (root - work)
+    } else {
+        (root - work) / square
+    }
 }
 
 /// Gives the impulses Coulomb's friction against the velocity that they meet, where the contact does not stick. As in a step with θ = ½ it may turn

@@ -2,7 +2,7 @@
 
 pub(crate) mod blend;
 mod commit;
-mod control;
+pub(crate) mod control;
 mod correction;
 mod equilibrate;
 pub(crate) mod free_motion;
@@ -11,7 +11,7 @@ mod impulse;
 mod iterate;
 mod landing;
 mod measure;
-mod newton;
+pub(crate) mod newton;
 pub(crate) mod report;
 mod settling;
 mod since_look;
@@ -28,7 +28,7 @@ use self::measure::measure;
 use self::report::StepReport;
 use self::waking::wake;
 use self::workspace::Workspace;
-use crate::body::{Body, Interval};
+use crate::body::Interval;
 use crate::contact::cross_check::cross_check;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
@@ -124,17 +124,25 @@ fn predict<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) -> Res
     } else {
         work.contacts.reduced.delassus.stiffened.clear();
     }
-    Ok(search_margin(given, (speed + acceleration * dt) * dt, driven, &work.bodies))
+    let drift = || {
+        let means = work.bodies.iter().enumerate().map(|(i, body)| {
+            let velocity = &state.velocity[assembly.nodes(i)];
+            body.mean_velocity(velocity).norm()
+        });
+        means.fold(0.0, f64::max) * dt
+    };
+    Ok(search_margin(given, (speed + acceleration * dt) * dt, driven, drift))
 }
 
-/// How far around the bodies contacts are looked for [m], where nodes fly as far as `free` [m] or are moved by `driven` [m] in the step.
-fn search_margin<const D: usize>(
+/// How far around the bodies contacts are looked for [m], where nodes fly as far as `free` [m] or are moved by `driven` [m] in the step, and bodies
+/// as a whole by `drift` [m].
+pub(crate) fn search_margin<const D: usize>(
     given: &Given<'_, D>,
     free: f64,
     driven: f64,
-    bodies: &[Box<dyn Body<D>>],
+    drift: impl FnOnce() -> f64,
 ) -> f64 {
-    let Given { assembly, state, interval, .. } = *given;
+    let Given { assembly, interval, .. } = *given;
     // In a static analysis nothing falls: its time says how far the loads have come, not how long they act.
     if interval.map.is_static() {
         return (SEARCH.margin * driven).max(SEARCH.static_margin * assembly.size);
@@ -144,10 +152,5 @@ fn search_margin<const D: usize>(
     if margin <= largest {
         return margin;
     }
-    let means = bodies.iter().enumerate().map(|(i, body)| {
-        let velocity = &state.velocity[assembly.nodes(i)];
-        body.mean_velocity(velocity).norm()
-    });
-    let drift = means.fold(0.0, f64::max) * interval.map.dt;
-    margin.min(largest.max(SEARCH.margin * driven.max(drift)))
+    margin.min(largest.max(SEARCH.margin * driven.max(drift())))
 }

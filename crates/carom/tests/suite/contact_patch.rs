@@ -4,7 +4,7 @@
 //! The upper block is pushed down by δ, the lower rests on rollers, both may expand sideways from rollers at x = 0 (and y = 0), and
 //! nothing rubs. The exact solution is uniaxial stress: −E δ/2h for blocks of height h = 1, with E/(1 − ν²) in plane strain.
 
-use carom_contact::{ContactModel, ContactSurface, Discretisation, Mortar, Pair, Path, Search, Target};
+use carom_contact::{ContactModel, ContactSurface, Discretisation, Pair, Path, Search, Target};
 use carom_fem::material::{ElasticConstants, LawSpec, Mat3, Viscosity};
 use carom_fem::{Body, BodySpec, Formulation, Hypothesis, MassKind, RayleighDamping};
 use carom_friction::{BlockMatrix, ContactProblem, Criterion, SolverKind, StoppingRule};
@@ -67,7 +67,9 @@ impl<const D: usize> Blocks<D> {
         let x = self.positions();
         let upper = self.bodies[0].node_count();
         let first_node = [0, upper as u32];
-        let surfaces = self.bodies.iter().zip(first_node).map(|(b, n)| ContactSurface::new(b.surface(), n));
+        let at = |n: u32| x[n as usize];
+        let surfaces = self.bodies.iter().zip(first_node);
+        let surfaces = surfaces.map(|(b, n)| ContactSurface::new(b.surface(), n, &at));
         let pairs = sources.iter().map(|&source| {
             let target = Target::Surface(1 - source);
             Pair { source, target, friction: 0.0, named_pair: 0, discretisation }
@@ -78,16 +80,15 @@ impl<const D: usize> Blocks<D> {
         let factor = stiffness.lu();
         let free = factor.solve(&load).expect("regular");
         let mut u = DVector::zeros(load.len());
-        let (mut mortar, mut candidates, mut contacts) = (Mortar::default(), Vec::new(), Vec::new());
+        let (mut search, mut candidates, mut contacts) = (Search::default(), Vec::new(), Vec::new());
         // As in a step, the facets that may touch are found once.
         let start = |n: u32| x[n as usize];
-        model.detect(&Path::resting(&start, 2.0 * PUSH), &mut Search::default(), &mut candidates);
-        model.detect_mortar(&Path::resting(&start, 2.0 * PUSH), &mut mortar, &mut candidates);
+        model.detect(&Path::resting(&start, 2.0 * PUSH), &mut search, &mut candidates);
         let mut change = f64::INFINITY;
         for _ in 0..50 {
             let at = |n: u32| x[n as usize] + node::<D>(&u, n as usize);
             candidates.retain(|c| !c.redundant);
-            model.evaluate_all(&candidates, &at, &mut mortar, &mut contacts);
+            model.evaluate_all(&candidates, &at, &mut search.mortar, &mut contacts);
             assert!(!contacts.is_empty());
             // Hᵀ with D columns per contact.
             let mut rows = DMatrix::zeros(load.len(), D * contacts.len());

@@ -70,8 +70,8 @@ fn bar(cells: usize, law: LawSpec, density: f64) -> Body<2> {
 }
 
 fn model_of<const D: usize>(body: Body<D>) -> Model<D> {
-    let contact =
-        ContactModel { surfaces: vec![ContactSurface::new(body.surface(), 0)], ..ContactModel::default() };
+    let surface = ContactSurface::new(body.surface(), 0, &|n| body.mesh().nodes()[n as usize]);
+    let contact = ContactModel { surfaces: vec![surface], ..ContactModel::default() };
     let bodies = vec![ModelBody::new("part", body, 0)];
     Model::new(bodies, contact, vec![], Vector::zeros())
 }
@@ -248,8 +248,8 @@ fn block_pressed_on_a_shaking_floor_keeps_the_books() {
         let top = nodes_where(body.mesh(), |x| x[1] == 1.0);
         let side = nodes_where(body.mesh(), |x| x[0] == 0.0);
         let contact = ContactModel {
-            surfaces: vec![ContactSurface::new(body.surface(), 0)],
-            obstacles: vec![Obstacle::plane(Vector::zeros(), Vector::<2>::new(0.0, 1.0), u32::MAX)],
+            surfaces: vec![ContactSurface::new(body.surface(), 0, &|n| body.mesh().nodes()[n as usize])],
+            obstacles: vec![Obstacle::plane(Vector::zeros(), Vector::<2>::new(0.0, 1.0))],
             pairs: vec![Pair {
                 source: 0,
                 target: Target::Obstacle(0),

@@ -56,6 +56,20 @@ impl<const D: usize> Drive<D> {
         }
     }
 
+    /// The sum of the loads at the start of a step [N].
+    pub fn load_at_start(
+        &mut self,
+        part: &ModelBody<D>,
+        interval: &Interval,
+        start: &BodyState<'_, D>,
+    ) -> Vector<D> {
+        self.mean.fill(Vector::zeros());
+        for load in &part.loads {
+            load.add(&part.body, |s| s.at(interval.start).value, start.displacement, &mut self.mean);
+        }
+        self.mean.iter().sum()
+    }
+
     /// Sets the `motion` [m] of everything held, which goes on from `start`, to what is prescribed. Returns the largest of it [m], or
     /// none if a function of time is not finite.
     pub fn prescribe(

@@ -29,6 +29,8 @@ pub(crate) struct Equation<'a, const D: usize> {
     turn: &'a Matrix<D>,
     /// Mean velocity at the start.
     drift: &'a Vector<D>,
+    /// How much farther it is expected to move than at that velocity.
+    fall: &'a Vector<D>,
     /// v at the start.
     pub velocity: &'a [Vector<D>],
     /// u at the start.
@@ -52,11 +54,14 @@ pub(crate) struct Pose<const D: usize> {
     pub turn: Matrix<D>,
     /// Its mean velocity at the start [m/s].
     pub drift: Vector<D>,
+    /// How much farther it moves in the step than at that velocity [m], if what accelerates it goes on.
+    pub fall: Vector<D>,
 }
 
 impl<const D: usize> Default for Pose<D> {
     fn default() -> Self {
-        Self { frame: Matrix::identity(), turn: Matrix::identity(), drift: Vector::zeros() }
+        let (still, straight) = (Vector::zeros(), Matrix::identity());
+        Self { frame: straight, turn: straight, drift: still, fall: still }
     }
 }
 
@@ -126,6 +131,7 @@ impl<'a, const D: usize> Equation<'a, D> {
             frame: &pose.frame,
             turn: &pose.turn,
             drift: &pose.drift,
+            fall: &pose.fall,
             velocity: start.velocity,
             start: start.displacement,
             internal_force: start.internal_force,
@@ -228,11 +234,12 @@ impl<'a, const D: usize> Equation<'a, D> {
     ///
     /// Static balance alone may have no stable solution near the last one: under strong compression, as where a law like
     /// Saint-Venant–Kirchhoff's softens, boundary nodes snap. This is the inertia of a mass STEADYING·k·Δt², far below the node's
-    /// own, taken at the end of the step; a body that moves rigidly feels none. It vanishes with Δt², and the blend returns its work and its momentum.
+    /// own, taken at the end of the step; a body that moves rigidly feels none, be it in free fall. It vanishes with Δt², and the blend returns
+    /// its work and its momentum.
     #[inline]
     pub fn steadying_force(&self, node: usize, stiffness: f64) -> Vector<D> {
         let expected = self.drift + self.turn * (self.velocity[node] - self.drift);
-        (self.motion[node] - expected * self.map.dt) * (STEADYING * stiffness)
+        (self.motion[node] - expected * self.map.dt - self.fall) * (STEADYING * stiffness)
     }
 
     /// What it takes to write the rows of massless nodes at the end of the step instead of over it [J]. It is the work of the forces that these nodes
@@ -256,11 +263,15 @@ impl<'a, const D: usize> Equation<'a, D> {
         massless.map(|n| left(n).dot(&self.body.held().free_part(n, &self.motion[n]))).sum()
     }
 
-    /// Writes v₊ [m/s] to `out`; a node without mass moves at the mean velocity of the step, and what is held as prescribed.
+    /// Writes v₊ [m/s] to `out`; what is held moves as prescribed, and a node without mass as in the mean of the step, but for what the whole body
+    /// has become faster since.
     pub fn end_velocity(&self, out: &mut [Vector<D>]) {
         nodal::each(out, [self.velocity, self.motion], |v1, [v0, d]| *v1 = self.map.end_velocity(v0, d));
-        for n in self.body.massless().iter().map(|&n| n as usize) {
-            out[n] = self.motion[n] / self.map.dt;
+        if !self.body.massless().is_empty() {
+            let faster = self.body.mean(out) - self.body.mean(self.motion) / self.map.dt;
+            for n in self.body.massless().iter().map(|&n| n as usize) {
+                out[n] = self.motion[n] / self.map.dt + faster;
+            }
         }
         self.each_held(|n, i, rate| out[n][i] = rate);
     }

@@ -86,6 +86,17 @@ impl<const D: usize> FeBody<D> {
         }
     }
 
+    /// How much farther the body moves in a step than at its velocity [m] under its weight, its loads and the contact forces of the last step.
+    /// Along what supports hold nothing is foretold.
+    fn fall(&mut self, interval: &Interval, start: &BodyState<'_, D>) -> Vector<D> {
+        let loads = self.drive.load_at_start(&self.part, interval, start);
+        let ModelBody { body, gravity, .. } = &*self.part;
+        let driven = body.resultant(start.contact_force.iter().sum::<Vector<D>>() + loads);
+        let mut acceleration = gravity + driven / body.total_mass();
+        body.held().dofs().iter().for_each(|dof| acceleration[dof.component as usize] = 0.0);
+        acceleration * (interval.map.dt / interval.map.velocity_of_motion)
+    }
+
     /// Makes K̄ in the middle configuration.
     fn factorise(
         &mut self,
@@ -176,6 +187,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
             let spin = if body.turns() { body.spin(u, v) } else { [0.0; 3] };
             self.pose.turn = tensor::rotation(&spin.map(|w| w * dt));
             self.pose.drift = body.mean(v);
+            self.pose.fall = self.fall(interval, start);
         }
         let speed = v.iter().map(Vector::norm_squared).fold(0.0, f64::max).sqrt();
         let is_factorised = !self.matrix.fits(&interval.map);

@@ -1,7 +1,7 @@
 //! How Newton's iterations go on and end.
 
 pub(super) mod acceleration;
-pub(super) mod control;
+pub(crate) mod control;
 pub(super) mod convergence;
 pub(super) mod holding;
 pub(super) mod left_alone;
