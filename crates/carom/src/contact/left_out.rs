@@ -10,9 +10,11 @@ use carom_mesh::{Matrix, Vector};
 
 use super::active::ActiveSet;
 use super::control::CONTROL;
-use super::stiffened::NONE;
 use super::woodbury::Woodbury;
 use crate::model::given::Given;
+
+/// No place.
+pub(super) const NONE: u32 = u32::MAX;
 
 /// Parts of the gradient of a gap, by the places of their nodes in P.
 type Parts<const D: usize> = Vec<(u32, Vector<D>)>;

@@ -18,15 +18,12 @@ use carom_mesh::{Matrix, Vector};
 use super::active::ActiveSet;
 use super::compliance::Compliance;
 use super::control::CONTROL;
-use super::left_out::LeftOut;
+use super::left_out::{LeftOut, NONE};
 use super::woodbury::Woodbury;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
 use crate::model::state::Reaction;
-
-/// No place.
-pub(super) const NONE: u32 = u32::MAX;
 
 /// Springs to the ground in K̄ of a body [N/m], by its own nodes, ascending.
 pub(crate) type Springs<const D: usize> = Vec<(u32, Matrix<D>)>;
