@@ -7,37 +7,14 @@ from scipy.sparse.linalg import splu
 import carom
 from carom import contact
 from carom.building.build import build
+from grazing_discs import LAW, TIME_STEP, discs
 from plain_fem import Triangles, outer_edges
 
-LAW = {"young": 2700.0, "poisson": 0.33, "density": 1.0}
-TIME_STEP = 1e-3
 FRICTION = 0.2
 
 
 def scenario(steps, condition, targets, obstacles=(), pairs=()):
-    """Two discs of triangles that graze one another."""
-    bodies = [
-        carom.Body(
-            name=name,
-            material="elastic",
-            mesh=carom.Disc(centre=[x, y], radius=1.0, divisions=4, cell="tri3"),
-            velocity=[-2.0 * np.sign(x), -0.5],
-        )
-        for name, x, y in (("left", -1.01, 0.0), ("right", 1.01, 0.4))
-    ]
-    return carom.Scenario(
-        analysis=carom.Dynamic(
-            end_time=steps * TIME_STEP,
-            time_step=TIME_STEP,
-            scheme=carom.Theta(),
-            newton=carom.Newton(tolerance=1e-13),
-        ),
-        output=carom.Output(history_every=TIME_STEP),
-        materials={"elastic": carom.SaintVenantKirchhoff(**LAW)},
-        bodies=bodies,
-        obstacles=obstacles,
-        contact=carom.Contact(condition=condition, friction=FRICTION, targets=targets, pairs=pairs),
-    )
+    return discs(steps, condition, FRICTION, targets=targets, obstacles=obstacles, pairs=pairs)
 
 
 def take_through(case, steps, solver=lambda factor: factor.solve):

@@ -7,36 +7,8 @@ import pytest
 
 import carom
 from carom.building.build import build
+from grazing_discs import LAW, TIME_STEP, discs
 from plain_fem import Triangles, outer_edges
-
-LAW = {"young": 2700.0, "poisson": 0.33, "density": 1.0}
-TIME_STEP = 1e-3
-
-
-def discs(steps=1, condition="gap", friction=0.2, obstacles=()):
-    """Two discs of triangles that graze one another, as a case of carom."""
-    bodies = [
-        carom.Body(
-            name=name,
-            material="elastic",
-            mesh=carom.Disc(centre=[x, y], radius=1.0, divisions=4, cell="tri3"),
-            velocity=[-2.0 * np.sign(x), -0.5],
-        )
-        for name, x, y in (("left", -1.01, 0.0), ("right", 1.01, 0.4))
-    ]
-    return carom.Scenario(
-        analysis=carom.Dynamic(
-            end_time=steps * TIME_STEP,
-            time_step=TIME_STEP,
-            scheme=carom.Theta(),
-            newton=carom.Newton(tolerance=1e-13),
-        ),
-        output=carom.Output(history_every=TIME_STEP),
-        materials={"elastic": carom.SaintVenantKirchhoff(**LAW)},
-        bodies=bodies,
-        obstacles=obstacles,
-        contact=carom.Contact(condition=condition, friction=friction),
-    )
 
 
 def foreign(case, **kwargs):
