@@ -164,6 +164,10 @@ def test_a_floor_bears_what_a_body_presses_that_is_held_from_above():
         ({"energy": lambda u: np.nan}, "bodies.square.energy: returned nan; must be one finite"),
         ({"force": lambda u: u[1:]}, "bodies.square.force: returned shape [7]; must be [8]"),
         ({"force": lambda u: u + np.inf}, "bodies.square.force: returned inf at [0]; must be"),
+        (
+            {"velocity": [1e200, 0.0]},
+            "bodies: the initial energy is not finite; check velocities, energy and force at rest",
+        ),
     ],
 )
 def test_what_is_no_body_is_refused_at_the_start(wrong, message):
