@@ -12,11 +12,11 @@ impl<const D: usize> Shell<D> {
     /// What of this boundary is deepest inside an obstacle that has moved by `shift` [m].
     pub fn inside_of_obstacle(&self, shape: &RigidShape<D>, shift: &Vector<D>) -> Deep<D> {
         let gap = |x: &Vector<D>| shape.gap(&(x - shift)).0;
-        let mut deepest = Deep::none();
         // The distance from an obstacle changes by no more than the way.
         if gap(&self.bounds().centre()) > self.bounds().reach() {
-            return deepest;
+            return Deep::none();
         }
+        let mut deepest = self.curves_behind(&gap);
         let mut look = |x: Vector<D>, f: u32| {
             let depth = -gap(&x);
             if depth > deepest.depth {
@@ -24,7 +24,7 @@ impl<const D: usize> Shell<D> {
             }
         };
         self.nodes.iter().for_each(|(node, around)| look(self.at(*node), around[0]));
-        // Of a half space and of a cavity no point between nodes is deeper than these.
+        // Of a half space and of a cavity no point of a straight line is deeper than its ends.
         let bulges = match shape {
             RigidShape::Plane { .. } => false,
             RigidShape::Sphere { cavity, .. } | RigidShape::Cylinder { cavity, .. } => !cavity,
