@@ -15,6 +15,7 @@ pub(crate) mod newton;
 pub(crate) mod report;
 mod settling;
 mod since_look;
+pub(crate) mod stability;
 mod waking;
 pub(crate) mod workspace;
 
