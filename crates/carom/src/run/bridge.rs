@@ -11,8 +11,8 @@ use carom_mesh::{Vector, nodal};
 use super::stepper::Stepper;
 use crate::State;
 use crate::body::Interval;
+use crate::step::giving_way::GivingWay;
 use crate::step::report::StepReport;
-use crate::step::stability::GivingWay;
 use crate::step::step_over;
 use crate::step::workspace::Workspace;
 

@@ -14,7 +14,7 @@ use self::convergence::BodyProgress;
 use self::holding::Holding;
 use self::left_alone::leave_out;
 use super::free_motion::FreeMotion;
-use super::stability::GivingWay;
+use super::giving_way::GivingWay;
 use crate::contact::active::ActiveSet;
 use crate::model::assembly::Assembly;
 
