@@ -112,21 +112,25 @@ pub enum StepError {
     },
     /// In a static analysis nothing near the last state resists: its tangent is indefinite however much holds its motion back.
     #[error(
-        "no state near the last one is in stable equilibrium: body {body:?} buckles, snaps through or is pulled apart; drive it by a \
-         displacement in place of a load, or let it move on by analysis.stabilisation = \"dynamic\""
+        "no state near the last one is in stable equilibrium: body {body:?} buckles, snaps through or is pulled apart{motion}; drive it \
+         by a displacement in place of a load, or let it move on by analysis.stabilisation = \"dynamic\""
     )]
     Unstable {
         /// The body.
         body: String,
+        /// Where it gives way and in which direction, in words, if that is known.
+        motion: String,
     },
     /// The same where inertia took it to no other either.
     #[error(
         "no state near the last one is in stable equilibrium, and with inertia, as analysis.stabilisation says, body {body:?} comes to rest in \
-         none: lower the load, drive it by a displacement in its place, or choose a dynamic analysis"
+         none{motion}: lower the load, drive it by a displacement in its place, or choose a dynamic analysis"
     )]
     Restless {
         /// The body.
         body: String,
+        /// See [`Self::Unstable`].
+        motion: String,
     },
     /// Something was not a finite number.
     #[error("the {0} is not finite")]

@@ -12,6 +12,10 @@ impl<const D: usize> Shell<D> {
     /// What of this boundary is deepest inside an obstacle that has moved by `shift` [m].
     pub fn inside_of_obstacle(&self, shape: &RigidShape<D>, shift: &Vector<D>) -> Deep<D> {
         let gap = |x: &Vector<D>| shape.gap(&(x - shift)).0;
+        // The distance from an obstacle changes by no more than the way.
+        if gap(&self.bounds().centre()) > self.bounds().reach() {
+            return Deep::none();
+        }
         let mut deepest = self.curves_behind(&gap);
         let mut look = |x: Vector<D>, f: u32| {
             let depth = -gap(&x);
@@ -32,7 +36,6 @@ impl<const D: usize> Shell<D> {
         for &(nodes, f) in &self.edges {
             let ends = nodes.map(|n| self.at(n));
             let length = (ends[1] - ends[0]).norm();
-            // The distance from an obstacle changes by no more than the way.
             if ends.iter().map(gap).sum::<f64>() < length {
                 look(lowest(&ends, &gap), f);
             }

@@ -101,6 +101,11 @@ impl<const D: usize> Boundaries<D> {
         self.shells[body].least_cell
     }
 
+    /// The nodes of the boundary of a body, ascending.
+    pub fn nodes(&self, body: usize) -> impl Iterator<Item = u32> + Clone {
+        self.shells[body].nodes.iter().map(|(node, _)| *node)
+    }
+
     /// How far the largest arc that a facet of a body stands for is in front of it where it was first [m].
     #[must_use]
     pub fn largest_arc(&self, body: usize) -> f64 {

@@ -105,6 +105,25 @@ pub struct Tangent<'a, const D: usize> {
     pub is_first: bool,
 }
 
+/// The motion of a body that its tangent in a load step resists least; its largest component is one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SoftestMotion<const D: usize> {
+    /// x, an entry per node of the body.
+    pub field: Vec<Vector<D>>,
+    /// x·K x [N/m], springs included. Below zero the motion sets energy free.
+    pub stiffness: f64,
+    /// The same of the inertia of the body's lowest elastic motion [N/m], which it is compared with.
+    pub inertia: f64,
+}
+
+impl<const D: usize> SoftestMotion<D> {
+    /// How much the body resists, without a unit.
+    #[must_use]
+    pub fn resistance(&self) -> f64 {
+        self.stiffness / self.inertia
+    }
+}
+
 /// What a body expects of a step before it knows of contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Forecast {
@@ -231,6 +250,17 @@ pub trait Body<const D: usize>: Send + Sync {
     /// If K̄ is not positive definite even with what the tangent has beside the body's own stiffness.
     fn linearise(&mut self, guess: &Guess<'_, D>, _tangent: &Tangent<'_, D>) -> Result<(), StepError> {
         self.renew(guess, false)
+    }
+
+    /// The motion that it resists least at a guess of a load step, with `springs` to the ground [N/m] and but for `neutral` motions; none if that is not
+    /// known of such a body. K̄ is of no use afterwards.
+    fn softest_motion(
+        &mut self,
+        _guess: &Guess<'_, D>,
+        _springs: &[(u32, Matrix<D>)],
+        _neutral: &[Vec<Vector<D>>],
+    ) -> Option<SoftestMotion<D>> {
+        None
     }
 
     /// Lets the rest of the body follow the part of `motion` [m] that is prescribed, from the start of a load step, as its K̄ says.

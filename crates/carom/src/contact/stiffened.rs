@@ -35,6 +35,8 @@ pub(crate) struct Stiffened<const D: usize> {
     pub springs: Vec<Springs<D>>,
     /// Whether it has them.
     pub is_sprung: Vec<bool>,
+    /// So many times as stiff are those of a body as the springs of its contacts.
+    times: Vec<f64>,
     /// Whether reactions have their stiffness even where no body has springs.
     pub is_geometric: bool,
     /// κ of every contact [N/m], and in how many directions; zero where it does not press.
@@ -73,6 +75,35 @@ pub(crate) fn held_directions<const D: usize>(r: &Vector<D>, friction: f64) -> u
     }
 }
 
+/// Writes the springs between the nodes of `contacts` and the ground, in so many directions of each and so many `times` as stiff as κ, to `springs`,
+/// body by body.
+pub(crate) fn ground<'a, const D: usize>(
+    assembly: &Assembly<D>,
+    contacts: impl Iterator<Item = (&'a Contact<D>, usize)>,
+    times: f64,
+    bodies: &mut [Box<dyn Body<D>>],
+    springs: &mut [Springs<D>],
+) {
+    springs.iter_mut().for_each(Vec::clear);
+    for (contact, directions) in contacts.filter(|&(_, directions)| directions > 0) {
+        let block = projector(&contact.frame, directions) * (times * spring(assembly, contact, bodies));
+        for (node, weight) in contact.stencil() {
+            let Some((b, own)) = assembly.place_of(node) else { continue };
+            springs[b].push((own as u32, block * weight.abs()));
+        }
+    }
+    for springs in springs {
+        springs.sort_by_key(|&(node, _)| node);
+        springs.dedup_by(|next, kept| {
+            let same = next.0 == kept.0;
+            if same {
+                kept.1 += next.1;
+            }
+            same
+        });
+    }
+}
+
 /// The projector on the first so many directions of a frame.
 fn projector<const D: usize>(frame: &Matrix<D>, directions: usize) -> Matrix<D> {
     let along = |k: usize| frame.row(k).transpose() * frame.row(k);
@@ -85,6 +116,7 @@ impl<const D: usize> Stiffened<D> {
         Self {
             springs: vec![Vec::new(); assembly.body_count()],
             is_sprung: vec![false; assembly.body_count()],
+            times: vec![1.0; assembly.body_count()],
             is_geometric: false,
             springs_of_contacts: Vec::new(),
             nodes: Vec::new(),
@@ -104,7 +136,7 @@ impl<const D: usize> Stiffened<D> {
     pub fn clear(&mut self) {
         self.missing.clear();
         self.left_out.clear();
-        self.is_sprung.fill(false);
+        self.let_go();
         self.is_geometric = false;
     }
 
@@ -138,29 +170,35 @@ impl<const D: usize> Stiffened<D> {
         contacts: impl Iterator<Item = (&'a Contact<D>, usize)>,
         bodies: &mut [Box<dyn Body<D>>],
     ) {
-        self.springs.iter_mut().for_each(Vec::clear);
-        for (contact, directions) in contacts.filter(|&(_, directions)| directions > 0) {
-            let block = projector(&contact.frame, directions) * spring(assembly, contact, bodies);
-            for (node, weight) in contact.stencil() {
-                let Some((b, own)) = assembly.place_of(node) else { continue };
-                self.springs[b].push((own as u32, block * weight.abs()));
-            }
-        }
-        for springs in &mut self.springs {
-            springs.sort_by_key(|&(node, _)| node);
-            springs.dedup_by(|next, kept| {
-                let same = next.0 == kept.0;
-                if same {
-                    kept.1 += next.1;
-                }
-                same
-            });
+        ground(assembly, contacts, 1.0, bodies, &mut self.springs);
+        for (springs, times) in self.springs.iter_mut().zip(&self.times) {
+            springs.iter_mut().for_each(|(_, block)| *block *= *times);
         }
     }
 
-    /// The springs of a body, and whether it has them.
-    pub fn support(&mut self, body: usize) -> (&[(u32, Matrix<D>)], &mut bool) {
-        (&self.springs[body], &mut self.is_sprung[body])
+    /// The springs of a body that K̄ has now.
+    pub fn support(&self, body: usize) -> &[(u32, Matrix<D>)] {
+        if self.is_sprung[body] { &self.springs[body] } else { &[] }
+    }
+
+    /// Gives K̄ of a body springs that it has not, or stiffer ones; returns whether there are such.
+    pub fn support_more(&mut self, body: usize) -> bool {
+        let times = &mut self.times[body];
+        if self.springs[body].is_empty() || self.is_sprung[body] && *times > 1.0 {
+            return false;
+        }
+        if self.is_sprung[body] {
+            *times = CONTROL.stiffer;
+            self.springs[body].iter_mut().for_each(|(_, block)| *block *= CONTROL.stiffer);
+        }
+        self.is_sprung[body] = true;
+        true
+    }
+
+    /// No K̄ has springs any more: those of a step before are of no use in the next.
+    pub fn let_go(&mut self) {
+        self.is_sprung.fill(false);
+        self.times.fill(1.0);
     }
 
     /// Adds the forces −κ w that go with the springs between contacts to `residual` [N]. The contacts are those of the guess.
@@ -177,9 +215,11 @@ impl<const D: usize> Stiffened<D> {
         let contacts = active.contacts.iter().zip(active.offsets(given, motion));
         for (((contact, offset), r), &mu) in contacts.zip(&active.reactions).zip(&active.friction) {
             let directions = held_directions(r, mu);
-            let mut bodies_of = contact.stencil().filter_map(|(n, _)| assembly.body_of(n));
-            let is_sprung = directions > 0 && bodies_of.any(|b| self.is_sprung[b]);
-            let stiffness = if is_sprung { spring(assembly, contact, bodies) } else { 0.0 };
+            let sprung =
+                contact.stencil().filter_map(|(n, _)| assembly.body_of(n)).filter(|b| self.is_sprung[*b]);
+            let times = sprung.map(|b| self.times[b]).fold(0.0, f64::max);
+            let is_sprung = directions > 0 && times > 0.0;
+            let stiffness = if is_sprung { times * spring(assembly, contact, bodies) } else { 0.0 };
             self.springs_of_contacts.push((stiffness, directions));
             if stiffness > 0.0 {
                 let mut w = contact.relative(|n| motion[n]);

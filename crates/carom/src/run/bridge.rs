@@ -1,12 +1,17 @@
 //! A bridge between two states of equilibrium, where a load step finds none near the last one: bodies snap through, or lose their hold and find
 //! another. They move on with inertia and the paper's scheme at its most damped, θ = ξ = 1, under the loads of the end of the load step, in steps that
 //! grow, until they come to rest. What that dissipates is in the ledger's `scheme`.
+//!
+//! Where a body gives way symmetry may keep it from doing so: nothing drives it out of a path that is unstable. It is given a push along the motion by
+//! which it gives way, and what that brings is in the ledger's `external`.
 
 use carom_mesh::parallel::among_threads;
+use carom_mesh::{Vector, nodal};
 
 use super::stepper::Stepper;
 use crate::State;
 use crate::body::Interval;
+use crate::step::giving_way::GivingWay;
 use crate::step::report::StepReport;
 use crate::step::step_over;
 use crate::step::workspace::Workspace;
@@ -26,8 +31,20 @@ const EASY: usize = 12;
 /// Bodies may be at rest where their kinetic energy is below this share of the strain energy.
 const SLOW: f64 = 1e-6;
 
+/// The kinetic energy of a push, in terms of the strain energy: far above round-off, and small beside what giving way sets free.
+const PUSH: f64 = 1e-8;
+
 /// So many steps lie between two attempts to find the equilibrium.
 const ATTEMPTS: usize = 4;
+
+/// A push that no step has taken up yet.
+struct Push<const D: usize> {
+    body: usize,
+    /// What it brings [J].
+    energy: f64,
+    /// The velocities of the body before [m/s].
+    before: Vec<Vector<D>>,
+}
 
 impl<const D: usize> Stepper<'_, D> {
     /// Takes the state to the equilibrium under the loads at time `end` [s], wherever that is, and returns whether there is one. If not, the state
@@ -37,13 +54,30 @@ impl<const D: usize> Stepper<'_, D> {
         end: f64,
         observe: &mut impl FnMut(&State<D>, &StepReport, &Workspace<D>),
     ) -> bool {
+        let mut push = self.push();
+        let leads_there = self.cross_all(end, &mut push, observe);
+        if let Some(Push { body, before, .. }) = push {
+            let nodes = self.model.assembly.nodes(body);
+            self.state.velocity[nodes].copy_from_slice(&before);
+            self.state.refresh(&self.model.assembly, &self.work.bodies);
+        }
+        leads_there
+    }
+
+    /// The steps of a bridge.
+    fn cross_all(
+        &mut self,
+        end: f64,
+        push: &mut Option<Push<D>>,
+        observe: &mut impl FnMut(&State<D>, &StepReport, &Workspace<D>),
+    ) -> bool {
         let waves = self.model.bodies.iter().filter_map(|b| Some(b.body.mesh().diameter() / b.wave_speed()?));
         let time = waves.fold(0.0, f64::max);
         let mut dt = LENGTHS[0] * time;
         let mut since = 0;
         for _ in 0..STEPS {
             let interval = self.method.bridge([self.state.time, end], dt);
-            let Some(report) = self.cross(&interval, observe) else {
+            let Some(report) = self.cross(&interval, push, observe) else {
                 dt /= 4.0;
                 if dt < LENGTHS[2] * time {
                     return false;
@@ -54,7 +88,7 @@ impl<const D: usize> Stepper<'_, D> {
             let energies = self.state.energies;
             if energies.kinetic <= SLOW * energies.strain && since >= ATTEMPTS {
                 since = 0;
-                if self.cross(&self.method.interval(end, 0.0), observe).is_some() {
+                if self.cross(&self.method.interval(end, 0.0), push, observe).is_some() {
                     return true;
                 }
             }
@@ -65,20 +99,41 @@ impl<const D: usize> Stepper<'_, D> {
         false
     }
 
-    /// One step of a bridge, if it succeeds.
+    /// Pushes the body that is about to give way, if one is.
+    fn push(&mut self) -> Option<Push<D>> {
+        let Self { model, state, work, .. } = self;
+        let GivingWay { body, motion } = work.newton.giving_way.take()?;
+        let nodes = model.assembly.nodes(body);
+        let kinetic = state.body_energies[body].kinetic;
+        let before = state.velocity[nodes.clone()].to_vec();
+        let mass = |own: u32| work.bodies[body].mass_of(own);
+        let of_unit_speed =
+            0.5 * (0..).zip(&motion).map(|(own, x)| mass(own) * x.norm_squared()).sum::<f64>();
+        let speed = (PUSH * state.energies.strain / of_unit_speed).sqrt();
+        nodal::each(&mut state.velocity[nodes], [&motion], |v, [x]| *v = x * speed);
+        state.refresh(&model.assembly, &work.bodies);
+        Some(Push { body, energy: state.body_energies[body].kinetic - kinetic, before })
+    }
+
+    /// One step of a bridge, if it succeeds. What a `push` has brought belongs to the first one.
     fn cross(
         &mut self,
         interval: &Interval,
+        push: &mut Option<Push<D>>,
         observe: &mut impl FnMut(&State<D>, &StepReport, &Workspace<D>),
     ) -> Option<StepReport> {
         let Self { model, method, state, spare, work, .. } = self;
         let made = among_threads(model.node_count(), || {
             step_over(&model.assembly, method, interval, state, spare, work)
         });
-        let Ok(report) = made else {
+        let Ok(mut report) = made else {
             self.failed += 1;
             return None;
         };
+        if let Some(Push { body, energy, .. }) = push.take() {
+            report.ledger.external += energy;
+            work.body_ledgers[body].external += energy;
+        }
         std::mem::swap(*state, *spare);
         observe(state, &report, work);
         Some(report)

@@ -1,16 +1,18 @@
 //! Newton's iterations of a load step: see [`super::newton::load_step`].
 
 use carom_fem::FemError;
-use carom_mesh::{Matrix, Vector, nodal};
+use carom_mesh::{Vector, nodal};
 
 use super::correction::{begin_solves, correct, end_solves, residuals};
 use super::hold::{driven_least, left_alone, not_held};
 use super::newton::control::LOAD_STEP;
 use super::newton::holding::Holding;
 use super::newton::load_step::{LoadStep, Verdict};
+use super::stability::{self, about_to_give_way};
 use super::workspace::Workspace;
 use crate::body::{Body, Guess, Tangent};
 use crate::contact::Contacts;
+use crate::contact::stiffened::Stiffened;
 use crate::error::StepError;
 use crate::model::given::Given;
 use crate::model::state::State;
@@ -25,13 +27,23 @@ pub(super) fn equilibrate<const D: usize>(
     next: &mut State<D>,
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
-    let made = approach(bodies, given, next, work);
-    made.map_err(|error| match error {
-        StepError::Newton { .. } | StepError::Runaway { .. } => {
-            not_held(bodies, given, next, work).unwrap_or(error)
+    match approach(bodies, given, next, work) {
+        Ok(iterations) => {
+            if bodies.iter().any(|&i| work.newton.holding[i].was_indefinite) {
+                stability::check(bodies, given, next, work)?;
+                linearise(bodies, given, next, work)?;
+            }
+            Ok(iterations)
         }
-        error => error,
-    })
+        Err(error @ (StepError::Newton { .. } | StepError::Runaway { .. })) => {
+            let not_held = not_held(bodies, given, next, work);
+            Err(not_held.or_else(|| about_to_give_way(bodies, given, work)).unwrap_or(error))
+        }
+        Err(
+            error @ (StepError::Friction { .. } | StepError::Unstable { .. } | StepError::Restless { .. }),
+        ) => Err(about_to_give_way(bodies, given, work).unwrap_or(error)),
+        Err(error) => Err(error),
+    }
 }
 
 /// [`equilibrate`] with whatever error comes first.
@@ -168,7 +180,8 @@ fn linearise<const D: usize>(
     for &i in bodies {
         let guess = given.guess(i, motion, &next.displacement);
         let holding = &mut work.newton.holding[i];
-        let held = hold(&mut *all[i], &guess, false, holding, reduced.delassus.stiffened.support(i));
+        let stiffened = &mut reduced.delassus.stiffened;
+        let held = hold(&mut *all[i], &guess, false, holding, (stiffened, i));
         work.factorisations += held.map_err(|error| unstable(error, given, i))?;
     }
     Ok(())
@@ -182,9 +195,11 @@ pub(super) fn set_out<const D: usize>(
     let Workspace { bodies, contacts, newton, motion, .. } = work;
     contacts.reduced.expect_those_of(given.state, given.assembly, bodies);
     let stiffened = &mut contacts.reduced.delassus.stiffened;
+    stiffened.let_go();
     stiffened.spring_from_start(given.assembly, &given.state.reactions, bodies);
     stiffened.is_geometric = false;
     newton.holding.fill(Holding::default());
+    newton.giving_way = None;
     for (i, body) in bodies.iter_mut().enumerate() {
         let nodes = given.assembly.nodes(i);
         // Nothing has moved yet, whatever will.
@@ -194,8 +209,7 @@ pub(super) fn set_out<const D: usize>(
             displacement: &given.state.displacement[nodes.clone()],
             ..given.guess(i, motion, &given.state.displacement)
         };
-        stiffened.is_sprung[i] = false;
-        let held = hold(&mut **body, &guess, true, &mut newton.holding[i], stiffened.support(i));
+        let held = hold(&mut **body, &guess, true, &mut newton.holding[i], (stiffened, i));
         work.factorisations += held.map_err(|error| unstable(error, given, i))?;
         body.follow(given.interval, &given.start(i), &mut motion[nodes]);
     }
@@ -207,8 +221,13 @@ fn unstable<const D: usize>(error: StepError, given: &Given<'_, D>, body: usize)
     match error {
         StepError::Matrix(FemError::NotPositiveDefinite) => {
             let body = given.assembly.name(body).to_string();
+            let motion = String::new();
             // Where there is a bridge, this is said only if it leads nowhere.
-            if given.method.bridges { StepError::Restless { body } } else { StepError::Unstable { body } }
+            if given.method.bridges {
+                StepError::Restless { body, motion }
+            } else {
+                StepError::Unstable { body, motion }
+            }
         }
         error => error,
     }
@@ -221,17 +240,15 @@ fn hold<const D: usize>(
     guess: &Guess<'_, D>,
     is_first: bool,
     holding: &mut Holding,
-    (springs, is_sprung): (&[(u32, Matrix<D>)], &mut bool),
+    (stiffened, number): (&mut Stiffened<D>, usize),
 ) -> Result<u64, StepError> {
     for tries in 1.. {
-        let springs_in_use = if *is_sprung { springs } else { &[] };
-        let tangent = Tangent { held_back: holding.share, springs: springs_in_use, is_first };
-        let made = body.linearise(guess, &tangent);
+        let springs = stiffened.support(number);
+        let made = body.linearise(guess, &Tangent { held_back: holding.share, springs, is_first });
         if made.is_ok() {
             return Ok(tries);
         }
-        if !*is_sprung && !springs.is_empty() {
-            *is_sprung = true;
+        if stiffened.support_more(number) {
             continue;
         }
         holding.raise_for_good();

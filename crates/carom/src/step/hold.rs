@@ -1,5 +1,6 @@
 //! Which rigid motion neither supports nor closed contacts resist, of bodies that do not come to rest in a load step.
 
+use carom_contact::Contact;
 use carom_fem::rigid_motion;
 use carom_mesh::{Vector, nodal};
 use nalgebra::{DMatrix, DVector};
@@ -76,6 +77,54 @@ impl<'a, const D: usize> Motions<'a, D> {
         }
         row
     }
+
+    /// A motion of all nodes that is made of so much of every rigid motion.
+    fn field(&self, shares: &DVector<f64>, given: &Given<'_, D>, next: &State<D>) -> Vec<Vector<D>> {
+        let assembly = given.assembly;
+        let mut field = vec![Vector::zeros(); assembly.node_count()];
+        for (&(place, motion), share) in self.columns.iter().zip(shares.iter()) {
+            for node in assembly.nodes(self.bodies[place]) {
+                let arm = assembly.reference[node] + next.displacement[node] - self.centres[place];
+                field[node] += rigid_motion(motion, &arm, self.size) * *share;
+            }
+        }
+        field
+    }
+}
+
+/// What supports, and contacts that hold so many directions of their frames, see of rigid motions: Σ of the squares, a quadratic form.
+fn resisted<'a, const D: usize>(
+    motions: &Motions<'_, D>,
+    holding: impl Iterator<Item = (&'a Contact<D>, usize)>,
+    given: &Given<'_, D>,
+    next: &State<D>,
+) -> DMatrix<f64> {
+    let assembly = given.assembly;
+    let count = motions.columns.len();
+    let mut resisted = DMatrix::<f64>::zeros(count, count);
+    let mut resist = |row: DVector<f64>| resisted.ger(1.0, &row, &row, 1.0);
+    for node in motions.bodies.iter().flat_map(|&i| assembly.nodes(i)) {
+        for component in (0..D).filter(|&c| assembly.held(node)[c]) {
+            let axis = Vector::from_fn(|i, _| if i == component { 1.0 } else { 0.0 });
+            resist(motions.row(given, next, &axis, std::iter::once((node, 1.0))));
+        }
+    }
+    for (contact, directions) in holding {
+        for axis in 0..directions {
+            let direction: Vector<D> = contact.frame.row(axis).transpose();
+            resist(motions.row(given, next, &direction, contact.stencil()));
+        }
+    }
+    resisted
+}
+
+/// The motions of which `resisted` sees no more than a share `seen`, each as its share of every rigid motion of a body.
+fn free(resisted: DMatrix<f64>, seen: f64) -> Vec<DVector<f64>> {
+    let eigen = resisted.symmetric_eigen();
+    let most = eigen.eigenvalues.max().max(1.0);
+    let is_free = |value: &f64| *value <= seen * seen * most;
+    let free = eigen.eigenvalues.iter().enumerate().filter(|(_, value)| is_free(value));
+    free.map(|(k, _)| eigen.eigenvectors.column(k).into_owned()).collect()
 }
 
 /// The rigid motions of some bodies that neither supports nor closed contacts resist, and what the forces on them do there.
@@ -103,31 +152,20 @@ impl<'a, const D: usize> FreeMotions<'a, D> {
         let assembly = given.assembly;
         let motions = Motions::of(bodies, given, next, work);
         let count = motions.columns.len();
-        let mut resisted = DMatrix::<f64>::zeros(count, count);
-        let mut resist = |row: DVector<f64>| resisted.ger(1.0, &row, &row, 1.0);
-        for node in bodies.iter().flat_map(|&i| assembly.nodes(i)) {
-            for component in (0..D).filter(|&c| assembly.held(node)[c]) {
-                let axis = Vector::from_fn(|i, _| if i == component { 1.0 } else { 0.0 });
-                resist(motions.row(given, next, &axis, std::iter::once((node, 1.0))));
-            }
-        }
         let active = &work.contacts.active;
         let mut forces = work.newton.residual.clone();
         let pressing = active.contacts.iter().zip(&active.reactions).zip(&active.friction);
         let mut touches = vec![false; assembly.body_count()];
+        let mut holding = Vec::with_capacity(active.contacts.len());
         for (((contact, r), mu), before) in pressing.zip(&work.contacts.reduced.guess) {
             contact.add_force(&(r - before), &mut forces);
             let directions = held_directions(r, *mu);
             if directions > 0 {
                 contact.stencil().filter_map(|(n, _)| assembly.body_of(n)).for_each(|b| touches[b] = true);
             }
-            for axis in 0..directions {
-                let direction: Vector<D> = contact.frame.row(axis).transpose();
-                resist(motions.row(given, next, &direction, contact.stencil()));
-            }
+            holding.push((contact, directions));
         }
-        let eigen = resisted.symmetric_eigen();
-        let most = eigen.eigenvalues.max().max(1.0);
+        let modes = free(resisted(&motions, holding.into_iter(), given, next), seen);
         let mut all = DVector::zeros(count);
         let mut unbalanced = 0.0;
         for node in bodies.iter().flat_map(|&i| assembly.nodes(i)) {
@@ -135,9 +173,6 @@ impl<'a, const D: usize> FreeMotions<'a, D> {
             unbalanced += force.norm();
             all += motions.row(given, next, &force, std::iter::once((node, 1.0)));
         }
-        let is_free = |value: &f64| *value <= seen * seen * most;
-        let free = eigen.eigenvalues.iter().enumerate().filter(|(_, value)| is_free(value));
-        let modes: Vec<_> = free.map(|(k, _)| eigen.eigenvectors.column(k).into_owned()).collect();
         Self {
             driving: modes.iter().fold(DVector::zeros(count), |sum, mode| sum + mode * mode.dot(&all)),
             pressing: active.reactions.iter().map(Vector::norm).sum(),
@@ -183,18 +218,10 @@ impl<'a, const D: usize> FreeMotions<'a, D> {
 
     /// Whether a motion of all nodes is one of these.
     fn has(&self, motion: &[Vector<D>], given: &Given<'_, D>, next: &State<D>) -> bool {
-        let assembly = given.assembly;
         let mut rest = motion.to_vec();
         let mut known: Vec<Vec<Vector<D>>> = Vec::with_capacity(self.modes.len());
         for mode in &self.modes {
-            let mut field = vec![Vector::zeros(); motion.len()];
-            for (&(place, motion), share) in self.motions.columns.iter().zip(mode.iter()) {
-                for node in assembly.nodes(self.motions.bodies[place]) {
-                    let arm =
-                        assembly.reference[node] + next.displacement[node] - self.motions.centres[place];
-                    field[node] += rigid_motion(motion, &arm, self.motions.size) * *share;
-                }
-            }
+            let mut field = self.motions.field(mode, given, next);
             known.iter().for_each(|other| leave_out(other, &mut field));
             normalise(&mut field);
             leave_out(&field, &mut rest);
@@ -202,6 +229,22 @@ impl<'a, const D: usize> FreeMotions<'a, D> {
         }
         nodal::dot(&rest, &rest) <= ALIKE * ALIKE * nodal::dot(motion, motion)
     }
+}
+
+/// The rigid motions of a `body` alone, where the model is in the state `next`, that neither supports nor these contacts resist: an entry per node of
+/// the body. The contacts hold so many directions of their frames.
+pub(super) fn neutral<'a, const D: usize>(
+    body: usize,
+    holding: impl Iterator<Item = (&'a Contact<D>, usize)>,
+    given: &Given<'_, D>,
+    next: &State<D>,
+    work: &Workspace<D>,
+) -> Vec<Vec<Vector<D>>> {
+    let bodies = [body];
+    let motions = Motions::of(&bodies, given, next, work);
+    let modes = free(resisted(&motions, holding, given, next), NEARLY_FREE);
+    let nodes = given.assembly.nodes(body);
+    modes.iter().map(|mode| motions.field(mode, given, next)[nodes.clone()].to_vec()).collect()
 }
 
 /// The last correction of `bodies`, of unit length, if it is a motion that next to nothing resists and next to nothing drives.

@@ -6,6 +6,7 @@ pub(crate) mod control;
 mod correction;
 mod equilibrate;
 pub(crate) mod free_motion;
+pub(crate) mod giving_way;
 mod hold;
 mod impulse;
 mod iterate;
@@ -15,6 +16,7 @@ pub(crate) mod newton;
 pub(crate) mod report;
 mod settling;
 mod since_look;
+mod stability;
 mod waking;
 pub(crate) mod workspace;
 

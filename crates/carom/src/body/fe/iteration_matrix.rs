@@ -26,7 +26,7 @@ const LOOSE: f64 = 0.05;
 const WORTH: [i32; 2] = [3, 12];
 
 /// A pattern of signs without a period, by which round-off of the forces on nodes is summed as chance would.
-fn sign(k: usize) -> f64 {
+pub(super) fn sign(k: usize) -> f64 {
     // The bits of the golden ratio (Knuth, multiplicative hashing).
     if (k as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 63 == 0 { 1.0 } else { -1.0 }
 }
@@ -47,7 +47,7 @@ pub(crate) struct IterationMatrix<const D: usize> {
     /// The factors of K, C and M that K̄ was made with.
     coefficients: Option<[f64; 3]>,
     /// See [`lowest_inertia`].
-    lowest_inertia: f64,
+    pub lowest_inertia: f64,
     /// Whether its supports leave the body loose.
     is_loose: bool,
     /// How far round-off of the forces moves the body in a load step [m].
@@ -248,6 +248,12 @@ impl<const D: usize> IterationMatrix<D> {
         if self.inverse.is_large() { WORTH[1] } else { WORTH[0] }
     }
 
+    /// What holds corrections of a load step back [1/s²], where this share of the inertia of the lowest motion is to.
+    pub fn inertia(&self, held_back: f64) -> f64 {
+        let share = if self.is_loose { held_back.max(LOOSE) } else { held_back };
+        share * self.lowest_inertia
+    }
+
     /// Makes the factor of a tangent of a load step at displacements `u` [m], from the `stiffness` of the body and its loads, or says that it is
     /// indefinite.
     pub fn linearise(
@@ -260,9 +266,9 @@ impl<const D: usize> IterationMatrix<D> {
         for &(n, block) in tangent.springs {
             stiffness.values[body.graph().entry(n, n)] += block;
         }
-        let share = if self.is_loose { tangent.held_back.max(LOOSE) } else { tangent.held_back };
+        let inertia = self.inertia(tangent.held_back);
         for (k, m) in stiffness.values.iter_mut().zip(&body.mass().values) {
-            *k += Matrix::from_diagonal_element(m * share * self.lowest_inertia);
+            *k += Matrix::from_diagonal_element(m * inertia);
         }
         self.coefficients = None;
         self.note_noise(body, u, &stiffness);

@@ -8,6 +8,7 @@ mod iteration_matrix;
 pub(crate) mod load;
 mod load_step;
 pub(crate) mod part;
+mod softest;
 pub(crate) mod supports;
 
 use std::sync::Arc;
@@ -22,7 +23,7 @@ use self::drive::Drive;
 use self::equation::{Equation, Pose, ResidualScratch, STRAIGHT};
 use self::iteration_matrix::IterationMatrix;
 use self::part::ModelBody;
-use super::{Balance, Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt, Tangent};
+use super::{Balance, Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt, SoftestMotion, Tangent};
 use crate::Signal;
 use crate::archive::{Archive, CheckpointError};
 use crate::error::StepError;
@@ -265,6 +266,20 @@ impl<const D: usize> Body<D> for FeBody<D> {
             });
         }
         self.matrix.linearise(body, stiffness, guess.displacement, tangent)
+    }
+
+    fn softest_motion(
+        &mut self,
+        guess: &Guess<'_, D>,
+        springs: &[(u32, Matrix<D>)],
+        neutral: &[Vec<Vector<D>>],
+    ) -> Option<SoftestMotion<D>> {
+        let held_back = softest::held_back(|held_back| {
+            self.linearise(guess, &Tangent { held_back, springs, is_first: false }).is_ok()
+        })?;
+        let softest = softest::find(&mut self.matrix, &self.part.body, held_back, neutral);
+        self.forget();
+        Some(softest)
     }
 
     /// Held nodes that move alone would crush the cells beside them. K̄⁻¹ of what the body resists that with, by a difference of its forces.

@@ -9,6 +9,8 @@ pub(crate) struct Holding {
     pub share: f64,
     /// Below this nothing is to be gained: it was too little in this step.
     least: f64,
+    /// Whether K̄ was indefinite without it in this step.
+    pub was_indefinite: bool,
 }
 
 impl Holding {
@@ -21,6 +23,7 @@ impl Holding {
     pub fn raise_for_good(&mut self) {
         self.raise();
         self.least = self.share;
+        self.was_indefinite = true;
     }
 
     /// This `share` at least, to the end of the step.

@@ -14,6 +14,7 @@ use self::convergence::BodyProgress;
 use self::holding::Holding;
 use self::left_alone::leave_out;
 use super::free_motion::FreeMotion;
+use super::giving_way::GivingWay;
 use crate::contact::active::ActiveSet;
 use crate::model::assembly::Assembly;
 
@@ -35,6 +36,8 @@ pub(crate) struct Newton<const D: usize> {
     pub left_alone: Vec<Vec<Vector<D>>>,
     /// and what drives them at its end.
     pub free_motion: Option<FreeMotion>,
+    /// The motion by which a load step found that a body gives way.
+    pub giving_way: Option<GivingWay<D>>,
     /// The bodies that contacts act on.
     pub in_contact: Vec<usize>,
 }
@@ -53,6 +56,7 @@ impl<const D: usize> Newton<D> {
             guess_reactions: Vec::new(),
             left_alone: Vec::new(),
             free_motion: None,
+            giving_way: None,
             in_contact: Vec::with_capacity(assembly.body_count()),
         }
     }

@@ -1,0 +1,152 @@
+//! Whether a body is in stable equilibrium at the end of a load step, and how it gives way if it is not.
+//!
+//! Where the tangent of a body is indefinite a load step may still end in equilibrium: beyond a bifurcation iterations that are held back stay on a path
+//! that nothing but round-off leaves. No part is ever found in such a state, so the step is refused by a witness: a motion x of one body that its closed
+//! contacts do not see, and that sets energy free, x·(K + G)x < 0, with G the stiffness of the reactions. Where there is none the state may be unstable
+//! all the same, by a motion of several bodies at once or by one that slides with friction.
+
+use carom_contact::Contact;
+use carom_mesh::Vector;
+
+use super::giving_way::GivingWay;
+use super::hold::neutral;
+use super::workspace::Workspace;
+use crate::body::{Guess, SoftestMotion};
+use crate::contact::stiffened::ground;
+use crate::error::StepError;
+use crate::model::given::Given;
+use crate::model::state::State;
+
+/// How much stiffer than κ contacts are where nothing but the motions that they do not see is looked at.
+const RIGID: f64 = 1e4;
+
+/// A motion sets energy free if its resistance is below zero by more than this, in units of the inertia of the lowest one.
+const ROUND_OFF: f64 = 1e-8;
+
+/// A state is next to one that is not stable where the resistance to its softest motion has fallen to this share of that of the undeformed body.
+/// Measured: where a block between plates is squeezed into wrinkles iterations end at 1e-2.
+const NEAR: f64 = 0.03;
+
+/// The difference of places that gives the stiffness of the reactions, in sizes of the smaller body.
+const DIFFERENCE: f64 = 1e-6;
+
+/// A contact, its reaction [N] and its friction coefficient.
+type Pressed<'a, const D: usize> = (&'a Contact<D>, &'a Vector<D>, f64);
+
+/// What holds still where only motions that no closed contact sees are looked at: with friction all directions, as what slides may not slide back.
+fn holding<'a, const D: usize>(
+    pressed: &'a [Pressed<'a, D>],
+) -> impl Iterator<Item = (&'a Contact<D>, usize)> + 'a {
+    let directions = |r: &Vector<D>, mu: f64| match (r[0] > 0.0, mu > 0.0) {
+        (false, _) => 0,
+        (true, false) => 1,
+        (true, true) => D,
+    };
+    pressed.iter().map(move |&(contact, r, mu)| (contact, directions(r, mu)))
+}
+
+/// The softest motion of a body at these displacements `at`, where these contacts hold it.
+fn softest<const D: usize>(
+    body: usize,
+    at: &[Vector<D>],
+    pressed: &[Pressed<'_, D>],
+    given: &Given<'_, D>,
+    next: &State<D>,
+    work: &mut Workspace<D>,
+) -> Option<SoftestMotion<D>> {
+    let assembly = given.assembly;
+    let neutral = neutral(body, holding(pressed), given, next, work);
+    let mut springs = vec![Vec::new(); assembly.body_count()];
+    ground(assembly, holding(pressed), RIGID, &mut work.bodies, &mut springs);
+    let motion = &work.motion[assembly.nodes(body)];
+    let guess = Guess { interval: given.interval, start: given.start(body), motion, displacement: at };
+    work.bodies[body].softest_motion(&guess, &springs[body], &neutral)
+}
+
+/// x·G x [N/m] of a motion x of one body: what the reactions, which turn with it, resist it with.
+fn by_reactions<const D: usize>(
+    body: usize,
+    x: &[Vector<D>],
+    given: &Given<'_, D>,
+    work: &Workspace<D>,
+) -> f64 {
+    let (assembly, active) = (given.assembly, &work.contacts.active);
+    let nodes = assembly.nodes(body);
+    let pairs = &assembly.contact.pairs;
+    let sizes = active.candidates.iter().map(|c| assembly.pair_size(&pairs[c.pair as usize]));
+    let step = DIFFERENCE * sizes.fold(assembly.size, f64::min);
+    let mut mortar = active.mortar.clone();
+    let (mut moved, mut forces) = (Vec::new(), vec![Vector::zeros(); work.motion.len()]);
+    for sign in [1.0, -1.0] {
+        let position = |n: u32| {
+            let place = given.position(n) + work.motion[n as usize];
+            let own = (n as usize).checked_sub(nodes.start).and_then(|own| x.get(own));
+            own.map_or(place, |x| place + x * (sign * step))
+        };
+        assembly.contact.evaluate_all(&active.candidates, &position, &mut mortar, &mut moved);
+        for ((moved, contact), r) in moved.iter_mut().zip(&active.contacts).zip(&active.reactions) {
+            moved.carry_frame(&contact.frame);
+            moved.add_force(&(r * (-sign / (2.0 * step))), &mut forces);
+        }
+    }
+    x.iter().zip(&forces[nodes]).map(|(x, f)| x.dot(f)).sum()
+}
+
+/// Refuses the equilibrium that a load step of some `bodies` has come to if one of them is found to give way.
+///
+/// # Errors
+/// [`StepError::Unstable`].
+pub(super) fn check<const D: usize>(
+    bodies: &[usize],
+    given: &Given<'_, D>,
+    next: &State<D>,
+    work: &mut Workspace<D>,
+) -> Result<(), StepError> {
+    let in_question = |work: &Workspace<D>, i: usize| work.newton.holding[i].was_indefinite;
+    for &i in bodies {
+        if !in_question(work, i) {
+            continue;
+        }
+        let active = &work.contacts.active;
+        let contacts = active.contacts.clone();
+        let (reactions, friction) = (active.reactions.clone(), active.friction.clone());
+        let pressed: Vec<_> =
+            contacts.iter().zip(&reactions).zip(friction).map(|((c, r), mu)| (c, r, mu)).collect();
+        let at = &next.displacement[given.assembly.nodes(i)];
+        let Some(found) = softest(i, at, &pressed, given, next, work) else { continue };
+        let stiffness = found.stiffness + by_reactions(i, &found.field, given, work);
+        if stiffness < -ROUND_OFF * found.inertia {
+            let giving_way = GivingWay { body: i, motion: found.field };
+            let error = giving_way.error(given);
+            work.newton.giving_way = Some(giving_way);
+            return Err(error);
+        }
+    }
+    Ok(())
+}
+
+/// Why a load step of some `bodies` found no equilibrium, if that is because one of them is about to give way where the step starts.
+pub(super) fn about_to_give_way<const D: usize>(
+    bodies: &[usize],
+    given: &Given<'_, D>,
+    work: &mut Workspace<D>,
+) -> Option<StepError> {
+    let state = given.state;
+    let pairs = &given.assembly.contact.pairs;
+    let pressed: Vec<_> =
+        state.reactions.iter().map(|r| (&r.contact, &r.force, pairs[r.pair as usize].friction)).collect();
+    for &i in bodies {
+        let nodes = given.assembly.nodes(i);
+        let undeformed = vec![Vector::zeros(); nodes.len()];
+        let at = &state.displacement[nodes];
+        let Some(now) = softest(i, at, &pressed, given, state, work) else { continue };
+        let Some(first) = softest(i, &undeformed, &pressed, given, state, work) else { continue };
+        if now.resistance() <= NEAR * first.resistance() {
+            let giving_way = GivingWay { body: i, motion: now.field };
+            let error = giving_way.error(given);
+            work.newton.giving_way = Some(giving_way);
+            return Some(error);
+        }
+    }
+    None
+}
