@@ -140,8 +140,6 @@ fn predict<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) -> Res
     }
     if interval.map.is_static() {
         set_out(given, work)?;
-    } else {
-        work.contacts.reduced.delassus.stiffened.clear();
     }
     let drift = || {
         let means = work.bodies.iter().enumerate().map(|(i, body)| {
