@@ -181,6 +181,14 @@ pub(crate) fn rim(kind: CellKind) -> impl Iterator<Item = [usize; 2]> {
     line.iter().copied().chain(around)
 }
 
+/// The curved lines around a quadratic facet, each by its ends and the node between; of a line itself.
+pub(crate) fn bows(kind: CellKind) -> impl Iterator<Item = [usize; 3]> {
+    let is_curved = kind.is_quadratic();
+    let sides = kind.reference().facets.iter().filter(move |_| is_curved && kind.dimension() == 2);
+    let line = (is_curved && kind.dimension() == 1).then_some([0, 1, 2]);
+    sides.map(|(_, nodes)| [nodes[0], nodes[1], nodes[2]]).chain(line)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

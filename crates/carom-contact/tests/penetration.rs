@@ -260,3 +260,27 @@ fn a_curved_side_is_in_a_floor_between_its_nodes() {
     let found = depth(&[curved_cell([4, 1], [0.0, 0.08])], vec![floor]);
     assert!((found - 0.01).abs() < 1e-14, "{found}");
 }
+
+/// Into how many parts a motion of two blocks against one another is cut, however the two are turned.
+fn parts_of_a_passage(aside: f64, angle: f64) -> usize {
+    let (c, s) = (angle.cos(), angle.sin());
+    let turned = |x: Vector<2>| Vector::<2>::new(c * x[0] - s * x[1], s * x[0] + c * x[1]);
+    let bodies = [block([0.0, 0.0], [0.2, 0.2], [2, 2]), block([1.0, aside], [0.1, 1.0], [1, 5])];
+    let surfaces = bodies.each_ref().map(Surface::of);
+    let first = bodies[0].nodes().len();
+    let x: Vec<Vector<2>> = bodies.iter().flat_map(|mesh| mesh.nodes()).map(|x| turned(*x)).collect();
+    let way = turned(Vector::<2>::new(1.49, 0.0));
+    let start = |n: u32| x[n as usize];
+    let end = |n: u32| if (n as usize) < first { x[n as usize] + way } else { x[n as usize] };
+    let boundaries = Boundaries::<2>::new(surfaces.iter().zip([0, first as u32]), &[], &start);
+    boundaries.parts(1.5, &[], |_| true, &start, &end)
+}
+
+#[test]
+fn a_motion_is_cut_into_as_many_parts_whichever_way_it_goes() {
+    // Halves of a cell of 0.1 in a way of 1.49.
+    for angle in [0.0, 0.3, 0.8, 2.1] {
+        assert_eq!(parts_of_a_passage(-0.4, angle), 30);
+        assert_eq!(parts_of_a_passage(2.0, angle), 1);
+    }
+}

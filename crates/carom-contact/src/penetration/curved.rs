@@ -1,33 +1,12 @@
 //! Edges of second order, which between their nodes are where no node and no straight line between two of them is.
 
-use carom_mesh::{CellKind, Facet, Vector};
+use carom_mesh::{CellKind, Vector};
 
 use super::deep::Deep;
 use super::shell::Shell;
 use crate::aabb::Aabb;
 use crate::surface::overshoot;
 use crate::tolerances::MEASURE;
-
-/// The ends of a curved edge and the node between them.
-pub(super) type Curved = [u32; 3];
-
-/// The curved edges of these facets, each once; in the plane the facets themselves.
-pub(super) fn curved_edges(facets: &[Facet]) -> Vec<Curved> {
-    let mut edges = Vec::new();
-    for facet in facets.iter().filter(|f| f.kind.is_quadratic()) {
-        let reference = facet.kind.reference();
-        let sides = reference.facets.iter().filter(|_| facet.kind.dimension() == 2);
-        let sides = sides.map(|(_, nodes)| [nodes[0], nodes[1], nodes[2]]);
-        let line = (facet.kind.dimension() == 1).then_some([0, 1, 2]);
-        for [a, b, middle] in sides.chain(line) {
-            let [a, b] = [facet.nodes[a], facet.nodes[b]];
-            edges.push([a.min(b), a.max(b), facet.nodes[middle]]);
-        }
-    }
-    edges.sort_unstable();
-    edges.dedup();
-    edges
-}
 
 impl<const D: usize> Shell<D> {
     /// What of the curved edges is deepest inside another boundary.
@@ -69,12 +48,12 @@ impl<const D: usize> Shell<D> {
     }
 
     /// A box around a curved edge.
-    fn room_of(&self, edge: &Curved) -> Aabb<D> {
+    fn room_of(&self, edge: &[u32; 3]) -> Aabb<D> {
         Aabb::of(edge.map(|n| self.at(n))).scaled(overshoot(CellKind::Line3))
     }
 
     /// Where on a curved edge a value is lowest, and the value: the least at a few places, and from there on by parabolas.
-    fn lowest(&self, edge: &Curved, value: &impl Fn(&Vector<D>) -> f64) -> (Vector<D>, f64) {
+    fn lowest(&self, edge: &[u32; 3], value: &impl Fn(&Vector<D>) -> f64) -> (Vector<D>, f64) {
         let [a, b, middle] = edge.map(|n| self.at(n));
         let at = |t: f64| a * (0.5 * t * (t - 1.0)) + b * (0.5 * t * (t + 1.0)) + middle * (1.0 - t * t);
         let there = |t: f64| (t, value(&at(t)));

@@ -4,13 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use carom_mesh::{CellKind, Facet, Surface, Vector};
 
-use super::curved::{Curved, curved_edges};
 use super::deep::Deep;
 use super::feature::Feature;
 use super::skin::Skin;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
-use crate::patch::{Patch, foot, rim};
+use crate::patch::{Patch, bows, foot, rim};
 use crate::project::normal;
 use crate::surface::{diameter, overshoot};
 use crate::tolerances::{MEASURE, SEARCH};
@@ -23,8 +22,8 @@ pub(super) struct Shell<const D: usize> {
     pub nodes: Vec<(u32, Vec<u32>)>,
     /// Its edges from node to node, and the smaller of their facets; in the plane the facets themselves.
     pub edges: Vec<([u32; 2], u32)>,
-    /// Those of second order.
-    pub curved: Vec<Curved>,
+    /// Those of second order, each once, by their ends and the node between.
+    pub curved: Vec<[u32; 3]>,
     /// Diameters of its facets [m] where it was first, and of its smallest and its largest one.
     cells: Vec<f64>,
     pub least_cell: f64,
@@ -46,11 +45,16 @@ impl<const D: usize> Shell<D> {
         let facets: Vec<Facet> = surface.facets().iter().map(|f| f.numbered_from(first)).collect();
         let mut nodes = BTreeMap::new();
         let mut edges: BTreeMap<[u32; 2], (u32, usize)> = BTreeMap::new();
+        let mut curved = BTreeSet::new();
         for (f, facet) in (0..).zip(&facets) {
             facet.nodes.iter().for_each(|&n| nodes.entry(n).or_insert_with(Vec::new).push(f));
             for [a, b] in rim(facet.kind) {
                 let [a, b] = [facet.nodes[a], facet.nodes[b]];
                 edges.entry([a.min(b), a.max(b)]).or_insert((f, 0)).1 += 1;
+            }
+            for nodes in bows(facet.kind) {
+                let [a, b, middle] = nodes.map(|k| facet.nodes[k]);
+                curved.insert([a.min(b), a.max(b), middle]);
             }
         }
         let ends = if D == 2 {
@@ -64,7 +68,7 @@ impl<const D: usize> Shell<D> {
             x: vec![Vector::zeros(); nodes.keys().next_back().map_or(0, |last| (last - first) as usize + 1)],
             nodes: nodes.into_iter().collect(),
             edges: edges.into_iter().map(|(nodes, (f, _))| (nodes, f)).collect(),
-            curved: curved_edges(&facets),
+            curved: curved.into_iter().collect(),
             is_fitted: false,
             facets,
             cells: Vec::new(),

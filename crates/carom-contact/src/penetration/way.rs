@@ -5,13 +5,51 @@ use carom_mesh::Vector;
 use super::shell::Shell;
 use super::{Boundaries, Solid};
 use crate::Obstacle;
-use crate::aabb::Aabb;
 
-/// What moves from its start to its end: boxes around its path and around its motions.
+/// What moves from its start to its end. Nothing of it hangs on the axes.
 struct Mover<const D: usize> {
-    path: Aabb<D>,
-    motions: Aabb<D>,
+    /// Where its nodes start and end [m].
+    places: Vec<[Vector<D>; 2]>,
+    /// The mean of these, and how far they are from it at most [m].
+    centre: Vector<D>,
+    radius: f64,
+    /// The mean motion of its nodes, and how far theirs is from it at most [m].
+    motion: Vector<D>,
+    spread: f64,
     thickness: f64,
+}
+
+impl<const D: usize> Mover<D> {
+    fn new(places: Vec<[Vector<D>; 2]>, thickness: f64) -> Self {
+        let count = places.len().max(1) as f64;
+        let centre = places.iter().map(|[a, b]| a + b).sum::<Vector<D>>() / (2.0 * count);
+        let motion = places.iter().map(|[a, b]| b - a).sum::<Vector<D>>() / count;
+        let all = places.iter().flatten();
+        let radius = all.map(|x| (x - centre).norm_squared()).fold(0.0, f64::max).sqrt();
+        let beside = places.iter().map(|[a, b]| (b - a - motion).norm_squared());
+        let spread = beside.fold(0.0, f64::max).sqrt();
+        Self { places, centre, radius, motion, spread, thickness }
+    }
+
+    /// Whether no plane that is at right angles to the line of their middles, or to their motion against one another, is between their ways.
+    fn may_meet(&self, other: &Self) -> bool {
+        let axes = [other.centre - self.centre, other.motion - self.motion];
+        axes.iter().all(|axis| {
+            let [own, others] = [self, other].map(|mover| mover.extent(axis));
+            own[0] <= others[1] && others[0] <= own[1]
+        })
+    }
+
+    /// From where to where it reaches along an axis.
+    fn extent(&self, axis: &Vector<D>) -> [f64; 2] {
+        let along = self.places.iter().flatten().map(|x| axis.dot(x));
+        along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+    }
+
+    /// How far something that moves by `motion` [m], give or take `spread`, moves against it at most.
+    fn against(&self, motion: &Vector<D>, spread: f64) -> f64 {
+        (motion - self.motion).norm() + self.spread + spread
+    }
 }
 
 impl<const D: usize> Boundaries<D> {
@@ -39,18 +77,17 @@ impl<const D: usize> Boundaries<D> {
         let mut parts = 1;
         for (i, a) in movers.iter().enumerate() {
             for (j, b) in movers.iter().enumerate().skip(i + 1) {
-                if a.path.overlaps(&b.path) && counts([Solid::Body(i), Solid::Body(j)]) {
-                    let motion = a.motions.union(&b.motions).diameter();
+                if counts([Solid::Body(i), Solid::Body(j)]) && a.may_meet(b) {
+                    let motion = a.against(&b.motion, b.spread);
                     parts = parts.max(parts_of(motion, a.thickness.min(b.thickness)));
                 }
             }
             for (o, (obstacle, skin)) in obstacles.iter().zip(&self.skins).enumerate() {
                 let ends = [obstacle.shift(start), obstacle.shift(end)];
                 let own = ends[1] - ends[0];
-                let reach = 0.5 * a.path.diameter() + own.norm();
-                let is_near = obstacle.shape.gap(&(a.path.centre() - ends[0])).0 <= reach;
+                let is_near = obstacle.shape.gap(&(a.centre - ends[0])).0 <= a.radius + own.norm();
                 if skin.thickness.is_finite() && is_near && counts([Solid::Body(i), Solid::Obstacle(o)]) {
-                    let motion = a.motions.union(&Aabb::of([own])).diameter();
+                    let motion = a.against(&own, 0.0);
                     parts = parts.max(parts_of(motion, a.thickness.min(skin.thickness)));
                 }
             }
@@ -66,11 +103,7 @@ fn parts_of(motion: f64, thickness: f64) -> usize {
 
 impl<const D: usize> Shell<D> {
     fn mover(&self, start: &impl Fn(u32) -> Vector<D>, end: &impl Fn(u32) -> Vector<D>) -> Mover<D> {
-        let nodes = || self.nodes.iter().map(|(n, _)| (start(*n), end(*n)));
-        Mover {
-            path: Aabb::of(nodes().flat_map(|(a, b)| [a, b])),
-            motions: Aabb::of(nodes().map(|(a, b)| b - a)),
-            thickness: self.least_cell,
-        }
+        let places = self.nodes.iter().map(|(n, _)| [start(*n), end(*n)]).collect();
+        Mover::new(places, self.least_cell)
     }
 }

@@ -290,6 +290,12 @@ impl<const D: usize> Simulation<D> {
         self.totals.newton_iterations
     }
 
+    /// Time spent so far in search of contacts and in measures of what is inside what.
+    #[must_use]
+    pub fn detection_time(&self) -> Duration {
+        self.work.detection_time
+    }
+
     /// Time spent in the friction solver so far.
     #[must_use]
     pub fn friction_time(&self) -> Duration {

@@ -27,6 +27,10 @@ pub(super) fn iterate<const D: usize>(
 ) -> Result<usize, StepError> {
     let Workspace { contacts, newton, motion, .. } = work;
     contacts.active.select(given, &contacts.finder.search);
+    if !given.interval.map.is_static() {
+        // The guess that softened contacts would go back to may be of other contacts, where the step is repeated.
+        contacts.soften();
+    }
     for (i, progress) in newton.progress.iter_mut().enumerate() {
         *progress = BodyProgress::new(nodal::largest(&motion[given.assembly.nodes(i)]));
     }

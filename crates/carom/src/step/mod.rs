@@ -20,6 +20,8 @@ mod stability;
 mod waking;
 pub(crate) mod workspace;
 
+use std::time::Instant;
+
 use carom_mesh::{Vector, nodal};
 
 use self::commit::commit;
@@ -27,7 +29,7 @@ use self::control::SEARCH;
 use self::equilibrate::set_out;
 use self::iterate::iterate;
 use self::measure::measure;
-use self::report::StepReport;
+use self::report::{PenetrationReport, StepReport};
 use self::waking::wake;
 use self::workspace::Workspace;
 use crate::body::Interval;
@@ -68,8 +70,10 @@ pub(crate) fn step_over<const D: usize>(
     let mut margin = predict(&given, work)? + reach;
     let mut iterations = 0;
     for repetition in 0..SEARCH.repetitions {
+        let since = Instant::now();
         let Workspace { contacts, motion, .. } = work;
         contacts.finder.find(&given, motion, margin, repetition, &mut contacts.active);
+        work.detection_time += since.elapsed();
         let made = iterate(&given, next, work);
         if made.is_err() {
             // A factor that was made on the way to nowhere would mislead the next attempt.
@@ -83,13 +87,10 @@ pub(crate) fn step_over<const D: usize>(
             continue;
         }
         iterations += made?;
-        if !work.contacts.finder.missed_one(&given, next) {
-            let penetration = measure(&given, next, work)?;
-            let Workspace { contacts, boundaries, .. } = work;
-            if repetition < SEARCH.measured && contacts.finder.missed_by(&given, next, boundaries.witnesses())
-            {
-                continue;
-            }
+        let since = Instant::now();
+        let penetration = looked_at(&given, next, repetition, work);
+        work.detection_time += since.elapsed();
+        if let Some(penetration) = penetration? {
             let report = commit(&given, next, work, iterations)?;
             if wake(&given, next, work) {
                 continue;
@@ -100,6 +101,22 @@ pub(crate) fn step_over<const D: usize>(
         }
     }
     Err(StepError::MissedContact { margin })
+}
+
+/// Looks at where a step led to: what is inside what. None if a contact was missed, with which the step is to be repeated.
+fn looked_at<const D: usize>(
+    given: &Given<'_, D>,
+    next: &State<D>,
+    repetition: usize,
+    work: &mut Workspace<D>,
+) -> Result<Option<PenetrationReport>, StepError> {
+    if work.contacts.finder.missed_one(given, next) {
+        return Ok(None);
+    }
+    let penetration = measure(given, next, work)?;
+    let Workspace { contacts, boundaries, .. } = work;
+    let is_left = repetition >= SEARCH.measured;
+    Ok((is_left || !contacts.finder.missed_by(given, next, boundaries.witnesses())).then_some(penetration))
 }
 
 /// The start of the iterations: free flight, d = Δt v, but for what is prescribed, and bodies that are ready for the step. Returns the margin of
@@ -123,8 +140,6 @@ fn predict<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) -> Res
     }
     if interval.map.is_static() {
         set_out(given, work)?;
-    } else {
-        work.contacts.reduced.delassus.stiffened.clear();
     }
     let drift = || {
         let means = work.bodies.iter().enumerate().map(|(i, body)| {

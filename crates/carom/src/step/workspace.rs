@@ -35,6 +35,8 @@ pub struct Workspace<const D: usize> {
     pub body_ledgers: Vec<BodyLedger>,
     /// Factorisations made so far.
     pub factorisations: u64,
+    /// Time spent so far in search of contacts and in measures of what is inside what.
+    pub detection_time: Duration,
 }
 
 impl<const D: usize> Workspace<D> {
@@ -59,6 +61,7 @@ impl<const D: usize> Workspace<D> {
             pair_reports: vec![PairReport::default(); assembly.named_pairs.len()],
             body_ledgers: vec![BodyLedger::default(); bodies.len()],
             factorisations: 0,
+            detection_time: Duration::ZERO,
             bodies,
         }
     }
@@ -66,6 +69,7 @@ impl<const D: usize> Workspace<D> {
     /// The same with what `before` has counted.
     pub(crate) fn counting_on(mut self, before: &Self) -> Self {
         self.factorisations = before.factorisations;
+        self.detection_time = before.detection_time;
         self.contacts.reduced.friction_time = before.friction_time();
         self
     }
