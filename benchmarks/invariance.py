@@ -1,11 +1,12 @@
 """Random small scenes told in other words: what is the same must move the same.
 
-    .venv/bin/python benchmarks/invariance.py [scenes per condition] [condition ...]
+    .venv/bin/python benchmarks/invariance.py [scenes per setting] [setting ...]
 
 Two or three blocks are thrown at one another and a floor, on meshes of their own. Every scene is
 run as it is, with nodes and cells in another order, bodies in another order, turned, mirrored,
-shifted, and in millimetres and milliseconds. Prints for every condition and every such change the
-largest difference of an energy term at any time, relative to the largest energy, and where.
+shifted, and in millimetres and milliseconds. Settings are the contact conditions, and mortar pairs
+with those that know them. Prints for every setting and every such change the largest difference of
+an energy term at any time, relative to the largest energy, and where.
 """
 
 from __future__ import annotations
@@ -27,7 +28,13 @@ from carom.building.build import build
 
 TERMS = ("kinetic", "strain", "friction")
 STEPS = 60
-CONDITIONS = ("midpoint", "gap", "endpoint", "massless")
+SETTINGS: dict[str, dict[str, Any]] = {
+    **{name: {"condition": name} for name in ("midpoint", "gap", "endpoint", "massless")},
+    **{
+        f"mortar-{name}": {"condition": name, "discretisation": "mortar"}
+        for name in ("midpoint", "gap", "endpoint")
+    },
+}
 SHIFT = np.array([3.0, -2.0, 1.5])
 
 
@@ -217,7 +224,7 @@ def energies(scene: Scene, contact: dict[str, Any]) -> np.ndarray:
     return kept
 
 
-def differences(condition: str, seed: int) -> dict[str, tuple[float, int]]:
+def differences(setting: str, seed: int) -> dict[str, tuple[float, int]]:
     """Return for every change of a scene how far it moves otherwise, and from which step on.
 
     The first is the largest difference of an energy term at any time, relative to the largest
@@ -225,10 +232,10 @@ def differences(condition: str, seed: int) -> dict[str, tuple[float, int]]:
     """
     rng = np.random.default_rng(seed)
     scene = made(rng, 2 + seed % 2)
-    base = energies(scene, {"condition": condition})
+    base = energies(scene, SETTINGS[setting])
     apart = {}
     for name, change in CHANGES.items():
-        other = energies(change(scene, rng), {"condition": condition})
+        other = energies(change(scene, rng), SETTINGS[setting])
         by = np.abs(other - base) / np.nanmax(np.abs(base))
         if (np.isnan(other) != np.isnan(base)).any():
             by[0, 0] = np.inf
@@ -241,14 +248,14 @@ def main() -> None:
     """Print the table."""
     words = sys.argv[1:]
     count = next((int(word) for word in words if word.isdigit()), 10)
-    for condition in [word for word in words if word in CONDITIONS] or CONDITIONS:
+    for setting in [word for word in words if word in SETTINGS] or SETTINGS:
         worst = dict.fromkeys(CHANGES, (0.0, ""))
         for seed in range(count):
-            for name, (value, step) in differences(condition, seed).items():
+            for name, (value, step) in differences(setting, seed).items():
                 if value > worst[name][0]:
                     worst[name] = value, f"scene {seed}, from step {step}"
         for name, (value, where) in worst.items():
-            print(f"{condition:10} {name:16}{value:10.1e}  {where}", flush=True)
+            print(f"{setting:16} {name:16}{value:10.1e}  {where}", flush=True)
 
 
 if __name__ == "__main__":

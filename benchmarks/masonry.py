@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from scene_list import Map, shaped
+from scene_list.making import Map, shaped
 
 import carom
 

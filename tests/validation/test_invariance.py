@@ -17,10 +17,13 @@ SCENES = [
     *(("gap", seed) for seed in (1, 4)),
     *(("endpoint", seed) for seed in (6, 7)),
     *(("massless", seed) for seed in (0, 6, 7)),
+    *(("mortar-midpoint", seed) for seed in (0, 5)),
+    ("mortar-gap", 5),
+    ("mortar-endpoint", 2),
 ]
 
 
-@pytest.mark.parametrize(("condition", "seed"), SCENES)
-def test_numbers_order_pose_and_units_change_nothing(condition, seed):
-    apart = invariance.differences(condition, seed)
+@pytest.mark.parametrize(("setting", "seed"), SCENES)
+def test_numbers_order_pose_and_units_change_nothing(setting, seed):
+    apart = invariance.differences(setting, seed)
     assert {name: by for name, (by, _) in apart.items() if by > 1e-10} == {}

@@ -63,6 +63,11 @@ impl<const D: usize> Aabb<D> {
         (self.high - self.low).min()
     }
 
+    /// How far from its centre it goes: half its diagonal, and a hundredth of that for round-off [m].
+    pub fn reach(&self) -> f64 {
+        0.505 * self.diameter()
+    }
+
     /// Length of the diagonal.
     pub fn diameter(&self) -> f64 {
         (self.high - self.low).norm()

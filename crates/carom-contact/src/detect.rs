@@ -45,7 +45,7 @@ impl<const D: usize> ContactModel<D> {
                     None => match &self.surfaces[pair.source].ball {
                         Some(ball) => self.detect_ball((p, ball), &self.obstacles[o], path, out),
                         None => {
-                            self.detect_round(p, &self.obstacles[o], path, out);
+                            self.detect_round(p, &self.obstacles[o], path, search, out);
                             self.detect_between(p, &self.obstacles[o], path, out);
                         }
                     },
@@ -73,8 +73,15 @@ impl<const D: usize> ContactModel<D> {
         pair: usize,
         obstacle: &Obstacle<D>,
         path: &Path<'_, D, S, E>,
+        search: &Search<D>,
         out: &mut Vec<Candidate>,
     ) {
+        // The distance from an obstacle changes by no more than the way.
+        let room = search.room_of_sources(self.pairs[pair].source);
+        let (centre, reach) = (room.centre(), path.margin + room.reach());
+        if !(obstacle.is_near(&centre, reach, path.start) || obstacle.is_near(&centre, reach, path.end)) {
+            return;
+        }
         let near = |&&node: &&u32| {
             obstacle.is_near(&(path.start)(node), path.margin, path.start)
                 || obstacle.is_near(&(path.end)(node), path.margin, path.end)

@@ -56,7 +56,9 @@ impl<const D: usize> ContactModel<D> {
                     if distance > smallest.max(0.0) {
                         break;
                     }
-                    let gap = signed_distance(&x, target, &tree, position);
+                    // Outside of the box of the target nothing is behind a facet: what is farther than the smallest so far has no say.
+                    let reach = if distance > 0.0 { smallest } else { f64::INFINITY };
+                    let gap = signed_distance_within(reach, &x, target, &tree, position);
                     smallest = smallest.min(gap);
                     keep(gap, x);
                 }
@@ -116,8 +118,19 @@ fn signed_distance<const D: usize>(
     tree: &Bvh<D>,
     position: &impl Fn(u32) -> Vector<D>,
 ) -> f64 {
+    signed_distance_within(f64::INFINITY, x, surface, tree, position)
+}
+
+/// The same where only distances up to `reach` [m] matter: a larger one may come out larger still, also infinite.
+fn signed_distance_within<const D: usize>(
+    reach: f64,
+    x: &Vector<D>,
+    surface: &ContactSurface,
+    tree: &Bvh<D>,
+    position: &impl Fn(u32) -> Vector<D>,
+) -> f64 {
     let (mut distance, mut side) = (f64::INFINITY, 0.0);
-    tree.nearest(x, |f, facet_box| {
+    tree.nearest_within(reach, x, |f, facet_box| {
         let tie = MEASURE.same * facet_box.diameter();
         let p = surface.project(f, x, Reach::Facet, position);
         let d = (x - p.point).norm();
@@ -128,7 +141,7 @@ fn signed_distance<const D: usize>(
             // At a shared corner the facet seen most squarely decides the side.
             (distance, side) = (distance.min(d), front);
         }
-        distance + tie
+        reach.min(distance + tie)
     });
     distance.copysign(side)
 }

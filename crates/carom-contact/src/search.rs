@@ -78,6 +78,11 @@ impl<const D: usize> Search<D> {
         self.swept(solid).whole.inflated(margin)
     }
 
+    /// A box around the paths of the sources of a surface.
+    pub(crate) fn room_of_sources(&self, surface: usize) -> &Aabb<D> {
+        &self.surfaces[surface].sources
+    }
+
     pub(crate) fn swept(&self, solid: Solid) -> &Swept<D> {
         match solid {
             Solid::Body(i) => &self.surfaces[i],
@@ -111,7 +116,7 @@ impl<const D: usize> Search<D> {
                     let source = &mut self.surfaces[pair.source];
                     (source.is_source, source.is_faced) = (true, true);
                 }
-                Target::Obstacle(_) => {}
+                Target::Obstacle(_) => self.surfaces[pair.source].is_source = true,
             }
         }
         for (swept, surface) in self.surfaces.iter_mut().zip(&model.surfaces) {

@@ -88,7 +88,7 @@ pub(crate) struct MortarTolerances {
     /// Cosine of the largest angle, 60°, between a normal and the opposite one for facets to face one another. Those at the sides of bodies
     /// that stand on one another do not.
     pub opposed: f64,
-    /// How far apart the boxes of facets may be so that a multiplier sees all of the target that covers it, in diameters.
+    /// How far apart the balls around facets may be so that a multiplier sees all of the target that covers it, in diameters of both.
     pub reach: f64,
     /// How deep a facet may be behind another, in diameters of the smaller: the far sides of thin bodies that touch are deeper.
     pub depth: f64,
@@ -100,7 +100,7 @@ pub(crate) struct MortarTolerances {
 
 /// The tolerances of all mortar pairs.
 pub(crate) const MORTAR: MortarTolerances =
-    MortarTolerances { opposed: 0.5, reach: 1.0, depth: 0.25, negligible: 1e-14, covered: 1e-12 };
+    MortarTolerances { opposed: 0.5, reach: 0.5, depth: 0.25, negligible: 1e-14, covered: 1e-12 };
 
 /// What distances and the measure of penetration take for one point, for inside, and for worth a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,6 +116,9 @@ pub(crate) struct MeasureTolerances {
     pub finest: f64,
     /// Steps in search of the deepest place of a segment in an obstacle; each leaves two thirds of it.
     pub thirds: usize,
+    /// Into how many parts a curved edge is cut in search of its deepest place, and how many parabolas lead there from the best of their ends.
+    pub places: usize,
+    pub parabolas: usize,
     /// What is deeper than this, relative to the diameter of its facet, and than the arcs that facets stand for, is a witness. Facets of four
     /// nodes that are not quite flat go through one another by a tenth of it where flat sides slide on one another; with a thousandth of it
     /// such steps took four times as many iterations.
@@ -131,6 +134,8 @@ pub(crate) const MEASURE: MeasureTolerances = MeasureTolerances {
     closed: 1e-3,
     finest: 0.01,
     thirds: 40,
+    places: 8,
+    parabolas: 2,
     witnessed: 1e-6,
     accounts: 0.5,
 };

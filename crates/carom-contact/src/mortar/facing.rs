@@ -7,6 +7,7 @@ use super::clip::{Polygon, intersection, orient};
 use super::plane::Plane;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
+use crate::surface::diameter;
 use crate::tolerances::MORTAR;
 use crate::{ContactModel, ContactSurface, Path, Target};
 
@@ -31,32 +32,29 @@ impl<const D: usize> ContactModel<D> {
     ) {
         let Target::Surface(target) = self.pairs[pair].target else { return };
         let (source, target) = (&self.surfaces[self.pairs[pair].source], &self.surfaces[target]);
-        let (middle, margin) = (|n: u32| path.middle(n), path.margin);
-        let swept = |surface: &ContactSurface, f: usize| {
-            let nodes = surface.facets[f].nodes.iter();
-            let facet_box = Aabb::of(nodes.flat_map(|&n| path.ends(n)));
-            facet_box.inflated(margin + MORTAR.reach * facet_box.diameter())
-        };
-        let whole = |surface: &ContactSurface| {
-            Aabb::of(surface.nodes.iter().flat_map(|&n| path.ends(n))).inflated(margin)
-        };
+        let middle = |n: u32| path.middle(n);
+        let [of_source, of_target] = [source, target].map(|surface| {
+            let rooms = surface.facets.iter().map(|facet| Room::swept(facet, path));
+            rooms.collect::<Vec<_>>()
+        });
+        let whole = |rooms: &[Room<D>]| rooms.iter().fold(Aabb::of([]), |all, r| all.union(&r.bounds()));
         // The facets that come near the other side at all.
-        let near = |surface: &ContactSurface, other: &Aabb<D>| -> Vec<Near<D>> {
-            let all = (0..surface.facets.len()).map(|f| (f, swept(surface, f)));
-            all.filter(|(_, b)| b.overlaps(other))
-                .filter_map(|(f, room)| Near::new(f as u32, &surface.facets[f], room, &middle))
+        let near = |surface: &ContactSurface, rooms: &[Room<D>], other: &Aabb<D>| -> Vec<Near<D>> {
+            let all = rooms.iter().enumerate();
+            all.filter(|(_, room)| room.bounds().overlaps(other))
+                .filter_map(|(f, room)| Near::new(f as u32, &surface.facets[f], *room, &middle))
                 .collect()
         };
-        let targets = near(target, &whole(source));
+        let targets = near(target, &of_target, &whole(&of_source));
         if targets.is_empty() {
             return;
         }
-        let tree = Bvh::new(targets.iter().map(|t| t.room));
-        for own in near(source, &whole(target)) {
+        let tree = Bvh::new(targets.iter().map(|t| t.room.bounds()));
+        for own in near(source, &of_source, &whole(&of_target)) {
             let first = out.len();
-            tree.overlapping(&own.room, |k, _| {
+            tree.overlapping(&own.room.bounds(), |k, _| {
                 let other = &targets[k as usize];
-                if own.faces(other, margin) {
+                if own.room.meets(&other.room) && own.faces(other, path.margin) {
                     out.push(Facing { pair: pair as u32, source: own.facet, target: other.facet });
                 }
             });
@@ -65,11 +63,38 @@ impl<const D: usize> ContactModel<D> {
     }
 }
 
+/// A ball around the path of a facet and what it reaches: the same however both are turned.
+#[derive(Debug, Clone, Copy)]
+struct Room<const D: usize> {
+    centre: Vector<D>,
+    /// Its radius [m].
+    radius: f64,
+}
+
+impl<const D: usize> Room<D> {
+    fn swept<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        facet: &Facet,
+        path: &Path<'_, D, S, E>,
+    ) -> Self {
+        let places = || facet.nodes.iter().flat_map(|&n| path.ends(n));
+        let centre = places().sum::<Vector<D>>() / (2 * facet.nodes.len()) as f64;
+        let around = places().map(|x| (x - centre).norm_squared()).fold(0.0, f64::max).sqrt();
+        Self { centre, radius: around + path.margin + MORTAR.reach * diameter(facet, &|n| path.middle(n)) }
+    }
+
+    fn bounds(&self) -> Aabb<D> {
+        Aabb::of([self.centre]).inflated(self.radius)
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        (self.centre - other.centre).norm_squared() <= (self.radius + other.radius).powi(2)
+    }
+}
+
 /// A facet that is near the other side.
 struct Near<const D: usize> {
     facet: u32,
-    /// The box around its path and what it reaches [m].
-    room: Aabb<D>,
+    room: Room<D>,
     /// Its corners [m] and its plane in the middle of the step.
     corners: SmallVec<[Vector<D>; 4]>,
     plane: Plane<D>,
@@ -78,12 +103,11 @@ struct Near<const D: usize> {
 }
 
 impl<const D: usize> Near<D> {
-    fn new(number: u32, facet: &Facet, room: Aabb<D>, position: &impl Fn(u32) -> Vector<D>) -> Option<Self> {
+    fn new(number: u32, facet: &Facet, room: Room<D>, position: &impl Fn(u32) -> Vector<D>) -> Option<Self> {
         let corners: SmallVec<[Vector<D>; 4]> =
             facet.nodes[..facet.kind.corner_count()].iter().map(|&n| position(n)).collect();
-        let size = Aabb::of(corners.iter().copied()).diameter();
         let plane = Plane::through(&corners)?;
-        Some(Self { facet: number, room, corners, plane, size })
+        Some(Self { facet: number, room, corners, plane, size: diameter(facet, position) })
     }
 
     /// Whether a facet is opposite and not far behind: neither its centre nor all of it that covers this one. Of a facet that is long or inclined

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use carom_mesh::Vector;
 use smallvec::SmallVec;
 
-use super::clip::{intersection, simplices, size};
+use super::clip::{cut, intersection, simplices, size};
 use super::plane::{Image, Plane};
 use super::quadrature::rule;
 use super::row::Row;
@@ -62,7 +62,7 @@ pub(super) fn integrate<const D: usize>(
             let mut overlap = 0.0;
             for &(_, target_corners) in parts(target.kind) {
                 let common = intersection(dimension, &outline, &other.polygon(target_corners));
-                for simplex in simplices(dimension, &common) {
+                for simplex in cut(dimension, &common) {
                     let simplex_size = size(dimension, &simplex);
                     if simplex_size <= MORTAR.negligible * whole {
                         continue;

@@ -12,7 +12,11 @@ impl<const D: usize> Shell<D> {
     /// What of this boundary is deepest inside an obstacle that has moved by `shift` [m].
     pub fn inside_of_obstacle(&self, shape: &RigidShape<D>, shift: &Vector<D>) -> Deep<D> {
         let gap = |x: &Vector<D>| shape.gap(&(x - shift)).0;
-        let mut deepest = Deep::none();
+        // The distance from an obstacle changes by no more than the way.
+        if gap(&self.bounds().centre()) > self.bounds().reach() {
+            return Deep::none();
+        }
+        let mut deepest = self.curves_behind(&gap);
         let mut look = |x: Vector<D>, f: u32| {
             let depth = -gap(&x);
             if depth > deepest.depth {
@@ -20,7 +24,7 @@ impl<const D: usize> Shell<D> {
             }
         };
         self.nodes.iter().for_each(|(node, around)| look(self.at(*node), around[0]));
-        // Of a half space and of a cavity no point between nodes is deeper than these.
+        // Of a half space and of a cavity no point of a straight line is deeper than its ends.
         let bulges = match shape {
             RigidShape::Plane { .. } => false,
             RigidShape::Sphere { cavity, .. } | RigidShape::Cylinder { cavity, .. } => !cavity,
@@ -32,7 +36,6 @@ impl<const D: usize> Shell<D> {
         for &(nodes, f) in &self.edges {
             let ends = nodes.map(|n| self.at(n));
             let length = (ends[1] - ends[0]).norm();
-            // The distance from an obstacle changes by no more than the way.
             if ends.iter().map(gap).sum::<f64>() < length {
                 look(lowest(&ends, &gap), f);
             }

@@ -2,8 +2,10 @@
 //!
 //! Nothing here knows of candidates, contacts or conditions: it looks at whole boundaries, from both sides, and is what these are judged
 //! by. The depth of a point is its distance from the boundary of what it is inside of. The nodes of every boundary and the corners of
-//! obstacles are checked. So are the parts of every edge that run through the inside of another body, though its ends are outside.
+//! obstacles are checked. So are the parts of every edge that run through the inside of another body, though its ends are outside, and edges
+//! of second order along their curves.
 
+mod curved;
 mod deep;
 mod feature;
 mod in_obstacle;
@@ -97,6 +99,11 @@ impl<const D: usize> Boundaries<D> {
     #[must_use]
     pub fn least_cell(&self, body: usize) -> f64 {
         self.shells[body].least_cell
+    }
+
+    /// The nodes of the boundary of a body, ascending.
+    pub fn nodes(&self, body: usize) -> impl Iterator<Item = u32> + Clone {
+        self.shells[body].nodes.iter().map(|(node, _)| *node)
     }
 
     /// How far the largest arc that a facet of a body stands for is in front of it where it was first [m].

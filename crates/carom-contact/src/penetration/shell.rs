@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use carom_mesh::{CellKind, Facet, Surface, Vector};
 
+use super::curved::{Curved, curved_edges};
 use super::deep::Deep;
 use super::feature::Feature;
 use super::skin::Skin;
@@ -22,10 +23,12 @@ pub(super) struct Shell<const D: usize> {
     pub nodes: Vec<(u32, Vec<u32>)>,
     /// Its edges from node to node, and the smaller of their facets; in the plane the facets themselves.
     pub edges: Vec<([u32; 2], u32)>,
+    /// Those of second order.
+    pub curved: Vec<Curved>,
     /// Diameters of its facets [m] where it was first, and of its smallest and its largest one.
     cells: Vec<f64>,
     pub least_cell: f64,
-    largest_cell: f64,
+    pub largest_cell: f64,
     /// The arcs that its facets stand for where it was first [m].
     arcs: Vec<f64>,
     /// Nodes at which the boundary ends: where a tied side begins.
@@ -36,7 +39,6 @@ pub(super) struct Shell<const D: usize> {
     pub tree: Bvh<D>,
     bounds: Aabb<D>,
     is_fitted: bool,
-    is_quadratic: bool,
 }
 
 impl<const D: usize> Shell<D> {
@@ -62,7 +64,7 @@ impl<const D: usize> Shell<D> {
             x: vec![Vector::zeros(); nodes.keys().next_back().map_or(0, |last| (last - first) as usize + 1)],
             nodes: nodes.into_iter().collect(),
             edges: edges.into_iter().map(|(nodes, (f, _))| (nodes, f)).collect(),
-            is_quadratic: facets.iter().any(|f| f.kind.is_quadratic()),
+            curved: curved_edges(&facets),
             is_fitted: false,
             facets,
             cells: Vec::new(),
@@ -82,7 +84,7 @@ impl<const D: usize> Shell<D> {
         for (node, _) in &self.nodes {
             self.x[(*node - self.first) as usize] = position(*node);
         }
-        self.bounds = if self.is_quadratic {
+        self.bounds = if !self.curved.is_empty() {
             let facets = self.facets.iter().map(|facet| self.room(facet));
             facets.fold(Aabb::of([]), |all, room| all.union(&room))
         } else {
@@ -168,9 +170,16 @@ impl<const D: usize> Shell<D> {
     }
 
     /// How deep `x` is inside, or zero, and the facet that it is closest to; zero too where nothing is within `reach` [m].
+    fn depth(&self, x: &Vector<D>, reach: f64) -> (f64, u32) {
+        let (distance, nearest) = self.signed_distance(x, reach);
+        ((-distance).max(0.0), nearest)
+    }
+
+    /// The distance of `x` from the boundary, negative inside, and the facet that it is closest to; infinite where nothing is within `reach` [m].
+    /// Beyond its end a boundary has no inside.
     ///
     /// The side is that of the normals around the closest point, weighted by the angles of their facets there (Bærentzen & Aanæs 2005).
-    fn depth(&self, x: &Vector<D>, reach: f64) -> (f64, u32) {
+    pub fn signed_distance(&self, x: &Vector<D>, reach: f64) -> (f64, u32) {
         let (mut distance, mut side, mut nearest, mut is_end) = (f64::INFINITY, 0.0, 0, false);
         let position = |n: u32| self.at(n);
         self.tree.nearest_within(reach, x, |f, facet_box| {
@@ -193,7 +202,7 @@ impl<const D: usize> Shell<D> {
             }
             reach.min(distance + tie)
         });
-        (if side < 0.0 && !is_end { distance } else { 0.0 }, nearest)
+        (if side < 0.0 && !is_end { -distance } else { distance }, nearest)
     }
 
     /// What of this boundary is deepest inside another. Tells `witness` of all that is.
@@ -226,7 +235,7 @@ impl<const D: usize> Shell<D> {
             let ends = nodes.map(|n| self.at(n));
             note(other.deepest_of_segment(&ends, Some(f)), Feature::Edge(nodes), f);
         }
-        deepest
+        deepest.deeper(self.curves_inside_of(other))
     }
 
     /// What of the corners and edges of an obstacle that has moved by `shift` [m] is deepest inside.

@@ -301,10 +301,15 @@ pub trait Body<const D: usize>: Send + Sync {
     fn mass_of(&self, node: u32) -> f64;
 
     /// What an `impulse` [N s] makes of the velocities: writes Δv = M⁻¹ p [m/s] to `change`, zero where displacements are held, and where they
-    /// are replaces the impulse by M Δv, which the supports see to. The body is at the end of a step in `state`. It is asked of no body with
-    /// nodes without mass.
-    fn jolt(&mut self, impulse: &mut [Vector<D>], state: &BodyState<'_, D>, change: &mut [Vector<D>])
-    -> Jolt;
+    /// are replaces the impulse by M Δv, which the supports see to. What they give for that is added to `support`, the impulse of every support of
+    /// the model [N s]. The body is at the end of a step in `state`. It is asked of no body with nodes without mass.
+    fn jolt(
+        &mut self,
+        impulse: &mut [Vector<D>],
+        state: &BodyState<'_, D>,
+        change: &mut [Vector<D>],
+        support: &mut [Vector<D>],
+    ) -> Jolt;
 
     /// The velocity [m/s] of a node, `velocity` at the start of the step, where the body has turned half way through it as was last guessed. A rigid
     /// body knows it better than its nodes.

@@ -69,6 +69,8 @@ pub(crate) struct Impulses<const D: usize> {
     takes_part: Vec<bool>,
     /// What guides would do against the impulses on every body [J].
     borne: Vec<f64>,
+    /// The impulses [N s] that supports would give, each with the body and the support.
+    supports: Vec<(usize, usize, Vector<D>)>,
     /// For every body one that it is connected with; the one that stands for its group stands for itself.
     next: Vec<usize>,
     groups: Vec<Group>,
@@ -86,6 +88,7 @@ impl<const D: usize> Impulses<D> {
             change: vec![Vector::zeros(); nodes],
             takes_part: vec![false; bodies],
             borne: vec![0.0; bodies],
+            supports: Vec::new(),
             next: vec![0; bodies],
             groups: vec![Group::default(); bodies],
         }
@@ -215,18 +218,25 @@ impl<const D: usize> Impulses<D> {
 
     /// Asks the bodies what the impulses make of their velocities.
     fn respond(&mut self, given: &Given<'_, D>, bodies: &mut [Box<dyn Body<D>>], new: &State<D>) {
+        self.supports.clear();
+        let mut support = vec![Vector::zeros(); new.support.len()];
         for (i, body) in bodies.iter_mut().enumerate() {
             if self.takes_part[i] {
                 let (nodes, group) = (given.assembly.nodes(i), self.group(i));
                 let (force, change) = (&mut self.force[nodes.clone()], &mut self.change[nodes.clone()]);
-                let Jolt { power, borne } = body.jolt(force, &new.body(i, nodes), change);
+                let Jolt { power, borne } = body.jolt(force, &new.body(i, nodes), change, &mut support);
                 self.groups[group].power += power;
                 self.borne[i] = borne;
+                for (k, impulse) in support.iter_mut().enumerate() {
+                    if impulse.norm_squared() > 0.0 {
+                        self.supports.push((i, k, std::mem::replace(impulse, Vector::zeros())));
+                    }
+                }
             }
         }
     }
 
-    /// Changes the velocities of the bodies and their energies.
+    /// Changes the velocities of the bodies, their energies and the forces of supports.
     fn move_bodies(
         &mut self,
         given: &Given<'_, D>,
@@ -234,6 +244,9 @@ impl<const D: usize> Impulses<D> {
         ledgers: &mut [BodyLedger],
         scale: impl Fn(&Group) -> f64,
     ) {
+        for &(body, k, impulse) in &self.supports {
+            new.support[k] += impulse * (scale(&self.groups[self.group(body)]) / given.interval.map.dt);
+        }
         for i in 0..self.takes_part.len() {
             if !self.takes_part[i] {
                 continue;

@@ -1,19 +1,21 @@
 //! Which bodies may touch themselves: few do, and those that cannot cost nothing.
 
-use carom_mesh::{Matrix, Vector, nodal, tensor};
+use carom_mesh::{Matrix, Vector, tensor};
 
 use super::control::WAKING;
 use super::workspace::Workspace;
 use crate::model::given::Given;
 use crate::model::state::State;
 
-/// Takes note of how far nodes wander in the step, and which bodies may have gone through themselves since they were looked at.
+/// Takes note of how far nodes of boundaries wander in the step, and which bodies may have gone through themselves since they were looked at.
 pub(super) fn wander<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) {
     let Workspace { motion, since_look, boundaries, .. } = work;
     for (i, look) in since_look.iter_mut().enumerate() {
-        let nodes = given.assembly.nodes(i);
-        let middle = |n: usize| given.position(n as u32) + motion[n] * 0.5;
-        look.in_step = against_one_another(&motion[nodes.clone()], |k| middle(nodes.start + k));
+        let moving = boundaries.nodes(i).map(|n| {
+            let d = motion[n as usize];
+            (given.position(n) + d * 0.5, d)
+        });
+        look.in_step = against_one_another(moving);
         look.is_due = look.wandered + look.in_step > WAKING.unseen * boundaries.least_cell(i);
     }
 }
@@ -43,27 +45,39 @@ pub(super) fn wake<const D: usize>(given: &Given<'_, D>, next: &State<D>, work: 
     is_surprise
 }
 
-/// How far nodes that make these `motions` and are at `middle` half way move beside their motion as a rigid body [m].
-fn against_one_another<const D: usize>(motions: &[Vector<D>], middle: impl Fn(usize) -> Vector<D>) -> f64 {
-    let count = motions.len().max(1) as f64;
-    let mean = nodal::total(motions) / count;
-    let centre = (0..motions.len()).map(&middle).sum::<Vector<D>>() / count;
+/// How far nodes that are at a place half way and make a motion, each given as (place, motion) [m], move beside their motion as a rigid
+/// body [m].
+fn against_one_another<const D: usize>(moving: impl Iterator<Item = (Vector<D>, Vector<D>)> + Clone) -> f64 {
+    let (mut count, mut centre, mut mean) = (0.0, Vector::<D>::zeros(), Vector::<D>::zeros());
+    for (x, d) in moving.clone() {
+        count += 1.0;
+        centre += x;
+        mean += d;
+    }
+    if count == 0.0 {
+        return 0.0;
+    }
+    (centre, mean) = (centre / count, mean / count);
     // Half way a rotation is at right angles to the offset from its centre, however large it is.
-    let (mut inertia, mut moment) = (Matrix::<3>::zeros(), Vector::<3>::zeros());
-    for (k, d) in motions.iter().enumerate() {
-        let r = middle(k) - centre;
-        let in_space = Vector::<3>::from_fn(|i, _| if i < D { r[i] } else { 0.0 });
-        inertia +=
-            Matrix::<3>::from_diagonal_element(in_space.norm_squared()) - in_space * in_space.transpose();
+    let (mut square, mut products) = (0.0, Matrix::<3>::zeros());
+    let mut moment = Vector::<3>::zeros();
+    for (x, d) in moving.clone() {
+        let r = x - centre;
+        square += r.norm_squared();
+        for i in 0..D {
+            for j in 0..D {
+                products[(i, j)] += r[i] * r[j];
+            }
+        }
         moment += Vector::<3>::from(tensor::cross(&r, &(d - mean)));
     }
+    let inertia = Matrix::<3>::from_diagonal_element(square) - products;
     let spin = inertia.cholesky().map_or_else(Vector::<3>::zeros, |j| j.solve(&moment));
     let turn = [spin[0], spin[1], spin[2]];
-    let off = |(k, d): (usize, &Vector<D>)| {
-        let r = middle(k) - centre;
-        (d - mean - tensor::rotation_velocity(&turn, &r)).norm_squared()
+    let off = |(x, d): (Vector<D>, Vector<D>)| {
+        (d - mean - tensor::rotation_velocity(&turn, &(x - centre))).norm_squared()
     };
-    motions.iter().enumerate().map(off).fold(0.0, f64::max).sqrt()
+    moving.map(off).fold(0.0, f64::max).sqrt()
 }
 
 #[cfg(test)]
@@ -77,10 +91,14 @@ mod tests {
         let turned =
             |x: &Vector<2>| Vector::<2>::new(cosine * x[0] - sine * x[1] + 3.0, sine * x[0] + cosine * x[1]);
         let mut motions: Vec<_> = x.iter().map(|x| turned(x) - x).collect();
-        let off = against_one_another(&motions, |k| x[k] + motions[k] * 0.5);
+        let moving = |motions: &[Vector<2>]| {
+            let all: Vec<_> = x.iter().zip(motions).map(|(x, d)| (x + d * 0.5, *d)).collect();
+            all.into_iter()
+        };
+        let off = against_one_another(moving(&motions));
         assert!(off < 1e-15, "{off:e}");
         motions[2][0] += 0.01;
-        let off = against_one_another(&motions, |k| x[k] + motions[k] * 0.5);
+        let off = against_one_another(moving(&motions));
         assert!((0.002..0.01).contains(&off), "{off:e}");
     }
 }

@@ -138,6 +138,7 @@ impl Body<2> for PointMass {
         impulse: &mut [Vector<2>],
         _state: &BodyState<'_, 2>,
         change: &mut [Vector<2>],
+        _support: &mut [Vector<2>],
     ) -> Jolt {
         change[0] = impulse[0] / MASS;
         Jolt::default()

@@ -415,12 +415,17 @@ impl<const D: usize> Body<D> for FeBody<D> {
         impulse: &mut [Vector<D>],
         state: &BodyState<'_, D>,
         change: &mut [Vector<D>],
+        support: &mut [Vector<D>],
     ) -> Jolt {
         let Self { part, mass_solver, pose, scratch, momentum, .. } = self;
         let body = &part.body;
         mass_solver.solve(body, impulse, change);
         if !body.held().is_empty() {
             body.mass().multiply(change, momentum);
+            for (dof, k) in part.supports.driven(body) {
+                let (n, i) = (dof.node as usize, dof.component as usize);
+                support[k][i] += momentum[n][i] - impulse[n][i];
+            }
             for dof in body.held().dofs() {
                 let (n, i) = (dof.node as usize, dof.component as usize);
                 impulse[n][i] = momentum[n][i];

@@ -235,6 +235,7 @@ impl<const D: usize> Body<D> for ForeignBody<D> {
         impulse: &mut [Vector<D>],
         _state: &BodyState<'_, D>,
         change: &mut [Vector<D>],
+        _support: &mut [Vector<D>],
     ) -> Jolt {
         self.held.clear(impulse);
         change.copy_from_slice(impulse);

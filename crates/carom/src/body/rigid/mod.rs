@@ -288,10 +288,12 @@ impl<const D: usize> Body<D> for RigidBody<D> {
         impulse: &mut [Vector<D>],
         state: &BodyState<'_, D>,
         change: &mut [Vector<D>],
+        support: &mut [Vector<D>],
     ) -> Jolt {
         let part = part(&self.body);
         let (shape, [along, about], held) = (&part.shape, part.free(), part.held());
-        // What presses on held displacements of nodes changes none of them.
+        // What presses on held displacements of nodes changes none of them: a guide bears it.
+        let pressed: Vector<D> = impulse.iter().sum();
         for force in impulse.iter_mut() {
             *force = Vector::from_fn(|i, _| if held[i] { 0.0 } else { force[i] });
         }
@@ -303,8 +305,10 @@ impl<const D: usize> Body<D> for RigidBody<D> {
         let twist = Twist { velocity: push / shape.mass, spin: pose::inverse_on(&about, &inertia) * turning };
         shape.velocities(&pose, &twist, change);
         let before = shape.twist(&pose, state.velocity);
+        let Some(guide) = &part.guide else { return Jolt::default() };
+        support[guide.number] += pose::lower::<D>(&push) - pressed;
         let borne = (push - wrench.force).dot(&before.velocity) + (turning - moment).dot(&before.spin);
-        Jolt { power: 0.0, borne: if part.guide.is_some() { borne } else { 0.0 } }
+        Jolt { power: 0.0, borne }
     }
 
     fn velocity_half_way(&self, node: u32, velocity: &Vector<D>) -> Vector<D> {
