@@ -83,12 +83,23 @@ def _contact(way: Way, discretisation: Discretisation, friction: float) -> carom
     return carom.Contact(friction=friction, discretisation=discretisation)
 
 
-def free_to_turn(cell: str, discretisation: Discretisation) -> carom.Scenario:
-    """Return the fit of a slice that nothing supports, without friction."""
+def free_to_turn(
+    cell: str, discretisation: Discretisation, facets: tuple[int, int] = (32, 48)
+) -> carom.Scenario:
+    """Return the fit of a slice that nothing supports, without friction.
+
+    The shaft and the hub have so many `facets` around.
+    """
     steel = carom.NeoHookean(young=YOUNG, poisson=POISSON, density=7800.0)
-    shaft = carom.Disc(centre=(0.0, 0.0), radius=RADIUS, divisions=8, cell=cell)
+    divisions = facets[0] // 4
+    rings = {} if divisions % 2 == 0 else {"rings": max(2, divisions // 2)}
+    shaft = carom.Disc(centre=(0.0, 0.0), radius=RADIUS, divisions=divisions, cell=cell, **rings)
     hub = carom.Ring(
-        centre=(0.0, 0.0), inner_radius=RADIUS, outer_radius=OUTER, divisions=(48, 8), cell=cell
+        centre=(0.0, 0.0),
+        inner_radius=RADIUS,
+        outer_radius=OUTER,
+        divisions=(facets[1], 8),
+        cell=cell,
     )
     return carom.Scenario(
         analysis=carom.Static(end_time=1.0, time_step=0.25),

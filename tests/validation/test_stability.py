@@ -57,3 +57,28 @@ def test_a_block_is_squeezed_until_it_buckles(tmp_path, is_guided, by_plates):
     # Meshes are too stiff. Measured: 9.3e-3 and 3.2e-3, without a guide 6.3e-3 and 1.1e-3.
     assert np.all(np.array(errors) > 0.0)
     assert errors[1] < 0.5 * errors[0] < 6e-3
+
+
+@pytest.mark.parametrize("steps", [6, 30])
+def test_a_slender_block_buckles_however_long_the_steps_are(tmp_path, steps):
+    """Symptom guarded against: it lay down on its side within a step, and the run was completed."""
+    width, height, down = 0.4, 1.0, 0.3
+    mesh = carom.Rectangle(corner=[0.0, 0.0], size=[width, height], divisions=[4, 8], cell="quad9")
+    scenario = carom.Scenario(
+        analysis=carom.Static(end_time=1.0, time_step=1.0 / steps),
+        output=carom.Output(history_every=1.0 / steps, fields_every=1.0),
+        materials={"rubber": carom.NeoHookean(young=1e6, poisson=0.3, density=1000.0)},
+        bodies=[carom.Body(name="block", material="rubber", mesh=mesh)],
+        obstacles=[
+            carom.Plane(name="below", point=[0.0, 0.0], normal=[0.0, 1.0]),
+            carom.Plane(
+                name="above", point=[0.0, height], normal=[0.0, -1.0], motion={"y": f"-{down}*t"}
+            ),
+        ],
+    )
+    with pytest.raises(carom.ConvergenceError, match=r"in stable equilibrium.*most along x"):
+        carom.run(scenario, out=tmp_path)
+    compression = down * carom.Result.open(tmp_path).history["time"][-1] / height
+    exact = critical_compression(0.3, width, height, is_guided=False)
+    # Measured: 1.0e-3.
+    assert compression == pytest.approx(exact, rel=0.02)

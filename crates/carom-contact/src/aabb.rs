@@ -53,6 +53,12 @@ impl<const D: usize> Aabb<D> {
         (0..D).map(|i| (self.low[i] - x[i]).max(x[i] - self.high[i]).max(0.0).powi(2)).sum::<f64>().sqrt()
     }
 
+    /// Distance between two boxes, zero where they overlap.
+    pub fn gap(&self, other: &Self) -> f64 {
+        let apart = |i: usize| (self.low[i] - other.high[i]).max(other.low[i] - self.high[i]).max(0.0);
+        (0..D).map(|i| apart(i).powi(2)).sum::<f64>().sqrt()
+    }
+
     /// The axis along which the box is longest.
     pub fn longest_axis(&self) -> usize {
         (self.high - self.low).imax()

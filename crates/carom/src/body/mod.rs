@@ -252,6 +252,11 @@ pub trait Body<const D: usize>: Send + Sync {
         self.renew(guess, false)
     }
 
+    /// Whether supports leave it a rigid motion. Corrections of load steps are then held back, however definite the tangent is.
+    fn is_loose(&self) -> bool {
+        false
+    }
+
     /// The motion that it resists least at a guess of a load step, with `springs` to the ground [N/m] and but for `neutral` motions; none if that is not
     /// known of such a body. K̄ is of no use afterwards.
     fn softest_motion(

@@ -19,8 +19,15 @@ pub(super) fn check_overlaps<const D: usize>(
 ) -> Result<(), InputError> {
     let at = |n: u32| model.assembly.reference[n as usize];
     let is_other = |pair: &&Pair| pair.target != Target::Surface(pair.source);
+    let mut extents = model.assembly.contact.extents(&at);
+    for (i, body) in model.bodies.iter().enumerate() {
+        extents.include(i, body.body.mesh().nodes().iter().copied());
+    }
     for pair in model.assembly.contact.pairs.iter().filter(is_other) {
         let least = least_gap(scenario, model, pair);
+        if model.assembly.contact.at_least(pair, &extents, &at) > least {
+            continue;
+        }
         let cure = cure(scenario, model.assembly.interferences.get(pair.named_pair));
         // Both directions are checked, whichever the contact condition uses.
         let mut directions = vec![*pair];

@@ -109,13 +109,16 @@ fn describe_pairs<const D: usize>(model: &Model<D>, state: &State<D>) -> Vec<Pai
     let Model { assembly, .. } = model;
     let at = |n: u32| assembly.reference[n as usize] + state.displacement[n as usize];
     let mut closest: Vec<Option<Proximity<D>>> = vec![None; assembly.named_pairs.len()];
+    let extents = assembly.contact.extents(&at);
+    let are_many = assembly.named_pairs.len() > MANY_PAIRS;
     for pair in &assembly.contact.pairs {
+        let is_far = |gap: f64| are_many && gap > assembly.pair_size(pair);
+        if is_far(assembly.contact.at_least(pair, &extents, &at)) {
+            continue;
+        }
         let known = &mut closest[pair.named_pair];
         let near = assembly.contact.proximity(pair, &at);
-        let is_far = |near: &Proximity<D>| {
-            assembly.named_pairs.len() > MANY_PAIRS && near.gap > assembly.pair_size(pair)
-        };
-        if let Some(near) = near.filter(|near| !is_far(near)) {
+        if let Some(near) = near.filter(|near| !is_far(near.gap)) {
             *known = Some(known.filter(|known| known.gap <= near.gap).unwrap_or(near));
         }
     }

@@ -1,3 +1,4 @@
+use carom_contact::Pair;
 use carom_mesh::Vector;
 
 use crate::run::stage::Stage;
@@ -185,20 +186,12 @@ impl<const D: usize> History<D> {
         }
         let since = std::mem::take(&mut self.since);
         let at = |n: u32| model.assembly.reference[n as usize] + state.displacement[n as usize];
-        let min_gap = model
-            .assembly
-            .contact
-            .pairs
-            .iter()
-            .filter_map(|p| {
-                let interference = &model.assembly.interferences[p.named_pair];
-                // A static analysis applies what is there at t = 0 in its first step.
-                let most = if state.time > 0.0 { f64::INFINITY } else { 0.0 };
-                let least = interference.least(state.time).min(most);
-                Some(model.assembly.contact.proximity(p, &at)?.gap - least)
-            })
-            // Nodes deep between others are closest to a side; the contacts know what they face.
-            .fold(if since.steps > 0 { since.min_gap } else { f64::INFINITY }, f64::min);
+        // A static analysis applies what is there at t = 0 in its first step.
+        let most = if state.time > 0.0 { f64::INFINITY } else { 0.0 };
+        let least = |p: &Pair| model.assembly.interferences[p.named_pair].least(state.time).min(most);
+        let smallest = model.assembly.contact.smallest_gap(least, &at);
+        // Nodes deep between others are closest to a side; the contacts know what they face.
+        let min_gap = if since.steps > 0 { since.min_gap.min(smallest) } else { smallest };
         self.rows.extend([
             since.contacts as f64,
             min_gap,

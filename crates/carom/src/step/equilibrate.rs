@@ -8,7 +8,7 @@ use super::hold::{driven_least, left_alone, not_held};
 use super::newton::control::LOAD_STEP;
 use super::newton::holding::Holding;
 use super::newton::load_step::{LoadStep, Verdict};
-use super::stability::{self, about_to_give_way};
+use super::stability::{self, about_to_give_way, is_in_question};
 use super::workspace::Workspace;
 use crate::body::{Body, Guess, Tangent};
 use crate::contact::Contacts;
@@ -29,7 +29,7 @@ pub(super) fn equilibrate<const D: usize>(
 ) -> Result<usize, StepError> {
     match approach(bodies, given, next, work) {
         Ok(iterations) => {
-            if bodies.iter().any(|&i| work.newton.holding[i].was_indefinite) {
+            if bodies.iter().any(|&i| is_in_question(i, work)) {
                 stability::check(bodies, given, next, work)?;
                 linearise(bodies, given, next, work)?;
             }

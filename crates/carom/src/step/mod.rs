@@ -30,6 +30,7 @@ use self::equilibrate::set_out;
 use self::iterate::iterate;
 use self::measure::measure;
 use self::report::{PenetrationReport, StepReport};
+use self::stability::check_jump;
 use self::waking::wake;
 use self::workspace::Workspace;
 use crate::body::Interval;
@@ -92,6 +93,9 @@ pub(crate) fn step_over<const D: usize>(
         work.detection_time += since.elapsed();
         if let Some(penetration) = penetration? {
             let report = commit(&given, next, work, iterations)?;
+            if interval.map.is_static() {
+                check_jump(&given, &report, work)?;
+            }
             if wake(&given, next, work) {
                 continue;
             }

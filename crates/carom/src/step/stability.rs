@@ -9,7 +9,8 @@ use carom_contact::Contact;
 use carom_mesh::Vector;
 
 use super::giving_way::GivingWay;
-use super::hold::neutral;
+use super::hold::{elastic_share, neutral};
+use super::report::StepReport;
 use super::workspace::Workspace;
 use crate::body::{Guess, SoftestMotion};
 use crate::contact::stiffened::ground;
@@ -26,6 +27,10 @@ const ROUND_OFF: f64 = 1e-8;
 /// A state is next to one that is not stable where the resistance to its softest motion has fallen to this share of that of the undeformed body.
 /// Measured: where a block between plates is squeezed into wrinkles iterations end at 1e-2.
 const NEAR: f64 = 0.03;
+
+/// A motion is as good as rigid if less than this share of it, squared, is not: a shaft that turns in a hub does not give way. Of a slender column
+/// between plates that buckles it is 0.014.
+const RIGID_MOTION: f64 = 3e-3;
 
 /// The difference of places that gives the stiffness of the reactions, in sizes of the smaller body.
 const DIFFERENCE: f64 = 1e-6;
@@ -45,7 +50,7 @@ fn holding<'a, const D: usize>(
     pressed.iter().map(move |&(contact, r, mu)| (contact, directions(r, mu)))
 }
 
-/// The softest motion of a body at these displacements `at`, where these contacts hold it.
+/// The softest motion of a body at these displacements `at`, where these contacts hold it; none if that is as good as rigid.
 fn softest<const D: usize>(
     body: usize,
     at: &[Vector<D>],
@@ -60,7 +65,9 @@ fn softest<const D: usize>(
     ground(assembly, holding(pressed), RIGID, &mut work.bodies, &mut springs);
     let motion = &work.motion[assembly.nodes(body)];
     let guess = Guess { interval: given.interval, start: given.start(body), motion, displacement: at };
-    work.bodies[body].softest_motion(&guess, &springs[body], &neutral)
+    let softest = work.bodies[body].softest_motion(&guess, &springs[body], &neutral)?;
+    let is_elastic = elastic_share(body, &softest.field, given, next, work) > RIGID_MOTION;
+    is_elastic.then_some(softest)
 }
 
 /// x·G x [N/m] of a motion x of one body: what the reactions, which turn with it, resist it with.
@@ -92,6 +99,12 @@ fn by_reactions<const D: usize>(
     x.iter().zip(&forces[nodes]).map(|(x, f)| x.dot(f)).sum()
 }
 
+/// Whether a body may be in an equilibrium that is not stable although its iterations have ended: they were held back.
+pub(super) fn is_in_question<const D: usize>(body: usize, work: &Workspace<D>) -> bool {
+    let is_pressed = !work.contacts.reduced.delassus.stiffened.springs[body].is_empty();
+    work.newton.holding[body].was_indefinite || is_pressed && work.bodies[body].is_loose()
+}
+
 /// Refuses the equilibrium that a load step of some `bodies` has come to if one of them is found to give way.
 ///
 /// # Errors
@@ -102,9 +115,8 @@ pub(super) fn check<const D: usize>(
     next: &State<D>,
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
-    let in_question = |work: &Workspace<D>, i: usize| work.newton.holding[i].was_indefinite;
     for &i in bodies {
-        if !in_question(work, i) {
+        if !is_in_question(i, work) {
             continue;
         }
         let active = &work.contacts.active;
@@ -125,6 +137,28 @@ pub(super) fn check<const D: usize>(
     Ok(())
 }
 
+/// Refuses a load step that ends in another equilibrium than the one next to its start: more is missing of the energy than the step was given.
+///
+/// # Errors
+/// [`StepError::Unstable`].
+pub(super) fn check_jump<const D: usize>(
+    given: &Given<'_, D>,
+    report: &StepReport,
+    work: &Workspace<D>,
+) -> Result<(), StepError> {
+    let mut in_question = work.newton.holding.iter().map(|holding| holding.was_indefinite);
+    let Some(body) = in_question.position(|was_indefinite| was_indefinite) else { return Ok(()) };
+    let ledger = &report.ledger;
+    let received = ledger.external.abs() + ledger.prescribed.abs();
+    let allowed = received.max(ROUND_OFF * given.state.energies.strain);
+    // The step that ends a bridge takes what motion is left, and the last bit of the way.
+    let ends_bridge = given.interval.start == given.interval.end;
+    if ends_bridge || ledger.scheme <= allowed {
+        return Ok(());
+    }
+    Err(GivingWay { body, motion: Vec::new() }.error(given))
+}
+
 /// Why a load step of some `bodies` found no equilibrium, if that is because one of them is about to give way where the step starts.
 pub(super) fn about_to_give_way<const D: usize>(
     bodies: &[usize],
@@ -136,6 +170,10 @@ pub(super) fn about_to_give_way<const D: usize>(
     let pressed: Vec<_> =
         state.reactions.iter().map(|r| (&r.contact, &r.force, pairs[r.pair as usize].friction)).collect();
     for &i in bodies {
+        let is_sprung = work.contacts.reduced.delassus.stiffened.is_sprung[i];
+        if !is_in_question(i, work) && !is_sprung {
+            continue;
+        }
         let nodes = given.assembly.nodes(i);
         let undeformed = vec![Vector::zeros(); nodes.len()];
         let at = &state.displacement[nodes];

@@ -49,7 +49,7 @@ pub(crate) struct IterationMatrix<const D: usize> {
     /// See [`lowest_inertia`].
     pub lowest_inertia: f64,
     /// Whether its supports leave the body loose.
-    is_loose: bool,
+    pub is_loose: bool,
     /// How far round-off of the forces moves the body in a load step [m].
     round_off: f64,
     /// Frame of the body in the configuration of K.

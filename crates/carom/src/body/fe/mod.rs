@@ -268,6 +268,10 @@ impl<const D: usize> Body<D> for FeBody<D> {
         self.matrix.linearise(body, stiffness, guess.displacement, tangent)
     }
 
+    fn is_loose(&self) -> bool {
+        self.matrix.is_loose
+    }
+
     fn softest_motion(
         &mut self,
         guess: &Guess<'_, D>,

@@ -15,6 +15,9 @@ const SOLVES: usize = 60;
 /// The eigenvalue is known when a solve changes it by less than this.
 const KNOWN: f64 = 1e-6;
 
+/// Where it is as much above what holds the body back, in terms of that, it is known by less than a hundredth: it is not zero.
+const POSITIVE: f64 = 1.5;
+
 /// The least share of the inertia with which `is_made`, the tangent, has an inverse.
 pub(super) fn held_back(mut is_made: impl FnMut(f64) -> bool) -> Option<f64> {
     let [first, growth, largest] = HELD_BACK;
@@ -85,7 +88,8 @@ pub(super) fn find<const D: usize>(
         std::mem::swap(&mut x, &mut y);
         normalise(&mut x);
         mass = nodal::dot(&x, &weigh(&x));
-        if (eigenvalue - before).abs() <= KNOWN * eigenvalue {
+        let known = if eigenvalue > (1.0 + POSITIVE) * own && own > 0.0 { 0.01 } else { KNOWN };
+        if (eigenvalue - before).abs() <= known * eigenvalue {
             break;
         }
     }
