@@ -113,13 +113,13 @@ fn scenes(condition: &str) -> Vec<(String, Scenario)> {
     let cube = |k: usize, cells: usize| json!({"kind": "box", "corner": [0.0, 0.0, k as f64], "size": [1.0, 1.0, 1.0], "divisions": [cells, cells, cells], "cell": "hex8"});
     let cells = |k: usize, few: usize, many: usize| if k % 2 == 0 { few } else { many };
     let squares: Vec<Value> = (0..5).map(|k| square(k, cells(k, 10, 15))).collect();
-    let cubes: Vec<Value> = (0..4).map(|k| cube(k, cells(k, 5, 7))).collect();
+    let cubes: Vec<Value> = (0..3).map(|k| cube(k, cells(k, 3, 4))).collect();
     let named = |name: &str, scenario: Scenario| (format!("{name}, `{condition}`"), scenario);
     vec![
         named("two discs", scene(2, condition, &[disc(0.0, 0.501), disc(0.1, 1.51)])),
         named("two balls", scene(3, condition, &[ball(0.0, 0.501), ball(0.1, 1.51)])),
         named("five squares, 10 and 15 cells wide", scene(2, condition, &squares)),
-        named("four cubes, 5 and 7 cells wide", scene(3, condition, &cubes)),
+        named("three cubes, 3 and 4 cells wide", scene(3, condition, &cubes)),
     ]
 }
 
