@@ -4,7 +4,7 @@ use crate::edge::Crossing;
 use crate::frame::frame;
 use crate::project::{Projection, Reach};
 use crate::search::SolidSurface;
-use crate::{Candidate, Contact, ContactModel, Obstacle, Pair, Path, Search, Site, Solid, Target};
+use crate::{Candidate, Contact, ContactModel, Obstacle, Path, Search, Site, Solid, Target};
 
 impl<const D: usize> ContactModel<D> {
     /// Finds the nodes that on their `path` come near their target or are inside it, and the facets they face; of obstacles with corners also
@@ -23,23 +23,24 @@ impl<const D: usize> ContactModel<D> {
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
-        self.detect_among(|_| true, path, search, out);
+        self.detect_among(0..self.pairs.len(), path, search, out);
         let mut mortar = std::mem::take(&mut search.mortar);
         self.detect_mortar(path, &mut mortar, out);
         search.mortar = mortar;
     }
 
-    /// [`ContactModel::detect`] of the pairs that `count`, but for multipliers, which [`ContactModel::detect_mortar`] finds.
+    /// [`ContactModel::detect`] of these `pairs`, in ascending order, but for multipliers, which [`ContactModel::detect_mortar`] finds.
     pub fn detect_among<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
-        count: impl Fn(&Pair) -> bool,
+        pairs: impl Iterator<Item = usize> + Clone,
         path: &Path<'_, D, S, E>,
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
         out.clear();
-        search.sweep(self, &count, path);
-        for (p, pair) in self.pairs.iter().enumerate().filter(|(_, pair)| count(pair)) {
+        search.sweep(self, pairs.clone(), path);
+        for p in pairs {
+            let pair = &self.pairs[p];
             match pair.target {
                 Target::Obstacle(o) => match &self.obstacles[o].faceted {
                     None => match &self.surfaces[pair.source].ball {

@@ -7,7 +7,7 @@ use crate::facing::{Projected, faced};
 use crate::project::Reach;
 use crate::surface::diameter;
 use crate::tolerances::SEARCH;
-use crate::{ContactModel, ContactSurface, Mortar, Pair, Path, Solid, Target};
+use crate::{ContactModel, ContactSurface, Mortar, Path, Solid, Target};
 
 /// What the search for contacts keeps from one call to the next: room for boxes, and the trees over them.
 ///
@@ -96,17 +96,17 @@ impl<const D: usize> Search<D> {
         (of_solid(surfaces, obstacles, solid), crossings)
     }
 
-    /// Boxes around all that moves along a `path` and belongs to a pair of `model` that `counts`.
+    /// Boxes around all that moves along a `path` and belongs to one of these `pairs` of `model`.
     pub(crate) fn sweep<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &mut self,
         model: &ContactModel<D>,
-        counts: impl Fn(&Pair) -> bool,
+        pairs: impl Iterator<Item = usize>,
         path: &Path<'_, D, S, E>,
     ) {
         self.surfaces.resize_with(model.surfaces.len(), Swept::default);
         self.obstacles.resize_with(model.obstacles.len(), Swept::default);
         self.surfaces.iter_mut().for_each(Swept::forget);
-        for pair in model.pairs.iter().filter(|pair| counts(pair)) {
+        for pair in pairs.map(|p| &model.pairs[p]) {
             match pair.target {
                 Target::Surface(t) => {
                     self.surfaces[pair.source].is_source = true;
@@ -360,7 +360,7 @@ mod tests {
             let path = Path { start: &start, end: &end, margin: 0.1 };
             model.detect(&path, &mut search, &mut tree);
             let mut flat = Search::default();
-            flat.sweep(&model, |_| true, &path);
+            flat.sweep(&model, 0..model.pairs.len(), &path);
             for (swept, surface) in flat.surfaces.iter_mut().zip(&model.surfaces) {
                 swept.tree = Bvh::flat(surface.facets.iter().map(|_| Aabb::of([])));
             }

@@ -25,7 +25,7 @@ impl<const D: usize> ContactModel<D> {
         out: &mut Vec<Candidate>,
     ) {
         out.clear();
-        search.sweep(self, |_| true, path);
+        search.sweep(self, 0..self.pairs.len(), path);
         for &Witness { of, inside, feature, depth } in witnesses {
             let (Some(there), Some(_)) = (self.pair_of(of, inside), self.pair_of(inside, of)) else {
                 continue;

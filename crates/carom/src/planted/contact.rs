@@ -78,7 +78,7 @@ impl<const D: usize> PlantedContact<D> {
         let zeros = vec![Vector::zeros(); assembly.reference.len()];
         Self {
             next: state.clone(),
-            finder: Finder::new(assembly.body_count()),
+            finder: Finder::new(&assembly.contact, assembly.body_count()),
             active: ActiveSet::new(assembly.body_count()),
             motion: zeros.clone(),
             before: zeros,
