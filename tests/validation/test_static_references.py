@@ -7,6 +7,8 @@ import punches
 import pytest
 import wedges
 
+import carom
+
 
 def test_a_block_goes_up_and_down_a_slope_at_the_angle_of_friction():
     up, down = wedges.block_on_a_slope()
@@ -29,6 +31,18 @@ def test_a_wedge_under_a_weight_takes_what_balance_says_as_it_gets_stiff(discret
     # Measured: 7.6e-6 and 1.0e-5. What is left is strain, which turns the sides: P/(E A) is 1.7e-5.
     assert abs(stiff.error) < 5e-5
     assert abs(stiff.error) < 0.02 * abs(soft.error)
+
+
+@pytest.mark.parametrize("discretisation", ["node-to-segment", "mortar"])
+def test_a_stiff_wedge_under_a_weight_takes_what_rigid_bodies_do(discretisation):
+    # Measured: 2.5e-7 and 2.9e-7, what is left of its stiffness.
+    assert abs(wedges.wedge_under_a_weight(discretisation, 1e10).error) < 1e-6
+
+
+def test_a_block_that_a_wedge_holds_is_not_said_not_to_be_held():
+    """Symptom guarded against: an iteration that left it in the air was the last one allowed."""
+    with pytest.raises(carom.ConvergenceError, match=r"Newton's iterations stopped after 50"):
+        wedges.wedge_under_a_weight("node-to-segment", 1e10, max_iterations=50)
 
 
 def test_a_bar_on_a_rough_bed_takes_the_same_in_every_cycle():

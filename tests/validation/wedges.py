@@ -27,6 +27,10 @@ STEPS = 10
 SOURCE = "balance with tan(α + φ)"
 
 
+MAX_ITERATIONS = 200
+"""Of nodes that lie flush on a stiff side one after the other comes to press."""
+
+
 def rubber(young: float = 1e6) -> carom.NeoHookean:
     """Return what the bodies are of; the forces do not depend on it."""
     return carom.NeoHookean(young=young, poisson=0.3, density=DENSITY)
@@ -88,7 +92,9 @@ def wedge_in_a_gap() -> Compared:
     )
 
 
-def wedge_under_a_weight(discretisation: str, young: float) -> Compared:
+def wedge_under_a_weight(
+    discretisation: str, young: float, max_iterations: int = MAX_ITERATIONS
+) -> Compared:
     """Drive a wedge under a block that is guided upwards and bears 1 kN."""
     x, share = np.meshgrid(np.linspace(0.0, 1.4, 19), np.linspace(0.0, 1.0, 5))
     wedge = (x, share * (1.5 - x) * tan(ANGLE))
@@ -106,6 +112,7 @@ def wedge_under_a_weight(discretisation: str, young: float) -> Compared:
         obstacles=[carom.Plane(name="floor", point=(0.0, 0.0), normal=(0.0, 1.0))],
         pairs=[carom.Pair(between=("wedge", "floor"), friction=FLOOR_FRICTION)],
         discretisation=discretisation,
+        max_iterations=max_iterations,
     )
     exact = 1000.0 * (tan(FLOOR_PHI) + tan(ANGLE + PHI))
     return Compared(
@@ -125,6 +132,7 @@ def _run(
     gravity=None,
     pairs=(),
     discretisation: str = "node-to-segment",
+    max_iterations: int = MAX_ITERATIONS,
     **others,
 ) -> Run:
     with tempfile.TemporaryDirectory() as folder:
@@ -138,7 +146,12 @@ def _run(
         ]
         return simulate(
             carom.Scenario(
-                analysis=carom.Static(end_time=end_time, time_step=1.0 / STEPS, gravity=gravity),
+                analysis=carom.Static(
+                    end_time=end_time,
+                    time_step=1.0 / STEPS,
+                    gravity=gravity,
+                    newton=carom.Newton(max_iterations=max_iterations),
+                ),
                 output=carom.Output(history_every=1.0 / STEPS),
                 materials={"rubber": rubber(young)},
                 bodies=bodies,

@@ -252,8 +252,9 @@ pub trait Body<const D: usize>: Send + Sync {
         self.renew(guess, false)
     }
 
-    /// Whether supports leave it a rigid motion. Corrections of load steps are then held back, however definite the tangent is.
-    fn is_loose(&self) -> bool {
+    /// Whether its tangents in load steps may be definite where the stiffness is not: what supports leave loose is held back by inertia. Of bodies that
+    /// are so large that another factor is half of a load step this is not said.
+    fn hides_softness(&self) -> bool {
         false
     }
 

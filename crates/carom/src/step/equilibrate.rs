@@ -36,8 +36,11 @@ pub(super) fn equilibrate<const D: usize>(
             Ok(iterations)
         }
         Err(error @ (StepError::Newton { .. } | StepError::Runaway { .. })) => {
-            let not_held = not_held(bodies, given, next, work);
-            Err(not_held.or_else(|| about_to_give_way(bodies, given, work)).unwrap_or(error))
+            if let Some((not_held, is_caught)) = not_held(bodies, given, next, work) {
+                work.newton.caught = is_caught.then_some(error);
+                return Err(not_held);
+            }
+            Err(about_to_give_way(bodies, given, work).unwrap_or(error))
         }
         Err(
             error @ (StepError::Friction { .. } | StepError::Unstable { .. } | StepError::Restless { .. }),
@@ -199,7 +202,7 @@ pub(super) fn set_out<const D: usize>(
     stiffened.spring_from_start(given.assembly, &given.state.reactions, bodies);
     stiffened.is_geometric = false;
     newton.holding.fill(Holding::default());
-    newton.giving_way = None;
+    (newton.caught, newton.giving_way) = (None, None);
     for (i, body) in bodies.iter_mut().enumerate() {
         let nodes = given.assembly.nodes(i);
         // Nothing has moved yet, whatever will.

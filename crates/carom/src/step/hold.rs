@@ -19,6 +19,9 @@ const FREE: f64 = 1e-6;
 /// Forces drive a free motion if more than this share of them does.
 const DRIVEN: f64 = 1e-6;
 
+/// A contact catches what closes it at more than this rate, relative to that of the body.
+const CAUGHT: f64 = 1e-3;
+
 /// A free motion may stay undone where less than this share of what presses drives it: between curved sides whose facets do not match there is
 /// a moment of that kind. Measured: 1.2e-6 of press fits with 32 facets in 48.
 const NEARLY_AT_REST: f64 = 1e-5;
@@ -188,6 +191,15 @@ impl<'a, const D: usize> FreeMotions<'a, D> {
         self.unbalanced > 0.0 && self.driving.norm() > DRIVEN * self.unbalanced
     }
 
+    /// Whether contacts that are open now close where forces drive what is free: it falls on what will hold it.
+    fn is_caught(&self, given: &Given<'_, D>, next: &State<D>, work: &Workspace<D>) -> bool {
+        let least = CAUGHT * self.driving.norm();
+        work.contacts.active.contacts.iter().any(|contact| {
+            let normal: Vector<D> = contact.frame.row(0).transpose();
+            self.motions.row(given, next, &normal, contact.stencil()).dot(&self.driving) < -least
+        })
+    }
+
     /// Whether they drive it by so little of what presses that it may be left where it is.
     fn is_nearly_at_rest(&self) -> bool {
         !self.modes.is_empty() && self.driving.norm() <= NEARLY_AT_REST * self.pressing
@@ -307,14 +319,17 @@ pub(super) fn driven_least<const D: usize>(
     }
 }
 
-/// Says which of the `bodies` nothing holds against the forces on it, and how it would move; none if all are held, or nothing drives what is not.
+/// Says which of the `bodies` nothing holds against the forces on it, and how it would move; none if all are held, or nothing drives what is not. Beside
+/// that, whether it falls on a contact that was found.
 pub(super) fn not_held<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
     next: &State<D>,
     work: &Workspace<D>,
-) -> Option<StepError> {
-    Some(as_error(&FreeMotions::of(bodies, FREE, given, next, work).driven()?, given))
+) -> Option<(StepError, bool)> {
+    let free = FreeMotions::of(bodies, FREE, given, next, work);
+    let driven = free.driven()?;
+    Some((as_error(&driven, given), free.is_caught(given, next, work)))
 }
 
 fn as_error<const D: usize>(found: &FreeMotion, given: &Given<'_, D>) -> StepError {

@@ -80,12 +80,15 @@ pub(crate) fn step_over<const D: usize>(
             // A factor that was made on the way to nowhere would mislead the next attempt.
             work.bodies.iter_mut().for_each(|body| body.forget());
         }
-        if let Err(StepError::NotHeld { .. } | StepError::Runaway { .. }) = made
-            && margin < assembly.size
-        {
-            // It may fall on something that is farther away than the loads foretold.
-            margin = assembly.size.max(predict(&given, work)?);
-            continue;
+        if let Err(StepError::NotHeld { .. } | StepError::Runaway { .. }) = made {
+            if margin < assembly.size {
+                // It may fall on something that is farther away than the loads foretold.
+                margin = assembly.size.max(predict(&given, work)?);
+                continue;
+            }
+            if let Some(error) = work.newton.caught.take() {
+                return Err(error);
+            }
         }
         iterations += made?;
         let since = Instant::now();

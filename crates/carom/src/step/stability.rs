@@ -102,7 +102,7 @@ fn by_reactions<const D: usize>(
 /// Whether a body may be in an equilibrium that is not stable although its iterations have ended: they were held back.
 pub(super) fn is_in_question<const D: usize>(body: usize, work: &Workspace<D>) -> bool {
     let is_pressed = !work.contacts.reduced.delassus.stiffened.springs[body].is_empty();
-    work.newton.holding[body].was_indefinite || is_pressed && work.bodies[body].is_loose()
+    work.newton.holding[body].was_indefinite || is_pressed && work.bodies[body].hides_softness()
 }
 
 /// Refuses the equilibrium that a load step of some `bodies` has come to if one of them is found to give way.

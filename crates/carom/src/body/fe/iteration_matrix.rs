@@ -49,7 +49,7 @@ pub(crate) struct IterationMatrix<const D: usize> {
     /// See [`lowest_inertia`].
     pub lowest_inertia: f64,
     /// Whether its supports leave the body loose.
-    pub is_loose: bool,
+    is_loose: bool,
     /// How far round-off of the forces moves the body in a load step [m].
     round_off: f64,
     /// Frame of the body in the configuration of K.
@@ -246,6 +246,11 @@ impl<const D: usize> IterationMatrix<D> {
     /// How many iterations with a kept tangent a new one is worth.
     pub fn worth(&self) -> i32 {
         if self.inverse.is_large() { WORTH[1] } else { WORTH[0] }
+    }
+
+    /// See [`crate::body::Body::hides_softness`].
+    pub fn hides_softness(&self) -> bool {
+        self.is_loose && !self.inverse.is_large()
     }
 
     /// What holds corrections of a load step back [1/s²], where this share of the inertia of the lowest motion is to.

@@ -268,8 +268,8 @@ impl<const D: usize> Body<D> for FeBody<D> {
         self.matrix.linearise(body, stiffness, guess.displacement, tangent)
     }
 
-    fn is_loose(&self) -> bool {
-        self.matrix.is_loose
+    fn hides_softness(&self) -> bool {
+        self.matrix.hides_softness()
     }
 
     fn softest_motion(

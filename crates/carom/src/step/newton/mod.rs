@@ -16,6 +16,7 @@ use self::left_alone::leave_out;
 use super::free_motion::FreeMotion;
 use super::giving_way::GivingWay;
 use crate::contact::active::ActiveSet;
+use crate::error::StepError;
 use crate::model::assembly::Assembly;
 
 /// The iterations of a step.
@@ -36,6 +37,8 @@ pub(crate) struct Newton<const D: usize> {
     pub left_alone: Vec<Vec<Vector<D>>>,
     /// and what drives them at its end.
     pub free_motion: Option<FreeMotion>,
+    /// Why a load step failed in truth where it said that a body is not held: it falls on what will hold it.
+    pub caught: Option<StepError>,
     /// The motion by which a load step found that a body gives way.
     pub giving_way: Option<GivingWay<D>>,
     /// The bodies that contacts act on.
@@ -56,6 +59,7 @@ impl<const D: usize> Newton<D> {
             guess_reactions: Vec::new(),
             left_alone: Vec::new(),
             free_motion: None,
+            caught: None,
             giving_way: None,
             in_contact: Vec::with_capacity(assembly.body_count()),
         }
