@@ -296,8 +296,12 @@ impl<const D: usize> Shell<D> {
                 (share, deepest) = (s, deep);
             }
         }
+        // Along a flush face all places are inside by round-off alone.
+        if deepest.depth <= MEASURE.same * way.norm() {
+            return deepest;
+        }
         // The depth changes by no more than the way.
-        while deepest.depth > 0.0 && step * way.norm() > MEASURE.finest * deepest.depth {
+        while step * way.norm() > MEASURE.finest * deepest.depth {
             for s in [share - step, share + step] {
                 let deep = look(s.clamp(0.0, 1.0));
                 if deep.depth > deepest.depth {
@@ -336,6 +340,11 @@ fn through<const D: usize>(ends: &[Vector<D>; 2], corners: &[Vector<D>], found: 
     let n = normal(&tangents);
     let [before, after] = ends.map(|x| n.dot(&(x - corners[0])));
     if before * after > 0.0 || before == after {
+        return;
+    }
+    // What is behind its plane by round-off alone does not go through it. Edges that end on a flush face, or lie in it, are many.
+    let size = tangents.iter().map(Vector::norm_squared).fold(0.0, f64::max).sqrt();
+    if before.min(after) >= -MEASURE.same * size {
         return;
     }
     let t = before / (before - after);
