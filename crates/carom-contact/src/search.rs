@@ -302,7 +302,7 @@ mod tests {
     use carom_mesh::{CellBlock, Mesh, Surface, generate};
 
     use super::*;
-    use crate::Discretisation;
+    use crate::{Discretisation, Pair};
 
     /// A body of cubes, or squares, pulled into a ball.
     fn ball<const D: usize>(divisions: usize) -> Mesh<D> {

@@ -105,7 +105,8 @@ pub(crate) const MORTAR: MortarTolerances =
 /// What distances and the measure of penetration take for one point, for inside, and for worth a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MeasureTolerances {
-    /// Points this close to one another, relative to the diameter of the facet that they are on, are one.
+    /// Points this close to one another, relative to the diameter of the facet that they are on, are one. What is behind a facet by less, or an
+    /// edge that is by less inside, relative to its length, is on the surface.
     pub same: f64,
     /// How far before a node of a body it is asked whether something else of it is there, in diameters of its facet: farther than round-off
     /// reaches, and nearer than anything that is told.
