@@ -51,8 +51,7 @@ pub(crate) trait Parametric<const D: usize> {
                 }
             }
             (xi, at) = (next, there);
-            // Of an affine piece the model is exact.
-            if self.is_straight() || change < 1e-14 {
+            if change < 1e-14 {
                 break;
             }
         }
