@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use carom_contact::{Candidate, ContactModel, Path, Search, Site};
 use carom_mesh::Vector;
 
+use super::overlaps::TOUCHING;
 use super::signals::signal;
 use super::values::number;
 use crate::error::InputError;
@@ -116,11 +117,14 @@ fn overlaps<const D: usize>(model: &Model<D>) -> BTreeMap<usize, BTreeMap<(u32, 
     let at = |n: u32| -> Vector<D> { model.assembly.reference[n as usize] };
     let mut search = Search::default();
     let (mut candidates, mut contacts): (Vec<Candidate>, _) = (Vec::new(), Vec::new());
-    contact.detect(&Path::resting(&at, 0.0), &mut search, &mut candidates);
+    // A node at the corner of the other body may be beside it by round-off.
+    let edges = model.bodies.iter().map(|b| b.body.mesh().smallest_edge());
+    let beside = TOUCHING * edges.fold(f64::INFINITY, f64::min);
+    contact.detect(&Path::resting(&at, beside), &mut search, &mut candidates);
     contact.evaluate_all(&candidates, &at, &mut search.mortar, &mut contacts);
     let mut depths: BTreeMap<usize, BTreeMap<(u32, Site), f64>> = BTreeMap::new();
     for (candidate, there) in candidates.iter().zip(&contacts) {
-        if there.gap < 0.0 && !contact.is_beyond(candidate, there, 0.0, &at, &search) {
+        if there.gap < 0.0 && !contact.is_beyond(candidate, there, beside, &at, &search) {
             let named_pair = contact.pairs[candidate.pair as usize].named_pair;
             depths.entry(named_pair).or_default().insert(candidate.key(), -there.gap);
         }

@@ -10,7 +10,7 @@ use crate::model::interference::Interference;
 use crate::scenario::{AnalysisKind, Scenario};
 
 /// Overlaps at the start deeper than this, relative to the smallest edge, are an error.
-const TOUCHING: f64 = 1e-9;
+pub(super) const TOUCHING: f64 = 1e-9;
 
 /// Refuses bodies that overlap one another or an obstacle before anything has moved by more than the interference of their pair lets them.
 pub(super) fn check_overlaps<const D: usize>(
