@@ -11,6 +11,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
+use crate::dimension::{Dimension, with};
 use crate::error::{input_error, step_error};
 use crate::planted::{facets_of, rows};
 use crate::{arrays, mesh};
@@ -107,23 +108,8 @@ fn blocks<const D: usize>(entries: &Bound<'_, PyAny>) -> PyResult<Blocks<D>> {
 /// Bodies of others on their way through time.
 #[pyclass(module = "carom._carom")]
 pub struct ForeignRun {
-    inner: Inner,
+    inner: Dimension<carom::ForeignRun<2>, carom::ForeignRun<3>>,
     calls: Arc<Calls>,
-}
-
-enum Inner {
-    Plane(carom::ForeignRun<2>),
-    Space(carom::ForeignRun<3>),
-}
-
-/// Evaluates an expression of the run, whatever its dimension.
-macro_rules! with {
-    ($inner:expr, $run:ident => $value:expr) => {
-        match $inner {
-            Inner::Plane($run) => $value,
-            Inner::Space($run) => $value,
-        }
-    };
 }
 
 /// A body as `carom.foreign.ForeignBody` has it.
@@ -175,8 +161,8 @@ impl ForeignRun {
         let calls = Arc::new(Calls::default());
         let bodies: Vec<Bound<'_, PyAny>> = bodies.iter().collect();
         let inner = match dimension {
-            3 => Inner::Space(build(py, &spec, &bodies, mesh::surfaces(files)?, &calls)?),
-            _ => Inner::Plane(build(py, &spec, &bodies, carom::Surfaces::new(), &calls)?),
+            3 => Dimension::Space(build(py, &spec, &bodies, mesh::surfaces(files)?, &calls)?),
+            _ => Dimension::Plane(build(py, &spec, &bodies, carom::Surfaces::new(), &calls)?),
         };
         Ok(Self { inner, calls })
     }

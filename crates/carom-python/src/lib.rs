@@ -3,6 +3,7 @@
 
 mod arrays;
 mod checkpoint;
+mod dimension;
 mod error;
 mod foreign;
 mod friction;

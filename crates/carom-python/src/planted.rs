@@ -9,28 +9,14 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::dimension::{Dimension, with};
 use crate::error::{input_error, step_error};
 use crate::{arrays, friction, mesh};
 
 /// Surfaces, obstacles and pairs, and what is known of the contacts of the present step. `carom.contact.ContactModel` checks what it is given.
 #[pyclass(module = "carom._carom")]
 pub struct PlantedContact {
-    inner: Inner,
-}
-
-enum Inner {
-    Plane(carom::PlantedContact<2>),
-    Space(carom::PlantedContact<3>),
-}
-
-/// Evaluates an expression of the contact, whatever its dimension.
-macro_rules! with {
-    ($contact:expr, $planted:ident => $value:expr) => {
-        match $contact {
-            Inner::Plane($planted) => $value,
-            Inner::Space($planted) => $value,
-        }
-    };
+    inner: Dimension<carom::PlantedContact<2>, carom::PlantedContact<3>>,
 }
 
 /// A surface by its name, its facets kind by kind, and whether it may touch itself.
@@ -84,8 +70,8 @@ impl PlantedContact {
             Ok(carom::PlantedContact::build(spec, &rows(points)?, outlines, &held, files))
         }
         let inner = match points.shape()[1] {
-            3 => build(&spec, &points, &outlines, &held, mesh::surfaces(files)?)?.map(Inner::Space),
-            _ => build(&spec, &points, &outlines, &held, carom::Surfaces::new())?.map(Inner::Plane),
+            3 => build(&spec, &points, &outlines, &held, mesh::surfaces(files)?)?.map(Dimension::Space),
+            _ => build(&spec, &points, &outlines, &held, carom::Surfaces::new())?.map(Dimension::Plane),
         };
         Ok(Self { inner: inner.map_err(|e| input_error(py, &e))? })
     }

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::Serialize;
 
+use crate::dimension::{Dimension, with};
 use crate::error::{input_error, run_error};
 use crate::{arrays, checkpoint, mesh};
 
@@ -17,27 +18,11 @@ const SIGNAL_INTERVAL: f64 = 0.02;
 /// A scenario built into meshes, matrices and a state that steps through time.
 #[pyclass(module = "carom._carom")]
 pub struct Simulation {
-    inner: Inner,
-}
-
-/// The run, in the dimension of space that its scenario says.
-enum Inner {
-    Plane(carom::Simulation<2>),
-    Space(carom::Simulation<3>),
+    inner: Dimension<carom::Simulation<2>, carom::Simulation<3>>,
 }
 
 /// Signed distances [m] and normals of points.
 type Gaps<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>);
-
-/// Evaluates an expression of the run, whatever its dimension.
-macro_rules! with {
-    ($simulation:expr, $run:ident => $value:expr) => {
-        match $simulation {
-            Inner::Plane($run) => $value,
-            Inner::Space($run) => $value,
-        }
-    };
-}
 
 /// A serialisable value as Python objects.
 fn to_python<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
@@ -60,12 +45,12 @@ impl Simulation {
         let inner = match scenario.dimension {
             3 => {
                 let (meshes, surfaces) = (mesh::meshes(py, meshes)?, mesh::surfaces(surfaces)?);
-                py.detach(|| carom::Simulation::with_files(&scenario, meshes, surfaces)).map(Inner::Space)
+                py.detach(|| carom::Simulation::with_files(&scenario, meshes, surfaces)).map(Dimension::Space)
             }
             // No surface is an obstacle of the plane: the build refuses what says so.
             _ => {
                 let meshes = mesh::meshes(py, meshes)?;
-                py.detach(|| carom::Simulation::with_meshes(&scenario, meshes)).map(Inner::Plane)
+                py.detach(|| carom::Simulation::with_meshes(&scenario, meshes)).map(Dimension::Plane)
             }
         };
         Ok(Self { inner: inner.map_err(|e| input_error(py, &e))? })
