@@ -3,7 +3,7 @@
 use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
-use crate::{ContactModel, Pair, Target};
+use crate::{ContactModel, ContactSurface, Pair, Target};
 
 /// Boxes around all surfaces at one moment.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +23,7 @@ impl<const D: usize> ContactModel<D> {
     /// Boxes around the facets and sources of all surfaces, where the nodes are at `position`.
     #[must_use]
     pub fn extents(&self, position: &impl Fn(u32) -> Vector<D>) -> Extents<D> {
-        let around = |s: &crate::ContactSurface| {
+        let around = |s: &ContactSurface| {
             let facets = (0..s.facets.len() as u32).map(|f| s.bounds(f, position));
             let sources = Aabb::of(s.sources.iter().map(|&n| position(n)));
             facets.fold(sources, |all, facet| all.union(&facet))
@@ -51,8 +51,9 @@ impl<const D: usize> ContactModel<D> {
         let extents = self.extents(position);
         let bound = |pair: &Pair| self.at_least(pair, &extents, position) - least(pair);
         let beyond = |pair: &Pair| self.proximity(pair, position).map(|near| near.gap - least(pair));
-        let nearest = self.pairs.iter().min_by(|a, b| bound(a).total_cmp(&bound(b)));
-        let mut smallest = nearest.and_then(beyond).unwrap_or(f64::INFINITY);
+        let bounds = self.pairs.iter().map(|pair| (bound(pair), pair));
+        let nearest = bounds.min_by(|a, b| a.0.total_cmp(&b.0));
+        let mut smallest = nearest.and_then(|(_, pair)| beyond(pair)).unwrap_or(f64::INFINITY);
         for pair in &self.pairs {
             if bound(pair) < smallest {
                 smallest = beyond(pair).map_or(smallest, |gap| gap.min(smallest));
@@ -67,7 +68,7 @@ mod tests {
     use carom_mesh::{Surface, generate};
 
     use super::*;
-    use crate::{ContactSurface, Discretisation, Obstacle};
+    use crate::{Discretisation, Obstacle};
 
     /// Eight discs in a row that is bent, above a floor, and every pair of them.
     fn row(smooth: bool) -> (ContactModel<2>, Vec<Vector<2>>) {

@@ -200,18 +200,7 @@ fn parts_that_touch_are_not_in_one_another() {
 #[test]
 fn second_order_boundaries_are_measured_by_their_curves() {
     // The upper side of the cell is the parabola y = 1.1 − 0.1 x².
-    let x = [
-        [-1.0, -1.0],
-        [1.0, -1.0],
-        [1.0, 1.0],
-        [-1.0, 1.0],
-        [0.0, -1.0],
-        [1.0, 0.0],
-        [0.0, 1.1],
-        [-1.0, 0.0],
-    ];
-    let cell = CellBlock { kind: CellKind::Quad8, connectivity: (0..8).collect() };
-    let curved = Mesh::new(x.map(|x| Vector::<2>::new(x[0], x[1])).to_vec(), vec![cell]).expect("valid");
+    let curved = curved_cell([6, 2], [0.1, 0.0]);
     let parabola = |x: f64| 1.1 - 0.1 * x * x;
     let corner = [0.2, parabola(0.2) - 0.01];
     let found = depth(&[curved, block(corner, [0.1, 1.0], [1; 2])], vec![]);
