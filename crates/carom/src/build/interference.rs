@@ -25,7 +25,7 @@ pub(super) fn interference<const D: usize>(
     let mut depths = overlaps(&model);
     let mut interferences = Vec::new();
     for (k, named) in model.assembly.named_pairs.iter().enumerate() {
-        let entry = entry_of(scenario, &named.between);
+        let entry = scenario.contact.entry_of(&named.between);
         let mut interference = Interference::default();
         if let Some((i, spec)) = entry.and_then(|(i, entry)| Some((i, entry.interference.as_ref()?))) {
             let key = format!("contact.pairs.{i}.interference");
@@ -71,16 +71,6 @@ fn resolved_by(scenario: &Scenario) -> Result<f64, InputError> {
         "must be greater than 0 s and at most analysis.end_time",
     )?;
     Ok(until)
-}
-
-/// The exception of a pair, with its index.
-pub(super) fn entry_of<'a>(scenario: &'a Scenario, between: &[String; 2]) -> Option<(usize, &'a PairEntry)> {
-    let [a, b] = between;
-    let is_it = |entry: &PairEntry| {
-        let [x, y] = &entry.between;
-        (x == a && y == b) || (x == b && y == a)
-    };
-    scenario.contact.pairs.iter().enumerate().find(|(_, entry)| is_it(entry))
 }
 
 /// Refuses more clearance than the search for contacts sees through.

@@ -1,7 +1,6 @@
 use carom_contact::{Candidate, Pair, Path, Penetration, RigidShape, Search, Solid, Target};
 use carom_mesh::Vector;
 
-use super::interference::entry_of;
 use super::values::place;
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
@@ -133,7 +132,7 @@ fn is_pushed<const D: usize>(
     least: f64,
 ) -> InputError {
     let between = &model.assembly.named_pairs[named_pair].between;
-    let key = match entry_of(scenario, between) {
+    let key = match scenario.contact.entry_of(between) {
         Some((k, _)) => format!("contact.pairs.{k}.interference"),
         None => "contact.pairs".to_string(),
     };

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use super::interference::entry_of;
 use super::values::number;
 use crate::ContactCondition;
 use crate::error::InputError;
@@ -22,7 +21,8 @@ pub(super) fn restitution<const D: usize>(
         model.bodies.iter().filter(|b| !b.is_rigid()).map(|b| b.name.as_str()).collect();
     let mut restitutions = Vec::new();
     for named in &model.assembly.named_pairs {
-        let own = entry_of(scenario, &named.between).and_then(|(k, entry)| Some((k, entry.restitution?)));
+        let own =
+            scenario.contact.entry_of(&named.between).and_then(|(k, entry)| Some((k, entry.restitution?)));
         let soft = named.between.iter().find(|name| soft.contains(name.as_str()));
         if let Some((k, e)) = own {
             let key = format!("contact.pairs.{k}.restitution");
