@@ -36,6 +36,17 @@ pub struct Columns {
 }
 
 impl Columns {
+    /// Takes the entries of every column.
+    pub fn set(&mut self, columns: Vec<Vec<(usize, f64)>>) {
+        *self = Self { starts: vec![0], ..Self::default() };
+        for column in columns {
+            let (mut unknowns, mut values) = column.into_iter().unzip();
+            self.unknowns.append(&mut unknowns);
+            self.values.append(&mut values);
+            self.starts.push(self.unknowns.len());
+        }
+    }
+
     pub fn count(&self) -> usize {
         self.starts.len().saturating_sub(1)
     }

@@ -162,16 +162,7 @@ impl Contact {
                     .extend(entries.filter_map(|(u, n)| u.map(|u| (u, weight * n))));
             }
         });
-        let Columns { starts, unknowns, values } = &mut self.columns;
-        (starts.clear(), unknowns.clear(), values.clear());
-        starts.push(0);
-        for column in columns {
-            for (unknown, value) in column {
-                unknowns.push(unknown);
-                values.push(value);
-            }
-            starts.push(unknowns.len());
-        }
+        self.columns.set(columns);
         self.force = vec![0.0; self.unknowns.count];
         self.report = None;
         self.stage = if self.steps.count() == 0 { Stage::Solved } else { Stage::Evaluated };

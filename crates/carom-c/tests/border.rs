@@ -1,6 +1,6 @@
 //! What C may do wrong is a status and a message: null pointers, wrong sizes, wrong values, wrong order.
 
-use std::ffi::{CStr, CString, c_int, c_void};
+use std::ffi::{CStr, c_int, c_void};
 use std::ptr::{null, null_mut};
 
 use carom_c::door::books::*;
@@ -128,8 +128,7 @@ fn a_setup_refuses_what_cannot_be() {
             carom_setup_surface(setup, null(), edges, 4, 2, 0),
             "name is a null pointer; give a text that ends with a zero",
         );
-        let latin = CString::new([0xe9]).unwrap();
-        refused(carom_setup_surface(setup, latin.as_ptr(), edges, 4, 2, 0), "name is no text in UTF-8");
+        refused(carom_setup_surface(setup, c"\xe9".as_ptr(), edges, 4, 2, 0), "name is no text in UTF-8");
         let name = c"other".as_ptr();
         for (count, width) in [(0, 2), (4, 0)] {
             let message = "surfaces.other.facets: there are none; give one at least";
