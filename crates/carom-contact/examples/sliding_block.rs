@@ -19,13 +19,12 @@ fn main() {
         source: 0,
         target: Target::Obstacle(0),
         friction: FRICTION,
-        named_pair: 0,
         discretisation: Discretisation::default(),
     };
     let model = ContactModel {
         surfaces: vec![ContactSurface::new(&outline, 0, &|n| corners[n as usize])],
         obstacles: vec![Obstacle::plane(Vector::zeros(), Vector::<2>::new(0.0, 1.0))],
-        pairs: vec![pair],
+        pairs: vec![pair].into(),
     };
     let (mut search, mut found, mut contacts) = (Search::default(), Vec::new(), Vec::new());
     let solver = SolverKind::default().solver::<2>();

@@ -42,7 +42,7 @@ fn before_ball<const D: usize>(
 impl<const D: usize> ContactModel<D> {
     /// The balls of a pair of bodies that are both round.
     pub(crate) fn balls(&self, pair: usize) -> Option<[&Ball; 2]> {
-        let pair = &self.pairs[pair];
+        let pair = self.pairs.get(pair);
         let Target::Surface(target) = pair.target else { return None };
         Some([self.surfaces[pair.source].ball.as_ref()?, self.surfaces[target].ball.as_ref()?])
     }
@@ -55,7 +55,7 @@ impl<const D: usize> ContactModel<D> {
         out: &mut Vec<Candidate>,
     ) {
         let Some([ball, other]) = self.balls(pair) else { return };
-        if self.directions(pair).start != pair {
+        if self.pairs.directions(pair).start != pair {
             return;
         }
         let near = |contact: Contact<D>| contact.gap <= path.margin;
@@ -97,7 +97,7 @@ impl<const D: usize> ContactModel<D> {
         obstacle: &Obstacle<D>,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Option<Contact<D>> {
-        let ball = self.surfaces[self.pairs[pair].source].ball.as_ref()?;
+        let ball = self.surfaces[self.pairs.get(pair).source].ball.as_ref()?;
         (!obstacle.has_corners()).then(|| before_obstacle(ball, obstacle, position))
     }
 }

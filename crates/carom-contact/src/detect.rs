@@ -4,7 +4,7 @@ use crate::edge::Crossing;
 use crate::frame::frame;
 use crate::project::{Projection, Reach};
 use crate::search::SolidSurface;
-use crate::{Candidate, Contact, ContactModel, Obstacle, Path, Search, Site, Solid, Target};
+use crate::{Candidate, Contact, ContactModel, Obstacle, Pair, Path, Search, Site, Solid, Target};
 
 impl<const D: usize> ContactModel<D> {
     /// Finds the nodes that on their `path` come near their target or are inside it, and the facets they face; of obstacles with corners also
@@ -23,24 +23,57 @@ impl<const D: usize> ContactModel<D> {
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
-        self.detect_among(0..self.pairs.len(), path, search, out);
+        self.detect_node_by_node(|_| true, path, search, out);
         let mut mortar = std::mem::take(&mut search.mortar);
         self.detect_mortar(path, &mut mortar, out);
         search.mortar = mortar;
     }
 
-    /// [`ContactModel::detect`] of these `pairs`, in ascending order, but for multipliers, which [`ContactModel::detect_mortar`] finds.
-    pub fn detect_among<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    /// [`ContactModel::detect`] of the pairs that count, but for multipliers, which [`ContactModel::detect_mortar`] finds.
+    pub fn detect_node_by_node<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
-        pairs: impl Iterator<Item = usize> + Clone,
+        counts: impl Fn(&Pair) -> bool,
+        path: &Path<'_, D, S, E>,
+        search: &mut Search<D>,
+        out: &mut Vec<Candidate>,
+    ) {
+        search.sweep_where(self, &counts, path);
+        let mut pairs = std::mem::take(&mut search.pairs);
+        // Both come closer by the margin.
+        self.within(2.0 * path.margin, &search.extents, &mut pairs);
+        pairs.retain(|&p| counts(&self.pairs.get(p)));
+        self.detect_among(&pairs, path, search, out);
+        search.pairs = pairs;
+    }
+
+    /// The same of a body with itself.
+    pub fn detect_itself<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &self,
+        body: usize,
+        path: &Path<'_, D, S, E>,
+        search: &mut Search<D>,
+        out: &mut Vec<Candidate>,
+    ) {
+        let itself = self.pairs.of([Solid::Body(body); 2]);
+        search.sweep(self, itself.clone().map(|p| self.pairs.get(p)), path);
+        let mut pairs = std::mem::take(&mut search.pairs);
+        pairs.clear();
+        pairs.extend(itself);
+        self.detect_among(&pairs, path, search, out);
+        search.pairs = pairs;
+    }
+
+    /// Finds the candidates of these `pairs`, ascending, of which the boxes are swept.
+    fn detect_among<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &self,
+        pairs: &[usize],
         path: &Path<'_, D, S, E>,
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
         out.clear();
-        search.sweep(self, pairs.clone(), path);
-        for p in pairs {
-            let pair = &self.pairs[p];
+        for &p in pairs {
+            let pair = self.pairs.get(p);
             match pair.target {
                 Target::Obstacle(o) => match &self.obstacles[o].faceted {
                     None => match &self.surfaces[pair.source].ball {
@@ -78,7 +111,7 @@ impl<const D: usize> ContactModel<D> {
         out: &mut Vec<Candidate>,
     ) {
         // The distance from an obstacle changes by no more than the way.
-        let room = search.room_of_sources(self.pairs[pair].source);
+        let room = search.room_of_sources(self.pairs.get(pair).source);
         let (centre, reach) = (room.centre(), path.margin + room.reach());
         if !(obstacle.is_near(&centre, reach, path.start) || obstacle.is_near(&centre, reach, path.end)) {
             return;
@@ -87,7 +120,7 @@ impl<const D: usize> ContactModel<D> {
             obstacle.is_near(&(path.start)(node), path.margin, path.start)
                 || obstacle.is_near(&(path.end)(node), path.margin, path.end)
         };
-        let source = &self.surfaces[self.pairs[pair].source];
+        let source = &self.surfaces[self.pairs.get(pair).source];
         let candidate = |&node: &u32| Candidate::at_node(pair as u32, node, None);
         out.extend(source.sources.iter().filter(near).map(candidate));
     }
@@ -102,18 +135,18 @@ impl<const D: usize> ContactModel<D> {
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
-        let me = Solid::Body(self.pairs[pair].source);
+        let me = Solid::Body(self.pairs.get(pair).source);
         if !search.meet(me, target.solid, path.margin) {
             return;
         }
-        let (source, pair_index) = (&self.surfaces[self.pairs[pair].source], pair as u32);
+        let (source, pair_index) = (&self.surfaces[self.pairs.get(pair).source], pair as u32);
         if !self.is_mortar(pair) {
             search.facing(source, target, path, |node, facet| {
                 out.push(Candidate::at_node(pair_index, node, Some(facet)));
             });
         }
         // From the other side they are the same.
-        if self.directions(pair).start == pair {
+        if self.pairs.directions(pair).start == pair {
             self.detect_crossings(pair, target, path, search, out);
         }
         if matches!(target.solid, Solid::Obstacle(_)) {
@@ -137,7 +170,7 @@ impl<const D: usize> ContactModel<D> {
     /// where the tangent plane does not turn along the edge.
     #[must_use]
     pub fn evaluate(&self, candidate: &Candidate, position: &impl Fn(u32) -> Vector<D>) -> Contact<D> {
-        let pair = &self.pairs[candidate.pair as usize];
+        let pair = self.pairs.get(candidate.pair as usize);
         match pair.target {
             Target::Obstacle(o) => self.before_obstacle(candidate, &self.obstacles[o], position),
             Target::Surface(t) => match (candidate.site, candidate.facet) {
@@ -174,7 +207,7 @@ impl<const D: usize> ContactModel<D> {
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Contact<D> {
         let x = position(node);
-        let target = match self.pairs[pair].target {
+        let target = match self.pairs.get(pair).target {
             Target::Surface(t) => Some(&self.surfaces[t]),
             Target::Obstacle(_) => None,
         };
@@ -202,7 +235,7 @@ impl<const D: usize> ContactModel<D> {
         {
             return contact;
         }
-        let source = &self.surfaces[self.pairs[candidate.pair as usize].source];
+        let source = &self.surfaces[self.pairs.get(candidate.pair as usize).source];
         let contact = |gap, normal: &Vector<D>, nodes: &[u32], weights: &[f64]| {
             Contact::before_obstacle(gap, frame(normal), nodes, weights, obstacle.node)
         };

@@ -82,7 +82,7 @@ impl<const D: usize> ContactModel<D> {
         search: &Search<D>,
     ) -> bool {
         let pair = candidate.pair as usize;
-        let Pair { source, target, .. } = self.pairs[pair];
+        let Pair { source, target, .. } = self.pairs.get(pair);
         if self.is_mortar(pair) || self.is_self_contact(pair) || self.balls(pair).is_some() {
             return false;
         }
@@ -173,17 +173,16 @@ mod tests {
                     source: 0,
                     target: Target::Surface(1),
                     friction: 0.0,
-                    named_pair: 0,
                     discretisation: Discretisation::NodeToSegment,
                 },
                 Pair {
                     source: 0,
                     target: Target::Obstacle(0),
                     friction: 0.0,
-                    named_pair: 1,
                     discretisation: Discretisation::NodeToSegment,
                 },
-            ],
+            ]
+            .into(),
         };
         (model, a.nodes().iter().chain(b.nodes()).copied().chain([Vector::zeros()]).collect())
     }
@@ -192,10 +191,10 @@ mod tests {
     fn discs_are_as_far_apart_as_drawn() {
         let (model, x) = two_discs(2.5);
         let at = |n: u32| x[n as usize];
-        let between = model.proximity(&model.pairs[0], &at).expect("nodes");
+        let between = model.proximity(&model.pairs.get(0), &at).expect("nodes");
         // The node on the axis faces the vertex on the axis of the other disc.
         assert!((between.gap - 0.5).abs() < 1e-12);
-        assert!((model.proximity(&model.pairs[1], &at).expect("nodes").gap - 1.0).abs() < 1e-12);
+        assert!((model.proximity(&model.pairs.get(1), &at).expect("nodes").gap - 1.0).abs() < 1e-12);
         let mut candidates = Vec::new();
         model.detect(&Path::resting(&at, 0.1), &mut Search::default(), &mut candidates);
         assert!(candidates.is_empty());
@@ -204,7 +203,7 @@ mod tests {
     #[test]
     fn overlap_is_measured_however_deep() {
         let (model, x) = two_discs(1.5);
-        let deepest = model.proximity(&model.pairs[0], &|n| x[n as usize]).expect("nodes");
+        let deepest = model.proximity(&model.pairs.get(0), &|n| x[n as usize]).expect("nodes");
         assert!((deepest.gap + 0.5).abs() < 0.01, "{}", deepest.gap);
         assert!((deepest.at - Vector::<2>::new(1.0, 0.0)).norm() < 1e-12);
     }
@@ -247,9 +246,9 @@ mod tests {
                     source: 0,
                     target: Target::Surface(1),
                     friction: 0.0,
-                    named_pair: 0,
                     discretisation: Discretisation::NodeToSegment,
-                }],
+                }]
+                .into(),
             };
             for shift in [-1e-3, 0.0, 1e-9, 1e-3] {
                 let at = |n: u32| x[n as usize] + Vector::<2>::new(if n < count { shift } else { 0.0 }, 0.0);

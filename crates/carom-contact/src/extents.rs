@@ -3,12 +3,13 @@
 use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
-use crate::{ContactModel, ContactSurface, Pair, Target};
+use crate::bvh::Bvh;
+use crate::{ContactModel, ContactSurface, Pair, Solid, Target};
 
-/// Boxes around all surfaces at one moment.
-#[derive(Debug, Clone, PartialEq)]
+/// Boxes around all surfaces at one moment, or on their way.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Extents<const D: usize> {
-    surfaces: Vec<Aabb<D>>,
+    pub(crate) surfaces: Vec<Aabb<D>>,
 }
 
 impl<const D: usize> Extents<D> {
@@ -16,6 +17,31 @@ impl<const D: usize> Extents<D> {
     pub fn include(&mut self, surface: usize, points: impl Iterator<Item = Vector<D>>) {
         let own = &mut self.surfaces[surface];
         *own = own.union(&Aabb::of(points));
+    }
+
+    /// Boxes that hold those of both.
+    #[must_use]
+    pub(crate) fn union(mut self, other: &Self) -> Self {
+        for (own, other) in self.surfaces.iter_mut().zip(&other.surfaces) {
+            *own = own.union(other);
+        }
+        self
+    }
+
+    /// Tells `found` who may be within `reach` [m] of whom, two by two and ascending: surfaces, each with itself too, and every surface with
+    /// every one of so many `obstacles`.
+    fn neighbours(&self, obstacles: usize, reach: f64, mut found: impl FnMut([Solid; 2])) {
+        let tree = Bvh::new(self.surfaces.iter().copied());
+        let mut others = Vec::new();
+        for (i, own) in self.surfaces.iter().enumerate() {
+            others.clear();
+            tree.overlapping(&own.inflated(reach), |j, _| others.push(j as usize));
+            others.sort_unstable();
+            let me = Solid::Body(i);
+            found([me, me]);
+            others.iter().filter(|&&j| j > i).for_each(|&j| found([me, Solid::Body(j)]));
+            (0..obstacles).for_each(|o| found([me, Solid::Obstacle(o)]));
+        }
     }
 }
 
@@ -26,9 +52,20 @@ impl<const D: usize> ContactModel<D> {
         let around = |s: &ContactSurface| {
             let facets = (0..s.facets.len() as u32).map(|f| s.bounds(f, position));
             let sources = Aabb::of(s.sources.iter().map(|&n| position(n)));
-            facets.fold(sources, |all, facet| all.union(&facet))
+            facets.fold(sources.union(&s.round_box(position)), |all, facet| all.union(&facet))
         };
         Extents { surfaces: self.surfaces.iter().map(around).collect() }
+    }
+
+    /// Writes to `out` the numbers of pairs, ascending, among which are all whose solids come within `reach` [m] of one another: of many pairs
+    /// those whose boxes do and all with obstacles, of few all that there are.
+    pub fn within(&self, reach: f64, extents: &Extents<D>, out: &mut Vec<usize>) {
+        out.clear();
+        if self.pairs.are_many() {
+            extents.neighbours(self.obstacles.len(), reach, |between| out.extend(self.pairs.of(between)));
+        } else {
+            out.extend(0..self.pairs.listed().len());
+        }
     }
 
     /// A number that no gap of a pair is smaller than [m]; without bound where the boxes overlap.
@@ -45,18 +82,44 @@ impl<const D: usize> ContactModel<D> {
         }
     }
 
-    /// The smallest gap of all pairs beyond the `least` that each may have [m]; infinite without a pair.
+    /// The smallest gap of all pairs beyond the `least` that each may have, which is at most so much [m]; infinite without a pair.
     #[must_use]
-    pub fn smallest_gap(&self, least: impl Fn(&Pair) -> f64, position: &impl Fn(u32) -> Vector<D>) -> f64 {
+    pub fn smallest_gap(
+        &self,
+        (least, most): (impl Fn(&Pair) -> f64, f64),
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> f64 {
         let extents = self.extents(position);
-        let bound = |pair: &Pair| self.at_least(pair, &extents, position) - least(pair);
+        let all = extents.surfaces.iter().fold(Aabb::of([]), |all, own| all.union(own));
+        // Neighbours are no farther apart than they are large, as a rule.
+        let mut reach = extents.surfaces.iter().map(Aabb::diameter).fold(f64::INFINITY, f64::min);
+        let mut pairs = Vec::new();
+        loop {
+            self.within(reach, &extents, &mut pairs);
+            let smallest = self.smallest_gap_among(&pairs, &extents, &least, position);
+            if !self.pairs.are_many() || smallest + most <= reach || reach > all.diameter() {
+                return smallest;
+            }
+            reach = if smallest.is_finite() { smallest + most } else { 2.0 * reach.max(most) };
+        }
+    }
+
+    /// The same of some `pairs`.
+    fn smallest_gap_among(
+        &self,
+        pairs: &[usize],
+        extents: &Extents<D>,
+        least: &impl Fn(&Pair) -> f64,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> f64 {
+        let bound = |pair: &Pair| self.at_least(pair, extents, position) - least(pair);
         let beyond = |pair: &Pair| self.proximity(pair, position).map(|near| near.gap - least(pair));
-        let bounds = self.pairs.iter().map(|pair| (bound(pair), pair));
-        let nearest = bounds.min_by(|a, b| a.0.total_cmp(&b.0));
-        let mut smallest = nearest.and_then(|(_, pair)| beyond(pair)).unwrap_or(f64::INFINITY);
-        for pair in &self.pairs {
-            if bound(pair) < smallest {
-                smallest = beyond(pair).map_or(smallest, |gap| gap.min(smallest));
+        let pairs = || pairs.iter().map(|&p| self.pairs.get(p));
+        let nearest = pairs().map(|pair| (bound(&pair), pair)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let mut smallest = nearest.and_then(|(_, pair)| beyond(&pair)).unwrap_or(f64::INFINITY);
+        for pair in pairs() {
+            if bound(&pair) < smallest {
+                smallest = beyond(&pair).map_or(smallest, |gap| gap.min(smallest));
             }
         }
         smallest
@@ -65,13 +128,15 @@ impl<const D: usize> ContactModel<D> {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use carom_mesh::{Surface, generate};
 
     use super::*;
-    use crate::{Discretisation, Obstacle};
+    use crate::{Directions, Discretisation, Obstacle, PairRule, PairRules, Pairs, Path, Search, Side};
 
-    /// Eight discs in a row that is bent, above a floor, and every pair of them.
-    fn row(smooth: bool) -> (ContactModel<2>, Vec<Vector<2>>) {
+    /// Eight discs in a row that is bent, above a floor, and every pair of them: listed if they are no more than `many`.
+    fn row(smooth: bool, many: usize) -> (ContactModel<2>, Vec<Vector<2>>) {
         let (mut x, mut model) = (Vec::new(), ContactModel::default());
         model.obstacles.push(Obstacle::plane(Vector::<2>::new(0.0, -3.0), Vector::<2>::new(0.6, 0.8)));
         for k in 0..8 {
@@ -89,45 +154,79 @@ mod tests {
             let surface = if smooth { surface.smoothed(&|n| x[n as usize]) } else { surface };
             model.surfaces.push(surface);
         }
-        for source in 0..8 {
-            let pair = |target| Pair {
-                source,
-                target,
-                friction: 0.0,
-                named_pair: 0,
-                discretisation: Discretisation::NodeToSegment,
-            };
-            model.pairs.push(pair(Target::Obstacle(0)));
-            model.pairs.extend((0..8).filter(|&t| t != source).map(|t| pair(Target::Surface(t))));
-        }
+        let rule = PairRule {
+            friction: 0.0,
+            discretisation: Discretisation::NodeToSegment,
+            directions: Directions::Both,
+        };
+        let side = Side { touches_itself: false, facet_width: 1.0, mass: 1.0 };
+        let rules = PairRules { sides: vec![side; 8], obstacles: 1, rule, exceptions: BTreeMap::new() };
+        model.pairs = Pairs::by(rules, many);
         x.push(Vector::zeros());
         (model, x)
     }
 
+    /// Every other disc is moved along the row, into its neighbour in the end.
+    fn moved<'a>(
+        model: &'a ContactModel<2>,
+        x: &'a [Vector<2>],
+        shift: f64,
+    ) -> impl Fn(u32) -> Vector<2> + use<'a> {
+        move |n| {
+            let own = model.surfaces.iter().position(|s| s.sources.contains(&n));
+            x[n as usize] + Vector::<2>::new(own.map_or(0.0, |k| shift * (k % 2) as f64), 0.0)
+        }
+    }
+
     #[test]
     fn boxes_bound_every_gap_and_find_the_smallest_of_all() {
-        for smooth in [false, true] {
-            let (model, x) = row(smooth);
+        for (smooth, many) in [(false, 100), (true, 100), (false, 0), (true, 0)] {
+            let (model, x) = row(smooth, many);
+            assert_eq!(model.pairs.are_many(), many == 0);
+            let pairs: Vec<Pair> = model.pairs.iter().map(|(_, pair)| pair).collect();
             for shift in [0.0, 0.05, -0.4] {
-                // Every other disc is moved along the row, into its neighbour in the end.
-                let at = |n: u32| {
-                    let own = model.surfaces.iter().position(|s| s.sources.contains(&n));
-                    x[n as usize] + Vector::<2>::new(own.map_or(0.0, |k| shift * (k % 2) as f64), 0.0)
-                };
+                let at = moved(&model, &x, shift);
                 let extents = model.extents(&at);
                 let gap = |pair: &Pair| model.proximity(pair, &at).expect("nodes").gap;
                 let mut known = 0;
-                for pair in &model.pairs {
+                for pair in &pairs {
                     let bound = model.at_least(pair, &extents, &at);
                     assert!(bound <= gap(pair) + 1e-12, "{bound} of {}", gap(pair));
                     known += usize::from(bound > 0.0);
                 }
-                assert!(known > model.pairs.len() / 2, "{known} pairs are known to be apart");
-                // With a pair that may be closer than the others.
-                let least = |pair: &Pair| if pair.source == 5 { -0.3 } else { 0.01 };
-                let all = model.pairs.iter().map(|pair| gap(pair) - least(pair));
-                assert_eq!(model.smallest_gap(least, &at), all.fold(f64::INFINITY, f64::min));
+                assert!(known > pairs.len() / 2, "{known} pairs are known to be apart");
+                // With a pair that may be closer than the others, and one that is pushed apart from far away.
+                let least = |pair: &Pair| match pair.source {
+                    5 => -0.3,
+                    2 if pair.target == Target::Surface(6) => 6.0,
+                    _ => 0.01,
+                };
+                let all = pairs.iter().map(|pair| gap(pair) - least(pair));
+                assert_eq!(model.smallest_gap((least, 6.0), &at), all.fold(f64::INFINITY, f64::min));
             }
+        }
+    }
+
+    #[test]
+    fn of_pairs_that_are_not_listed_the_same_contacts_are_found() {
+        for smooth in [false, true] {
+            let ((listed, x), (ruled, _)) = (row(smooth, 100), row(smooth, 0));
+            let mut count = 0;
+            for (shift, margin) in [(-0.2, 0.01), (-0.4, 0.0), (0.3, 0.1), (0.0, 2.0)] {
+                let found = |model: &ContactModel<2>| {
+                    let (start, end) = (moved(model, &x, 0.0), moved(model, &x, shift));
+                    let (mut search, mut out) = (Search::default(), Vec::new());
+                    model.detect(&Path { start: &start, end: &end, margin }, &mut search, &mut out);
+                    let named = |c: &crate::Candidate| {
+                        (model.pairs.get(c.pair as usize), c.site, c.facet, c.redundant)
+                    };
+                    out.iter().map(named).collect::<Vec<_>>()
+                };
+                let same = found(&listed);
+                assert_eq!(same, found(&ruled));
+                count += same.len();
+            }
+            assert!(count > 20, "{count} contacts");
         }
     }
 }

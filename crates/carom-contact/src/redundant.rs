@@ -40,7 +40,7 @@ impl<const D: usize> ContactModel<D> {
     ) -> bool {
         let pair = candidate.pair as usize;
         let is_own = self.is_self_contact(pair);
-        let first = self.directions(pair).start;
+        let first = self.pairs.directions(pair).start;
         if first == pair && !is_own {
             return false;
         }
@@ -98,8 +98,8 @@ impl<const D: usize> ContactModel<D> {
         }
         for side in (0..2).filter(|&side| crossing.reach()[side] < EDGES.at_node) {
             let node = edges[side][crossing.nearer()[side]];
-            for p in self.directions(pair) {
-                let node = self.surfaces[self.pairs[p].source].master(node);
+            for p in self.pairs.directions(pair) {
+                let node = self.surfaces[self.pairs.get(p).source].master(node);
                 let at = |site| find(candidates, p as u32, site);
                 let Some(j) = at(Site::Node(node)).or_else(|| at(Site::Corner(node))) else { continue };
                 let other = candidates[j];

@@ -51,7 +51,7 @@ impl<const D: usize> ContactModel<D> {
         out: &mut Vec<Candidate>,
     ) {
         let Some(radius) = obstacle.shape.bulging_radius() else { return };
-        let source = &self.surfaces[self.pairs[pair].source];
+        let source = &self.surfaces[self.pairs.get(pair).source];
         let is_large = |f: u32| diameter(&source.facets[f as usize], path.start) > radius;
         let comes_near = |site: Site| {
             let Some(first) = source.nearest(site, obstacle, path.start) else { return false };
@@ -85,7 +85,7 @@ impl<const D: usize> ContactModel<D> {
     /// Whether a pair has such a facet or edge, before such an obstacle.
     #[must_use]
     pub fn has_before_round(&self, pair: usize, site: Site) -> bool {
-        let Pair { source, target, .. } = self.pairs[pair];
+        let Pair { source, target, .. } = self.pairs.get(pair);
         let Target::Obstacle(o) = target else { return false };
         let source = &self.surfaces[source];
         match (site, &self.obstacles[o].shape) {
@@ -102,7 +102,7 @@ impl<const D: usize> ContactModel<D> {
         obstacle: &Obstacle<D>,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Option<Contact<D>> {
-        let source = &self.surfaces[self.pairs[candidate.pair as usize].source];
+        let source = &self.surfaces[self.pairs.get(candidate.pair as usize).source];
         let nearest = source.nearest(candidate.site, obstacle, position)?;
         let (gap, normal) = nearest.gap(obstacle.shape.bulging_radius()?);
         let (nodes, weights): (SmallVec<[u32; 8]>, SmallVec<[f64; 8]>) =
@@ -119,7 +119,7 @@ impl<const D: usize> ContactModel<D> {
         candidates: &[Candidate],
     ) -> bool {
         let candidate = &candidates[k];
-        let Pair { source, target, .. } = self.pairs[candidate.pair as usize];
+        let Pair { source, target, .. } = self.pairs.get(candidate.pair as usize);
         let Target::Obstacle(o) = target else { return false };
         let (source, obstacle) = (&self.surfaces[source], &self.obstacles[o]);
         let Some(nearest) = source.nearest(candidate.site, obstacle, position) else { return false };

@@ -7,7 +7,7 @@ use crate::facing::{Projected, faced};
 use crate::project::Reach;
 use crate::surface::diameter;
 use crate::tolerances::SEARCH;
-use crate::{ContactModel, ContactSurface, Mortar, Path, Solid, Target};
+use crate::{ContactModel, ContactSurface, Extents, Mortar, Pair, Path, Solid, Target};
 
 /// What the search for contacts keeps from one call to the next: room for boxes, and the trees over them.
 ///
@@ -22,6 +22,10 @@ pub struct Search<const D: usize> {
     projected: Vec<Projected<D>>,
     /// Edges of a pair that cross.
     pub(crate) crossings: Vec<Found>,
+    /// Of all surfaces on their way, where pairs are many.
+    pub(crate) extents: Extents<D>,
+    /// The numbers of the pairs that come near.
+    pub(crate) pairs: Vec<usize>,
     /// What [`ContactModel::detect`] knows of mortar pairs.
     pub mortar: Mortar<D>,
 }
@@ -34,6 +38,8 @@ impl<const D: usize> Default for Search<D> {
             near: Vec::new(),
             projected: Vec::new(),
             crossings: Vec::new(),
+            extents: Extents::default(),
+            pairs: Vec::new(),
             mortar: Mortar::default(),
         }
     }
@@ -100,25 +106,66 @@ impl<const D: usize> Search<D> {
     pub(crate) fn sweep<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &mut self,
         model: &ContactModel<D>,
-        pairs: impl Iterator<Item = usize>,
+        pairs: impl Iterator<Item = Pair>,
         path: &Path<'_, D, S, E>,
     ) {
+        self.forget(model);
+        pairs.for_each(|pair| self.expect(model, &pair));
+        self.sweep_expected(model, path);
+    }
+
+    /// The same of all pairs that count, and where they are many boxes around whole surfaces on their way.
+    pub(crate) fn sweep_where<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &mut self,
+        model: &ContactModel<D>,
+        counts: &impl Fn(&Pair) -> bool,
+        path: &Path<'_, D, S, E>,
+    ) {
+        self.forget(model);
+        let are_many = model.pairs.are_many();
+        if are_many {
+            self.surfaces.iter_mut().for_each(|swept| (swept.is_source, swept.is_faced) = (true, true));
+        } else {
+            let pairs = model.pairs.listed().iter().filter(|pair| counts(pair));
+            pairs.for_each(|pair| self.expect(model, pair));
+        }
+        self.sweep_expected(model, path);
+        self.extents.surfaces.clear();
+        if are_many {
+            let whole = self.surfaces.iter().zip(&model.surfaces).map(|(swept, surface)| {
+                let round = [surface.round_box(path.start), surface.round_box(path.end)];
+                round.iter().fold(swept.whole.union(&swept.sources), |all, round| all.union(round))
+            });
+            self.extents.surfaces.extend(whole);
+        }
+    }
+
+    /// Makes room for the solids of `model`, of which none is expected to move.
+    fn forget(&mut self, model: &ContactModel<D>) {
         self.surfaces.resize_with(model.surfaces.len(), Swept::default);
         self.obstacles.resize_with(model.obstacles.len(), Swept::default);
         self.surfaces.iter_mut().for_each(Swept::forget);
-        for pair in pairs.map(|p| &model.pairs[p]) {
-            match pair.target {
-                Target::Surface(t) => {
-                    self.surfaces[pair.source].is_source = true;
-                    self.surfaces[t].is_faced = true;
-                }
-                Target::Obstacle(o) if model.obstacles[o].faceted.is_some() => {
-                    let source = &mut self.surfaces[pair.source];
-                    (source.is_source, source.is_faced) = (true, true);
-                }
-                Target::Obstacle(_) => self.surfaces[pair.source].is_source = true,
+    }
+
+    /// Says that a pair counts.
+    fn expect(&mut self, model: &ContactModel<D>, pair: &Pair) {
+        let is_faced = match pair.target {
+            Target::Surface(t) => {
+                self.surfaces[t].is_faced = true;
+                false
             }
-        }
+            Target::Obstacle(o) => model.obstacles[o].faceted.is_some(),
+        };
+        let source = &mut self.surfaces[pair.source];
+        source.is_source = true;
+        source.is_faced |= is_faced;
+    }
+
+    fn sweep_expected<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &mut self,
+        model: &ContactModel<D>,
+        path: &Path<'_, D, S, E>,
+    ) {
         for (swept, surface) in self.surfaces.iter_mut().zip(&model.surfaces) {
             if swept.is_source {
                 swept.sources = Aabb::of(surface.sources.iter().flat_map(|&n| path.ends(n)));
@@ -329,17 +376,16 @@ mod tests {
                     source: 0,
                     target: Target::Surface(1),
                     friction: 0.0,
-                    named_pair: 0,
                     discretisation: Discretisation::default(),
                 },
                 Pair {
                     source: 1,
                     target: Target::Surface(0),
                     friction: 0.0,
-                    named_pair: 0,
                     discretisation: Discretisation::default(),
                 },
-            ],
+            ]
+            .into(),
         };
         let mut search = Search::default();
         let mut found = 0;
@@ -360,7 +406,7 @@ mod tests {
             let path = Path { start: &start, end: &end, margin: 0.1 };
             model.detect(&path, &mut search, &mut tree);
             let mut flat = Search::default();
-            flat.sweep(&model, 0..model.pairs.len(), &path);
+            flat.sweep_where(&model, &|_| true, &path);
             for (swept, surface) in flat.surfaces.iter_mut().zip(&model.surfaces) {
                 swept.tree = Bvh::flat(surface.facets.iter().map(|_| Aabb::of([])));
             }
@@ -392,9 +438,9 @@ mod tests {
                 source: 0,
                 target: Target::Surface(1),
                 friction: 0.0,
-                named_pair: 0,
                 discretisation: Discretisation::default(),
-            }],
+            }]
+            .into(),
         };
         let at = |n: u32| {
             let x = mesh.nodes()[(n % count) as usize];
@@ -413,7 +459,7 @@ mod tests {
         search.surfaces[1].tree = Bvh::flat(surface.facets().iter().map(|_| Aabb::of([])));
         let scan = time(&mut search);
         let start = std::time::Instant::now();
-        let closest = model.proximity(&model.pairs[0], &at).expect("nodes");
+        let closest = model.proximity(&model.pairs.get(0), &at).expect("nodes");
         println!("closest {:e} m after {:?}", closest.gap, start.elapsed());
         println!(
             "{} facets: tree {:?} (first {:?}), scan {:?}",

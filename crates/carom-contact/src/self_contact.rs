@@ -70,7 +70,7 @@ impl<const D: usize> ContactModel<D> {
     /// Whether a pair is that of a surface with itself.
     #[must_use]
     pub fn is_self_contact(&self, pair: usize) -> bool {
-        let pair = &self.pairs[pair];
+        let pair = self.pairs.get(pair);
         pair.target == Target::Surface(pair.source)
     }
 }

@@ -245,6 +245,15 @@ impl ContactSurface {
         p.normal.dot(&(x - p.point))
     }
 
+    /// A box around the ball that the surface stands for; empty if it stands for none.
+    pub(crate) fn round_box<const D: usize>(&self, position: &impl Fn(u32) -> Vector<D>) -> Aabb<D> {
+        let ends = self.ball.iter().flat_map(|ball| {
+            let (centre, radius) = (ball.centre(position), Vector::repeat(ball.radius));
+            [centre - radius, centre + radius]
+        });
+        Aabb::of(ends)
+    }
+
     /// A box around what the surface is over the facet `f`.
     pub(crate) fn bounds<const D: usize>(&self, f: u32, position: &impl Fn(u32) -> Vector<D>) -> Aabb<D> {
         match &self.shape {

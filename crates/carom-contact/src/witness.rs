@@ -8,9 +8,7 @@ use crate::patch::rim;
 use crate::project::Reach;
 use crate::search::Swept;
 use crate::tolerances::MEASURE;
-use crate::{
-    Candidate, ContactModel, ContactSurface, Feature, Pair, Path, Search, Site, Solid, Target, Witness,
-};
+use crate::{Candidate, ContactModel, ContactSurface, Feature, Path, Search, Site, Solid, Witness};
 
 impl<const D: usize> ContactModel<D> {
     /// Writes to `out`, ascending, the candidates that would have kept `witnesses` out on the straight `path` of all nodes: a node before the facet that was nearest at the start, an edge where it goes through another.
@@ -25,7 +23,7 @@ impl<const D: usize> ContactModel<D> {
         out: &mut Vec<Candidate>,
     ) {
         out.clear();
-        search.sweep(self, 0..self.pairs.len(), path);
+        search.sweep_where(self, &|_| true, path);
         for &Witness { of, inside, feature, depth } in witnesses {
             let (Some(there), Some(_)) = (self.pair_of(of, inside), self.pair_of(inside, of)) else {
                 continue;
@@ -42,7 +40,7 @@ impl<const D: usize> ContactModel<D> {
                 Feature::Edge(nodes) => {
                     let Some(edge) = own.edge(nodes) else { continue };
                     let own_edge = SurfaceEdge { surface: own, edge };
-                    let first = self.directions(there).start;
+                    let first = self.pairs.directions(there).start;
                     let is_source = first == there;
                     let pierced = other.pierced_on_the_way(own_edge, depth, is_source, swept, path);
                     out.extend(pierced.map(|[source, target]| Candidate {
@@ -60,8 +58,8 @@ impl<const D: usize> ContactModel<D> {
 
     /// The pair in which nodes of the body `source` are checked one by one against the body `target`.
     fn pair_of(&self, source: usize, target: usize) -> Option<usize> {
-        let is_it = |pair: &Pair| pair.source == source && pair.target == Target::Surface(target);
-        (0..self.pairs.len()).find(|&p| is_it(&self.pairs[p]) && !self.is_mortar(p))
+        let of_both = self.pairs.of([Solid::Body(source), Solid::Body(target)]);
+        of_both.into_iter().find(|&p| self.pairs.get(p).source == source && !self.is_mortar(p))
     }
 }
 

@@ -45,9 +45,9 @@ fn contact(target: &Mesh<3>, surface: &Surface, x: &Vector3, back: &Vector3) -> 
             source: 0,
             target: Target::Surface(1),
             friction: 0.0,
-            named_pair: 0,
             discretisation: Discretisation::default(),
-        }],
+        }]
+        .into(),
     };
     let mut found: Vec<Candidate> = Vec::new();
     model.detect(&Path::resting(&at, 0.1), &mut Search::default(), &mut found);

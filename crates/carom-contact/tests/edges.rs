@@ -55,11 +55,10 @@ impl Scene {
             source,
             target: Target::Surface(target),
             friction: 0.0,
-            named_pair: 0,
             discretisation: Discretisation::default(),
         };
         let surfaces = vec![surface(a, 0), surface(b, first_of_second)];
-        let model = ContactModel { surfaces, obstacles: vec![], pairs: vec![pair(0, 1), pair(1, 0)] };
+        let model = ContactModel { surfaces, obstacles: vec![], pairs: vec![pair(0, 1), pair(1, 0)].into() };
         Self { model, x, first_of_second }
     }
 

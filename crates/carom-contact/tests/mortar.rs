@@ -26,10 +26,9 @@ impl<const D: usize> Scene<D> {
             source: 0,
             target: Target::Surface(1),
             friction: 0.3,
-            named_pair: 0,
             discretisation: Discretisation::Mortar,
         };
-        let model = ContactModel { surfaces, obstacles: vec![], pairs: vec![pair] };
+        let model = ContactModel { surfaces, obstacles: vec![], pairs: vec![pair].into() };
         Self { model, nodes, sources }
     }
 

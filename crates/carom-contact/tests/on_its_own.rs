@@ -7,7 +7,7 @@ use carom_contact::{
 use carom_mesh::{Mesh, Surface, Vector, generate};
 
 fn pair(source: usize, target: Target, discretisation: Discretisation) -> Pair {
-    Pair { source, target, friction: 0.3, named_pair: 0, discretisation }
+    Pair { source, target, friction: 0.3, discretisation }
 }
 
 /// Surfaces of two meshes, numbered one after the other, and where their nodes are.
@@ -32,7 +32,7 @@ fn an_obstacle_without_a_number_rests() {
         let model = ContactModel {
             surfaces: vec![ContactSurface::new(&Surface::of(&square), 0, &at)],
             obstacles: vec![Obstacle::new(shape)],
-            pairs: vec![pair(0, Target::Obstacle(0), Discretisation::default())],
+            pairs: vec![pair(0, Target::Obstacle(0), Discretisation::default())].into(),
         };
         let mut found = Vec::new();
         model.detect(&Path::resting(&at, 0.1), &mut Search::default(), &mut found);
@@ -58,7 +58,7 @@ fn multipliers_are_found_and_evaluated_as_nodes_are() {
     let (surfaces, x) = surfaces([&lower, &upper]);
     let at = |n: u32| x[n as usize];
     let pairs = vec![pair(0, Target::Surface(1), Discretisation::Mortar)];
-    let model = ContactModel { surfaces, obstacles: vec![], pairs };
+    let model = ContactModel { surfaces, obstacles: vec![], pairs: pairs.into() };
     let (mut search, mut found, mut contacts) = (Search::default(), Vec::new(), Vec::new());
     model.detect(&Path::resting(&at, 0.1), &mut search, &mut found);
     model.evaluate_all(&found, &at, &mut search.mortar, &mut contacts);
@@ -85,7 +85,7 @@ fn crossed_bars_are_found_whatever_has_been_said_of_edges() {
     let (surfaces, x) = surfaces([&along_x, &along_y]);
     let at = |n: u32| x[n as usize];
     let pairs = [0, 1].map(|s| pair(s, Target::Surface(1 - s), Discretisation::default())).to_vec();
-    let model = ContactModel { surfaces, obstacles: vec![], pairs };
+    let model = ContactModel { surfaces, obstacles: vec![], pairs: pairs.into() };
     let mut found = Vec::new();
     model.detect(&Path::resting(&at, 0.01), &mut Search::default(), &mut found);
     assert_eq!(found.len(), 4, "{found:?}");

@@ -27,11 +27,10 @@ impl Scene {
             source,
             target: Target::Surface(1 - source),
             friction: 0.0,
-            named_pair: 0,
             discretisation: Discretisation::default(),
         };
         let boundaries = Boundaries::new(outlines.iter().zip(firsts), &[], &at);
-        let model = ContactModel { surfaces, obstacles: Vec::new(), pairs: vec![pair(0), pair(1)] };
+        let model = ContactModel { surfaces, obstacles: Vec::new(), pairs: vec![pair(0), pair(1)].into() };
         Self { model, boundaries, start, end }
     }
 

@@ -48,7 +48,7 @@ pub fn state<'py, const D: usize>(
     out.set_item("velocity", vectors(py, &state.velocity[..nodes])?)?;
     out.set_item("energy_debt", PyArray1::from_slice(py, &state.energy_debt))?;
     out.set_item("contact_force", vectors(py, &state.contact_force[..nodes])?)?;
-    let target = |pair: u32| match model.assembly.contact.pairs[pair as usize].target {
+    let target = |pair: u32| match model.assembly.contact.pairs.get(pair as usize).target {
         Target::Surface(body) => body as i64,
         Target::Obstacle(obstacle) => -1 - obstacle as i64,
     };

@@ -1,7 +1,7 @@
 //! Contact in somebody else's time loop: arrays by the caller's numbers in, arrays out.
 
 use carom::{Outline, PlantedSpec, StepError};
-use carom_contact::Site;
+use carom_contact::{Candidate, Site};
 use carom_friction::Matrix;
 use carom_mesh::Vector;
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -76,10 +76,20 @@ impl PlantedContact {
         Ok(Self { inner: inner.map_err(|e| input_error(py, &e))? })
     }
 
-    /// The names of every named pair.
-    fn named_pairs(&self) -> Vec<[String; 2]> {
+    /// The numbers of all pairs; none where they are many.
+    fn all_pairs(&self) -> Vec<usize> {
         with!(&self.inner, planted => {
-            planted.assembly().named_pairs.iter().map(|pair| pair.between.clone()).collect()
+            let pairs = &planted.assembly().contact.pairs;
+            if pairs.are_many() { Vec::new() } else { pairs.between().map(|b| pairs.place(b)).collect() }
+        })
+    }
+
+    /// The two names of a pair by its number.
+    fn pair_names(&self, number: usize) -> Option<[String; 2]> {
+        with!(&self.inner, planted => {
+            let assembly = planted.assembly();
+            let between = assembly.contact.pairs.at_place(number)?;
+            Some(between.map(|solid| assembly.solid_name(solid).to_string()))
         })
     }
 
@@ -181,7 +191,9 @@ impl PlantedContact {
             let points = rows(&points)?;
             let step = py.detach(|| planted.accept(&points));
             let out = PyDict::new(py);
-            let column = |of: fn(&carom::PairLedger) -> f64| PyArray1::from_iter(py, step.pairs.iter().map(of));
+            let place = |(between, _)| planted.assembly().contact.pairs.place(between) as i64;
+            out.set_item("pair", PyArray1::from_iter(py, step.pairs.iter().map(place)))?;
+            let column = |of: fn(&carom::PairLedger) -> f64| PyArray1::from_iter(py, step.pairs.values().map(of));
             out.set_item("friction", column(|pair| pair.friction))?;
             out.set_item("normal_contact", column(|pair| pair.normal_contact))?;
             out.set_item("prescribed", column(|pair| pair.prescribed))?;
@@ -201,7 +213,8 @@ fn describe<'py, const D: usize>(
     let contacts = planted.contacts();
     let pairs = &planted.assembly().contact.pairs;
     let out = PyDict::new(py);
-    let named = planted.candidates().iter().map(|c| pairs[c.pair as usize].named_pair as i64);
+    let number = |c: &Candidate| pairs.place(pairs.get(c.pair as usize).between()) as i64;
+    let named = planted.candidates().iter().map(number);
     out.set_item("pair", PyArray1::from_iter(py, named))?;
     let node = |site: Site| match site {
         Site::Node(node) | Site::Multiplier(node, _) => {

@@ -158,12 +158,9 @@ impl Simulation {
         })
     }
 
-    /// The entries of the ledger table: the bodies, then the pairs as "a|b".
-    fn ledger_entries(&self) -> Vec<String> {
-        with!(&self.inner, run => {
-            let bodies = run.model().bodies.iter().map(|b| b.name.clone());
-            bodies.chain(run.model().assembly.named_pairs.iter().map(|g| g.between.join("|"))).collect()
-        })
+    /// The name of an entry of the ledger table: of a body or, after these, of a pair as "a|b".
+    fn ledger_entry(&self, number: usize) -> String {
+        with!(&self.inner, run => run.ledger_entry(number))
     }
 
     fn take_ledger<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {

@@ -107,7 +107,7 @@ class ContactModel:
             self.dofs < 0,
             obstacle_surfaces(obstacles),
         )
-        self._named = [(a, b) for a, b in self._native.named_pairs()]
+        self._known_names: dict[int, tuple[str, str]] = {}
         self._searches = self._evaluations = 0
         self._is_searched = self._is_evaluated = self._is_solved = False
 
@@ -195,7 +195,7 @@ class ContactModel:
         self._evaluations += 1
         self._is_evaluated, self._is_solved = True, not len(found["gap"])
         return Contacts(
-            pair=tuple(self._named[k] for k in found["pair"]),
+            pair=tuple(self._names(k) for k in found["pair"].tolist()),
             node=found["node"],
             gap=found["gap"],
             frame=found["frame"],
@@ -266,12 +266,19 @@ class ContactModel:
         done = self._native.accept(at)
         self._is_searched = self._is_evaluated = self._is_solved = False
         columns = zip(done["friction"], done["normal_contact"], done["prescribed"], strict=True)
-        works = [PairWork(*map(float, column)) for column in columns]
+        pairs = {self._names(k): PairWork() for k in self._native.all_pairs()}
         whole = PairWork()
-        for work in works:
+        for k, column in zip(done["pair"].tolist(), columns, strict=True):
+            pairs[self._names(k)] = work = PairWork(*map(float, column))
             whole.add(work)
-        pairs = dict(zip(self._named, works, strict=True))
         return Step(whole, pairs, done["certificate"], done["min_gap"], done["pressing"])
+
+    def _names(self, number: int) -> tuple[str, str]:
+        """Return the names of the two solids of a pair by its number."""
+        if number not in self._known_names:
+            a, b = self._native.pair_names(number) or ("", "")
+            self._known_names[number] = (a, b)
+        return self._known_names[number]
 
     def native_at(self, contacts: Contacts) -> Any:  # noqa: ANN401 (the native object)
         """Return the native side of contacts that are the last ones evaluated.

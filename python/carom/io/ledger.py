@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -28,15 +28,15 @@ class LedgerWriter:
     ----------
     path
         File to write.
-    entries
-        Names of the bodies, then of the pairs.
+    entry
+        The name of a body or a pair by its number in the rows.
     size
         As of `HistoryWriter`.
     """
 
-    def __init__(self, path: Path, entries: Sequence[str], *, size: int | None = None) -> None:
+    def __init__(self, path: Path, entry: Callable[[int], str], *, size: int | None = None) -> None:
         self._path = path
-        self._entries = entries
+        self._entry = entry
         if size is None:
             self._write([COLUMNS], mode="w")
         else:
@@ -50,7 +50,7 @@ class LedgerWriter:
     def _row(self, values: Sequence[float]) -> list[object]:
         time, entry, *terms = values
         cells = ["" if math.isnan(term) else term for term in terms]
-        return [time, self._entries[int(entry)], *cells]
+        return [time, self._entry(int(entry)), *cells]
 
     def _write(self, rows: Sequence[Sequence[object]], *, mode: str) -> None:
         with self._path.open(mode, encoding="utf-8", newline="") as file:

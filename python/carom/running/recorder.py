@@ -91,7 +91,7 @@ class Recorder:
             directory / layout.HISTORY, simulation.history_columns(), size=written.get("history")
         )
         self._ledger = LedgerWriter(
-            directory / layout.LEDGER, simulation.ledger_entries(), size=written.get("ledger")
+            directory / layout.LEDGER, simulation.ledger_entry, size=written.get("ledger")
         )
         self._queue = FrameQueue(
             FieldsWriter(

@@ -24,7 +24,7 @@ impl<const D: usize> ContactModel<D> {
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
-        let source = &self.surfaces[self.pairs[pair].source];
+        let source = &self.surfaces[self.pairs.get(pair).source];
         if !(source.has_features || target.has_features) {
             return;
         }

@@ -30,8 +30,8 @@ impl<const D: usize> ContactModel<D> {
         path: &Path<'_, D, S, E>,
         out: &mut Vec<Facing>,
     ) {
-        let Target::Surface(target) = self.pairs[pair].target else { return };
-        let (source, target) = (&self.surfaces[self.pairs[pair].source], &self.surfaces[target]);
+        let Target::Surface(target) = self.pairs.get(pair).target else { return };
+        let (source, target) = (&self.surfaces[self.pairs.get(pair).source], &self.surfaces[target]);
         let middle = |n: u32| path.middle(n);
         let [of_source, of_target] = [source, target].map(|surface| {
             let rooms = surface.facets.iter().map(|facet| Room::swept(facet, path));

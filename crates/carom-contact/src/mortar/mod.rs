@@ -38,7 +38,7 @@ use carom_mesh::Vector;
 use self::facing::Facing;
 use self::integrate::integrate;
 use self::row::Row;
-use crate::{Candidate, Contact, ContactModel, Discretisation, Path, Site, Target};
+use crate::{Candidate, Contact, ContactModel, Discretisation, Extents, Path, Site, Target};
 
 /// The node of a multiplier and the side of it that it is on.
 pub(crate) type Multiplier = (u32, u32);
@@ -53,6 +53,7 @@ pub struct Mortar<const D: usize> {
     rows: Vec<Row<D>>,
     /// The multipliers that the rows are of.
     multipliers: Vec<Multiplier>,
+    pairs: Vec<usize>,
 }
 
 impl<const D: usize> ContactModel<D> {
@@ -68,10 +69,12 @@ impl<const D: usize> ContactModel<D> {
         mortar.facing.clear();
         mortar.found.clear();
         let (middle, end) = (|n: u32| path.middle(n), path.end);
-        for pair in self.mortar_pairs() {
+        let mut pairs = std::mem::take(&mut mortar.pairs);
+        self.mortar_pairs(path, &mut pairs);
+        for &pair in &pairs {
             let first = mortar.facing.len();
             self.find_facing(pair, path, &mut mortar.facing);
-            let surface = &self.surfaces[self.pairs[pair].source];
+            let surface = &self.surfaces[self.pairs.get(pair).source];
             let mut multipliers = std::mem::take(&mut mortar.multipliers);
             multipliers.clear();
             for facing in mortar.facing[first..].chunk_by(|a, b| a.source == b.source) {
@@ -100,6 +103,7 @@ impl<const D: usize> ContactModel<D> {
             mortar.found[first..].sort_unstable_by_key(|(c, _)| *c);
             mortar.multipliers = multipliers;
         }
+        mortar.pairs = pairs;
         if !mortar.found.is_empty() {
             out.extend(mortar.found.iter().map(|(c, _)| *c));
             out.sort_unstable();
@@ -158,7 +162,7 @@ impl<const D: usize> ContactModel<D> {
     /// Whether the rows of a pair are those of multipliers.
     #[must_use]
     pub fn is_mortar(&self, pair: usize) -> bool {
-        let pair = &self.pairs[pair];
+        let pair = self.pairs.get(pair);
         let has_facets = |target: Target| match target {
             Target::Surface(t) => !self.surfaces[t].facets.is_empty(),
             Target::Obstacle(_) => false,
@@ -166,8 +170,22 @@ impl<const D: usize> ContactModel<D> {
         pair.discretisation == Discretisation::Mortar && has_facets(pair.target)
     }
 
-    fn mortar_pairs(&self) -> impl Iterator<Item = usize> {
-        (0..self.pairs.len()).filter(|&p| self.is_mortar(p))
+    /// Writes to `pairs` the mortar pairs, ascending, that may come within the margin of a `path`.
+    fn mortar_pairs<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &self,
+        path: &Path<'_, D, S, E>,
+        pairs: &mut Vec<usize>,
+    ) {
+        pairs.clear();
+        if self.pairs.have_mortar() {
+            let way = if self.pairs.are_many() {
+                self.extents(path.start).union(&self.extents(path.end))
+            } else {
+                Extents::default()
+            };
+            self.within(2.0 * path.margin, &way, pairs);
+            pairs.retain(|&p| self.is_mortar(p));
+        }
     }
 
     /// Fills `mortar.rows`, one for each of `multipliers`, which ascend.
@@ -178,8 +196,8 @@ impl<const D: usize> ContactModel<D> {
         position: &impl Fn(u32) -> Vector<D>,
         mortar: &mut Mortar<D>,
     ) {
-        let Target::Surface(target) = self.pairs[pair].target else { return };
-        let (source, target) = (&self.surfaces[self.pairs[pair].source], &self.surfaces[target]);
+        let Target::Surface(target) = self.pairs.get(pair).target else { return };
+        let (source, target) = (&self.surfaces[self.pairs.get(pair).source], &self.surfaces[target]);
         mortar.rows.resize_with(multipliers.len(), Row::default);
         mortar.rows.iter_mut().for_each(Row::clear);
         for facing in mortar.facing[mortar.of_pair(pair)].chunk_by(|a, b| a.source == b.source) {

@@ -32,9 +32,9 @@ impl<const D: usize> Scene<D> {
                 source: 1,
                 target: Target::Surface(0),
                 friction: 0.3,
-                named_pair: 0,
                 discretisation: Discretisation::NodeToSegment,
-            }],
+            }]
+            .into(),
         };
         Self { model, reference, probe }
     }

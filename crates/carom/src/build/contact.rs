@@ -1,16 +1,20 @@
-use carom_contact::{ContactModel, ContactSurface, Discretisation, Pair, Target};
+use std::collections::BTreeMap;
+
+use carom_contact::{
+    ContactModel, ContactSurface, Directions, Discretisation, PairRule, PairRules, Pairs, Side, Solid,
+};
 use carom_fem::Hypothesis;
 use carom_mesh::Vector;
 
 use super::body::may_touch;
 use super::mortar::{discretisation, has_mortar};
 use super::obstacle::{Surfaces, obstacle};
-use super::side::{Side, facet_width};
+use super::side::{NamedSide, facet_width};
 use super::values::{number, place, vector};
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
-use crate::model::assembly::NamedPair;
-use crate::scenario::{BodyEntry, BodyKind, ContactSpec, MeshSpec, Scenario, Sources, Targets};
+use crate::model::assembly::MANY_PAIRS;
+use crate::scenario::{BodyEntry, BodyKind, ContactSpec, MeshSpec, PairEntry, Scenario, Sources, Targets};
 
 /// The largest friction coefficient.
 const MAX_FRICTION: f64 = 1e3;
@@ -25,7 +29,7 @@ pub(super) fn contact<const D: usize>(
     scenario: &Scenario,
     bodies: &[ModelBody<D>],
     mut surfaces: Surfaces<D>,
-) -> Result<(ContactModel<D>, Vec<NamedPair>), InputError> {
+) -> Result<ContactModel<D>, InputError> {
     let mut model = ContactModel::default();
     for (i, (b, entry)) in bodies.iter().zip(&scenario.bodies).enumerate() {
         let reference = |n: u32| b.body.mesh().nodes()[n as usize - b.first_node];
@@ -53,81 +57,109 @@ pub(super) fn contact<const D: usize>(
         let key = format!("obstacles.{i}");
         model.obstacles.push(obstacle(&key, &entry.shape, surfaces.remove(&entry.name))?);
     }
-    let side = |(b, entry): (&ModelBody<D>, &BodyEntry)| Side {
+    let side = |(b, entry): (&ModelBody<D>, &BodyEntry)| NamedSide {
         name: b.name.clone(),
-        touches_itself: touches_itself(entry),
         is_periodic: !b.body.mesh().ties().is_empty(),
-        facet_width: facet_width(b.body.surface(), |n| b.body.mesh().nodes()[n]),
-        mass: b.body.total_mass(),
+        side: Side {
+            touches_itself: touches_itself(entry),
+            facet_width: facet_width(b.body.surface(), |n| b.body.mesh().nodes()[n]),
+            mass: b.body.total_mass(),
+        },
     };
-    let sides: Vec<Side> = bodies.iter().zip(&scenario.bodies).map(side).collect();
+    let sides: Vec<NamedSide> = bodies.iter().zip(&scenario.bodies).map(side).collect();
     let obstacles: Vec<&str> = scenario.obstacles.iter().map(|o| o.name.as_str()).collect();
-    let (pairs, named_pairs) = pairs(&scenario.contact, &sides, &obstacles)?;
-    model.pairs = pairs;
-    Ok((model, named_pairs))
+    model.pairs = pairs(&scenario.contact, &sides, &obstacles)?;
+    Ok(model)
 }
 
-/// Every pair of a body with another body or an obstacle, less the exceptions, and the named pairs they belong to.
+/// Every pair of a body with another body or an obstacle, less the exceptions.
 pub(crate) fn pairs(
     spec: &ContactSpec,
-    sides: &[Side],
+    bodies: &[NamedSide],
     obstacles: &[&str],
-) -> Result<(Vec<Pair>, Vec<NamedPair>), InputError> {
-    let default = spec.friction;
-    check_friction("contact.friction", default)?;
-    let (mut pairs, mut named_pairs) = (Vec::new(), Vec::new());
-    for (a, side) in sides.iter().enumerate() {
-        let first = side.name.as_str();
-        let others =
-            sides.iter().enumerate().skip(a).map(|(b, side)| (Target::Surface(b), side.name.as_str()));
-        let others = others.filter(|&(t, _)| t != Target::Surface(a) || side.touches_itself);
-        let obstacles = obstacles.iter().enumerate().map(|(o, &name)| (Target::Obstacle(o), name));
-        for (target, second) in others.chain(obstacles) {
-            let found = spec.pairs.iter().enumerate().find(|(_, p)| {
-                let [x, y] = &p.between;
-                (x == first && y == second) || (x == second && y == first)
-            });
-            let (mut friction, mut sources, mut swapped) = (default, spec.sources, false);
-            if let Some((k, entry)) = found {
-                if !entry.enabled {
-                    continue;
-                }
-                friction = entry.friction.unwrap_or(friction);
-                sources = entry.sources.or(sources);
-                // An order is only meant where the entry says which side is the source.
-                swapped = entry.sources.is_some() && entry.between[0] == second;
-                check_friction(&format!("contact.pairs.{k}.friction"), friction)?;
-            }
-            let discretisation = match target {
-                // Nodes of a body against its own facets: neither side is the source.
-                Target::Surface(b) if b == a => Discretisation::NodeToSegment,
-                Target::Surface(b) => discretisation(spec, found, sources, [side, &sides[b]])?,
-                Target::Obstacle(_) => Discretisation::NodeToSegment,
-            };
-            // Neither side sees all that the other does. But multipliers are on one, and nodes without mass that are in static balance on
-            // both sides at once take energy.
-            let one_side = discretisation == Discretisation::Mortar || spec.condition.is_massless();
-            let sources = sources.unwrap_or(if one_side { Sources::Finer } else { Sources::Both });
-            let named_pair = named_pairs.len();
-            named_pairs.push(NamedPair { between: [first.to_string(), second.to_string()], friction });
-            let forward = Pair { source: a, target, friction, named_pair, discretisation };
-            match target {
-                Target::Obstacle(_) => pairs.push(forward),
-                Target::Surface(b) if b == a => pairs.push(forward),
-                Target::Surface(b) => {
-                    let backward = Pair { source: b, target: Target::Surface(a), ..forward };
-                    match (sources, swapped) {
-                        (Sources::Finer, _) if sides[b].is_finer_than(side) => pairs.push(backward),
-                        (Sources::Finer, _) => pairs.push(forward),
-                        (Sources::Both, _) => pairs.extend([forward, backward]),
-                        (Sources::First, false) | (Sources::Second, true) => pairs.push(forward),
-                        (Sources::First, true) | (Sources::Second, false) => pairs.push(backward),
-                    }
-                }
-            }
+) -> Result<Pairs, InputError> {
+    check_friction("contact.friction", spec.friction)?;
+    if !Pairs::have_room_for(bodies.len(), obstacles.len()) {
+        let message =
+            format!("{} bodies: more pairs than there are numbers for; leave bodies out", bodies.len());
+        return Err(InputError::new("bodies", message));
+    }
+    let place = |names: &[&str], name: &str| names.iter().position(|own| *own == name);
+    let names: Vec<&str> = bodies.iter().map(|body| body.name.as_str()).collect();
+    let solid = |name: &str| {
+        place(&names, name).map(Solid::Body).or_else(|| place(obstacles, name).map(Solid::Obstacle))
+    };
+    let mut exceptions = BTreeMap::new();
+    for (k, entry) in spec.pairs.iter().enumerate() {
+        let [Some(first), Some(second)] = [0, 1].map(|i| solid(&entry.between[i])) else { continue };
+        let between = first.pair(second);
+        if exceptions.contains_key(&between) {
+            continue;
+        }
+        let rule = if entry.enabled {
+            // An order is only meant where the entry says which side is the source.
+            let swapped = entry.sources.is_some() && first > second;
+            Some(rule(spec, Some((k, entry)), swapped, sides(between, bodies).as_deref())?)
+        } else {
+            None
+        };
+        exceptions.insert(between, rule);
+    }
+    let usual = rule(spec, None, false, (bodies.len() > 1).then_some(&[]))?;
+    for (i, body) in bodies.iter().enumerate() {
+        // What cannot be in a pair by the rule is told with the first that it would be in.
+        let others = (0..bodies.len()).filter(|&j| j != i).map(|j| Solid::Body(i).pair(Solid::Body(j)));
+        if body.is_periodic
+            && let Some(between) = others.into_iter().find(|b| !exceptions.contains_key(b))
+        {
+            rule(spec, None, false, sides(between, bodies).as_deref())?;
         }
     }
-    Ok((pairs, named_pairs))
+    let rules = PairRules {
+        sides: bodies.iter().map(|body| body.side).collect(),
+        obstacles: obstacles.len(),
+        rule: usual,
+        exceptions,
+    };
+    Ok(Pairs::by(rules, MANY_PAIRS))
+}
+
+/// The two bodies of a pair; none of a body with itself or with an obstacle.
+fn sides(between: [Solid; 2], bodies: &[NamedSide]) -> Option<Vec<&NamedSide>> {
+    match between {
+        [Solid::Body(a), Solid::Body(b)] if a != b => Some(vec![&bodies[a], &bodies[b]]),
+        _ => None,
+    }
+}
+
+/// What holds for a pair by its entry or, without one, for all. Two bodies may have multipliers; those that are known are asked.
+fn rule(
+    spec: &ContactSpec,
+    found: Option<(usize, &PairEntry)>,
+    swapped: bool,
+    sides: Option<&[&NamedSide]>,
+) -> Result<PairRule, InputError> {
+    let entry = found.map(|(_, entry)| entry);
+    let friction = entry.and_then(|entry| entry.friction).unwrap_or(spec.friction);
+    if let Some((k, _)) = found {
+        check_friction(&format!("contact.pairs.{k}.friction"), friction)?;
+    }
+    let sources = entry.and_then(|entry| entry.sources).or(spec.sources);
+    let discretisation = match sides {
+        Some(sides) => discretisation(spec, found, sources, sides)?,
+        None => Discretisation::NodeToSegment,
+    };
+    // Neither side sees all that the other does. But multipliers are on one, and nodes without mass that are in static balance on
+    // both sides at once take energy.
+    let one_side = discretisation == Discretisation::Mortar || spec.condition.is_massless();
+    let directions = match (sources, swapped) {
+        (None, _) if one_side => Directions::Finer,
+        (Some(Sources::Finer), _) => Directions::Finer,
+        (None | Some(Sources::Both), _) => Directions::Both,
+        (Some(Sources::First), false) | (Some(Sources::Second), true) => Directions::Forward,
+        (Some(Sources::First), true) | (Some(Sources::Second), false) => Directions::Backward,
+    };
+    Ok(PairRule { friction, discretisation, directions })
 }
 
 /// The centre and the radius [m] of a body that is round.

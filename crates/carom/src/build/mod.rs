@@ -114,7 +114,8 @@ pub(crate) fn built<const D: usize>(
     if bodies.is_empty() {
         return Err(InputError::new("bodies", "there is no body; add one [[bodies]] table at least"));
     }
-    let (contact, named_pairs) = contact::contact(scenario, &bodies, surfaces)?;
+    let contact = contact::contact(scenario, &bodies, surfaces)?;
+    let obstacles = scenario.obstacles.iter().map(|o| o.name.clone()).collect();
     let gravity: Vector<D> = match &scenario.analysis.gravity {
         Some(g) => vector("analysis.gravity", g)?,
         None => Vector::<D>::zeros(),
@@ -124,7 +125,7 @@ pub(crate) fn built<const D: usize>(
         let message = format!("{:?} has a part across the axis of body {name:?}", gravity.as_slice());
         return Err(InputError::new("analysis.gravity", message + "; let it point along y"));
     }
-    let model = drive::drive(scenario, Model::new(bodies, contact, named_pairs, gravity))?;
+    let model = drive::drive(scenario, Model::new(bodies, contact, obstacles, gravity))?;
     let model = interference::interference(scenario, model)?;
     let model = restitution::restitution(scenario, model)?;
     if scenario.analysis.starts_from_nothing() {

@@ -1,6 +1,6 @@
 use carom_contact::Discretisation;
 
-use super::side::Side;
+use super::side::NamedSide;
 use crate::error::InputError;
 use crate::scenario::{ContactSpec, PairEntry, Sources};
 
@@ -18,7 +18,7 @@ pub(super) fn discretisation(
     spec: &ContactSpec,
     pair: Option<(usize, &PairEntry)>,
     sources: Option<Sources>,
-    sides: [&Side; 2],
+    sides: &[&NamedSide],
 ) -> Result<Discretisation, InputError> {
     let own = pair.and_then(|(k, entry)| Some((k, entry.discretisation?)));
     let (key, discretisation) = match own {

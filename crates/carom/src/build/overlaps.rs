@@ -5,6 +5,7 @@ use super::values::place;
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::Model;
+use crate::model::assembly::Assembly;
 use crate::model::interference::Interference;
 use crate::scenario::{AnalysisKind, Scenario};
 
@@ -17,21 +18,25 @@ pub(super) fn check_overlaps<const D: usize>(
     model: &Model<D>,
 ) -> Result<(), InputError> {
     let at = |n: u32| model.assembly.reference[n as usize];
-    let is_other = |pair: &&Pair| pair.target != Target::Surface(pair.source);
+    let is_other = |pair: &Pair| pair.target != Target::Surface(pair.source);
     let mut extents = model.assembly.contact.extents(&at);
     for (i, body) in model.bodies.iter().enumerate() {
         extents.include(i, body.body.mesh().nodes().iter().copied());
     }
-    for pair in model.assembly.contact.pairs.iter().filter(is_other) {
-        let least = least_gap(scenario, model, pair);
-        if model.assembly.contact.at_least(pair, &extents, &at) > least {
+    let Assembly { contact, interferences, .. } = &model.assembly;
+    let pushed_apart = interferences.all().map(|interference| interference.least(0.0)).fold(0.0, f64::max);
+    let mut near = Vec::new();
+    contact.within(pushed_apart, &extents, &mut near);
+    for pair in near.into_iter().map(|p| contact.pairs.get(p)).filter(is_other) {
+        let least = least_gap(scenario, model, &pair);
+        if contact.at_least(&pair, &extents, &at) > least {
             continue;
         }
-        let cure = cure(scenario, model.assembly.interferences.get(pair.named_pair));
+        let cure = cure(scenario, interferences.of(pair.between()));
         // Both directions are checked, whichever the contact condition uses.
-        let mut directions = vec![*pair];
+        let mut directions = vec![pair];
         if let Target::Surface(b) = pair.target {
-            directions.push(Pair { source: b, target: Target::Surface(pair.source), ..*pair });
+            directions.push(Pair { source: b, target: Target::Surface(pair.source), ..pair });
         }
         for direction in directions {
             let points = sample(&model.bodies[direction.source]);
@@ -44,9 +49,9 @@ pub(super) fn check_overlaps<const D: usize>(
                 continue;
             }
             if closest.gap >= -touching {
-                return Err(is_pushed(scenario, model, pair.named_pair, closest.gap, least));
+                return Err(is_pushed(scenario, model, pair.between(), closest.gap, least));
             }
-            let [a, b] = &model.assembly.named_pairs[pair.named_pair].between;
+            let [a, b] = model.assembly.names(pair.between());
             let place = place(&closest.at);
             let index = direction.source;
             return Err(match direction.target {
@@ -88,9 +93,9 @@ pub(super) fn check_overlaps<const D: usize>(
 }
 
 /// What else may be done about an overlap.
-fn cure(scenario: &Scenario, interference: Option<&Interference>) -> &'static str {
+fn cure(scenario: &Scenario, interference: &Interference) -> &'static str {
     match scenario.analysis.kind {
-        AnalysisKind::Static if interference.is_none_or(|i| i.overlap.is_none()) => {
+        AnalysisKind::Static if interference.overlap.is_none() => {
             ", or let the analysis take the overlap up by contact.resolve_overlap = true"
         }
         // A contact sees half a facet deep.
@@ -105,7 +110,7 @@ fn cure(scenario: &Scenario, interference: Option<&Interference>) -> &'static st
 /// because interference or growth is to press them on one another need not have matching meshes. A dynamic one has to start from surfaces that
 /// do not press yet.
 fn least_gap<const D: usize>(scenario: &Scenario, model: &Model<D>, pair: &Pair) -> f64 {
-    let interference = &model.assembly.interferences[pair.named_pair];
+    let interference = model.assembly.interferences.of(pair.between());
     let least = interference.least(0.0);
     if scenario.analysis.kind == AnalysisKind::Dynamic {
         return least;
@@ -127,12 +132,12 @@ fn least_gap<const D: usize>(scenario: &Scenario, model: &Model<D>, pair: &Pair)
 fn is_pushed<const D: usize>(
     scenario: &Scenario,
     model: &Model<D>,
-    named_pair: usize,
+    between: [Solid; 2],
     gap: f64,
     least: f64,
 ) -> InputError {
-    let between = &model.assembly.named_pairs[named_pair].between;
-    let key = match scenario.contact.entry_of(between) {
+    let between = model.assembly.names(between);
+    let key = match scenario.contact.entry_of(&between) {
         Some((k, _)) => format!("contact.pairs.{k}.interference"),
         None => "contact.pairs".to_string(),
     };
@@ -164,7 +169,7 @@ fn check_corners<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Resul
         let arcs = if obstacles[o].has_corners() { 0.0 } else { arcs };
         let depth_beyond = depth - assembly.clearance(between, 0.0) - arcs;
         if depth_beyond > TOUCHING * body.body.mesh().smallest_edge() {
-            let cure = cure(scenario, assembly.interference_between(between));
+            let cure = cure(scenario, assembly.interferences.of(between));
             refused.get_or_insert_with(|| {
                 InputError::new(
                     format!("bodies.{i}.mesh"),
@@ -187,24 +192,24 @@ fn check_crossings<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Res
     let (mut search, mut candidates) = (Search::default(), Vec::new());
     model.assembly.contact.detect(&Path::resting(&at, 0.0), &mut search, &mut candidates);
     for candidate in candidates.iter().filter(|c| has_straight_edges(model, c)) {
-        let pair = &model.assembly.contact.pairs[candidate.pair as usize];
+        let pair = model.assembly.contact.pairs.get(candidate.pair as usize);
         let smallest_edge = model.bodies[pair.source].body.mesh().smallest_edge();
         let contact = model.assembly.contact.evaluate(candidate, &at);
         let touching = TOUCHING * smallest_edge;
-        let least = least_gap(scenario, model, pair).min(0.0);
+        let least = least_gap(scenario, model, &pair).min(0.0);
         if contact.gap >= least - touching
             || model.assembly.contact.is_beyond(candidate, &contact, touching, &at, &search)
         {
             continue;
         }
-        let [a, b] = &model.assembly.named_pairs[pair.named_pair].between;
+        let [a, b] = model.assembly.names(pair.between());
         return Err(InputError::new(
             format!("bodies.{}.mesh", pair.source),
             format!(
                 "edges of {a:?} and {b:?} are {:.6} m through one another at the start, near {}; move one of them{}",
                 -contact.gap,
                 place(&contact.source_point(&at)),
-                cure(scenario, model.assembly.interferences.get(pair.named_pair))
+                cure(scenario, model.assembly.interferences.of(pair.between()))
             ),
         ));
     }
@@ -215,7 +220,7 @@ fn check_crossings<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Res
 fn has_straight_edges<const D: usize>(model: &Model<D>, candidate: &Candidate) -> bool {
     let contact = &model.assembly.contact;
     let is_straight = |s: usize| !contact.surfaces[s].facets.iter().any(|f| f.kind.is_quadratic());
-    let pair = &contact.pairs[candidate.pair as usize];
+    let pair = contact.pairs.get(candidate.pair as usize);
     match pair.target {
         Target::Surface(t) => {
             candidate.node().is_none() && t != pair.source && is_straight(pair.source) && is_straight(t)

@@ -1,11 +1,13 @@
 //! Impacts of rigid bodies.
 
-use std::collections::BTreeSet;
+use carom_contact::Solid;
 
 use super::values::number;
 use crate::ContactCondition;
 use crate::error::InputError;
+use crate::ledger::ByPair;
 use crate::model::Model;
+use crate::model::restitution::Restitutions;
 use crate::scenario::{AnalysisKind, Scenario};
 
 /// The model with the coefficients of restitution of its pairs of what is rigid: 0 where nothing is said.
@@ -17,28 +19,27 @@ pub(super) fn restitution<const D: usize>(
     if let Some(e) = default {
         check(scenario, "contact.restitution", e)?;
     }
-    let soft: BTreeSet<&str> =
-        model.bodies.iter().filter(|b| !b.is_rigid()).map(|b| b.name.as_str()).collect();
-    let mut restitutions = Vec::new();
-    for named in &model.assembly.named_pairs {
-        let own =
-            scenario.contact.entry_of(&named.between).and_then(|(k, entry)| Some((k, entry.restitution?)));
-        let soft = named.between.iter().find(|name| soft.contains(name.as_str()));
-        if let Some((k, e)) = own {
-            let key = format!("contact.pairs.{k}.restitution");
-            check(scenario, &key, e)?;
-            if let Some(soft) = soft {
-                let message = format!(
-                    "{:?} deforms, and its impacts follow from that; a restitution is of two that are rigid; leave it out",
-                    soft
-                );
-                return Err(InputError::new(key, message));
-            }
+    let deforms: Vec<bool> = model.bodies.iter().map(|b| !b.is_rigid()).collect();
+    let mut own = ByPair::default();
+    for (k, entry) in scenario.contact.pairs.iter().enumerate() {
+        let (Some(e), Some(between)) = (entry.restitution, model.assembly.between(&entry.between)) else {
+            continue;
+        };
+        let key = format!("contact.pairs.{k}.restitution");
+        check(scenario, &key, e)?;
+        let soft = between.iter().find(|solid| matches!(solid, Solid::Body(i) if deforms[*i]));
+        if let Some(&soft) = soft {
+            let message = format!(
+                "{:?} deforms, and its impacts follow from that; a restitution is of two that are rigid; leave it out",
+                model.assembly.solid_name(soft)
+            );
+            return Err(InputError::new(key, message));
         }
-        let rules = scenario.contact.condition == ContactCondition::Endpoint && soft.is_none();
-        restitutions.push(rules.then(|| own.map(|(_, e)| e).or(default).unwrap_or(0.0)));
+        own.insert(between, e);
     }
-    Ok(model.with_restitutions(restitutions))
+    let rules = scenario.contact.condition == ContactCondition::Endpoint;
+    let default = rules.then(|| default.unwrap_or(0.0));
+    Ok(model.with_restitutions(Restitutions { default, own, deforms }))
 }
 
 /// Refuses coefficients out of range, and where velocities are not ruled.

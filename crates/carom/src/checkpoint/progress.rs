@@ -1,17 +1,19 @@
 //! The books, the event log, the history and the totals of a run.
 
-use carom_contact::Solid;
+use carom_contact::{Pairs, Solid};
 use carom_friction::SolverKind;
 
 use crate::archive::{Archive, CheckpointError};
 use crate::contact::cross_check::CrossCheckSummary;
+use crate::ledger::ByPair;
+use crate::model::assembly::Assembly;
 use crate::run::account::Account;
 use crate::run::events::{ContactEvent, EventLog};
 use crate::run::history::History;
 use crate::run::totals::{Totals, Worst};
 use crate::step::free_motion::FreeMotion;
 use crate::step::report::Inside;
-use crate::{Books, NamedPair, Simulation};
+use crate::{Books, Simulation};
 
 type Done = Result<(), CheckpointError>;
 
@@ -27,27 +29,49 @@ pub(super) fn exchange<const D: usize>(archive: &mut Archive<'_>, run: &mut Simu
     if run.grid.step > run.grid.steps || run.halvings > run.stage().method.max_halvings {
         return Err(CheckpointError::new("run/step", "is beyond the end of the run"));
     }
-    books(archive, "books", &mut run.books)?;
+    let pairs = &run.stages[run.current].model.assembly.contact.pairs;
+    books(archive, "books", pairs, &mut run.books)?;
     accounts(archive, run)?;
     totals(archive, &mut run.totals)?;
     cross_checks(archive, &mut run.cross_checks)?;
-    events(archive, &run.stages[run.current].model.assembly.named_pairs, &mut run.events)?;
+    events(archive, &run.stages[run.current].model.assembly, &mut run.events)?;
     history(archive, &mut run.history)?;
     archive.pending("ledger/rows", &mut run.ledger_table.rows)
 }
 
-fn books(archive: &mut Archive<'_>, name: &str, books: &mut Books) -> Done {
+/// Records or replays something of some pairs: tells of which it is.
+fn by_pair<T: Clone + Default>(
+    archive: &mut Archive<'_>,
+    name: &str,
+    pairs: &Pairs,
+    of: &mut ByPair<T>,
+) -> Done {
+    let mut places: Vec<usize> = of.iter().map(|(between, _)| pairs.place(between)).collect();
+    let count = archive.rows(name, places.len())?;
+    places.resize(count, 0);
+    archive.integers(name, &mut places)?;
+    if archive.replays() {
+        let between = |place: &usize| Some((pairs.at_place(*place)?, T::default()));
+        let known: Option<ByPair<T>> = places.iter().map(between).collect();
+        *of = known.ok_or_else(|| CheckpointError::new(name, "names a pair that is not there"))?;
+    }
+    // Two of the same would leave one without.
+    if of.len() == count { Ok(()) } else { Err(CheckpointError::new(name, "names a pair twice")) }
+}
+
+fn books(archive: &mut Archive<'_>, name: &str, pairs: &Pairs, books: &mut Books) -> Done {
     archive.numbers(&format!("{name}/total"), books.total.terms_mut())?;
     archive.numbers(&format!("{name}/bodies"), books.bodies.iter_mut().flat_map(|b| b.terms_mut()))?;
-    archive.numbers(&format!("{name}/pairs"), books.pairs.iter_mut().flat_map(|p| p.terms_mut()))?;
-    archive.flags(&format!("{name}/has_touched"), books.pairs.iter_mut().map(|p| &mut p.has_touched))
+    by_pair(archive, &format!("{name}/between"), pairs, &mut books.pairs)?;
+    archive.numbers(&format!("{name}/pairs"), books.pairs.values_mut().flat_map(|p| p.terms_mut()))?;
+    archive.flags(&format!("{name}/has_touched"), books.pairs.values_mut().map(|p| &mut p.has_touched))
 }
 
 /// The books of every stage that has begun.
 fn accounts<const D: usize>(archive: &mut Archive<'_>, run: &mut Simulation<D>) -> Done {
-    let blank = Account::new(&run.initial_energies, run.books.pairs.len());
+    let blank = Account::new(&run.initial_energies);
     run.accounts.resize(run.current + 1, blank);
-    for (i, account) in run.accounts.iter_mut().enumerate() {
+    for (i, (account, stage)) in run.accounts.iter_mut().zip(&run.stages).enumerate() {
         let name = format!("stages/{i}");
         let counts = [&mut account.steps, &mut account.newton_iterations, &mut account.retried];
         archive.integers(&format!("{name}/counts"), counts)?;
@@ -55,7 +79,7 @@ fn accounts<const D: usize>(archive: &mut Archive<'_>, run: &mut Simulation<D>) 
         archive.numbers(&format!("{name}/sizes"), sizes)?;
         let energies = account.start.iter_mut().chain(&mut account.end);
         archive.numbers(&format!("{name}/energies"), energies.flat_map(|e| e.terms_mut()))?;
-        books(archive, &name, &mut account.books)?;
+        books(archive, &name, &stage.model.assembly.contact.pairs, &mut account.books)?;
     }
     Ok(())
 }
@@ -132,38 +156,37 @@ fn cross_checks(archive: &mut Archive<'_>, checks: &mut CrossCheckSummary) -> Do
     Ok(())
 }
 
-fn events(archive: &mut Archive<'_>, named_pairs: &[NamedPair], log: &mut EventLog) -> Done {
+fn events<const D: usize>(archive: &mut Archive<'_>, assembly: &Assembly<D>, log: &mut EventLog) -> Done {
+    let pairs = &assembly.contact.pairs;
     let count = archive.rows("events/pair", log.events.len())?;
-    let pair_of =
-        |event: &ContactEvent| named_pairs.iter().position(|pair| pair.between == event.pair).unwrap_or(0);
-    let mut pairs: Vec<usize> = log.events.iter().map(pair_of).collect();
-    pairs.resize(count, 0);
-    archive.integers("events/pair", &mut pairs)?;
-    if pairs.iter().any(|&g| g >= named_pairs.len()) {
-        return Err(CheckpointError::new("events/pair", "names a pair that is not there"));
-    }
+    let pair_of = |event: &ContactEvent| assembly.between(&event.pair).map_or(0, |b| pairs.place(b));
+    let mut places: Vec<usize> = log.events.iter().map(pair_of).collect();
+    places.resize(count, 0);
+    archive.integers("events/pair", &mut places)?;
     if archive.replays() {
-        let event = |&g: &usize| ContactEvent {
-            pair: named_pairs[g].between.clone(),
-            onset: 0.0,
-            release: None,
-            peak_force: 0.0,
-            friction_work: 0.0,
+        let event = |&place: &usize| {
+            Some(ContactEvent {
+                pair: assembly.names(pairs.at_place(place)?),
+                onset: 0.0,
+                release: None,
+                peak_force: 0.0,
+                friction_work: 0.0,
+            })
         };
-        log.events = pairs.iter().map(event).collect();
+        let events: Option<Vec<ContactEvent>> = places.iter().map(event).collect();
+        let missing = || CheckpointError::new("events/pair", "names a pair that is not there");
+        log.events = events.ok_or_else(missing)?;
     }
     let sizes = log.events.iter_mut().flat_map(|e| [&mut e.onset, &mut e.peak_force, &mut e.friction_work]);
     archive.numbers("events/sizes", sizes)?;
     archive.optional("events/release", log.events.iter_mut().map(|e| &mut e.release))?;
-    // The last event of each pair, and until when it lasts.
-    let mut last: Vec<usize> = log.last.iter().map(|l| l.map_or(0, |(event, _)| event)).collect();
-    let mut until: Vec<Option<f64>> = log.last.iter().map(|l| l.map(|(_, until)| until)).collect();
-    archive.integers("events/last", &mut last)?;
-    archive.optional("events/until", &mut until)?;
-    if last.iter().zip(&until).any(|(&event, until)| until.is_some() && event >= count) {
+    // The last event of pairs, and until when it lasts.
+    by_pair(archive, "events/between", pairs, &mut log.last)?;
+    archive.integers("events/last", log.last.values_mut().map(|(event, _)| event))?;
+    archive.numbers("events/until", log.last.values_mut().map(|(_, until)| until))?;
+    if log.last.values().any(|&(event, _)| event >= count) {
         return Err(CheckpointError::new("events/last", "names an event that is not there"));
     }
-    log.last = last.into_iter().zip(until).map(|(event, until)| Some((event, until?))).collect();
     Ok(())
 }
 

@@ -69,7 +69,7 @@ fn to_nodes(site: Site) -> [u32; 4] {
 fn to_site<const D: usize>(assembly: &Assembly<D>, pair: u32, [a, b, c, d]: [u32; 4]) -> Option<Site> {
     let contact = &assembly.contact;
     let is_node = |n: &u32| (*n as usize) < assembly.node_count();
-    let is_corner = |n: &u32| match contact.pairs[pair as usize].target {
+    let is_corner = |n: &u32| match contact.pairs.get(pair as usize).target {
         Target::Obstacle(o) => contact.obstacles[o].has_corner(*n),
         Target::Surface(_) => false,
     };
@@ -137,7 +137,7 @@ impl<const D: usize> Reactions<D> {
     fn into_reactions(self, assembly: &Assembly<D>) -> Result<Vec<Reaction<D>>, CheckpointError> {
         let wrong = |of: &str, what: &str| CheckpointError::new(&format!("{PREFIX}/{of}"), what);
         let all = |indices: &[u32], count: usize| indices.iter().all(|&i| (i as usize) < count);
-        if !all(&self.pair, assembly.contact.pairs.len()) {
+        if self.pair.iter().any(|&p| assembly.contact.pairs.find(p as usize).is_none()) {
             return Err(wrong("pair", "names a pair that is not there"));
         }
         if !all(&self.stencil_node, assembly.reference.len()) {

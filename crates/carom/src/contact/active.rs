@@ -58,7 +58,7 @@ impl<const D: usize> ActiveSet<D> {
         self.interferences.clear();
         contact.evaluate_all(&self.candidates, &start, &mut self.mortar, &mut self.contacts);
         let round_off = assembly.round_off();
-        let inside = |c: &Candidate| CONTROL.inside * assembly.pair_size(&contact.pairs[c.pair as usize]);
+        let inside = |c: &Candidate| CONTROL.inside * assembly.pair_size(&contact.pairs.get(c.pair as usize));
         let is_stuck = |c: &Candidate, at_start: &Contact<D>, gap: f64| {
             let inside = inside(c);
             let explained = inside + map.dt * at_start.relative(|n| state.velocity[n]).norm();
@@ -66,7 +66,7 @@ impl<const D: usize> ActiveSet<D> {
         };
         // Where contacts are chosen at the start, whether one at rest goes on must not hang on the sign of round-off.
         let closed = |c: &Candidate| {
-            let size = assembly.pair_size(&contact.pairs[c.pair as usize]);
+            let size = assembly.pair_size(&contact.pairs.get(c.pair as usize));
             if state.reaction(c.key()).is_some() { round_off.max(CONTROL.closed * size) } else { round_off }
         };
         let starts_from_nothing = interval.starts_from_nothing();
@@ -114,8 +114,9 @@ impl<const D: usize> ActiveSet<D> {
             self.frames.push(known.map_or_else(Matrix::zeros, |r| r.contact.frame));
             self.reactions.push(force * weight);
             self.start_forces.push(force);
-            self.friction.push(pairs[candidate.pair as usize].friction);
-            touch(&mut self.touched, &pairs[candidate.pair as usize]);
+            let pair = pairs.get(candidate.pair as usize);
+            self.friction.push(pair.friction);
+            touch(&mut self.touched, &pair);
         }
         // Contacts that the step starts with and that are out of reach by its end still share their bodies' balance.
         self.lost.clear();
@@ -125,7 +126,7 @@ impl<const D: usize> ActiveSet<D> {
         for (k, reaction) in reactions.iter().enumerate() {
             if self.candidates.binary_search_by_key(&reaction.key(), Candidate::key).is_err() {
                 self.lost.push(k);
-                touch(&mut self.touched, &pairs[reaction.pair as usize]);
+                touch(&mut self.touched, &pairs.get(reaction.pair as usize));
             }
         }
     }
@@ -154,7 +155,7 @@ impl<const D: usize> ActiveSet<D> {
         let contacts = self.contacts.iter_mut().zip(&self.before).zip(&mut self.at_kink);
         for (((contact_now, before), at_kink), candidate) in contacts.zip(&self.candidates) {
             let turn = (contact_now.frame.row(0) - before.frame.row(0)).norm();
-            let size = given.assembly.pair_size(&contact.pairs[candidate.pair as usize]);
+            let size = given.assembly.pair_size(&contact.pairs.get(candidate.pair as usize));
             *at_kink |= turn * size > CONTROL.kink * correction && turn > CONTROL.straight;
             if *at_kink {
                 *contact_now = before.moved(&position);
@@ -190,8 +191,10 @@ impl<const D: usize> ActiveSet<D> {
         let contacts = contacts.zip(self.candidates.iter().zip(&self.meeting));
         contacts.map(move |(((contact, &start_gap), [h0, h1]), (candidate, met))| {
             let opening = Opening { start_gap, widening: h1 - h0 };
-            let pair = &assembly.contact.pairs[candidate.pair as usize];
-            if let Some(restitution) = assembly.restitutions[pair.named_pair] {
+            let pair = || assembly.contact.pairs.get(candidate.pair as usize);
+            if assembly.restitutions.default.is_some()
+                && let Some(restitution) = assembly.restitutions.of(&pair())
+            {
                 return impact_offset(met, opening.widening, restitution, &interval.map);
             }
             let velocity = |n: usize| state.velocity[n];
@@ -210,8 +213,7 @@ impl<const D: usize> ActiveSet<D> {
         };
         self.meeting.clear();
         self.meeting.extend(self.candidates.iter().zip(&self.contacts).map(|(candidate, contact)| {
-            let pair = &assembly.contact.pairs[candidate.pair as usize];
-            match assembly.restitutions[pair.named_pair] {
+            match assembly.restitutions.of(&assembly.contact.pairs.get(candidate.pair as usize)) {
                 Some(_) => contact.relative(of_node),
                 None => Vector::zeros(),
             }

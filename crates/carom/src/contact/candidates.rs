@@ -1,8 +1,6 @@
 //! Which contacts there may be in a step.
 
-use carom_contact::{
-    Candidate, Contact, ContactModel, Mortar, Pair, Path, Search, Site, Solid, Target, Witness,
-};
+use carom_contact::{Candidate, Contact, Mortar, Pair, Path, Search, Site, Solid, Target, Witness};
 use carom_mesh::Vector;
 
 use super::active::ActiveSet;
@@ -16,8 +14,6 @@ pub(crate) struct Finder<const D: usize> {
     pub search: Search<D>,
     /// Bodies that are so far from touching themselves that they are not searched for it.
     pub asleep: Vec<bool>,
-    /// The pairs of every body with itself.
-    with_itself: Vec<Vec<usize>>,
     /// All that the search found, ascending.
     found: Vec<Candidate>,
     /// Those of the step that say what no other does, as the measure has shown.
@@ -28,13 +24,9 @@ pub(crate) struct Finder<const D: usize> {
 }
 
 impl<const D: usize> Finder<D> {
-    /// Of so many `bodies`, all awake, that may touch as `contact` says.
-    pub fn new(contact: &ContactModel<D>, bodies: usize) -> Self {
-        let mut with_itself = vec![Vec::new(); bodies];
-        for (p, pair) in contact.pairs.iter().enumerate().filter(|(_, pair)| is_of_one_body(pair)) {
-            with_itself[pair.source].push(p);
-        }
-        Self { asleep: vec![false; bodies], with_itself, ..Self::default() }
+    /// Of so many `bodies`, all awake.
+    pub fn new(bodies: usize) -> Self {
+        Self { asleep: vec![false; bodies], ..Self::default() }
     }
 
     /// Finds the candidates of the step between its start and the predicted end. Another time it searches between its start and where it
@@ -55,7 +47,7 @@ impl<const D: usize> Finder<D> {
         let path = Path { start: &start, end: &end, margin };
         let (contact, candidates) = (&given.assembly.contact, &mut active.candidates);
         let Self { search, asleep, .. } = self;
-        contact.detect_among(awake(contact, asleep), &path, search, candidates);
+        contact.detect_node_by_node(|pair| !is_asleep(asleep, pair), &path, search, candidates);
         let pressed = given.state.reactions.iter().map(Reaction::candidate);
         let stand_off = |c: &Candidate| given.interference(c.key())[0].abs();
         self.missed.clear();
@@ -91,7 +83,7 @@ impl<const D: usize> Finder<D> {
         let at_end = Path::resting(&end, assembly.reach(given.interval.end) + closed);
         let Self { search, asleep, found, missed, missed_mortar, missed_contacts, .. } = self;
         let contact = &assembly.contact;
-        contact.detect_among(awake(contact, asleep), &at_end, search, missed);
+        contact.detect_node_by_node(|pair| !is_asleep(asleep, pair), &at_end, search, missed);
         assembly.contact.detect_mortar(&at_end, missed_mortar, missed);
         missed.retain(|m| found.binary_search_by_key(&m.key(), Candidate::key).is_err());
         assembly.contact.evaluate_all(missed, &end, missed_mortar, missed_contacts);
@@ -147,24 +139,13 @@ impl<const D: usize> Finder<D> {
         reach: f64,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> bool {
-        let Self { search, missed, with_itself, .. } = self;
-        let own = with_itself[body].iter().copied();
-        given.assembly.contact.detect_among(own, &Path::resting(position, reach), search, missed);
+        let Self { search, missed, .. } = self;
+        given.assembly.contact.detect_itself(body, &Path::resting(position, reach), search, missed);
         !self.missed.is_empty()
     }
 }
 
-/// The pairs that are looked at, by number: but for those of bodies with themselves that are asleep.
-fn awake<const D: usize>(contact: &ContactModel<D>, asleep: &[bool]) -> impl Iterator<Item = usize> + Clone {
-    (0..contact.pairs.len()).filter(|p| !is_asleep(asleep, &contact.pairs[*p]))
-}
-
-/// Whether a pair is that of a body with itself.
-fn is_of_one_body(pair: &Pair) -> bool {
-    pair.target == Target::Surface(pair.source)
-}
-
 /// Whether a pair is that of a body with itself which is not looked at.
 fn is_asleep(asleep: &[bool], pair: &Pair) -> bool {
-    is_of_one_body(pair) && asleep.get(pair.source).is_some_and(|asleep| *asleep)
+    pair.target == Target::Surface(pair.source) && asleep.get(pair.source).is_some_and(|asleep| *asleep)
 }

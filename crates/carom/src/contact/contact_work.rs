@@ -1,4 +1,4 @@
-use carom_contact::{Contact, Site, Target};
+use carom_contact::{Contact, Site, Solid, Target};
 use carom_mesh::Vector;
 
 use super::active::ActiveSet;
@@ -8,7 +8,7 @@ use crate::model::given::Given;
 /// A contact in the eyes of the balance: its bodies, μ, normal reactions at the start and the end of the step, and |w_t|.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactWork {
-    pub named_pair: usize,
+    pub between: [Solid; 2],
     pub source: usize,
     pub target: Target,
     pub friction: f64,
@@ -55,11 +55,11 @@ pub(crate) fn measure<const D: usize>(
     let weight = given.reaction_weight();
     let work = |key: (u32, Site), contact: &Contact<D>, start: Vector<D>, end: Vector<D>| {
         let [h0, h1] = given.interference(key);
-        let pair = &given.assembly.contact.pairs[key.0 as usize];
+        let pair = given.assembly.contact.pairs.get(key.0 as usize);
         let w = contact.relative(|n| motion[n]);
         let driven = [start, end].map(|r| driven(given.assembly, contact, &r, motion) + r[0] * (h1 - h0));
         ContactWork {
-            named_pair: pair.named_pair,
+            between: pair.between(),
             source: pair.source,
             target: pair.target,
             friction: pair.friction,

@@ -92,7 +92,7 @@ impl<const D: usize> LeftOut<D> {
         let column = places[node];
         self.candidates.clear();
         self.candidates.extend(of_node.iter().map(|&(_, k)| active.candidates[k]));
-        let size = |c: &Candidate| given.assembly.pair_size(&model.pairs[c.pair as usize]);
+        let size = |c: &Candidate| given.assembly.pair_size(&model.pairs.get(c.pair as usize));
         let step = CONTROL.difference * self.candidates.iter().map(size).fold(f64::INFINITY, f64::min);
         for &(_, k) in of_node {
             let contact = &active.contacts[k];

@@ -59,7 +59,7 @@ impl<const D: usize> Contacts<D> {
     /// Of an assembly.
     pub fn new(assembly: &Assembly<D>) -> Self {
         Self {
-            finder: Finder::new(&assembly.contact, assembly.body_count()),
+            finder: Finder::new(assembly.body_count()),
             active: ActiveSet::new(assembly.body_count()),
             reduced: Reduced::new(assembly),
             work: Vec::new(),

@@ -147,7 +147,7 @@ impl<const D: usize> Stiffened<D> {
         reactions: &[Reaction<D>],
         bodies: &mut [Box<dyn Body<D>>],
     ) {
-        let friction = |r: &Reaction<D>| assembly.contact.pairs[r.pair as usize].friction;
+        let friction = |r: &Reaction<D>| assembly.contact.pairs.get(r.pair as usize).friction;
         let holding = reactions.iter().map(|r| (&r.contact, held_directions(&r.force, friction(r))));
         self.spring_from(assembly, holding, bodies);
     }
@@ -291,8 +291,8 @@ impl<const D: usize> Stiffened<D> {
             if is_fixed || *r == Vector::<D>::zeros() || contact_model.is_mortar(candidate.pair as usize) {
                 continue;
             }
-            let step =
-                CONTROL.difference * given.assembly.pair_size(&contact_model.pairs[candidate.pair as usize]);
+            let step = CONTROL.difference
+                * given.assembly.pair_size(&contact_model.pairs.get(candidate.pair as usize));
             for (node, _) in contact.stencil() {
                 let Some(column) = self.place(node) else { continue };
                 for component in 0..D {

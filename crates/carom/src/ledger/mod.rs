@@ -1,10 +1,13 @@
+mod by_pair;
 pub(crate) mod table;
 mod terms;
 
 use std::iter::Sum;
 
+use carom_contact::Solid;
 use serde::Serialize;
 
+pub use by_pair::ByPair;
 pub use terms::{BodyLedger, Ledger, PairLedger, TERMS};
 
 /// Energies of a state [J].
@@ -53,26 +56,31 @@ pub struct Books {
     pub total: Ledger,
     /// Of every body.
     pub bodies: Vec<BodyLedger>,
-    /// Of every named pair.
-    pub pairs: Vec<PairLedger>,
+    /// Of every pair that anything happened to.
+    pub pairs: ByPair<PairLedger>,
 }
 
 impl Books {
-    /// Empty books of as many `bodies` and `pairs`.
+    /// Empty books of as many `bodies`.
     #[must_use]
-    pub fn new(bodies: usize, pairs: usize) -> Self {
+    pub fn new(bodies: usize) -> Self {
         Self {
             total: Ledger::default(),
             bodies: vec![BodyLedger::default(); bodies],
-            pairs: vec![PairLedger::default(); pairs],
+            pairs: ByPair::default(),
         }
     }
 
     /// Adds a step.
-    pub fn add(&mut self, total: Ledger, bodies: &[BodyLedger], pairs: impl Iterator<Item = PairLedger>) {
+    pub fn add(
+        &mut self,
+        total: Ledger,
+        bodies: &[BodyLedger],
+        pairs: impl Iterator<Item = ([Solid; 2], PairLedger)>,
+    ) {
         self.total += total;
         self.bodies.iter_mut().zip(bodies).for_each(|(sum, step)| *sum += *step);
-        self.pairs.iter_mut().zip(pairs).for_each(|(sum, step)| *sum += step);
+        pairs.for_each(|(between, step)| *self.pairs.or_default(between) += step);
     }
 
     /// Replaces the changes of energy, which are sums of many steps, by the differences of `now` and `initial`.

@@ -1,11 +1,14 @@
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use carom_contact::{Boundaries, ContactModel, Pair, Solid, Target};
 use carom_mesh::{Surface, Vector};
 
-use crate::model::interference::Interference;
+use crate::model::interference::{Interference, Interferences};
 use crate::model::obstacle_motion::ObstacleMotion;
+use crate::model::restitution::Restitutions;
+
+/// More pairs than these are not listed: where hundreds of bodies may touch, most never come near one another, and no one reads of all.
+pub(crate) const MANY_PAIRS: usize = 1000;
 
 /// A named pair of bodies, or of a body and an obstacle, that may touch.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,14 +17,6 @@ pub struct NamedPair {
     pub between: [String; 2],
     /// Friction coefficient.
     pub friction: f64,
-}
-
-impl NamedPair {
-    /// Whether it is that of a body with itself.
-    #[must_use]
-    pub fn is_of_one_body(&self) -> bool {
-        self.between[0] == self.between[1]
-    }
 }
 
 /// A body as the others see it: a name and places.
@@ -44,13 +39,10 @@ pub struct Member<const D: usize> {
 pub struct Assembly<const D: usize> {
     /// Who may touch whom; surface i is that of body i.
     pub contact: ContactModel<D>,
-    /// The named pairs that the pairs of `contact` belong to.
-    pub named_pairs: Vec<NamedPair>,
-    /// By how much each named pair is pushed apart.
-    pub interferences: Vec<Interference>,
-    /// The coefficients of restitution of the named pairs of which both sides are rigid, where velocities are ruled: see
-    /// [`ContactCondition::Endpoint`](super::condition::ContactCondition::Endpoint).
-    pub restitutions: Vec<Option<f64>>,
+    /// By how much pairs are pushed apart.
+    pub interferences: Interferences,
+    /// The coefficients of restitution of pairs of what is rigid.
+    pub restitutions: Restitutions,
     /// Reference positions of all nodes [m]; after those of the bodies, zero for every obstacle, whose displacement says how far
     /// it has moved.
     pub reference: Vec<Vector<D>>,
@@ -62,9 +54,8 @@ pub struct Assembly<const D: usize> {
     pub size: f64,
     /// The boundaries of all bodies and obstacles.
     pub(crate) boundaries: Boundaries<D>,
-    /// The named pair of any two solids that may touch.
-    may_meet: BTreeMap<[Solid; 2], usize>,
     names: Vec<String>,
+    obstacle_names: Vec<String>,
     /// The numbers of the nodes of every body.
     nodes: Vec<Range<usize>>,
     body_of_node: Vec<u32>,
@@ -75,21 +66,12 @@ pub struct Assembly<const D: usize> {
     farthest: f64,
 }
 
-/// Who a pair is between, in ascending order.
-fn between(pair: &Pair) -> [Solid; 2] {
-    let source = Solid::Body(pair.source);
-    let target = match pair.target {
-        Target::Surface(body) => Solid::Body(body),
-        Target::Obstacle(obstacle) => Solid::Obstacle(obstacle),
-    };
-    source.pair(target)
-}
-
 impl<const D: usize> Assembly<D> {
-    /// The assembly of these bodies, whose nodes are numbered one body after the other, and of the contacts between their surfaces;
-    /// obstacles stand still.
+    /// The assembly of these bodies, whose nodes are numbered one body after the other, and of the contacts between their surfaces and with
+    /// the obstacles of these names, which stand still.
     #[must_use]
-    pub fn new(members: Vec<Member<D>>, mut contact: ContactModel<D>, named_pairs: Vec<NamedPair>) -> Self {
+    pub fn new(members: Vec<Member<D>>, mut contact: ContactModel<D>, obstacle_names: Vec<String>) -> Self {
+        assert_eq!(contact.obstacles.len(), obstacle_names.len(), "a name for every obstacle");
         let count: usize = members.iter().map(|m| m.reference.len()).sum();
         let obstacles = contact.obstacles.len();
         let numbered = contact.obstacles.into_iter().enumerate();
@@ -97,10 +79,9 @@ impl<const D: usize> Assembly<D> {
             .map(|(o, obstacle)| obstacle.numbered((count + o) as u32, (count + obstacles) as u32))
             .collect();
         let boundaries: Vec<Surface> = members.iter().map(|m| m.boundary.clone()).collect();
-        let may_meet = contact.pairs.iter().map(|pair| (between(pair), pair.named_pair)).collect();
         let mut assembly = Self {
-            interferences: vec![Interference::default(); named_pairs.len()],
-            restitutions: vec![None; named_pairs.len()],
+            interferences: Interferences::default(),
+            restitutions: Restitutions::default(),
             obstacle_motions: vec![ObstacleMotion::Velocity(Vector::zeros()); obstacles],
             supports: 0,
             size: members.iter().map(|m| m.diameter).fold(0.0, f64::max),
@@ -112,9 +93,8 @@ impl<const D: usize> Assembly<D> {
             diameters: members.iter().map(|m| m.diameter).collect(),
             reference: Vec::with_capacity(count + obstacles),
             contact,
-            named_pairs,
+            obstacle_names,
             boundaries: Boundaries::default(),
-            may_meet,
         };
         for (i, member) in members.into_iter().enumerate() {
             let first = assembly.reference.len();
@@ -142,22 +122,26 @@ impl<const D: usize> Assembly<D> {
 
     /// Whether two solids may touch, and so must not be inside one another; of a body with itself that is never meant.
     pub(crate) fn must_not_overlap(&self, [a, b]: [Solid; 2]) -> bool {
-        a == b || self.may_meet.contains_key(&a.pair(b))
+        a == b || self.contact.pairs.may_meet([a, b])
     }
 
     /// The interference of a pair of the contact model.
     pub(crate) fn interference(&self, pair: u32) -> &Interference {
-        &self.interferences[self.contact.pairs[pair as usize].named_pair]
+        // Most have none, and are found at once.
+        if self.interferences.own.is_empty() {
+            return &self.interferences.default;
+        }
+        self.interferences.of(self.contact.pairs.get(pair as usize).between())
     }
 
     /// How far apart surfaces may press on one another at time `t` [s], in metres.
     pub(crate) fn reach(&self, t: f64) -> f64 {
-        self.interferences.iter().map(|interference| interference.reach(t)).fold(0.0, f64::max)
+        self.interferences.all().map(|interference| interference.reach(t)).fold(0.0, f64::max)
     }
 
     /// The interference of the pair of two solids that may touch.
     pub(crate) fn interference_between(&self, [a, b]: [Solid; 2]) -> Option<&Interference> {
-        self.may_meet.get(&a.pair(b)).map(|&named_pair| &self.interferences[named_pair])
+        self.contact.pairs.may_meet([a, b]).then(|| self.interferences.of(a.pair(b)))
     }
 
     /// How deep two solids may be inside one another at time `t` [s] by the interference of their pair, in metres.
@@ -190,15 +174,41 @@ impl<const D: usize> Assembly<D> {
         &self.names[index]
     }
 
-    /// The name of a body, or of an obstacle that may be touched.
-    pub(crate) fn solid_name(&self, solid: Solid) -> &str {
+    /// The name of a body or an obstacle.
+    #[must_use]
+    pub fn solid_name(&self, solid: Solid) -> &str {
         match solid {
             Solid::Body(i) => self.name(i),
-            Solid::Obstacle(o) => {
-                let pair = self.contact.pairs.iter().find(|pair| pair.target == Target::Obstacle(o));
-                pair.map_or("", |pair| &self.named_pairs[pair.named_pair].between[1])
-            }
+            Solid::Obstacle(o) => &self.obstacle_names[o],
         }
+    }
+
+    /// The names of two solids.
+    pub(crate) fn names(&self, between: [Solid; 2]) -> [String; 2] {
+        between.map(|solid| self.solid_name(solid).to_string())
+    }
+
+    /// The solids of these names, in ascending order, if they may touch.
+    #[must_use]
+    pub fn between(&self, names: &[String; 2]) -> Option<[Solid; 2]> {
+        let place = |names: &[String], name| names.iter().position(|own| own == name);
+        let solid = |name| {
+            let body = place(&self.names, name).map(Solid::Body);
+            body.or_else(|| place(&self.obstacle_names, name).map(Solid::Obstacle))
+        };
+        let between = solid(&names[0])?.pair(solid(&names[1])?);
+        self.contact.pairs.may_meet(between).then_some(between)
+    }
+
+    /// Two solids that may touch, by their names.
+    pub(crate) fn named_pair(&self, between: [Solid; 2]) -> NamedPair {
+        let friction = self.contact.pairs.of(between).next().map(|p| self.contact.pairs.get(p).friction);
+        NamedPair { between: self.names(between), friction: friction.unwrap_or_default() }
+    }
+
+    /// All that may touch, two by two, in the order of the pairs.
+    pub fn named_pairs(&self) -> impl Iterator<Item = NamedPair> + '_ {
+        self.contact.pairs.between().map(|between| self.named_pair(between))
     }
 
     /// The body that a node belongs to; none if it is the position of an obstacle.

@@ -1,8 +1,9 @@
 use std::collections::BTreeMap;
 
-use carom_contact::Site;
+use carom_contact::{Site, Solid};
 
 use crate::body::Interval;
+use crate::ledger::ByPair;
 use crate::signal::Signal;
 
 /// By how much the surfaces of a named pair are pushed apart [m]: the contact law sees the gap less this. Where it is negative they have
@@ -13,6 +14,28 @@ pub struct Interference {
     pub signal: Option<Signal>,
     /// What overlaps at the start and is taken up little by little.
     pub overlap: Option<Overlap>,
+}
+
+/// The interference of all pairs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Interferences {
+    /// That of pairs of which nothing else is said.
+    pub default: Interference,
+    /// Those of other pairs.
+    pub own: ByPair<Interference>,
+}
+
+impl Interferences {
+    /// That of two solids, in ascending order.
+    #[must_use]
+    pub fn of(&self, between: [Solid; 2]) -> &Interference {
+        self.own.get(between).unwrap_or(&self.default)
+    }
+
+    /// All that there are.
+    pub fn all(&self) -> impl Iterator<Item = &Interference> {
+        self.own.values().chain([&self.default])
+    }
 }
 
 /// Overlaps at the start: what is left of them is clearance, which falls linearly to zero.

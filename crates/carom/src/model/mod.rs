@@ -6,6 +6,7 @@ pub(crate) mod given;
 pub(crate) mod interference;
 pub(crate) mod method;
 pub(crate) mod obstacle_motion;
+pub(crate) mod restitution;
 pub(crate) mod state;
 
 use std::sync::Arc;
@@ -13,9 +14,10 @@ use std::sync::Arc;
 use carom_contact::ContactModel;
 use carom_mesh::{Surface, Vector};
 
-use self::assembly::{Assembly, Member, NamedPair};
-use self::interference::Interference;
+use self::assembly::{Assembly, Member};
+use self::interference::Interferences;
 use self::obstacle_motion::ObstacleMotion;
+use self::restitution::Restitutions;
 use self::state::State;
 use crate::body::Body;
 use crate::body::fe::FeBody;
@@ -43,7 +45,7 @@ impl<const D: usize> Model<D> {
     pub fn new(
         bodies: Vec<ModelBody<D>>,
         contact: ContactModel<D>,
-        named_pairs: Vec<NamedPair>,
+        obstacle_names: Vec<String>,
         gravity: Vector<D>,
     ) -> Self {
         let member = |b: &ModelBody<D>| Member {
@@ -53,7 +55,7 @@ impl<const D: usize> Model<D> {
             boundary: Surface::of(b.body.mesh()),
             held: b.held(),
         };
-        let assembly = Assembly::new(bodies.iter().map(member).collect(), contact, named_pairs);
+        let assembly = Assembly::new(bodies.iter().map(member).collect(), contact, obstacle_names);
         let surroundings = stiffness_of_deformable(&bodies);
         let bodies = bodies.into_iter().map(|mut b| {
             b.rigid.iter_mut().for_each(|rigid| rigid.surroundings = surroundings);
@@ -70,18 +72,16 @@ impl<const D: usize> Model<D> {
         self
     }
 
-    /// The same with this interference of its named pairs.
+    /// The same with this interference of its pairs.
     #[must_use]
-    pub fn with_interferences(mut self, interferences: Vec<Interference>) -> Self {
-        assert_eq!(interferences.len(), self.assembly.named_pairs.len(), "one interference per named pair");
+    pub fn with_interferences(mut self, interferences: Interferences) -> Self {
         self.assembly.interferences = interferences;
         self
     }
 
-    /// The same with these coefficients of restitution of its named pairs.
+    /// The same with these coefficients of restitution of its pairs.
     #[must_use]
-    pub fn with_restitutions(mut self, restitutions: Vec<Option<f64>>) -> Self {
-        assert_eq!(restitutions.len(), self.assembly.named_pairs.len(), "one restitution per named pair");
+    pub fn with_restitutions(mut self, restitutions: Restitutions) -> Self {
         self.assembly.restitutions = restitutions;
         self
     }

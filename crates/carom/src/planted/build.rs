@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use carom_contact::{ContactModel, ContactSurface};
+use carom_contact::{ContactModel, ContactSurface, Side};
 use carom_mesh::{Facet, Surface, Vector};
 use serde::Deserialize;
 
@@ -14,7 +14,7 @@ use crate::build::drive::obstacle_motion;
 use crate::build::method::{check_solver, stopping};
 use crate::build::mortar::has_mortar;
 use crate::build::obstacle::obstacle;
-use crate::build::side::{Side, facet_width};
+use crate::build::side::{NamedSide, facet_width};
 use crate::build::values::number;
 use crate::error::InputError;
 use crate::model::assembly::{Assembly, Member};
@@ -103,7 +103,7 @@ pub(super) fn touching<const D: usize>(
     own: &Surface,
     first: usize,
     reference: &[Vector<D>],
-) -> Result<(ContactSurface, Side), InputError> {
+) -> Result<(ContactSurface, NamedSide), InputError> {
     let at = |n: u32| reference[n as usize - first];
     let mut surface = ContactSurface::new(own, first as u32, &at);
     check_manifold(&format!("surfaces.{}.facets", outline.name), &surface, &at)?;
@@ -117,13 +117,11 @@ pub(super) fn touching<const D: usize>(
         surface = surface.touching_itself(&at);
     }
     let side = Side {
-        name: outline.name.clone(),
         touches_itself: outline.touches_itself,
-        is_periodic: false,
         facet_width: facet_width(own, |n| reference[n]),
         mass: 0.0,
     };
-    Ok((surface, side))
+    Ok((surface, NamedSide { name: outline.name.clone(), is_periodic: false, side }))
 }
 
 /// The diagonal of a box around points [m].
@@ -137,7 +135,7 @@ pub(super) fn diameter<const D: usize>(points: &[Vector<D>]) -> f64 {
 pub(super) fn assembled<const D: usize>(
     spec: &PlantedSpec,
     members: Vec<Member<D>>,
-    sides: &[Side],
+    sides: &[NamedSide],
     mut model: ContactModel<D>,
     mut surfaces: Surfaces<D>,
 ) -> Result<Assembly<D>, InputError> {
@@ -149,9 +147,9 @@ pub(super) fn assembled<const D: usize>(
         motions.push(obstacle_motion(&key, entry, [0.0, f64::INFINITY], size)?);
     }
     let names: Vec<&str> = spec.obstacles.iter().map(|o| o.name.as_str()).collect();
-    let (pairs, named_pairs) = pairs(&spec.contact, sides, &names)?;
-    model.pairs = pairs;
-    let mut assembly = Assembly::new(members, model, named_pairs);
+    model.pairs = pairs(&spec.contact, sides, &names)?;
+    let names = names.into_iter().map(String::from).collect();
+    let mut assembly = Assembly::new(members, model, names);
     assembly.obstacle_motions = motions;
     Ok(assembly)
 }

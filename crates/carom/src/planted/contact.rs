@@ -12,7 +12,7 @@ use crate::contact::candidates::Finder;
 use crate::contact::closing::{for_each_work, keep};
 use crate::contact::delassus::support;
 use crate::error::StepError;
-use crate::ledger::PairLedger;
+use crate::ledger::{ByPair, PairLedger};
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
 use crate::model::method::Method;
@@ -47,7 +47,7 @@ pub struct PlantedContact<const D: usize> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlantedStep {
     /// What the reactions did in every named pair [J].
-    pub pairs: Vec<PairLedger>,
+    pub pairs: ByPair<PairLedger>,
     /// Distance from the contact laws, the sum of bi-potential gaps [J].
     pub certificate: f64,
     /// Smallest gap at the end of the contacts that took part [m]; infinite without any.
@@ -78,7 +78,7 @@ impl<const D: usize> PlantedContact<D> {
         let zeros = vec![Vector::zeros(); assembly.reference.len()];
         Self {
             next: state.clone(),
-            finder: Finder::new(&assembly.contact, assembly.body_count()),
+            finder: Finder::new(assembly.body_count()),
             active: ActiveSet::new(assembly.body_count()),
             motion: zeros.clone(),
             before: zeros,
@@ -244,11 +244,11 @@ impl<const D: usize> PlantedContact<D> {
         let Given { assembly, state, .. } = given;
         next.time = given.interval.end;
         let kept = keep(&given, active, offsets, motion, at_end, next);
-        let mut pairs = vec![PairLedger::default(); assembly.named_pairs.len()];
-        let named = |pair: u32| assembly.contact.pairs[pair as usize].named_pair;
-        next.reactions.iter().for_each(|r| pairs[named(r.pair)].has_touched = true);
+        let mut pairs: ByPair<PairLedger> = ByPair::default();
+        let between = |pair: u32| assembly.contact.pairs.get(pair as usize).between();
+        next.reactions.iter().for_each(|r| pairs.or_default(between(r.pair)).has_touched = true);
         for_each_work(&given, motion, [&state.reactions, &next.reactions], |reaction, work| {
-            let pair = &mut pairs[named(reaction.pair)];
+            let pair = pairs.or_default(between(reaction.pair));
             pair.normal_contact -= work.normal;
             pair.prescribed += work.prescribed;
             pair.friction += work.dissipation;

@@ -9,7 +9,6 @@ use crate::body::Body;
 use crate::body::foreign::ForeignBody;
 use crate::body::foreign::code::{Blocks, ForeignCode};
 use crate::build::Surfaces;
-use crate::build::side::Side;
 use crate::contact::PosedProblem;
 use crate::error::{InputError, StepError};
 use crate::model::assembly::{Assembly, Member};
@@ -80,10 +79,11 @@ impl<const D: usize> ForeignRun<D> {
             let key = format!("surfaces.{}.facets", outline.name);
             let own = Surface::from_facets(&points, &outline.facets)
                 .map_err(|e| InputError::mesh(key, e.to_string()))?;
-            let (surface, side) = touching(&outline, &spec.planted.contact, &own, first, &points)?;
+            let (surface, mut side) = touching(&outline, &spec.planted.contact, &own, first, &points)?;
             model.surfaces.push(surface);
             let total: f64 = mass.iter().map(|(_, _, block)| block.trace() / D as f64).sum();
-            sides.push(Side { mass: total, ..side });
+            side.side.mass = total;
+            sides.push(side);
             let body = ForeignBody::new(points.clone(), &held, mass, code).map_err(|_| {
                 let message = format!("the mass of body {:?} is not positive definite", outline.name);
                 InputError::new(format!("bodies.{}.mass", outline.name), message + "; give every node a mass")

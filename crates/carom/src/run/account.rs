@@ -20,12 +20,12 @@ pub(crate) struct Account {
 }
 
 impl Account {
-    /// Of a stage that begins with these energies of bodies that so many `pairs` may touch.
-    pub fn new(energies: &[Energies], pairs: usize) -> Self {
+    /// Of a stage that begins with these energies of bodies.
+    pub fn new(energies: &[Energies]) -> Self {
         Self {
             start: energies.to_vec(),
             end: energies.to_vec(),
-            books: Books::new(energies.len(), pairs),
+            books: Books::new(energies.len()),
             steps: 0,
             newton_iterations: 0,
             retried: 0,

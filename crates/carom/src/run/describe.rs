@@ -1,10 +1,9 @@
-use carom_contact::Proximity;
+use carom_contact::{Pair, Proximity, Target};
 use serde::Serialize;
 
+use crate::ledger::ByPair;
+use crate::model::assembly::{Assembly, NamedPair};
 use crate::{Model, State};
-
-/// Beyond so many pairs no one reads of all of them: where hundreds of bodies may touch, most never come near one another.
-pub(crate) const MANY_PAIRS: usize = 1000;
 
 /// What would run: the answer of `carom check`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -104,34 +103,32 @@ pub(crate) fn describe<const D: usize>(
     }
 }
 
-/// The pairs that may touch, in their order: of more than [`MANY_PAIRS`] those that are no farther apart than the smaller of the two is large.
+/// The pairs that may touch, in their order: of many those that are no farther apart than the smaller of the two is large.
 fn describe_pairs<const D: usize>(model: &Model<D>, state: &State<D>) -> Vec<PairDescription> {
     let Model { assembly, .. } = model;
     let at = |n: u32| assembly.reference[n as usize] + state.displacement[n as usize];
-    let mut closest: Vec<Option<Proximity<D>>> = vec![None; assembly.named_pairs.len()];
-    let extents = assembly.contact.extents(&at);
-    let are_many = assembly.named_pairs.len() > MANY_PAIRS;
-    for pair in &assembly.contact.pairs {
-        let is_far = |gap: f64| are_many && gap > assembly.pair_size(pair);
-        if is_far(assembly.contact.at_least(pair, &extents, &at)) {
+    let Assembly { contact, .. } = assembly;
+    let mut closest: ByPair<Option<Proximity<D>>> = ByPair::default();
+    let extents = contact.extents(&at);
+    let mut pairs = Vec::new();
+    contact.within(assembly.size, &extents, &mut pairs);
+    let is_of_two = |pair: &Pair| pair.target != Target::Surface(pair.source);
+    for pair in pairs.into_iter().map(|p| contact.pairs.get(p)).filter(is_of_two) {
+        let is_far = |gap: f64| contact.pairs.are_many() && gap > assembly.pair_size(&pair);
+        if is_far(contact.at_least(&pair, &extents, &at)) {
             continue;
         }
-        let known = &mut closest[pair.named_pair];
-        let near = assembly.contact.proximity(pair, &at);
+        let near = contact.proximity(&pair, &at);
         if let Some(near) = near.filter(|near| !is_far(near.gap)) {
+            let known = closest.or_default(pair.between());
             *known = Some(known.filter(|known| known.gap <= near.gap).unwrap_or(near));
         }
     }
-    let named = assembly.named_pairs.iter().zip(closest).filter(|(pair, _)| !pair.is_of_one_body());
-    named
-        .filter_map(|(pair, closest)| {
-            let Proximity { gap, at } = closest?;
-            Some(PairDescription {
-                between: pair.between.clone(),
-                friction: pair.friction,
-                initial_gap: gap,
-                at: at.iter().copied().collect(),
-            })
+    let known = closest.iter().filter_map(|(between, closest)| Some((between, (*closest)?)));
+    known
+        .map(|(between, Proximity { gap, at })| {
+            let NamedPair { between, friction } = assembly.named_pair(between);
+            PairDescription { between, friction, initial_gap: gap, at: at.iter().copied().collect() }
         })
         .collect()
 }

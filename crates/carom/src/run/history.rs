@@ -188,8 +188,10 @@ impl<const D: usize> History<D> {
         let at = |n: u32| model.assembly.reference[n as usize] + state.displacement[n as usize];
         // A static analysis applies what is there at t = 0 in its first step.
         let most = if state.time > 0.0 { f64::INFINITY } else { 0.0 };
-        let least = |p: &Pair| model.assembly.interferences[p.named_pair].least(state.time).min(most);
-        let smallest = model.assembly.contact.smallest_gap(least, &at);
+        let interferences = &model.assembly.interferences;
+        let least = |p: &Pair| interferences.of(p.between()).least(state.time).min(most);
+        let at_most = interferences.all().map(|i| i.least(state.time).min(most)).fold(0.0, f64::max);
+        let smallest = model.assembly.contact.smallest_gap((least, at_most), &at);
         // Nodes deep between others are closest to a side; the contacts know what they face.
         let min_gap = if since.steps > 0 { since.min_gap.min(smallest) } else { smallest };
         self.rows.extend([

@@ -10,6 +10,7 @@ use crate::contact::PosedProblem;
 use crate::contact::cross_check::CrossCheckSummary;
 use crate::error::InputError;
 use crate::ledger::table::LedgerTable;
+use crate::model::assembly::Assembly;
 use crate::run::account::Account;
 use crate::run::describe::{Description, describe};
 use crate::run::events::EventLog;
@@ -140,7 +141,6 @@ impl<const D: usize> Simulation<D> {
         let stages = Stage::all(scenario, meshes, surfaces)?;
         let state = stages[0].start()?;
         let Stage { model, grid, merge, .. } = &stages[0];
-        let pairs = model.assembly.named_pairs.len();
         let steps = stages.iter().map(|stage| stage.grid.steps).sum();
         let mut simulation = Self {
             description: describe(&scenario.title, model, &state, steps),
@@ -152,8 +152,8 @@ impl<const D: usize> Simulation<D> {
             history_rows: 0,
             last_recorded: None,
             initial_energies: state.body_energies.clone(),
-            books: Books::new(model.bodies.len(), pairs),
-            accounts: vec![Account::new(&state.body_energies, pairs)],
+            books: Books::new(model.bodies.len()),
+            accounts: vec![Account::new(&state.body_energies)],
             ledger_table: LedgerTable::default(),
             totals: Totals::new(&state.energies),
             cross_checks: CrossCheckSummary::default(),
@@ -170,6 +170,19 @@ impl<const D: usize> Simulation<D> {
 }
 
 impl<const D: usize> Simulation<D> {
+    /// The name of an entry of the ledger table: of a body or, after these, of a pair as "a|b".
+    #[must_use]
+    pub fn ledger_entry(&self, number: usize) -> String {
+        let Assembly { contact, .. } = &self.model().assembly;
+        match number.checked_sub(self.model().bodies.len()) {
+            None => self.model().bodies[number].name.clone(),
+            Some(place) => {
+                let between = contact.pairs.at_place(place);
+                between.map_or_else(String::new, |between| self.model().assembly.names(between).join("|"))
+            }
+        }
+    }
+
     /// What is run.
     #[must_use]
     pub fn description(&self) -> &Description {
@@ -242,7 +255,7 @@ impl<const D: usize> Simulation<D> {
     pub(crate) fn restart(&mut self) {
         self.spare.clone_from(&self.state);
         self.initial_energies.clone_from(&self.state.body_energies);
-        self.accounts = vec![Account::new(&self.state.body_energies, self.books.pairs.len())];
+        self.accounts = vec![Account::new(&self.state.body_energies)];
         self.description =
             describe(&self.description.title, self.model(), &self.state, self.description.steps);
         self.totals = Totals::new(&self.state.energies);
@@ -346,7 +359,7 @@ impl<const D: usize> Simulation<D> {
     /// Opens the books of a stage in which bodies begin with so much energy more [J]: the work of what gave them their velocity.
     fn begin_stage(&mut self, gained: &[f64]) {
         let Self { state, spare, accounts, books, history_rows, grid, stages, current, .. } = self;
-        let mut account = Account::new(&state.body_energies, books.pairs.len());
+        let mut account = Account::new(&state.body_energies);
         for (i, gain) in gained.iter().enumerate() {
             account.start[i].kinetic -= gain;
             for books in [&mut account.books, &mut *books] {
@@ -378,14 +391,15 @@ impl<const D: usize> Simulation<D> {
         let mut stepper = Stepper { model, method, state, spare, work, halvings, failed: 0 };
         let outcome = stepper.advance(nominal, |state, report, work| {
             for books in [&mut *books, &mut account.books] {
-                let pairs = work.pair_reports.iter().map(|pair| pair.ledger);
+                let pairs = work.pair_reports.iter().map(|(between, pair)| (between, pair.ledger));
                 books.add(report.ledger, &work.body_ledgers, pairs);
             }
             books.set_changes(initial_energies, &state.body_energies);
             account.note(report, state);
             *last_step = Some(report.ledger);
             nominal_step.note(report);
-            events.record(&model.assembly.named_pairs, &work.pair_reports, previous_time, state.time);
+            let names = |between| model.assembly.names(between);
+            events.record(names, &work.pair_reports, [previous_time, state.time]);
             history.observe(report, state, state.time - previous_time);
             report.cross_check.iter().for_each(|check| cross_checks.note(check, state.time));
             previous_time = state.time;
@@ -417,7 +431,8 @@ impl<const D: usize> Simulation<D> {
     fn record(&mut self) {
         let stage = &self.stages[self.current];
         let min_gap = self.history.record(&stage.model, &self.state, &self.books.total, self.current);
-        self.ledger_table.record(self.state.time, &self.books);
+        let pairs = &self.stages[self.current].model.assembly.contact.pairs;
+        self.ledger_table.record(self.state.time, &self.books, pairs);
         self.totals.min_gap = self.totals.min_gap.min(min_gap);
         self.last_recorded = Some(self.state.time);
         // The next multiple of the interval after now.

@@ -4,7 +4,7 @@ use carom_mesh::Vector;
 
 use crate::build::{Built, Meshes, RigidMotion, Surfaces, built, start};
 use crate::error::InputError;
-use crate::run::events::EventLog;
+use crate::run::events::Merge;
 use crate::run::time_grid::TimeGrid;
 use crate::scenario::{Scenario, StageEntry};
 use crate::{Method, Model, Scheme, State};
@@ -20,8 +20,8 @@ pub(crate) struct Stage<const D: usize> {
     pub method: Method<D>,
     pub grid: TimeGrid,
     pub history_every: f64,
-    /// For each named pair: contacts less than this apart are one [s].
-    pub merge: Vec<f64>,
+    /// How close contacts are that count as one.
+    pub merge: Merge,
     /// How every body moves that is given a velocity when the stage starts.
     motions: Vec<RigidMotion<D>>,
     /// Those that are.
@@ -84,7 +84,7 @@ impl<const D: usize> Stage<D> {
             name: entry.map_or_else(String::new, |entry| entry.name.clone()),
             grid: TimeGrid::new(dt, [start, end]),
             history_every: scenario.output.history_every,
-            merge: EventLog::merges(&model, method.scheme, dt, scenario.output.merge_contacts),
+            merge: Merge::new(&model, method.scheme, dt, scenario.output.merge_contacts),
             motions,
             given,
             model,

@@ -1,11 +1,11 @@
 //! What came out of a run, in a page.
 
+use carom_contact::Solid;
 use serde::Serialize;
 
 use crate::contact::cross_check::CrossCheckSummary;
-use crate::model::assembly::NamedPair;
+use crate::model::assembly::Assembly;
 use crate::run::account::Account;
-use crate::run::describe::MANY_PAIRS;
 use crate::run::events::ContactEvent;
 use crate::run::stage::Stage;
 use crate::run::totals::Worst;
@@ -130,12 +130,6 @@ pub struct PairSummary {
     pub ledger: PairLedger,
 }
 
-impl PairSummary {
-    fn new(named_pair: &NamedPair, merge_contacts: f64, ledger: &PairLedger) -> Self {
-        Self { between: named_pair.between.clone(), merge_contacts, ledger: *ledger }
-    }
-}
-
 /// The native part of summary.json.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
@@ -232,13 +226,21 @@ impl<const D: usize> Simulation<D> {
 
     /// The books of every pair that may touch, as they are in a stage.
     fn pairs(&self, books: &Books, stage: &Stage<D>) -> Vec<PairSummary> {
-        let are_many = books.pairs.len() > MANY_PAIRS;
-        let pairs = stage.model.assembly.named_pairs.iter().zip(&stage.merge).zip(&books.pairs);
-        pairs
-            // Every body may touch itself; few do. Of many pairs most never meet.
-            .filter(|((pair, _), ledger)| !(pair.is_of_one_body() || are_many) || ledger.has_touched)
-            .map(|((pair, merge), ledger)| PairSummary::new(pair, *merge, ledger))
-            .collect()
+        let Assembly { contact, .. } = &stage.model.assembly;
+        let summary = |between: [Solid; 2], ledger: PairLedger| PairSummary {
+            between: stage.model.assembly.names(between),
+            merge_contacts: stage.merge.of(between),
+            ledger,
+        };
+        // Every body may touch itself; few do. Of many pairs most never meet.
+        if contact.pairs.are_many() {
+            let touched = books.pairs.iter().filter(|(_, ledger)| ledger.has_touched);
+            return touched.map(|(between, ledger)| summary(between, *ledger)).collect();
+        }
+        let all = contact.pairs.between();
+        let ledgers = all.map(|between| (between, books.pairs.get(between).copied().unwrap_or_default()));
+        let told = ledgers.filter(|([a, b], ledger)| a != b || ledger.has_touched);
+        told.map(|(between, ledger)| summary(between, ledger)).collect()
     }
 
     /// What came out of the stages that have begun, where there are any.

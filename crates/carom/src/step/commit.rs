@@ -40,7 +40,7 @@ pub(super) fn commit<const D: usize>(
     }
     next.support.fill(Vector::zeros());
     close_bodies(given, next, work);
-    work.pair_reports.fill(PairReport::default());
+    work.pair_reports.clear();
     work.impulses.done.clear();
     restore(given, next, work);
     work.impulses.landings = work.impulses.done.len();
@@ -52,7 +52,7 @@ pub(super) fn commit<const D: usize>(
     for body in &work.body_ledgers {
         report.ledger.add_body(body);
     }
-    for pair in &work.pair_reports {
+    for pair in work.pair_reports.values() {
         report.ledger.add_pair(&pair.ledger);
         report.normal_force += pair.normal_force;
     }
@@ -119,7 +119,7 @@ fn book_impulses<const D: usize>(
     let at_end = &work.contacts.at_end;
     for (k, done) in work.impulses.done.iter().enumerate() {
         let Reaction { contact, force, pair, .. } = &mut next.reactions[done.reaction];
-        let pair = &mut work.pair_reports[assembly.contact.pairs[*pair as usize].named_pair];
+        let pair = work.pair_reports.or_default(assembly.contact.pairs.get(*pair as usize).between());
         let [along, across] = done.taken;
         pair.ledger.prescribed += done.prescribed;
         if k < work.impulses.landings {
@@ -145,12 +145,12 @@ fn close_contacts<const D: usize>(
 ) {
     let Given { assembly, state, interval, .. } = *given;
     let Workspace { contacts, blend, motion, pair_reports, body_ledgers, impulses, .. } = work;
-    let pair_of = |reaction: &Reaction<D>| assembly.contact.pairs[reaction.pair as usize].named_pair;
+    let pair_of = |reaction: &Reaction<D>| assembly.contact.pairs.get(reaction.pair as usize).between();
     for (k, reaction) in next.reactions.iter().enumerate() {
         if impulses.arriving.binary_search(&k).is_ok() {
             continue;
         }
-        let report = &mut pair_reports[pair_of(reaction)];
+        let report = pair_reports.or_default(pair_of(reaction));
         report.normal_force += reaction.force[0];
         report.ledger.has_touched = true;
     }
@@ -168,8 +168,9 @@ fn close_contacts<const D: usize>(
         let lost = contacts.active.lost.iter().map(|&k| &state.reactions[k].contact);
         for (c, contact) in contacts.work.iter().zip(contacts.active.contacts.iter().chain(lost)) {
             let weight = blend.weight[c.source];
-            pair_reports[c.named_pair].ledger.prescribed += c.prescribed(weight);
-            book(&mut pair_reports[c.named_pair], contact, c.dissipation(weight));
+            let report = pair_reports.or_default(c.between);
+            report.ledger.prescribed += c.prescribed(weight);
+            book(report, contact, c.dissipation(weight));
         }
         next.energy_debt.copy_from_slice(&state.energy_debt);
         let surplus = body_ledgers
@@ -179,7 +180,7 @@ fn close_contacts<const D: usize>(
         return;
     }
     for_each_work(given, motion, [&state.reactions, &next.reactions], |reaction, work| {
-        let report = &mut pair_reports[pair_of(reaction)];
+        let report = pair_reports.or_default(pair_of(reaction));
         report.ledger.normal_contact -= work.normal;
         report.ledger.prescribed += work.prescribed;
         book(report, &reaction.contact, work.dissipation);

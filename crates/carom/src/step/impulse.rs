@@ -185,7 +185,7 @@ impl<const D: usize> Impulses<D> {
         self.groups.fill(Group::default());
         for Impulse { reaction, contact, impulse, .. } in wanted {
             let Reaction { pair, .. } = new.reactions[*reaction];
-            let pair = &given.assembly.contact.pairs[pair as usize];
+            let pair = given.assembly.contact.pairs.get(pair as usize);
             let target = if let Target::Surface(target) = pair.target { target } else { pair.source };
             (self.takes_part[pair.source], self.takes_part[target]) = (true, true);
             let (a, b) = (self.group(pair.source), self.group(target));
@@ -278,7 +278,7 @@ impl<const D: usize> Impulses<D> {
 
     /// The body that stands for the group of a reaction of the state `new`.
     fn group_of(&self, given: &Given<'_, D>, new: &State<D>, reaction: usize) -> usize {
-        self.group(given.assembly.contact.pairs[new.reactions[reaction].pair as usize].source)
+        self.group(given.assembly.contact.pairs.get(new.reactions[reaction].pair as usize).source)
     }
 }
 

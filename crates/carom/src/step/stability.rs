@@ -80,7 +80,7 @@ fn by_reactions<const D: usize>(
     let (assembly, active) = (given.assembly, &work.contacts.active);
     let nodes = assembly.nodes(body);
     let pairs = &assembly.contact.pairs;
-    let sizes = active.candidates.iter().map(|c| assembly.pair_size(&pairs[c.pair as usize]));
+    let sizes = active.candidates.iter().map(|c| assembly.pair_size(&pairs.get(c.pair as usize)));
     let step = DIFFERENCE * sizes.fold(assembly.size, f64::min);
     let mut mortar = active.mortar.clone();
     let (mut moved, mut forces) = (Vec::new(), vec![Vector::zeros(); work.motion.len()]);
@@ -168,7 +168,7 @@ pub(super) fn about_to_give_way<const D: usize>(
     let state = given.state;
     let pairs = &given.assembly.contact.pairs;
     let pressed: Vec<_> =
-        state.reactions.iter().map(|r| (&r.contact, &r.force, pairs[r.pair as usize].friction)).collect();
+        state.reactions.iter().map(|r| (&r.contact, &r.force, pairs.get(r.pair as usize).friction)).collect();
     for &i in bodies {
         let is_sprung = work.contacts.reduced.delassus.stiffened.is_sprung[i];
         if !is_in_question(i, work) && !is_sprung {

@@ -10,7 +10,7 @@ use super::report::PairReport;
 use super::since_look::SinceLook;
 use crate::body::Body;
 use crate::contact::{Contacts, PosedProblem};
-use crate::ledger::BodyLedger;
+use crate::ledger::{BodyLedger, ByPair};
 use crate::model::Model;
 use crate::model::assembly::Assembly;
 
@@ -29,8 +29,8 @@ pub struct Workspace<const D: usize> {
     pub(crate) in_itself: Vec<bool>,
     /// d = u₊ − u [m] of all nodes and obstacles.
     pub(crate) motion: Vec<Vector<D>>,
-    /// What the named pairs did in the last step, in the order of the assembly.
-    pub pair_reports: Vec<PairReport>,
+    /// What pairs did in the last step, those of which anything is known.
+    pub pair_reports: ByPair<PairReport>,
     /// What happened to the energy of each body in the last step.
     pub body_ledgers: Vec<BodyLedger>,
     /// Factorisations made so far.
@@ -58,7 +58,7 @@ impl<const D: usize> Workspace<D> {
             since_look: vec![SinceLook::default(); bodies.len()],
             in_itself: vec![false; bodies.len()],
             motion: vec![Vector::zeros(); assembly.reference.len()],
-            pair_reports: vec![PairReport::default(); assembly.named_pairs.len()],
+            pair_reports: ByPair::default(),
             body_ledgers: vec![BodyLedger::default(); bodies.len()],
             factorisations: 0,
             detection_time: Duration::ZERO,

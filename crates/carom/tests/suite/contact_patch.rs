@@ -72,9 +72,9 @@ impl<const D: usize> Blocks<D> {
         let surfaces = surfaces.map(|(b, n)| ContactSurface::new(b.surface(), n, &at));
         let pairs = sources.iter().map(|&source| {
             let target = Target::Surface(1 - source);
-            Pair { source, target, friction: 0.0, named_pair: 0, discretisation }
+            Pair { source, target, friction: 0.0, discretisation }
         });
-        let pairs = pairs.collect();
+        let pairs = pairs.collect::<Vec<Pair>>().into();
         let model = ContactModel::<D> { surfaces: surfaces.collect(), obstacles: vec![], pairs };
         let (stiffness, load, prescribed) = self.system();
         let factor = stiffness.lu();

@@ -251,17 +251,16 @@ fn shaken_block(condition: ContactCondition) -> Model<2> {
             source: 0,
             target: Target::Obstacle(0),
             friction: 0.4,
-            named_pair: 0,
             discretisation: Discretisation::NodeToSegment,
-        }],
+        }]
+        .into(),
     };
-    let named_pairs = vec![carom::NamedPair { between: ["part".into(), "floor".into()], friction: 0.4 }];
     let bodies = vec![ModelBody::new("part", body, 0)];
     let pressed = [Some(Signal::Constant(0.0)), Some(formula("-0.05*(1 - cos(2*pi*t))"))];
     // The left side slides along a wall: its lower corner is a contact that cannot answer along the floor.
     let guided = [Some(Signal::Constant(0.0)), None];
     let floor = ObstacleMotion::Displacement(Box::new([formula("0.05*sin(8*t)"), formula("-0.02*sin(9*t)")]));
-    Model::new(bodies, contact, named_pairs, Vector::zeros())
+    Model::new(bodies, contact, vec!["floor".into()], Vector::zeros())
         .with_motions(vec![motion(top, pressed), motion(side, guided)])
         .with_obstacle_motions(vec![floor])
 }
@@ -275,7 +274,7 @@ fn block_pressed_on_a_shaking_floor_keeps_the_books() {
         let mut lowest: f64 = 0.0;
         let (state, defect, [_, prescribed]) =
             run(&model, &method(Scheme::Conserving, condition), 300, 2e-3, |state, work| {
-                friction += work.pair_reports[0].ledger.friction;
+                friction += work.pair_reports.values().map(|pair| pair.ledger.friction).sum::<f64>();
                 let floor = state.displacement[model.node_count()][1];
                 for n in 0..model.node_count() {
                     lowest = lowest.min(model.assembly.reference[n][1] + state.displacement[n][1] - floor);
@@ -308,7 +307,7 @@ fn supports_and_floor_give_a_block_its_momentum() {
             worst = worst.max((now - momentum - (contact + support) * 2e-3).norm());
             largest = largest.max(now.norm());
             momentum = now;
-            landed += usize::from(work.pair_reports[0].ledger.normal_contact != 0.0);
+            landed += work.pair_reports.values().filter(|pair| pair.ledger.normal_contact != 0.0).count();
         });
         assert!(worst < 1e-12 * largest, "{condition:?}: {worst:.1e} of {largest:.1e} N s");
         assert!(landed > 3, "{condition:?}: {landed}");

@@ -2,7 +2,7 @@
 
 use carom::{
     Assembly, Body, BodyEnd, BodyLedger, BodyState, ContactCondition, Energies, Forecast, Guess, Interval,
-    Jolt, Member, Method, NamedPair, NewtonRule, Scheme, State, StepError, StressRule, Workspace, step,
+    Jolt, Member, Method, NewtonRule, Scheme, State, StepError, StressRule, Workspace, step,
 };
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
 use carom_friction::{Criterion, SolverKind, StoppingRule};
@@ -166,13 +166,12 @@ fn setting(stiffness: f64, gravity: f64, obstacle: Obstacle<2>, friction: f64) -
         source: 0,
         target: Target::Obstacle(0),
         friction,
-        named_pair: 0,
         discretisation: Discretisation::NodeToSegment,
     };
     let contact = ContactModel {
         surfaces: vec![ContactSurface::of_points(vec![0])],
         obstacles: vec![obstacle],
-        pairs: vec![pair],
+        pairs: vec![pair].into(),
     };
     let member = Member {
         name: "mass".into(),
@@ -181,9 +180,11 @@ fn setting(stiffness: f64, gravity: f64, obstacle: Obstacle<2>, friction: f64) -
         boundary: Surface::default(),
         held: Vec::new(),
     };
-    let named_pairs = vec![NamedPair { between: ["mass".into(), "obstacle".into()], friction }];
     let body = PointMass { stiffness, gravity: Vector::<2>::new(0.0, -gravity), ..PointMass::default() };
-    Setting { assembly: Assembly::new(vec![member], contact, named_pairs), bodies: vec![Box::new(body)] }
+    Setting {
+        assembly: Assembly::new(vec![member], contact, vec!["obstacle".into()]),
+        bodies: vec![Box::new(body)],
+    }
 }
 
 fn method(scheme: Scheme, condition: ContactCondition) -> Method<2> {

@@ -64,7 +64,7 @@ fn work_of_a_moving_floor_closes_the_books() {
         let books = simulation.books();
         let scale = books.total.prescribed;
         assert!(books.total.defect().abs() < 1e-10 * scale, "{condition}: {:.1e}", books.total.defect());
-        let pairs: f64 = books.pairs.iter().map(|p| p.prescribed - p.friction - p.normal_contact).sum();
+        let pairs: f64 = books.pairs.values().map(|p| p.prescribed - p.friction - p.normal_contact).sum();
         let bodies: f64 = books.bodies.iter().map(|b| b.contact).sum();
         assert!((pairs - bodies).abs() < 1e-9 * scale, "{condition}");
     }

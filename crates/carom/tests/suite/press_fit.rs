@@ -198,7 +198,7 @@ fn books_close_while_surfaces_are_pushed_apart_or_grow() {
             let scale = books.total.prescribed.abs();
             assert!(scale > 1e-3, "{drive} {condition}: {scale} J");
             assert!(largest < allowed * scale, "{drive} {law} {condition}: {largest:e} of {scale} J");
-            let of_pairs: f64 = books.pairs.iter().map(|p| p.prescribed).sum();
+            let of_pairs: f64 = books.pairs.values().map(|p| p.prescribed).sum();
             let of_bodies: f64 = books.bodies.iter().map(|b| b.prescribed).sum();
             let of_drive = if drive == "growth" { of_bodies } else { of_pairs };
             assert!(

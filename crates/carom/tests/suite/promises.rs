@@ -73,11 +73,9 @@ fn every_pair_rubs_with_its_own_friction() {
                     "{D}D, μ = {mu}: {} taken, {taken} due",
                     2.0 - v[0]
                 );
-                let group =
-                    simulation.model().assembly.named_pairs.iter().position(|g| {
-                        g.between.contains(&b.name) && g.between.contains(&"floor".to_string())
-                    });
-                let work = books.pairs[group.expect("a pair with the floor")].friction;
+                let names = [b.name.clone(), "floor".to_string()];
+                let between = simulation.model().assembly.between(&names).expect("a pair with the floor");
+                let work = books.pairs.get(between).expect("it touches").friction;
                 assert!((work > 0.0) == (mu > 0.0), "{D}D, μ = {mu}: {work} J");
             }
         }
@@ -160,8 +158,8 @@ fn the_interface_between_two_bodies_has_the_friction_of_that_pair() {
     // The upper block slides all the time, on what it has dented; the lower one is held by the floor.
     let pairs = &simulation.books().pairs;
     let of = |names: [&str; 2]| {
-        let is_it = |g: &carom::NamedPair| names.iter().all(|n| g.between.contains(&(*n).to_string()));
-        pairs[simulation.model().assembly.named_pairs.iter().position(is_it).expect("a pair")].friction
+        let between = simulation.model().assembly.between(&names.map(String::from)).expect("a pair");
+        pairs.get(between).expect("they touch").friction
     };
     let due = 0.05 * 500.0 * 10.0 * 3.0 * 0.1;
     assert!((of(["high", "low"]) / due - 1.0).abs() < 0.2, "{} J of {due} J", of(["high", "low"]));

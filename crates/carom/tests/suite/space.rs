@@ -1,8 +1,7 @@
 //! The same step in 3D: a cube of hexahedra dropped on a plane and on another cube.
 
 use carom::{
-    ContactCondition, Method, Model, ModelBody, NamedPair, NewtonRule, Scheme, Simulation, State, Workspace,
-    step,
+    ContactCondition, Method, Model, ModelBody, NewtonRule, Scheme, Simulation, State, Workspace, step,
 };
 use carom_contact::{ContactModel, ContactSurface, Discretisation, Obstacle, Pair, Target};
 use carom_fem::material::{ElasticConstants, LawSpec, Mat3, Viscosity};
@@ -55,9 +54,10 @@ fn model(bodies: Vec<ModelBody<3>>, obstacles: Vec<Obstacle<3>>, pairs: Vec<Pair
         let at = |n: u32| b.body.mesh().nodes()[n as usize - b.first_node];
         ContactSurface::new(b.body.surface(), b.first_node as u32, &at)
     };
-    let contact = ContactModel { surfaces: bodies.iter().map(surface).collect(), obstacles, pairs };
-    let named_pairs = vec![NamedPair { between: ["a".into(), "b".into()], friction: 0.3 }];
-    Model::new(bodies, contact, named_pairs, Vector::zeros())
+    let contact =
+        ContactModel { surfaces: bodies.iter().map(surface).collect(), obstacles, pairs: pairs.into() };
+    let names = contact.obstacles.iter().enumerate().map(|(o, _)| format!("obstacle {o}")).collect();
+    Model::new(bodies, contact, names, Vector::zeros())
 }
 
 fn method(condition: ContactCondition) -> Method<3> {
@@ -108,7 +108,6 @@ fn cube_with_friction_on_a_plane_loses_what_friction_and_contact_take() {
         source: 0,
         target: Target::Obstacle(0),
         friction: 0.3,
-        named_pair: 0,
         discretisation: Discretisation::NodeToSegment,
     };
     let model = model(vec![cube("cube", [0.0, 0.0, 0.00513], 0)], vec![floor], vec![pair]);
@@ -136,7 +135,6 @@ fn cubes_with_facing_quadrilaterals_exchange_momentum() {
         source: 1,
         target: Target::Surface(0),
         friction: 0.0,
-        named_pair: 0,
         discretisation: Discretisation::NodeToSegment,
     };
     let model = model(vec![a, b], vec![], vec![pair]);
@@ -160,7 +158,6 @@ fn massless_cube_conserves_energy_and_momenta_and_does_not_penetrate() {
             source: 0,
             target: Target::Obstacle(0),
             friction,
-            named_pair: 0,
             discretisation: Discretisation::NodeToSegment,
         };
         let cube = massless_cube("cube", [0.0, 0.0, 0.00513], 0);
@@ -194,7 +191,6 @@ fn massless_cubes_conserve_energy_and_momenta() {
         source: 1,
         target: Target::Surface(0),
         friction: 0.0,
-        named_pair: 0,
         discretisation: Discretisation::NodeToSegment,
     };
     let model = model(vec![a, b], vec![], vec![pair]);
@@ -233,7 +229,7 @@ fn boxes_of_wedges_fall_and_slide_with_their_books_closed() {
         let nodes = a.body.node_count();
         let b = block_of(CellKind::Hex8, "b", above(1.0113, 0.13), nodes, 2, false);
         let discretisation = Discretisation::NodeToSegment;
-        let pair = |source, target| Pair { source, target, friction: 0.3, named_pair: 0, discretisation };
+        let pair = |source, target| Pair { source, target, friction: 0.3, discretisation };
         let pairs = vec![pair(0, Target::Obstacle(0)), pair(1, Target::Surface(0))];
         let floor = Obstacle::plane(Vector::zeros(), normal);
         let model = model(vec![a, b], vec![floor], pairs);
