@@ -41,7 +41,7 @@ TOP = """\
 ! Written by `python tools/make_fortran.py` from carom.h, whose comments say what holds of all
 ! calls; do not edit.
 !
-! Texts end with c_null_char. Nodes, unknowns and pairs are numbered from 0. An array of shape
+! Texts end with c_null_char. nodes and unknowns are numbered from 0. An array of shape
 ! [a][b] in C is one of shape (b, a) here: points have shape (dimension, point_count), and of frames
 ! the column (:, 1, i) is the normal. A solver is c_funloc of a function with the interface
 ! `carom_solver`.

@@ -3,7 +3,7 @@
 ! Written by `python tools/make_fortran.py` from carom.h, whose comments say what holds of all
 ! calls; do not edit.
 !
-! Texts end with c_null_char. Nodes, unknowns and pairs are numbered from 0. An array of shape
+! Texts end with c_null_char. nodes and unknowns are numbered from 0. An array of shape
 ! [a][b] in C is one of shape (b, a) here: points have shape (dimension, point_count), and of frames
 ! the column (:, 1, i) is the normal. A solver is c_funloc of a function with the interface
 ! `carom_solver`.
@@ -447,7 +447,7 @@ module carom
       integer(c_int) :: carom_contact_nodes
     end function
 
-    !> Writes the pair of every contact, see carom_contact_pair_names.
+    !> Writes the number of the pair of every contact, see carom_contact_pair_names.
     function carom_contact_pairs(contact, pairs, size) bind(c)
       import
       type(c_ptr), value :: contact
@@ -482,15 +482,8 @@ module carom
       integer(c_int) :: carom_contact_ledger
     end function
 
-    !> Writes how many pairs of names there are that may touch.
-    function carom_contact_pair_count(contact, count) bind(c)
-      import
-      type(c_ptr), value :: contact
-      integer(c_size_t), intent(out) :: count
-      integer(c_int) :: carom_contact_pair_count
-    end function
-
-    !> Writes the names of a pair, from 0 on. They are there as long as contact is.
+    !> Writes the names of a pair by its number, see carom_contact_pairs. They are there as long as contact
+    !> is.
     function carom_contact_pair_names(contact, pair, first, second) bind(c)
       import
       type(c_ptr), value :: contact
@@ -500,11 +493,12 @@ module carom
       integer(c_int) :: carom_contact_pair_names
     end function
 
-    !> Writes what the reactions of a pair did since the start.
-    function carom_contact_pair_work(contact, pair, work) bind(c)
+    !> Writes what the reactions between two surfaces, or a surface and an obstacle, did since the start.
+    function carom_contact_pair_work(contact, first, second, work) bind(c)
       import
       type(c_ptr), value :: contact
-      integer(c_size_t), value :: pair
+      character(kind=c_char), intent(in) :: first(*)
+      character(kind=c_char), intent(in) :: second(*)
       type(carom_work), intent(out) :: work
       integer(c_int) :: carom_contact_pair_work
     end function

@@ -500,7 +500,7 @@ enum carom_status carom_contact_nodes(const struct carom_contact *contact,
                                       size_t size);
 
 /**
- * Writes the pair of every contact, see carom_contact_pair_names.
+ * Writes the number of the pair of every contact, see carom_contact_pair_names.
  */
 enum carom_status carom_contact_pairs(const struct carom_contact *contact,
                                       size_t *pairs,
@@ -526,12 +526,7 @@ enum carom_status carom_contact_ledger(const struct carom_contact *contact,
                                        struct carom_ledger *ledger);
 
 /**
- * Writes how many pairs of names there are that may touch.
- */
-enum carom_status carom_contact_pair_count(const struct carom_contact *contact, size_t *count);
-
-/**
- * Writes the names of a pair, from 0 on. They are there as long as contact is.
+ * Writes the names of a pair by its number, see carom_contact_pairs. They are there as long as contact is.
  */
 enum carom_status carom_contact_pair_names(const struct carom_contact *contact,
                                            size_t pair,
@@ -539,10 +534,11 @@ enum carom_status carom_contact_pair_names(const struct carom_contact *contact,
                                            const char **second);
 
 /**
- * Writes what the reactions of a pair did since the start.
+ * Writes what the reactions between two surfaces, or a surface and an obstacle, did since the start.
  */
 enum carom_status carom_contact_pair_work(const struct carom_contact *contact,
-                                          size_t pair,
+                                          const char *first,
+                                          const char *second,
                                           struct carom_work *work);
 
 /**

@@ -1,5 +1,6 @@
 //! Contact in the caller's time loop: the order of calls, the caller's unknowns, the books.
 
+use std::collections::BTreeMap;
 use std::ffi::CString;
 
 use carom::{PairLedger, PlantedStep};
@@ -68,9 +69,10 @@ pub struct Contact {
 /// What contact did since the start [J].
 #[derive(Debug, Clone, Default)]
 pub struct Books {
-    pub pairs: Vec<PairLedger>,
-    /// The two names of each pair, ended for C.
-    pub names: Vec<[CString; 2]>,
+    /// By the numbers of pairs that have touched.
+    pub pairs: BTreeMap<usize, PairLedger>,
+    /// The two names of pairs that were asked for, ended for C.
+    names: BTreeMap<usize, [CString; 2]>,
     pub certificate: f64,
     pub min_gap: f64,
     pub steps: usize,
@@ -83,10 +85,7 @@ impl Contact {
         unknowns: Unknowns,
         needs_velocity: bool,
     ) -> Self {
-        let ended = |name: String| CString::new(name).unwrap_or_default();
-        let names: Vec<_> = steps.pair_names().into_iter().map(|pair| pair.map(ended)).collect();
-        let pairs = vec![PairLedger::default(); names.len()];
-        let books = Books { pairs, names, certificate: 0.0, min_gap: f64::INFINITY, steps: 0 };
+        let books = Books { min_gap: f64::INFINITY, ..Books::default() };
         Self {
             steps,
             points,
@@ -246,14 +245,37 @@ impl Contact {
 
     pub fn accept(&mut self, points: &[f64]) -> Result<PlantedStep, Failure> {
         self.force()?;
-        let step = self.steps.accept(points);
+        let (step, done) = self.steps.accept(points);
         self.stage = Stage::Idle;
         let books = &mut self.books;
-        books.pairs.iter_mut().zip(&step.pairs).for_each(|(sum, pair)| *sum += *pair);
+        done.into_iter().for_each(|(number, work)| *books.pairs.entry(number).or_default() += work);
         books.certificate = books.certificate.max(step.certificate);
         books.min_gap = books.min_gap.min(step.min_gap);
         books.steps += 1;
         Ok(step)
+    }
+
+    /// The two names of a pair. Where they are does not change as long as this lives.
+    pub fn pair_names(&mut self, number: usize) -> Result<&[CString; 2], Failure> {
+        let names = self.steps.pair_names(number);
+        let names = names.ok_or_else(|| {
+            Failure::invalid(format!(
+                "there is no pair of the number {number}; carom_contact_pairs tells those of contacts"
+            ))
+        })?;
+        let ended = |name: String| CString::new(name).unwrap_or_default();
+        Ok(self.books.names.entry(number).or_insert_with(|| names.map(ended)))
+    }
+
+    /// What the two of these names did to one another.
+    pub fn pair_work(&self, names: [&str; 2]) -> Result<PairLedger, Failure> {
+        let number = self.steps.pair_of(&names.map(String::from)).ok_or_else(|| {
+            Failure::invalid(format!(
+                "{:?} and {:?} are no surfaces or obstacles that may touch",
+                names[0], names[1]
+            ))
+        })?;
+        Ok(self.books.pairs.get(&number).copied().unwrap_or_default())
     }
 
     /// Time since the first step [s].

@@ -1,7 +1,7 @@
 //! The steps of [`PlantedContact`] without its dimension: flat arrays in, flat arrays out, one row for each point or contact.
 
-use carom::{PlantedContact, PlantedStep, StepError};
-use carom_contact::Site;
+use carom::{PairLedger, PlantedContact, PlantedStep, StepError};
+use carom_contact::{Candidate, Site};
 use carom_friction::{Matrix, SolveReport};
 use carom_mesh::Vector;
 
@@ -21,13 +21,13 @@ pub trait Steps: Send {
     fn solve(&mut self, w: &[f64], free: &[f64]) -> Result<SolveReport, StepError>;
     /// See [`PlantedContact::missed`].
     fn missed(&mut self, points: &[f64]) -> Result<bool, StepError>;
-    /// See [`PlantedContact::accept`].
-    fn accept(&mut self, points: &[f64]) -> PlantedStep;
+    /// See [`PlantedContact::accept`]; with what was done by the numbers of pairs.
+    fn accept(&mut self, points: &[f64]) -> (PlantedStep, Vec<(usize, PairLedger)>);
     /// See [`PlantedContact::set_reactions`].
     fn set_reactions(&mut self, reactions: &[f64]);
     /// How many take part.
     fn count(&self) -> usize;
-    /// The named pair of every contact.
+    /// The number of the pair of every contact.
     fn pairs(&self) -> Vec<usize>;
     /// The source node of every contact, by the caller's numbers.
     fn nodes(&self) -> Vec<Option<u32>>;
@@ -43,8 +43,10 @@ pub trait Steps: Send {
     fn reactions(&self) -> Vec<f64>;
     /// Calls back with (contact, node of the caller, weight).
     fn each_weight(&self, each: &mut dyn FnMut(usize, u32, f64));
-    /// The names of every named pair.
-    fn pair_names(&self) -> Vec<[String; 2]>;
+    /// The two names of a pair by its number.
+    fn pair_names(&self, number: usize) -> Option<[String; 2]>;
+    /// The number of the pair of two names, in either order.
+    fn pair_of(&self, names: &[String; 2]) -> Option<usize>;
     /// Time [s].
     fn time(&self) -> f64;
 }
@@ -84,8 +86,11 @@ impl<const D: usize> Steps for PlantedContact<D> {
         PlantedContact::missed(self, &vectors(points))
     }
 
-    fn accept(&mut self, points: &[f64]) -> PlantedStep {
-        PlantedContact::accept(self, &vectors(points))
+    fn accept(&mut self, points: &[f64]) -> (PlantedStep, Vec<(usize, PairLedger)>) {
+        let step = PlantedContact::accept(self, &vectors(points));
+        let pairs = &self.assembly().contact.pairs;
+        let done = step.pairs.iter().map(|(between, work)| (pairs.place(between), *work)).collect();
+        (step, done)
     }
 
     fn set_reactions(&mut self, reactions: &[f64]) {
@@ -98,7 +103,8 @@ impl<const D: usize> Steps for PlantedContact<D> {
 
     fn pairs(&self) -> Vec<usize> {
         let pairs = &self.assembly().contact.pairs;
-        self.candidates().iter().map(|c| pairs[c.pair as usize].named_pair).collect()
+        let number = |c: &Candidate| pairs.place(pairs.get(c.pair as usize).between());
+        self.candidates().iter().map(number).collect()
     }
 
     fn nodes(&self) -> Vec<Option<u32>> {
@@ -141,8 +147,14 @@ impl<const D: usize> Steps for PlantedContact<D> {
         }
     }
 
-    fn pair_names(&self) -> Vec<[String; 2]> {
-        self.assembly().named_pairs.iter().map(|pair| pair.between.clone()).collect()
+    fn pair_names(&self, number: usize) -> Option<[String; 2]> {
+        let between = self.assembly().contact.pairs.at_place(number)?;
+        Some(between.map(|solid| self.assembly().solid_name(solid).to_string()))
+    }
+
+    fn pair_of(&self, names: &[String; 2]) -> Option<usize> {
+        let between = self.assembly().between(names)?;
+        Some(self.assembly().contact.pairs.place(between))
     }
 
     fn time(&self) -> f64 {

@@ -327,7 +327,7 @@ fn a_step_refuses_what_does_not_fit_and_what_comes_too_early() {
         let (mut a, mut b) = (null(), null());
         refused(
             carom_contact_pair_names(contact, 1, &mut a, &mut b),
-            "pair is 1, and there are 1; they are numbered from 0",
+            "there is no pair of the number 1; carom_contact_pairs tells those of contacts",
         );
         done(carom_contact_pair_names(contact, 0, &mut a, &mut b));
         assert_eq!([CStr::from_ptr(a), CStr::from_ptr(b)], [c"square", c"floor"]);
@@ -518,7 +518,10 @@ fn contact_solved_by_hand_is_contact_solved_by_carom() {
             (carom_step::default(), carom_ledger::default(), carom_work::default());
         done(carom_contact_accept(contact, end.as_ptr(), 8, &mut step));
         done(carom_contact_ledger(contact, &mut books));
-        done(carom_contact_pair_work(contact, 0, &mut work));
+        let (floor, cube) = (c"floor".as_ptr(), c"cube".as_ptr());
+        done(carom_contact_pair_work(contact, floor, cube, &mut work));
+        let nobody = "\"cube\" and \"cube\" are no surfaces or obstacles that may touch";
+        refused(carom_contact_pair_work(contact, cube, cube, &mut work), nobody);
         assert!(step.work.friction > 0.0 && step.work == books.work && books.work == work);
         assert_eq!((books.steps, books.time), (1, 0.1));
         let mut report = carom_report::default();

@@ -167,7 +167,7 @@ pub unsafe extern "C" fn carom_contact_accept(
             let at = places(contact, points, point_count)?;
             write_one("step", carom_step::default(), step)?;
             let done = contact.accept(at)?;
-            let work = done.pairs.iter().fold(carom_work::default(), carom_work::with);
+            let work = done.pairs.values().fold(carom_work::default(), carom_work::with);
             let (certificate, min_gap, pressing) = (done.certificate, done.min_gap, done.pressing);
             write_one("step", carom_step { work, certificate, min_gap, pressing }, step)
         })

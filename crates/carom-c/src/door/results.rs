@@ -5,9 +5,7 @@ use std::ffi::c_char;
 use super::books::{carom_ledger, carom_report, carom_work};
 use super::carom_status;
 use super::contact::carom_contact;
-use crate::contact::Contact;
-use crate::memory::{write, write_one};
-use crate::status::Failure;
+use crate::memory::{text, write, write_one};
 use crate::steps::Steps;
 
 /// Writes something of every contact.
@@ -100,7 +98,7 @@ pub unsafe extern "C" fn carom_contact_nodes(
     }
 }
 
-/// Writes the pair of every contact, see carom_contact_pair_names.
+/// Writes the number of the pair of every contact, see carom_contact_pair_names.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_contact_pairs(
     contact: *const carom_contact,
@@ -146,7 +144,7 @@ pub unsafe extern "C" fn carom_contact_ledger(
     unsafe {
         carom_contact::act(contact, |contact| {
             let books = &contact.books;
-            let work = books.pairs.iter().fold(carom_work::default(), carom_work::with);
+            let work = books.pairs.values().fold(carom_work::default(), carom_work::with);
             let (certificate, min_gap, steps) = (books.certificate, books.min_gap, books.steps);
             write_one(
                 "ledger",
@@ -157,26 +155,7 @@ pub unsafe extern "C" fn carom_contact_ledger(
     }
 }
 
-/// Writes how many pairs of names there are that may touch.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carom_contact_pair_count(
-    contact: *const carom_contact,
-    count: *mut usize,
-) -> carom_status {
-    // SAFETY: the promises of the header.
-    unsafe { carom_contact::act(contact, |contact| write_one("count", contact.books.names.len(), count)) }
-}
-
-fn known(contact: &Contact, pair: usize) -> Result<usize, Failure> {
-    let count = contact.books.names.len();
-    if pair < count {
-        Ok(pair)
-    } else {
-        Err(Failure::invalid(format!("pair is {pair}, and there are {count}; they are numbered from 0")))
-    }
-}
-
-/// Writes the names of a pair, from 0 on. They are there as long as contact is.
+/// Writes the names of a pair by its number, see carom_contact_pairs. They are there as long as contact is.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_contact_pair_names(
     contact: *const carom_contact,
@@ -187,25 +166,26 @@ pub unsafe extern "C" fn carom_contact_pair_names(
     // SAFETY: the promises of the header.
     unsafe {
         carom_contact::act(contact, |contact| {
-            let [a, b] = &contact.books.names[known(contact, pair)?];
+            let [a, b] = contact.pair_names(pair)?;
             write_one("first", a.as_ptr(), first)?;
             write_one("second", b.as_ptr(), second)
         })
     }
 }
 
-/// Writes what the reactions of a pair did since the start.
+/// Writes what the reactions between two surfaces, or a surface and an obstacle, did since the start.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carom_contact_pair_work(
     contact: *const carom_contact,
-    pair: usize,
+    first: *const c_char,
+    second: *const c_char,
     work: *mut carom_work,
 ) -> carom_status {
     // SAFETY: the promises of the header.
     unsafe {
         carom_contact::act(contact, |contact| {
-            let done = carom_work::default().with(&contact.books.pairs[known(contact, pair)?]);
-            write_one("work", done, work)
+            let done = contact.pair_work([text("first", first)?, text("second", second)?])?;
+            write_one("work", carom_work::default().with(&done), work)
         })
     }
 }
