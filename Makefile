@@ -2,6 +2,7 @@
 # make test    every test: Rust, Python, examples
 # make check   format, lints, types, spelling
 # make bench   timings (see benchmarks/README.md)
+# make c       the library for C, C++ and Fortran, into PREFIX (target/c)
 # make docs    the documentation site, site/index.html
 # make validate  long validations; rewrites docs/validation.md, says which numbers of the pages drifted
 
@@ -13,7 +14,7 @@ BIN := $(VENV)/bin
 SOURCES := $(shell find crates python -type f ! -name '*.pyc') \
 	Cargo.toml Cargo.lock pyproject.toml README.md THIRD-PARTY-NOTICES.txt
 
-.PHONY: demo test check bench docs validate clean
+.PHONY: demo test check bench c docs validate clean
 
 demo: $(VENV)/installed
 	$(BIN)/carom run examples/two_cylinders.toml --out results/two_cylinders --set output.report=true --force
@@ -21,6 +22,7 @@ demo: $(VENV)/installed
 test: $(VENV)/installed-dev
 	$(BIN)/python tools/get_browser.py
 	cargo test --release --locked --workspace --exclude carom-python
+	$(MAKE) c
 	$(BIN)/pytest
 
 # With Python 3.11 or later, which Sphinx wants, the site too: its pages and links, not its gallery.
@@ -31,6 +33,8 @@ check: $(VENV)/installed-docs
 	$(BIN)/ruff format --check $(PYTHON_SOURCES)
 	$(BIN)/ruff check $(PYTHON_SOURCES)
 	$(BIN)/mypy
+	cargo run --release --locked --quiet -p carom-c --example header -- --check
+	$(BIN)/python tools/make_fortran.py --check
 	$(BIN)/python docs/make_case_file_reference.py --check
 	$(BIN)/python docs/make_command_reference.py --check
 	$(BIN)/python docs/make_messages.py --check
@@ -44,6 +48,11 @@ check: $(VENV)/installed-docs
 # Warnings are errors. Runs the cases of the gallery, those again that have changed.
 docs: $(VENV)/installed-docs
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs site
+
+PREFIX ?= target/c
+
+c:
+	sh crates/carom-c/install/install.sh "$(DESTDIR)$(PREFIX)"
 
 bench:
 	cargo bench --locked --package carom

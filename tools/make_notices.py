@@ -1,10 +1,11 @@
-"""Write THIRD-PARTY-NOTICES.txt: the crates that a wheel links, and their licences.
+"""Write THIRD-PARTY-NOTICES.txt: the crates that are linked, and their licences.
 
-``python tools/make_notices.py`` asks cargo for the crates of ``carom-python`` and their normal
-dependencies on every platform (not those of builds and tests, nor procedural macros, which stay in
-the compiler) and takes the licence texts from their sources. With ``--check`` nothing is written,
-and the exit status is 1 if the file is not up to date. Neither needs more of the network than cargo
-itself: sources that are not there yet are downloaded as for a build.
+``python tools/make_notices.py`` asks cargo for the crates of what is handed on, a wheel or the
+library for C, and their normal dependencies on every platform (not those of builds and tests, nor
+procedural macros, which stay in the compiler) and takes the licence texts from their sources. With
+``--check`` nothing is written, and the exit status is 1 if the file is not up to date. Neither
+needs more of the network than cargo itself: sources that are not there yet are downloaded as for a
+build.
 """
 
 from __future__ import annotations
@@ -21,15 +22,16 @@ from typing import Any
 
 ROOT = Path(__file__).parents[1]
 NOTICES = ROOT / "THIRD-PARTY-NOTICES.txt"
-PACKAGE = "carom-python"
+PACKAGES = ("carom-python", "carom-c")
 
 HEAD = """\
-Notices of what a wheel of carom contains
+Notices of what a wheel of carom and its library for C contain
 
 carom itself is licensed under MIT OR Apache-2.0 (LICENSE-MIT, LICENSE-APACHE). The native module
-links the Rust crates below, and what they need of Rust's standard library; the page of the report
-has JavaScript libraries, whose licences lie beside them (report/vendor/LICENSE-*). Python packages
-that carom needs are installed on their own, with their own notices.
+links the Rust crates below, the library for C some of them, and what they need of Rust's standard
+library; the page of the report has JavaScript libraries, whose licences lie beside them
+(report/vendor/LICENSE-*). Python packages that carom needs are installed on their own, with their
+own notices.
 
 Where a crate offers a choice of licences, it is used under the first one of: {preferred}.
 `python tools/make_notices.py` writes this file.
@@ -114,7 +116,7 @@ def crates() -> list[Crate]:
         if package["source"] and (package["name"], package["version"]) in names
     ]
     if len(found) != len({crate for crate in names if not crate[0].startswith("carom")}):
-        raise SystemExit("cargo tree and cargo metadata disagree on the crates of the wheel")
+        raise SystemExit("cargo tree and cargo metadata disagree on the crates")
     name, what, licence, home, holder = STANDARD_LIBRARY
     standard = Crate(name, f"({what})", licence, home, (permission(holder),))
     return [standard, *sorted(found, key=lambda crate: (crate.name, crate.version))]
@@ -122,8 +124,9 @@ def crates() -> list[Crate]:
 
 def linked() -> set[tuple[str, str]]:
     """Return name and version of every crate that is linked, on any platform."""
+    packages = [word for name in PACKAGES for word in ("--package", name)]
     told = cargo(
-        *("tree", "--package", PACKAGE, "--edges", "normal,no-proc-macro", "--target", "all"),
+        *("tree", *packages, "--edges", "normal,no-proc-macro", "--target", "all"),
         *("--prefix", "none", "--format", "{p}"),
     )
     pairs = (line.split()[:2] for line in told.splitlines() if line)
