@@ -187,7 +187,7 @@ pub(super) fn indefinite<const D: usize>(given: &Given<'_, D>, work: &Workspace<
     }
     let contact = modes.eigenvectors.column(softest).iamax() / D;
     let pair = work.contacts.active.candidates.get(contact)?.pair;
-    let body = given.assembly.contact.pairs[pair as usize].source;
+    let body = given.assembly.contact.pairs.get(pair as usize).source;
     Some(GivingWay { body, motion: Vec::new() }.error(given))
 }
 
