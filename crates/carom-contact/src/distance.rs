@@ -19,8 +19,18 @@ impl<const D: usize> ContactModel<D> {
     /// Where the source nodes of `pair` are closest to, or deepest inside, the target.
     #[must_use]
     pub fn proximity(&self, pair: &Pair, position: &impl Fn(u32) -> Vector<D>) -> Option<Proximity<D>> {
+        self.proximity_within(f64::INFINITY, pair, position)
+    }
+
+    /// The same if it is closer than `reach` [m].
+    pub(crate) fn proximity_within(
+        &self,
+        reach: f64,
+        pair: &Pair,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Option<Proximity<D>> {
         let nodes = self.surfaces[pair.source].sources.iter().map(|&n| position(n));
-        self.closest(nodes, pair.target, position)
+        self.closest_within(reach, nodes, pair.target, position)
     }
 
     /// Which of these points [m] is closest to, or deepest inside, a target.
@@ -33,9 +43,20 @@ impl<const D: usize> ContactModel<D> {
         target: Target,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Option<Proximity<D>> {
+        self.closest_within(f64::INFINITY, points, target, position)
+    }
+
+    /// The same if it is closer than `reach` [m].
+    fn closest_within(
+        &self,
+        reach: f64,
+        points: impl Iterator<Item = Vector<D>>,
+        target: Target,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Option<Proximity<D>> {
         let mut closest: Option<Proximity<D>> = None;
         let mut keep = |gap: f64, at: Vector<D>| {
-            if closest.is_none_or(|c| gap < c.gap) {
+            if gap < closest.map_or(reach, |c| c.gap) {
                 closest = Some(Proximity { gap, at });
             }
         };
@@ -47,11 +68,15 @@ impl<const D: usize> ContactModel<D> {
                 let target = &self.surfaces[t];
                 let boxes = || (0..target.facets.len() as u32).map(|f| target.bounds(f, position));
                 let whole = boxes().fold(Aabb::of([]), |all, b| all.union(&b));
-                let tree = Bvh::new(boxes());
                 // The nearest to the target's box first, so that most points need no closer look.
-                let mut points: Vec<(f64, Vector<D>)> = points.map(|x| (whole.distance(&x), x)).collect();
+                let points = points.map(|x| (whole.distance(&x), x));
+                let mut points: Vec<(f64, Vector<D>)> = points.filter(|p| p.0 <= reach.max(0.0)).collect();
+                if points.is_empty() {
+                    return None;
+                }
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
-                let mut smallest = f64::INFINITY;
+                let tree = Bvh::new(boxes());
+                let mut smallest = reach;
                 for (distance, x) in points {
                     if distance > smallest.max(0.0) {
                         break;

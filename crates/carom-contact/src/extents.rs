@@ -113,13 +113,18 @@ impl<const D: usize> ContactModel<D> {
         position: &impl Fn(u32) -> Vector<D>,
     ) -> f64 {
         let bound = |pair: &Pair| self.at_least(pair, extents, position) - least(pair);
-        let beyond = |pair: &Pair| self.proximity(pair, position).map(|near| near.gap - least(pair));
+        // Only a gap below the smallest so far is asked for.
+        let beyond = |pair: &Pair, smallest: f64| {
+            let near = self.proximity_within(smallest + least(pair), pair, position)?;
+            Some(near.gap - least(pair))
+        };
         let pairs = || pairs.iter().map(|&p| self.pairs.get(p));
         let nearest = pairs().map(|pair| (bound(&pair), pair)).min_by(|a, b| a.0.total_cmp(&b.0));
-        let mut smallest = nearest.and_then(|(_, pair)| beyond(&pair)).unwrap_or(f64::INFINITY);
+        let mut smallest =
+            nearest.and_then(|(_, pair)| beyond(&pair, f64::INFINITY)).unwrap_or(f64::INFINITY);
         for pair in pairs() {
             if bound(&pair) < smallest {
-                smallest = beyond(&pair).map_or(smallest, |gap| gap.min(smallest));
+                smallest = beyond(&pair, smallest).map_or(smallest, |gap| gap.min(smallest));
             }
         }
         smallest
