@@ -97,8 +97,8 @@ class FallingSimulation:
             "area": np.ones(2),
         }
 
-    def ledger_entries(self):
-        return ["left", "left|floor"]
+    def ledger_entry(self, number):
+        return ["left", "left|floor"][number]
 
     def take_ledger(self):
         body = [self.time, 0, 1, 2, 3, 10, 6, np.nan, 4, 0, 5, np.nan, 7]

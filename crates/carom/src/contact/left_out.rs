@@ -1,6 +1,7 @@
 //! What mortar rows leave out: their weights follow the motion, and neither the rows nor their forces say so.
 //!
-//! The gap of a row is g = n · Σ a(u) x, and the row itself the gradient with weights a that stay. Where two coarse sides lie on one another in the mean
+//! The gap of a row is g = n · Σ a(u) x, and the row itself the gradient with weights a that stay; what a condition rules may be the motion of the row in
+//! place of its gap. Where two coarse sides lie on one another in the mean
 //! alone, the rest of the gradient is as large as the row, and iterations without it converge by 0.8 at best. Here gradients
 //! come from central differences, node by node over the rows that know the node. W is then H̃ K⁻¹ Hᵀ with the whole gradient H̃ in the normal rows, and
 //! not symmetric; neither is G.
@@ -11,6 +12,7 @@ use carom_mesh::{Matrix, Vector};
 use super::active::ActiveSet;
 use super::control::CONTROL;
 use super::woodbury::Woodbury;
+use crate::model::condition::ContactCondition;
 use crate::model::given::Given;
 
 /// No place.
@@ -94,25 +96,38 @@ impl<const D: usize> LeftOut<D> {
         self.candidates.extend(of_node.iter().map(|&(_, k)| active.candidates[k]));
         let size = |c: &Candidate| given.assembly.pair_size(&model.pairs.get(c.pair as usize));
         let step = CONTROL.difference * self.candidates.iter().map(size).fold(f64::INFINITY, f64::min);
+        let condition = given.method.condition;
+        let (evaluated, rules_gaps) = (condition.evaluation_weight(), condition.rules_gaps());
         for &(_, k) in of_node {
             let contact = &active.contacts[k];
             let weight = contact.stencil().find(|&(n, _)| n == node).map_or(0.0, |(_, weight)| weight);
-            self.parts[k].push((column, contact.frame.row(0).transpose() * -weight));
+            // The whole gradient of a gap has the row in it, that of the motion of a row whose nodes stay where they are has not.
+            let known = if rules_gaps { -weight } else { 0.0 };
+            self.parts[k].push((column, contact.frame.row(0).transpose() * known));
         }
+        let map = &given.interval.map;
+        let carried = if map.is_static() { 0.0 } else { map.velocity_of_velocity / map.velocity_of_motion };
+        let ruled = |contact: &Contact<D>| match condition {
+            ContactCondition::Gap | ContactCondition::Massless => contact.gap,
+            ContactCondition::Midpoint => contact.relative(|n| motion[n])[0],
+            ContactCondition::Endpoint => {
+                contact.relative(|n| motion[n] + given.state.velocity[n] * carried)[0]
+            }
+        };
         for component in 0..D {
             for sign in [1.0, -1.0] {
                 let position = |n: u32| {
-                    let mut x = given.position(n) + motion[n as usize];
+                    let mut x = given.position(n) + motion[n as usize] * evaluated;
                     if n as usize == node {
                         x[component] += sign * step;
                     }
                     x
                 };
                 model.evaluate_all(&self.candidates, &position, &mut self.mortar, &mut self.moved);
-                let share = sign / (2.0 * step);
+                let share = evaluated * sign / (2.0 * step);
                 for (&(_, k), moved) in of_node.iter().zip(&mut self.moved) {
                     if let Some((_, part)) = self.parts[k].last_mut() {
-                        part[component] += moved.gap * share;
+                        part[component] += ruled(moved) * share;
                     }
                     let r = &active.reactions[k];
                     if *r == Vector::<D>::zeros() {

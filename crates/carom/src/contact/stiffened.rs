@@ -248,9 +248,7 @@ impl<const D: usize> Stiffened<D> {
         self.missing.clear();
         self.left_out.clear();
         self.add_geometric(given, active, motion);
-        if given.interval.map.is_static() {
-            self.left_out.make(given, active, motion, &self.places, &mut self.missing);
-        }
+        self.left_out.make(given, active, motion, &self.places, &mut self.missing);
         self.add_springs(given.assembly, active);
         let nodes = &self.nodes;
         let block =

@@ -88,6 +88,12 @@ impl ContactCondition {
         self != ContactCondition::Endpoint
     }
 
+    /// Whether it is the gap itself that is ruled, and not the motion.
+    #[must_use]
+    pub fn rules_gaps(self) -> bool {
+        matches!(self, ContactCondition::Gap | ContactCondition::Massless)
+    }
+
     /// Whether what normal reactions take on landing is given back.
     #[must_use]
     pub fn restores(self) -> bool {

@@ -27,7 +27,7 @@ pub(super) fn equilibrate<const D: usize>(
     next: &mut State<D>,
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
-    match approach(bodies, given, next, work) {
+    match approach(bodies, given.method.newton.max_iterations, given, next, work) {
         Ok(iterations) => {
             if bodies.iter().any(|&i| is_in_question(i, work)) {
                 stability::check(bodies, given, next, work)?;
@@ -44,22 +44,53 @@ pub(super) fn equilibrate<const D: usize>(
         }
         Err(
             error @ (StepError::Friction { .. } | StepError::Unstable { .. } | StepError::Restless { .. }),
-        ) => Err(about_to_give_way(bodies, given, work).unwrap_or(error)),
+        ) => {
+            let is_unsolvable = matches!(error, StepError::Friction { .. });
+            let indefinite = if is_unsolvable { stability::indefinite(given, work) } else { None };
+            Err(about_to_give_way(bodies, given, work).or(indefinite).unwrap_or(error))
+        }
         Err(error) => Err(error),
     }
 }
 
-/// [`equilibrate`] with whatever error comes first.
+/// Goes on with the iterations of a step in time of some `bodies`, which has made so many, as with those of a load step, from the present guess: a K̄
+/// that was made elsewhere, or has no springs where the tangent is indefinite, brings it no nearer. Returns how many there were in all.
+///
+/// # Errors
+/// If that does not end.
+pub(super) fn go_on<const D: usize>(
+    bodies: &[usize],
+    made: usize,
+    given: &Given<'_, D>,
+    next: &mut State<D>,
+    work: &mut Workspace<D>,
+) -> Result<usize, StepError> {
+    let Workspace { contacts, newton, motion, bodies: all, .. } = work;
+    contacts.soften();
+    newton.holding.fill(Holding::default());
+    if bodies.iter().any(|&i| contacts.active.touched[i]) {
+        contacts.evaluate(given, motion, None, all);
+    }
+    linearise(bodies, given, next, work)?;
+    let allowed = given.method.newton.max_iterations - made;
+    Ok(made + approach(bodies, allowed, given, next, work)?)
+}
+
+/// [`equilibrate`] in no more iterations than are `allowed`, with whatever error comes first.
 fn approach<const D: usize>(
     bodies: &[usize],
+    allowed: usize,
     given: &Given<'_, D>,
     next: &mut State<D>,
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
     let rule = &given.method.newton;
-    let reached = nodal::largest(&given.state.displacement[..given.assembly.node_count()]);
+    let (is_static, is_load_step) = (given.interval.map.is_static(), given.interval.is_load_step);
+    // What a step in time moves is what its books are about.
+    let entered = if is_load_step { &given.state.displacement[..given.assembly.node_count()] } else { &[] };
+    let reached = nodal::largest(entered);
     let worth = bodies.iter().map(|&i| work.bodies[i].tangent_worth()).max().unwrap_or(1);
-    let mut load_step = LoadStep::new(rule.tolerance, rule.max_iterations, worth, reached);
+    let mut load_step = LoadStep::new(rule.tolerance, allowed, worth, reached);
     work.newton.keep_guess(bodies, given.assembly, &work.motion, &work.contacts.active);
     work.newton.left_alone.clear();
     for iteration in 1.. {
@@ -101,10 +132,11 @@ fn approach<const D: usize>(
             return Ok(iteration);
         }
         let size = given.assembly.size;
-        if motion.max(correction) > LOAD_STEP.runaway * size {
+        if is_static && motion.max(correction) > LOAD_STEP.runaway * size {
             return Err(StepError::Runaway { motion: motion.max(correction), size });
         }
-        if load_step.has_stalled()
+        if is_static
+            && load_step.has_stalled()
             && let Some(motion) = left_alone(bodies, given, next, work)
         {
             // No iteration comes to an end in what nothing resists. What is left out is small where inertia resists it.
@@ -179,7 +211,9 @@ fn linearise<const D: usize>(
     let Workspace { bodies: all, contacts, motion, .. } = work;
     let Contacts { active, reduced, .. } = contacts;
     reduced.delassus.stiffened.spring_from_guess(given.assembly, active, all);
-    reduced.expect_more(all);
+    if given.interval.map.is_static() {
+        reduced.expect_more(all);
+    }
     for &i in bodies {
         let guess = given.guess(i, motion, &next.displacement);
         let holding = &mut work.newton.holding[i];
@@ -222,7 +256,7 @@ pub(super) fn set_out<const D: usize>(
 /// What it says of a body that its tangent has no inverse whatever holds it back.
 fn unstable<const D: usize>(error: StepError, given: &Given<'_, D>, body: usize) -> StepError {
     match error {
-        StepError::Matrix(FemError::NotPositiveDefinite) => {
+        StepError::Matrix(FemError::NotPositiveDefinite) if given.interval.map.is_static() => {
             let body = given.assembly.name(body).to_string();
             let motion = String::new();
             // Where there is a bridge, this is said only if it leads nowhere.

@@ -3,7 +3,7 @@
 use carom_mesh::nodal;
 
 use super::correction::{begin_solves, correct, end_solves, residuals};
-use super::equilibrate::{equilibrate, follow};
+use super::equilibrate::{equilibrate, follow, go_on};
 use super::newton::Newton;
 use super::newton::acceleration::Last;
 use super::newton::control::CONTROL;
@@ -59,8 +59,14 @@ fn iterate_bodies<const D: usize>(
     next: &mut State<D>,
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
+    if given.interval.is_load_step {
+        // A bridge leads through what is not stable, in steps as long as they may be.
+        return go_on(bodies, 0, given, next, work);
+    }
     let mut convergence = Convergence::new(given);
     let touched = bodies.iter().any(|&i| work.contacts.active.touched[i]);
+    // What makes blended iterations slow is the blend, which no tangent knows of.
+    let may_go_on = touched && !given.interval.is_blended;
     let (mut renewed, mut nearly_settled, mut may_stiffen) = (0, false, true);
     for iteration in 1.. {
         if touched {
@@ -103,6 +109,10 @@ fn iterate_bodies<const D: usize>(
             may_stiffen = false;
             continue;
         }
+        let may_go_on = may_go_on && reacts && iteration < given.method.newton.max_iterations;
+        if may_go_on && matches!(settled, Err(StepError::Newton { .. })) {
+            return go_on(bodies, iteration, given, next, work);
+        }
         if settled? {
             if error == 0.0 {
                 return Ok(iteration);
@@ -118,6 +128,9 @@ fn iterate_bodies<const D: usize>(
             work.newton.keep_guess(bodies, given.assembly, &work.motion, &work.contacts.active);
             may_stiffen = work.contacts.take_stiffness_of_reactions();
             work.newton.acceleration.restart();
+        }
+        if may_go_on && iteration >= CONTROL.endured && convergence.is_linear(bodies, &work.newton.progress) {
+            return go_on(bodies, iteration, given, next, work);
         }
         if convergence.is_slow(iteration, iteration - renewed, bodies, &work.newton.progress) {
             renew(bodies, given, next, renewed > 0, work)?;

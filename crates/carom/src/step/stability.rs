@@ -7,6 +7,7 @@
 
 use carom_contact::Contact;
 use carom_mesh::Vector;
+use nalgebra::DMatrix;
 
 use super::giving_way::GivingWay;
 use super::hold::{elastic_share, neutral};
@@ -34,6 +35,9 @@ const RIGID_MOTION: f64 = 3e-3;
 
 /// The difference of places that gives the stiffness of the reactions, in sizes of the smaller body.
 const DIFFERENCE: f64 = 1e-6;
+
+/// Beyond so many contacts the modes of W cost more than a step.
+const MANY: usize = 300;
 
 /// A contact, its reaction [N] and its friction coefficient.
 type Pressed<'a, const D: usize> = (&'a Contact<D>, &'a Vector<D>, f64);
@@ -157,6 +161,34 @@ pub(super) fn check_jump<const D: usize>(
         return Ok(());
     }
     Err(GivingWay { body, motion: Vec::new() }.error(given))
+}
+
+/// What it says of a load step that its contact problem was not solved: one whose W is indefinite, with springs where contacts hold, may have several
+/// solutions or none, as bodies give way that hold one another. Names the body of the contact that moves most.
+pub(super) fn indefinite<const D: usize>(given: &Given<'_, D>, work: &Workspace<D>) -> Option<StepError> {
+    let problem = work.posed_problem()?.problem;
+    let count = problem.q.len();
+    if count > MANY {
+        return None;
+    }
+    let mut w = DMatrix::zeros(count * D, count * D);
+    for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))) {
+        if let Some(block) = problem.w.block(i, j) {
+            w.view_mut((i * D, j * D), (D, D)).copy_from(block);
+        }
+    }
+    if !w.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let modes = ((&w + w.transpose()) * 0.5).symmetric_eigen();
+    let (softest, least) = modes.eigenvalues.argmin();
+    if least >= -ROUND_OFF * modes.eigenvalues.amax() {
+        return None;
+    }
+    let contact = modes.eigenvectors.column(softest).iamax() / D;
+    let pair = work.contacts.active.candidates.get(contact)?.pair;
+    let body = given.assembly.contact.pairs.get(pair as usize).source;
+    Some(GivingWay { body, motion: Vec::new() }.error(given))
 }
 
 /// Why a load step of some `bodies` found no equilibrium, if that is because one of them is about to give way where the step starts.

@@ -48,7 +48,7 @@ fn assert_same(a: &Checkpoint, b: &Checkpoint) {
 
 /// Stops at several moments, goes on from each, and compares with the run that did not; at every stop the state made of the checkpoint
 /// has the same checkpoint.
-fn goes_on_identically<const D: usize>(case: &Value, stops: usize) -> Simulation<D> {
+pub fn goes_on_identically<const D: usize>(case: &Value, stops: usize) -> Simulation<D> {
     let mut whole = Simulation::<D>::new(&parse(case)).expect("valid");
     let mut checkpoints = Vec::new();
     for k in 1..=stops {

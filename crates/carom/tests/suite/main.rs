@@ -17,6 +17,7 @@ mod invariance;
 mod large_bodies;
 mod ledger;
 mod load_steps;
+mod many_bodies;
 mod materials;
 mod mortar;
 mod moving_obstacles;

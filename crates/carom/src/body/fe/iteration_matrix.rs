@@ -268,17 +268,53 @@ impl<const D: usize> IterationMatrix<D> {
         u: &[Vector<D>],
         tangent: &Tangent<'_, D>,
     ) -> Result<(), StepError> {
-        for &(n, block) in tangent.springs {
+        self.support(body, &mut stiffness, tangent.springs, self.inertia(tangent.held_back));
+        self.invert(body, stiffness, u, tangent.is_first)
+    }
+
+    /// The same of a step in time by `map`, whose own inertia holds back, too.
+    pub fn linearise_in_time(
+        &mut self,
+        with_history: &BodyWithHistory<'_, D>,
+        map: &StepMap,
+        u: &[Vector<D>],
+        frame: &Matrix<D>,
+        tangent: &Tangent<'_, D>,
+    ) -> Result<(), StepError> {
+        let mut stiffness = Self::stiffness_of_step(with_history, map, u, frame);
+        let held_back = tangent.held_back * self.lowest_inertia;
+        self.support(with_history.body, &mut stiffness, tangent.springs, held_back);
+        self.invert(with_history.body, stiffness, u, false)
+    }
+
+    /// Adds springs to the ground and an inertia [1/s²] to a stiffness.
+    fn support(
+        &self,
+        body: &Body<D>,
+        stiffness: &mut NodalMatrix<Matrix<D>>,
+        springs: &[(u32, Matrix<D>)],
+        inertia: f64,
+    ) {
+        for &(n, block) in springs {
             stiffness.values[body.graph().entry(n, n)] += block;
         }
-        let inertia = self.inertia(tangent.held_back);
         for (k, m) in stiffness.values.iter_mut().zip(&body.mass().values) {
             *k += Matrix::from_diagonal_element(m * inertia);
         }
+    }
+
+    /// Makes the exact factor of a tangent at displacements `u` [m], on which no other step may rely.
+    fn invert(
+        &mut self,
+        body: &Body<D>,
+        mut stiffness: NodalMatrix<Matrix<D>>,
+        u: &[Vector<D>],
+        economical: bool,
+    ) -> Result<(), StepError> {
         self.coefficients = None;
         self.note_noise(body, u, &stiffness);
         self.held.uncouple(&mut stiffness);
-        self.inverse.make_exact(tangent.is_first, &stiffness)?;
+        self.inverse.make_exact(economical, &stiffness)?;
         self.held.clear(&mut self.scratch);
         self.inverse.begin(&mut self.scratch);
         self.inverse.end(&mut self.scratch);
@@ -297,20 +333,40 @@ impl<const D: usize> IterationMatrix<D> {
         frame: &Matrix<D>,
         precision: Precision,
     ) -> Result<(), StepError> {
+        let mut stiffness = Self::stiffness_of_step(with_history, map, u, frame);
+        self.coefficients = None;
+        self.held.uncouple(&mut stiffness);
+        self.inverse.make(precision, &stiffness)?;
+        let coefficients = Self::coefficients(map);
+        let [_, c, m] = coefficients;
+        self.coefficients = Some(coefficients);
+        let mass_coefficient = m + c * with_history.body.damping().mass;
+        self.translation.iter_mut().for_each(|t| t.coefficient = mass_coefficient);
+        self.factor_frame = *frame;
+        self.turn = Matrix::identity();
+        self.generation += 1;
+        Ok(())
+    }
+
+    /// ξ K + ξ/(θΔt) C + M/(θΔt²) at displacements `u` [m] of a body with this `frame`.
+    fn stiffness_of_step(
+        with_history: &BodyWithHistory<'_, D>,
+        map: &StepMap,
+        u: &[Vector<D>],
+        frame: &Matrix<D>,
+    ) -> NodalMatrix<Matrix<D>> {
         let body = with_history.body;
         let mut stiffness = with_history.stiffness(u);
         for (&n, k) in body.massless().iter().zip(body.massless_stiffness()) {
             stiffness.values[body.graph().entry(n, n)] += Matrix::from_diagonal_element(STEADYING * k);
         }
-        let coefficients = Self::coefficients(map);
-        let [k, c, m] = coefficients;
+        let [k, c, m] = Self::coefficients(map);
         let damping = body.damping();
         let mass_coefficient = m + c * damping.mass;
         let mass: &NodalMatrix<f64> = body.mass();
         let damping_stiffness = body.damping_stiffness();
         // The force of viscosity is that of the mean rate of the step, d/Δt, whatever the scheme.
         let viscosity = body.viscosity(u);
-        self.coefficients = None;
         for (entry, block) in stiffness.values.iter_mut().enumerate() {
             *block *= k;
             *block += Matrix::from_diagonal_element(mass.values[entry] * mass_coefficient);
@@ -321,14 +377,7 @@ impl<const D: usize> IterationMatrix<D> {
                 *block += viscosity.values[entry] / map.dt;
             }
         }
-        self.held.uncouple(&mut stiffness);
-        self.inverse.make(precision, &stiffness)?;
-        self.coefficients = Some(coefficients);
-        self.translation.iter_mut().for_each(|t| t.coefficient = mass_coefficient);
-        self.factor_frame = *frame;
-        self.turn = Matrix::identity();
-        self.generation += 1;
-        Ok(())
+        stiffness
     }
 
     /// Writes the round-off of the internal forces on nodes to the scratch [N]. A deformation gradient is of the order of 1 + |u|/h, so that

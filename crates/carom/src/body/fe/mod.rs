@@ -28,7 +28,7 @@ use crate::Signal;
 use crate::archive::{Archive, CheckpointError};
 use crate::error::StepError;
 use crate::ledger::{BodyLedger, Energies};
-use crate::scheme::StepMap;
+use crate::scheme::{StepMap, StressRule};
 
 /// In so many cells around a node of the surface, other nodes feel a force on it. Within a time step a force is felt as far as a wave
 /// goes. What this leaves out costs iterations, not accuracy.
@@ -257,6 +257,20 @@ impl<const D: usize> Body<D> for FeBody<D> {
     fn linearise(&mut self, guess: &Guess<'_, D>, tangent: &Tangent<'_, D>) -> Result<(), StepError> {
         let growth = self.part.growth_of_forces(guess.interval);
         let with_history = self.part.body.after(guess.start.history).grown(growth);
+        let map = &guess.interval.map;
+        if !map.is_static() {
+            // Where the force depends on the end of the step: at the end alone, or as much on the start.
+            let share = if map.stress == StressRule::Weighted { 0.0 } else { 0.5 };
+            let ends = [guess.start.displacement, guess.displacement];
+            nodal::each(&mut self.middle, ends, |m, [u0, u1]| *m = u0 * share + u1 * (1.0 - share));
+            return self.matrix.linearise_in_time(
+                &with_history,
+                map,
+                &self.middle,
+                &self.pose.frame,
+                tangent,
+            );
+        }
         let mut stiffness = with_history.stiffness(guess.displacement);
         let body = &self.part.body;
         for load in &self.part.loads {

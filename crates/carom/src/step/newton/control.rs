@@ -42,6 +42,9 @@ pub(crate) struct Control {
     pub fast: f64,
     /// Differences of corrections that are parallel up to this, relative and squared, say nothing new to the acceleration.
     pub parallel: f64,
+    /// After so many iterations whose corrections still shrink more slowly than `slow_contraction` says, a step in contact goes on by the tangents of a
+    /// load step.
+    pub endured: usize,
     /// Largest weight of a difference: beyond it the combination is an extrapolation that nothing supports. Still too large for steps ten
     /// times as long as those of the two cylinders, where weights of at most 0.3 hold: see docs/speed.md.
     pub largest_weight: f64,
@@ -65,6 +68,7 @@ pub(crate) const CONTROL: Control = Control {
     late: 6,
     fast: 0.05,
     parallel: 1e-12,
+    endured: 24,
     largest_weight: 2.0,
 };
 
