@@ -1,10 +1,10 @@
 //! Contact in somebody else's time loop: arrays by the caller's numbers in, arrays out.
 
-use carom::{Outline, PlantedSpec, StepError};
+use carom::{ForeignMass, Outline, PlantedSpec, StepError};
 use carom_contact::{Candidate, Site};
 use carom_friction::Matrix;
 use carom_mesh::Vector;
-use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -17,6 +17,43 @@ use crate::{arrays, friction, mesh};
 #[pyclass(module = "carom._carom")]
 pub struct PlantedContact {
     inner: Dimension<carom::PlantedContact<2>, carom::PlantedContact<3>>,
+}
+
+/// The mass of bodies, as a `carom.contact.mass.Mass` says it, and the first exception.
+struct Mass {
+    object: Py<PyAny>,
+    of_nodes: Vec<f64>,
+    failed: Option<PyErr>,
+}
+
+impl Mass {
+    fn new(object: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let of_nodes: PyReadonlyArray1<'_, f64> = object.getattr("of_nodes")?.extract()?;
+        Ok(Self { object: object.clone().unbind(), of_nodes: of_nodes.as_slice()?.to_vec(), failed: None })
+    }
+}
+
+impl<const D: usize> ForeignMass<D> for Mass {
+    fn of_node(&self, node: u32) -> f64 {
+        self.of_nodes[node as usize]
+    }
+
+    fn jolt(&mut self, surface: usize, nodes: &[u32], impulse: &[Vector<D>], change: &mut [Vector<D>]) {
+        let answer = Python::attach(|py| -> PyResult<Vec<Vector<D>>> {
+            let nodes = PyArray1::from_iter(py, nodes.iter().map(|&n| i64::from(n)));
+            let given = (surface, nodes, arrays::vectors(py, impulse)?);
+            let answer: PyReadonlyArray2<'_, f64> =
+                self.object.bind(py).call_method1("jolt", given)?.extract()?;
+            arrays::from_rows(&answer, impulse.len())
+        });
+        match answer {
+            Ok(answer) => change.copy_from_slice(&answer),
+            Err(error) => {
+                change.fill(Vector::zeros());
+                self.failed.get_or_insert(error);
+            }
+        }
+    }
 }
 
 /// A surface by its name, its facets kind by kind, and whether it may touch itself.
@@ -181,15 +218,27 @@ impl PlantedContact {
         })
     }
 
-    /// Ends the step, and says what its reactions did.
+    /// Ends the step, and says what its reactions did. With velocities and a mass these are part of what lands.
+    #[pyo3(signature = (points, moving=None))]
     fn accept<'py>(
         &mut self,
         py: Python<'py>,
         points: PyReadonlyArray2<'py, f64>,
+        moving: Option<(PyReadonlyArray2<'py, f64>, Bound<'py, PyAny>)>,
     ) -> PyResult<Bound<'py, PyDict>> {
         with!(&mut self.inner, planted => {
             let points = rows(&points)?;
-            let step = py.detach(|| planted.accept(&points));
+            let step = match moving {
+                Some((velocity, mass)) => {
+                    let (velocity, mut mass) = (rows(&velocity)?, Mass::new(&mass)?);
+                    let step = py.detach(|| planted.accept_moving(&points, &velocity, &mut mass));
+                    if let Some(error) = mass.failed {
+                        return Err(error);
+                    }
+                    step
+                }
+                None => py.detach(|| planted.accept(&points)),
+            };
             let out = PyDict::new(py);
             let place = |(between, _)| planted.assembly().contact.pairs.place(between) as i64;
             out.set_item("pair", PyArray1::from_iter(py, step.pairs.iter().map(place)))?;
@@ -200,6 +249,7 @@ impl PlantedContact {
             out.set_item("certificate", step.certificate)?;
             out.set_item("min_gap", step.min_gap)?;
             out.set_item("pressing", step.pressing)?;
+            out.set_item("landed", PyArray1::from_vec(py, step.landed))?;
             Ok(out)
         })
     }

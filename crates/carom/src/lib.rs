@@ -52,6 +52,7 @@ pub use model::obstacle_motion::ObstacleMotion;
 pub use model::state::{Reaction, State};
 pub use planted::build::{Outline, PlantedSpec};
 pub use planted::contact::{PlantedContact, PlantedStep};
+pub use planted::mass::ForeignMass;
 pub use planted::run::{ForeignPart, ForeignRun, ForeignSpec};
 pub use run::crushed::Crushed;
 pub use run::describe::{BodyDescription, Description, PairDescription};

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import numpy as np
+from numpy.typing import NDArray
+
 
 @dataclass
 class PairWork:
@@ -47,6 +50,9 @@ class Step:
         Smallest gap at the end among what took part [m]; infinite without contacts.
     pressing
         How many contacts press.
+    velocity_change
+        By how much impulses of landing change the velocities of your unknowns [m/s], shape
+        [dof_count]; None without a mass. Their work is part of the books.
     """
 
     work: PairWork
@@ -54,6 +60,7 @@ class Step:
     certificate: float
     min_gap: float
     pressing: int
+    velocity_change: NDArray[np.float64] | None = None
 
 
 @dataclass

@@ -15,6 +15,7 @@ from carom.case.contact import Contact, FrictionSolver, Pair
 from carom.case.obstacle import Obstacle
 from carom.contact.contacts import Candidates, Contacts
 from carom.contact.ledger import PairWork, Step
+from carom.contact.mass import Mass
 from carom.contact.surface import Surface
 from carom.errors import InputError
 from carom.friction.arrays import numbers, shown, vectors
@@ -39,8 +40,9 @@ class ContactModel:
     condition
         Where in time contact is ruled, as in `carom.Contact`: ``gap``, at the end of the step,
         never penetrates; ``midpoint`` rules the increment of the step, and lands nodes on their
-        targets; ``endpoint`` the velocity at its end. A run of carom gives back by impulses what
-        normal reactions take on landing with ``midpoint``; here that stays in the books.
+        targets; ``endpoint`` the velocity at its end. What normal reactions take on landing with
+        ``midpoint`` is given back by impulses, as in a run of carom, where there is a mass; without
+        it that stays in the books.
     friction
         Coulomb's coefficient of pairs that do not state their own.
     pairs
@@ -55,6 +57,10 @@ class ContactModel:
         motion is prescribed. Without it component i of node n is D n + i.
     dof_count
         How many unknowns there are; without it one more than the largest number.
+    mass
+        Your mass M [kg], for the impulses of ``midpoint``: what is on its diagonal, shape
+        [dof_count]; a matrix of shape [dof_count, dof_count], NumPy or scipy.sparse; or a function
+        or ``LinearOperator`` that multiplies with it. It couples no two surfaces.
 
     Raises
     ------
@@ -78,6 +84,7 @@ class ContactModel:
         theta: float | None = 0.5,
         dofs: ArrayLike | None = None,
         dof_count: int | None = None,
+        mass: Any = None,  # noqa: ANN401 (an array, a matrix, a function)
     ) -> None:
         self._shape = _points(points)
         reference = vectors("points", points, contacts=self._shape[0], dimension=self._shape[1])
@@ -108,6 +115,9 @@ class ContactModel:
             obstacle_surfaces(obstacles),
         )
         self._known_names: dict[int, tuple[str, str]] = {}
+        self._mass: Mass | None = None
+        if mass is not None:
+            self._mass = Mass(mass, self.dofs, self.dof_count, surfaces)
         self._searches = self._evaluations = 0
         self._is_searched = self._is_evaluated = self._is_solved = False
 
@@ -237,13 +247,22 @@ class ContactModel:
         self._searches += 1
         return Candidates(self._native.count, self._searches)
 
-    def accept(self, points: ArrayLike, *, reactions: ArrayLike | None = None) -> Step:
+    def accept(
+        self,
+        points: ArrayLike,
+        *,
+        velocity: ArrayLike | None = None,
+        reactions: ArrayLike | None = None,
+    ) -> Step:
         """End the step: keep its reactions for the next one, and book what they did.
 
         Parameters
         ----------
         points
             Where the nodes are at the end of the step [m], shape [point_count, D].
+        velocity
+            How fast they are there [m/s], shape [point_count, D], if there is a mass: add
+            ``Step.velocity_change`` to the velocities of your unknowns.
         reactions
             Those of the contacts as last evaluated [N], shape [n, D], if you have solved for them
             yourself; without it those of `solve`.
@@ -257,13 +276,21 @@ class ContactModel:
             self._is_evaluated, "nothing was evaluated in this step: search and evaluate first"
         )
         at = self._vectors("points", points)
+        if (velocity is None) != (self._mass is None):
+            raise InputError(
+                "velocity and mass go together: give the model a mass, and accept the velocity at "
+                "the end of the step",
+                "velocity",
+            )
+        moving = None if velocity is None else (self._vectors("velocity", velocity), self._mass)
         if reactions is not None:
             self._native.set_reactions(numbers("reactions", reactions))
         else:
             self._refuse_unless(
                 self._is_solved, "the contacts have no reactions: solve first, or give reactions"
             )
-        done = self._native.accept(at)
+        done = self._native.accept(at, moving)
+        change = None if self._mass is None else self._mass.change(done["landed"])
         self._is_searched = self._is_evaluated = self._is_solved = False
         columns = zip(done["friction"], done["normal_contact"], done["prescribed"], strict=True)
         pairs = {self._names(k): PairWork() for k in self._native.all_pairs()}
@@ -271,7 +298,8 @@ class ContactModel:
         for k, column in zip(done["pair"].tolist(), columns, strict=True):
             pairs[self._names(k)] = work = PairWork(*map(float, column))
             whole.add(work)
-        return Step(whole, pairs, done["certificate"], done["min_gap"], done["pressing"])
+        measured = (done["certificate"], done["min_gap"], done["pressing"])
+        return Step(whole, pairs, *measured, velocity_change=change)
 
     def _names(self, number: int) -> tuple[str, str]:
         """Return the names of the two solids of a pair by its number."""

@@ -183,3 +183,58 @@ def test_what_passes_python_by_is_refused_by_the_core():
 
 def contact_data():
     return carom.Contact(condition="gap").model_dump(mode="json")
+
+
+def test_masses_that_are_none():
+    with refuses("mass has shape [7]; must be [8], one row for each unknown"):
+        model(mass=np.ones(7))
+    with refuses("mass has shape [8, 7]; must be [8, 8], one row for each unknown"):
+        model(mass=np.ones((8, 7)))
+    with refuses("mass: the row of node 0 sums to -1 kg; must be greater than 0, so give what"):
+        model(mass=-np.ones(8))
+    with refuses("velocity and mass go together: give the model a mass, and accept the velocity"):
+        stepped(model(), velocity=-np.ones((4, 2)))
+    with refuses("velocity and mass go together: give the model a mass, and accept the velocity"):
+        stepped(model(mass=np.ones(8), condition="midpoint"))
+
+
+def stepped(touch, **given):
+    """A square falls 2 cm, where 1 cm is room, by the midpoint rule."""
+    velocity, count = np.tile([0.0, -1.0], (4, 1)), touch.dof_count
+    fall = -0.02 * (np.arange(count) % 2)
+    candidates = touch.search(SQUARE, velocity=velocity, time_step=0.02)
+    contacts = touch.evaluate(candidates, SQUARE + 0.02 * velocity)
+    found = contact.solve(contacts, lambda b: b / 5e3, free=fall)
+    return touch.accept(SQUARE + found.motion[:8].reshape(4, 2), **given)
+
+
+def test_masses_that_no_impulse_can_be_solved_with():
+    new = np.tile([0.0, -1.0], (4, 1))
+    turning = np.roll(np.eye(8), 3, axis=0)
+    touch = model(mass=lambda vector: turning @ vector, condition="midpoint")
+    with refuses("mass: M v = p is solved to"):
+        stepped(touch, velocity=new)
+
+
+def test_a_mass_that_couples_surfaces_is_refused():
+    points = np.vstack([SQUARE, SQUARE + np.array([5.0, 0.0])])
+    surfaces = [contact.Surface("left", EDGES), contact.Surface("right", EDGES + 4)]
+    mass = np.eye(16) + 0.1 * np.roll(np.eye(16), 8, axis=0)
+    touch = contact.ContactModel(points, surfaces, [FLOOR], condition="midpoint", mass=mass)
+    velocity = np.tile([0.0, -1.0], (8, 1))
+    candidates = touch.search(points, velocity=velocity, time_step=0.02)
+    contacts = touch.evaluate(candidates, points + 0.02 * velocity)
+    found = contact.solve(contacts, lambda b: b / 5e3, free=0.02 * velocity.ravel())
+    with refuses("mass: an impulse on surface 'left' moves 'right'; impulses of landing want"):
+        touch.accept(points + found.motion.reshape(8, 2), velocity=velocity)
+
+
+def test_a_square_that_lands_gets_its_energy_back():
+    """It falls with 1 m/s, is stopped half way, and flies off with 1 m/s (restitution 1)."""
+    touch = model(mass=np.ones(8), condition="midpoint")
+    step = stepped(touch, velocity=np.tile([0.0, 0.0], (4, 1)))
+    change = step.velocity_change.reshape(4, 2)
+    assert np.allclose(change[2:], 0.0) and np.allclose(change[:, 0], 0.0)
+    # The lower nodes are stopped by reactions that take 0.5 kg (1 m/s)² each, and get that back.
+    given = 0.5 * change[:2, 1] ** 2
+    assert abs(step.work.normal_contact) < 1e-12 and (given > 0.1).all()

@@ -157,6 +157,37 @@ pub struct Jolt {
     pub borne: f64,
 }
 
+/// What of bodies resists impulses in their contacts.
+pub(crate) trait Masses<const D: usize> {
+    /// See [`Body::mass_of`].
+    fn mass_of(&self, body: usize, node: u32) -> f64;
+
+    /// See [`Body::jolt`]; what is written are the change of velocities and the impulses of supports.
+    fn jolt(
+        &mut self,
+        body: usize,
+        impulse: &mut [Vector<D>],
+        state: &BodyState<'_, D>,
+        written: [&mut [Vector<D>]; 2],
+    ) -> Jolt;
+}
+
+impl<const D: usize> Masses<D> for [Box<dyn Body<D>>] {
+    fn mass_of(&self, body: usize, node: u32) -> f64 {
+        self[body].mass_of(node)
+    }
+
+    fn jolt(
+        &mut self,
+        body: usize,
+        impulse: &mut [Vector<D>],
+        state: &BodyState<'_, D>,
+        [change, support]: [&mut [Vector<D>]; 2],
+    ) -> Jolt {
+        self[body].jolt(impulse, state, change, support)
+    }
+}
+
 /// What a body writes at the end of a step, beside its displacements.
 #[derive(Debug)]
 pub struct BodyEnd<'a, const D: usize> {

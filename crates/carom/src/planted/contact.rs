@@ -4,6 +4,7 @@ use carom_contact::{Candidate, Contact};
 use carom_friction::{ContactProblem, Matrix, SolveReport};
 use carom_mesh::{Vector, nodal};
 
+use super::mass::{ForeignMass, OnSurfaces};
 use super::numbering::Numbering;
 use crate::body::Interval;
 use crate::contact::PosedProblem;
@@ -12,13 +13,15 @@ use crate::contact::candidates::Finder;
 use crate::contact::closing::{for_each_work, keep};
 use crate::contact::delassus::support;
 use crate::error::StepError;
-use crate::ledger::{ByPair, PairLedger};
+use crate::ledger::{BodyLedger, ByPair, Energies, PairLedger};
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
 use crate::model::method::Method;
 use crate::model::state::State;
 use crate::scheme::Scheme;
 use crate::step::control::SEARCH;
+use crate::step::impulse::Impulses;
+use crate::step::landing::{Landing, restore};
 use crate::step::newton::control::CONTROL;
 use crate::step::search_margin;
 
@@ -41,6 +44,8 @@ pub struct PlantedContact<const D: usize> {
     problem: ContactProblem<D>,
     guess: Vec<Vector<D>>,
     at_end: Vec<Contact<D>>,
+    impulses: Impulses<D>,
+    ledgers: Vec<BodyLedger>,
 }
 
 /// What a step has come to.
@@ -54,6 +59,8 @@ pub struct PlantedStep {
     pub min_gap: f64,
     /// How many pressed.
     pub pressing: usize,
+    /// By how much of what the mass answered last for each surface its velocities have changed; zeros where nothing landed.
+    pub landed: Vec<f64>,
 }
 
 /// What is given in a step.
@@ -74,14 +81,17 @@ impl<const D: usize> Setting<D> {
 impl<const D: usize> PlantedContact<D> {
     pub(super) fn new(assembly: Assembly<D>, method: Method<D>, numbering: Numbering) -> Self {
         let still = vec![Vector::zeros(); assembly.node_count()];
-        let state = State::initial(&assembly, &[], still);
+        let bodies = assembly.body_count();
+        let mut state = State::initial(&assembly, &[], still);
+        state.history = vec![Vec::new(); bodies];
+        state.body_energies = vec![Energies::default(); bodies];
         let zeros = vec![Vector::zeros(); assembly.reference.len()];
         Self {
             next: state.clone(),
             finder: Finder::new(assembly.body_count()),
             active: ActiveSet::new(assembly.body_count()),
             motion: zeros.clone(),
-            before: zeros,
+            before: zeros.clone(),
             margin: 0.0,
             repetition: 0,
             evaluations: 0,
@@ -89,6 +99,8 @@ impl<const D: usize> PlantedContact<D> {
             problem: ContactProblem::default(),
             guess: Vec::new(),
             at_end: Vec::new(),
+            impulses: Impulses::new(zeros.len(), bodies),
+            ledgers: vec![BodyLedger::default(); bodies],
             setting: Setting { interval: method.interval(0.0, 1.0), assembly, method, state },
             numbering,
         }
@@ -238,24 +250,67 @@ impl<const D: usize> PlantedContact<D> {
 
     /// Ends the step where the caller's points are `at` [m]: keeps its reactions, from which the next one starts, and books their work.
     pub fn accept(&mut self, at: &[Vector<D>]) -> PlantedStep {
+        self.close(at, None)
+    }
+
+    /// The same with the velocities [m/s] of the caller's points at the end of the step, and their mass. With the condition `midpoint` they are
+    /// changed by impulses that give back what normal reactions took on landing: by what the mass answered last for every surface times what
+    /// of it has [landed](PlantedStep::landed).
+    pub fn accept_moving(
+        &mut self,
+        at: &[Vector<D>],
+        velocity: &[Vector<D>],
+        mass: &mut dyn ForeignMass<D>,
+    ) -> PlantedStep {
+        self.close(at, Some((velocity, mass)))
+    }
+
+    fn close(
+        &mut self,
+        at: &[Vector<D>],
+        moving: Option<(&[Vector<D>], &mut dyn ForeignMass<D>)>,
+    ) -> PlantedStep {
         self.move_to(at);
-        let Self { setting, next, active, offsets, motion, at_end, .. } = self;
+        let Self { setting, next, active, offsets, motion, at_end, impulses, ledgers, numbering, .. } = self;
         let given = setting.given();
         let Given { assembly, state, .. } = given;
         next.time = given.interval.end;
         let kept = keep(&given, active, offsets, motion, at_end, next);
+        let restores = moving.is_some() && given.method.restores();
+        if let Some((velocity, mass)) = moving {
+            numbering.nodes().zip(&mut next.velocity).for_each(|(n, v)| *v = velocity[n]);
+            let obstacles = &mut next.velocity[assembly.node_count()..];
+            for (v, motion) in obstacles.iter_mut().zip(&assembly.obstacle_motions) {
+                *v = motion.velocity(next.time);
+            }
+            let masses = &mut OnSurfaces { mass, assembly, numbering };
+            restore(&given, next, Landing { active, at_end, motion, masses, ledgers }, impulses);
+        }
         let mut pairs: ByPair<PairLedger> = ByPair::default();
         let between = |pair: u32| assembly.contact.pairs.get(pair as usize).between();
-        next.reactions.iter().for_each(|r| pairs.or_default(between(r.pair)).has_touched = true);
+        let arriving: &[usize] = if restores { &impulses.arriving } else { &[] };
+        let pressing = next.reactions.iter().enumerate().filter(|(k, _)| arriving.binary_search(k).is_err());
+        pressing.for_each(|(_, r)| pairs.or_default(between(r.pair)).has_touched = true);
         for_each_work(&given, motion, [&state.reactions, &next.reactions], |reaction, work| {
             let pair = pairs.or_default(between(reaction.pair));
             pair.normal_contact -= work.normal;
             pair.prescribed += work.prescribed;
             pair.friction += work.dissipation;
         });
-        let pressing = next.reactions.len();
+        let pressing = next.reactions.len() - arriving.len();
+        let mut landed = vec![0.0; assembly.body_count()];
+        if restores {
+            impulses.join(at_end, &mut next.reactions, |reaction, done, _, _| {
+                let pair = pairs.or_default(between(reaction.pair));
+                let [along, across] = done.taken;
+                pair.normal_contact += along;
+                pair.prescribed += done.prescribed;
+                pair.friction += across;
+            });
+            landed.copy_from_slice(&impulses.scales);
+        }
         std::mem::swap(&mut setting.state, next);
-        PlantedStep { pairs, certificate: kept.certificate, min_gap: kept.min_gap, pressing }
+        PlantedStep { pairs, certificate: kept.certificate, min_gap: kept.min_gap, pressing, landed }
     }
 
     /// Sets the reactions [N], in the order of the contacts.

@@ -7,5 +7,6 @@
 
 pub(crate) mod build;
 pub(crate) mod contact;
+pub(crate) mod mass;
 mod numbering;
 pub(crate) mod run;

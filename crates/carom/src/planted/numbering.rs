@@ -1,5 +1,7 @@
 //! The caller's numbers of the nodes on surfaces.
 
+use std::ops::Range;
+
 /// The nodes of all surfaces, one surface after the other, by the caller's numbers.
 #[derive(Debug, Default)]
 pub(super) struct Numbering {
@@ -15,6 +17,11 @@ impl Numbering {
     /// The caller's numbers in order.
     pub fn nodes(&self) -> impl Iterator<Item = usize> {
         self.nodes.iter().map(|&n| n as usize)
+    }
+
+    /// The caller's numbers of a range of nodes.
+    pub fn range(&self, nodes: Range<usize>) -> &[u32] {
+        &self.nodes[nodes]
     }
 
     /// The caller's number of a node; none of what is no node.

@@ -3,7 +3,7 @@
 use carom_contact::{Contact, shares};
 use carom_mesh::Vector;
 
-use super::landing::restore;
+use super::landing::{Landing, restore};
 use super::report::{PairReport, StepReport};
 use super::settling::settle;
 use super::workspace::Workspace;
@@ -41,9 +41,10 @@ pub(super) fn commit<const D: usize>(
     next.support.fill(Vector::zeros());
     close_bodies(given, next, work);
     work.pair_reports.clear();
-    work.impulses.done.clear();
-    restore(given, next, work);
-    work.impulses.landings = work.impulses.done.len();
+    let Workspace { bodies, contacts, impulses, motion, body_ledgers, .. } = work;
+    let (active, at_end) = (&contacts.active, &contacts.at_end);
+    let landing = Landing { active, at_end, motion, masses: bodies.as_mut_slice(), ledgers: body_ledgers };
+    restore(given, next, landing, impulses);
     settle(given, next, work);
     next.energies = next.body_energies.iter().copied().sum();
     close_contacts(given, next, work, &mut report);
@@ -116,24 +117,22 @@ fn book_impulses<const D: usize>(
     report: &mut StepReport,
 ) {
     let assembly = given.assembly;
-    let at_end = &work.contacts.at_end;
-    for (k, done) in work.impulses.done.iter().enumerate() {
-        let Reaction { contact, force, pair, .. } = &mut next.reactions[done.reaction];
-        let pair = work.pair_reports.or_default(assembly.contact.pairs.get(*pair as usize).between());
+    let Workspace { contacts, impulses, pair_reports, .. } = work;
+    let State { reactions, friction_energy, .. } = next;
+    impulses.join(&contacts.at_end, reactions, |reaction, done, normal, has_landed| {
+        let pair = pair_reports.or_default(assembly.contact.pairs.get(reaction.pair as usize).between());
         let [along, across] = done.taken;
         pair.ledger.prescribed += done.prescribed;
-        if k < work.impulses.landings {
+        if has_landed {
             pair.ledger.normal_contact += along;
             pair.ledger.friction += across;
             report.least_friction = report.least_friction.min(across);
-            deposit(assembly, contact, across, &mut next.friction_energy);
+            deposit(assembly, &reaction.contact, across, friction_energy);
         } else {
             pair.ledger.settling += along + across;
         }
-        let impulse = contact.frame * at_end[done.contact].frame.tr_mul(&done.force);
-        *force += impulse;
-        pair.normal_force += impulse[0];
-    }
+        pair.normal_force += normal;
+    });
 }
 
 /// Books the work of the reactions of every pair.

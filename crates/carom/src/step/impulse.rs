@@ -4,7 +4,7 @@ use carom_contact::{Contact, Target};
 use carom_mesh::Vector;
 
 use super::control::IMPULSIVE;
-use crate::body::{Body, Jolt};
+use crate::body::{Jolt, Masses};
 use crate::contact::contact_work::driven;
 use crate::ledger::BodyLedger;
 use crate::model::assembly::Assembly;
@@ -13,7 +13,7 @@ use crate::model::state::{Reaction, State};
 
 /// An impulse that a contact may take.
 #[derive(Debug, Clone)]
-pub(super) struct Impulse<const D: usize> {
+pub(crate) struct Impulse<const D: usize> {
     /// Which of the reactions of the new state.
     pub reaction: usize,
     /// Which of the contacts at the end of the step.
@@ -26,7 +26,7 @@ pub(super) struct Impulse<const D: usize> {
 
 /// What an impulse did.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Done<const D: usize> {
+pub(crate) struct Done<const D: usize> {
     /// Which of the reactions of the new state has it as a part.
     pub reaction: usize,
     /// Which of the contacts at the end of the step.
@@ -57,11 +57,11 @@ pub(super) struct Group {
 #[derive(Debug)]
 pub(crate) struct Impulses<const D: usize> {
     pub(super) wanted: Vec<Impulse<D>>,
-    pub(super) done: Vec<Done<D>>,
+    pub(crate) done: Vec<Done<D>>,
     /// How many of these restore what landing took; the others settle.
     pub(super) landings: usize,
     /// Those of the reactions, ascending, whose contacts come to their target with the end of the step and are to land in the next.
-    pub(super) arriving: Vec<usize>,
+    pub(crate) arriving: Vec<usize>,
     /// Hᵀλ [N s] and what it makes of the velocities [m/s].
     force: Vec<Vector<D>>,
     change: Vec<Vector<D>>,
@@ -74,6 +74,8 @@ pub(crate) struct Impulses<const D: usize> {
     /// For every body one that it is connected with; the one that stands for its group stands for itself.
     next: Vec<usize>,
     groups: Vec<Group>,
+    /// By how much of what they answered last the velocities of bodies were changed last.
+    pub(crate) scales: Vec<f64>,
 }
 
 impl<const D: usize> Impulses<D> {
@@ -91,6 +93,7 @@ impl<const D: usize> Impulses<D> {
             supports: Vec::new(),
             next: vec![0; bodies],
             groups: vec![Group::default(); bodies],
+            scales: vec![0.0; bodies],
         }
     }
 
@@ -105,12 +108,27 @@ impl<const D: usize> Impulses<D> {
         forces
     }
 
+    /// Makes what was done part of the reactions, and tells `book` of each what it was, the force more along its normal [N], and whether it landed.
+    pub(crate) fn join(
+        &self,
+        contacts: &[Contact<D>],
+        reactions: &mut [Reaction<D>],
+        mut book: impl FnMut(&Reaction<D>, &Done<D>, f64, bool),
+    ) {
+        for (k, done) in self.done.iter().enumerate() {
+            let reaction = &mut reactions[done.reaction];
+            let force = reaction.contact.frame * contacts[done.contact].frame.tr_mul(&done.force);
+            reaction.force += force;
+            book(reaction, done, force[0], k < self.landings);
+        }
+    }
+
     /// What the wanted impulses mean for the groups of bodies that they connect, in `contacts` at the end of the step.
     pub(super) fn weigh(
         &mut self,
         given: &Given<'_, D>,
         contacts: &[Contact<D>],
-        bodies: &mut [Box<dyn Body<D>>],
+        bodies: &mut (impl Masses<D> + ?Sized),
         new: &State<D>,
     ) {
         let wanted = std::mem::take(&mut self.wanted);
@@ -217,14 +235,15 @@ impl<const D: usize> Impulses<D> {
     }
 
     /// Asks the bodies what the impulses make of their velocities.
-    fn respond(&mut self, given: &Given<'_, D>, bodies: &mut [Box<dyn Body<D>>], new: &State<D>) {
+    fn respond(&mut self, given: &Given<'_, D>, bodies: &mut (impl Masses<D> + ?Sized), new: &State<D>) {
         self.supports.clear();
         let mut support = vec![Vector::zeros(); new.support.len()];
-        for (i, body) in bodies.iter_mut().enumerate() {
+        for i in 0..self.takes_part.len() {
             if self.takes_part[i] {
                 let (nodes, group) = (given.assembly.nodes(i), self.group(i));
                 let (force, change) = (&mut self.force[nodes.clone()], &mut self.change[nodes.clone()]);
-                let Jolt { power, borne } = body.jolt(force, &new.body(i, nodes), change, &mut support);
+                let written = [&mut change[..], &mut support[..]];
+                let Jolt { power, borne } = bodies.jolt(i, force, &new.body(i, nodes), written);
                 self.groups[group].power += power;
                 self.borne[i] = borne;
                 for (k, impulse) in support.iter_mut().enumerate() {
@@ -247,12 +266,14 @@ impl<const D: usize> Impulses<D> {
         for &(body, k, impulse) in &self.supports {
             new.support[k] += impulse * (scale(&self.groups[self.group(body)]) / given.interval.map.dt);
         }
+        self.scales.fill(0.0);
         for i in 0..self.takes_part.len() {
             if !self.takes_part[i] {
                 continue;
             }
             let group = self.group(i);
             let scale = scale(&self.groups[group]);
+            self.scales[i] = scale;
             let (mut contact, mut supports) = (0.0, self.borne[i] * scale);
             for n in given.assembly.nodes(i) {
                 let (momentum, change) = (self.force[n] * scale, self.change[n] * scale);
@@ -291,11 +312,11 @@ pub(super) fn sticks<const D: usize>(r: &Vector<D>, friction: f64) -> bool {
 pub(super) fn mass<const D: usize>(
     contact: &Contact<D>,
     assembly: &Assembly<D>,
-    bodies: &[Box<dyn Body<D>>],
+    bodies: &(impl Masses<D> + ?Sized),
 ) -> f64 {
     let yields = contact.stencil().filter_map(|(node, weight)| {
         let (body, own) = assembly.place_of(node)?;
-        Some(weight * weight / bodies[body].mass_of(own as u32))
+        Some(weight * weight / bodies.mass_of(body, own as u32))
     });
     yields.sum::<f64>().recip()
 }

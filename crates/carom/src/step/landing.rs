@@ -1,28 +1,50 @@
 //! What normal reactions take where contacts close, and get back.
 
+use carom_contact::Contact;
 use carom_mesh::Vector;
 
 use super::control::IMPULSIVE;
 use super::impulse::{Group, Impulse, Impulses, mass, sticks, tangential};
-use super::workspace::Workspace;
-use crate::body::Body;
-use crate::contact::Contacts;
+use crate::body::Masses;
+use crate::contact::active::ActiveSet;
+use crate::ledger::BodyLedger;
 use crate::model::given::Given;
 use crate::model::state::State;
+
+/// The contacts of a step that is at its end, and the bodies that meet there.
+pub(crate) struct Landing<'a, const D: usize, M: ?Sized> {
+    /// The contacts as they were ruled.
+    pub active: &'a ActiveSet<D>,
+    /// The same at the end of the step.
+    pub at_end: &'a [Contact<D>],
+    /// d [m] of all nodes and obstacles.
+    pub motion: &'a [Vector<D>],
+    /// What resists.
+    pub masses: &'a mut M,
+    /// What happens to the energy of bodies.
+    pub ledgers: &'a mut [BodyLedger],
+}
 
 /// Gives back what normal reactions took on landing, −r_n (H d)_n > 0, by impulses along the normals (Laursen & Love 2002). So no node is let in,
 /// and normal reactions take no energy.
 ///
 /// A contact that closes the gap g in the step is left with less velocity, by b g with v₊ = a v + b d, than one that was closed and came no
 /// closer. The impulse is what one node lacks for it, m b g. Where a contact slides on, the impulse has its share of friction.
-pub(super) fn restore<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, work: &mut Workspace<D>) {
-    let Workspace { bodies, contacts, impulses, motion, body_ledgers, .. } = work;
+pub(crate) fn restore<const D: usize, M: Masses<D> + ?Sized>(
+    given: &Given<'_, D>,
+    new: &mut State<D>,
+    landing: Landing<'_, D, M>,
+    impulses: &mut Impulses<D>,
+) {
+    let Landing { active, at_end, motion, masses, ledgers } = landing;
+    impulses.done.clear();
+    impulses.landings = 0;
+    impulses.scales.fill(0.0);
     impulses.wanted.clear();
     impulses.arriving.clear();
     if !given.method.restores() {
         return;
     }
-    let Contacts { active, at_end, .. } = &*contacts;
     let map = &given.interval.map;
     for (i, k, reaction) in active.pressing(&new.reactions) {
         let gap = active.start_gaps[i];
@@ -30,7 +52,7 @@ pub(super) fn restore<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, 
             continue;
         }
         let mut impulse = Vector::zeros();
-        impulse[0] = mass(&at_end[i], given.assembly, bodies) * gap * map.velocity_of_motion;
+        impulse[0] = mass(&at_end[i], given.assembly, masses) * gap * map.velocity_of_motion;
         if reaction.force[0] * map.dt > IMPULSIVE.has_landed * impulse[0] {
             let [h0, h1] = active.interferences[i];
             let energy = -reaction.force[0] * (reaction.contact.relative(|n| motion[n])[0] - (h1 - h0));
@@ -42,9 +64,10 @@ pub(super) fn restore<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, 
     if impulses.wanted.is_empty() {
         return;
     }
-    impulses.weigh(given, at_end, bodies, new);
-    rub(given, new, contacts, bodies, impulses);
-    impulses.give(given, &contacts.at_end, new, body_ledgers, restoring);
+    impulses.weigh(given, at_end, masses, new);
+    rub(given, new, active, at_end, masses, impulses);
+    impulses.give(given, at_end, new, ledgers, restoring);
+    impulses.landings = impulses.done.len();
 }
 
 /// The number that impulses are to be scaled by to give their energy: s λ·H v + ½ s² λ·H Δv = E along the normals. One solution is positive and
@@ -69,14 +92,14 @@ fn restoring(group: &Group) -> f64 {
 
 /// Gives the impulses Coulomb's friction against the velocity that they meet, where the contact does not stick. As in a step with θ = ½ it may turn
 /// a velocity round, but not make it larger: friction takes energy at every contact, or there is none.
-fn rub<const D: usize>(
+fn rub<const D: usize, M: Masses<D> + ?Sized>(
     given: &Given<'_, D>,
     new: &State<D>,
-    contacts: &Contacts<D>,
-    bodies: &mut [Box<dyn Body<D>>],
+    active: &ActiveSet<D>,
+    at_end: &[Contact<D>],
+    masses: &mut M,
     impulses: &mut Impulses<D>,
 ) {
-    let Contacts { active, at_end, .. } = contacts;
     let mut rubs = false;
     let dt = given.interval.map.dt;
     for Impulse { reaction, contact, impulse, .. } in &mut impulses.wanted {
@@ -86,7 +109,7 @@ fn rub<const D: usize>(
         let force = &new.reactions[*reaction].force;
         let is_known = force[0] * dt > IMPULSIVE.is_known * impulse[0];
         if friction > 0.0 && speed > 0.0 && !(is_known && sticks(force, friction)) {
-            let turns = 2.0 * mass(&at_end[*contact], given.assembly, bodies);
+            let turns = 2.0 * mass(&at_end[*contact], given.assembly, masses);
             let most = friction * impulse[0] / speed;
             (1..D).for_each(|t| impulse[t] = -v[t] * turns.min(most));
             rubs = true;
@@ -96,7 +119,7 @@ fn rub<const D: usize>(
         if !rubs {
             return;
         }
-        impulses.weigh(given, at_end, bodies, new);
+        impulses.weigh(given, at_end, masses, new);
         let mut wanted = std::mem::take(&mut impulses.wanted);
         rubs = false;
         for impulse in &mut wanted {

@@ -28,7 +28,7 @@ pub(super) fn settle<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, w
         return;
     }
     let dt = interval.map.dt;
-    impulses.weigh(given, &contacts.at_end, bodies, new);
+    impulses.weigh(given, &contacts.at_end, bodies.as_mut_slice(), new);
     impulses.give(given, &contacts.at_end, new, body_ledgers, |group: &Group| {
         let [work, square] = [group.work, group.square].map(|[along, across]| along + across);
         if square <= 0.0 || work >= 0.0 {
