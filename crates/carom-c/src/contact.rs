@@ -103,10 +103,7 @@ impl Contact {
     /// How many numbers say where the points are, if there are as many as the caller says.
     pub fn size_of(&self, point_count: usize) -> Result<usize, Failure> {
         if point_count != self.points {
-            return Err(Failure::invalid(format!(
-                "point_count is {point_count}; there are {} points, of which all are needed",
-                self.points
-            )));
+            return Err(Failure::not_all(point_count, self.points));
         }
         Ok(self.points * self.dimension)
     }

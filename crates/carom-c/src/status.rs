@@ -42,6 +42,13 @@ impl Failure {
     pub fn invalid(message: impl Into<String>) -> Self {
         Self::new(carom_status::INVALID, message)
     }
+
+    /// Something was given of another number of points than there are.
+    pub fn not_all(point_count: usize, points: usize) -> Self {
+        Self::invalid(format!(
+            "point_count is {point_count}; there are {points} points, of which all are needed"
+        ))
+    }
 }
 
 impl From<InputError> for Failure {

@@ -222,6 +222,14 @@ fn settings_are_known_by_the_names_of_the_case_file() {
     }
 }
 
+/// The contact of a condition that rules velocities.
+fn by_velocity() -> *mut carom_contact {
+    let setup = setup();
+    // SAFETY: both texts end with a zero.
+    unsafe { done(carom_setup_text(setup, c"condition".as_ptr(), c"endpoint".as_ptr())) };
+    contact(setup)
+}
+
 #[test]
 fn a_step_refuses_what_does_not_fit_and_what_comes_too_early() {
     let setup = setup();
@@ -256,6 +264,12 @@ fn a_step_refuses_what_does_not_fit_and_what_comes_too_early() {
             "velocity is a null pointer; give it, so that it is known how far to look, or give a reach",
         );
         done(carom_contact_search(contact, at, null(), 4, 0.1, 0.1));
+        let ruled = by_velocity();
+        refused(
+            carom_contact_search(ruled, at, null(), 4, 0.1, 0.1),
+            "velocity is a null pointer; give it, what the condition rules and where obstacles go depends on it",
+        );
+        carom_contact_free(ruled);
         done(carom_contact_search(contact, at, velocity.as_ptr(), 4, 0.1, 0.0));
         done(carom_contact_count(contact, &mut count));
         assert_eq!(count, 2);

@@ -56,7 +56,8 @@ impl<const D: usize> ContactModel<D> {
     ) -> Option<Proximity<D>> {
         let mut closest: Option<Proximity<D>> = None;
         let mut keep = |gap: f64, at: Vector<D>| {
-            if gap < closest.map_or(reach, |c| c.gap) {
+            // Without a reach one is the closest even where it is infinitely far away.
+            if closest.map_or(gap < reach || reach == f64::INFINITY, |c| gap < c.gap) {
                 closest = Some(Proximity { gap, at });
             }
         };

@@ -306,9 +306,7 @@ pub unsafe extern "C" fn carom_setup_unknowns(
     unsafe {
         carom_setup::change(setup, |setup| {
             if point_count != setup.point_count() {
-                let message =
-                    format!("point_count is {point_count}; there are {} points", setup.point_count());
-                return Err(Failure::invalid(message + ", of which all are needed"));
+                return Err(Failure::not_all(point_count, setup.point_count()));
             }
             let numbers = array("unknowns", unknowns, product("unknowns", point_count, setup.dimension)?)?;
             setup.number(numbers, unknown_count)

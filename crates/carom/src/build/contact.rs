@@ -202,3 +202,42 @@ pub(crate) fn check_manifold<const D: usize>(
     );
     Err(InputError::mesh(key, message))
 }
+
+#[cfg(test)]
+mod tests {
+    use carom_friction::SolverKind;
+
+    use super::*;
+    use crate::ContactCondition;
+    use crate::scenario::SolverSpec;
+
+    #[test]
+    fn bodies_whose_pairs_have_no_numbers_are_refused() {
+        let spec = ContactSpec {
+            condition: ContactCondition::Gap,
+            friction: 0.3,
+            solver: SolverSpec {
+                kind: SolverKind::Auto,
+                tolerance: 1e-12,
+                max_iterations: 10,
+                cross_check: false,
+            },
+            sources: None,
+            targets: Targets::Smooth,
+            discretisation: Discretisation::NodeToSegment,
+            certificate_tolerance: 1e-9,
+            penetration_tolerance: 1e-2,
+            resolve_overlap: false,
+            overlap_resolved_at: None,
+            restitution: None,
+            pairs: Vec::new(),
+        };
+        let side = Side { touches_itself: false, facet_width: 1.0, mass: 1.0 };
+        let body = NamedSide { name: "grain".to_string(), is_periodic: false, side };
+        let many = |count: usize| pairs(&spec, &vec![body.clone(); count], &["floor"]);
+        assert!(many(40_000).expect("there is room").are_many());
+        let refused = many(50_000).expect_err("there is none");
+        assert_eq!(refused.key, "bodies");
+        assert_eq!(refused.message, "50000 bodies: more pairs than there are numbers for; leave bodies out");
+    }
+}
