@@ -24,6 +24,11 @@ impl<const D: usize> Aabb<D> {
         (self.low + self.high) * 0.5
     }
 
+    /// Where the box begins and ends along an axis.
+    pub fn side(&self, axis: usize) -> [f64; 2] {
+        [self.low[axis], self.high[axis]]
+    }
+
     /// The box grown by `factor` of its own half sides.
     pub fn scaled(&self, factor: f64) -> Self {
         let grow = (self.high - self.low) * (0.5 * factor);

@@ -10,6 +10,7 @@ mod deep;
 mod feature;
 mod in_obstacle;
 mod itself;
+mod neighbours;
 mod shell;
 mod skin;
 mod way;
@@ -20,6 +21,7 @@ use crate::Obstacle;
 use crate::aabb::Aabb;
 use deep::Deep;
 pub use feature::Feature;
+use neighbours::Neighbours;
 use shell::Shell;
 use skin::Skin;
 
@@ -76,6 +78,7 @@ pub struct Boundaries<const D: usize> {
     skins: Vec<Skin<D>>,
     /// Of the last measure.
     witnesses: Vec<Witness>,
+    near: Neighbours,
 }
 
 impl<const D: usize> Boundaries<D> {
@@ -92,7 +95,7 @@ impl<const D: usize> Boundaries<D> {
             shell.size_up();
         }
         let skins = obstacles.iter().map(|o| Skin::of(&o.shape)).collect();
-        Self { shells, skins, witnesses: Vec::new() }
+        Self { shells, skins, ..Self::default() }
     }
 
     /// Diameter of the smallest facet of a body where it was first [m]; infinite without facets.
@@ -127,8 +130,9 @@ impl<const D: usize> Boundaries<D> {
         mut found: impl FnMut(Penetration<D>),
     ) {
         self.shells.iter_mut().for_each(|shell| shell.place(position));
+        self.near.find(self.shells.len(), |i| self.shells[i].bounds());
         self.fit_those_that_meet(obstacles, &counts, position);
-        let Self { shells, skins, witnesses } = self;
+        let Self { shells, skins, witnesses, near } = self;
         witnesses.clear();
         let mut tell = |between: [Solid; 2], deep: Deep<D>| {
             let Deep { depth, at, facet, other } = deep;
@@ -154,13 +158,9 @@ impl<const D: usize> Boundaries<D> {
             if counts([me, me]) {
                 tell([me, me], shell.in_itself());
             }
-            for (j, other) in shells.iter().enumerate() {
-                let between = [me, Solid::Body(j)];
-                if i != j && shell.bounds().overlaps(other.bounds()) && counts(between) {
-                    let witness =
-                        |feature, depth| witnesses.push(Witness { of: i, inside: j, feature, depth });
-                    tell(between, shell.inside_of(other, witness));
-                }
+            for j in near.of(i).filter(|&j| counts([me, Solid::Body(j)])) {
+                let witness = |feature, depth| witnesses.push(Witness { of: i, inside: j, feature, depth });
+                tell([me, Solid::Body(j)], shell.inside_of(&shells[j], witness));
             }
             for (o, (skin, obstacle)) in skins.iter().zip(obstacles).enumerate() {
                 let other = Solid::Obstacle(o);
@@ -182,10 +182,8 @@ impl<const D: usize> Boundaries<D> {
     ) {
         for i in 0..self.shells.len() {
             let (me, bounds) = (Solid::Body(i), *self.shells[i].bounds());
-            let others = self.shells.iter().enumerate().filter(|(j, _)| *j != i);
-            let meets = others.filter(|(_, other)| bounds.overlaps(other.bounds()));
             let is_asked = counts([me, me])
-                || meets.into_iter().any(|(j, _)| counts([me, Solid::Body(j)]))
+                || self.near.of(i).any(|j| counts([me, Solid::Body(j)]))
                 || self.skins.iter().zip(obstacles).enumerate().any(|(o, (skin, obstacle))| {
                     let shift = obstacle.shift(position);
                     let comes_near = skin.corners.iter().any(|x| bounds.contains(&(x + shift)))
