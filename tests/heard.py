@@ -55,7 +55,7 @@ def in_rust():
         is_test = "tests" in path.parts or path.stem == "tests"
         sources.append(source if is_test else source.partition("#[cfg(test)]")[2])
     texts = re.findall(r'"((?:[^"\\]|\\.)*)"', "\n".join(sources))
-    return [_plain(text) for text in texts if len(text.split()) >= 3]
+    return [_plain(text.replace(r"\"", '"')) for text in texts if len(text.split()) >= 3]
 
 
 def met(listed, texts):

@@ -73,9 +73,8 @@ impl Setup {
         for (k, facet) in facets.chunks_exact(width.max(1)).enumerate() {
             let number = |&node: &i32| {
                 u32::try_from(node).map_err(|_| {
-                    let message = format!(
-                        "surfaces.{name}.facets: facet {k} has node {node}; nodes are numbered from 0"
-                    );
+                    let key = format!("surfaces.{name}.facets");
+                    let message = format!("{key}: facet {k} has node {node}; nodes are numbered from 0");
                     Failure::invalid(message)
                 })
             };
