@@ -3,7 +3,7 @@
 use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
-use crate::bvh::Bvh;
+use crate::neighbours::Neighbours;
 use crate::{ContactModel, ContactSurface, Pair, Solid, Target};
 
 /// Boxes around all surfaces at one moment, or on their way.
@@ -31,15 +31,12 @@ impl<const D: usize> Extents<D> {
     /// Tells `found` who may be within `reach` [m] of whom, two by two and ascending: surfaces, each with itself too, and every surface with
     /// every one of so many `obstacles`.
     fn neighbours(&self, obstacles: usize, reach: f64, mut found: impl FnMut([Solid; 2])) {
-        let tree = Bvh::new(self.surfaces.iter().copied());
-        let mut others = Vec::new();
-        for (i, own) in self.surfaces.iter().enumerate() {
-            others.clear();
-            tree.overlapping(&own.inflated(reach), |j, _| others.push(j as usize));
-            others.sort_unstable();
+        let mut near = Neighbours::default();
+        near.find(self.surfaces.len(), reach, |i| &self.surfaces[i]);
+        for i in 0..self.surfaces.len() {
             let me = Solid::Body(i);
             found([me, me]);
-            others.iter().filter(|&&j| j > i).for_each(|&j| found([me, Solid::Body(j)]));
+            near.of(i).filter(|&j| j > i).for_each(|j| found([me, Solid::Body(j)]));
             (0..obstacles).for_each(|o| found([me, Solid::Obstacle(o)]));
         }
     }

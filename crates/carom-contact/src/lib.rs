@@ -26,6 +26,7 @@ mod kept;
 mod manifold;
 mod model;
 mod mortar;
+mod neighbours;
 mod obstacle;
 mod pair;
 mod pairs;

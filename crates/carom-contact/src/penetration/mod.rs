@@ -10,7 +10,6 @@ mod deep;
 mod feature;
 mod in_obstacle;
 mod itself;
-mod neighbours;
 mod shell;
 mod skin;
 mod way;
@@ -19,9 +18,9 @@ use carom_mesh::{Surface, Vector};
 
 use crate::Obstacle;
 use crate::aabb::Aabb;
+use crate::neighbours::Neighbours;
 use deep::Deep;
 pub use feature::Feature;
-use neighbours::Neighbours;
 use shell::Shell;
 use skin::Skin;
 
@@ -130,7 +129,7 @@ impl<const D: usize> Boundaries<D> {
         mut found: impl FnMut(Penetration<D>),
     ) {
         self.shells.iter_mut().for_each(|shell| shell.place(position));
-        self.near.find(self.shells.len(), |i| self.shells[i].bounds());
+        self.near.find(self.shells.len(), 0.0, |i| self.shells[i].bounds());
         self.fit_those_that_meet(obstacles, &counts, position);
         let Self { shells, skins, witnesses, near } = self;
         witnesses.clear();

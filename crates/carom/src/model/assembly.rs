@@ -206,11 +206,6 @@ impl<const D: usize> Assembly<D> {
         NamedPair { between: self.names(between), friction: friction.unwrap_or_default() }
     }
 
-    /// All that may touch, two by two, in the order of the pairs.
-    pub fn named_pairs(&self) -> impl Iterator<Item = NamedPair> + '_ {
-        self.contact.pairs.between().map(|between| self.named_pair(between))
-    }
-
     /// The body that a node belongs to; none if it is the position of an obstacle.
     #[inline]
     #[must_use]
