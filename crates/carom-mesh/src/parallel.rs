@@ -14,6 +14,9 @@ pub const MANY: usize = 16 * CHUNK;
 /// Nodes that are as much work as one cell.
 pub const NODES_PER_CELL: usize = 2;
 
+/// Nodes of several bodies from which a thread is worth waking for half of them.
+pub const BODIES: usize = 2 * CHUNK;
+
 /// Whether more than one thread may work.
 #[must_use]
 pub fn has_threads() -> bool {
@@ -24,6 +27,11 @@ pub fn has_threads() -> bool {
 /// one and wait for it. Cells are shared already where there are [`NODES_PER_CELL`] times fewer nodes than it takes to share these.
 pub fn among_threads<R: Send>(nodes: usize, work: impl FnOnce() -> R + Send) -> R {
     if nodes < MANY / NODES_PER_CELL || !has_threads() { work() } else { rayon::scope(|_| work()) }
+}
+
+/// Does both, in two threads if there are.
+pub fn both<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+    rayon::join(a, b)
 }
 
 /// Calls `work` with consecutive parts of `items` that together are all of them, and the index where each begins.

@@ -12,6 +12,7 @@ use super::delassus::Delassus;
 use crate::body::Body;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
+use crate::model::each_body::{PerBody, PerNode, each_body};
 use crate::model::given::Given;
 use crate::model::state::State;
 
@@ -110,16 +111,15 @@ impl<const D: usize> Reduced<D> {
     pub fn prepare(&mut self, given: &Given<'_, D>, active: &ActiveSet<D>, bodies: &mut [Box<dyn Body<D>>]) {
         self.list_nodes(given.assembly, &active.touched, active.contacts.iter());
         let everywhere = given.interval.map.is_static();
-        for ((nodes, compliance), body) in self
-            .nodes
-            .iter()
-            .zip(&mut self.delassus.compliances)
-            .zip(bodies)
-            .filter(|((n, _), _)| !n.is_empty())
-        {
-            compliance.prepare(&mut **body, nodes, everywhere);
-            body.set_reach(nodes);
-        }
+        let Self { nodes, delassus, .. } = self;
+        let all = (PerBody(bodies), PerBody(&mut delassus.compliances));
+        each_body(given.assembly, &given.assembly.everyone, all, &|i, (body, compliance)| {
+            let (body, nodes) = (body.own(), &nodes[i]);
+            if !nodes.is_empty() {
+                compliance.own().prepare(&mut **body, nodes, everywhere);
+                body.set_reach(nodes);
+            }
+        });
     }
 
     /// Makes what contacts add to the tangents of a load step at a guess, and adds the forces that go with it to the `residual` [N].
@@ -182,16 +182,17 @@ impl<const D: usize> Reduced<D> {
     fn look(&mut self, assembly: &Assembly<D>, motion: &[Vector<D>], bodies: &mut [Box<dyn Body<D>>]) {
         let obstacles = assembly.node_count()..;
         self.known_motion[obstacles.clone()].copy_from_slice(&motion[obstacles]);
-        for (i, (body, nodes)) in bodies.iter_mut().zip(&self.nodes).enumerate() {
+        let Self { nodes, known_motion, .. } = self;
+        let all = (PerBody(bodies), PerNode(known_motion));
+        each_body(assembly, &assembly.everyone, all, &|i, (body, seen)| {
+            let (nodes, seen) = (&nodes[i], seen.0);
             if nodes.is_empty() {
-                continue;
+                return;
             }
-            let own = assembly.nodes(i);
-            let seen = &mut self.known_motion[own.clone()];
-            body.partial_solve(nodes, seen);
-            let motion = &motion[own];
+            body.own().partial_solve(nodes, seen);
+            let motion = &motion[assembly.nodes(i)];
             nodes.iter().map(|&n| n as usize).for_each(|n| seen[n] = motion[n] + seen[n]);
-        }
+        });
     }
 
     /// Gives the bodies the change of the reactions.
@@ -208,10 +209,11 @@ impl<const D: usize> Reduced<D> {
         if self.delassus.stiffened.is_needed() {
             self.delassus.stiffened.stand_in(&mut self.change);
         }
-        for (i, (body, nodes)) in bodies.iter_mut().zip(&self.nodes).enumerate() {
-            if !nodes.is_empty() {
-                body.add_forces(nodes, &self.change[assembly.nodes(i)]);
+        let Self { nodes, change, .. } = self;
+        each_body(assembly, &assembly.everyone, PerBody(bodies), &|i, body| {
+            if !nodes[i].is_empty() {
+                body.own().add_forces(&nodes[i], &change[assembly.nodes(i)]);
             }
-        }
+        });
     }
 }

@@ -54,6 +54,8 @@ pub struct Assembly<const D: usize> {
     pub size: f64,
     /// The boundaries of all bodies and obstacles.
     pub(crate) boundaries: Boundaries<D>,
+    /// 0, 1, …: the numbers of all bodies.
+    pub(crate) everyone: Vec<usize>,
     names: Vec<String>,
     obstacle_names: Vec<String>,
     /// The numbers of the nodes of every body.
@@ -86,6 +88,7 @@ impl<const D: usize> Assembly<D> {
             supports: 0,
             size: members.iter().map(|m| m.diameter).fold(0.0, f64::max),
             farthest: members.iter().flat_map(|m| &m.reference).map(Vector::amax).fold(0.0, f64::max),
+            everyone: (0..members.len()).collect(),
             names: Vec::with_capacity(members.len()),
             nodes: Vec::with_capacity(members.len()),
             body_of_node: Vec::with_capacity(count),

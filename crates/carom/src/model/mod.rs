@@ -2,6 +2,7 @@
 
 pub(crate) mod assembly;
 pub(crate) mod condition;
+pub(crate) mod each_body;
 pub(crate) mod given;
 pub(crate) mod interference;
 pub(crate) mod method;

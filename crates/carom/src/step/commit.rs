@@ -1,19 +1,29 @@
 //! The end of a step: the new state, and what happened to the energy.
 
 use carom_contact::{Contact, shares};
+use carom_fem::material::PlasticState;
 use carom_mesh::Vector;
 
 use super::landing::{Landing, restore};
 use super::report::{PairReport, StepReport};
 use super::settling::settle;
 use super::workspace::Workspace;
-use crate::body::BodyEnd;
+use crate::body::{Body, BodyEnd};
 use crate::contact::Contacts;
 use crate::contact::closing::{for_each_work, keep};
 use crate::error::StepError;
+use crate::ledger::{BodyLedger, Energies};
 use crate::model::assembly::Assembly;
+use crate::model::each_body::{PerBody, PerNode, each_body, each_body_in_turn};
 use crate::model::given::Given;
 use crate::model::state::{Reaction, State};
+
+/// What a body writes at the end of a step.
+type Own<'a, const D: usize> = (
+    PerBody<'a, Box<dyn Body<D>>>,
+    (PerNode<'a, Vector<D>>, PerNode<'a, Vector<D>>),
+    (PerBody<'a, Vec<PlasticState>>, (PerBody<'a, BodyLedger>, PerBody<'a, Energies>)),
+);
 
 /// Completes the new state and closes the books of the step.
 pub(super) fn commit<const D: usize>(
@@ -91,21 +101,33 @@ fn keep_contacts<const D: usize>(
 
 /// Completes the states of the bodies and closes their books.
 fn close_bodies<const D: usize>(given: &Given<'_, D>, next: &mut State<D>, work: &mut Workspace<D>) {
+    let assembly = given.assembly;
     let Workspace { bodies, contacts, blend, motion, body_ledgers, .. } = work;
+    let State { displacement, contact_force, velocity, internal_force, .. } = next;
     contacts.weigh(&given.interval.contact_weights, [&given.state.reactions, &next.reactions]);
-    for (i, body) in bodies.iter_mut().enumerate() {
-        let nodes = given.assembly.nodes(i);
-        let end = BodyEnd {
-            contact_force: &next.contact_force[nodes.clone()],
-            mean_contact_force: &contacts.mean_force[nodes.clone()],
-            velocity: &mut next.velocity[nodes.clone()],
-            internal_force: &mut next.internal_force[nodes],
-            history: &mut next.history[i],
-            support: &mut next.support,
+    let close =
+        |i: usize, (body, (velocity, internal_force), written): Own<'_, D>, support: &mut [Vector<D>]| {
+            let (history, (ledger, energies)) = written;
+            let nodes = assembly.nodes(i);
+            let end = BodyEnd {
+                contact_force: &contact_force[nodes.clone()],
+                mean_contact_force: &contacts.mean_force[nodes],
+                velocity: velocity.0,
+                internal_force: internal_force.0,
+                history: history.own(),
+                support,
+            };
+            let weight = given.interval.is_blended.then_some(blend.weight[i]);
+            let guess = given.guess(i, motion, displacement);
+            (*ledger.own(), *energies.own()) = body.own().end_step(&guess, weight, end);
         };
-        let weight = given.interval.is_blended.then_some(blend.weight[i]);
-        let guess = given.guess(i, motion, &next.displacement);
-        (body_ledgers[i], next.body_energies[i]) = body.end_step(&guess, weight, end);
+    let books = (PerBody(body_ledgers), PerBody(&mut next.body_energies));
+    let written = (PerBody(&mut next.history), books);
+    let all = (PerBody(bodies), (PerNode(velocity), PerNode(internal_force)), written);
+    if next.support.is_empty() {
+        each_body(assembly, &assembly.everyone, all, &|i, own| close(i, own, &mut []));
+    } else {
+        each_body_in_turn(assembly, &assembly.everyone, all, |i, own| close(i, own, &mut next.support));
     }
 }
 

@@ -5,6 +5,7 @@ use carom_mesh::nodal;
 use super::newton::Newton;
 use super::workspace::Workspace;
 use crate::error::StepError;
+use crate::model::each_body::{PerBody, PerNode, each_body, try_each_body};
 use crate::model::given::Given;
 use crate::model::state::State;
 
@@ -20,11 +21,11 @@ pub(super) fn residuals<const D: usize>(
         weigh_blend(bodies, given, next, work);
     }
     let Workspace { bodies: all, newton, blend, motion, .. } = work;
-    for &i in bodies {
+    let all = (PerBody(all), PerNode(&mut newton.residual));
+    each_body(given.assembly, bodies, all, &|i, (body, residual)| {
         let guess = given.guess(i, motion, &next.displacement);
-        let weight = is_blended.then_some(blend.weight[i]);
-        all[i].residual(&guess, weight, &mut newton.residual[given.assembly.nodes(i)]);
-    }
+        body.own().residual(&guess, is_blended.then_some(blend.weight[i]), residual.0);
+    });
 }
 
 /// The blend of start and end stresses at the present guess.
@@ -35,9 +36,9 @@ fn weigh_blend<const D: usize>(
     work: &mut Workspace<D>,
 ) {
     let Workspace { bodies: all, contacts, blend, motion, .. } = work;
-    for &i in bodies {
-        blend.balances[i] = all[i].balance(&given.guess(i, motion, &next.displacement));
-    }
+    each_body(given.assembly, bodies, (PerBody(all), PerBody(&mut blend.balances)), &|i, (body, balance)| {
+        *balance.own() = body.own().balance(&given.guess(i, motion, &next.displacement));
+    });
     let touched = bodies.iter().any(|&i| contacts.active.touched[i]);
     let contact_work = if touched { contacts.measure_work(given, motion) } else { &[] };
     blend.weigh(bodies, contact_work, &given.state.energy_debt, given.state.energies.total());
@@ -54,9 +55,9 @@ pub(super) fn begin_solves<const D: usize>(
     if reacts {
         work.contacts.active.add_reactions(residual);
     }
-    for &i in bodies {
-        work.bodies[i].begin_solve(&residual[given.assembly.nodes(i)]);
-    }
+    each_body(given.assembly, bodies, PerBody(&mut work.bodies), &|i, body| {
+        body.own().begin_solve(&residual[given.assembly.nodes(i)]);
+    });
 }
 
 /// Ends the solves for the corrections of the `bodies`.
@@ -66,15 +67,11 @@ pub(super) fn end_solves<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
     let Workspace { bodies: all, newton: Newton { correction, .. }, .. } = work;
-    for &i in bodies {
-        let correction = &mut correction[given.assembly.nodes(i)];
-        all[i].end_solve(correction);
+    try_each_body(given.assembly, bodies, (PerBody(all), PerNode(correction)), &|_, (body, correction)| {
+        body.own().end_solve(correction.0);
         // The largest size does not see what is not a number.
-        if !nodal::is_finite(correction) {
-            return Err(StepError::NotFinite("displacement"));
-        }
-    }
-    Ok(())
+        if nodal::is_finite(correction.0) { Ok(()) } else { Err(StepError::NotFinite("displacement")) }
+    })
 }
 
 /// Applies the corrections.
@@ -85,16 +82,16 @@ pub(super) fn correct<const D: usize>(
     work: &mut Workspace<D>,
 ) {
     let Workspace { newton: Newton { correction, progress, .. }, motion, .. } = work;
-    for &i in bodies {
+    let all = (PerNode(motion), PerNode(&mut next.displacement), PerBody(progress));
+    each_body(given.assembly, bodies, all, &|i, (motion, moved, progress)| {
         let nodes = given.assembly.nodes(i);
         let correction = &correction[nodes.clone()];
         let size = nodal::largest(correction);
-        let start = &given.state.displacement[nodes.clone()];
-        let (motion, moved) = (&mut motion[nodes.clone()], &mut next.displacement[nodes]);
-        nodal::each_of_two(motion, moved, [correction, start], |d, u1, [c, u0]| {
+        let start = &given.state.displacement[nodes];
+        nodal::each_of_two(motion.0, moved.0, [correction, start], |d, u1, [c, u0]| {
             *d += c;
             *u1 = u0 + *d;
         });
-        progress[i].note(size, nodal::largest(motion));
-    }
+        progress.own().note(size, nodal::largest(motion.0));
+    });
 }

@@ -10,6 +10,7 @@ use super::newton::control::CONTROL;
 use super::newton::convergence::{BodyProgress, Convergence};
 use super::workspace::Workspace;
 use crate::error::StepError;
+use crate::model::each_body::{PerBody, try_each_body};
 use crate::model::given::Given;
 use crate::model::state::State;
 
@@ -176,10 +177,10 @@ fn renew<const D: usize>(
     renewed: bool,
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
-    work.newton.acceleration.restart();
-    for &i in bodies {
-        work.bodies[i].renew(&given.guess(i, &work.motion, &next.displacement), renewed)?;
-        work.factorisations += 1;
-    }
-    Ok(())
+    let Workspace { bodies: all, newton, motion, factorisations, .. } = work;
+    newton.acceleration.restart();
+    *factorisations += bodies.len() as u64;
+    try_each_body(given.assembly, bodies, PerBody(all), &|i, body| {
+        body.own().renew(&given.guess(i, motion, &next.displacement), renewed)
+    })
 }

@@ -37,6 +37,7 @@ use crate::body::Interval;
 use crate::contact::cross_check::cross_check;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
+use crate::model::each_body::{PerBody, PerNode, try_each_body};
 use crate::model::given::Given;
 use crate::model::method::Method;
 use crate::model::state::State;
@@ -131,15 +132,19 @@ fn looked_at<const D: usize>(
 fn predict<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) -> Result<f64, StepError> {
     let Given { assembly, state, interval, .. } = *given;
     let dt = interval.map.dt;
-    let Workspace { bodies, motion, factorisations, .. } = work;
+    let Workspace { bodies, motion, forecasts, factorisations, .. } = work;
     let flight = if interval.map.is_static() { 0.0 } else { dt };
     nodal::each(motion, [&state.velocity], |d, [v]| *d = v * flight);
     let mut driven = given.move_obstacles(motion)?;
     let obstacles = state.velocity[assembly.node_count()..].iter();
     let mut speed = obstacles.map(Vector::norm_squared).fold(0.0, f64::max).sqrt();
     let mut acceleration: f64 = 0.0;
-    for (i, body) in bodies.iter_mut().enumerate() {
-        let forecast = body.begin_step(interval, &given.start(i), &mut motion[assembly.nodes(i)])?;
+    let all = (PerBody(bodies), PerNode(motion), PerBody(forecasts));
+    try_each_body(assembly, &assembly.everyone, all, &|i, (body, motion, forecast)| {
+        *forecast.own() = body.own().begin_step(interval, &given.start(i), motion.0)?;
+        Ok::<_, StepError>(())
+    })?;
+    for forecast in forecasts {
         driven = driven.max(forecast.driven);
         speed = speed.max(forecast.speed);
         acceleration = acceleration.max(forecast.acceleration);

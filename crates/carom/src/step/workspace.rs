@@ -8,7 +8,7 @@ use super::impulse::Impulses;
 use super::newton::Newton;
 use super::report::PairReport;
 use super::since_look::SinceLook;
-use crate::body::Body;
+use crate::body::{Body, Forecast};
 use crate::contact::{Contacts, PosedProblem};
 use crate::ledger::{BodyLedger, ByPair};
 use crate::model::Model;
@@ -27,6 +27,8 @@ pub struct Workspace<const D: usize> {
     pub(crate) since_look: Vec<SinceLook>,
     /// Which bodies were found inside themselves in the last step.
     pub(crate) in_itself: Vec<bool>,
+    /// What every body expected of the step.
+    pub(crate) forecasts: Vec<Forecast>,
     /// d = u₊ − u [m] of all nodes and obstacles.
     pub(crate) motion: Vec<Vector<D>>,
     /// What pairs did in the last step, those of which anything is known.
@@ -57,6 +59,7 @@ impl<const D: usize> Workspace<D> {
             boundaries: assembly.boundaries.clone(),
             since_look: vec![SinceLook::default(); bodies.len()],
             in_itself: vec![false; bodies.len()],
+            forecasts: vec![Forecast::default(); bodies.len()],
             motion: vec![Vector::zeros(); assembly.reference.len()],
             pair_reports: ByPair::default(),
             body_ledgers: vec![BodyLedger::default(); bodies.len()],
