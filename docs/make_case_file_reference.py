@@ -164,6 +164,9 @@ def type_of(field: FieldInfo) -> str:  # noqa: PLR0911 (one per type)
         item = get_args(annotation)[0]
         if models(item):
             return "array of tables"
+        if get_origin(item) in (Union, types.UnionType):
+            # As above.
+            item = get_args(item)[0]
         item, *of_item = get_args(item) if get_origin(item) is Annotated else [item]
         if get_origin(item) is tuple:
             return f"array of {COUNTS[of_item[0]]}numbers each"

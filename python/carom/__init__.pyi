@@ -52,6 +52,10 @@ from carom.case.obstacle import RigidSphere as RigidSphere
 from carom.case.obstacle import RigidSurface as RigidSurface
 from carom.case.output import Output as Output
 from carom.case.output import Track as Track
+from carom.case.pattern import Grid as Grid
+from carom.case.pattern import ListedPlaces as ListedPlaces
+from carom.case.pattern import Pattern as Pattern
+from carom.case.pattern import RandomPlaces as RandomPlaces
 from carom.case.scenario import Scenario as Scenario
 from carom.case.signal import Table as Table
 from carom.case.stage import GivenVelocity as GivenVelocity

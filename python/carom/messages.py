@@ -64,11 +64,23 @@ def problem(what: str, *, key: str | None = None, value: object = _ABSENT) -> Py
     return PydanticCustomError(_PROBLEM, "{what}", context)
 
 
+_TOLD = 40
+"""Names that a message lists at most."""
+
+
+def inside(error: PydanticCustomError, key: str) -> PydanticCustomError:
+    """Return a `problem` of a part as that of the whole, in which it is under this key."""
+    context = dict(error.context or {})
+    context["key"] = f"{key}.{context['key']}" if context.get("key") else key
+    return PydanticCustomError(_PROBLEM, "{what}", context)
+
+
 def known(name: str, names: Iterable[str]) -> str:
-    """Return the nearest of the valid names, if one is near, and all of them."""
+    """Return the nearest of the valid names, if one is near, and all of them if they are few."""
     names = list(names)
     near = difflib.get_close_matches(name, names, n=1)
-    valid = f"known: {', '.join(names) or 'none'}"
+    more = f" and {len(names) - _TOLD} more" if len(names) > _TOLD else ""
+    valid = f"known: {', '.join(names[:_TOLD]) or 'none'}{more}"
     return f'did you mean "{near[0]}"? ({valid})' if near else valid
 
 

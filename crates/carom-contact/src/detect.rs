@@ -1,10 +1,15 @@
 use carom_mesh::Vector;
+use carom_mesh::parallel::each_group;
 
 use crate::edge::Crossing;
 use crate::frame::frame;
+use crate::looking::{Looking, Scratch};
 use crate::project::{Projection, Reach};
 use crate::search::SolidSurface;
 use crate::{Candidate, Contact, ContactModel, Obstacle, Pair, Path, Search, Site, Solid, Target};
+
+/// Pairs that a thread looks at at a time.
+const PAIRS: usize = 64;
 
 impl<const D: usize> ContactModel<D> {
     /// Finds the nodes that on their `path` come near their target or are inside it, and the facets they face; of obstacles with corners also
@@ -17,7 +22,7 @@ impl<const D: usize> ContactModel<D> {
     ///
     /// A node that slides over the rim of its target while it is a little
     /// inside, as the condition `midpoint` lets it, is beside the target from then on.
-    pub fn detect<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    pub fn detect<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
         &self,
         path: &Path<'_, D, S, E>,
         search: &mut Search<D>,
@@ -30,7 +35,7 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// [`ContactModel::detect`] of the pairs that count, but for multipliers, which [`ContactModel::detect_mortar`] finds.
-    pub fn detect_node_by_node<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    pub fn detect_node_by_node<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
         &self,
         counts: impl Fn(&Pair) -> bool,
         path: &Path<'_, D, S, E>,
@@ -47,7 +52,7 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// The same of a body with itself.
-    pub fn detect_itself<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    pub fn detect_itself<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
         &self,
         body: usize,
         path: &Path<'_, D, S, E>,
@@ -64,41 +69,68 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// Finds the candidates of these `pairs`, ascending, of which the boxes are swept.
-    fn detect_among<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    fn detect_among<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
         &self,
         pairs: &[usize],
         path: &Path<'_, D, S, E>,
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
+        search.fit(self, pairs, path);
+        let mut looking = std::mem::take(&mut search.looking);
+        let groups = pairs.len().div_ceil(PAIRS);
+        looking.resize_with(looking.len().max(groups), Looking::default);
+        each_group(&mut looking[..groups], 1, |first, looking| {
+            for (pairs, Looking { scratch, found }) in pairs.chunks(PAIRS).skip(first).zip(looking) {
+                found.clear();
+                pairs.iter().for_each(|&p| self.detect_pair(p, path, search, (scratch, found)));
+            }
+        });
         out.clear();
-        for &p in pairs {
-            let pair = self.pairs.get(p);
-            match pair.target {
-                Target::Obstacle(o) => match &self.obstacles[o].faceted {
-                    None => match &self.surfaces[pair.source].ball {
-                        Some(ball) => self.detect_ball((p, ball), &self.obstacles[o], path, out),
-                        None => {
-                            self.detect_round(p, &self.obstacles[o], path, search, out);
-                            self.detect_between(p, &self.obstacles[o], path, out);
-                        }
-                    },
-                    Some(faceted) => {
-                        let obstacle = &self.obstacles[o];
-                        let (start, end) = (&obstacle.placed(path.start), &obstacle.placed(path.end));
-                        let path = Path { start, end, margin: path.margin };
-                        let target = SolidSurface { solid: Solid::Obstacle(o), surface: &faceted.surface };
-                        self.detect_faceted(p, target, &path, search, out);
+        looking[..groups].iter().for_each(|looking| out.extend_from_slice(&looking.found));
+        search.looking = looking;
+        self.mark_redundant(&|n| path.middle(n), out);
+    }
+
+    /// Adds the candidates of one pair to those found.
+    fn detect_pair<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &self,
+        p: usize,
+        path: &Path<'_, D, S, E>,
+        search: &Search<D>,
+        (scratch, out): (&mut Scratch<D>, &mut Vec<Candidate>),
+    ) {
+        let pair = self.pairs.get(p);
+        match pair.target {
+            Target::Obstacle(o) => match &self.obstacles[o].faceted {
+                None => match &self.surfaces[pair.source].ball {
+                    Some(ball) => self.detect_ball((p, ball), &self.obstacles[o], path, out),
+                    None => {
+                        self.detect_round(p, &self.obstacles[o], path, search, out);
+                        self.detect_between(p, &self.obstacles[o], path, out);
                     }
                 },
-                Target::Surface(_) if self.balls(p).is_some() => self.detect_balls(p, path, out),
-                Target::Surface(t) => {
-                    let target = SolidSurface { solid: Solid::Body(t), surface: &self.surfaces[t] };
-                    self.detect_faceted(p, target, path, search, out);
+                Some(_) => {
+                    let obstacle = &self.obstacles[o];
+                    let (start, end) = (&obstacle.placed(path.start), &obstacle.placed(path.end));
+                    let path = Path { start, end, margin: path.margin };
+                    self.detect_faceted(p, &path, search, (scratch, out));
                 }
-            }
+            },
+            Target::Surface(_) if self.balls(p).is_some() => self.detect_balls(p, path, out),
+            Target::Surface(_) => self.detect_faceted(p, path, search, (scratch, out)),
         }
-        self.mark_redundant(&|n| path.middle(n), out);
+    }
+
+    /// What has facets on the other side of a pair that is found by them.
+    pub(crate) fn faceted_target(&self, pair: &Pair) -> Option<SolidSurface<'_>> {
+        match pair.target {
+            Target::Obstacle(o) => {
+                let faceted = self.obstacles[o].faceted.as_ref()?;
+                Some(SolidSurface { solid: Solid::Obstacle(o), surface: &faceted.surface })
+            }
+            Target::Surface(t) => Some(SolidSurface { solid: Solid::Body(t), surface: &self.surfaces[t] }),
+        }
     }
 
     /// Adds to `out` the nodes of a pair that come near an obstacle without facets.
@@ -125,35 +157,36 @@ impl<const D: usize> ContactModel<D> {
         out.extend(source.sources.iter().filter(near).map(candidate));
     }
 
-    /// Adds to `out` the nodes of a pair that come near facets of the `target`, in space the edges that cross, and the corners of an obstacle
+    /// Adds to those found the nodes of a pair that come near facets of the target, in space the edges that cross, and the corners of an obstacle
     /// that come near facets of the source.
     fn detect_faceted<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
         pair: usize,
-        target: SolidSurface<'_>,
         path: &Path<'_, D, S, E>,
-        search: &mut Search<D>,
-        out: &mut Vec<Candidate>,
+        search: &Search<D>,
+        (scratch, out): (&mut Scratch<D>, &mut Vec<Candidate>),
     ) {
         let me = Solid::Body(self.pairs.get(pair).source);
+        let Some(target) = self.faceted_target(&self.pairs.get(pair)) else { return };
         if !search.meet(me, target.solid, path.margin) {
             return;
         }
         let (source, pair_index) = (&self.surfaces[self.pairs.get(pair).source], pair as u32);
         if !self.is_mortar(pair) {
-            search.facing(source, target, path, |node, facet| {
+            search.facing(source, target, path, scratch, |node, facet| {
                 out.push(Candidate::at_node(pair_index, node, Some(facet)));
             });
         }
         // From the other side they are the same.
         if self.pairs.directions(pair).start == pair {
-            self.detect_crossings(pair, target, path, search, out);
+            self.detect_crossings(pair, path, search, &mut scratch.crossings, out);
         }
         if matches!(target.solid, Solid::Obstacle(_)) {
             search.facing(
                 target.surface,
                 SolidSurface { solid: me, surface: source },
                 path,
+                scratch,
                 |corner, facet| {
                     let site = Site::Corner(corner);
                     out.push(Candidate { pair: pair_index, site, facet: Some(facet), redundant: false });

@@ -23,6 +23,7 @@ mod extents;
 mod facing;
 mod frame;
 mod kept;
+mod looking;
 mod manifold;
 mod model;
 mod mortar;

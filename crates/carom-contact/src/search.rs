@@ -1,13 +1,17 @@
 use carom_mesh::Vector;
+use carom_mesh::parallel::each_group;
 
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
-use crate::edge::Found;
 use crate::facing::{Projected, faced};
+use crate::looking::{Looking, Scratch};
 use crate::project::Reach;
 use crate::surface::diameter;
 use crate::tolerances::SEARCH;
 use crate::{ContactModel, ContactSurface, Extents, Mortar, Pair, Path, Solid, Target};
+
+/// Surfaces that a thread takes at a time.
+pub(crate) const GROUP: usize = 32;
 
 /// What the search for contacts keeps from one call to the next: room for boxes, and the trees over them.
 ///
@@ -17,11 +21,8 @@ pub struct Search<const D: usize> {
     pub(crate) surfaces: Vec<Swept<D>>,
     /// Those of obstacles that have facets.
     obstacles: Vec<Swept<D>>,
-    /// Facets near a node: how close to it they may come [m], their number, and the size of the box in which they find nodes [m].
-    near: Vec<(f64, u32, f64)>,
-    projected: Vec<Projected<D>>,
-    /// Edges of a pair that cross.
-    pub(crate) crossings: Vec<Found>,
+    /// Of every group of pairs that a thread looks at.
+    pub(crate) looking: Vec<Looking<D>>,
     /// Of all surfaces on their way, where pairs are many.
     pub(crate) extents: Extents<D>,
     /// The numbers of the pairs that come near.
@@ -35,9 +36,7 @@ impl<const D: usize> Default for Search<D> {
         Self {
             surfaces: Vec::new(),
             obstacles: Vec::new(),
-            near: Vec::new(),
-            projected: Vec::new(),
-            crossings: Vec::new(),
+            looking: Vec::new(),
             extents: Extents::default(),
             pairs: Vec::new(),
             mortar: Mortar::default(),
@@ -68,9 +67,11 @@ pub(crate) struct Swept<const D: usize> {
     /// Whether its sources, and its facets, belong to a pair that counts.
     is_source: bool,
     is_faced: bool,
+    /// Whether somebody asks for its facets, or its edges, by a tree.
+    is_asked: bool,
+    is_asked_for_edges: bool,
     is_swept: bool,
     is_fitted: bool,
-    edges_are_fitted: bool,
 }
 
 impl<const D: usize> Search<D> {
@@ -96,14 +97,49 @@ impl<const D: usize> Search<D> {
         }
     }
 
-    /// The same, and room for the edges that cross it.
-    pub(crate) fn swept_and_crossings(&mut self, solid: Solid) -> (&mut Swept<D>, &mut Vec<Found>) {
-        let Self { surfaces, obstacles, crossings, .. } = self;
-        (of_solid(surfaces, obstacles, solid), crossings)
+    pub(crate) fn swept_mut(&mut self, solid: Solid) -> &mut Swept<D> {
+        match solid {
+            Solid::Body(i) => &mut self.surfaces[i],
+            Solid::Obstacle(o) => &mut self.obstacles[o],
+        }
+    }
+
+    /// Brings the trees of all that is asked for in `pairs` up to date.
+    pub(crate) fn fit<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
+        &mut self,
+        model: &ContactModel<D>,
+        pairs: &[usize],
+        path: &Path<'_, D, S, E>,
+    ) {
+        for &p in pairs {
+            let pair = model.pairs.get(p);
+            let (source, target) = (Solid::Body(pair.source), model.faceted_target(&pair));
+            let Some(SolidSurface { solid, surface }) = target else { continue };
+            if !self.meet(source, solid, path.margin) {
+                continue;
+            }
+            let has_features = surface.has_features || model.surfaces[pair.source].has_features;
+            let is_first = model.pairs.directions(p).start == p;
+            let swept = self.swept_mut(solid);
+            swept.is_asked |= !model.is_mortar(p);
+            swept.is_asked_for_edges |= has_features && is_first;
+            // Its corners look for facets of the body.
+            self.surfaces[pair.source].is_asked |= matches!(solid, Solid::Obstacle(_));
+        }
+        each_group(&mut self.surfaces, GROUP, |first, surfaces| {
+            let all = surfaces.iter_mut().zip(&model.surfaces[first..]);
+            all.for_each(|(swept, surface)| swept.fit_asked(surface, path));
+        });
+        for (swept, obstacle) in self.obstacles.iter_mut().zip(&model.obstacles) {
+            if let Some(faceted) = &obstacle.faceted {
+                let (start, end) = (&obstacle.placed(path.start), &obstacle.placed(path.end));
+                swept.fit_asked(&faceted.surface, &Path { start, end, margin: path.margin });
+            }
+        }
     }
 
     /// Boxes around all that moves along a `path` and belongs to one of these `pairs` of `model`.
-    pub(crate) fn sweep<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    pub(crate) fn sweep<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
         &mut self,
         model: &ContactModel<D>,
         pairs: impl Iterator<Item = Pair>,
@@ -115,7 +151,7 @@ impl<const D: usize> Search<D> {
     }
 
     /// The same of all pairs that count, and where they are many boxes around whole surfaces on their way.
-    pub(crate) fn sweep_where<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    pub(crate) fn sweep_where<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
         &mut self,
         model: &ContactModel<D>,
         counts: &impl Fn(&Pair) -> bool,
@@ -161,20 +197,22 @@ impl<const D: usize> Search<D> {
         source.is_faced |= is_faced;
     }
 
-    fn sweep_expected<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    fn sweep_expected<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
         &mut self,
         model: &ContactModel<D>,
         path: &Path<'_, D, S, E>,
     ) {
-        for (swept, surface) in self.surfaces.iter_mut().zip(&model.surfaces) {
-            if swept.is_source {
-                swept.sources = Aabb::of(surface.sources.iter().flat_map(|&n| path.ends(n)));
+        each_group(&mut self.surfaces, GROUP, |first, surfaces| {
+            for (swept, surface) in surfaces.iter_mut().zip(&model.surfaces[first..]) {
+                if swept.is_source {
+                    swept.sources = Aabb::of(surface.sources.iter().flat_map(|&n| path.ends(n)));
+                }
+                if swept.is_faced {
+                    swept.sweep_facets(surface, path);
+                    swept.whole = swept.facets.iter().fold(Aabb::of([]), |all, b| all.union(b));
+                }
             }
-            if swept.is_faced {
-                swept.sweep_facets(surface, path);
-                swept.whole = swept.facets.iter().fold(Aabb::of([]), |all, b| all.union(b));
-            }
-        }
+        });
         for (swept, obstacle) in self.obstacles.iter_mut().zip(&model.obstacles) {
             swept.forget();
             if let Some(faceted) = &obstacle.faceted {
@@ -189,17 +227,17 @@ impl<const D: usize> Search<D> {
     /// Tells `found` which of the sources of a surface come near facets of a `target`, and which facet each faces: the closest one half way
     /// among those that face it.
     pub(crate) fn facing<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
-        &mut self,
+        &self,
         source: &ContactSurface,
         target: SolidSurface<'_>,
         path: &Path<'_, D, S, E>,
+        scratch: &mut Scratch<D>,
         mut found: impl FnMut(u32, u32),
     ) {
         let SolidSurface { solid, surface: target } = target;
         let room = self.room(solid, path.margin);
-        let Self { surfaces, obstacles, near, projected, .. } = self;
-        let swept = of_solid(surfaces, obstacles, solid);
-        swept.fit(target, path);
+        let swept = self.swept(solid);
+        let Scratch { near, projected, .. } = scratch;
         let middle = |n: u32| path.middle(n);
         let is_own = std::ptr::eq(source, target);
         for (k, &node) in source.sources.iter().enumerate() {
@@ -251,18 +289,6 @@ impl<const D: usize> Search<D> {
     }
 }
 
-/// The one of a solid.
-fn of_solid<'a, const D: usize>(
-    surfaces: &'a mut [Swept<D>],
-    obstacles: &'a mut [Swept<D>],
-    solid: Solid,
-) -> &'a mut Swept<D> {
-    match solid {
-        Solid::Body(i) => &mut surfaces[i],
-        Solid::Obstacle(o) => &mut obstacles[o],
-    }
-}
-
 impl<const D: usize> Default for Swept<D> {
     fn default() -> Self {
         Self {
@@ -273,9 +299,10 @@ impl<const D: usize> Default for Swept<D> {
             edges: Bvh::new([].into_iter()),
             is_source: false,
             is_faced: false,
+            is_asked: false,
+            is_asked_for_edges: false,
             is_swept: false,
             is_fitted: false,
-            edges_are_fitted: false,
         }
     }
 }
@@ -283,7 +310,22 @@ impl<const D: usize> Default for Swept<D> {
 impl<const D: usize> Swept<D> {
     fn forget(&mut self) {
         (self.is_source, self.is_faced) = (false, false);
-        (self.is_swept, self.is_fitted, self.edges_are_fitted) = (false, false, false);
+        (self.is_asked, self.is_asked_for_edges) = (false, false);
+        (self.is_swept, self.is_fitted) = (false, false);
+    }
+
+    /// Brings the trees that somebody asks for up to date.
+    fn fit_asked<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+        &mut self,
+        surface: &ContactSurface,
+        path: &Path<'_, D, S, E>,
+    ) {
+        if self.is_asked {
+            self.fit(surface, path);
+        }
+        if self.is_asked_for_edges {
+            self.fit_edges(surface, path);
+        }
     }
 
     fn sweep_facets<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
@@ -318,20 +360,16 @@ impl<const D: usize> Swept<D> {
     }
 
     /// The same for the edges of the `surface`.
-    pub fn fit_edges<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    fn fit_edges<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &mut self,
         surface: &ContactSurface,
         path: &Path<'_, D, S, E>,
     ) {
-        if self.edges_are_fitted {
-            return;
-        }
         let room = |e: u32| {
             let swept = surface.edges[e as usize].path(path.start, path.end);
             swept.inflated(path.margin + SEARCH.depth * swept.diameter())
         };
         fit(&mut self.edges, surface.edges.len(), room);
-        self.edges_are_fitted = true;
     }
 }
 

@@ -15,7 +15,7 @@ impl<const D: usize> ContactModel<D> {
     ///
     /// The rules by which [`ContactModel::detect`] chooses need not foresee everything: what they leave out is found here, where it matters.
     /// Of bodies that are checked from one side alone, nodes of the other are inside by choice: these are left alone.
-    pub fn witnessed<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    pub fn witnessed<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
         &self,
         witnesses: &[Witness],
         path: &Path<'_, D, S, E>,
@@ -29,7 +29,7 @@ impl<const D: usize> ContactModel<D> {
                 continue;
             };
             let (own, other) = (&self.surfaces[of], &self.surfaces[inside]);
-            let (swept, _) = search.swept_and_crossings(Solid::Body(inside));
+            let swept = search.swept_mut(Solid::Body(inside));
             swept.fit(other, path);
             match feature {
                 Feature::Node(node) => {

@@ -49,6 +49,15 @@ pub fn share<T: Send>(items: &mut [T], chunk: usize, work: &(dyn Fn(usize, &mut 
     items.par_chunks_mut(chunk).enumerate().for_each(|(number, items)| work(number * chunk, items));
 }
 
+/// Calls `work` with consecutive groups of so many `items`, each of which is as much work as a waking thread is worth, and the index where each
+/// begins.
+pub fn each_group<T: Send>(items: &mut [T], group: usize, work: impl Fn(usize, &mut [T]) + Sync) {
+    if items.len() <= group || !has_threads() {
+        return work(0, items);
+    }
+    share(items, group, &work);
+}
+
 /// As [`each_chunk`], with parts of two slices of one length.
 pub fn each_chunk_of_two<A: Send, B: Send>(
     a: &mut [A],

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
 
 from carom._carom import Simulation
 from carom.building.closing import closed
@@ -95,18 +98,29 @@ def _json(scenario: Scenario) -> str:
 
 
 def _meshes(scenario: Scenario) -> dict[str, MeshArrays]:
-    """Read the meshes of the bodies that have theirs in a file."""
-    return {
-        body.name: read_body_mesh(
-            body.mesh.file,
-            body=body.mesh.body,
-            scale=body.mesh.scale,
-            space=scenario.dimension,
-            key=f"bodies.{index}.mesh",
-        )
-        for index, body in enumerate(scenario.bodies)
-        if isinstance(body.mesh, MeshFile)
-    }
+    """Read the meshes of the bodies that have theirs in a file, each file once."""
+    read: dict[tuple[str, str | None, float], MeshArrays] = {}
+    meshes = {}
+    for index, body in enumerate(scenario.bodies):
+        if not isinstance(body.mesh, MeshFile):
+            continue
+        mesh = body.mesh
+        known = (mesh.file, mesh.body, mesh.scale)
+        is_first = known not in read
+        if is_first:
+            read[known] = read_body_mesh(
+                mesh.file,
+                body=mesh.body,
+                scale=mesh.scale,
+                space=scenario.dimension,
+                key=f"bodies.{index}.mesh",
+            )
+        arrays = read[known]
+        if mesh.move is not None:
+            arrays = replace(arrays, points=arrays.points + np.array(mesh.move))
+        # What is said of a file is said once.
+        meshes[body.name] = arrays if is_first else replace(arrays, notes=[])
+    return meshes
 
 
 def obstacle_surfaces(obstacles: Sequence[Obstacle]) -> dict[str, SurfaceArrays]:

@@ -212,10 +212,11 @@ def with_kinds(data: object) -> object:
     bodies = data.get("bodies") if isinstance(data, Mapping) else None
     if not isinstance(data, Mapping) or not isinstance(bodies, list | tuple):
         return data
-    return {**data, "bodies": [_with_kind(body) for body in bodies]}
+    return {**data, "bodies": [of_kind(body) for body in bodies]}
 
 
-def _with_kind(body: Any) -> Any:  # noqa: ANN401 (checked where it is used)
+def of_kind(body: Any) -> Any:  # noqa: ANN401 (checked where it is used)
+    """Return a body that, where it names no kind, is deformable."""
     if isinstance(body, Mapping) and "kind" not in body:
         return {"kind": "deformable", **body}
     return body

@@ -51,7 +51,7 @@ def with_paths_from(directory: Path, data: dict[str, Any]) -> dict[str, Any]:
         return [placed(entry) for entry in value] if isinstance(value, list) else value
 
     return {
-        key: placed(value) if key in ("bodies", "obstacles", "initial") else value
+        key: placed(value) if key in ("bodies", "patterns", "obstacles", "initial") else value
         for key, value in data.items()
     }
 
@@ -113,9 +113,9 @@ class _Writer:
     def stated(self, part: Description) -> dict[str, Any]:
         """Return the fields to write, ``kind`` first; what is None or empty cannot be written."""
         stated = {
-            name: getattr(part, name)
+            name: part.given(name)
             for name, field in type(part).model_fields.items()
-            if name == "kind" or self._is_written(getattr(part, name), field)
+            if name == "kind" or self._is_written(part.given(name), field)
         }
         return {"kind": stated.pop("kind"), **stated} if "kind" in stated else stated
 

@@ -107,6 +107,10 @@ class Description(BaseModel):
                 raise problem(f"unknown key; {known(str(key), cls.model_fields)}", key=str(key))
         return data
 
+    def given(self, key: str) -> Any:  # noqa: ANN401 (of any field)
+        """Return the value of a field as the case file gives it."""
+        return getattr(self, key)
+
     def vectors(self, path: str = "") -> Iterator[tuple[str, tuple[float, ...]]]:
         """Yield what has one entry per space dimension here and below, with its dotted path."""
         for name, field in type(self).model_fields.items():

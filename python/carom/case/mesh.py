@@ -20,6 +20,7 @@ from carom.case.description import (
     PlaneVector,
     Positive,
     SpaceVector,
+    Vector,
 )
 from carom.messages import problem
 
@@ -317,6 +318,9 @@ class MeshFile(Description):
         Physical group or set of cells that makes the body; None takes all cells.
     scale
         What coordinates are multiplied by to be in metres: 0.001 for a file in millimetres.
+    move
+        By how much the body is moved from where the file has it, after scaling [m], shape [D]; None
+        is not at all.
     """
 
     dimension: ClassVar[int | None] = None
@@ -326,6 +330,7 @@ class MeshFile(Description):
     file: FilePath
     body: str | None = None
     scale: Positive = 1.0
+    move: Vector | None = None
 
 
 _Round = Disc | Ball | Cylinder

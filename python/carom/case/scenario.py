@@ -7,7 +7,14 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import (
+    Field,
+    PrivateAttr,
+    SerializerFunctionWrapHandler,
+    model_serializer,
+    model_validator,
+)
+from pydantic_core import PydanticCustomError
 from typing_extensions import Self
 
 from carom.case import case_file, overrides
@@ -22,10 +29,11 @@ from carom.case.material import Material
 from carom.case.motion import Motion
 from carom.case.obstacle import Obstacle
 from carom.case.output import Output, Track
+from carom.case.pattern import Pattern, pairs_of_copies
 from carom.case.stage import Stage, StageOutput
 from carom.case.stage_rules import check_stages
 from carom.errors import naming
-from carom.messages import known, problem
+from carom.messages import inside, known, problem
 
 
 class Scenario(Description):
@@ -47,7 +55,10 @@ class Scenario(Description):
     materials
         Materials by name.
     bodies
-        Bodies, deformable or rigid, at least one.
+        Bodies, deformable or rigid. Those that patterns make come after those that are given; at
+        least one of both.
+    patterns
+        Bodies that are there many times: on a grid, at random, or where a list says.
     obstacles
         Rigid obstacles.
     loads
@@ -68,13 +79,17 @@ class Scenario(Description):
     analysis: Analysis | None = None
     output: Output = Output()
     materials: dict[Name, Material] = Field(default_factory=dict)
-    bodies: Annotated[tuple[AnyBody, ...], Field(min_length=1)]
+    bodies: Annotated[tuple[AnyBody, ...], Field(min_length=1)] = ()
+    patterns: tuple[Pattern, ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
     loads: tuple[Load, ...] = ()
     motions: tuple[Motion, ...] = ()
     contact: Contact = Contact()
     initial: Initial | None = None
     stages: tuple[Stage, ...] = ()
+
+    _given: dict[str, Any] = PrivateAttr(default_factory=dict)
+    """Bodies and contact as they were given, where patterns have added to them."""
 
     @classmethod
     def from_toml(cls, path: str | Path) -> Self:
@@ -112,6 +127,10 @@ class Scenario(Description):
         What a stage does not change is written out in it too.
         """
         data = self.model_dump(mode="json")
+        del data["patterns"]
+        if self._given:
+            data["bodies"] = [body.model_dump(mode="json") for body in self.bodies]
+            data["contact"] = self.contact.model_dump(mode="json")
         full = self.full_stages()
         data["output"] |= {
             "fields_every": full[0].fields_every,
@@ -153,6 +172,41 @@ class Scenario(Description):
         from carom.case.notebook import scenario_html  # noqa: PLC0415 (for notebooks only)
 
         return scenario_html(self)
+
+    def given(self, key: str) -> Any:  # noqa: ANN401 (of any field)
+        """Return the value of a field as it was given, without what patterns make."""
+        return self._given.get(key, super().given(key))
+
+    @model_serializer(mode="wrap")
+    def _as_given(self, serialize: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Write the case as it was given: patterns make the rest again."""
+        plain = self.model_copy()
+        plain.__dict__.update(self._given)
+        data: dict[str, Any] = serialize(plain)
+        if not plain.bodies:
+            del data["bodies"]
+        return data
+
+    @model_validator(mode="after")
+    def _patterns_make_bodies(self) -> Self:
+        if not self.patterns and not self.bodies:
+            raise problem("required key is missing; give bodies, or patterns of them", key="bodies")
+        if not self.patterns:
+            return self
+        made: list[Body | RigidBody] = []
+        copies: dict[str, list[str]] = {}
+        for index, pattern in enumerate(self.patterns):
+            try:
+                bodies = pattern.bodies(self.dimension)
+            except PydanticCustomError as error:
+                raise inside(error, f"patterns.{index}") from None
+            copies.setdefault(pattern.body.name, []).extend(body.name for body in bodies)
+            made += bodies
+        pairs = [pair for _, pair in pairs_of_copies(self.contact.pairs, copies)]
+        self._given = {"bodies": self.bodies, "contact": self.contact}
+        self.__dict__["bodies"] = (*self.bodies, *made)
+        self.__dict__["contact"] = self.contact.model_copy(update={"pairs": tuple(pairs)})
+        return self
 
     @model_validator(mode="after")
     def _names_are_unique(self) -> Self:

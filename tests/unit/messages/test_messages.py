@@ -92,7 +92,7 @@ BAD = [
     ("output.track.0.body", "lift", 'output.track.0.body = "lift": no such body; did you mean'),
     ("output.track.0.name", "left", 'output.track.0.name = "left": name already used by bodies'),
     ("bodies", [], "bodies = []: must have 1 or more entries, not 0"),
-    ("bodies", ABSENT, "bodies: required key is missing"),
+    ("bodies", ABSENT, "bodies: required key is missing; give bodies, or patterns of them"),
     ("bodies.0.material", "plastic", 'no such material; did you mean "elastic"? (known: elastic)'),
     ("bodies.0.velocity", [1.0], "bodies.0.velocity = [1.0]: must have 2 components, not 1"),
     ("bodies.0.velocity", 1.0, "bodies.0.velocity = 1.0: must be a list"),

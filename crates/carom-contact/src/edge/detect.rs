@@ -19,18 +19,19 @@ impl<const D: usize> ContactModel<D> {
     pub(crate) fn detect_crossings<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
         &self,
         pair: usize,
-        SolidSurface { solid, surface: target }: SolidSurface<'_>,
         path: &Path<'_, D, S, E>,
-        search: &mut Search<D>,
+        search: &Search<D>,
+        found: &mut Vec<Found>,
         out: &mut Vec<Candidate>,
     ) {
         let source = &self.surfaces[self.pairs.get(pair).source];
+        let target = self.faceted_target(&self.pairs.get(pair));
+        let Some(SolidSurface { solid, surface: target }) = target else { return };
         if !(source.has_features || target.has_features) {
             return;
         }
         let room = search.room(solid, path.margin);
-        let (swept, found) = search.swept_and_crossings(solid);
-        swept.fit_edges(target, path);
+        let swept = search.swept(solid);
         let (is_own, is_mortar) = (self.is_self_contact(pair), self.is_mortar(pair));
         found.clear();
         // Edges of obstacles are as long as they please: between their ends they meet facets at the edges of these alone.

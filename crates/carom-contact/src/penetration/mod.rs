@@ -14,11 +14,13 @@ mod shell;
 mod skin;
 mod way;
 
+use carom_mesh::parallel::each_group;
 use carom_mesh::{Surface, Vector};
 
 use crate::Obstacle;
 use crate::aabb::Aabb;
 use crate::neighbours::Neighbours;
+use crate::search::GROUP;
 use deep::Deep;
 pub use feature::Feature;
 use shell::Shell;
@@ -78,6 +80,22 @@ pub struct Boundaries<const D: usize> {
     /// Of the last measure.
     witnesses: Vec<Witness>,
     near: Neighbours,
+    /// What each of the bodies is inside of.
+    inside: Vec<Inside<D>>,
+}
+
+/// What of a body is inside something, as the last measure has found it.
+#[derive(Debug, Clone)]
+struct Inside<const D: usize> {
+    /// The deepest place of the body in every other solid, or of an obstacle in the body, the inner one first.
+    deepest: Vec<([Solid; 2], Deep<D>)>,
+    witnesses: Vec<Witness>,
+}
+
+impl<const D: usize> Default for Inside<D> {
+    fn default() -> Self {
+        Self { deepest: Vec::new(), witnesses: Vec::new() }
+    }
 }
 
 impl<const D: usize> Boundaries<D> {
@@ -124,74 +142,101 @@ impl<const D: usize> Boundaries<D> {
     pub fn measure(
         &mut self,
         obstacles: &[Obstacle<D>],
-        counts: impl Fn([Solid; 2]) -> bool,
-        position: &impl Fn(u32) -> Vector<D>,
+        counts: impl Fn([Solid; 2]) -> bool + Sync,
+        position: &(impl Fn(u32) -> Vector<D> + Sync),
         mut found: impl FnMut(Penetration<D>),
     ) {
-        self.shells.iter_mut().for_each(|shell| shell.place(position));
+        each_group(&mut self.shells, GROUP, |_, shells| {
+            shells.iter_mut().for_each(|shell| shell.place(position));
+        });
         self.near.find(self.shells.len(), 0.0, |i| self.shells[i].bounds());
         self.fit_those_that_meet(obstacles, &counts, position);
-        let Self { shells, skins, witnesses, near } = self;
+        self.look(obstacles, &counts, position);
+        let Self { shells, witnesses, inside, .. } = self;
         witnesses.clear();
-        let mut tell = |between: [Solid; 2], deep: Deep<D>| {
-            let Deep { depth, at, facet, other } = deep;
-            if depth == 0.0 {
-                return;
-            }
-            let facets =
-                between.iter().zip([facet, other]).filter_map(|(solid, facet)| match (solid, facet) {
-                    (Solid::Body(i), Some(facet)) => Some((&shells[*i], facet)),
-                    _ => None,
+        for Inside { deepest, witnesses: own } in &inside[..shells.len()] {
+            witnesses.extend_from_slice(own);
+            for &(between, Deep { depth, at, facet, other }) in deepest {
+                let facets =
+                    between.iter().zip([facet, other]).filter_map(|(solid, facet)| match (solid, facet) {
+                        (Solid::Body(i), Some(facet)) => Some((&shells[*i], facet)),
+                        _ => None,
+                    });
+                let cell = facets.clone().map(|(shell, f)| shell.diameter(f)).fold(f64::INFINITY, f64::min);
+                let bulge = between.iter().map(|solid| match solid {
+                    Solid::Obstacle(o) => obstacles[*o].shape.bulge(cell),
+                    Solid::Body(_) => 0.0,
                 });
-            let cell = facets.clone().map(|(shell, f)| shell.diameter(f)).fold(f64::INFINITY, f64::min);
-            let bulge = between.iter().map(|solid| match solid {
-                Solid::Obstacle(o) => obstacles[*o].shape.bulge(cell),
-                Solid::Body(_) => 0.0,
-            });
-            let arcs = facets.map(|(shell, f)| shell.arc(f)).chain(bulge).sum();
-            let [inner, outer] = between;
-            found(Penetration { depth, at, between: inner.pair(outer), cell, arcs });
-        };
-        for (i, shell) in shells.iter().enumerate() {
-            let me = Solid::Body(i);
+                let arcs = facets.map(|(shell, f)| shell.arc(f)).chain(bulge).sum();
+                let [inner, outer] = between;
+                found(Penetration { depth, at, between: inner.pair(outer), cell, arcs });
+            }
+        }
+    }
+
+    /// Looks at every body for what is inside what.
+    fn look(
+        &mut self,
+        obstacles: &[Obstacle<D>],
+        counts: &(impl Fn([Solid; 2]) -> bool + Sync),
+        position: &(impl Fn(u32) -> Vector<D> + Sync),
+    ) {
+        let Self { shells, skins, near, inside, .. } = self;
+        inside.resize_with(inside.len().max(shells.len()), Inside::default);
+        let look = |i: usize, Inside { deepest, witnesses }: &mut Inside<D>| {
+            deepest.clear();
+            witnesses.clear();
+            let (me, shell) = (Solid::Body(i), &shells[i]);
+            let mut note = |between: [Solid; 2], deep: Deep<D>| {
+                if deep.depth != 0.0 {
+                    deepest.push((between, deep));
+                }
+            };
             if counts([me, me]) {
-                tell([me, me], shell.in_itself());
+                note([me, me], shell.in_itself());
             }
             for j in near.of(i).filter(|&j| counts([me, Solid::Body(j)])) {
                 let witness = |feature, depth| witnesses.push(Witness { of: i, inside: j, feature, depth });
-                tell([me, Solid::Body(j)], shell.inside_of(&shells[j], witness));
+                note([me, Solid::Body(j)], shell.inside_of(&shells[j], witness));
             }
             for (o, (skin, obstacle)) in skins.iter().zip(obstacles).enumerate() {
                 let other = Solid::Obstacle(o);
                 if counts([me, other]) {
                     let shift = obstacle.shift(position);
-                    tell([me, other], shell.inside_of_obstacle(&obstacle.shape, &shift));
-                    tell([other, me], shell.deepest_of(skin, &shift));
+                    note([me, other], shell.inside_of_obstacle(&obstacle.shape, &shift));
+                    note([other, me], shell.deepest_of(skin, &shift));
                 }
             }
-        }
+        };
+        each_group(&mut inside[..shells.len()], GROUP, |first, inside| {
+            (first..).zip(inside).for_each(|(i, inside)| look(i, inside));
+        });
     }
 
     /// Fits the boxes of the facets that somebody will ask for.
     fn fit_those_that_meet(
         &mut self,
         obstacles: &[Obstacle<D>],
-        counts: &impl Fn([Solid; 2]) -> bool,
-        position: &impl Fn(u32) -> Vector<D>,
+        counts: &(impl Fn([Solid; 2]) -> bool + Sync),
+        position: &(impl Fn(u32) -> Vector<D> + Sync),
     ) {
-        for i in 0..self.shells.len() {
-            let (me, bounds) = (Solid::Body(i), *self.shells[i].bounds());
-            let is_asked = counts([me, me])
-                || self.near.of(i).any(|j| counts([me, Solid::Body(j)]))
-                || self.skins.iter().zip(obstacles).enumerate().any(|(o, (skin, obstacle))| {
+        let Self { shells, skins, near, .. } = self;
+        let is_asked = |i: usize, bounds: &Aabb<D>| {
+            let me = Solid::Body(i);
+            counts([me, me])
+                || near.of(i).any(|j| counts([me, Solid::Body(j)]))
+                || skins.iter().zip(obstacles).enumerate().any(|(o, (skin, obstacle))| {
                     let shift = obstacle.shift(position);
                     let comes_near = skin.corners.iter().any(|x| bounds.contains(&(x + shift)))
                         || skin.edges.iter().any(|ends| bounds.overlaps(&Aabb::of(ends.map(|x| x + shift))));
                     comes_near && counts([me, Solid::Obstacle(o)])
-                });
-            if is_asked {
-                self.shells[i].fit();
-            }
-        }
+                })
+        };
+        each_group(shells, GROUP, |first, shells| {
+            (first..)
+                .zip(shells)
+                .filter(|(i, shell)| is_asked(*i, shell.bounds()))
+                .for_each(|(_, shell)| shell.fit());
+        });
     }
 }

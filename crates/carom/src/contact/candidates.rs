@@ -137,7 +137,7 @@ impl<const D: usize> Finder<D> {
         given: &Given<'_, D>,
         body: usize,
         reach: f64,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &(impl Fn(u32) -> Vector<D> + Sync),
     ) -> bool {
         let Self { search, missed, .. } = self;
         given.assembly.contact.detect_itself(body, &Path::resting(position, reach), search, missed);

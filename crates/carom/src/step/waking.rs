@@ -4,20 +4,22 @@ use carom_mesh::{Matrix, Vector, tensor};
 
 use super::control::WAKING;
 use super::workspace::Workspace;
+use crate::model::each_body::{PerBody, each_body};
 use crate::model::given::Given;
 use crate::model::state::State;
 
 /// Takes note of how far nodes of boundaries wander in the step, and which bodies may have gone through themselves since they were looked at.
 pub(super) fn wander<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) {
     let Workspace { motion, since_look, boundaries, .. } = work;
-    for (i, look) in since_look.iter_mut().enumerate() {
+    each_body(given.assembly, &given.assembly.everyone, PerBody(since_look), &|i, look| {
+        let look = look.own();
         let moving = boundaries.nodes(i).map(|n| {
             let d = motion[n as usize];
             (given.position(n) + d * 0.5, d)
         });
         look.in_step = against_one_another(moving);
         look.is_due = look.wandered + look.in_step > WAKING.unseen * boundaries.least_cell(i);
-    }
+    });
 }
 
 /// Wakes the bodies that have come near themselves and lets those sleep that have not. Returns whether one was found inside itself that nobody

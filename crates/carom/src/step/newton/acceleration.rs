@@ -10,6 +10,7 @@ use carom_mesh::{Vector, nodal};
 
 use super::control::CONTROL;
 use super::convergence::BodyProgress;
+use crate::model::each_body::{PerNode, each_body};
 use crate::model::given::Given;
 use crate::model::state::State;
 
@@ -171,7 +172,8 @@ impl<const D: usize> Acceleration<D> {
     ) {
         let mut together = Products::default();
         bodies.iter().filter(|&&i| touched[i]).for_each(|&i| together.add(&self.bodies[i].products));
-        for &i in bodies {
+        let all = (PerNode(motion), PerNode(&mut next.displacement));
+        each_body(given.assembly, bodies, all, &|i, (motion, moved)| {
             let nodes = given.assembly.nodes(i);
             let record = &self.bodies[i];
             let products = if touched[i] { &together } else { &record.products };
@@ -179,14 +181,12 @@ impl<const D: usize> Acceleration<D> {
             for (k, weight) in weights.into_iter().enumerate().filter(|&(_, weight)| weight != 0.0) {
                 let (guesses, corrections) =
                     (&self.guesses[k][nodes.clone()], &self.corrections[k][nodes.clone()]);
-                let motion = &mut motion[nodes.clone()];
-                nodal::each(motion, [guesses, corrections], |m, [d, f]| *m -= (d + f) * weight);
+                nodal::each(motion.0, [guesses, corrections], |m, [d, f]| *m -= (d + f) * weight);
             }
             if weights.iter().any(|&weight| weight != 0.0) {
-                let start = &given.state.displacement[nodes.clone()];
-                let moved = &mut next.displacement[nodes.clone()];
-                nodal::each(moved, [start, &motion[nodes]], |u1, [u0, d]| *u1 = u0 + d);
+                let start = &given.state.displacement[nodes];
+                nodal::each(moved.0, [start, motion.0], |u1, [u0, d]| *u1 = u0 + d);
             }
-        }
+        });
     }
 }
