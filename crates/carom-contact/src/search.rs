@@ -1,5 +1,5 @@
 use carom_mesh::Vector;
-use carom_mesh::parallel::each_group;
+use carom_mesh::parallel::{SURFACES, each_group};
 
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
@@ -9,9 +9,6 @@ use crate::project::Reach;
 use crate::surface::diameter;
 use crate::tolerances::SEARCH;
 use crate::{ContactModel, ContactSurface, Extents, Mortar, Pair, Path, Solid, Target};
-
-/// Surfaces that a thread takes at a time.
-pub(crate) const GROUP: usize = 32;
 
 /// What the search for contacts keeps from one call to the next: room for boxes, and the trees over them.
 ///
@@ -126,7 +123,7 @@ impl<const D: usize> Search<D> {
             // Its corners look for facets of the body.
             self.surfaces[pair.source].is_asked |= matches!(solid, Solid::Obstacle(_));
         }
-        each_group(&mut self.surfaces, GROUP, |first, surfaces| {
+        each_group(&mut self.surfaces, SURFACES, |first, surfaces| {
             let all = surfaces.iter_mut().zip(&model.surfaces[first..]);
             all.for_each(|(swept, surface)| swept.fit_asked(surface, path));
         });
@@ -202,7 +199,7 @@ impl<const D: usize> Search<D> {
         model: &ContactModel<D>,
         path: &Path<'_, D, S, E>,
     ) {
-        each_group(&mut self.surfaces, GROUP, |first, surfaces| {
+        each_group(&mut self.surfaces, SURFACES, |first, surfaces| {
             for (swept, surface) in surfaces.iter_mut().zip(&model.surfaces[first..]) {
                 if swept.is_source {
                     swept.sources = Aabb::of(surface.sources.iter().flat_map(|&n| path.ends(n)));

@@ -16,6 +16,8 @@ pub const NODES_PER_CELL: usize = 2;
 
 /// Nodes of several bodies from which a thread is worth waking for half of them.
 pub const BODIES: usize = 2 * CHUNK;
+/// Surfaces of bodies that a thread takes at a time.
+pub const SURFACES: usize = 32;
 
 /// Whether more than one thread may work.
 #[must_use]

@@ -46,9 +46,7 @@ def packed(
         if min(ways) < 0.0:
             break
         for _ in range(ATTEMPTS):
-            place = tuple(
-                low + way * random.random() for low, way in zip(lows, ways, strict=True)
-            )
+            place = tuple(low + way * random.random() for low, way in zip(lows, ways, strict=True))
             if all(math.dist(place, at) >= radius + r + gap for at, r in cells.near(place)):
                 cells.add(place, radius)
                 places[index] = place

@@ -75,7 +75,7 @@ class Grid(Description):
         """Yield the copies of a body, along the first axis first."""
         first = centre(body.mesh, len(self.counts))
         shift = self.shift or (0.0,) * len(first)
-        random = Random(self.seed)  # noqa: S311 (no secret)
+        random = Random(self.seed)
         for reverse in itertools.product(*(range(n) for n in reversed(self.counts))):
             odd = reverse[0] % 2
             place = [
@@ -144,7 +144,7 @@ class RandomPlaces(Description):
                 key="at.kind",
                 value=self.kind,
             )
-        random = Random(self.seed)  # noqa: S311 (no secret)
+        random = Random(self.seed)
         low, high = self.scales or (1.0, 1.0)
         scales = [low + (high - low) * random.random() for _ in range(self.count)]
         radii = [radius * scale for scale in scales]
@@ -220,7 +220,7 @@ class ListedPlaces(Description):
             for index, vector in enumerate(getattr(self, name)):
                 yield f"{path}{name}.{index}", vector
 
-    def copies(self, body: Body | RigidBody) -> Iterator[Copy]:  # noqa: ARG002 (as the others)
+    def copies(self, body: Body | RigidBody) -> Iterator[Copy]:
         """Yield the copies of a body."""
         for k, place in enumerate(self.places):
             yield Copy(

@@ -63,7 +63,8 @@ def test_random_copies_are_within_their_box_and_apart():
     )
     discs = [body.mesh for body in pile.bodies]
     radii = [disc.radius for disc in discs]
-    assert min(radii) < 0.03 < 0.07 < max(radii) <= 0.075
+    assert min(radii) < 0.03
+    assert 0.07 < max(radii) <= 0.075
     for k, disc in enumerate(discs):
         least = disc.radius + 2e-3 - 1e-15
         assert all(least <= x <= 1.0 - least for x in disc.centre)

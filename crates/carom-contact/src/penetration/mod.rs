@@ -14,13 +14,12 @@ mod shell;
 mod skin;
 mod way;
 
-use carom_mesh::parallel::each_group;
+use carom_mesh::parallel::{SURFACES, each_group};
 use carom_mesh::{Surface, Vector};
 
 use crate::Obstacle;
 use crate::aabb::Aabb;
 use crate::neighbours::Neighbours;
-use crate::search::GROUP;
 use deep::Deep;
 pub use feature::Feature;
 use shell::Shell;
@@ -146,7 +145,7 @@ impl<const D: usize> Boundaries<D> {
         position: &(impl Fn(u32) -> Vector<D> + Sync),
         mut found: impl FnMut(Penetration<D>),
     ) {
-        each_group(&mut self.shells, GROUP, |_, shells| {
+        each_group(&mut self.shells, SURFACES, |_, shells| {
             shells.iter_mut().for_each(|shell| shell.place(position));
         });
         self.near.find(self.shells.len(), 0.0, |i| self.shells[i].bounds());
@@ -208,7 +207,7 @@ impl<const D: usize> Boundaries<D> {
                 }
             }
         };
-        each_group(&mut inside[..shells.len()], GROUP, |first, inside| {
+        each_group(&mut inside[..shells.len()], SURFACES, |first, inside| {
             (first..).zip(inside).for_each(|(i, inside)| look(i, inside));
         });
     }
@@ -232,7 +231,7 @@ impl<const D: usize> Boundaries<D> {
                     comes_near && counts([me, Solid::Obstacle(o)])
                 })
         };
-        each_group(shells, GROUP, |first, shells| {
+        each_group(shells, SURFACES, |first, shells| {
             (first..)
                 .zip(shells)
                 .filter(|(i, shell)| is_asked(*i, shell.bounds()))

@@ -16,18 +16,12 @@ pub(crate) struct Coupling {
     /// Contacts, each with the place of the one listed before at the same node.
     links: Vec<(u32, u32)>,
     of_body: Vec<Vec<u32>>,
-    partners: Vec<u32>,
 }
 
 impl Coupling {
     /// For a model with so many nodes and bodies.
     pub fn new(nodes: usize, bodies: usize) -> Self {
-        Self {
-            last: vec![END; nodes],
-            links: Vec::new(),
-            of_body: vec![Vec::new(); bodies],
-            partners: Vec::new(),
-        }
+        Self { last: vec![END; nodes], links: Vec::new(), of_body: vec![Vec::new(); bodies] }
     }
 
     /// Lists `contacts` by node and body.
@@ -52,15 +46,15 @@ impl Coupling {
         nodes.filter(|&node| assembly.body_of(node).is_some()).for_each(|node| self.last[node] = END);
     }
 
-    /// The contacts that may respond to `contact`, number `i`, and itself, ascending.
+    /// Writes the contacts that may respond to `contact`, number `i`, and itself, ascending, to `partners`.
     pub fn partners<const D: usize>(
-        &mut self,
+        &self,
         assembly: &Assembly<D>,
         compliances: &[Compliance<D>],
-        i: usize,
-        contact: &Contact<D>,
-    ) -> &[u32] {
-        let Self { last, links, of_body, partners } = self;
+        (i, contact): (usize, &Contact<D>),
+        partners: &mut Vec<u32>,
+    ) {
+        let Self { last, links, of_body } = self;
         partners.clear();
         partners.push(i as u32);
         let mut whole = None;
@@ -86,6 +80,5 @@ impl Coupling {
         }
         partners.sort_unstable();
         partners.dedup();
-        partners
     }
 }

@@ -2,6 +2,7 @@
 
 use carom_contact::Contact;
 use carom_friction::ContactProblem;
+use carom_mesh::parallel::each_group;
 use carom_mesh::{Matrix, Vector};
 
 use super::active::ActiveSet;
@@ -18,8 +19,29 @@ pub(crate) struct Delassus<const D: usize> {
     coupling: Coupling,
     /// The tangents of a load step.
     pub stiffened: Stiffened<D>,
-    /// A row of W on its way to the problem.
-    row_blocks: Vec<(usize, Matrix<D>)>,
+    /// Rows of W on their way to the problem.
+    rows: Vec<Row<D>>,
+    /// One of them, complete.
+    for_row: Vec<(usize, Matrix<D>)>,
+}
+
+/// What threads make of a row of W.
+#[derive(Debug, Clone)]
+struct Row<const D: usize> {
+    /// The contacts that may respond, ascending.
+    partners: Vec<u32>,
+    /// What their blocks are, but of those before it whose rows have them.
+    blocks: Vec<Option<Matrix<D>>>,
+}
+
+/// Rows that are made before they are put where they belong, and rows that a thread takes at a time.
+const ROWS: usize = 256;
+const GROUP: usize = 16;
+
+impl<const D: usize> Default for Row<D> {
+    fn default() -> Self {
+        Self { partners: Vec::new(), blocks: Vec::new() }
+    }
 }
 
 impl<const D: usize> Delassus<D> {
@@ -30,7 +52,8 @@ impl<const D: usize> Delassus<D> {
             compliances: bodies.map(|i| Compliance::new(assembly.nodes(i).len())).collect(),
             coupling: Coupling::new(assembly.node_count(), assembly.body_count()),
             stiffened: Stiffened::new(assembly),
-            row_blocks: Vec::new(),
+            rows: Vec::new(),
+            for_row: Vec::new(),
         }
     }
 
@@ -49,29 +72,26 @@ impl<const D: usize> Delassus<D> {
     ) {
         let stiffened = self.stiffened.is_needed();
         let leaves_out = self.stiffened.leaves_out();
-        let Self { compliances, coupling, row_blocks, stiffened: tangent } = self;
+        let Self { compliances, coupling, rows, for_row, stiffened: tangent } = self;
         let ActiveSet { contacts, reactions, .. } = active;
         problem.w.clear();
         problem.q.clear();
         problem.mu.clear();
         problem.mu.extend_from_slice(&active.friction);
         coupling.list(assembly, contacts);
-        for (i, row) in contacts.iter().enumerate() {
-            let mut q = row.relative(|n| motion[n]);
-            q += offsets[i];
-            if leaves_out {
-                q[0] += tangent.unseen(i);
+        let make = |i: usize, Row { partners, blocks }: &mut Row<D>| {
+            let row = &contacts[i];
+            if stiffened {
+                // Through one another's contacts all respond to all.
+                partners.clear();
+                partners.extend(0..contacts.len() as u32);
+            } else {
+                coupling.partners(assembly, compliances, (i, row), partners);
             }
-            problem.q.push(q);
-            row_blocks.clear();
-            // Through one another's contacts all respond to all.
-            let all = if stiffened { 0..contacts.len() as u32 } else { 0..0 };
-            let near = if stiffened { &[] } else { coupling.partners(assembly, compliances, i, row) };
-            for j in all.chain(near.iter().copied()) {
-                let j = j as usize;
-                // W is symmetric, also where round-off is not, unless rows leave something out.
-                let block = if j < i && !leaves_out {
-                    problem.w.block(j, i).map(Matrix::transpose)
+            blocks.clear();
+            blocks.extend(partners.iter().map(|&j| j as usize).map(|j| {
+                if j < i && !leaves_out {
+                    None
                 } else if stiffened {
                     let mut block = stiffened_block(tangent, row, &contacts[j]);
                     if leaves_out {
@@ -80,22 +100,45 @@ impl<const D: usize> Delassus<D> {
                     Some(block)
                 } else {
                     coupling_block(assembly, compliances, row, &contacts[j])
-                };
-                let Some(mut block) = block.or_else(|| (i == j).then(Matrix::zeros)) else { continue };
-                if i == j {
-                    // A stand-in, which moves nothing: it has no part in the motion.
-                    let support = support(assembly, row, &q, motion, &block);
-                    problem.q[i] += support * reactions[i];
-                    block += support;
                 }
-                row_blocks.push((j, block));
+            }));
+        };
+        rows.resize_with(rows.len().max(contacts.len().min(ROWS)), Row::default);
+        for (batch, of_batch) in contacts.chunks(ROWS).enumerate() {
+            let (first, rows) = (batch * ROWS, &mut rows[..of_batch.len()]);
+            each_group(rows, GROUP, |offset, rows| {
+                (first + offset..).zip(rows).for_each(|(i, row)| make(i, row));
+            });
+            for ((i, contact), row) in (first..).zip(of_batch).zip(&*rows) {
+                let mut q = contact.relative(|n| motion[n]);
+                q += offsets[i];
+                if leaves_out {
+                    q[0] += tangent.unseen(i);
+                }
+                problem.q.push(q);
+                let partners = row.partners.iter().map(|&j| j as usize).zip(&row.blocks);
+                let w = &problem.w;
+                // W is symmetric, also where round-off is not, unless rows leave something out.
+                let known = |(j, block): (usize, &Option<Matrix<D>>)| {
+                    let before = || (j < i && !leaves_out).then(|| w.block(j, i).map(Matrix::transpose))?;
+                    Some((j, block.or_else(before).or_else(|| (i == j).then(Matrix::zeros))?))
+                };
+                for_row.clear();
+                for_row.extend(partners.filter_map(known));
+                for (_, block) in for_row.iter_mut().filter(|(j, _)| *j == i) {
+                    // A stand-in, which moves nothing: it has no part in the motion.
+                    let support = support(assembly, contact, &q, motion, block);
+                    problem.q[i] += support * reactions[i];
+                    *block += support;
+                }
+                problem.w.push_row(for_row.drain(..));
             }
-            problem.w.push_row(row_blocks.drain(..));
         }
         coupling.forget(assembly, contacts);
-        for (i, q) in problem.q.iter_mut().enumerate() {
-            *q -= problem.w.row_times(i, reactions);
-        }
+        let ContactProblem { w, q, .. } = problem;
+        each_group(q, ROWS, |first, q| {
+            (first..).zip(q).for_each(|(i, q)| *q -= w.row_times(i, reactions));
+        });
     }
 }
 
