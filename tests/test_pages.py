@@ -63,6 +63,7 @@ def test_the_tutorial_shows_the_case_and_the_table_of_its_run(desk, monkeypatch)
     [
         "README.md",
         "docs/tutorial.md",
+        "docs/how-to/impacts.md",
         "docs/how-to/many-bodies.md",
         "docs/how-to/own-steps.md",
         "docs/how-to/plant-carom-in-your-code.md",
@@ -90,7 +91,7 @@ def test_the_case_of_many_bodies_runs(tmp_path):
     (case,) = blocks("docs/how-to/many-bodies.md", "toml")
     file = tmp_path / "pile.toml"
     file.write_text(case, encoding="utf-8")
-    result = carom.run(carom.Scenario.from_toml(file))
+    result = carom.run(carom.Scenario.from_toml(file), out=tmp_path / "results")
     assert len(result.scenario.bodies) == 30
     energy = result.summary["energy"]
     assert abs(energy["defect"]) < 1e-12 * energy["initial"]

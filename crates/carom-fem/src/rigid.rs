@@ -102,6 +102,45 @@ impl<const D: usize> Body<D> {
     }
 }
 
+/// The kinetic energy of a body by what moves [J].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct KineticParts {
+    /// Of the centre of mass, ½ m v².
+    pub translation: f64,
+    /// Of the turn about it as a rigid body of the present shape, ½ ω·J ω.
+    pub rotation: f64,
+    /// The rest, with which the body moves in itself.
+    pub vibration: f64,
+}
+
+impl<const D: usize> Body<D> {
+    /// Splits the kinetic energy at displacements `u` [m] and velocities `v` [m/s].
+    ///
+    /// The velocities are taken apart into those of a rigid body of the same momentum and angular momentum, and the rest, which is at right
+    /// angles to them in the mass matrix: the parts add up to the whole, and none is negative but for round-off. A body of revolution, or one
+    /// that repeats itself, does not turn.
+    #[must_use]
+    pub fn kinetic_parts(&self, u: &[Vector<D>], v: &[Vector<D>]) -> KineticParts {
+        let mut mv = vec![Vector::zeros(); v.len()];
+        self.mass().multiply(v, &mut mv);
+        let whole = 0.5 * nodal::dot(v, &mv);
+        let momentum = self.resultant(nodal::total(&mv));
+        let translation = 0.5 * momentum.norm_squared() / self.total_mass();
+        let rotation = if self.is_axisymmetric() || !self.mesh().ties().is_empty() {
+            0.0
+        } else {
+            let mut arms = vec![Vector::zeros(); v.len()];
+            let rigid = self.rigid_mass(u, &mut arms);
+            let own = self.angular_momentum(u, &mv);
+            let orbit = tensor::cross(&rigid.centre, &momentum);
+            let spin: [f64; 3] = std::array::from_fn(|i| own[i] - orbit[i]);
+            let (_, turn) = rigid.acceleration(&Vector::zeros(), &spin);
+            0.5 * (0..3).map(|i| turn[i] * spin[i]).sum::<f64>()
+        };
+        KineticParts { translation, rotation, vibration: whole - translation - rotation }
+    }
+}
+
 /// Mass, centre and inertia of a body in some configuration.
 ///
 /// With them a force of given resultant and moment is spread over the body as M(a + ω × y), y from the centre. This force

@@ -58,6 +58,7 @@ pub use run::crushed::Crushed;
 pub use run::describe::{BodyDescription, Description, PairDescription};
 pub use run::error::RunError;
 pub use run::events::ContactEvent;
+pub use run::impact::Impact;
 pub use run::nominal_step::NominalStep;
 pub use run::simulation::{Fields, Outcome, Progress, Simulation, StepPair};
 pub use run::summary::Summary;

@@ -20,6 +20,10 @@ STEADYING = 0.1
 """Resistance of a node without mass to a change of its motion, in terms of what holds it."""
 
 
+KINETIC_PARTS = ("translation", "rotation", "vibration")
+"""What kinetic energy is split into, as `AuditBody.kinetic_parts` returns it."""
+
+
 class AuditBody:
     """One body of a case. All arrays are in its own numbering of nodes.
 
@@ -163,6 +167,23 @@ class AuditBody:
         own = float(cross(self.points + u, self.mass.times(v)).sum())
         more = self.inertia - self._solid_inertia
         return own + (more * self.spin(u, v) if more else 0.0)
+
+    def kinetic_parts(self, u: Array, v: Array) -> tuple[float, float, float]:
+        """Return that of the centre, of the turn as a rigid body, and the rest [J].
+
+        A body that repeats itself does not turn.
+        """
+        momentum = self.mass.times(v).sum(axis=0)
+        translation = 0.5 * float(momentum @ momentum) / float(self.mass.nodal.sum())
+        rotation = 0.0
+        if not self.images.size:
+            centre = self.mass.mean(self.points + u)
+            arms = self.points + u - centre
+            inertia = float((arms * self.mass.times(arms)).sum())
+            inertia += self.inertia - self._solid_inertia
+            moment = self.angular_momentum(u, v) - float(cross(centre, momentum))
+            rotation = 0.5 * moment**2 / inertia
+        return translation, rotation, self.kinetic_energy(v) - translation - rotation
 
     def spin(self, u: Array, v: Array) -> float:
         """Return Σ m y × (v − v̄) / Σ m |y|² about the centre [rad/s]."""

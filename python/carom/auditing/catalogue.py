@@ -20,6 +20,8 @@ CHECKS: dict[str, tuple[str, str]] = {
     "kinetic energy": ("history: ½ vᵀM v", "J"),
     "strain energy": ("history: ∫ψ dV", "J"),
     "total energy": ("history: their sum", "J"),
+    "kinetic parts": ("history: energy of centres, of turning, and the rest, by body", "J"),
+    "body strain": ("history: ∫ψ dV of every body", "J"),
     "momentum": ("history: Σ M v", "kg m/s"),
     "angular momentum": ("history: Σ x × M v", "kg m²/s"),
     "centres": ("history: centres of mass", "m"),
@@ -33,6 +35,7 @@ CHECKS: dict[str, tuple[str, str]] = {
     # All rows of the history.
     "row times": ("rows are at ends of nominal steps, in order", "s"),
     "row: total": ("total = kinetic + strain", "J"),
+    "row: parts": ("energies add up over bodies, kinetic ones over what moves", "J"),
     "row: defect": ("defect = change of energy less the other terms of the ledger", "J"),
     "row: step defect": (
         "the defect changes by those of the steps, of which the largest is said",

@@ -44,6 +44,8 @@ class Event:
         The pair, as the ledger calls it.
     onset, release
         First and last time with a reaction [s]; infinite while it may go on.
+    has_impact
+        Whether it says what the impact did.
     peak
         Largest normal force [N].
     friction
@@ -54,6 +56,7 @@ class Event:
     pair: str
     onset: float
     release: float
+    has_impact: bool
     peak: float
     friction: float
 
@@ -115,6 +118,7 @@ class EventChecks:
                 release=np.inf if event["release"] is None else float(event["release"]),
                 peak=_number(event["peak_force"]),
                 friction=_number(event["friction_work"]),
+                has_impact=event.get("impact") is not None,
             )
             for index, event in enumerate(summary["contacts"])
         ]
@@ -207,6 +211,8 @@ class EventChecks:
         rows, check = self._rows, self._check
         at = f"{event.pair}, event {event.index}"
         check("events: times", max(event.onset - event.release, 0.0), 0.0, f"{at}, order")
+        differ = float(event.has_impact == np.isinf(event.release))
+        check("events: times", differ, 0.0, f"{at}, impacts are of contacts that have ended")
         if first:
             touch = self._first[event.pair]
             before = rows.times[touch - 1] if touch else -np.inf
@@ -231,6 +237,12 @@ class EventChecks:
                 "when an event began, where not every step has a row or others press too",
                 f"summary.json: contacts.{event.index}.onset",
                 store=STORE,
+            )
+        if event.has_impact:
+            self._leave(
+                "what an impact did: how bodies moved in themselves at its start and its end",
+                f"summary.json: contacts.{event.index}.impact",
+                store="",
             )
         if not self._release_is_known(event):
             self._leave(

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from carom.auditing.arrays import Array
-from carom.auditing.body import AuditBody
+from carom.auditing.body import KINETIC_PARTS, AuditBody
 from carom.auditing.contacts import smallest_gaps
 from carom.auditing.files import Frame
 from carom.auditing.inside import deepest_node
@@ -145,6 +145,11 @@ class FrameChecks:
         self._check("centres", stored("x", "y") - centre, self._round_off_of_places(), at)
         drift = body.mass.mean(v)
         self._check("drifts", stored("v_x", "v_y") - drift, SAFETY * ROUND_OFF * speed, at)
+        parts = np.array(body.kinetic_parts(u, v))
+        off = SAFETY * ROUND_OFF * self._scales.energy
+        self._check("kinetic parts", stored(*KINETIC_PARTS) - parts, off, at)
+        off += self._scales.strain(body, u)
+        self._check("body strain", stored("strain")[0] - body.strain_energy(u), off, at)
         radius = float(np.ptp(body.points, axis=0).max())
         off = SAFETY * ROUND_OFF * speed * (1 + self._scales.reach / radius) / radius
         self._check("spins", stored("spin") - body.spin(u, v), off, at)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.auditing.arrays import Array
+from carom.auditing.body import KINETIC_PARTS
 from carom.auditing.check_steps import LARGEST_BLEND
 from carom.auditing.check_summary import SUMMED
 from carom.auditing.model import AuditModel
@@ -90,10 +91,20 @@ class RowChecks:
         missing = missing[missing < times[-1] - GRID * self._dt]
         self._findings.check("row times", float(len(missing)), 0.0, "rows that are due")
 
+    def _parts(self, off: float) -> None:
+        """Check that energies add up over bodies, and kinetic ones over what moves."""
+        h = self._history
+        bodies = [body.name for body in self._model.bodies]
+        for part in (*KINETIC_PARTS, "strain"):
+            of_bodies = sum(h[f"{name}.{part}"] for name in bodies)
+            self._check("row: parts", h[part] - of_bodies, off)
+        self._check("row: parts", h["kinetic"] - sum(h[part] for part in KINETIC_PARTS), off)
+
     def _energies(self) -> None:
         h = self._history
         off = ROUND_OFF * self._scales.energy
         self._check("row: total", h["total"] - h["kinetic"] - h["strain"], off)
+        self._parts(off)
         # Energies are those of the state, all others sums since the start.
         known = sum(
             term.sign * (h[term.name] - (h[term.name][0] if term.side == "stored" else 0.0))

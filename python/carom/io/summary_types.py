@@ -83,14 +83,35 @@ class PairSummary(PairTerms):
     has_touched: bool
 
 
+class ImpactSummary(TypedDict):
+    """What two solids did to one another from the onset of a contact to its release.
+
+    Impulses [N s], speeds [m/s], coefficients of restitution, and changes of their energies [J].
+    """
+
+    impulse: float
+    friction_impulse: float
+    approach: float
+    restitution: float | None
+    sliding: float
+    tangential_restitution: float | None
+    translation: float
+    rotation: float
+    vibration: float
+    strain: float
+    plastic: float
+    viscous: float
+
+
 class ContactEvent(TypedDict):
-    """A contact of a pair; it has no release while the pair may still be touching."""
+    """A contact of a pair; it has no release, and no impact, while the pair may be touching."""
 
     pair: list[str]
     onset: float
     release: float | None
     peak_force: float
     friction_work: float
+    impact: NotRequired[ImpactSummary | None]
 
 
 class CrossCheckSummary(TypedDict):

@@ -31,6 +31,7 @@ _UNITS = {
     **dict.fromkeys(("x", "y", "z", "u", "min_gap", "penetration"), "m"),
     **dict.fromkeys(("v", "vmid"), "m/s"),
     "spin": "rad/s",
+    **dict.fromkeys(("translation", "rotation", "vibration"), "J"),
     **dict.fromkeys(("force", "normal_force"), "N"),
     "shortest_step": "s",
 }
@@ -59,6 +60,18 @@ _PANELS = (
         "Energy that the ledger does not explain",
         "J",
         (("defect", "defect", "red"), ("step_defect", "worst step", "grey")),
+    ),
+    _Panel(
+        "motion",
+        "How bodies move as a whole, and in themselves",
+        "J",
+        (
+            ("translation", "translation", "blue"),
+            ("rotation", "rotation", "green"),
+            ("vibration", "vibration", "orange"),
+            ("strain", "strain", "purple"),
+        ),
+        when="translation",
     ),
     _Panel("force", "Normal force, all contacts", "N", (("normal_force", "normal force", "blue"),)),
     _Panel(

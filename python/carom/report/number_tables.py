@@ -97,6 +97,55 @@ def _contact_row(index: int, contact: Summary) -> Html:
     )
 
 
+_IMPACT = (
+    ("translation", "translation"),
+    ("rotation", "rotation"),
+    ("vibration", "vibration"),
+    ("strain", "strain"),
+    ("plastic", "plastic"),
+    ("viscous", "damping"),
+)
+
+
+def impact_table(summary: Summary) -> Html | None:
+    """Return what every impact that has ended did to the energy of its two."""
+    contacts = summary.get("contacts") or ()
+    impacts = [(k, contact) for k, contact in enumerate(contacts) if contact.get("impact")]
+    if not impacts:
+        return None
+    shown = [
+        (name, title)
+        for name, title in _IMPACT
+        if any(contact["impact"][name] != 0.0 for _, contact in impacts)
+    ]
+    titles = ["impulse [N s]", "restitution", "tangential"]
+    titles += [f"{title} [J]" for title in (*(title for _, title in shown), "friction")]
+    head = element(
+        "tr",
+        element("th", "between", scope="col"),
+        *(element("th", title, scope="col", class_="number") for title in titles),
+    )
+    names = ("impulse", "restitution", "tangential_restitution", *(name for name, _ in shown))
+    rows = []
+    for index, contact in impacts:
+        cells = [
+            number(contact["impact"][name], f"contacts.{index}.impact.{name}")
+            if contact["impact"][name] is not None
+            else "–"
+            for name in names
+        ]
+        cells.append(number(contact["friction_work"], f"contacts.{index}.friction_work"))
+        between = " – ".join(map(str, contact["pair"]))
+        rows.append(
+            element(
+                "tr",
+                element("th", between, scope="row"),
+                *(element("td", cell, class_="number") for cell in cells),
+            )
+        )
+    return element("table", element("thead", head), element("tbody", *rows))
+
+
 def body_table(summary: Summary) -> Html | None:
     """Return the books of every body."""
     return _books(summary, "bodies", lambda entry: str(entry["name"]), skip=("name",))

@@ -23,6 +23,7 @@ from carom.report.number_tables import (
     body_table,
     contact_table,
     energy_table,
+    impact_table,
     pair_table,
     stage_table,
 )
@@ -92,6 +93,9 @@ def page(source: Source) -> str:
         energy=_section("Where the energy went", "energy-table", energy_table(source.summary)),
         stages=_section("Books of the stages", "stage-table", stage_table(source.summary)),
         contacts=_section("Contact events", "contact-table", contact_table(source.summary)),
+        impacts=_section(
+            "What impacts did to the energy", "impact-table", impact_table(source.summary)
+        ),
         bodies=_section("Books of the bodies", "body-table", body_table(source.summary)),
         pairs=_section("Books of the pairs", "pair-table", pair_table(source.summary)),
         case=_case(source),

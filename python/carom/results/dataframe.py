@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 from carom import ledger_terms
 from carom.errors import InputError
+from carom.io.summary_types import ImpactSummary
 from carom.messages import known
 from carom.system.extras import needed
 
@@ -30,9 +31,16 @@ def data_frame(result: Result, table: Table) -> pandas.DataFrame:
         frame = pd.concat(entries, names=["entry", None]).reset_index(level=1, drop=True)
         frame = frame.set_index("time", append=True)
     elif table == "contacts":
-        numbers = dict.fromkeys(("onset", "release", "peak_force", "friction_work"), float)
+        names = ("onset", "release", "peak_force", "friction_work")
+        of_impact = tuple(ImpactSummary.__annotations__)
+        numbers = dict.fromkeys((*names, *of_impact), float)
         rows = [
-            {**event, "first": event["pair"][0], "second": event["pair"][1]}
+            {
+                **event,
+                **(event.get("impact") or {}),
+                "first": event["pair"][0],
+                "second": event["pair"][1],
+            }
             for event in summary["contacts"]
         ]
         frame = pd.DataFrame(rows, columns=["first", "second", *numbers]).astype(numbers)

@@ -136,7 +136,8 @@ class Result:
         table
             ``"history"``: the columns of ``history.csv`` by time. ``"ledger"``: the energy terms of
             bodies and pairs [J] by entry and time. ``"contacts"``: the contact events with onset
-            and release [s], peak force [N] and friction work [J]. ``"bodies"`` and ``"pairs"``:
+            and release [s], peak force [N], friction work [J], and what the impact did: impulses
+            [N s], coefficients of restitution, changes of energy [J]. ``"bodies"`` and ``"pairs"``:
             their energy terms at the end [J]. ``"stages"``: when each began and ended [s], its
             steps and its own energy terms [J].
 

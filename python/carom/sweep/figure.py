@@ -23,6 +23,12 @@ CURVES = (
 )
 """Column of the table and label of each diagram; times are told in the unit that suits them."""
 
+OF_IMPACTS = (
+    ("restitution", "restitution"),
+    ("tangential_restitution", "tangential restitution"),
+)
+"""Those of studies in which something bounced."""
+
 ENERGIES = ("energy_initial", "energy_final", "friction", "plastic")
 """Columns that one energy is compared with the others of."""
 
@@ -55,9 +61,11 @@ def sweep_figure(title: str, keys: Sequence[str], rows: Sequence[Mapping[str, An
     ticks = {word: n for n, word in enumerate(dict.fromkeys(_word(one[first]) for one in rows))}
     curves = dict.fromkeys(tuple(_word(one[key]) for key in others) for one in rows)
     unit = time_unit(_largest(completed, ["contact_time"]))
-    with figure(height=5.0) as picture:
-        diagrams = picture.subplots(2, 2, sharex=True).ravel()
-        for (column, label), axes in zip(CURVES, diagrams, strict=True):
+    has_impacts = any(one.get("restitution") is not None for one in completed)
+    drawn = (*CURVES, *(OF_IMPACTS if has_impacts else ()))
+    with figure(height=2.5 * len(drawn) / 2) as picture:
+        diagrams = picture.subplots(len(drawn) // 2, 2, sharex=True).ravel()
+        for (column, label), axes in zip(drawn, diagrams, strict=True):
             for number, curve in enumerate(curves):
                 mine = [
                     (
@@ -79,7 +87,7 @@ def sweep_figure(title: str, keys: Sequence[str], rows: Sequence[Mapping[str, An
             axes.ticklabel_format(axis="y", useOffset=False)  # +2.799e6 above is not read
             size = _largest(completed, ENERGIES if column in ENERGIES else [column])
             _keep_flat(axes, size / (unit.seconds if column == "contact_time" else 1.0))
-        for axes in diagrams[2:]:
+        for axes in diagrams[-2:]:
             axes.set_xlabel(first, parse_math=False)
             if not numeric:
                 axes.set_xticks(list(ticks.values()), list(ticks))

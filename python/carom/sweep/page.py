@@ -19,7 +19,7 @@ from carom.io import layout
 from carom.report.assembly import asset, elements, policy
 from carom.report.writing import write_page
 from carom.sweep.study import folder
-from carom.sweep.table import FIGURES, PICTURE, TABLE, TITLES
+from carom.sweep.table import COEFFICIENTS, FIGURES, PICTURE, TABLE, TITLES
 
 SCRIPTS = ("codec.js", "theme.js", "format.js", "save.js", "study.js")
 
@@ -63,9 +63,10 @@ def read_study(directory: Path) -> Study:
     try:
         with path.open(encoding="utf-8", newline="") as file:
             reader = csv.DictReader(file, strict=True)
-            # Versions before the column had none to tell of.
-            rows = tuple({"warnings": "", **row} for row in reader)
-            columns = [*(reader.fieldnames or ()), "warnings"]
+            # Versions before these columns had none to tell of.
+            later = ("warnings", *COEFFICIENTS)
+            rows = tuple({**dict.fromkeys(later, ""), **row} for row in reader)
+            columns = [*(reader.fieldnames or ()), *later]
     except (csv.Error, UnicodeDecodeError) as error:
         raise InputError(f"{path}: cannot be read: {error}") from None
     missing = [name for name in ("status", "reason", *FIGURES) if name not in columns]

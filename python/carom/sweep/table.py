@@ -25,12 +25,18 @@ FIGURES = (
     "first_touch",
     "contact_time",
     "peak_force",
+    "restitution",
+    "tangential_restitution",
     "min_gap",
     "steps",
     "wall_s",
     "warnings",
 )
-"""Columns: energies [J], contact events, times [s], force [N], gap [m], codes of warnings."""
+"""Columns: energies [J], contact events, times [s], force [N], coefficients of the first impact,
+gap [m], codes of warnings."""
+
+COEFFICIENTS = ("restitution", "tangential_restitution")
+"""Those of them that are of the first impact that has them."""
 
 TITLES = {
     "energy_initial": "initial energy [J]",
@@ -42,6 +48,8 @@ TITLES = {
     "first_touch": "first touch [s]",
     "contact_time": "contact time [s]",
     "peak_force": "peak force [N]",
+    "restitution": "restitution of the first impact",
+    "tangential_restitution": "tangential restitution of the first impact",
     "min_gap": "smallest gap [m]",
     "steps": "steps",
     "wall_s": "wall time [s]",
@@ -72,6 +80,7 @@ def row(values: Mapping[str, Any], summary: Mapping[str, Any]) -> dict[str, Any]
         if "contacts" in summary
         else None,
         "peak_force": max((e["peak_force"] for e in events), default=None),
+        **{name: _of_first_impact(events, name) for name in COEFFICIENTS},
         "min_gap": summary.get("min_gap"),
         "steps": summary.get("steps"),
         "wall_s": summary.get("wall_s"),
@@ -79,6 +88,12 @@ def row(values: Mapping[str, Any], summary: Mapping[str, Any]) -> dict[str, Any]
     }
     status = {"status": summary["status"], "reason": summary.get("reason", "")}
     return {**values, **status, **figures}
+
+
+def _of_first_impact(events: Sequence[Mapping[str, Any]], name: str) -> float | None:
+    """Return a coefficient of the first contact event that has it."""
+    found = (impact[name] for event in events if (impact := event.get("impact")))
+    return next((value for value in found if value is not None), None)
 
 
 def spare_other_study(path: Path, keys: Sequence[str]) -> None:

@@ -10,6 +10,7 @@ use crate::model::assembly::Assembly;
 use crate::run::account::Account;
 use crate::run::events::{ContactEvent, EventLog};
 use crate::run::history::History;
+use crate::run::impact::Impact;
 use crate::run::totals::{Totals, Worst};
 use crate::step::free_motion::FreeMotion;
 use crate::step::report::Inside;
@@ -171,6 +172,7 @@ fn events<const D: usize>(archive: &mut Archive<'_>, assembly: &Assembly<D>, log
                 release: None,
                 peak_force: 0.0,
                 friction_work: 0.0,
+                impact: None,
             })
         };
         let events: Option<Vec<ContactEvent>> = places.iter().map(event).collect();
@@ -180,11 +182,22 @@ fn events<const D: usize>(archive: &mut Archive<'_>, assembly: &Assembly<D>, log
     let sizes = log.events.iter_mut().flat_map(|e| [&mut e.onset, &mut e.peak_force, &mut e.friction_work]);
     archive.numbers("events/sizes", sizes)?;
     archive.optional("events/release", log.events.iter_mut().map(|e| &mut e.release))?;
-    // The last event of pairs, and until when it lasts.
+    let mut have_ended: Vec<bool> = log.events.iter().map(|e| e.impact.is_some()).collect();
+    archive.flags("events/have_ended", &mut have_ended)?;
+    if archive.replays() {
+        let impacts = have_ended.iter().map(|ended| ended.then(Impact::default));
+        log.events.iter_mut().zip(impacts).for_each(|(event, impact)| event.impact = impact);
+    }
+    let impacts = log.events.iter_mut().filter_map(|e| e.impact.as_mut());
+    archive.numbers("events/impacts", impacts.flat_map(Impact::numbers_mut))?;
+    let impacts = log.events.iter_mut().filter_map(|e| e.impact.as_mut());
+    archive.optional("events/restitutions", impacts.flat_map(Impact::optional_mut))?;
+    // The last contact of pairs, and until when it lasts.
     by_pair(archive, "events/between", pairs, &mut log.last)?;
-    archive.integers("events/last", log.last.values_mut().map(|(event, _)| event))?;
-    archive.numbers("events/until", log.last.values_mut().map(|(_, until)| until))?;
-    if log.last.values().any(|&(event, _)| event >= count) {
+    archive.integers("events/last", log.last.values_mut().map(|last| &mut last.event))?;
+    archive.numbers("events/until", log.last.values_mut().map(|last| &mut last.until))?;
+    archive.numbers("events/touching", log.last.values_mut().flat_map(|last| last.touching.numbers_mut()))?;
+    if log.last.values().any(|last| last.event >= count) {
         return Err(CheckpointError::new("events/last", "names an event that is not there"));
     }
     Ok(())

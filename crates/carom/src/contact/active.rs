@@ -8,7 +8,7 @@ use crate::body::Body;
 use crate::model::assembly::Assembly;
 use crate::model::condition::{Opening, impact_offset};
 use crate::model::given::Given;
-use crate::model::state::Reaction;
+use crate::model::state::{Reaction, State};
 
 /// The contacts that take part in a step, in the order of their candidates.
 #[derive(Debug, Default)]
@@ -231,6 +231,14 @@ impl<const D: usize> ActiveSet<D> {
             let (k, reaction) = reactions.next_if(|(_, r)| r.key() == candidate.key())?;
             Some((i, k, reaction))
         })
+    }
+
+    /// The reactions [N] of contact `k` at the start and the end of a blended step; those that are lost come after the others.
+    pub fn forces(&self, k: usize, state: &State<D>, weight: f64) -> [Vector<D>; 2] {
+        match k.checked_sub(self.contacts.len()) {
+            None => [self.start_forces[k], self.reactions[k] / weight],
+            Some(lost) => [state.reactions[self.lost[lost]].force, Vector::zeros()],
+        }
     }
 
     /// Adds the reactions known so far to `forces` [N].

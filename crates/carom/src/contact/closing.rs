@@ -59,7 +59,9 @@ pub(crate) fn keep<const D: usize>(
 
 /// The work of a reaction over a step [J].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ReactionWork {
+pub(crate) struct ReactionWork<const D: usize> {
+    /// What of the reaction counts [N], in the frame of its contact.
+    pub force: Vector<D>,
     /// Of its normal part.
     pub normal: f64,
     /// Of prescribed motion and of interference that grows.
@@ -73,7 +75,7 @@ pub(crate) fn for_each_work<const D: usize>(
     given: &Given<'_, D>,
     motion: &[Vector<D>],
     ends: [&[Reaction<D>]; 2],
-    mut book: impl FnMut(&Reaction<D>, ReactionWork),
+    mut book: impl FnMut(&Reaction<D>, ReactionWork<D>),
 ) {
     for (end, reactions) in ends.into_iter().enumerate() {
         for reaction in reactions {
@@ -87,6 +89,7 @@ pub(crate) fn for_each_work<const D: usize>(
             // What pushes the surfaces apart does the work of its growth; the rest is that of the reactions themselves.
             let widening = h1 - h0;
             let work = ReactionWork {
+                force,
                 normal: force[0] * (w[0] - widening),
                 prescribed: driven(given.assembly, contact, &force, motion) + force[0] * widening,
                 dissipation: -(1..D).map(|t| force[t] * w[t]).sum::<f64>(),

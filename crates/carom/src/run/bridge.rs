@@ -52,7 +52,7 @@ impl<const D: usize> Stepper<'_, D> {
     pub(super) fn bridge(
         &mut self,
         end: f64,
-        observe: &mut impl FnMut(&State<D>, &StepReport, &Workspace<D>),
+        observe: &mut impl FnMut([&State<D>; 2], &StepReport, &Workspace<D>),
     ) -> bool {
         let mut push = self.push();
         let leads_there = self.cross_all(end, &mut push, observe);
@@ -69,7 +69,7 @@ impl<const D: usize> Stepper<'_, D> {
         &mut self,
         end: f64,
         push: &mut Option<Push<D>>,
-        observe: &mut impl FnMut(&State<D>, &StepReport, &Workspace<D>),
+        observe: &mut impl FnMut([&State<D>; 2], &StepReport, &Workspace<D>),
     ) -> bool {
         let waves = self.model.bodies.iter().filter_map(|b| Some(b.body.mesh().diameter() / b.wave_speed()?));
         let time = waves.fold(0.0, f64::max);
@@ -120,7 +120,7 @@ impl<const D: usize> Stepper<'_, D> {
         &mut self,
         interval: &Interval,
         push: &mut Option<Push<D>>,
-        observe: &mut impl FnMut(&State<D>, &StepReport, &Workspace<D>),
+        observe: &mut impl FnMut([&State<D>; 2], &StepReport, &Workspace<D>),
     ) -> Option<StepReport> {
         let Self { model, method, state, spare, work, .. } = self;
         let made = among_threads(model.node_count(), || {
@@ -135,7 +135,7 @@ impl<const D: usize> Stepper<'_, D> {
             work.body_ledgers[body].external += energy;
         }
         std::mem::swap(*state, *spare);
-        observe(state, &report, work);
+        observe([spare, state], &report, work);
         Some(report)
     }
 }

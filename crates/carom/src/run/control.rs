@@ -25,14 +25,14 @@ const EASY: usize = 12;
 const LARGEST_DEBT: f64 = 1e-3;
 
 impl<const D: usize> Stepper<'_, D> {
-    /// Takes the state over a nominal step, in substeps where it must be; `observe` is told of each that succeeds.
+    /// Takes the state over a nominal step, in substeps where it must be; `observe` is told of each that succeeds, with the states at both ends.
     ///
     /// # Errors
     /// If the shortest substep fails; the state is where the last good one left it.
     pub fn advance(
         &mut self,
         nominal: Nominal,
-        mut observe: impl FnMut(&State<D>, &StepReport, &Workspace<D>),
+        mut observe: impl FnMut([&State<D>; 2], &StepReport, &Workspace<D>),
     ) -> Result<(), RunError> {
         let Nominal { end, dt, energy } = nominal;
         // Progress is counted in the smallest substep allowed, so that halves always meet the grid.
@@ -47,7 +47,7 @@ impl<const D: usize> Stepper<'_, D> {
                     done += size;
                     self.spare.time = end - dt * ((whole - done) as f64 / whole as f64);
                     std::mem::swap(self.state, self.spare);
-                    observe(self.state, &report, self.work);
+                    observe([self.spare, self.state], &report, self.work);
                     // Grow again where the coarser grid allows.
                     let easy = report.newton_iterations <= EASY;
                     while size < whole && done % (2 * size) == 0 && (easy || !load_steps) {

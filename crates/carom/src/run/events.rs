@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::body::fe::part::ModelBody;
 use crate::ledger::ByPair;
+use crate::run::impact::{Impact, Touching, Whole};
 use crate::step::report::PairReport;
 use crate::{Model, Scheme};
 
@@ -25,6 +26,19 @@ pub struct ContactEvent {
     pub peak_force: f64,
     /// Dissipated by friction [J].
     pub friction_work: f64,
+    /// What the two did to one another; none while the pair may still be touching.
+    pub impact: Option<Impact>,
+}
+
+/// The last contact of a pair.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Last {
+    /// Which of the events it is.
+    pub event: usize,
+    /// End of the last step with a reaction [s].
+    pub until: f64,
+    /// What is known of it.
+    pub touching: Touching,
 }
 
 /// How close contacts of a pair are that count as one [s].
@@ -80,8 +94,8 @@ impl Merge {
 pub(crate) struct EventLog {
     merge: Merge,
     pub events: Vec<ContactEvent>,
-    /// The last event of pairs that have touched, and the end of the last step with a reaction.
-    pub last: ByPair<(usize, f64)>,
+    /// The last contact of pairs that have touched.
+    pub last: ByPair<Last>,
 }
 
 impl EventLog {
@@ -95,24 +109,32 @@ impl EventLog {
         self.merge = merge.clone();
     }
 
-    /// Records what pairs, which have these `names`, did in a step from `start` to `end` [s].
+    /// Records what pairs, which have these `names`, did in a step from `start` to `end` [s]; `whole` says how a solid moved at its start.
     pub fn record(
         &mut self,
         names: impl Fn([Solid; 2]) -> [String; 2],
         reports: &ByPair<PairReport>,
         [start, end]: [f64; 2],
+        whole: impl Fn(Solid) -> Whole,
     ) {
+        let touch = |between| reports.get(between).is_some_and(|report| report.normal_force > 0.0);
+        for (between, last) in self.last.iter() {
+            if last.until >= start && !touch(between) {
+                let impact = last.touching.impact(&between.map(&whole), between[0] == between[1]);
+                self.events[last.event].impact = Some(impact);
+            }
+        }
         for (between, report) in reports.iter() {
             let last = self.last.get(between).copied();
             if report.normal_force <= 0.0 {
                 // A reaction that is gone by the end of the step may still have rubbed in it.
-                if let Some((event, _)) = last {
-                    self.events[event].friction_work += report.ledger.friction;
+                if let Some(last) = last {
+                    self.events[last.event].friction_work += report.ledger.friction;
                 }
                 continue;
             }
-            let event = match last {
-                Some((event, until)) if start <= until || start - until < self.merge.of(between) => event,
+            let mut last = match last {
+                Some(last) if start <= last.until || start - last.until < self.merge.of(between) => last,
                 _ => {
                     self.events.push(ContactEvent {
                         pair: names(between),
@@ -120,12 +142,16 @@ impl EventLog {
                         release: None,
                         peak_force: 0.0,
                         friction_work: 0.0,
+                        impact: None,
                     });
-                    self.events.len() - 1
+                    let touching = Touching { before: between.map(&whole), ..Touching::default() };
+                    Last { event: self.events.len() - 1, until: end, touching }
                 }
             };
-            self.last.insert(between, (event, end));
-            let event = &mut self.events[event];
+            last.until = end;
+            last.touching.given.join(&report.given);
+            self.last.insert(between, last);
+            let event = &mut self.events[last.event];
             event.peak_force = event.peak_force.max(report.normal_force);
             event.friction_work += report.ledger.friction;
             event.release = Some(end);
@@ -135,9 +161,9 @@ impl EventLog {
     /// The events so far; those that had a reaction in the step that ended at `now` are still open.
     pub fn events(&self, now: f64) -> Vec<ContactEvent> {
         let mut events = self.events.clone();
-        for &(event, until) in self.last.values() {
-            if until >= now {
-                events[event].release = None;
+        for last in self.last.values() {
+            if last.until >= now {
+                (events[last.event].release, events[last.event].impact) = (None, None);
             }
         }
         events
@@ -148,13 +174,21 @@ impl EventLog {
 mod tests {
     use super::*;
     use crate::PairLedger;
+    use crate::step::report::PairImpulse;
 
     fn record(log: &mut EventLog, force: f64, start: f64, end: f64) {
         let ledger = PairLedger { friction: 0.5, ..PairLedger::default() };
-        let report = PairReport { normal_force: force, ledger };
+        let given =
+            PairImpulse { normal: [force * (end - start), 0.0, 0.0], weight: 1.0, ..PairImpulse::default() };
+        let report = PairReport { normal_force: force, given, ledger };
         let between = [Solid::Body(0), Solid::Obstacle(0)];
         let names = |_| ["a".into(), "b".into()];
-        log.record(names, &[(between, report)].into_iter().collect(), [start, end]);
+        // The body turns round at 1 s.
+        let whole = |solid| match solid {
+            Solid::Body(_) => Whole { velocity: [100.0 * (start - 1.0), 0.0, 0.0], ..Whole::default() },
+            Solid::Obstacle(_) => Whole::default(),
+        };
+        log.record(names, &[(between, report)].into_iter().collect(), [start, end], whole);
     }
 
     #[test]
@@ -163,6 +197,7 @@ mod tests {
         record(&mut log, 3.0, 0.99, 1.00);
         record(&mut log, 0.0, 1.00, 1.01);
         record(&mut log, 5.0, 1.01, 1.02);
+        record(&mut log, 0.0, 1.02, 1.03);
         record(&mut log, 4.0, 2.00, 2.01);
         let events = log.events(2.01);
         assert_eq!(events.len(), 2);
@@ -170,5 +205,10 @@ mod tests {
         assert_eq!((events[0].peak_force, events[0].friction_work), (5.0, 1.5));
         assert_eq!((events[1].onset, events[1].release), (2.01, None));
         assert_eq!(log.events(3.0)[1].release, Some(2.01));
+        assert_eq!(events[1].impact, None);
+        // It came at 1 m/s and left at 2: flickers are parts of one impact.
+        let impact = events[0].impact.expect("has ended");
+        assert!((impact.restitution.expect("came together") - 2.0).abs() < 1e-12, "{impact:?}");
+        assert!((impact.impulse - 0.08).abs() < 1e-12, "{impact:?}");
     }
 }

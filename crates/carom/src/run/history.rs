@@ -1,10 +1,14 @@
 use carom_contact::Pair;
+use carom_fem::KineticParts;
 use carom_mesh::Vector;
 
 use crate::run::stage::Stage;
 use crate::scenario::Axis;
 use crate::step::report::StepReport;
 use crate::{Ledger, Model, State};
+
+/// What kinetic energy is split into: see [`KineticParts`].
+const PARTS: [&str; 3] = ["translation", "rotation", "vibration"];
 
 /// A node whose motion is in the history.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +36,8 @@ pub(crate) struct History<const D: usize> {
     columns: Vec<String>,
     pub rows: Vec<f64>,
     pub since: Since,
+    /// The kinetic energies of the bodies of the row that is being written, by [`PARTS`].
+    parts: Vec<[f64; 3]>,
 }
 
 /// What is gathered between two rows.
@@ -75,6 +81,7 @@ impl<const D: usize> History<D> {
         } else {
             columns.extend(axes.iter().map(|a| format!("angular_momentum_{a}")));
         }
+        columns.extend(PARTS.map(String::from));
         for b in &model.bodies {
             columns.extend(axes.iter().map(|a| format!("{}.{a}", b.name)));
             columns.extend(axes.iter().map(|a| format!("{}.v_{a}", b.name)));
@@ -83,6 +90,7 @@ impl<const D: usize> History<D> {
             } else {
                 columns.extend(axes.iter().map(|a| format!("{}.spin_{a}", b.name)));
             }
+            columns.extend(PARTS.iter().chain(&["strain"]).map(|part| format!("{}.{part}", b.name)));
         }
         columns.extend(
             [
@@ -109,8 +117,8 @@ impl<const D: usize> History<D> {
             }
         }
         let (trails, rows) = (Vec::new(), Vec::new());
-        let mut history =
-            Self { trails, tracks, has_stages, supports, columns, rows, since: Since::default() };
+        let (parts, since) = (Vec::new(), Since::default());
+        let mut history = Self { trails, tracks, has_stages, supports, columns, rows, since, parts };
         history.restart(state);
         history
     }
@@ -170,19 +178,27 @@ impl<const D: usize> History<D> {
         self.rows.extend([e.total(), ledger.defect()]);
         let mut momentum = Vector::<D>::zeros();
         let mut moment = [0.0; 3];
-        for b in &model.bodies {
+        let mut all = [0.0; 3];
+        self.parts.clear();
+        for (b, energies) in model.bodies.iter().zip(&state.body_energies) {
             let (u, v) = (&state.displacement[b.nodes()], &state.velocity[b.nodes()]);
             let (own, l) = b.momenta(u, v);
             momentum += own;
-            (0..3).for_each(|i| moment[i] += l[i]);
+            let KineticParts { translation, rotation, vibration } = b.kinetic_parts(u, v, energies.kinetic);
+            let parts = [translation, rotation, vibration];
+            (0..3).for_each(|i| (moment[i], all[i]) = (moment[i] + l[i], all[i] + parts[i]));
+            self.parts.push(parts);
         }
         self.rows.extend(momentum.iter());
         self.rows.extend(rotational::<D>(&moment));
-        for b in &model.bodies {
+        self.rows.extend(all);
+        for ((b, energies), parts) in model.bodies.iter().zip(&state.body_energies).zip(&self.parts) {
             let (u, v) = (&state.displacement[b.nodes()], &state.velocity[b.nodes()]);
             self.rows.extend(b.body.centre(u).iter());
             self.rows.extend(b.body.mean(v).iter());
             self.rows.extend(rotational::<D>(&b.body.spin(u, v)));
+            self.rows.extend(parts);
+            self.rows.push(energies.strain);
         }
         let since = std::mem::take(&mut self.since);
         let at = |n: u32| model.assembly.reference[n as usize] + state.displacement[n as usize];

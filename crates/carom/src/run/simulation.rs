@@ -15,6 +15,7 @@ use crate::run::account::Account;
 use crate::run::describe::{Description, describe};
 use crate::run::events::EventLog;
 use crate::run::history::History;
+use crate::run::impact::Whole;
 use crate::run::nominal_step::NominalStep;
 use crate::run::stage::Stage;
 use crate::run::stepper::{Nominal, Stepper};
@@ -389,7 +390,10 @@ impl<const D: usize> Simulation<D> {
         let initial = initial_energies.iter().map(Energies::total).sum::<f64>();
         *nominal_step = NominalStep::default();
         let mut stepper = Stepper { model, method, state, spare, work, halvings, failed: 0 };
-        let outcome = stepper.advance(nominal, |state, report, work| {
+        let outcome = stepper.advance(nominal, |[before, state], report, work| {
+            let names = |between| model.assembly.names(between);
+            let whole = |solid| Whole::of(model, before, &books.bodies, solid);
+            events.record(names, &work.pair_reports, [previous_time, state.time], whole);
             for books in [&mut *books, &mut account.books] {
                 let pairs = work.pair_reports.iter().map(|(between, pair)| (between, pair.ledger));
                 books.add(report.ledger, &work.body_ledgers, pairs);
@@ -398,8 +402,6 @@ impl<const D: usize> Simulation<D> {
             account.note(report, state);
             *last_step = Some(report.ledger);
             nominal_step.note(report);
-            let names = |between| model.assembly.names(between);
-            events.record(names, &work.pair_reports, [previous_time, state.time]);
             history.observe(report, state, state.time - previous_time);
             report.cross_check.iter().for_each(|check| cross_checks.note(check, state.time));
             previous_time = state.time;

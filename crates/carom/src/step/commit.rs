@@ -1,6 +1,6 @@
 //! The end of a step: the new state, and what happened to the energy.
 
-use carom_contact::{Contact, shares};
+use carom_contact::{Contact, Solid, shares};
 use carom_fem::material::PlasticState;
 use carom_mesh::Vector;
 
@@ -140,10 +140,19 @@ fn book_impulses<const D: usize>(
 ) {
     let assembly = given.assembly;
     let Workspace { contacts, impulses, pair_reports, .. } = work;
-    let State { reactions, friction_energy, .. } = next;
+    let State { reactions, friction_energy, displacement, .. } = next;
     impulses.join(&contacts.at_end, reactions, |reaction, done, normal, has_landed| {
-        let pair = pair_reports.or_default(assembly.contact.pairs.get(reaction.pair as usize).between());
+        let own = assembly.contact.pairs.get(reaction.pair as usize);
+        let pair = pair_reports.or_default(own.between());
         let [along, across] = done.taken;
+        let is_source = own.between()[0] == Solid::Body(own.source);
+        let place = |n: usize| assembly.reference[n] + displacement[n];
+        pair.given.add(
+            &contacts.at_end[done.contact],
+            &(done.force * given.interval.map.dt),
+            is_source,
+            place,
+        );
         pair.ledger.prescribed += done.prescribed;
         if has_landed {
             pair.ledger.normal_contact += along;
@@ -178,6 +187,14 @@ fn close_contacts<const D: usize>(
     next.slip.copy_from_slice(&state.slip);
     contacts.slip.add(&next.reactions, motion, &mut next.slip);
     next.friction_energy.copy_from_slice(&state.friction_energy);
+    let dt = interval.map.dt;
+    let place = |n: usize| assembly.reference[n] + next.displacement[n];
+    // Of a body with itself the impulses cancel.
+    let push = |pair: &mut PairReport, k: u32, contact: &Contact<D>, force: &Vector<D>| {
+        let pair_of = assembly.contact.pairs.get(k as usize);
+        let is_source = pair_of.between()[0] == Solid::Body(pair_of.source);
+        pair.given.add(contact, &(force * dt), is_source, place);
+    };
     let mut book = |pair: &mut PairReport, contact: &Contact<D>, dissipation: f64| {
         pair.ledger.friction += dissipation;
         report.least_friction = report.least_friction.min(dissipation);
@@ -187,10 +204,15 @@ fn close_contacts<const D: usize>(
         // The blend returns what normal reactions take, so there is nothing to book for them.
         contacts.measure_work(given, motion);
         let lost = contacts.active.lost.iter().map(|&k| &state.reactions[k].contact);
-        for (c, contact) in contacts.work.iter().zip(contacts.active.contacts.iter().chain(lost)) {
+        for (k, (c, contact)) in
+            contacts.work.iter().zip(contacts.active.contacts.iter().chain(lost)).enumerate()
+        {
             let weight = blend.weight[c.source];
             let report = pair_reports.or_default(c.between);
             report.ledger.prescribed += c.prescribed(weight);
+            let [start, end] = contacts.active.forces(k, state, given.reaction_weight());
+            let force = start * (0.5 - weight) + end * (0.5 + weight);
+            report.given.add(contact, &(force * dt), c.between[0] == Solid::Body(c.source), place);
             book(report, contact, c.dissipation(weight));
         }
         next.energy_debt.copy_from_slice(&state.energy_debt);
@@ -204,6 +226,7 @@ fn close_contacts<const D: usize>(
         let report = pair_reports.or_default(pair_of(reaction));
         report.ledger.normal_contact -= work.normal;
         report.ledger.prescribed += work.prescribed;
+        push(report, reaction.pair, &reaction.contact, &work.force);
         book(report, &reaction.contact, work.dissipation);
     });
 }

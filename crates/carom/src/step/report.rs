@@ -1,14 +1,63 @@
-use carom_contact::Solid;
+use carom_contact::{Contact, Solid};
+use carom_mesh::Vector;
 
 use crate::contact::cross_check::CrossCheck;
 use crate::ledger::{Ledger, PairLedger};
 use crate::step::free_motion::FreeMotion;
+
+/// The impulse of reactions on the first of two solids, where bodies come before obstacles. Vectors have three components.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PairImpulse {
+    /// Of the normal reactions [N s].
+    pub normal: [f64; 3],
+    /// Of friction [N s].
+    pub friction: [f64; 3],
+    /// Σ |p| x of all impulses p at places x [N s m],
+    pub moment: [f64; 3],
+    /// and Σ |p| [N s].
+    pub weight: f64,
+}
+
+impl PairImpulse {
+    /// Adds an impulse p [N s], in the frame of its `contact`, at the place of that, `onto` its source or from it.
+    pub fn add<const D: usize>(
+        &mut self,
+        contact: &Contact<D>,
+        impulse: &Vector<D>,
+        is_source: bool,
+        position: impl Fn(usize) -> Vector<D>,
+    ) {
+        let sign = if is_source { 1.0 } else { -1.0 };
+        let size = impulse.norm();
+        let place = contact.sources().fold(Vector::<D>::zeros(), |sum, (n, share)| sum + position(n) * share);
+        let normal = contact.frame.row(0).transpose() * impulse[0];
+        let whole = contact.frame.tr_mul(impulse);
+        for i in 0..D {
+            self.normal[i] += sign * normal[i];
+            self.friction[i] += sign * (whole[i] - normal[i]);
+            self.moment[i] += size * place[i];
+        }
+        self.weight += size;
+    }
+
+    /// Adds what another step gave.
+    pub(crate) fn join(&mut self, other: &Self) {
+        for i in 0..3 {
+            self.normal[i] += other.normal[i];
+            self.friction[i] += other.friction[i];
+            self.moment[i] += other.moment[i];
+        }
+        self.weight += other.weight;
+    }
+}
 
 /// What a pair did in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PairReport {
     /// Sum of the normal reactions [N].
     pub normal_force: f64,
+    /// What the reactions gave.
+    pub given: PairImpulse,
     /// What happened to the energy.
     pub ledger: PairLedger,
 }

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use carom_fem::Body;
+use carom_fem::{Body, KineticParts};
 use carom_mesh::{Matrix, Vector, nodal};
 
 use super::load::Load;
@@ -79,6 +79,15 @@ impl<const D: usize> ModelBody<D> {
         let mut mv = vec![Vector::zeros(); v.len()];
         self.body.mass().multiply(v, &mut mv);
         (self.body.resultant(nodal::total(&mv)), self.body.angular_momentum(u, &mv))
+    }
+
+    /// Its `kinetic` energy [J] at these displacements [m] and velocities [m/s] of its nodes by what moves.
+    #[must_use]
+    pub fn kinetic_parts(&self, u: &[Vector<D>], v: &[Vector<D>], kinetic: f64) -> KineticParts {
+        let Some(rigid) = &self.rigid else { return self.body.kinetic_parts(u, v) };
+        let momentum = rigid.momenta(u, v).0;
+        let translation = 0.5 * momentum.norm_squared() / rigid.mass();
+        KineticParts { translation, rotation: kinetic - translation, vibration: 0.0 }
     }
 
     /// The numbers of its nodes.

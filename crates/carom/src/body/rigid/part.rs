@@ -22,6 +22,11 @@ impl<const D: usize> RigidPart<D> {
         Self { shape, guide: None, resultants: Vec::new(), surroundings: 0.0 }
     }
 
+    /// Its mass [kg].
+    pub fn mass(&self) -> f64 {
+        self.shape.mass
+    }
+
     /// The numbers of unknowns.
     pub fn dofs(&self) -> usize {
         let [along, about] = self.free();
