@@ -108,10 +108,7 @@ def _cross_check(check: Mapping[str, Any]) -> tuple[str, str]:
 def _contact(contact: Mapping[str, Any]) -> str:
     release = contact["release"]
     until = "still touching" if release is None else f"{release:.4g} s"
-    impact = contact.get("impact") or {}
-    restitution = impact.get("restitution")
-    bounced = "" if restitution is None else f", restitution {restitution:.3g}"
     return (
         f"{contact['onset']:.4g} s → {until}, peak {contact['peak_force']:.3g} N, "
-        f"friction {contact['friction_work']:.3g} J{bounced}"
+        f"friction {contact['friction_work']:.3g} J"
     )

@@ -256,7 +256,15 @@ def test_the_picture_has_a_curve_for_each_value_of_the_other_keys(here, scenario
         assert list(curve.get_xdata()) == [0.0, 0.2, 0.4]
         expected = [one["friction"] for one in rows if one["contact.condition"] == condition]
         assert list(curve.get_ydata()) == expected
-    words = sweep_figure("Bounce", ["contact.condition"], rows[:2]).axes[2]
+    picture = sweep_figure("Bounce", ["contact.condition"], rows[:2])
+    coefficients = [one["restitution"] for one in rows[:2]]
+    assert [each.get_ylabel() for each in picture.axes[-2:]] == [
+        "restitution",
+        "tangential restitution",
+    ]
+    assert list(picture.axes[-2].lines[0].get_ydata()) == coefficients
+    assert 0.5 < min(coefficients) < 1.1
+    words = picture.axes[-2]
     assert [tick.get_text() for tick in words.get_xticklabels()] == ["gap", "midpoint"]
 
 

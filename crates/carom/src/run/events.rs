@@ -133,9 +133,11 @@ impl EventLog {
                 }
                 continue;
             }
+            let last = last.filter(|l| start <= l.until || start - l.until < self.merge.of(between));
+            let is_known = last.is_some();
             let mut last = match last {
-                Some(last) if start <= last.until || start - last.until < self.merge.of(between) => last,
-                _ => {
+                Some(last) => last,
+                None => {
                     self.events.push(ContactEvent {
                         pair: names(between),
                         onset: end,
@@ -144,12 +146,14 @@ impl EventLog {
                         friction_work: 0.0,
                         impact: None,
                     });
-                    let touching = Touching { before: between.map(&whole), ..Touching::default() };
+                    let touching = Touching::meeting(between.map(&whole), &report.given);
                     Last { event: self.events.len() - 1, until: end, touching }
                 }
             };
             last.until = end;
-            last.touching.given.join(&report.given);
+            if is_known {
+                last.touching.go_on(&report.given);
+            }
             self.last.insert(between, last);
             let event = &mut self.events[last.event];
             event.peak_force = event.peak_force.max(report.normal_force);

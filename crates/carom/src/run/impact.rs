@@ -81,22 +81,39 @@ impl Whole {
 pub(crate) struct Touching {
     /// How the two moved when they met.
     pub before: [Whole; 2],
-    /// The impulse so far.
-    pub given: PairImpulse,
+    /// The impulses so far, of the normal reactions and of friction, on the first of the two [N s].
+    impulses: [[f64; 3]; 2],
+    /// Where reactions acted in the mean in the first step and in the last [m].
+    places: [[f64; 3]; 2],
 }
 
 impl Touching {
+    /// Of two solids that meet, and moved like this before.
+    pub fn meeting(before: [Whole; 2], given: &PairImpulse) -> Self {
+        let place = given.place();
+        Self { before, impulses: [given.normal, given.friction], places: [place, place] }
+    }
+
+    /// Adds the impulse of another step.
+    pub fn go_on(&mut self, given: &PairImpulse) {
+        for (sum, more) in self.impulses.iter_mut().zip([given.normal, given.friction]) {
+            sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+        }
+        self.places[1] = given.place();
+    }
+
     /// What it came to, where the two solids, `are_one` if they are a body and itself, move on like this.
     pub fn impact(&self, after: &[Whole; 2], are_one: bool) -> Impact {
-        let Self { before, given } = self;
-        let [normal, friction] = [given.normal, given.friction].map(Vector::<3>::from);
-        let place = Vector::<3>::from(given.moment) / given.weight;
+        let before = &self.before;
+        let [normal, friction] = self.impulses.map(Vector::<3>::from);
+        let [met, parted] = self.places.map(Vector::<3>::from);
         let impulse = normal.norm();
         let n = normal / impulse;
-        let relative = |of: &[Whole; 2]| of[0].velocity_at(&place) - of[1].velocity_at(&place);
-        let speed = before.iter().chain(after).map(|w| w.velocity_at(&place).norm()).fold(0.0, f64::max);
+        let relative = |of: &[Whole; 2], at: &Vector<3>| of[0].velocity_at(at) - of[1].velocity_at(at);
+        let fastest = |of: &[Whole; 2], at| of.iter().map(|w| w.velocity_at(at).norm()).fold(0.0, f64::max);
+        let speed = fastest(before, &met).max(fastest(after, &parted));
         let ratio = |after: f64, before: f64| (before > ROUND_OFF * speed).then(|| after / before);
-        let (came, left) = (relative(before), relative(after));
+        let (came, left) = (relative(before, &met), relative(after, &parted));
         let approach = -came.dot(&n);
         let along = came + n * approach;
         let sliding = along.norm();
@@ -123,14 +140,13 @@ impl Touching {
 
     /// Its numbers, one after the other.
     pub fn numbers_mut(&mut self) -> impl Iterator<Item = &mut f64> {
-        let PairImpulse { normal, friction, moment, weight } = &mut self.given;
-        let before = self.before.iter_mut().flat_map(Whole::numbers_mut);
-        before.chain(normal).chain(friction).chain(moment).chain([weight])
+        let vectors = self.impulses.iter_mut().chain(&mut self.places).flatten();
+        self.before.iter_mut().flat_map(Whole::numbers_mut).chain(vectors)
     }
 }
 
 /// What two solids did to one another from the onset of a contact to its release. Their motion is that of rigid bodies of the same momenta, at
-/// the place where the impulse acted; n is its direction.
+/// the places where reactions acted at first and at last; n is the direction of the impulse.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Impact {
     /// Of the normal reactions [N s].
@@ -208,7 +224,7 @@ mod tests {
             weight: 6.0,
         };
         let floor = Whole::default();
-        let impact = Touching { before: [came, floor], given }.impact(&[left, floor], false);
+        let impact = Touching::meeting([came, floor], &given).impact(&[left, floor], false);
         assert_eq!(
             (impact.impulse, impact.friction_impulse, impact.approach, impact.sliding),
             (6.0, 2.0, 2.0, 3.0)
@@ -221,7 +237,7 @@ mod tests {
     fn what_did_not_come_together_has_no_coefficient() {
         let given =
             PairImpulse { normal: [0.0, 1.0, 0.0], friction: [0.0; 3], moment: [0.0; 3], weight: 1.0 };
-        let impact = Touching { given, ..Touching::default() }.impact(&[Whole::default(); 2], false);
+        let impact = Touching::meeting([Whole::default(); 2], &given).impact(&[Whole::default(); 2], false);
         assert_eq!((impact.restitution, impact.tangential_restitution), (None, None));
     }
 }

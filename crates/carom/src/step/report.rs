@@ -40,14 +40,9 @@ impl PairImpulse {
         self.weight += size;
     }
 
-    /// Adds what another step gave.
-    pub(crate) fn join(&mut self, other: &Self) {
-        for i in 0..3 {
-            self.normal[i] += other.normal[i];
-            self.friction[i] += other.friction[i];
-            self.moment[i] += other.moment[i];
-        }
-        self.weight += other.weight;
+    /// Where the impulses acted in the mean [m].
+    pub(crate) fn place(&self) -> [f64; 3] {
+        self.moment.map(|moment| moment / self.weight)
     }
 }
 
