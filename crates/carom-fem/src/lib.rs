@@ -31,5 +31,5 @@ pub use held::{Held, HeldDof};
 pub use hypothesis::{Formulation, Hypothesis};
 pub use impulse::MassSolver;
 pub use loose::rigid_motion;
-pub use rigid::{KineticParts, RigidMass};
+pub use rigid::{KineticParts, Momenta, RigidMass};
 pub use with_history::BodyWithHistory;

@@ -113,31 +113,43 @@ pub struct KineticParts {
     pub vibration: f64,
 }
 
+/// What a body has of motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Momenta<const D: usize> {
+    /// Σ M v [kg m/s].
+    pub momentum: Vector<D>,
+    /// About the origin [kg m²/s], as [`Body::angular_momentum`].
+    pub angular_momentum: [f64; 3],
+    /// ½ vᵀM v by what moves [J].
+    pub kinetic: KineticParts,
+}
+
 impl<const D: usize> Body<D> {
-    /// Splits the kinetic energy at displacements `u` [m] and velocities `v` [m/s].
+    /// Momenta and kinetic energy at displacements `u` [m] and velocities `v` [m/s].
     ///
-    /// The velocities are taken apart into those of a rigid body of the same momentum and angular momentum, and the rest, which is at right
+    /// For the parts of the energy the velocities are taken apart into those of a rigid body of the same momentum and angular momentum, and the rest, which is at right
     /// angles to them in the mass matrix: the parts add up to the whole, and none is negative but for round-off. A body of revolution, or one
     /// that repeats itself, does not turn.
     #[must_use]
-    pub fn kinetic_parts(&self, u: &[Vector<D>], v: &[Vector<D>]) -> KineticParts {
+    pub fn momenta(&self, u: &[Vector<D>], v: &[Vector<D>]) -> Momenta<D> {
         let mut mv = vec![Vector::zeros(); v.len()];
         self.mass().multiply(v, &mut mv);
         let whole = 0.5 * nodal::dot(v, &mv);
         let momentum = self.resultant(nodal::total(&mv));
         let translation = 0.5 * momentum.norm_squared() / self.total_mass();
+        let angular_momentum = self.angular_momentum(u, &mv);
         let rotation = if self.is_axisymmetric() || !self.mesh().ties().is_empty() {
             0.0
         } else {
             let mut arms = vec![Vector::zeros(); v.len()];
             let rigid = self.rigid_mass(u, &mut arms);
-            let own = self.angular_momentum(u, &mv);
             let orbit = tensor::cross(&rigid.centre, &momentum);
-            let spin: [f64; 3] = std::array::from_fn(|i| own[i] - orbit[i]);
+            let spin: [f64; 3] = std::array::from_fn(|i| angular_momentum[i] - orbit[i]);
             let (_, turn) = rigid.acceleration(&Vector::zeros(), &spin);
             0.5 * (0..3).map(|i| turn[i] * spin[i]).sum::<f64>()
         };
-        KineticParts { translation, rotation, vibration: whole - translation - rotation }
+        let kinetic = KineticParts { translation, rotation, vibration: whole - translation - rotation };
+        Momenta { momentum, angular_momentum, kinetic }
     }
 }
 

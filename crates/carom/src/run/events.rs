@@ -26,7 +26,7 @@ pub struct ContactEvent {
     pub peak_force: f64,
     /// Dissipated by friction [J].
     pub friction_work: f64,
-    /// What the two did to one another; none while the pair may still be touching.
+    /// What the two did to one another; none while the pair may still be touching, nor of a static analysis.
     pub impact: Option<Impact>,
 }
 
@@ -121,7 +121,7 @@ impl EventLog {
         for (between, last) in self.last.iter() {
             if last.until >= start && !touch(between) {
                 let impact = last.touching.impact(&between.map(&whole), between[0] == between[1]);
-                self.events[last.event].impact = Some(impact);
+                self.events[last.event].impact = impact;
             }
         }
         for (between, report) in reports.iter() {
@@ -134,7 +134,6 @@ impl EventLog {
                 continue;
             }
             let last = last.filter(|l| start <= l.until || start - l.until < self.merge.of(between));
-            let is_known = last.is_some();
             let mut last = match last {
                 Some(last) => last,
                 None => {
@@ -146,14 +145,12 @@ impl EventLog {
                         friction_work: 0.0,
                         impact: None,
                     });
-                    let touching = Touching::meeting(between.map(&whole), &report.given);
+                    let touching = Touching::meeting(between.map(&whole));
                     Last { event: self.events.len() - 1, until: end, touching }
                 }
             };
             last.until = end;
-            if is_known {
-                last.touching.go_on(&report.given);
-            }
+            last.touching.go_on(&report.given);
             self.last.insert(between, last);
             let event = &mut self.events[last.event];
             event.peak_force = event.peak_force.max(report.normal_force);

@@ -182,11 +182,14 @@ impl<const D: usize> History<D> {
         self.parts.clear();
         for (b, energies) in model.bodies.iter().zip(&state.body_energies) {
             let (u, v) = (&state.displacement[b.nodes()], &state.velocity[b.nodes()]);
-            let (own, l) = b.momenta(u, v);
-            momentum += own;
-            let KineticParts { translation, rotation, vibration } = b.kinetic_parts(u, v, energies.kinetic);
+            let own = b.momenta(u, v, energies.kinetic);
+            momentum += own.momentum;
+            let KineticParts { translation, rotation, vibration } = own.kinetic;
             let parts = [translation, rotation, vibration];
-            (0..3).for_each(|i| (moment[i], all[i]) = (moment[i] + l[i], all[i] + parts[i]));
+            for i in 0..3 {
+                moment[i] += own.angular_momentum[i];
+                all[i] += parts[i];
+            }
             self.parts.push(parts);
         }
         self.rows.extend(momentum.iter());

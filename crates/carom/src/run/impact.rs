@@ -52,7 +52,7 @@ impl Whole {
                     centre: padded(b.body.centre(u)),
                     velocity: padded(b.body.mean(v)),
                     spin: b.body.spin(u, v),
-                    kinetic: b.kinetic_parts(u, v, energies.kinetic),
+                    kinetic: b.momenta(u, v, energies.kinetic).kinetic,
                     strain: energies.strain,
                     plastic: books[i].plastic,
                     viscous: books[i].viscous,
@@ -89,26 +89,30 @@ pub(crate) struct Touching {
 
 impl Touching {
     /// Of two solids that meet, and moved like this before.
-    pub fn meeting(before: [Whole; 2], given: &PairImpulse) -> Self {
-        let place = given.place();
-        Self { before, impulses: [given.normal, given.friction], places: [place, place] }
+    pub fn meeting(before: [Whole; 2]) -> Self {
+        Self { before, ..Self::default() }
     }
 
-    /// Adds the impulse of another step.
+    /// Adds the impulse of a step.
     pub fn go_on(&mut self, given: &PairImpulse) {
+        let Some(place) = given.place() else { return };
+        if self.impulses == [[0.0; 3]; 2] {
+            self.places[0] = place;
+        }
+        self.places[1] = place;
         for (sum, more) in self.impulses.iter_mut().zip([given.normal, given.friction]) {
             sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
         }
-        self.places[1] = given.place();
     }
 
-    /// What it came to, where the two solids, `are_one` if they are a body and itself, move on like this.
-    pub fn impact(&self, after: &[Whole; 2], are_one: bool) -> Impact {
+    /// What it came to, where the two solids, `are_one` if they are a body and itself, move on like this. None without an impulse, as of load
+    /// steps.
+    pub fn impact(&self, after: &[Whole; 2], are_one: bool) -> Option<Impact> {
         let before = &self.before;
         let [normal, friction] = self.impulses.map(Vector::<3>::from);
         let [met, parted] = self.places.map(Vector::<3>::from);
         let impulse = normal.norm();
-        let n = normal / impulse;
+        let n = normal.try_normalize(0.0)?;
         let relative = |of: &[Whole; 2], at: &Vector<3>| of[0].velocity_at(at) - of[1].velocity_at(at);
         let fastest = |of: &[Whole; 2], at| of.iter().map(|w| w.velocity_at(at).norm()).fold(0.0, f64::max);
         let speed = fastest(before, &met).max(fastest(after, &parted));
@@ -122,7 +126,7 @@ impl Touching {
         let change = |of: fn(&Whole) -> f64| {
             after[..sides].iter().map(of).sum::<f64>() - before[..sides].iter().map(of).sum::<f64>()
         };
-        Impact {
+        Some(Impact {
             impulse,
             friction_impulse: friction.norm(),
             approach,
@@ -135,7 +139,7 @@ impl Touching {
             strain: change(|w| w.strain),
             plastic: change(|w| w.plastic),
             viscous: change(|w| w.viscous),
-        }
+        })
     }
 
     /// Its numbers, one after the other.
@@ -224,7 +228,9 @@ mod tests {
             weight: 6.0,
         };
         let floor = Whole::default();
-        let impact = Touching::meeting([came, floor], &given).impact(&[left, floor], false);
+        let mut touching = Touching::meeting([came, floor]);
+        touching.go_on(&given);
+        let impact = touching.impact(&[left, floor], false).expect("has an impulse");
         assert_eq!(
             (impact.impulse, impact.friction_impulse, impact.approach, impact.sliding),
             (6.0, 2.0, 2.0, 3.0)
@@ -237,7 +243,10 @@ mod tests {
     fn what_did_not_come_together_has_no_coefficient() {
         let given =
             PairImpulse { normal: [0.0, 1.0, 0.0], friction: [0.0; 3], moment: [0.0; 3], weight: 1.0 };
-        let impact = Touching::meeting([Whole::default(); 2], &given).impact(&[Whole::default(); 2], false);
+        let mut touching = Touching::meeting([Whole::default(); 2]);
+        assert_eq!(touching.impact(&[Whole::default(); 2], false), None);
+        touching.go_on(&given);
+        let impact = touching.impact(&[Whole::default(); 2], false).expect("has an impulse");
         assert_eq!((impact.restitution, impact.tangential_restitution), (None, None));
     }
 }

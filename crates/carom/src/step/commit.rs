@@ -187,7 +187,8 @@ fn close_contacts<const D: usize>(
     next.slip.copy_from_slice(&state.slip);
     contacts.slip.add(&next.reactions, motion, &mut next.slip);
     next.friction_energy.copy_from_slice(&state.friction_energy);
-    let dt = interval.map.dt;
+    // Load steps have no duration: their forces give no impulse.
+    let dt = if interval.is_load_step { 0.0 } else { interval.map.dt };
     let place = |n: usize| assembly.reference[n] + next.displacement[n];
     // Of a body with itself the impulses cancel.
     let push = |pair: &mut PairReport, k: u32, contact: &Contact<D>, force: &Vector<D>| {

@@ -40,9 +40,9 @@ impl PairImpulse {
         self.weight += size;
     }
 
-    /// Where the impulses acted in the mean [m].
-    pub(crate) fn place(&self) -> [f64; 3] {
-        self.moment.map(|moment| moment / self.weight)
+    /// Where the impulses acted in the mean [m]; none without any.
+    pub(crate) fn place(&self) -> Option<[f64; 3]> {
+        (self.weight > 0.0).then(|| self.moment.map(|moment| moment / self.weight))
     }
 }
 

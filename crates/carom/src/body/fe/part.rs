@@ -1,7 +1,7 @@
 use std::ops::Range;
 
-use carom_fem::{Body, KineticParts};
-use carom_mesh::{Matrix, Vector, nodal};
+use carom_fem::{Body, KineticParts, Momenta};
+use carom_mesh::{Matrix, Vector};
 
 use super::load::Load;
 use super::supports::Supports;
@@ -70,24 +70,14 @@ impl<const D: usize> ModelBody<D> {
         (!self.is_rigid()).then(|| self.body.wave_speed())
     }
 
-    /// Momentum [kg m/s] and angular momentum about the origin [kg m²/s] at these displacements [m] and velocities [m/s] of its nodes.
+    /// What it has of motion at these displacements [m] and velocities [m/s] of its nodes, where its kinetic energy is `kinetic` [J].
     #[must_use]
-    pub fn momenta(&self, u: &[Vector<D>], v: &[Vector<D>]) -> (Vector<D>, [f64; 3]) {
-        if let Some(rigid) = &self.rigid {
-            return rigid.momenta(u, v);
-        }
-        let mut mv = vec![Vector::zeros(); v.len()];
-        self.body.mass().multiply(v, &mut mv);
-        (self.body.resultant(nodal::total(&mv)), self.body.angular_momentum(u, &mv))
-    }
-
-    /// Its `kinetic` energy [J] at these displacements [m] and velocities [m/s] of its nodes by what moves.
-    #[must_use]
-    pub fn kinetic_parts(&self, u: &[Vector<D>], v: &[Vector<D>], kinetic: f64) -> KineticParts {
-        let Some(rigid) = &self.rigid else { return self.body.kinetic_parts(u, v) };
-        let momentum = rigid.momenta(u, v).0;
+    pub fn momenta(&self, u: &[Vector<D>], v: &[Vector<D>], kinetic: f64) -> Momenta<D> {
+        let Some(rigid) = &self.rigid else { return self.body.momenta(u, v) };
+        let (momentum, angular_momentum) = rigid.momenta(u, v);
         let translation = 0.5 * momentum.norm_squared() / rigid.mass();
-        KineticParts { translation, rotation: kinetic - translation, vibration: 0.0 }
+        let kinetic = KineticParts { translation, rotation: kinetic - translation, vibration: 0.0 };
+        Momenta { momentum, angular_momentum, kinetic }
     }
 
     /// The numbers of its nodes.
