@@ -289,7 +289,7 @@ class Scenario(Description):
 
     def _names(self) -> Iterator[tuple[str, str]]:
         """Yield every name with the dotted path of where it is given."""
-        groups: dict[str, tuple[Body | RigidBody | Obstacle | Track, ...]] = {
+        groups: dict[str, tuple[AnyBody | Obstacle | Track, ...]] = {
             "bodies": self.bodies,
             "obstacles": self.obstacles,
             "output.track": self.output.track,

@@ -327,11 +327,16 @@ impl<const D: usize> Simulation<D> {
     /// If a step fails after all retries; the state is then that after the last good step.
     pub fn advance(&mut self, until: f64, mut pause: impl FnMut() -> bool) -> Result<Outcome, RunError> {
         while self.goes_on(until) {
-            self.one_step()?;
+            if let Err(error) = self.one_step() {
+                self.complete();
+                return Err(error);
+            }
             if pause() {
+                self.complete();
                 return Ok(Outcome::Paused);
             }
         }
+        self.complete();
         Ok(Outcome::Reached)
     }
 
@@ -428,7 +433,18 @@ impl<const D: usize> Simulation<D> {
         }
     }
 
+    /// Lets nodes inside reduced bodies, which steps do not ask for, be where they are.
+    fn complete(&mut self) {
+        for b in self.stages[self.current].model.bodies.iter() {
+            let Some(reduced) = &b.reduced else { continue };
+            for state in [&mut self.state, &mut self.spare] {
+                reduced.complete(&mut state.displacement[b.nodes()], &mut state.velocity[b.nodes()]);
+            }
+        }
+    }
+
     fn record(&mut self) {
+        self.complete();
         let stage = &self.stages[self.current];
         let min_gap = self.history.record(&stage.model, &self.state, &self.books.total, self.current);
         let pairs = &self.stages[self.current].model.assembly.contact.pairs;
@@ -491,8 +507,11 @@ impl<const D: usize> Simulation<D> {
                 .iter()
                 .zip(&s.history)
                 .flat_map(|(b, history)| {
-                    let grown = b.body.after(history).grown(b.growth_at(s.time));
-                    grown.cell_states(&s.displacement[b.nodes()])
+                    let u = &s.displacement[b.nodes()];
+                    if let Some(reduced) = &b.reduced {
+                        return reduced.cell_states(&b.body, u);
+                    }
+                    b.body.after(history).grown(b.growth_at(s.time)).cell_states(u)
                 })
                 .collect(),
         }

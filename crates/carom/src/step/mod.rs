@@ -91,6 +91,8 @@ pub(crate) fn step_over<const D: usize>(
             }
         }
         iterations += made?;
+        let displacement = &mut next.displacement;
+        work.bodies.iter().enumerate().for_each(|(i, b)| b.complete(&mut displacement[assembly.nodes(i)]));
         let since = Instant::now();
         let penetration = looked_at(&given, next, repetition, work);
         work.detection_time += since.elapsed();

@@ -1,0 +1,337 @@
+//! A reduced body: it moves as a rigid one and vibrates in few shapes, which move and turn with it.
+//!
+//! Its frame is that of mean axes, in which the vibrations have neither momentum nor angular momentum. What is of the order of its strain times its spin
+//! is left out of its inertia, so that its kinetic energy is that of a rigid body and of free vibrations. As for a [rigid](super::rigid) one nothing is
+//! stored but displacements and velocities of nodes; its place and the amplitudes are read from some of them.
+
+mod books;
+mod equation;
+pub(crate) mod part;
+
+use std::sync::Arc;
+
+use carom_mesh::{Matrix, Vector};
+
+use self::equation::{Forces, Moved, ReducedEquation};
+use self::part::{Place, Rates, Reading, ReducedPart};
+use super::fe::part::ModelBody;
+use super::rigid::equation::Equation;
+use super::rigid::pose::{Displaced, Twist, cross_matrix, inverse_on, lift, lower};
+use super::rigid::shape::{RigidShape, Wrench};
+use super::{Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt};
+use crate::Scheme;
+use crate::error::StepError;
+use crate::ledger::{BodyLedger, Energies};
+
+/// A reduced body in a step.
+pub(crate) struct ReducedBody<const D: usize> {
+    body: Arc<ModelBody<D>>,
+    equation: ReducedEquation,
+    /// The present guess, and what the forces known so far make of it, once that is asked for.
+    moved: Moved,
+    solved: Moved,
+    is_solved: bool,
+    forces: Forces<D>,
+    /// Where the guess leads to.
+    reached: Place,
+    /// The motion of the nodes at the guess, and their displacements at the start [m].
+    motion: Vec<Vector<D>>,
+    from: Vec<Vector<D>>,
+    /// K̄⁻¹ of shifts [m/N] and of turns [1/(N m)], and the rotation that arms have in it.
+    compliance: [Matrix<3>; 2],
+    arms_in: Matrix<3>,
+    generation: u64,
+    reading: Reading<D>,
+    /// What an impulse gave it.
+    jolted: Rates,
+    scratch: Vec<f64>,
+}
+
+fn part<const D: usize>(body: &ModelBody<D>) -> &ReducedPart<D> {
+    body.reduced.as_ref().expect("a reduced body has a reduced part")
+}
+
+impl<const D: usize> ReducedBody<D> {
+    /// The body as it steps.
+    ///
+    /// # Panics
+    /// If it is not reduced.
+    pub fn new(body: Arc<ModelBody<D>>) -> Self {
+        let own = part(&body);
+        let (count, nodes) = (own.reduction.count(), body.body.node_count());
+        let (place, rates) = (Place::of(count), Rates::of(count));
+        let zeros = vec![Vector::zeros(); nodes];
+        let map = Scheme::Conserving.step_map(1.0);
+        Self {
+            equation: ReducedEquation {
+                rigid: Equation::new(&own.shape, map, place.pose, rates.twist),
+                place: place.clone(),
+                rates,
+                compliance: vec![0.0; count],
+                mean: vec![0.0; count],
+            },
+            moved: Moved::of(count),
+            solved: Moved::of(count),
+            is_solved: false,
+            forces: Forces::none(nodes, body.body.surface().nodes().len()),
+            reached: place,
+            motion: zeros.clone(),
+            from: zeros,
+            compliance: [Matrix::zeros(); 2],
+            arms_in: Matrix::identity(),
+            generation: 0,
+            reading: Reading::new(own),
+            jolted: Rates::of(count),
+            scratch: vec![0.0; count],
+            body,
+        }
+    }
+
+    /// Takes a guess of the motion for what of it the body can do.
+    fn take(&mut self, guess: &Guess<'_, D>) {
+        let own = part(&self.body);
+        own.moved.iter().for_each(|&n| self.motion[n as usize] = guess.motion[n as usize]);
+        own.place(guess.displacement, &mut self.reading, &mut self.reached);
+        self.moved.rigid = Displaced::between(&self.equation.place.pose, &self.reached.pose);
+        let ends = self.reached.amplitudes.iter().zip(&self.equation.place.amplitudes);
+        self.moved.stretch.iter_mut().zip(ends).for_each(|(d, (a1, a0))| *d = a1 - a0);
+        self.is_solved = false;
+    }
+
+    /// Makes K̄ at the guess.
+    fn make(&mut self) {
+        self.compliance = self.equation.rigid.compliance(&self.moved.rigid);
+        self.arms_in = self.moved.rigid.mean_rotation(&self.equation.place.pose);
+        let ReducedEquation { mean, place, .. } = &mut self.equation;
+        let all = mean.iter_mut().zip(&place.amplitudes).zip(&self.moved.stretch);
+        all.for_each(|((mean, a), d)| *mean = a + 0.5 * d);
+        self.generation += 1;
+    }
+
+    /// The weight of the body.
+    fn weight(&self) -> Wrench {
+        let mut wrench = Wrench::default();
+        wrench.add(&Vector::zeros(), &(lift(&self.body.gravity) * part(&self.body).shape.mass));
+        wrench
+    }
+
+    /// Finds the motion under the forces known so far.
+    fn solve(&mut self) {
+        if self.is_solved {
+            return;
+        }
+        self.solved.copy(&self.moved);
+        self.equation.solve(part(&self.body), &self.forces, &mut self.solved, &mut self.scratch);
+        self.is_solved = true;
+    }
+
+    /// The motion of a node [m] from where it is, to where the body has it.
+    fn motion_of(&self, moved: &Moved, mean: &Matrix<3>, node: usize) -> Vector<D> {
+        let own = part(&self.body);
+        let healed = own.displacement(&self.equation.place, node) - self.from[node];
+        self.equation.motion(own, moved, mean, node) + healed
+    }
+
+    /// The block of the inverse of a mass or a K̄, with the compliance of rigid motions and of amplitudes, where arms are in `rotation`.
+    fn block(
+        &self,
+        [a, b]: [usize; 2],
+        rigid: &[Matrix<3>; 2],
+        rotation: &Matrix<3>,
+        compliance: impl Fn(usize) -> f64,
+    ) -> Matrix<D> {
+        let own = part(&self.body);
+        let arm = |node| cross_matrix(&(rotation * own.bent_arm(node, &self.equation.mean)));
+        let [shift, turn] = rigid;
+        let mut block = shift - arm(a) * turn * arm(b);
+        let shapes = own.reduction.shapes_at(a).iter().zip(own.reduction.shapes_at(b));
+        let mut inner = Matrix::<D>::zeros();
+        for (k, (a, b)) in shapes.enumerate() {
+            inner += a * b.transpose() * compliance(k);
+        }
+        let inner = Matrix::<3>::from_fn(|i, j| if i < D && j < D { inner[(i, j)] } else { 0.0 });
+        block += rotation * inner * rotation.transpose();
+        Matrix::from_fn(|i, j| block[(i, j)])
+    }
+}
+
+/// How shifts and turns answer to impulses: the inverse of the mass [1/kg] and of the inertia [1/(kg m²)].
+fn mobility<const D: usize>(shape: &RigidShape<D>, rotation: &Matrix<3>) -> [Matrix<3>; 2] {
+    let mass = Matrix::<3>::from_diagonal_element(shape.mass);
+    [inverse_on(&shape.moves_along, &mass), inverse_on(&shape.turns_about, &shape.inertia_at(rotation))]
+}
+
+impl<const D: usize> Body<D> for ReducedBody<D> {
+    fn measure(&self, state: &BodyState<'_, D>, internal_force: &mut [Vector<D>]) -> Energies {
+        internal_force.fill(Vector::zeros());
+        let own = part(&self.body);
+        let (place, rates) = own.seen(state.displacement, state.velocity);
+        own.energies(&place, &rates)
+    }
+
+    fn mean_velocity(&self, velocity: &[Vector<D>]) -> Vector<D> {
+        let outline = &part(&self.body).outline;
+        outline.iter().map(|&n| velocity[n as usize]).sum::<Vector<D>>() / outline.len() as f64
+    }
+
+    fn begin_step(
+        &mut self,
+        interval: &Interval,
+        start: &BodyState<'_, D>,
+        motion: &mut [Vector<D>],
+    ) -> Result<Forecast, StepError> {
+        let own = part(&self.body);
+        self.from.copy_from_slice(start.displacement);
+        let ReducedEquation { place, rates, .. } = &mut self.equation;
+        own.place(start.displacement, &mut self.reading, place);
+        own.rates(place, start.velocity, &mut self.reading, rates);
+        self.equation.begin(own, interval.map);
+        self.moved.rigid = self.equation.rigid.driven();
+        self.moved.stretch.fill(0.0);
+        // Free flight is known to round-off before the first iteration.
+        self.forces.restart(Wrench::default());
+        self.equation.solve(own, &self.forces, &mut self.moved, &mut self.scratch);
+        motion.fill(Vector::zeros());
+        let mean = self.moved.rigid.mean_rotation(&self.equation.place.pose);
+        for &node in &own.moved {
+            motion[node as usize] = self.motion_of(&self.moved, &mean, node as usize);
+        }
+        let speed = own.moved.iter().map(|&n| start.velocity[n as usize].norm_squared()).fold(0.0, f64::max);
+        self.make();
+        let acceleration = self.body.gravity.norm();
+        Ok(Forecast { speed: speed.sqrt(), acceleration, driven: 0.0, is_factorised: true })
+    }
+
+    /// That of a step in time is zero: forces that do not depend on contacts make the whole motion in [`Self::begin_solve`].
+    fn residual(&mut self, guess: &Guess<'_, D>, _blend: Option<f64>, out: &mut [Vector<D>]) {
+        self.take(guess);
+        out.fill(Vector::zeros());
+    }
+
+    fn begin_solve(&mut self, residual: &[Vector<D>]) {
+        self.forces.restart(self.weight());
+        for &node in self.body.body.surface().nodes() {
+            self.forces.add(node, &residual[node as usize]);
+        }
+        self.is_solved = false;
+    }
+
+    fn set_reach(&mut self, _nodes: &[u32]) {}
+
+    fn partial_solve(&mut self, nodes: &[u32], out: &mut [Vector<D>]) {
+        self.solve();
+        let mean = self.solved.rigid.mean_rotation(&self.equation.place.pose);
+        for node in nodes.iter().map(|&n| n as usize) {
+            out[node] = self.motion_of(&self.solved, &mean, node) - self.motion[node];
+        }
+    }
+
+    fn add_forces(&mut self, nodes: &[u32], forces: &[Vector<D>]) {
+        nodes.iter().for_each(|&node| self.forces.add(node, &forces[node as usize]));
+        self.is_solved = false;
+    }
+
+    fn end_solve(&mut self, correction: &mut [Vector<D>]) {
+        self.solve();
+        correction.fill(Vector::zeros());
+        let mean = self.solved.rigid.mean_rotation(&self.equation.place.pose);
+        for node in part(&self.body).moved.iter().map(|&n| n as usize) {
+            correction[node] = self.motion_of(&self.solved, &mean, node) - self.motion[node];
+        }
+    }
+
+    fn renew(&mut self, guess: &Guess<'_, D>, _again: bool) -> Result<(), StepError> {
+        self.take(guess);
+        self.make();
+        Ok(())
+    }
+
+    fn stiffness_at(&mut self, node: u32) -> f64 {
+        let node = node as usize;
+        let stiffness = part(&self.body).reduction.stiffness();
+        let nothing = [Matrix::zeros(); 2];
+        D as f64 / self.block([node, node], &nothing, &Matrix::identity(), |k| 1.0 / stiffness[k]).trace()
+    }
+
+    fn forget(&mut self) {}
+
+    fn end_step(
+        &mut self,
+        guess: &Guess<'_, D>,
+        _blend: Option<f64>,
+        end: BodyEnd<'_, D>,
+    ) -> (BodyLedger, Energies) {
+        self.take(guess);
+        self.close(guess, end)
+    }
+
+    fn is_damped(&self) -> bool {
+        part(&self.body).damping != 0.0
+    }
+
+    /// The mass that a force at the node moves, in the mean of all directions.
+    fn mass_of(&self, node: u32) -> f64 {
+        let node = node as usize;
+        let rotation = Matrix::identity();
+        D as f64
+            / self
+                .block([node, node], &mobility(&part(&self.body).shape, &rotation), &rotation, |_| 1.0)
+                .trace()
+    }
+
+    fn jolt(
+        &mut self,
+        impulse: &mut [Vector<D>],
+        state: &BodyState<'_, D>,
+        change: &mut [Vector<D>],
+        _support: &mut [Vector<D>],
+    ) -> Jolt {
+        let Self { body, reading, reached: place, jolted: rates, .. } = self;
+        let own = part(body);
+        own.place(state.displacement, reading, place);
+        let mut wrench = Wrench::default();
+        rates.amplitudes.fill(0.0);
+        for &node in body.body.surface().nodes() {
+            let push = lift(&impulse[node as usize]);
+            wrench.add(&own.bent_arm(node as usize, &place.amplitudes), &push);
+            let turned = lower::<D>(&place.pose.rotation.tr_mul(&push));
+            let shapes = own.reduction.shapes_at(node as usize);
+            rates.amplitudes.iter_mut().zip(shapes).for_each(|(v, shape)| *v += shape.dot(&turned));
+        }
+        let [along, about] = mobility(&own.shape, &place.pose.rotation);
+        let moment = wrench.moment_at(&place.pose.rotation);
+        rates.twist = Twist { velocity: along * wrench.force, spin: about * moment };
+        change.fill(Vector::zeros());
+        for node in own.outline.iter().map(|&n| n as usize) {
+            change[node] = own.velocity(place, rates, node);
+        }
+        let modes = rates.amplitudes.iter().zip(own.reduction.stiffness());
+        Jolt { power: modes.map(|(v, k)| own.damping * k * v * v).sum(), borne: 0.0 }
+    }
+
+    fn generation(&self) -> u64 {
+        self.generation
+    }
+
+    fn responses_at_once(&self) -> usize {
+        usize::MAX
+    }
+
+    fn respond(&mut self, _nodes: &[u32]) {}
+
+    fn response(&self, a: u32, b: u32, _number: usize) -> Matrix<D> {
+        let places = [a as usize, b as usize];
+        self.block(places, &self.compliance, &self.arms_in, |k| self.equation.compliance[k])
+    }
+
+    fn rigid_motions(&self) -> Vec<usize> {
+        (0..D * (D + 1) / 2).collect()
+    }
+
+    fn complete(&self, displacement: &mut [Vector<D>]) {
+        let own = part(&self.body);
+        for node in own.outline.iter().filter(|n| own.moved.binary_search(n).is_err()) {
+            displacement[*node as usize] = own.displacement(&self.reached, *node as usize);
+        }
+    }
+}
