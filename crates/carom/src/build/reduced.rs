@@ -2,7 +2,7 @@
 
 use carom_fem::material::{LawSpec, Viscosity};
 use carom_fem::{Body, FemError, Hypothesis};
-use carom_mesh::Mesh;
+use carom_mesh::{Mesh, Vector};
 
 use super::body::body;
 use crate::body::reduced::part::ReducedPart;
@@ -88,7 +88,7 @@ pub(super) fn reduced_body<const D: usize>(
             format!("{modes}: body {name:?} has {} displacements inside, and no more modes", D * inside);
         return refused(format!("{key}.modes"), message);
     }
-    let part = ReducedPart::new(&body, modes).map_err(|error| match error {
+    let part = ReducedPart::new(&body, modes, &tracked(scenario, name, &body)).map_err(|error| match error {
         FemError::InPieces => InputError::mesh(format!("{key}.mesh"), error.to_string()),
         _ => {
             let message =
@@ -97,4 +97,15 @@ pub(super) fn reduced_body<const D: usize>(
         }
     })?;
     Ok((body, part))
+}
+
+/// The nodes nearest to the points of a body that are tracked.
+fn tracked<const D: usize>(scenario: &Scenario, name: &str, body: &Body<D>) -> Vec<u32> {
+    let own = scenario.output.track.iter().filter(|track| track.body == name && track.point.len() == D);
+    own.filter_map(|track| {
+        let point = Vector::from_column_slice(&track.point);
+        let distances = (0..).zip(body.mesh().nodes()).map(|(n, x)| (n, (x - point).norm()));
+        distances.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(n, _)| n)
+    })
+    .collect()
 }

@@ -91,8 +91,10 @@ pub(crate) fn step_over<const D: usize>(
             }
         }
         iterations += made?;
-        let displacement = &mut next.displacement;
-        work.bodies.iter().enumerate().for_each(|(i, b)| b.complete(&mut displacement[assembly.nodes(i)]));
+        for (i, body) in work.bodies.iter().enumerate() {
+            let nodes = assembly.nodes(i);
+            body.complete(&mut next.displacement[nodes.clone()], &mut work.motion[nodes]);
+        }
         let since = Instant::now();
         let penetration = looked_at(&given, next, repetition, work);
         work.detection_time += since.elapsed();

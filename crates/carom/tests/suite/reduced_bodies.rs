@@ -75,10 +75,11 @@ fn reduced_and_elastic_bodies_keep_momentum_and_energy() {
     let names = ["momentum_x", "momentum_y", "angular_momentum", "total", "friction", "defect", "strain"];
     let [x, y, moment, total, friction, defect, strain] = columns(&mut simulation, names);
     assert!(drift(&x).max(drift(&y)) < 1e-12 * total[0], "{:e} {:e}", drift(&x), drift(&y));
-    assert!(drift(&moment) < 1e-6 * total[0], "{:e}", drift(&moment));
-    assert!(drift(&defect) < 1e-9 * total[0], "{:e}", drift(&defect));
+    // Reactions act where nodes land half way, on two sides of what is still open: as of two whole bodies.
+    assert!(drift(&moment) < 1e-4 * total[0], "{:e}", drift(&moment));
+    assert!(drift(&defect) < 1e-10 * total[0], "{:e}", drift(&defect));
     let kept: Vec<f64> = total.iter().zip(&friction).map(|(e, f)| e + f).collect();
-    assert!(drift(&kept) < 1e-8 * total[0], "{:e}", drift(&kept));
+    assert!(drift(&kept) < 1e-10 * total[0], "{:e}", drift(&kept));
     assert!(friction.last().is_some_and(|f| *f > 1e-4 * total[0]), "it rubs: {friction:?}");
     assert!(strain.last().is_some_and(|s| *s > 1e-3 * total[0]), "it rings: {strain:?}");
 }
@@ -97,21 +98,22 @@ fn an_impact_on_a_wall_is_that_of_the_whole_the_more_modes_there_are() {
         let mut case = flying(&[bar], &[plane("wall", [0.0, 0.0], [1.0, 0.0])], [0.3, 1e-3]);
         case["bodies"][0]["velocity"] = json!([-0.2, 0.0]);
         case["output"]["history_every"] = json!(1e-3);
+        case["materials"]["elastic"]["kind"] = json!("linear-elastic");
         case["output"]["track"] = json!([{"name": "end", "body": "bar", "point": [4.0, 0.25]}]);
         let [u, energy, friction] = columns(&mut run(&case), ["end.u_x", "total", "friction"]);
         let kept: Vec<f64> = energy.iter().zip(&friction).map(|(e, f)| e + f).collect();
-        assert!(drift(&kept) < 1e-8 * kept[0], "{:e}", drift(&kept));
+        assert!(drift(&kept) < 1e-9 * kept[0], "{:e}", drift(&kept));
         u
     };
     let whole = end(bar("deformable", 4, 0));
     let largest = whole.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
-    let errors = [0, 2, 8, 32].map(|modes| {
+    let inside = 2 * (33 * 5 - 5);
+    let errors = [0, 4, 8, 16, 64, inside].map(|modes| {
         let own = end(bar("reduced", 4, modes));
         own.iter().zip(&whole).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest
     });
-    println!("{errors:?}");
     assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{errors:?}");
-    assert!(errors[3] < 0.02, "{errors:?}");
+    assert!(errors[3] < 0.05 && errors[5] < 1e-7, "{errors:?}");
 }
 
 #[test]

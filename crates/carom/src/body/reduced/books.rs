@@ -40,7 +40,7 @@ impl<const D: usize> ReducedBody<D> {
         let rates = Rates { twist, amplitudes: std::mem::take(scratch) };
         let energies = own.energies(reached, &rates);
         end.internal_force.fill(Vector::zeros());
-        for node in own.outline.iter().map(|&n| n as usize) {
+        for node in own.moved.iter().map(|&n| n as usize) {
             end.velocity[node] = own.velocity(reached, &rates, node);
         }
         *scratch = rates.amplitudes;

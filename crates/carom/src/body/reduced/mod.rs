@@ -19,9 +19,9 @@ use super::rigid::equation::Equation;
 use super::rigid::pose::{Displaced, Twist, cross_matrix, inverse_on, lift, lower};
 use super::rigid::shape::{RigidShape, Wrench};
 use super::{Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt};
-use crate::Scheme;
 use crate::error::StepError;
 use crate::ledger::{BodyLedger, Energies};
+use crate::scheme::{Scheme, StepMap};
 
 /// A reduced body in a step.
 pub(crate) struct ReducedBody<const D: usize> {
@@ -34,9 +34,16 @@ pub(crate) struct ReducedBody<const D: usize> {
     forces: Forces<D>,
     /// Where the guess leads to.
     reached: Place,
-    /// The motion of the nodes at the guess, and their displacements at the start [m].
+    /// The motion of the nodes at the guess [m].
     motion: Vec<Vector<D>>,
-    from: Vec<Vector<D>>,
+    /// K̄⁻¹ of the vibrations [m/N] between nodes that may touch, in the frame of the body, and the step that it is of.
+    inner: Vec<Matrix<D>>,
+    inner_of: Option<StepMap>,
+    /// The number of a node among those that may touch, and where these are in the middle of the step when K̄ was made, from the centre [m].
+    place_of: Vec<u32>,
+    arms: Vec<Vector<3>>,
+    /// From where nodes that move are to where the body has them at the start [m].
+    healed: Vec<Vector<D>>,
     /// K̄⁻¹ of shifts [m/N] and of turns [1/(N m)], and the rotation that arms have in it.
     compliance: [Matrix<3>; 2],
     arms_in: Matrix<3>,
@@ -49,6 +56,13 @@ pub(crate) struct ReducedBody<const D: usize> {
 
 fn part<const D: usize>(body: &ModelBody<D>) -> &ReducedPart<D> {
     body.reduced.as_ref().expect("a reduced body has a reduced part")
+}
+
+/// The number of every node among some.
+fn places(some: &[u32], nodes: usize) -> Vec<u32> {
+    let mut places = vec![u32::MAX; nodes];
+    (0..).zip(some).for_each(|(k, &node)| places[node as usize] = k);
+    places
 }
 
 impl<const D: usize> ReducedBody<D> {
@@ -75,8 +89,12 @@ impl<const D: usize> ReducedBody<D> {
             is_solved: false,
             forces: Forces::none(nodes, body.body.surface().nodes().len()),
             reached: place,
-            motion: zeros.clone(),
-            from: zeros,
+            motion: zeros,
+            inner: Vec::new(),
+            inner_of: None,
+            place_of: places(body.body.surface().nodes(), nodes),
+            arms: vec![Vector::zeros(); body.body.surface().nodes().len()],
+            healed: vec![Vector::zeros(); nodes],
             compliance: [Matrix::zeros(); 2],
             arms_in: Matrix::identity(),
             generation: 0,
@@ -105,6 +123,22 @@ impl<const D: usize> ReducedBody<D> {
         let ReducedEquation { mean, place, .. } = &mut self.equation;
         let all = mean.iter_mut().zip(&place.amplitudes).zip(&self.moved.stretch);
         all.for_each(|((mean, a), d)| *mean = a + 0.5 * d);
+        let own = part(&self.body);
+        let surface = self.body.body.surface().nodes();
+        for (arm, &node) in self.arms.iter_mut().zip(surface) {
+            *arm = self.arms_in * own.bent_arm(node as usize, &self.equation.mean);
+        }
+        if self.inner_of != Some(self.equation.rigid.map) {
+            let shapes = |node: u32| own.reduction.shapes_at(node as usize);
+            self.inner.clear();
+            self.inner.extend(
+                surface
+                    .iter()
+                    .flat_map(|&a| surface.iter().map(move |&b| (a, b)))
+                    .map(|(a, b)| inner(shapes(a), shapes(b), |k| self.equation.compliance[k])),
+            );
+            self.inner_of = Some(self.equation.rigid.map);
+        }
         self.generation += 1;
     }
 
@@ -127,32 +161,32 @@ impl<const D: usize> ReducedBody<D> {
 
     /// The motion of a node [m] from where it is, to where the body has it.
     fn motion_of(&self, moved: &Moved, mean: &Matrix<3>, node: usize) -> Vector<D> {
-        let own = part(&self.body);
-        let healed = own.displacement(&self.equation.place, node) - self.from[node];
-        self.equation.motion(own, moved, mean, node) + healed
+        self.equation.motion(part(&self.body), moved, mean, node) + self.healed[node]
     }
 
-    /// The block of the inverse of a mass or a K̄, with the compliance of rigid motions and of amplitudes, where arms are in `rotation`.
-    fn block(
+    /// How a node yields to a force on itself where it is drawn, with these compliances of rigid motions and of amplitudes, in the mean of the directions.
+    fn own_compliance(
         &self,
-        [a, b]: [usize; 2],
-        rigid: &[Matrix<3>; 2],
-        rotation: &Matrix<3>,
+        node: u32,
+        [shift, turn]: &[Matrix<3>; 2],
         compliance: impl Fn(usize) -> f64,
-    ) -> Matrix<D> {
+    ) -> f64 {
         let own = part(&self.body);
-        let arm = |node| cross_matrix(&(rotation * own.bent_arm(node, &self.equation.mean)));
-        let [shift, turn] = rigid;
-        let mut block = shift - arm(a) * turn * arm(b);
-        let shapes = own.reduction.shapes_at(a).iter().zip(own.reduction.shapes_at(b));
-        let mut inner = Matrix::<D>::zeros();
-        for (k, (a, b)) in shapes.enumerate() {
-            inner += a * b.transpose() * compliance(k);
-        }
-        let inner = Matrix::<3>::from_fn(|i, j| if i < D && j < D { inner[(i, j)] } else { 0.0 });
-        block += rotation * inner * rotation.transpose();
-        Matrix::from_fn(|i, j| block[(i, j)])
+        let arm = cross_matrix(&own.shape.arm(node as usize));
+        let rigid = shift - arm * turn * arm;
+        let shapes = own.reduction.shapes_at(node as usize);
+        let rigid: f64 = (0..D).map(|i| rigid[(i, i)]).sum();
+        (rigid + inner(shapes, shapes, compliance).trace()) / D as f64
     }
+}
+
+/// Σ c Φ_a ⊗ Φ_b: how the vibrations let one node yield to a force on another, in the frame of the body.
+fn inner<const D: usize>(a: &[Vector<D>], b: &[Vector<D>], compliance: impl Fn(usize) -> f64) -> Matrix<D> {
+    let mut sum = Matrix::zeros();
+    for (k, (a, b)) in a.iter().zip(b).enumerate() {
+        sum += a * (b * compliance(k)).transpose();
+    }
+    sum
 }
 
 /// How shifts and turns answer to impulses: the inverse of the mass [1/kg] and of the inertia [1/(kg m²)].
@@ -170,8 +204,8 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
     }
 
     fn mean_velocity(&self, velocity: &[Vector<D>]) -> Vector<D> {
-        let outline = &part(&self.body).outline;
-        outline.iter().map(|&n| velocity[n as usize]).sum::<Vector<D>>() / outline.len() as f64
+        let moved = &part(&self.body).moved;
+        moved.iter().map(|&n| velocity[n as usize]).sum::<Vector<D>>() / moved.len() as f64
     }
 
     fn begin_step(
@@ -181,7 +215,6 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         motion: &mut [Vector<D>],
     ) -> Result<Forecast, StepError> {
         let own = part(&self.body);
-        self.from.copy_from_slice(start.displacement);
         let ReducedEquation { place, rates, .. } = &mut self.equation;
         own.place(start.displacement, &mut self.reading, place);
         own.rates(place, start.velocity, &mut self.reading, rates);
@@ -193,8 +226,9 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         self.equation.solve(own, &self.forces, &mut self.moved, &mut self.scratch);
         motion.fill(Vector::zeros());
         let mean = self.moved.rigid.mean_rotation(&self.equation.place.pose);
-        for &node in &own.moved {
-            motion[node as usize] = self.motion_of(&self.moved, &mean, node as usize);
+        for node in own.moved.iter().map(|&n| n as usize) {
+            self.healed[node] = own.displacement(&self.equation.place, node) - start.displacement[node];
+            motion[node] = self.motion_of(&self.moved, &mean, node);
         }
         let speed = own.moved.iter().map(|&n| start.velocity[n as usize].norm_squared()).fold(0.0, f64::max);
         self.make();
@@ -247,10 +281,8 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
     }
 
     fn stiffness_at(&mut self, node: u32) -> f64 {
-        let node = node as usize;
         let stiffness = part(&self.body).reduction.stiffness();
-        let nothing = [Matrix::zeros(); 2];
-        D as f64 / self.block([node, node], &nothing, &Matrix::identity(), |k| 1.0 / stiffness[k]).trace()
+        1.0 / self.own_compliance(node, &[Matrix::zeros(); 2], |k| 1.0 / stiffness[k])
     }
 
     fn forget(&mut self) {}
@@ -271,12 +303,8 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
 
     /// The mass that a force at the node moves, in the mean of all directions.
     fn mass_of(&self, node: u32) -> f64 {
-        let node = node as usize;
-        let rotation = Matrix::identity();
-        D as f64
-            / self
-                .block([node, node], &mobility(&part(&self.body).shape, &rotation), &rotation, |_| 1.0)
-                .trace()
+        let mobility = mobility(&part(&self.body).shape, &Matrix::identity());
+        1.0 / self.own_compliance(node, &mobility, |_| 1.0)
     }
 
     fn jolt(
@@ -302,7 +330,7 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         let moment = wrench.moment_at(&place.pose.rotation);
         rates.twist = Twist { velocity: along * wrench.force, spin: about * moment };
         change.fill(Vector::zeros());
-        for node in own.outline.iter().map(|&n| n as usize) {
+        for node in own.moved.iter().map(|&n| n as usize) {
             change[node] = own.velocity(place, rates, node);
         }
         let modes = rates.amplitudes.iter().zip(own.reduction.stiffness());
@@ -320,18 +348,26 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
     fn respond(&mut self, _nodes: &[u32]) {}
 
     fn response(&self, a: u32, b: u32, _number: usize) -> Matrix<D> {
-        let places = [a as usize, b as usize];
-        self.block(places, &self.compliance, &self.arms_in, |k| self.equation.compliance[k])
+        let [a, b] = [a, b].map(|node| self.place_of[node as usize] as usize);
+        let [shift, turn] = &self.compliance;
+        let inner = self.inner[a * self.arms.len() + b];
+        let inner = Matrix::<3>::from_fn(|i, j| if i < D && j < D { inner[(i, j)] } else { 0.0 });
+        let rotation = &self.arms_in;
+        let block = shift - cross_matrix(&self.arms[a]) * turn * cross_matrix(&self.arms[b])
+            + rotation * inner * rotation.transpose();
+        Matrix::from_fn(|i, j| block[(i, j)])
     }
 
     fn rigid_motions(&self) -> Vec<usize> {
         (0..D * (D + 1) / 2).collect()
     }
 
-    fn complete(&self, displacement: &mut [Vector<D>]) {
+    fn complete(&self, displacement: &mut [Vector<D>], motion: &mut [Vector<D>]) {
         let own = part(&self.body);
-        for node in own.outline.iter().filter(|n| own.moved.binary_search(n).is_err()) {
-            displacement[*node as usize] = own.displacement(&self.reached, *node as usize);
+        for node in own.beside.iter().map(|&n| n as usize) {
+            let before = displacement[node] - motion[node];
+            displacement[node] = own.displacement(&self.reached, node);
+            motion[node] = displacement[node] - before;
         }
     }
 }

@@ -21,8 +21,8 @@ pub(crate) struct ReducedPart<const D: usize> {
     pub damping: f64,
     /// The nodes, ascending, that the step moves: those that may touch, and those that are read.
     pub moved: Vec<u32>,
-    /// The nodes, ascending, that steps look at: those of the outline beside.
-    pub outline: Vec<u32>,
+    /// The nodes, ascending, that steps look at beside: those of the outline, and those that are tracked.
+    pub beside: Vec<u32>,
     /// What displacements of the nodes that are read are weighed with to guess the rotation [1/m].
     fit: Vec<Vector<D>>,
 }
@@ -75,11 +75,11 @@ impl<const D: usize> Reading<D> {
 }
 
 impl<const D: usize> ReducedPart<D> {
-    /// Of a body, with the nodes of its contact surface and as many `modes` with these held.
+    /// Of a body, with the nodes of its contact surface and as many `modes` with these held; steps are to place its `tracked` nodes.
     ///
     /// # Errors
     /// If the nodes of the contact surface do not hold the body, or it is in pieces.
-    pub fn new(body: &Body<D>, modes: usize) -> Result<Self, FemError> {
+    pub fn new(body: &Body<D>, modes: usize, tracked: &[u32]) -> Result<Self, FemError> {
         let reduction = Reduction::new(body, modes)?;
         let reference = body.mesh().nodes();
         let read = reduction.read_nodes();
@@ -94,10 +94,12 @@ impl<const D: usize> ReducedPart<D> {
             all
         };
         let moved = joined(read, body.surface().nodes());
+        let outline = joined(Surface::of(body.mesh()).nodes(), tracked);
+        let beside = outline.into_iter().filter(|n| moved.binary_search(n).is_err()).collect();
         Ok(Self {
             shape: RigidShape::new(body, None),
             damping: body.damping().stiffness,
-            outline: joined(&moved, Surface::of(body.mesh()).nodes()),
+            beside,
             moved,
             fit: from_middle.iter().map(|y| inverse * y).collect(),
             reduction,
@@ -217,14 +219,15 @@ impl<const D: usize> ReducedPart<D> {
         (lower(&momentum), about_origin.into())
     }
 
-    /// Lets the nodes inside, which no step asks for, be where those that are read say [m], and move so [m/s].
+    /// Lets the nodes that no step places be where those that are read say [m], and all that none moves move so [m/s].
     pub fn complete(&self, u: &mut [Vector<D>], v: &mut [Vector<D>]) {
         let (place, rates) = self.seen(u, v);
-        for (node, (u, v)) in u.iter_mut().zip(v).enumerate() {
-            if self.outline.binary_search(&(node as u32)).is_err() {
+        let is_of = |nodes: &[u32], node: usize| nodes.binary_search(&(node as u32)).is_ok();
+        for (node, (u, v)) in u.iter_mut().zip(v).enumerate().filter(|(n, _)| !is_of(&self.moved, *n)) {
+            if !is_of(&self.beside, node) {
                 *u = self.displacement(&place, node);
-                *v = self.velocity(&place, &rates, node);
             }
+            *v = self.velocity(&place, &rates, node);
         }
     }
 
