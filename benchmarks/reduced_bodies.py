@@ -14,7 +14,6 @@ from __future__ import annotations
 import sys
 import tempfile
 import warnings
-from pathlib import Path
 from time import process_time
 
 import numpy as np

@@ -49,7 +49,10 @@ class AuditBody:
         first_node: int,
         massless: bool,
     ) -> None:
-        forms = (entry.hypothesis, "standard" if isinstance(entry, RigidBody) else entry.formulation)
+        forms = (
+            entry.hypothesis,
+            "standard" if isinstance(entry, RigidBody) else entry.formulation,
+        )
         for what in forms:
             if what not in ("plane-strain", "standard"):
                 raise InputError(f"cannot audit a body in {what!r} yet")

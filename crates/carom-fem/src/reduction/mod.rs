@@ -4,12 +4,15 @@
 //! the body where these nodes are held. Of all motions that they span, [`Reduction`] has the free vibrations: they are orthogonal to one another and
 //! to rigid motions, in the mass and in the stiffness.
 
+mod content;
 mod lowest;
 mod reader;
 
-use carom_mesh::{Matrix, Vector, tensor};
+use carom_mesh::{Matrix, Vector};
 use nalgebra::{Cholesky, DMatrix};
 
+pub use self::content::Content;
+use self::content::rigid_motions;
 use self::lowest::lowest_modes;
 use self::reader::Reader;
 use crate::sparse::{Factor, NodalMatrix, Precision};
@@ -29,17 +32,6 @@ pub struct Reduction<const D: usize> {
     /// The displacements of every node for an amplitude of one of every vibration [1/√kg], node after node.
     shapes: Vec<Vector<D>>,
     reader: Reader<D>,
-}
-
-/// What small displacements of a body are made of: a shift of the centre of mass, a rotation about it, and amplitudes of vibrations.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Content<const D: usize> {
-    /// The shift [m]; of velocities [m/s].
-    pub shift: Vector<D>,
-    /// The vector of the rotation, in the plane its third component alone; of velocities [1/s].
-    pub turn: [f64; 3],
-    /// The amplitudes [m √kg]; of velocities [m √kg/s].
-    pub amplitudes: Vec<f64>,
 }
 
 impl<const D: usize> Reduction<D> {
@@ -164,14 +156,6 @@ impl<const D: usize> Reduction<D> {
     }
 }
 
-impl<const D: usize> Content<D> {
-    /// Nothing, with room for so many amplitudes.
-    #[must_use]
-    pub fn of(count: usize) -> Self {
-        Self { shift: Vector::zeros(), turn: [0.0; 3], amplitudes: vec![0.0; count] }
-    }
-}
-
 /// The shapes of the body where one displacement of a kept node is one and all others are zero.
 fn constraint_modes<const D: usize>(
     stiffness: &NodalMatrix<Matrix<D>>,
@@ -220,15 +204,4 @@ fn hold<const D: usize>(body: &Body<D>, kept: &[u32]) -> bool {
         gram += DMatrix::from_fn(count, count, |i, j| motions[i].dot(&motions[j]));
     }
     gram.symmetric_eigenvalues().min() > HELD * kept.len() as f64
-}
-
-/// The rigid motions of a point with this arm: shifts along the axes, and turns about those that there are in D dimensions.
-fn rigid_motions<const D: usize>(arm: &Vector<D>) -> Vec<Vector<D>> {
-    let shifts = (0..D).map(|i| Vector::from_fn(|k, _| f64::from(u8::from(k == i))));
-    let axes = if D == 2 { 2..3 } else { 0..3 };
-    let turns = axes.map(|axis| {
-        let omega: [f64; 3] = std::array::from_fn(|k| f64::from(u8::from(k == axis)));
-        tensor::rotation_velocity(&omega, arm)
-    });
-    shifts.chain(turns).collect()
 }

@@ -3,7 +3,7 @@
 use carom_mesh::Vector;
 use nalgebra::DMatrix;
 
-use super::{Content, rigid_motions};
+use super::content::{Content, rigid_motions};
 use crate::Body;
 
 /// So many times as many displacements are read inside as there are modes: the round-off of some is then that of none.

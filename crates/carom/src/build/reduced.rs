@@ -88,14 +88,9 @@ pub(super) fn reduced_body<const D: usize>(
             format!("{modes}: body {name:?} has {} displacements inside, and no more modes", D * inside);
         return refused(format!("{key}.modes"), message);
     }
-    let part = ReducedPart::new(&body, modes, &tracked(scenario, name, &body)).map_err(|error| match error {
-        FemError::InPieces => InputError::mesh(format!("{key}.mesh"), error.to_string()),
-        _ => {
-            let message =
-                format!("the nodes that body {name:?} keeps do not hold it; name sets with {D} points that are on no line at least");
-            InputError::new(format!("{key}.contact_sets"), message)
-        }
-    })?;
+    // A surface holds what hangs together, so that nothing else can be wrong.
+    let part = ReducedPart::new(&body, modes, &tracked(scenario, name, &body))
+        .map_err(|_| InputError::mesh(format!("{key}.mesh"), FemError::InPieces.to_string()))?;
     Ok((body, part))
 }
 
