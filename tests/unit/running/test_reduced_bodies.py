@@ -5,6 +5,7 @@ import pytest
 import tomlkit
 
 import carom
+import restarting
 from carom.doctor import examine
 
 STEEL = {"steel": carom.SaintVenantKirchhoff(young=2700.0, poisson=0.33, density=1.0)}
@@ -125,6 +126,7 @@ def fixed(**given):
         (
             {
                 "analysis": carom.Static(end_time=1.0, time_step=1.0),
+                "bodies": [bar(velocity=None, spin=None)],
                 "obstacles": [],
                 "output": carom.Output(),
                 "contact": carom.Contact(condition="gap"),
@@ -174,3 +176,59 @@ def test_damping_of_the_stiffness_takes_vibrations_and_leaves_the_flight():
     kept = history["total"]
     assert np.abs(history["defect"]).max() < 1e-10 * kept[0]
     assert history["viscous"][-1] > 1e-4 * kept[0]
+
+
+BLOCK = carom.Box(corner=[0.0, 0.0, 0.05], size=[0.4, 0.1, 0.1], divisions=[8, 2, 2])
+
+
+def tumbling(**given):
+    """Return the case of a block in space that turns about no axis of its own."""
+    block = {
+        **{"name": "block", "material": "steel", "mesh": BLOCK, "modes": 4},
+        **{"contact_sets": ["bottom"], "velocity": [0.2, 0.0, -0.5], "spin": [0.5, 1.0, 0.3]},
+    }
+    base = {
+        "dimension": 3,
+        "analysis": carom.Dynamic(end_time=0.2, time_step=2e-3, gravity=[0.0, 0.0, -1.0]),
+        "materials": STEEL,
+        "bodies": [carom.ReducedBody(**block)],
+        "obstacles": [carom.Plane(name="floor", point=[0.0] * 3, normal=[0.0, 0.0, 1.0])],
+        "contact": carom.Contact(condition="midpoint", friction=0.3),
+        "output": carom.Output(history_every=4e-3, fields_every=5e-2, checkpoint_every=2e-2),
+    }
+    return carom.Scenario(**{**base, **given})
+
+
+def test_a_block_in_space_keeps_energy_and_momenta_as_it_flies():
+    simulation = carom.Simulation(
+        tumbling(
+            analysis=carom.Dynamic(end_time=20.0, time_step=1e-2),
+            obstacles=[],
+            output=carom.Output(history_every=0.5, fields_every=10.0),
+        )
+    )
+    simulation.advance(20.0)
+    history = simulation.history
+    for name in ("total", "angular_momentum_x", "angular_momentum_y", "angular_momentum_z"):
+        drift = np.abs(history[name] - history[name][0]).max()
+        assert drift < 1e-11 * history["total"][0], name
+    # It does turn about other axes than it set out with.
+    assert np.ptp(history["block.spin_y"]) > 0.1
+    assert history["strain"].max() < 1e-20 * history["total"][0]
+
+
+def test_a_stopped_run_of_a_reduced_body_goes_on_to_the_last_bit(tmp_path):
+    whole = carom.run(tumbling(), out=tmp_path / "whole")
+    assert whole.summary["contacts"]
+    assert whole.history["strain"].max() > 1e-3 * whole.history["total"][0]
+
+    def stop(state):
+        if state.time > 0.11:
+            raise carom.Stop
+
+    watched = [carom.Observer(stop, every=0.01)]
+    stopped = carom.run(tumbling(), out=tmp_path / "parts", observers=watched)
+    assert stopped.summary["status"] != "completed"
+    end = carom.run(tumbling(), out=tmp_path / "parts", resume=True)
+    assert end.summary["status"] == "completed"
+    restarting.assert_same_results(tmp_path / "parts", whole.path)

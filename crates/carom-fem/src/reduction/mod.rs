@@ -55,8 +55,7 @@ impl<const D: usize> Reduction<D> {
         factor.factorize(Precision::Double, |entry| inside.values[entry])?;
         let mut columns = constraint_modes(&stiffness, &held, kept, &mut factor);
         columns.extend(lowest_modes(body.mass(), &held, &mut factor, modes)?);
-        let reader = Reader::new(body, kept, &columns);
-        Self::of_columns(body, &stiffness, &columns, reader)
+        Self::of_columns(body, &stiffness, &columns)
     }
 
     /// The free vibrations of what these `columns` span.
@@ -64,7 +63,6 @@ impl<const D: usize> Reduction<D> {
         body: &Body<D>,
         stiffness: &NodalMatrix<Matrix<D>>,
         columns: &[Vec<Vector<D>>],
-        mut reader: Reader<D>,
     ) -> Result<Self, FemError> {
         let basis = matrix_of(columns);
         let mut product = vec![Vector::zeros(); body.node_count()];
@@ -79,8 +77,8 @@ impl<const D: usize> Reduction<D> {
         };
         let mass = times(&|x, y| body.mass().multiply(x, y));
         let stiffness = times(&|x, y| stiffness.multiply(x, y));
-        let rigid = reader.coordinates_of_rigid_motions(body);
-        let root = Cholesky::new(mass.clone()).ok_or(FemError::NotPositiveDefinite)?;
+        let rigid = coordinates_of_rigid_motions(body, columns.len());
+        let root = Cholesky::new(mass).ok_or(FemError::NotPositiveDefinite)?;
         let scaled = |a: &DMatrix<f64>| root.l_dirty().solve_lower_triangular(a);
         let half = scaled(&stiffness).ok_or(FemError::NotPositiveDefinite)?;
         let whole = scaled(&half.transpose()).ok_or(FemError::NotPositiveDefinite)?;
@@ -109,8 +107,10 @@ impl<const D: usize> Reduction<D> {
             .transpose()
             .solve_upper_triangular(&(across * vectors))
             .ok_or(FemError::NotPositiveDefinite)?;
-        reader.finish(&mass, &rigid, &coordinates);
         let shapes = basis * coordinates;
+        let kept = body.surface().nodes();
+        let reader = Reader::new(body, kept, &columns[D * kept.len()..], &shapes);
+        let reader = reader.ok_or(FemError::NotPositiveDefinite)?;
         let shapes = (0..body.node_count())
             .flat_map(|n| (0..values.len()).map(move |k| (n, k)))
             .map(|(n, k)| Vector::from_fn(|i, _| shapes[(n * D + i, k)]))
@@ -192,6 +192,15 @@ fn matrix_of<const D: usize>(columns: &[Vec<Vector<D>>]) -> DMatrix<f64> {
         all.column_mut(k).copy_from_slice(bytemuck::cast_slice(column));
     }
     all
+}
+
+/// The reduced coordinates of rigid motions: the displacements of kept nodes alone, which the inside follows without stress.
+fn coordinates_of_rigid_motions<const D: usize>(body: &Body<D>, size: usize) -> DMatrix<f64> {
+    let (nodes, kept) = (body.mesh().nodes(), body.surface().nodes());
+    let centre = body.mean(nodes);
+    let motions: Vec<_> = kept.iter().map(|&n| rigid_motions(&(nodes[n as usize] - centre))).collect();
+    let value = |r: usize, c: usize| motions.get(r / D).map_or(0.0, |of_node| of_node[c][r % D]);
+    DMatrix::from_fn(size, D * (D + 1) / 2, value)
 }
 
 /// Whether a body cannot move as a rigid one where these nodes do not move.

@@ -9,74 +9,37 @@ use crate::Body;
 /// So many times as many displacements are read inside as there are modes: the round-off of some is then that of none.
 const SPARE: usize = 2;
 
-/// What reads the displacements of some nodes.
+/// What reads the displacements of some nodes: of all that would, the one that takes least of their round-off.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Reader<const D: usize> {
     nodes: Vec<u32>,
-    /// How displacements of the nodes make the reduced coordinates: those of the kept nodes, and the amplitudes of modes. In the end shifts, turns and
-    /// amplitudes of vibrations.
+    /// Shifts, turns and amplitudes of unit displacements, a column for each.
     rows: DMatrix<f64>,
 }
 
 impl<const D: usize> Reader<D> {
-    /// Of a body with these `kept` nodes and the `columns` of their shapes and of modes.
-    pub fn new(body: &Body<D>, kept: &[u32], columns: &[Vec<Vector<D>>]) -> Self {
-        let fixed = D * kept.len();
-        let mut inside = telling(&columns[fixed..]);
-        inside.extend(corners(body.mesh().nodes()));
-        let mut nodes: Vec<u32> = kept.iter().chain(&inside).copied().collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        let inside: Vec<u32> = nodes.iter().copied().filter(|n| kept.binary_search(n).is_err()).collect();
-        let place = |node: u32| nodes.binary_search(&node).unwrap_or_default() * D;
-        let mut rows = DMatrix::zeros(columns.len(), nodes.len() * D);
-        for (k, &node) in kept.iter().enumerate() {
-            (0..D).for_each(|i| rows[(k * D + i, place(node) + i)] = 1.0);
-        }
-        let modes = columns.len() - fixed;
-        if modes > 0 {
-            let at = |r: usize, c: usize| columns[c][inside[r / D] as usize][r % D];
-            let of_modes = DMatrix::from_fn(inside.len() * D, modes, |r, c| at(r, fixed + c));
-            let of_kept = DMatrix::from_fn(inside.len() * D, fixed, at);
-            let normal = of_modes.tr_mul(&of_modes);
-            // The columns are independent where the nodes tell them apart.
-            let inverse = normal.pseudo_inverse(0.0).unwrap_or_else(|_| DMatrix::zeros(modes, modes));
-            let fit = inverse * of_modes.transpose();
-            let carried = &fit * of_kept;
-            for m in 0..modes {
-                for (r, &node) in inside.iter().enumerate() {
-                    (0..D).for_each(|i| rows[(fixed + m, place(node) + i)] = fit[(m, r * D + i)]);
-                }
-                for (k, &node) in kept.iter().enumerate() {
-                    (0..D).for_each(|i| rows[(fixed + m, place(node) + i)] -= carried[(m, k * D + i)]);
-                }
-            }
-        }
-        Self { nodes, rows }
-    }
-
-    /// The reduced coordinates of rigid motions, about the centre of mass.
-    pub fn coordinates_of_rigid_motions(&self, body: &Body<D>) -> DMatrix<f64> {
+    /// Of a body with these `kept` nodes, modes with these held, and the `shapes` of its vibrations, column by column.
+    pub fn new(
+        body: &Body<D>,
+        kept: &[u32],
+        modes: &[Vec<Vector<D>>],
+        shapes: &DMatrix<f64>,
+    ) -> Option<Self> {
         let reference = body.mesh().nodes();
         let centre = body.mean(reference);
-        let motions: Vec<_> =
-            self.nodes.iter().map(|&n| rigid_motions(&(reference[n as usize] - centre))).collect();
-        let count = motions.first().map_or(0, Vec::len);
-        &self.rows * DMatrix::from_fn(self.nodes.len() * D, count, |r, c| motions[r / D][c][r % D])
-    }
-
-    /// Reads shifts, turns and amplitudes from now on, where reduced coordinates have this `mass` and `rigid` motions and vibrations these `coordinates`.
-    pub fn finish(&mut self, mass: &DMatrix<f64>, rigid: &DMatrix<f64>, coordinates: &DMatrix<f64>) {
-        let momenta = rigid.tr_mul(mass);
-        let inertia = &momenta * rigid;
-        let count = inertia.nrows();
-        let inverse = inertia.pseudo_inverse(0.0).unwrap_or_else(|_| DMatrix::zeros(count, count));
-        let of_rigid = inverse * momenta;
-        let of_vibrations = coordinates.tr_mul(mass);
-        let mut all = DMatrix::zeros(of_rigid.nrows() + of_vibrations.nrows(), mass.nrows());
-        all.rows_mut(0, of_rigid.nrows()).copy_from(&of_rigid);
-        all.rows_mut(of_rigid.nrows(), of_vibrations.nrows()).copy_from(&of_vibrations);
-        self.rows = all * &self.rows;
+        let mut nodes = [kept, &telling(modes), &corners(reference)].concat();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let rigid: Vec<_> = nodes.iter().map(|&n| rigid_motions(&(reference[n as usize] - centre))).collect();
+        let count = rigid.first().map_or(0, Vec::len);
+        let made =
+            DMatrix::from_fn(nodes.len() * D, count + shapes.ncols(), |r, c| match c.checked_sub(count) {
+                None => rigid[r / D][c][r % D],
+                Some(k) => shapes[(nodes[r / D] as usize * D + r % D, k)],
+            });
+        let parts = made.qr();
+        let rows = parts.r().solve_upper_triangular(&parts.q().transpose())?;
+        Some(Self { nodes, rows })
     }
 
     /// The nodes that are read, ascending.
