@@ -87,10 +87,10 @@ def test_the_steps_of_a_reduced_body_are_not_audited_yet(tmp_path):
 
 
 def test_the_doctor_says_what_spin_leaves_out():
-    findings = [f for f in examine(case()).findings if "is reduced to" in f.message]
+    findings = [f for f in examine(case()).findings if "is reduced to" in f.what]
     assert [f.level for f in findings] == ["ok"]
     fast = examine(case(bar(spin=8.0), obstacles=[]))
-    (finding,) = [f for f in fast.findings if "leaves out how spin stretches it" in f.message]
+    (finding,) = [f for f in fast.findings if "leaves out how spin stretches it" in f.what]
     assert finding.level == "warning"
 
 

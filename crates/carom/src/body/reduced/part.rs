@@ -120,8 +120,9 @@ impl<const D: usize> ReducedPart<D> {
     /// The displacement of a node [m].
     #[inline]
     pub fn displacement(&self, place: &Place, node: usize) -> Vector<D> {
-        let (arm, bent) = (self.shape.arm(node), self.bent_arm(node, &place.amplitudes));
-        lower(&(place.pose.shift + (place.pose.rotation * bent - arm)))
+        let Pose { shift, rotation } = place.pose;
+        let own = rotation * lift(&self.reduction.displacement(node, &place.amplitudes));
+        lower(&(shift + (rotation - Matrix::identity()) * self.shape.arm(node) + own))
     }
 
     /// The velocity of a node [m/s].
@@ -146,9 +147,9 @@ impl<const D: usize> ReducedPart<D> {
         let mut last = f64::INFINITY;
         for _ in 0..ITERATIONS {
             for (local, &node) in local.iter_mut().zip(nodes) {
-                let arm = self.shape.arm(node as usize);
-                let moved = rotation.tr_mul(&(arm + lift(&u[node as usize])));
-                *local = lower(&(moved - arm));
+                // Not as a difference of places, whose round-off is that of the size of the body.
+                let turned = (rotation - Matrix::identity()).tr_mul(&self.shape.arm(node as usize));
+                *local = lower(&(turned + rotation.tr_mul(&lift(&u[node as usize]))));
             }
             self.reduction.read(local, content);
             let turn = Vector::<3>::from(content.turn);
