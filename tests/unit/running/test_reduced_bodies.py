@@ -168,6 +168,12 @@ def test_cases_that_drive_reduced_bodies_are_refused(given, message):
         carom.check(case(**given))
 
 
+def test_a_reduced_body_starts_as_it_is_drawn():
+    given = carom.Initial(displacements=[carom.InitialDisplacement(body="bar", result="before")])
+    with pytest.raises(carom.InputError, match="initial.*starts as drawn; leave it out"):
+        case(initial=given)
+
+
 def test_damping_of_the_stiffness_takes_vibrations_and_leaves_the_flight():
     damped = STEEL["steel"].model_copy(update={"damping": carom.Damping(stiffness=1e-3)})
     simulation = carom.Simulation(case(materials={"steel": damped}))

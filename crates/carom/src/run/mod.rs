@@ -9,6 +9,7 @@ mod displaced;
 pub(crate) mod error;
 pub(crate) mod events;
 pub(crate) mod history;
+mod inside;
 pub(crate) mod nominal_step;
 pub(crate) mod simulation;
 pub(crate) mod stage;

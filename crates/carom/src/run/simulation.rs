@@ -321,22 +321,14 @@ impl<const D: usize> Simulation<D> {
         &self.books
     }
 
-    /// Runs until time `until` [s] (the end of the run at most), or until `pause`, asked after every step, says so.
-    ///
-    /// # Errors
-    /// If a step fails after all retries; the state is then that after the last good step.
-    pub fn advance(&mut self, until: f64, mut pause: impl FnMut() -> bool) -> Result<Outcome, RunError> {
+    /// Makes steps until time `until` [s], or until `pause`, asked after every one, says so.
+    pub(super) fn go_to(&mut self, until: f64, mut pause: impl FnMut() -> bool) -> Result<Outcome, RunError> {
         while self.goes_on(until) {
-            if let Err(error) = self.one_step() {
-                self.complete();
-                return Err(error);
-            }
+            self.one_step()?;
             if pause() {
-                self.complete();
                 return Ok(Outcome::Paused);
             }
         }
-        self.complete();
         Ok(Outcome::Reached)
     }
 
@@ -430,16 +422,6 @@ impl<const D: usize> Simulation<D> {
     pub fn finish(&mut self) {
         if self.last_recorded != Some(self.state.time) {
             self.record();
-        }
-    }
-
-    /// Lets nodes inside reduced bodies, which steps do not ask for, be where they are.
-    fn complete(&mut self) {
-        for b in self.stages[self.current].model.bodies.iter() {
-            let Some(reduced) = &b.reduced else { continue };
-            for state in [&mut self.state, &mut self.spare] {
-                reduced.complete(&mut state.displacement[b.nodes()], &mut state.velocity[b.nodes()]);
-            }
         }
     }
 
