@@ -174,6 +174,76 @@ def test_a_reduced_body_starts_as_it_is_drawn():
         case(initial=given)
 
 
+def slender(modes, **given):
+    """Return a bar of this many modes, or with its whole mesh."""
+    mesh = carom.Rectangle(corner=[0.0, 0.0], size=[4.0, 0.5], divisions=[32, 4])
+    given = {"name": "bar", "material": "steel", "mesh": mesh, "contact_sets": ["left"], **given}
+    return carom.Body(**given) if modes is None else carom.ReducedBody(modes=modes, **given)
+
+
+def test_the_more_modes_the_more_an_impact_is_that_of_the_whole_linear_body():
+    linear = carom.LinearElastic(young=2700.0, poisson=0.33, density=1.0)
+
+    def end(modes):
+        simulation = carom.Simulation(
+            case(
+                slender(modes, velocity=[-0.2, 0.0]),
+                materials={"steel": linear},
+                analysis=carom.Dynamic(end_time=0.3, time_step=1e-3),
+                obstacles=[carom.Plane(name="wall", point=[0.0, 0.0], normal=[1.0, 0.0])],
+                contact=carom.Contact(condition="gap", friction=0.3),
+                output=carom.Output(
+                    history_every=1e-3,
+                    track=[carom.Track(name="end", body="bar", point=[4.0, 0.25])],
+                ),
+            )
+        )
+        simulation.advance(0.3)
+        history = simulation.history
+        assert np.abs(history["defect"]).max() < 1e-10 * history["total"][0]
+        return history["end.u_x"]
+
+    # With `gap`: what is given back on landing hangs on how bodies tell their masses.
+    whole = end(None)
+    inside = 2 * (33 * 5 - 5)
+    errors = [
+        np.abs(end(modes) - whole).max() / np.abs(whole).max()
+        for modes in (0, 4, 8, 16, 64, inside)
+    ]
+    assert (np.diff(errors) < 0.0).all(), errors
+    assert errors[3] < 0.05, errors
+    assert errors[5] < 1e-11, errors
+
+
+def test_a_reduced_body_and_a_whole_one_keep_momentum_and_energy():
+    disc = carom.Body(
+        name="soft",
+        material="steel",
+        mesh=carom.Disc(centre=[-1.05, 0.3], radius=1.0, divisions=4),
+        velocity=[0.5, 0.0],
+    )
+    simulation = carom.Simulation(
+        case(
+            bodies=[slender(6, velocity=[-1.0, 0.0], spin=0.4), disc],
+            obstacles=[],
+            analysis=carom.Dynamic(end_time=0.4, time_step=2e-3),
+            output=carom.Output(),
+        )
+    )
+    simulation.advance(0.4)
+    history = simulation.history
+    energy = history["total"][0]
+    kept = history["total"] + history["friction"]
+    assert np.abs(kept - kept[0]).max() < 1e-10 * energy
+    for name in ("momentum_x", "momentum_y"):
+        assert np.abs(history[name] - history[name][0]).max() < 1e-11 * energy
+    # Reactions act where nodes land half way, on two sides of what is open: of whole bodies, too.
+    moment = history["angular_momentum"]
+    assert np.abs(moment - moment[0]).max() < 1e-4 * energy
+    assert history["friction"][-1] > 1e-3 * energy
+    assert history["strain"][-1] > 1e-2 * energy
+
+
 def test_damping_of_the_stiffness_takes_vibrations_and_leaves_the_flight():
     damped = STEEL["steel"].model_copy(update={"damping": carom.Damping(stiffness=1e-3)})
     simulation = carom.Simulation(case(materials={"steel": damped}))

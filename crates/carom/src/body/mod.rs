@@ -319,7 +319,7 @@ pub trait Body<const D: usize>: Send + Sync {
     fn forget(&mut self);
 
     /// Writes the displacements and motions [m] at the end of a step of nodes that nobody asks for in iterations, and may look at after.
-    fn complete(&self, _displacement: &mut [Vector<D>], _motion: &mut [Vector<D>]) {}
+    fn complete(&mut self, _displacement: &mut [Vector<D>], _motion: &mut [Vector<D>]) {}
 
     /// Completes the state at the end of a step and says what happened to the energy; returns that and the energies [J].
     fn end_step(

@@ -91,7 +91,7 @@ pub(crate) fn step_over<const D: usize>(
             }
         }
         iterations += made?;
-        for (i, body) in work.bodies.iter().enumerate() {
+        for (i, body) in work.bodies.iter_mut().enumerate() {
             let nodes = assembly.nodes(i);
             body.complete(&mut next.displacement[nodes.clone()], &mut work.motion[nodes]);
         }

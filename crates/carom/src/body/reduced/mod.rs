@@ -362,8 +362,10 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         (0..D * (D + 1) / 2).collect()
     }
 
-    fn complete(&self, displacement: &mut [Vector<D>], motion: &mut [Vector<D>]) {
+    fn complete(&mut self, displacement: &mut [Vector<D>], motion: &mut [Vector<D>]) {
         let own = part(&self.body);
+        // The guess that was taken last is that before the last correction.
+        own.place(displacement, &mut self.reading, &mut self.reached);
         for node in own.beside.iter().map(|&n| n as usize) {
             let before = displacement[node] - motion[node];
             displacement[node] = own.displacement(&self.reached, node);
