@@ -69,6 +69,7 @@ def test_the_tutorial_shows_the_case_and_the_table_of_its_run(desk, monkeypatch)
         "docs/how-to/plant-carom-in-your-code.md",
         "docs/how-to/press-fits.md",
         "docs/how-to/read-the-ledger.md",
+        "docs/how-to/reduced-bodies.md",
         "docs/how-to/results-in-python.md",
         "docs/how-to/stages.md",
         "docs/how-to/sweep.md",

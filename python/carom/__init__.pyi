@@ -12,6 +12,7 @@ from carom.case.analysis import Static as Static
 from carom.case.analysis import Theta as Theta
 from carom.case.body import Body as Body
 from carom.case.body import InitialStress as InitialStress
+from carom.case.body import ReducedBody as ReducedBody
 from carom.case.body import RigidBody as RigidBody
 from carom.case.contact import Contact as Contact
 from carom.case.contact import FrictionSolver as FrictionSolver

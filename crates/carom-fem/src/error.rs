@@ -87,6 +87,11 @@ pub enum FemError {
         "the iteration matrix is not positive definite: the step is too long for the inertia of what moves in it"
     )]
     NotPositiveDefinite,
+    /// A body has motions beside rigid ones that nothing resists.
+    #[error(
+        "the cells do not hang together, so that parts of the body move for nothing; make one body of each part"
+    )]
+    InPieces,
     /// The ordering of a sparse matrix failed.
     #[error("the symbolic factorisation failed: {0}")]
     Symbolic(String),

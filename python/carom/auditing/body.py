@@ -11,7 +11,8 @@ from carom.auditing.arrays import Array, Indices, cross, einsum
 from carom.auditing.cells import Cells, boundary
 from carom.auditing.laws import Law
 from carom.auditing.mass import Mass
-from carom.case.body import Body, RigidBody
+from carom.auditing.reduced import MeanAxes
+from carom.case.body import AnyBody, Body, ReducedBody, RigidBody
 from carom.case.material import Damping, Material
 from carom.case.mesh import Rectangle
 from carom.errors import InputError
@@ -43,7 +44,7 @@ class AuditBody:
 
     def __init__(
         self,
-        entry: Body | RigidBody,
+        entry: AnyBody,
         material: Material | None,
         *,
         vtk_type: int,
@@ -52,7 +53,10 @@ class AuditBody:
         first_node: int,
         massless: bool,
     ) -> None:
-        forms = (entry.hypothesis, entry.formulation if isinstance(entry, Body) else "standard")
+        forms = (
+            entry.hypothesis,
+            "standard" if isinstance(entry, RigidBody) else entry.formulation,
+        )
         for what in forms:
             if what not in ("plane-strain", "standard"):
                 raise InputError(f"cannot audit a body in {what!r} yet")
@@ -61,7 +65,9 @@ class AuditBody:
         self.span = slice(first_node, first_node + len(points))
         self.rigid = isinstance(entry, RigidBody)
         """Whether its nodes move as one."""
-        stress = None if isinstance(entry, RigidBody) else entry.initial_stress
+        self.modes = entry.modes if isinstance(entry, ReducedBody) else None
+        """Modes of a reduced body beside the shapes of its contact surface."""
+        stress = entry.initial_stress if isinstance(entry, Body) else None
         self.law = Law.none() if material is None else Law.of(material, stress)
         self.masters = _masters(entry, points)
         """For every node the one that it moves with, itself as a rule, [node_count]."""
@@ -111,6 +117,9 @@ class AuditBody:
 
     def strain_energy(self, u: Array) -> float:
         """Return ∫ψ dV [J]."""
+        if self.modes is not None:
+            local = self._axes(u).own[self.cells.nodes]
+            return 0.5 * float(einsum("cai,caibk,cbk->", local, self._stiffness, local))
         density = self.law.energy(self.cells.deformation_gradient(u))
         return float((self.cells.weights * density).sum())
 
@@ -152,8 +161,10 @@ class AuditBody:
         rotation: Array = np.array([[cosine, -sine], [sine, cosine]]) / size
         return rotation
 
-    def kinetic_energy(self, v: Array) -> float:
+    def kinetic_energy(self, u: Array, v: Array) -> float:
         """Return ½ vᵀMv [J]; a rigid body may have another inertia than its cells."""
+        if self.modes is not None:
+            return self._axes(u).kinetic_energy(v)
         energy = 0.5 * float((v * self.mass.times(v)).sum())
         more = self.inertia - self._solid_inertia
         if more == 0.0:
@@ -164,6 +175,8 @@ class AuditBody:
 
     def angular_momentum(self, u: Array, v: Array) -> float:
         """Return that about the origin [kg m²/s]."""
+        if self.modes is not None:
+            return self._axes(u).angular_momentum(self.mass.mean(self.points + u), v)
         own = float(cross(self.points + u, self.mass.times(v)).sum())
         more = self.inertia - self._solid_inertia
         return own + (more * self.spin(u, v) if more else 0.0)
@@ -193,10 +206,17 @@ class AuditBody:
 
     def cell_states(self, u: Array) -> tuple[Array, Array]:
         """Return mean Cauchy stress xx yy zz xy yz xz [Pa] and energy density [J/m³] of cells."""
-        f = self.cells.deformation_gradient(u)
+        f = self.cells.deformation_gradient(u if self.modes is None else self._axes(u).own)
         stress = self.cells.mean(self.law.cauchy_stress(f))
+        if self.modes is not None:
+            rotation = np.eye(3)
+            rotation[:2, :2] = self._axes(u).rotation
+            stress = rotation @ stress @ rotation.T
         components = stress[:, [0, 1, 2, 0, 1, 0], [0, 1, 2, 1, 2, 2]]
         return components, self.cells.mean(self.law.energy(f))
+
+    def _axes(self, u: Array) -> MeanAxes:
+        return MeanAxes.of(self.mass, self.points, u)
 
     def _gathered(self, local: Array) -> Array:
         """Sum numbers of the nodes of cells, shape [cell_count, a], over the cells."""
@@ -214,7 +234,7 @@ class AuditBody:
         return stiffness
 
 
-def _density(entry: Body | RigidBody, material: Material | None, cells: Cells) -> float:
+def _density(entry: AnyBody, material: Material | None, cells: Cells) -> float:
     """Return the density of a body [kg/m³]; the mass of a rigid one may be given."""
     if material is not None:
         return material.density
@@ -225,7 +245,7 @@ def _density(entry: Body | RigidBody, material: Material | None, cells: Cells) -
     return entry.mass / float(cells.shared_volumes.sum())
 
 
-def _contact_facets(entry: Body | RigidBody, facets: Indices, points: Array) -> Indices:
+def _contact_facets(entry: AnyBody, facets: Indices, points: Array) -> Indices:
     """Return the facets of a boundary that may touch others."""
     if entry.contact_sets is None or not isinstance(entry.mesh, Rectangle):
         return facets
@@ -233,7 +253,7 @@ def _contact_facets(entry: Body | RigidBody, facets: Indices, points: Array) -> 
 
 
 def _on_sides(
-    entry: Body | RigidBody, facets: Indices, points: Array, sides: Iterable[str]
+    entry: AnyBody, facets: Indices, points: Array, sides: Iterable[str]
 ) -> NDArray[np.bool_]:
     """Return whether facets of a rectangle lie on one of these sides."""
     assert isinstance(entry.mesh, Rectangle)
@@ -249,7 +269,7 @@ def _on_sides(
     return keep
 
 
-def _masters(entry: Body | RigidBody, points: Array) -> Indices:
+def _masters(entry: AnyBody, points: Array) -> Indices:
     """Return the node that each moves with: on the right side of what repeats itself another."""
     masters = np.arange(len(points))
     if not isinstance(entry.mesh, Rectangle) or not entry.mesh.periodic:

@@ -14,7 +14,7 @@ from carom.auditing.files import Frame
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.scales import ROUND_OFF, Scales
-from carom.case.body import Body, RigidBody
+from carom.case.body import AnyBody
 from carom.case.mesh import Disc, Rectangle
 from carom.io import layout
 from carom.io.digest import digest
@@ -39,7 +39,7 @@ def check_mesh(model: AuditModel, findings: Findings) -> None:
         findings.check("mesh", float(cells), 0.0, f"{entry.name}, number of cells")
 
 
-def _misfit(entry: Body | RigidBody, body: AuditBody) -> float:
+def _misfit(entry: AnyBody, body: AuditBody) -> float:
     """Return how far the boundary is from that of the case [m]."""
     mesh = entry.mesh
     if isinstance(mesh, Disc):
@@ -51,7 +51,7 @@ def _misfit(entry: Body | RigidBody, body: AuditBody) -> float:
     return float(np.abs([low - corner, high - corner - np.array(mesh.size)]).max())
 
 
-def _cell_count(entry: Body | RigidBody) -> int:
+def _cell_count(entry: AnyBody) -> int:
     mesh = entry.mesh
     if isinstance(mesh, Disc):
         n, rings = mesh.divisions, mesh.rings or mesh.divisions // 2

@@ -113,7 +113,10 @@ class FrameChecks:
 
     def _energies(self, frame: Frame, row: Row, where: str) -> None:
         bodies, scales = self._model.bodies, self._scales
-        kinetic = sum(body.kinetic_energy(frame.velocity[body.span]) for body in bodies)
+        kinetic = sum(
+            body.kinetic_energy(frame.displacement[body.span], frame.velocity[body.span])
+            for body in bodies
+        )
         strain = sum(body.strain_energy(frame.displacement[body.span]) for body in bodies)
         off = ROUND_OFF * scales.energy
         strain_off = off + sum(scales.strain(b, frame.displacement[b.span]) for b in bodies)

@@ -149,7 +149,7 @@ class LedgerChecks:
         """Check the changes of energy of bodies up to an output time."""
         energies = [
             (
-                body.kinetic_energy(frame.velocity[body.span]),
+                body.kinetic_energy(frame.displacement[body.span], frame.velocity[body.span]),
                 body.strain_energy(frame.displacement[body.span]),
             )
             for body in self._model.bodies

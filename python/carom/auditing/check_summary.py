@@ -7,6 +7,7 @@ from typing import Any, get_args
 
 import numpy as np
 
+from carom.auditing.body import AuditBody
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.rows import GRID, Rows
@@ -159,10 +160,7 @@ class SummaryChecks:
         steps = np.ceil(end / rows.dt - GRID)
         if summary["status"] == "failed":
             steps = min(steps, summary["steps"])
-        dofs = sum(
-            3 if body.rigid else 2 * (len(body.points) - len(body.images))
-            for body in self._model.bodies
-        )
+        dofs = sum(_unknowns(body) for body in self._model.bodies)
         for name, figure in (
             ("steps", summary["steps"] - steps),
             ("end_time", summary["end_time"] - end),
@@ -243,6 +241,12 @@ class SummaryChecks:
             check("summary: status", float(apart == (status == "intersecting")), 0.0, "penetration")
         if status in ("completed", "uncertified", "intersecting", "stopped"):
             check("summary: status", float(kept == (status == "uncertified")), 0.0, "certificate")
+
+
+def _unknowns(body: AuditBody) -> int:
+    if body.modes is not None:
+        return 2 * len(body.surface) + body.modes
+    return 3 if body.rigid else 2 * (len(body.points) - len(body.images))
 
 
 def _number(value: object) -> float:

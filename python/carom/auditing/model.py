@@ -11,7 +11,7 @@ from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
 from carom.auditing.target import Target
 from carom.case.analysis import Conserving, Static, Theta
-from carom.case.body import Body
+from carom.case.body import Body, RigidBody
 from carom.case.contact import Pair
 from carom.case.mesh import Disc, Rectangle
 from carom.case.obstacle import Obstacle, Plane
@@ -147,7 +147,7 @@ class AuditModel:
     def density(self, body: str) -> float:
         """Return the density of a deformable body by name [kg/m³]."""
         entry = next(entry for entry in self.scenario.bodies if entry.name == body)
-        assert isinstance(entry, Body)
+        assert not isinstance(entry, RigidBody)
         return self.scenario.materials[entry.material].density
 
     def name(self, index: int) -> str:
@@ -184,7 +184,7 @@ class AuditModel:
                 raise InputError(f"body {entry.name!r}: the mesh is not numbered body after body")
             yield AuditBody(
                 entry,
-                self.scenario.materials[entry.material] if isinstance(entry, Body) else None,
+                None if entry.kind == "rigid" else self.scenario.materials[entry.material],
                 vtk_type=vtk_type,
                 nodes=nodes - first,
                 points=self.points[first:last],
@@ -305,5 +305,7 @@ def _refuse_what_is_driven(scenario: Scenario) -> None:
         raise InputError("cannot audit an obstacle with a motion yet")
     if any(pair.interference is not None for pair in scenario.contact.pairs):
         raise InputError("cannot audit a pair with an interference yet")
+    if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):
+        raise InputError("cannot audit the steps of a reduced body yet, as with output.audit")
     if any(isinstance(body, Body) and body.growth is not None for body in scenario.bodies):
         raise InputError("cannot audit a body that grows yet")

@@ -58,7 +58,7 @@ class Scales:
         """Take a state into account."""
         energy = 0.0
         for body in self._model.bodies:
-            energy += body.kinetic_energy(velocity[body.span])
+            energy += body.kinetic_energy(displacement[body.span], velocity[body.span])
             energy += body.strain_energy(displacement[body.span])
         self.energy = max(self.energy, energy)
         self.speed = max(self.speed, float(np.abs(velocity).max()))

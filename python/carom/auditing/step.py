@@ -330,7 +330,7 @@ class Step:
         jump = self.v_scheme[body.span] - v0
         if body.rigid:
             jump = self.rigid(body).scheme(u0, v0, model.theta, self.dt)[1]
-        scheme = (model.theta - 0.5) * 2 * body.kinetic_energy(jump)
+        scheme = (model.theta - 0.5) * 2 * body.kinetic_energy(u0, jump)
         scheme += (model.xi - 0.5) * float(((f.end - f.start) * d).sum())
         if model.blended:
             contact = f.missing - float(self.blend[index]) * f.available
@@ -346,7 +346,7 @@ class Step:
             b = body.massless
             scheme += float(((received - f.viscous - f.internal)[b] * d[b]).sum())
         return {
-            "kinetic": body.kinetic_energy(v1) - body.kinetic_energy(v0),
+            "kinetic": body.kinetic_energy(u1, v1) - body.kinetic_energy(u0, v0),
             "strain": body.strain_energy(u1) - body.strain_energy(u0),
             "external": float((f.gravity * d).sum()),
             "viscous": float((f.viscous * d).sum()),

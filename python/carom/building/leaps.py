@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from carom.case.body import Body, RigidBody
+from carom.case.body import AnyBody
 from carom.case.full_stage import FullStage
 from carom.case.scenario import Scenario
 from carom.case.stage import GivenVelocity
@@ -35,7 +35,7 @@ def refuse_leaps(scenario: Scenario, description: Mapping[str, Any]) -> None:
     for stage in scenario.full_stages():
         if not stage.is_dynamic:
             continue
-        moves: list[tuple[int, Body | RigidBody | GivenVelocity]]
+        moves: list[tuple[int, AnyBody | GivenVelocity]]
         moves = [(names.index(given.body), given) for given in stage.velocities]
         paths = [f"{stage.key}velocities.{number}" for number in range(len(moves))]
         if stage.start_time == 0.0:
@@ -46,7 +46,7 @@ def refuse_leaps(scenario: Scenario, description: Mapping[str, Any]) -> None:
 
 
 def _refuse_leap(
-    given: Body | RigidBody | GivenVelocity, built: Mapping[str, Any], stage: FullStage, path: str
+    given: AnyBody | GivenVelocity, built: Mapping[str, Any], stage: FullStage, path: str
 ) -> None:
     """Refuse a body that leaves everything behind in one step of a stage."""
     size, step = built["diameter"], stage.analysis.time_step

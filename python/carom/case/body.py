@@ -1,4 +1,4 @@
-"""Bodies: deformable and rigid ones."""
+"""Bodies: deformable, rigid and reduced ones."""
 
 from __future__ import annotations
 
@@ -203,7 +203,71 @@ class RigidBody(Description):
         return self
 
 
-AnyBody = Annotated[Body | RigidBody, Field(discriminator="kind")]
+class ReducedBody(Description):
+    """An elastic body that is reduced to few shapes, in which it vibrates as it flies and turns.
+
+    It keeps the nodes of its contact surface, each with the shape that the body takes where it
+    alone moves, and the lowest modes of the body with these nodes held (Craig and Bampton). It is
+    linear in the frame that moves and turns with it: for stiff parts whose strain is small, and
+    whose spin is slow beside their lowest frequency. Gravity and contacts are all that acts on it.
+
+    Parameters
+    ----------
+    name
+        Unique over bodies, obstacles and tracked points.
+    material
+        Name of one of the scenario's materials, an elastic one; its stiffness without strain
+        counts. Of damping it has that of the stiffness.
+    modes
+        Number of modes beside the shapes of its contact surface.
+    hypothesis
+        What a body of the plane is in space: a slice of a long body (no strain across the plane) or
+        a sheet (no stress across it).
+    formulation
+        How the deformation follows from the displacements: see deformable bodies.
+    thickness
+        Thickness in the third direction [m].
+    mass
+        Mass matrix: consistent, or lumped to the nodes.
+    mesh
+        Reference geometry and its cells.
+    contact_sets
+        Sets of facets that may touch others; None for all. Every node of them is kept with the
+        shapes of its displacements, so name no more than may touch.
+    velocity
+        Initial velocity of the centre of mass [m/s], shape [D]; None is none.
+    spin
+        Initial angular velocity about the centre of mass [rad/s]: a number in 2D, a vector in 3D.
+    """
+
+    kind: Literal["reduced"] = "reduced"
+    name: Name
+    material: str
+    modes: Annotated[int, Field(strict=True, ge=0)]
+    hypothesis: Literal["plane-strain", "plane-stress"] = "plane-strain"
+    formulation: Literal["standard", "mean-dilatation"] = "standard"
+    thickness: Positive = 1.0
+    mass: Literal["consistent", "lumped"] = "consistent"
+    mesh: Mesh
+    contact_sets: tuple[str, ...] | None = None
+    velocity: Vector | None = None
+    spin: Number | SpaceVector | None = None
+
+    @model_validator(mode="after")
+    def _is_not_periodic(self) -> Self:
+        if isinstance(self.mesh, Rectangle) and self.mesh.periodic:
+            raise problem(
+                "a reduced body cannot be periodic; leave it out", key="mesh.periodic", value=True
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _contact_sets_exist(self) -> Self:
+        _require_sets(self.mesh, self.contact_sets)
+        return self
+
+
+AnyBody = Annotated[Body | RigidBody | ReducedBody, Field(discriminator="kind")]
 """A body of any kind."""
 
 

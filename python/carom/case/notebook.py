@@ -8,7 +8,7 @@ from carom.display.markup import Html, element
 from carom.display.tables import html_table
 
 if TYPE_CHECKING:
-    from carom.case.body import Body, RigidBody
+    from carom.case.body import AnyBody
     from carom.case.scenario import Scenario
 
 
@@ -34,6 +34,6 @@ def scenario_html(scenario: Scenario) -> Html:
     return element("div", element("strong", scenario.title or "Scenario"), html_table(rows), case)
 
 
-def _body_text(body: Body | RigidBody) -> str:
+def _body_text(body: AnyBody) -> str:
     made_of = "rigid" if body.kind == "rigid" else body.material
     return f"{body.name}: {body.mesh.kind}, {made_of}"

@@ -261,6 +261,13 @@ class Scenario(Description):
             _require(body.material, self.materials, what="material", key=f"bodies.{index}.material")
         return self
 
+    @model_validator(mode="after")
+    def _reduced_bodies_start_as_drawn(self) -> Self:
+        # What is read of the nodes of another state may be no more than a part of it.
+        if self.initial is not None and any(body.kind == "reduced" for body in self.bodies):
+            raise problem("a case with a reduced body starts as drawn; leave it out", key="initial")
+        return self
+
     @model_validator(mode="before")
     @classmethod
     def _kind_of_analysis(cls, data: object) -> object:
@@ -343,7 +350,7 @@ class Scenario(Description):
 
     def _names(self) -> Iterator[tuple[str, str]]:
         """Yield every name with the dotted path of where it is given."""
-        groups: dict[str, tuple[Body | RigidBody | Obstacle | Track, ...]] = {
+        groups: dict[str, tuple[AnyBody | Obstacle | Track, ...]] = {
             "bodies": self.bodies,
             "obstacles": self.obstacles,
             "output.track": self.output.track,

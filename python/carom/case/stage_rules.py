@@ -195,7 +195,7 @@ def _check_pairs(scenario: Scenario, stage: Stage, key: str) -> None:
 
 def _touches_not_itself(scenario: Scenario, name: str) -> bool:
     return any(
-        body.name == name and (body.kind == "rigid" or body.self_contact is False)
+        body.name == name and (body.kind != "deformable" or body.self_contact is False)
         for body in scenario.bodies
     )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -58,6 +59,9 @@ def _table(description: Mapping[str, Any], stages: Sequence[FullStage]) -> Table
 def _waves(body: Mapping[str, Any]) -> str:
     if body["is_rigid"]:
         return "rigid"
+    if body["vibrations"] is not None:
+        count, lowest = body["vibrations"]["count"], body["vibrations"]["lowest"]
+        return f"reduced to {count} vibrations, the lowest of {lowest / (2 * math.pi):.4g} Hz"
     speed, step = body["wave_speed"], body["suggested_time_step"]
     return f"wave speed {speed:.4g} m/s, suggested Δt {step:.3g} s"
 

@@ -12,6 +12,7 @@ from carom.doctor.finding import LEVELS, Diagnosis, Finding, Level
 from carom.doctor.meeting import meeting
 from carom.doctor.mesh_quality import mesh_quality
 from carom.doctor.patient import Patient
+from carom.doctor.reduced import reduced
 from carom.doctor.time_step import time_step
 from carom.doctor.units import units
 from carom.errors import InputError
@@ -24,6 +25,7 @@ CHECKS: tuple[Callable[[Patient], Iterator[Finding]], ...] = (
     mesh_quality,
     meeting,
     contact_setup,
+    reduced,
     time_step,
     cost,
 )

@@ -61,6 +61,7 @@ def pipe(**given):
     return {**SPACE, **mesh(**{**CYLINDER, **given})}
 
 
+REDUCED = {"bodies.0.kind": "reduced", "bodies.0.modes": 0}
 J2 = {"young": 1e5, "poisson": 0.3, "yield_stress": 1e3, "hardening": 0.0, "saturation_rate": 0.0}
 RUBBER = {"c10": 1e3, "c20": 0.0, "c30": 0.0, "bulk": 1e5}
 
@@ -126,6 +127,42 @@ BAD = [
         "[0.0] must be 2 finite numbers",
     ),
     # velocities
+    (
+        {"bodies.0.kind": "reduced"},
+        "bodies.0.modes",
+        'body "block" is reduced; say how many modes it has beside those of its surface',
+    ),
+    (
+        {**REDUCED, "bodies.0.hypothesis": "axisymmetric"},
+        "bodies.0.hypothesis",
+        'body "block" is reduced and cannot be one of revolution; choose "plane-strain"',
+    ),
+    (
+        {**REDUCED, "bodies.0.growth": "0.1*t"},
+        "bodies.0.growth",
+        'body "block" is reduced and cannot grow; leave it out',
+    ),
+    (
+        {
+            **REDUCED,
+            "bodies.0.initial_stress": {
+                **dict.fromkeys(("xx", "yy", "zz", "xy", "yz", "xz"), 0.0),
+                "xx": 1.0,
+            },
+        },
+        "bodies.0.initial_stress",
+        'body "block" is reduced and starts without stress; leave it out',
+    ),
+    (
+        {**REDUCED, "bodies.0.mesh.periodic": True},
+        "bodies.0.mesh.periodic",
+        'body "block" is reduced and cannot be periodic; leave periodic out',
+    ),
+    (
+        {**REDUCED, "bodies.0.mesh.divisions": [760, 1]},
+        "bodies.0.contact_sets",
+        'body "block" keeps 3044 displacements of its contact surface, more than 3000; name the',
+    ),
     (
         {"bodies.0.velocity": [1.0]},
         "bodies.0.velocity",
@@ -588,6 +625,13 @@ def test_cubes_that_share_an_edge_alone_have_no_contact_surface():
         MeshError, match=f"the contact surface is not manifold: {message}.*join the"
     ):
         Simulation(spoiled({**SPACE, **FILE, **ABOVE}), {"block": given})
+
+
+def test_a_reduced_body_is_not_in_pieces():
+    cube = np.array([[x, y, z] for z in (0, 1) for x, y in SQUARE])
+    given = part(np.vstack([cube, cube + np.array([3, 0, 0])]), [range(8), range(8, 16)], "hex8")
+    with pytest.raises(MeshError, match="the cells do not hang together, so that parts of the bod"):
+        Simulation(spoiled({**SPACE, **FILE, **ABOVE, **REDUCED}), {"block": given})
 
 
 @pytest.mark.parametrize(

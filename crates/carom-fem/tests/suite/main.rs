@@ -9,5 +9,6 @@ mod impulse;
 mod initial_stress;
 mod locking;
 mod patch_test;
+mod reduction;
 mod revolution;
 mod threads;

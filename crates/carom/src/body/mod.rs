@@ -1,10 +1,12 @@
 //! What a step asks of a body, whatever it is made of.
 //!
 //! A step knows nodes, forces on them and how they yield; it knows nothing of cells. A body owns its factors and its scratch and answers for
-//! itself, stage by stage; the [`fe`] body of finite elements is one of these, the [`rigid`] one another, and the [`foreign`] one that of somebody else's code.
+//! itself, stage by stage; the [`fe`] body of finite elements is one of these, the [`rigid`] and the [`reduced`] one others,
+//! and the [`foreign`] one that of somebody else's code.
 
 pub(crate) mod fe;
 pub(crate) mod foreign;
+pub(crate) mod reduced;
 pub(crate) mod rigid;
 
 use carom_fem::material::PlasticState;
@@ -315,6 +317,9 @@ pub trait Body<const D: usize>: Send + Sync {
 
     /// Lets no step rely on K̄ as it is.
     fn forget(&mut self);
+
+    /// Writes the displacements and motions [m] at the end of a step of nodes that nobody asks for in iterations, and may look at after.
+    fn complete(&mut self, _displacement: &mut [Vector<D>], _motion: &mut [Vector<D>]) {}
 
     /// Completes the state at the end of a step and says what happened to the energy; returns that and the energies [J].
     fn end_step(

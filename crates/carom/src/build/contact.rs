@@ -181,9 +181,9 @@ fn roundness<const D: usize>(key: &str, entry: &BodyEntry) -> Result<(Vector<D>,
     Ok((vector(&key, centre)?, radius))
 }
 
-/// Whether a body may touch itself. What is rigid cannot.
+/// Whether a body may touch itself. What is rigid or deforms little cannot.
 fn touches_itself(entry: &BodyEntry) -> bool {
-    entry.self_contact != Some(false) && entry.kind != BodyKind::Rigid
+    entry.self_contact != Some(false) && entry.kind == BodyKind::Deformable
 }
 
 /// Refuses a surface that has no two sides everywhere.

@@ -24,6 +24,7 @@ pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Res
             motions.push(guided(&key, entry, (index, &rigid.shape), &motions, &course)?);
             continue;
         }
+        refuse_reduced(&format!("{key}.body"), body)?;
         if matches!(entry.motion, MotionSpec::Guided { .. }) {
             let message =
                 format!("body {:?} deforms and is guided by none; choose \"prescribed\"", entry.body);
@@ -54,6 +55,7 @@ pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Res
     for (k, entry) in scenario.loads.iter().enumerate() {
         let key = format!("loads.{k}");
         let (index, body) = find_body(&model, &key, &entry.body)?;
+        refuse_reduced(&format!("{key}.body"), body)?;
         let load = match &entry.load {
             LoadSpec::Resultant { force, moment, point } => {
                 let resultant = resultant(
@@ -104,6 +106,18 @@ fn find_body<'a, const D: usize>(
         let known: Vec<&str> = model.bodies.iter().map(|b| b.name.as_str()).collect();
         InputError::new(format!("{key}.body"), format!("there is no body {name:?}; known are {known:?}"))
     })
+}
+
+/// Refuses to drive a reduced body: gravity and contacts are all that acts on it.
+fn refuse_reduced<const D: usize>(key: &str, body: &ModelBody<D>) -> Result<(), InputError> {
+    if !body.is_reduced() {
+        return Ok(());
+    }
+    let message = format!(
+        "body {:?} is reduced and free: only gravity and contacts act on it; leave it deformable to hold or load it",
+        body.name
+    );
+    Err(InputError::new(key, message))
 }
 
 /// The facets of a set on the boundary of a body.

@@ -11,6 +11,7 @@ pub(crate) mod method;
 pub(crate) mod mortar;
 pub(crate) mod obstacle;
 mod overlaps;
+mod reduced;
 mod restitution;
 mod rigid;
 pub(crate) mod side;
@@ -105,6 +106,9 @@ pub(crate) fn built<const D: usize>(
         bodies.push(if entry.kind == BodyKind::Rigid {
             let (body, inertia) = rigid::rigid_body(scenario, i, entry, given)?;
             ModelBody::new(&entry.name, body, first_node).rigid(inertia)
+        } else if entry.kind == BodyKind::Reduced {
+            let (body, part) = reduced::reduced_body(scenario, i, entry, given)?;
+            ModelBody::new(&entry.name, body, first_node).reduced(part)
         } else {
             let body = body::body(scenario, i, entry, given)?;
             let growth = growth::growth(scenario, i, entry)?;

@@ -25,6 +25,7 @@ use crate::body::fe::FeBody;
 use crate::body::fe::load::Load;
 use crate::body::fe::part::ModelBody;
 use crate::body::fe::supports::{Motion, Supports};
+use crate::body::reduced::ReducedBody;
 use crate::body::rigid::RigidBody;
 use crate::body::rigid::guide::{Guide, Resultant};
 
@@ -139,6 +140,8 @@ impl<const D: usize> Model<D> {
         let stepping = |b: &Arc<ModelBody<D>>| -> Box<dyn Body<D>> {
             if b.is_rigid() {
                 Box::new(RigidBody::new(Arc::clone(b)))
+            } else if b.is_reduced() {
+                Box::new(ReducedBody::new(Arc::clone(b)))
             } else {
                 Box::new(FeBody::new(Arc::clone(b)))
             }

@@ -1,4 +1,5 @@
 use carom_contact::{Pair, Proximity, Target};
+use carom_fem::Reduction;
 use serde::Serialize;
 
 use crate::ledger::ByPair;
@@ -31,6 +32,8 @@ pub struct BodyDescription {
     pub name: String,
     /// Whether it is rigid.
     pub is_rigid: bool,
+    /// The vibrations of a reduced body.
+    pub vibrations: Option<Vibrations>,
     /// Nodes.
     pub nodes: usize,
     /// Cells.
@@ -49,6 +52,15 @@ pub struct BodyDescription {
     pub smallest_edge: f64,
     /// Time of a pressure wave through it [s]; none of a rigid body.
     pub suggested_time_step: Option<f64>,
+}
+
+/// In how many shapes a reduced body vibrates.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Vibrations {
+    /// Their number.
+    pub count: usize,
+    /// The lowest of their frequencies [rad/s].
+    pub lowest: f64,
 }
 
 /// A pair before anything has moved.
@@ -81,6 +93,7 @@ pub(crate) fn describe<const D: usize>(
                 nodes: b.body.node_count(),
                 cells: b.body.mesh().cell_count(),
                 is_rigid: b.is_rigid(),
+                vibrations: b.reduced.as_ref().map(|reduced| vibrations(&reduced.reduction)),
                 dofs: b.dofs(),
                 mass: b.body.total_mass(),
                 volume: b.body.volume(),
@@ -101,6 +114,11 @@ pub(crate) fn describe<const D: usize>(
         bodies,
         pairs,
     }
+}
+
+fn vibrations<const D: usize>(reduction: &Reduction<D>) -> Vibrations {
+    let lowest = reduction.stiffness().first().map_or(0.0, |stiffness| stiffness.sqrt());
+    Vibrations { count: reduction.count(), lowest }
 }
 
 /// The pairs that may touch, in their order: of many those that are no farther apart than the smaller of the two is large.

@@ -10,6 +10,7 @@ pub(crate) mod error;
 pub(crate) mod events;
 pub(crate) mod history;
 pub(crate) mod impact;
+mod inside;
 pub(crate) mod nominal_step;
 pub(crate) mod simulation;
 pub(crate) mod stage;

@@ -322,11 +322,8 @@ impl<const D: usize> Simulation<D> {
         &self.books
     }
 
-    /// Runs until time `until` [s] (the end of the run at most), or until `pause`, asked after every step, says so.
-    ///
-    /// # Errors
-    /// If a step fails after all retries; the state is then that after the last good step.
-    pub fn advance(&mut self, until: f64, mut pause: impl FnMut() -> bool) -> Result<Outcome, RunError> {
+    /// Makes steps until time `until` [s], or until `pause`, asked after every one, says so.
+    pub(super) fn go_to(&mut self, until: f64, mut pause: impl FnMut() -> bool) -> Result<Outcome, RunError> {
         while self.goes_on(until) {
             self.one_step()?;
             if pause() {
@@ -431,6 +428,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     fn record(&mut self) {
+        self.complete();
         let stage = &self.stages[self.current];
         let min_gap = self.history.record(&stage.model, &self.state, &self.books.total, self.current);
         let pairs = &self.stages[self.current].model.assembly.contact.pairs;
@@ -493,8 +491,11 @@ impl<const D: usize> Simulation<D> {
                 .iter()
                 .zip(&s.history)
                 .flat_map(|(b, history)| {
-                    let grown = b.body.after(history).grown(b.growth_at(s.time));
-                    grown.cell_states(&s.displacement[b.nodes()])
+                    let u = &s.displacement[b.nodes()];
+                    if let Some(reduced) = &b.reduced {
+                        return reduced.cell_states(&b.body, u);
+                    }
+                    b.body.after(history).grown(b.growth_at(s.time)).cell_states(u)
                 })
                 .collect(),
         }

@@ -267,6 +267,9 @@ pub struct BodyEntry {
     /// Linear strain by which it would grow if nothing held it.
     #[serde(default)]
     pub growth: Option<SignalSpec>,
+    /// Modes of a reduced body beside those of its contact surface.
+    #[serde(default)]
+    pub modes: Option<usize>,
     /// Whether what it touches sees a ball or disc in place of its mesh, of rigid bodies.
     #[serde(default)]
     pub round: bool,

@@ -12,6 +12,8 @@ pub enum BodyKind {
     Deformable,
     /// Its nodes move as one.
     Rigid,
+    /// It moves as a rigid one, and vibrates in few shapes.
+    Reduced,
 }
 
 /// The mass of a body.

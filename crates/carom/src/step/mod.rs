@@ -92,6 +92,10 @@ pub(crate) fn step_over<const D: usize>(
             }
         }
         iterations += made?;
+        for (i, body) in work.bodies.iter_mut().enumerate() {
+            let nodes = assembly.nodes(i);
+            body.complete(&mut next.displacement[nodes.clone()], &mut work.motion[nodes]);
+        }
         let since = Instant::now();
         let penetration = looked_at(&given, next, repetition, work);
         work.detection_time += since.elapsed();

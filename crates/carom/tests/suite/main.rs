@@ -28,6 +28,7 @@ mod placed_obstacles;
 mod plasticity;
 mod press_fit;
 mod promises;
+mod reduced_bodies;
 mod rest;
 mod rigid_bodies;
 mod scales;

@@ -5,6 +5,7 @@ use carom_mesh::{Matrix, Vector};
 
 use super::load::Load;
 use super::supports::Supports;
+use crate::body::reduced::part::ReducedPart;
 use crate::body::rigid::part::RigidPart;
 use crate::signal::Signal;
 
@@ -26,6 +27,8 @@ pub struct ModelBody<const D: usize> {
     pub(crate) supports: Supports<D>,
     /// What makes it rigid, if it is.
     pub(crate) rigid: Option<RigidPart<D>>,
+    /// What makes it reduced, if it is.
+    pub(crate) reduced: Option<ReducedPart<D>>,
 }
 
 impl<const D: usize> ModelBody<D> {
@@ -43,6 +46,7 @@ impl<const D: usize> ModelBody<D> {
             growth: None,
             supports,
             rigid: None,
+            reduced: None,
         }
     }
 
@@ -58,9 +62,23 @@ impl<const D: usize> ModelBody<D> {
         self.rigid.is_some()
     }
 
+    /// The same, reduced.
+    pub(crate) fn reduced(self, part: ReducedPart<D>) -> Self {
+        Self { reduced: Some(part), ..self }
+    }
+
+    /// Whether it is reduced to few shapes.
+    #[must_use]
+    pub fn is_reduced(&self) -> bool {
+        self.reduced.is_some()
+    }
+
     /// Number of its unknowns.
     #[must_use]
     pub fn dofs(&self) -> usize {
+        if let Some(reduced) = &self.reduced {
+            return reduced.dofs();
+        }
         self.rigid.as_ref().map_or_else(|| self.body.dofs(), RigidPart::dofs)
     }
 
@@ -73,6 +91,9 @@ impl<const D: usize> ModelBody<D> {
     /// What it has of motion at these displacements [m] and velocities [m/s] of its nodes, where its kinetic energy is `kinetic` [J].
     #[must_use]
     pub fn momenta(&self, u: &[Vector<D>], v: &[Vector<D>], kinetic: f64) -> Momenta<D> {
+        if let Some(reduced) = &self.reduced {
+            return reduced.momenta(u, v, kinetic);
+        }
         let Some(rigid) = &self.rigid else { return self.body.momenta(u, v) };
         let (momentum, angular_momentum) = rigid.momenta(u, v);
         let translation = 0.5 * momentum.norm_squared() / rigid.mass();

@@ -29,7 +29,7 @@ pub(crate) struct Prescribed {
 
 /// A step of a rigid body without contacts.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Equation {
+pub(in crate::body) struct Equation {
     pub map: StepMap,
     pub mass: f64,
     pub inertia: Matrix<3>,
@@ -44,7 +44,7 @@ pub(super) struct Equation {
 
 /// The end of a step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct End {
+pub(in crate::body) struct End {
     pub twist: Twist,
     /// What supports give [N s], [N m s].
     pub impulse: Vector<3>,

@@ -3,11 +3,11 @@
 //! Its place and its velocity are read from those of the nodes, so that a state is complete without it.
 
 mod books;
-mod equation;
+pub(in crate::body) mod equation;
 pub(crate) mod guide;
 mod load_step;
 pub(crate) mod part;
-mod pose;
+pub(in crate::body) mod pose;
 pub(crate) mod shape;
 
 use std::sync::Arc;

@@ -4,19 +4,19 @@ use carom_mesh::{Matrix, Vector};
 
 /// A vector of the model in space.
 #[inline]
-pub(super) fn lift<const D: usize>(v: &Vector<D>) -> Vector<3> {
+pub(in crate::body) fn lift<const D: usize>(v: &Vector<D>) -> Vector<3> {
     Vector::from_fn(|i, _| if i < D { v[i] } else { 0.0 })
 }
 
 /// A vector in space, in the model.
 #[inline]
-pub(super) fn lower<const D: usize>(v: &Vector<3>) -> Vector<D> {
+pub(in crate::body) fn lower<const D: usize>(v: &Vector<3>) -> Vector<D> {
     Vector::from_fn(|i, _| v[i])
 }
 
 /// The matrix of ω ×.
 #[inline]
-pub(super) fn cross_matrix(omega: &Vector<3>) -> Matrix<3> {
+pub(in crate::body) fn cross_matrix(omega: &Vector<3>) -> Matrix<3> {
     Matrix::<3>::new(0.0, -omega[2], omega[1], omega[2], 0.0, -omega[0], -omega[1], omega[0], 0.0)
 }
 
@@ -28,7 +28,7 @@ pub(super) fn moment_of(dyad: &Matrix<3>) -> Vector<3> {
 
 /// The rotation (I − ½θ̂)⁻¹ (I + ½θ̂), by 2 arctan(|θ|/2) about θ (Cayley). With R₁ = R(θ) R₀, R₁ − R₀ = θ × ½(R₀ + R₁): a point moves
 /// by exactly θ × the mean of its arms.
-pub(super) fn cayley(theta: &Vector<3>) -> Matrix<3> {
+pub(in crate::body) fn cayley(theta: &Vector<3>) -> Matrix<3> {
     let hat = cross_matrix(theta);
     Matrix::identity() + (hat + hat * hat * 0.5) / (1.0 + 0.25 * theta.norm_squared())
 }
@@ -45,7 +45,7 @@ pub(super) fn cayley_vector(rotation: &Matrix<3>) -> Vector<3> {
 }
 
 /// The inverse of a symmetric matrix on some of the axes, zero on the others.
-pub(super) fn inverse_on(axes: &[bool; 3], m: &Matrix<3>) -> Matrix<3> {
+pub(in crate::body) fn inverse_on(axes: &[bool; 3], m: &Matrix<3>) -> Matrix<3> {
     let on = |i: usize, j: usize| axes[i] && axes[j];
     let whole = Matrix::<3>::from_fn(|i, j| match on(i, j) {
         true => m[(i, j)],

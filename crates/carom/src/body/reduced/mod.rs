@@ -1,0 +1,375 @@
+//! A reduced body: it moves as a rigid one and vibrates in few shapes, which move and turn with it.
+//!
+//! Its frame is that of mean axes, in which the vibrations have neither momentum nor angular momentum. What is of the order of its strain times its spin
+//! is left out of its inertia, so that its kinetic energy is that of a rigid body and of free vibrations. As for a [rigid](super::rigid) one nothing is
+//! stored but displacements and velocities of nodes; its place and the amplitudes are read from some of them.
+
+mod books;
+mod equation;
+pub(crate) mod part;
+
+use std::sync::Arc;
+
+use carom_mesh::{Matrix, Vector};
+
+use self::equation::{Forces, Moved, ReducedEquation};
+use self::part::{Place, Rates, Reading, ReducedPart};
+use super::fe::part::ModelBody;
+use super::rigid::equation::Equation;
+use super::rigid::pose::{Displaced, Twist, cross_matrix, inverse_on, lift, lower};
+use super::rigid::shape::{RigidShape, Wrench};
+use super::{Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt};
+use crate::error::StepError;
+use crate::ledger::{BodyLedger, Energies};
+use crate::scheme::{Scheme, StepMap};
+
+/// A reduced body in a step.
+pub(crate) struct ReducedBody<const D: usize> {
+    body: Arc<ModelBody<D>>,
+    equation: ReducedEquation,
+    /// The present guess, and what the forces known so far make of it, once that is asked for.
+    moved: Moved,
+    solved: Moved,
+    is_solved: bool,
+    forces: Forces<D>,
+    /// Where the guess leads to.
+    reached: Place,
+    /// The motion of the nodes at the guess [m].
+    motion: Vec<Vector<D>>,
+    /// K̄⁻¹ of the vibrations [m/N] between nodes that may touch, in the frame of the body, and the step that it is of.
+    inner: Vec<Matrix<D>>,
+    inner_of: Option<StepMap>,
+    /// The number of a node among those that may touch, and where these are in the middle of the step when K̄ was made, from the centre [m].
+    place_of: Vec<u32>,
+    arms: Vec<Vector<3>>,
+    /// From where nodes that move are to where the body has them at the start [m].
+    healed: Vec<Vector<D>>,
+    /// K̄⁻¹ of shifts [m/N] and of turns [1/(N m)], and the rotation that arms have in it.
+    compliance: [Matrix<3>; 2],
+    arms_in: Matrix<3>,
+    generation: u64,
+    reading: Reading<D>,
+    /// What an impulse gave it.
+    jolted: Rates,
+    scratch: Vec<f64>,
+}
+
+fn part<const D: usize>(body: &ModelBody<D>) -> &ReducedPart<D> {
+    body.reduced.as_ref().expect("a reduced body has a reduced part")
+}
+
+/// The number of every node among some.
+fn places(some: &[u32], nodes: usize) -> Vec<u32> {
+    let mut places = vec![u32::MAX; nodes];
+    (0..).zip(some).for_each(|(k, &node)| places[node as usize] = k);
+    places
+}
+
+impl<const D: usize> ReducedBody<D> {
+    /// The body as it steps.
+    ///
+    /// # Panics
+    /// If it is not reduced.
+    pub fn new(body: Arc<ModelBody<D>>) -> Self {
+        let own = part(&body);
+        let (count, nodes) = (own.reduction.count(), body.body.node_count());
+        let (place, rates) = (Place::of(count), Rates::of(count));
+        let zeros = vec![Vector::zeros(); nodes];
+        let map = Scheme::Conserving.step_map(1.0);
+        Self {
+            equation: ReducedEquation {
+                rigid: Equation::new(&own.shape, map, place.pose, rates.twist),
+                place: place.clone(),
+                rates,
+                compliance: vec![0.0; count],
+                mean: vec![0.0; count],
+            },
+            moved: Moved::of(count),
+            solved: Moved::of(count),
+            is_solved: false,
+            forces: Forces::none(nodes, body.body.surface().nodes().len()),
+            reached: place,
+            motion: zeros,
+            inner: Vec::new(),
+            inner_of: None,
+            place_of: places(body.body.surface().nodes(), nodes),
+            arms: vec![Vector::zeros(); body.body.surface().nodes().len()],
+            healed: vec![Vector::zeros(); nodes],
+            compliance: [Matrix::zeros(); 2],
+            arms_in: Matrix::identity(),
+            generation: 0,
+            reading: Reading::new(own),
+            jolted: Rates::of(count),
+            scratch: vec![0.0; count],
+            body,
+        }
+    }
+
+    /// Takes a guess of the motion for what of it the body can do.
+    fn take(&mut self, guess: &Guess<'_, D>) {
+        let own = part(&self.body);
+        own.moved.iter().for_each(|&n| self.motion[n as usize] = guess.motion[n as usize]);
+        own.place(guess.displacement, &mut self.reading, &mut self.reached);
+        self.moved.rigid = Displaced::between(&self.equation.place.pose, &self.reached.pose);
+        let ends = self.reached.amplitudes.iter().zip(&self.equation.place.amplitudes);
+        self.moved.stretch.iter_mut().zip(ends).for_each(|(d, (a1, a0))| *d = a1 - a0);
+        self.is_solved = false;
+    }
+
+    /// Makes K̄ at the guess.
+    fn make(&mut self) {
+        self.compliance = self.equation.rigid.compliance(&self.moved.rigid);
+        self.arms_in = self.moved.rigid.mean_rotation(&self.equation.place.pose);
+        let ReducedEquation { mean, place, .. } = &mut self.equation;
+        let all = mean.iter_mut().zip(&place.amplitudes).zip(&self.moved.stretch);
+        all.for_each(|((mean, a), d)| *mean = a + 0.5 * d);
+        let own = part(&self.body);
+        let surface = self.body.body.surface().nodes();
+        for (arm, &node) in self.arms.iter_mut().zip(surface) {
+            *arm = self.arms_in * own.bent_arm(node as usize, &self.equation.mean);
+        }
+        if self.inner_of != Some(self.equation.rigid.map) {
+            let shapes = |node: u32| own.reduction.shapes_at(node as usize);
+            self.inner.clear();
+            self.inner.extend(
+                surface
+                    .iter()
+                    .flat_map(|&a| surface.iter().map(move |&b| (a, b)))
+                    .map(|(a, b)| inner(shapes(a), shapes(b), |k| self.equation.compliance[k])),
+            );
+            self.inner_of = Some(self.equation.rigid.map);
+        }
+        self.generation += 1;
+    }
+
+    /// The weight of the body.
+    fn weight(&self) -> Wrench {
+        let mut wrench = Wrench::default();
+        wrench.add(&Vector::zeros(), &(lift(&self.body.gravity) * part(&self.body).shape.mass));
+        wrench
+    }
+
+    /// Finds the motion under the forces known so far.
+    fn solve(&mut self) {
+        if self.is_solved {
+            return;
+        }
+        self.solved.copy(&self.moved);
+        self.equation.solve(part(&self.body), &self.forces, &mut self.solved, &mut self.scratch);
+        self.is_solved = true;
+    }
+
+    /// The motion of a node [m] from where it is, to where the body has it.
+    fn motion_of(&self, moved: &Moved, mean: &Matrix<3>, node: usize) -> Vector<D> {
+        self.equation.motion(part(&self.body), moved, mean, node) + self.healed[node]
+    }
+
+    /// How a node yields to a force on itself where it is drawn, with these compliances of rigid motions and of amplitudes, in the mean of the directions.
+    fn own_compliance(
+        &self,
+        node: u32,
+        [shift, turn]: &[Matrix<3>; 2],
+        compliance: impl Fn(usize) -> f64,
+    ) -> f64 {
+        let own = part(&self.body);
+        let arm = cross_matrix(&own.shape.arm(node as usize));
+        let rigid = shift - arm * turn * arm;
+        let shapes = own.reduction.shapes_at(node as usize);
+        let rigid: f64 = (0..D).map(|i| rigid[(i, i)]).sum();
+        (rigid + inner(shapes, shapes, compliance).trace()) / D as f64
+    }
+}
+
+/// Σ c Φ_a ⊗ Φ_b: how the vibrations let one node yield to a force on another, in the frame of the body.
+fn inner<const D: usize>(a: &[Vector<D>], b: &[Vector<D>], compliance: impl Fn(usize) -> f64) -> Matrix<D> {
+    let mut sum = Matrix::zeros();
+    for (k, (a, b)) in a.iter().zip(b).enumerate() {
+        sum += a * (b * compliance(k)).transpose();
+    }
+    sum
+}
+
+/// How shifts and turns answer to impulses: the inverse of the mass [1/kg] and of the inertia [1/(kg m²)].
+fn mobility<const D: usize>(shape: &RigidShape<D>, rotation: &Matrix<3>) -> [Matrix<3>; 2] {
+    let mass = Matrix::<3>::from_diagonal_element(shape.mass);
+    [inverse_on(&shape.moves_along, &mass), inverse_on(&shape.turns_about, &shape.inertia_at(rotation))]
+}
+
+impl<const D: usize> Body<D> for ReducedBody<D> {
+    fn measure(&self, state: &BodyState<'_, D>, internal_force: &mut [Vector<D>]) -> Energies {
+        internal_force.fill(Vector::zeros());
+        let own = part(&self.body);
+        let (place, rates) = own.seen(state.displacement, state.velocity);
+        own.energies(&place, &rates)
+    }
+
+    fn mean_velocity(&self, velocity: &[Vector<D>]) -> Vector<D> {
+        let moved = &part(&self.body).moved;
+        moved.iter().map(|&n| velocity[n as usize]).sum::<Vector<D>>() / moved.len() as f64
+    }
+
+    fn begin_step(
+        &mut self,
+        interval: &Interval,
+        start: &BodyState<'_, D>,
+        motion: &mut [Vector<D>],
+    ) -> Result<Forecast, StepError> {
+        let own = part(&self.body);
+        let ReducedEquation { place, rates, .. } = &mut self.equation;
+        own.place(start.displacement, &mut self.reading, place);
+        own.rates(place, start.velocity, &mut self.reading, rates);
+        self.equation.begin(own, interval.map);
+        self.moved.rigid = self.equation.rigid.driven();
+        self.moved.stretch.fill(0.0);
+        // Free flight is known to round-off before the first iteration.
+        self.forces.restart(Wrench::default());
+        self.equation.solve(own, &self.forces, &mut self.moved, &mut self.scratch);
+        motion.fill(Vector::zeros());
+        let mean = self.moved.rigid.mean_rotation(&self.equation.place.pose);
+        for node in own.moved.iter().map(|&n| n as usize) {
+            self.healed[node] = own.displacement(&self.equation.place, node) - start.displacement[node];
+            motion[node] = self.motion_of(&self.moved, &mean, node);
+        }
+        let speed = own.moved.iter().map(|&n| start.velocity[n as usize].norm_squared()).fold(0.0, f64::max);
+        self.make();
+        let acceleration = self.body.gravity.norm();
+        Ok(Forecast { speed: speed.sqrt(), acceleration, driven: 0.0, is_factorised: true })
+    }
+
+    /// That of a step in time is zero: forces that do not depend on contacts make the whole motion in [`Self::begin_solve`].
+    fn residual(&mut self, guess: &Guess<'_, D>, _blend: Option<f64>, out: &mut [Vector<D>]) {
+        self.take(guess);
+        out.fill(Vector::zeros());
+    }
+
+    fn begin_solve(&mut self, residual: &[Vector<D>]) {
+        self.forces.restart(self.weight());
+        for &node in self.body.body.surface().nodes() {
+            self.forces.add(node, &residual[node as usize]);
+        }
+        self.is_solved = false;
+    }
+
+    fn set_reach(&mut self, _nodes: &[u32]) {}
+
+    fn partial_solve(&mut self, nodes: &[u32], out: &mut [Vector<D>]) {
+        self.solve();
+        let mean = self.solved.rigid.mean_rotation(&self.equation.place.pose);
+        for node in nodes.iter().map(|&n| n as usize) {
+            out[node] = self.motion_of(&self.solved, &mean, node) - self.motion[node];
+        }
+    }
+
+    fn add_forces(&mut self, nodes: &[u32], forces: &[Vector<D>]) {
+        nodes.iter().for_each(|&node| self.forces.add(node, &forces[node as usize]));
+        self.is_solved = false;
+    }
+
+    fn end_solve(&mut self, correction: &mut [Vector<D>]) {
+        self.solve();
+        correction.fill(Vector::zeros());
+        let mean = self.solved.rigid.mean_rotation(&self.equation.place.pose);
+        for node in part(&self.body).moved.iter().map(|&n| n as usize) {
+            correction[node] = self.motion_of(&self.solved, &mean, node) - self.motion[node];
+        }
+    }
+
+    fn renew(&mut self, guess: &Guess<'_, D>, _again: bool) -> Result<(), StepError> {
+        self.take(guess);
+        self.make();
+        Ok(())
+    }
+
+    fn stiffness_at(&mut self, node: u32) -> f64 {
+        let stiffness = part(&self.body).reduction.stiffness();
+        1.0 / self.own_compliance(node, &[Matrix::zeros(); 2], |k| 1.0 / stiffness[k])
+    }
+
+    fn forget(&mut self) {}
+
+    fn end_step(
+        &mut self,
+        guess: &Guess<'_, D>,
+        _blend: Option<f64>,
+        end: BodyEnd<'_, D>,
+    ) -> (BodyLedger, Energies) {
+        self.take(guess);
+        self.close(guess, end)
+    }
+
+    fn is_damped(&self) -> bool {
+        part(&self.body).damping != 0.0
+    }
+
+    /// The mass that a force at the node moves, in the mean of all directions.
+    fn mass_of(&self, node: u32) -> f64 {
+        let mobility = mobility(&part(&self.body).shape, &Matrix::identity());
+        1.0 / self.own_compliance(node, &mobility, |_| 1.0)
+    }
+
+    fn jolt(
+        &mut self,
+        impulse: &mut [Vector<D>],
+        state: &BodyState<'_, D>,
+        change: &mut [Vector<D>],
+        _support: &mut [Vector<D>],
+    ) -> Jolt {
+        let Self { body, reading, reached: place, jolted: rates, .. } = self;
+        let own = part(body);
+        own.place(state.displacement, reading, place);
+        let mut wrench = Wrench::default();
+        rates.amplitudes.fill(0.0);
+        for &node in body.body.surface().nodes() {
+            let push = lift(&impulse[node as usize]);
+            wrench.add(&own.bent_arm(node as usize, &place.amplitudes), &push);
+            let turned = lower::<D>(&place.pose.rotation.tr_mul(&push));
+            let shapes = own.reduction.shapes_at(node as usize);
+            rates.amplitudes.iter_mut().zip(shapes).for_each(|(v, shape)| *v += shape.dot(&turned));
+        }
+        let [along, about] = mobility(&own.shape, &place.pose.rotation);
+        let moment = wrench.moment_at(&place.pose.rotation);
+        rates.twist = Twist { velocity: along * wrench.force, spin: about * moment };
+        change.fill(Vector::zeros());
+        for node in own.moved.iter().map(|&n| n as usize) {
+            change[node] = own.velocity(place, rates, node);
+        }
+        let modes = rates.amplitudes.iter().zip(own.reduction.stiffness());
+        Jolt { power: modes.map(|(v, k)| own.damping * k * v * v).sum(), borne: 0.0 }
+    }
+
+    fn generation(&self) -> u64 {
+        self.generation
+    }
+
+    fn responses_at_once(&self) -> usize {
+        usize::MAX
+    }
+
+    fn respond(&mut self, _nodes: &[u32]) {}
+
+    fn response(&self, a: u32, b: u32, _number: usize) -> Matrix<D> {
+        let [a, b] = [a, b].map(|node| self.place_of[node as usize] as usize);
+        let [shift, turn] = &self.compliance;
+        let inner = self.inner[a * self.arms.len() + b];
+        let inner = Matrix::<3>::from_fn(|i, j| if i < D && j < D { inner[(i, j)] } else { 0.0 });
+        let rotation = &self.arms_in;
+        let block = shift - cross_matrix(&self.arms[a]) * turn * cross_matrix(&self.arms[b])
+            + rotation * inner * rotation.transpose();
+        Matrix::from_fn(|i, j| block[(i, j)])
+    }
+
+    fn rigid_motions(&self) -> Vec<usize> {
+        (0..D * (D + 1) / 2).collect()
+    }
+
+    fn complete(&mut self, displacement: &mut [Vector<D>], motion: &mut [Vector<D>]) {
+        let own = part(&self.body);
+        // The guess that was taken last is that before the last correction.
+        own.place(displacement, &mut self.reading, &mut self.reached);
+        for node in own.beside.iter().map(|&n| n as usize) {
+            let before = displacement[node] - motion[node];
+            displacement[node] = own.displacement(&self.reached, node);
+            motion[node] = displacement[node] - before;
+        }
+    }
+}
