@@ -192,11 +192,14 @@ class AuditBody:
         if not self.images.size:
             centre = self.mass.mean(self.points + u)
             arms = self.points + u - centre
-            inertia = float((arms * self.mass.times(arms)).sum())
-            inertia += self.inertia - self._solid_inertia
+            if self.modes is None:
+                inertia = float((arms * self.mass.times(arms)).sum())
+                inertia += self.inertia - self._solid_inertia
+            else:
+                inertia = self._axes(u).inertia
             moment = self.angular_momentum(u, v) - float(cross(centre, momentum))
             rotation = 0.5 * moment**2 / inertia
-        return translation, rotation, self.kinetic_energy(v) - translation - rotation
+        return translation, rotation, self.kinetic_energy(u, v) - translation - rotation
 
     def spin(self, u: Array, v: Array) -> float:
         """Return Σ m y × (v − v̄) / Σ m |y|² about the centre [rad/s]."""

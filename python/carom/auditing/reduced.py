@@ -55,13 +55,15 @@ class MeanAxes:
     def kinetic_energy(self, v: Array) -> float:
         """Return ½ m v² + ½ J ω² + ½ Σ M of what deforms it [J]."""
         drift, spin, own = self.rates(v)
-        energy = self.mass.total * drift @ drift + self._inertia() * spin**2
+        energy = self.mass.total * drift @ drift + self.inertia * spin**2
         return 0.5 * float(energy + (own * self.mass.times(own)).sum())
 
     def angular_momentum(self, centre: Array, v: Array) -> float:
         """Return that about the origin [kg m²/s], with the centre at this place [m]."""
         drift, spin, _ = self.rates(v)
-        return float(self._inertia() * spin + self.mass.total * cross(centre, drift))
+        return float(self.inertia * spin + self.mass.total * cross(centre, drift))
 
-    def _inertia(self) -> float:
+    @property
+    def inertia(self) -> float:
+        """That about the centre [kg m²], whatever the amplitudes."""
         return float((self.arms * self.mass.times(self.arms)).sum())

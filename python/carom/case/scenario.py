@@ -193,7 +193,7 @@ class Scenario(Description):
             raise problem("required key is missing; give bodies, or patterns of them", key="bodies")
         if not self.patterns:
             return self
-        made: list[Body | RigidBody] = []
+        made: list[AnyBody] = []
         copies: dict[str, list[str]] = {}
         for index, pattern in enumerate(self.patterns):
             try:
