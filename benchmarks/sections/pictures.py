@@ -7,6 +7,7 @@ from pathlib import Path
 
 import bars
 import cylinders
+import ironing
 import numpy as np
 import oscillator
 from matplotlib.axes import Axes
@@ -41,6 +42,25 @@ def draw_bars(run: Run, path: Path) -> None:
         velocity.set_ylabel(r"$v_\mathrm{mid} = \Delta u_C / \Delta t$ [m/s]")
         velocity.set_xlabel("time $t$ [ms]")
         velocity.legend(loc="upper right")
+    save(picture, path)
+
+
+def draw_ironing(runs: Mapping[tuple[str, str], ironing.Ironing], path: Path) -> None:
+    """Draw the forces on the iron, a panel per discretisation."""
+    colours = dict(zip(ironing.WAYS, (BLACK, ORANGE, BLUE), strict=True))
+    with figure(height=5.6) as picture:
+        panels = picture.subplots(len(ironing.DISCRETISATIONS), sharex=True, sharey=True)
+        for axes, discretisation in zip(panels, ironing.DISCRETISATIONS, strict=True):
+            for way, colour in colours.items():
+                run = runs[discretisation, way]
+                for force, style in zip(run.forces, ("-", "--"), strict=True):
+                    label = way if style == "-" else None
+                    time = run.history["time"]
+                    axes.plot(time, 1e-6 * force, style, color=colour, linewidth=1.0, label=label)
+            axes.set_title(f"Iron, {discretisation}: drawn (full) and pressed (dashed)")
+            axes.set_ylabel("force [MN/m]")
+        panels[0].legend(loc="upper left")
+        panels[-1].set_xlabel("time $t$ [s]")
     save(picture, path)
 
 

@@ -48,7 +48,7 @@ impl<const D: usize> Delassus<D> {
         problem: &mut ContactProblem<D>,
     ) {
         let stiffened = self.stiffened.is_needed();
-        let leaves_out = self.stiffened.leaves_out();
+        let is_unsymmetric = self.stiffened.is_unsymmetric();
         let Self { compliances, coupling, row_blocks, stiffened: tangent } = self;
         let ActiveSet { contacts, reactions, .. } = active;
         problem.w.clear();
@@ -59,7 +59,7 @@ impl<const D: usize> Delassus<D> {
         for (i, row) in contacts.iter().enumerate() {
             let mut q = row.relative(|n| motion[n]);
             q += offsets[i];
-            if leaves_out {
+            if is_unsymmetric {
                 q[0] += tangent.unseen(i);
             }
             problem.q.push(q);
@@ -69,12 +69,12 @@ impl<const D: usize> Delassus<D> {
             let near = if stiffened { &[] } else { coupling.partners(assembly, compliances, i, row) };
             for j in all.chain(near.iter().copied()) {
                 let j = j as usize;
-                // W is symmetric, also where round-off is not, unless rows leave something out.
-                let block = if j < i && !leaves_out {
+                // W is symmetric, also where round-off is not, unless the tangent is not.
+                let block = if j < i && !is_unsymmetric {
                     problem.w.block(j, i).map(Matrix::transpose)
                 } else if stiffened {
                     let mut block = stiffened_block(tangent, row, &contacts[j]);
-                    if leaves_out {
+                    if is_unsymmetric {
                         block.set_row(0, &(block.row(0) + tangent.unseen_block(i, &contacts[j]).transpose()));
                     }
                     Some(block)
