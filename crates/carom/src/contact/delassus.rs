@@ -48,7 +48,7 @@ impl<const D: usize> Delassus<D> {
         problem: &mut ContactProblem<D>,
     ) {
         let stiffened = self.stiffened.is_needed();
-        let is_unsymmetric = self.stiffened.is_unsymmetric();
+        let leaves_out = self.stiffened.leaves_out();
         let Self { compliances, coupling, row_blocks, stiffened: tangent } = self;
         let ActiveSet { contacts, reactions, .. } = active;
         problem.w.clear();
@@ -59,7 +59,7 @@ impl<const D: usize> Delassus<D> {
         for (i, row) in contacts.iter().enumerate() {
             let mut q = row.relative(|n| motion[n]);
             q += offsets[i];
-            if is_unsymmetric {
+            if leaves_out {
                 q[0] += tangent.unseen(i);
             }
             problem.q.push(q);
@@ -69,12 +69,12 @@ impl<const D: usize> Delassus<D> {
             let near = if stiffened { &[] } else { coupling.partners(assembly, compliances, i, row) };
             for j in all.chain(near.iter().copied()) {
                 let j = j as usize;
-                // W is symmetric, also where round-off is not, unless the tangent is not.
-                let block = if j < i && !is_unsymmetric {
+                // W is symmetric, also where round-off is not, unless rows leave something out.
+                let block = if j < i && !leaves_out {
                     problem.w.block(j, i).map(Matrix::transpose)
                 } else if stiffened {
                     let mut block = stiffened_block(tangent, row, &contacts[j]);
-                    if is_unsymmetric {
+                    if leaves_out {
                         block.set_row(0, &(block.row(0) + tangent.unseen_block(i, &contacts[j]).transpose()));
                     }
                     Some(block)

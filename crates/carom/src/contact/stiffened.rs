@@ -50,8 +50,6 @@ pub(crate) struct Stiffened<const D: usize> {
     seen: Vec<f64>,
     /// What mortar rows leave out of the gradients of their gaps.
     left_out: LeftOut<D>,
-    /// Whether friction turns with a frame: its part of G is not symmetric.
-    rubs: bool,
 }
 
 /// κ of a contact, by the stiffness of its softest node in the undeformed body.
@@ -126,7 +124,6 @@ impl<const D: usize> Stiffened<D> {
             missing: Woodbury::default(),
             seen: Vec::new(),
             left_out: LeftOut::default(),
-            rubs: false,
         }
     }
 
@@ -196,15 +193,6 @@ impl<const D: usize> Stiffened<D> {
         }
         self.is_sprung[body] = true;
         true
-    }
-
-    /// Gives K̄ of these bodies the springs of their contacts; returns whether one had them not.
-    pub fn support_all(&mut self, bodies: &[usize]) -> bool {
-        let mut is_new = false;
-        for &i in bodies.iter().filter(|&&i| !self.springs[i].is_empty()) {
-            is_new |= !std::mem::replace(&mut self.is_sprung[i], true);
-        }
-        is_new
     }
 
     /// No K̄ has springs any more: those of a step before are of no use in the next.
@@ -295,7 +283,6 @@ impl<const D: usize> Stiffened<D> {
         let contact_model = &given.assembly.contact;
         let weight = given.method.condition.evaluation_weight();
         let mut force = vec![Vector::<D>::zeros(); motion.len()];
-        self.rubs = false;
         let contacts = active.candidates.iter().zip(&active.contacts).zip(&active.reactions);
         for (k, ((candidate, contact), r)) in contacts.enumerate() {
             let is_fixed = active.at_kink.get(k).is_some_and(|at_kink| *at_kink);
@@ -304,8 +291,6 @@ impl<const D: usize> Stiffened<D> {
             }
             let step = CONTROL.difference
                 * given.assembly.pair_size(&contact_model.pairs.get(candidate.pair as usize));
-            let rubs = r.rows(1, D - 1).amax() > 0.0;
-            self.rubs |= rubs;
             for (node, _) in contact.stencil() {
                 let Some(column) = self.place(node) else { continue };
                 for component in 0..D {
@@ -324,14 +309,10 @@ impl<const D: usize> Stiffened<D> {
                             let change = std::mem::replace(&mut force[n], Vector::zeros());
                             let Some(row) = self.place(n) else { continue };
                             let mut block = Matrix::<D>::zeros();
-                            block.set_column(component, &(change * weight));
-                            if rubs {
-                                self.missing.add((row, column), block);
-                            } else {
-                                // That of normal reactions is the curvature of their gap.
-                                self.missing.add((row, column), block * 0.5);
-                                self.missing.add((column, row), block.transpose() * 0.5);
-                            }
+                            block.set_column(component, &(change * (0.5 * weight)));
+                            // Friction makes it unsymmetric, of which a solver of contacts knows nothing.
+                            self.missing.add((row, column), block);
+                            self.missing.add((column, row), block.transpose());
                         }
                     }
                 }
@@ -368,9 +349,9 @@ impl<const D: usize> Stiffened<D> {
         Some(self.missing.block(self.place(a)?, self.place(b)?))
     }
 
-    /// Whether W is not symmetric, as friction turns with its frame or rows leave something out of the gradients of their gaps.
-    pub fn is_unsymmetric(&self) -> bool {
-        self.is_needed() && (self.rubs || self.left_out.is_some())
+    /// Whether W is not symmetric, as rows leave something out of the gradients of their gaps.
+    pub fn leaves_out(&self) -> bool {
+        self.is_needed() && self.left_out.is_some()
     }
 
     /// What the row of contact `i` leaves out of the change of its gap [m] that the correction without new reactions makes.

@@ -113,17 +113,13 @@ fn approach<const D: usize>(
         let is_unsolvable = matches!(reason, Some(StepError::Friction { .. }));
         let verdict = verdict.map_err(|error| reason.unwrap_or(error))?;
         if verdict == Verdict::Refused {
-            let stiffened = &mut work.contacts.reduced.delassus.stiffened;
-            // With the stiffness of reactions a compliance may be indefinite, with no solution or one far away. Springs along what contacts hold mend that.
-            let is_mended = stiffened.is_geometric && stiffened.support_all(bodies);
-            if is_unsolvable && !is_mended {
-                stiffened.is_geometric = false;
+            if is_unsolvable {
+                // With the stiffness of reactions a compliance may be indefinite.
+                work.contacts.reduced.delassus.stiffened.is_geometric = false;
             }
             work.newton.return_to_guess(bodies, given.assembly, &mut work.motion, &mut work.contacts.active);
             follow(bodies, given, next, work);
-            if !is_mended {
-                bodies.iter().for_each(|&i| work.newton.holding[i].raise());
-            }
+            bodies.iter().for_each(|&i| work.newton.holding[i].raise());
             linearise(bodies, given, next, work)?;
             continue;
         }
