@@ -46,21 +46,19 @@ def draw_bars(run: Run, path: Path) -> None:
 
 
 def draw_ironing(runs: Mapping[tuple[str, str], ironing.Ironing], path: Path) -> None:
-    """Draw the forces on the iron, a panel per discretisation."""
-    colours = dict(zip(ironing.WAYS, (BLACK, ORANGE, BLUE), strict=True))
-    with figure(height=5.6) as picture:
-        panels = picture.subplots(len(ironing.DISCRETISATIONS), sharex=True, sharey=True)
-        for axes, discretisation in zip(panels, ironing.DISCRETISATIONS, strict=True):
-            for way, colour in colours.items():
-                run = runs[discretisation, way]
-                for force, style in zip(run.forces, ("-", "--"), strict=True):
-                    label = way if style == "-" else None
-                    time = run.history["time"]
-                    axes.plot(time, 1e-6 * force, style, color=colour, linewidth=1.0, label=label)
-            axes.set_title(f"Iron, {discretisation}: drawn (full) and pressed (dashed)")
-            axes.set_ylabel("force [MN/m]")
-        panels[0].legend(loc="upper left")
-        panels[-1].set_xlabel("time $t$ [s]")
+    """Draw the forces that draw the iron and press it."""
+    with figure(height=3.6) as picture:
+        axes = picture.subplots()
+        for (discretisation, way), colour in zip(runs, (ORANGE, BLUE, BLACK), strict=True):
+            run = runs[discretisation, way]
+            for force, style in zip(run.forces, ("-", "--"), strict=True):
+                label = f"{discretisation}, {way}" if style == "-" else None
+                time = run.history["time"]
+                axes.plot(time, 1e-6 * force, style, color=colour, linewidth=1.0, label=label)
+        axes.set_title("Iron: drawn (full) and pressed (dashed)")
+        axes.set_ylabel("force [MN/m]")
+        axes.set_xlabel("time $t$ [s]")
+        axes.legend(loc="upper left")
     save(picture, path)
 
 

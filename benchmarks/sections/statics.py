@@ -5,12 +5,9 @@ from __future__ import annotations
 import ironing
 import press_fit
 import static_references
-import static_scenes
 
 from .layout import IMAGES, power, table
 from .pictures import draw_ironing
-
-SCENES = 200
 
 REFERENCES = """\
 ## Statics
@@ -40,26 +37,17 @@ IRONING = """\
 `python benchmarks/validate.py ironing`: an iron with a round sole and sharp corners, ten times as
 stiff as the slab, goes 1 m down in 1 s and 10 m across in another, μ = 0.3, in steps of 0.01 s.
 *Static* is without inertia; *stabilised* with `stabilisation = "dynamic"`, whose bridges take what
-the column *lost* says, in terms of all work; *damped* a dynamic analysis with θ = ξ = 1. Means and
-scatter, their standard deviation over the mean, are of 1.2 s to 1.8 s, in MN/m.
+the column *lost* says, in terms of all work. Means and scatter, their standard deviation over the
+mean, are of 1.2 s to 1.8 s, in MN/m.
 
 {runs}
 
 {endings}
 
+That the state in which node to segment stops is unstable is not proven:
+[decision 29](decisions/029-load-steps-have-tangents-of-their-own.md) has what is known.
+
 ![Forces on the iron](images/ironing.png)
-"""
-
-SCATTERED = """\
-## Random static scenes
-
-`python benchmarks/static_scenes.py {count}`: blocks pressed on blocks, sheared, bent over posts and
-balls, squeezed between plates; all laws and cells, μ from 0 to 1, meshes that do not fit, in the
-plane and in space, ten load steps each. A scene that does not complete is listed with its reason.
-
-{summary}
-
-{failures}
 """
 
 
@@ -113,10 +101,3 @@ def _endings(runs: dict[tuple[str, str], ironing.Ironing]) -> str:
         if run.status != "completed"
     ]
     return "\n".join(failed) or "All complete."
-
-
-def scenes_section() -> str:
-    """Run random static scenes."""
-    tally = static_scenes.run(SCENES)
-    failures = "\n".join(f"- {each}" for each in tally.failures) or "All complete."
-    return SCATTERED.format(count=SCENES, summary=tally.in_words(), failures=failures)

@@ -25,9 +25,10 @@ YOUNG, POISSON = 68.96e7, 0.32
 DOWN, ACROSS = 1.0, 10.0  # m
 SLIDING = (1.2, 1.8)  # s
 DENSITY = 1.0  # kg/m³: a wave crosses the slab in 0.4 ms
+START = 1.0  # m, the middle of the iron
 STEP = 0.01  # s
-DISCRETISATIONS = ("node-to-segment", "mortar")
-WAYS = ("static", "stabilised", "damped")
+WAYS = ("static", "stabilised")
+RUNS = (("node-to-segment", "static"), ("mortar", "static"), ("mortar", "stabilised"))
 
 
 @dataclass(frozen=True)
@@ -78,20 +79,16 @@ class Ironing:
 
 def scenario(
     folder: Path,
-    analysis: carom.Static | carom.Dynamic,
+    analysis: carom.Static,
     discretisation: str,
-    *,
-    cells: tuple[int, int] = (36, 9),
-    across: float = ACROSS,
-    start: float = 1.0,
 ) -> carom.Scenario:
     """Return the case; the mesh of the iron is written to `folder`."""
     x, share = np.meshgrid(np.linspace(-WIDTH / 2, WIDTH / 2, 13), np.linspace(0.0, 1.0, 7))
     sole = RADIUS - np.sqrt(RADIUS**2 - x**2)
     y = sole + (DEPTH - sole) * share
     # A hair's breadth above the slab.
-    file = grids.write(folder / "iron.inp", start + x, HEIGHT + 1e-6 + y)
-    driven = {"time": [0.0, 1.0, 2.0], "value": [0.0, 0.0, across]}
+    file = grids.write(folder / "iron.inp", START + x, HEIGHT + 1e-6 + y)
+    driven = {"time": [0.0, 1.0, 2.0], "value": [0.0, 0.0, ACROSS]}
     pressed = {"time": [0.0, 1.0], "value": [0.0, -DOWN]}
     return carom.Scenario(
         title="Shallow ironing",
@@ -105,7 +102,7 @@ def scenario(
             carom.Body(
                 name="slab",
                 material="slab",
-                mesh=carom.Rectangle(corner=[0.0, 0.0], size=[LENGTH, HEIGHT], divisions=cells),
+                mesh=carom.Rectangle(corner=[0.0, 0.0], size=[LENGTH, HEIGHT], divisions=[36, 9]),
             ),
             carom.Body(name="iron", material="iron", mesh=carom.MeshFile(file=str(file))),
         ],
@@ -117,11 +114,11 @@ def scenario(
     )
 
 
-def iron(analysis: carom.Static | carom.Dynamic, discretisation: str, **others: Any) -> Ironing:
+def iron(analysis: carom.Static, discretisation: str) -> Ironing:
     """Draw the iron across the slab, as far as it gets."""
     with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        case = scenario(Path(folder), analysis, discretisation, **others)
+        case = scenario(Path(folder), analysis, discretisation)
         out = Path(folder) / "out"
         try:
             status = carom.run(case, out=out).summary["status"]
@@ -132,15 +129,12 @@ def iron(analysis: carom.Static | carom.Dynamic, discretisation: str, **others: 
         return Ironing(status, history, result.summary)
 
 
-def analysis(way: str, step: float = STEP) -> carom.Static | carom.Dynamic:
+def analysis(way: str) -> carom.Static:
     """Return one of the ways to go about it."""
-    ends = {"end_time": 2.0, "time_step": step}
-    if way == "damped":
-        return carom.Dynamic(**ends, scheme=carom.Theta(theta=1.0, xi=1.0), max_halvings=14)
     stabilisation = "dynamic" if way == "stabilised" else "none"
-    return carom.Static(**ends, stabilisation=stabilisation)
+    return carom.Static(end_time=2.0, time_step=STEP, stabilisation=stabilisation)
 
 
 def all_runs() -> dict[tuple[str, str], Ironing]:
-    """Draw the iron across in every way with every discretisation."""
-    return {(d, way): iron(analysis(way), d) for d in DISCRETISATIONS for way in WAYS}
+    """Draw the iron across; node to segment only without bridges, of which it takes minutes."""
+    return {(d, way): iron(analysis(way), d) for d, way in RUNS}
