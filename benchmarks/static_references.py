@@ -20,7 +20,7 @@ import pressed
 import punches
 import wedges
 from compared import Compared
-from sections.layout import table
+from sections.layout import power, table
 
 PUNCH_CELLS = ((0.01, 1.3), (0.005, 1.15), (0.0025, 1.075))
 """Cells at the corner of a flat punch, in terms of its half-width, and how they grow from there."""
@@ -60,15 +60,17 @@ def sealed() -> str:
     )
 
 
-def main() -> None:
-    """Print the table, row by row as the problems are done."""
-    print(table(("problem", "value", "reference", "source", "error", "iterations per step"), ()))
+def tabulated() -> str:
+    """Return the table of all problems."""
+    head = ("problem", "value", "reference", "source", "error", "iterations per step")
+    rows = []
     for c in problems():
-        cells = (c.problem, f"{c.value:.8g}", f"{c.exact:.8g}", c.source)
-        print(f"| {' | '.join(cells)} | {c.error:+.1e} | {c.iterations:.1f} |", flush=True)
-    print()
-    print(sealed())
+        values = (f"{c.value:.8g}", f"{c.exact:.8g}")
+        rows.append((c.problem, *values, c.source, power(c.error), f"{c.iterations:.1f}"))
+    return table(head, rows)
 
 
 if __name__ == "__main__":
-    main()
+    print(tabulated())
+    print()
+    print(sealed())

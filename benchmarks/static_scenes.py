@@ -14,6 +14,7 @@ import sys
 import tempfile
 import warnings
 from collections import Counter
+from dataclasses import dataclass
 from time import process_time
 from typing import Any
 
@@ -160,11 +161,40 @@ def _bend(
     return bodies, motions, obstacles
 
 
-def main() -> int:
-    """Run the scenes."""
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 200
-    first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
+@dataclass(frozen=True)
+class Tally:
+    """What came of the scenes.
+
+    Parameters
+    ----------
+    statuses
+        How many ended how.
+    failures
+        Those that did not complete, with the reason.
+    defect
+        The largest defect of the books, of the work.
+    iterations
+        Newton iterations per load step.
+    """
+
+    statuses: dict[str, int]
+    failures: list[str]
+    defect: float
+    iterations: float
+
+    def in_words(self) -> str:
+        """Return the summary in a sentence."""
+        ended = ", ".join(f"{count} {status}" for status, count in sorted(self.statuses.items()))
+        return (
+            f"{sum(self.statuses.values())} scenes: {ended}; largest defect {self.defect:.1e} of "
+            f"the work; {self.iterations:.2f} iterations per load step."
+        )
+
+
+def run(count: int, first: int = 0) -> Tally:
+    """Run so many scenes, and print those that do not complete as they come."""
     seen: Counter[str] = Counter()
+    failures = []
     worst_defect, iterations, steps = 0.0, 0, 0
     for seed in range(first, first + count):
         case = scene(seed)
@@ -180,17 +210,22 @@ def main() -> int:
         seen[status] += 1
         energy = result.summary["energy"]
         scale = max(energy["strain"], energy["prescribed"], 1e-300)
-        defect = abs(energy["max_defect"]) / scale
-        worst_defect = max(worst_defect, defect)
+        worst_defect = max(worst_defect, abs(energy["max_defect"]) / scale)
         iterations += result.summary["newton_iterations"]
         steps += max(result.summary["steps"], 1)
         if status != "completed":
-            print(
-                f"{case.title}: {status} after {process_time() - begun:.1f} s: {reason}", flush=True
-            )
-    print(f"{count} scenes: {dict(seen)}; largest defect {worst_defect:.1e} of the work")
-    print(f"{iterations / steps:.2f} iterations per load step")
-    return int(seen["completed"] < count or worst_defect > 1e-9)
+            failures.append(f"{case.title}: {status}: {reason}")
+            print(f"{failures[-1]} ({process_time() - begun:.1f} s)", flush=True)
+    return Tally(dict(seen), failures, worst_defect, iterations / steps)
+
+
+def main() -> int:
+    """Run the scenes."""
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 200
+    first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
+    tally = run(count, first)
+    print(tally.in_words())
+    return int(bool(tally.failures) or tally.defect > 1e-9)
 
 
 if __name__ == "__main__":

@@ -25,6 +25,7 @@ from sections import (
     layer,
     massless,
     robustness,
+    statics,
 )
 from sections.layout import IMAGES, PAGE, ROOT
 
@@ -43,6 +44,8 @@ PARTS = {
     "massless layer": massless.layer_section,
     "loads": robustness.loads_section,
     "random scenes": robustness.random_scenes_section,
+    "statics": statics.references_section,
+    "ironing": statics.ironing_section,
 }
 """What the page consists of, in its order; each part begins with a heading of the second level."""
 

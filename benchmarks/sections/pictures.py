@@ -7,6 +7,7 @@ from pathlib import Path
 
 import bars
 import cylinders
+import ironing
 import numpy as np
 import oscillator
 from matplotlib.axes import Axes
@@ -41,6 +42,23 @@ def draw_bars(run: Run, path: Path) -> None:
         velocity.set_ylabel(r"$v_\mathrm{mid} = \Delta u_C / \Delta t$ [m/s]")
         velocity.set_xlabel("time $t$ [ms]")
         velocity.legend(loc="upper right")
+    save(picture, path)
+
+
+def draw_ironing(runs: Mapping[tuple[str, str], ironing.Ironing], path: Path) -> None:
+    """Draw the forces that draw the iron and press it."""
+    with figure(height=3.6) as picture:
+        axes = picture.subplots()
+        for (discretisation, way), colour in zip(runs, (ORANGE, BLUE, BLACK), strict=True):
+            run = runs[discretisation, way]
+            for force, style in zip(run.forces, ("-", "--"), strict=True):
+                label = f"{discretisation}, {way}" if style == "-" else None
+                time = run.history["time"]
+                axes.plot(time, 1e-6 * force, style, color=colour, linewidth=1.0, label=label)
+        axes.set_title("Iron: drawn (full) and pressed (dashed)")
+        axes.set_ylabel("force [MN/m]")
+        axes.set_xlabel("time $t$ [s]")
+        axes.legend(loc="upper left")
     save(picture, path)
 
 
