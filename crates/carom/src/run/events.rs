@@ -203,7 +203,7 @@ mod tests {
         let events = log.events(2.01);
         assert_eq!(events.len(), 2);
         assert_eq!((events[0].onset, events[0].release), (1.00, Some(1.02)));
-        assert_eq!((events[0].peak_force, events[0].friction_work), (5.0, 1.5));
+        assert_eq!((events[0].peak_force, events[0].friction_work), (5.0, 2.0));
         assert_eq!((events[1].onset, events[1].release), (2.01, None));
         assert_eq!(log.events(3.0)[1].release, Some(2.01));
         assert_eq!(events[1].impact, None);
