@@ -91,3 +91,15 @@ def test_the_page_of_the_case_file_has_the_types_of_the_schema():
     assert "| integer |  | `2` | `2`, `3` |" in rows["`dimension`"]
     assert "a number in 2D, a vector in 3D" in rows["`spin`"]
     assert "in 2D in 3D" not in page
+
+
+def test_a_case_with_patterns_is_valid(validator):
+    page = (ROOT / "docs" / "how-to" / "many-bodies.md").read_text(encoding="utf-8")
+    text = page.partition("```toml\n")[2].partition("```")[0]
+    case = tomlkit.parse(text).unwrap()
+    validator.validate(case)
+    complete = carom.Scenario.from_dict(case).to_toml(complete=True)
+    validator.validate(tomlkit.parse(complete).unwrap())
+    case["patterns"][0]["at"]["counts"] = [1, 1]
+    with pytest.raises(jsonschema.ValidationError):
+        validator.validate(case)
