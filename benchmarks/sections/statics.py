@@ -45,7 +45,7 @@ mean, are of 1.2 s to 1.8 s, in MN/m.
 {endings}
 
 That the state in which node to segment stops is unstable is not proven:
-[decision 29](decisions/029-load-steps-have-tangents-of-their-own.md) has what is known.
+record 29 of `docs/decisions` has what is known.
 
 ![Forces on the iron](images/ironing.png)
 """
