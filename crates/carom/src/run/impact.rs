@@ -39,19 +39,21 @@ impl Whole {
         books: &[BodyLedger],
         solid: Solid,
     ) -> Self {
-        let padded = |x: Vector<D>| std::array::from_fn(|i| if i < D { x[i] } else { 0.0 });
         match solid {
             Solid::Obstacle(o) => {
-                Self { velocity: padded(state.velocity[model.node_count() + o]), ..Self::default() }
+                let v = state.velocity[model.node_count() + o];
+                let velocity = std::array::from_fn(|i| if i < D { v[i] } else { 0.0 });
+                Self { velocity, ..Self::default() }
             }
             Solid::Body(i) => {
                 let b = &model.bodies[i];
                 let (u, v) = (&state.displacement[b.nodes()], &state.velocity[b.nodes()]);
                 let energies = state.body_energies[i];
+                let [centre, velocity, spin] = b.drift(u, v);
                 Self {
-                    centre: padded(b.body.centre(u)),
-                    velocity: padded(b.body.mean(v)),
-                    spin: b.body.spin(u, v),
+                    centre,
+                    velocity,
+                    spin,
                     kinetic: b.momenta(u, v, energies.kinetic).kinetic,
                     strain: energies.strain,
                     plastic: books[i].plastic,

@@ -101,6 +101,16 @@ impl<const D: usize> ModelBody<D> {
         Momenta { momentum, angular_momentum, kinetic }
     }
 
+    /// Its centre of mass [m], the velocity of that [m/s] and its mean spin [rad/s], with three components each, at these displacements [m] and
+    /// velocities [m/s] of its nodes. Of a reduced body only those are asked that every step places.
+    pub(crate) fn drift(&self, u: &[Vector<D>], v: &[Vector<D>]) -> [[f64; 3]; 3] {
+        if let Some(reduced) = &self.reduced {
+            return reduced.drift(u, v);
+        }
+        let padded = |x: Vector<D>| std::array::from_fn(|i| if i < D { x[i] } else { 0.0 });
+        [padded(self.body.centre(u)), padded(self.body.mean(v)), self.body.spin(u, v)]
+    }
+
     /// The numbers of its nodes.
     #[must_use]
     pub fn nodes(&self) -> Range<usize> {

@@ -226,6 +226,12 @@ impl<const D: usize> ReducedPart<D> {
         }
     }
 
+    /// Its centre of mass [m], the velocity of that [m/s] and its spin [rad/s], as the nodes say that are placed in every step.
+    pub fn drift(&self, u: &[Vector<D>], v: &[Vector<D>]) -> [[f64; 3]; 3] {
+        let (Place { pose, .. }, Rates { twist, .. }) = self.seen(u, v);
+        [(self.shape.centre + pose.shift).into(), twist.velocity.into(), twist.spin.into()]
+    }
+
     /// Lets the nodes that no step places be where those that are read say [m], and all that none moves move so [m/s].
     pub fn complete(&self, u: &mut [Vector<D>], v: &mut [Vector<D>]) {
         let (place, rates) = self.seen(u, v);
