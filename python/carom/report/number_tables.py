@@ -129,12 +129,13 @@ def impact_table(summary: Summary) -> Html | None:
     rows = []
     for index, contact in impacts:
         cells = [
-            number(contact["impact"][name], f"contacts.{index}.impact.{name}")
+            number(contact["impact"][name], f"contacts.{index}.impact.{name}", digits=3)
             if contact["impact"][name] is not None
             else "–"
             for name in names
         ]
-        cells.append(number(contact["friction_work"], f"contacts.{index}.friction_work"))
+        work = number(contact["friction_work"], f"contacts.{index}.friction_work", digits=3)
+        cells.append(work)
         between = " – ".join(map(str, contact["pair"]))
         rows.append(
             element(
