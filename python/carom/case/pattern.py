@@ -296,12 +296,8 @@ def _check_lengths(at: Grid | RandomPlaces | ListedPlaces, dimension: int) -> No
             )
 
 
-def pairs_of_copies(
-    pairs: Sequence[Pair], copies: dict[str, list[str]]
-) -> Iterator[tuple[int, Pair]]:
+def pairs_of_copies(pairs: Sequence[Pair], copies: dict[str, list[str]]) -> Iterator[Pair]:
     """Yield pairs with the names of all copies in place of that of their pattern.
-
-    Each comes with its place among those given.
 
     Raises
     ------
@@ -310,7 +306,7 @@ def pairs_of_copies(
     """
     for index, pair in enumerate(pairs):
         if copies.keys().isdisjoint(pair.between):
-            yield index, pair
+            yield pair
             continue
         if len(set(pair.between)) == 1:
             raise problem(
@@ -321,7 +317,7 @@ def pairs_of_copies(
             )
         names = [copies.get(name, [name]) for name in pair.between]
         for two in itertools.product(*names):
-            yield index, pair.model_copy(update={"between": two})
+            yield pair.model_copy(update={"between": two})
 
 
 _VECTORS = {"places": ("x", "y", "z"), "velocities": ("vx", "vy", "vz")}

@@ -202,10 +202,10 @@ class Scenario(Description):
                 raise inside(error, f"patterns.{index}") from None
             copies.setdefault(pattern.body.name, []).extend(body.name for body in bodies)
             made += bodies
-        pairs = [pair for _, pair in pairs_of_copies(self.contact.pairs, copies)]
+        pairs = tuple(pairs_of_copies(self.contact.pairs, copies))
         self._given = {"bodies": self.bodies, "contact": self.contact}
         self.__dict__["bodies"] = (*self.bodies, *made)
-        self.__dict__["contact"] = self.contact.model_copy(update={"pairs": tuple(pairs)})
+        self.__dict__["contact"] = self.contact.model_copy(update={"pairs": pairs})
         return self
 
     @model_validator(mode="after")

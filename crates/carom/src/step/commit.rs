@@ -190,7 +190,6 @@ fn close_contacts<const D: usize>(
     // Load steps have no duration: their forces give no impulse.
     let dt = if interval.is_load_step { 0.0 } else { interval.map.dt };
     let place = |n: usize| assembly.reference[n] + next.displacement[n];
-    // Of a body with itself the impulses cancel.
     let push = |pair: &mut PairReport, k: u32, contact: &Contact<D>, force: &Vector<D>| {
         let pair_of = assembly.contact.pairs.get(k as usize);
         let is_source = pair_of.between()[0] == Solid::Body(pair_of.source);
