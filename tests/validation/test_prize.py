@@ -33,6 +33,13 @@ def fast(cylinders_run):
     return cylinders_run(friction=0.2, condition="massless", end_time=3.75, overrides=overrides)
 
 
+def test_nodes_that_pass_one_another_stay_outside(cylinders_run):
+    """Symptom guarded against: one of two was left out as it started on the other, and sank in."""
+    overrides = (*cylinders.PRIZE, 'contact.sources="both"')
+    run = cylinders_run(friction=0.0, condition="massless", end_time=2.6, overrides=overrides)
+    assert run.summary["min_gap"] >= -1e-12
+
+
 def test_frictionless_impacts_conserve_energy(frictionless, fine):
     for run in (frictionless, fine):
         assert run.energy("max_drift") <= 2e-11
@@ -62,7 +69,7 @@ def test_books_close_with_friction(frictional, fast):
 def test_friction_does_no_work_in_any_step(frictional, fast):
     for run in (frictional, fast):
         assert run.summary["least_friction"] >= 0.0
-        assert run.summary["max_blend"] <= 0.5
+        assert run.summary["max_blend"] <= 2.0
 
 
 def test_cylinders_meet_when_the_other_conditions_say(frictionless, frictional):

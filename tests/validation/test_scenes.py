@@ -12,6 +12,7 @@ import pytest
 import carom
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
+import random_scenes
 import stacks
 import wild_scenes
 from scene_list import SCENES
@@ -97,6 +98,16 @@ def test_a_round_indenter_of_the_radius_of_a_few_cells_completes(condition, tmp_
     assert summary["status"] == "completed"
     worst = summary["penetration"]["worst"]
     assert worst["allowed"] / 10 < worst["depth"] < worst["allowed"]
+
+
+@pytest.mark.parametrize(("seed", "deepest"), [(18, 1e-7), (26, 5e-12)])
+def test_corners_stay_outside_of_coarse_bodies_without_mass(seed, deepest):
+    """Symptom guarded against: the finer side alone was checked, and corners sank in by 0.08 m."""
+    scenario = random_scenes.scene(seed, "conserving", "massless")
+    simulation = carom.Simulation(scenario)
+    while simulation.time < scenario.analysis.end_time * (1 - 1e-9):
+        simulation.step()
+    assert np.max(simulation.history["penetration"]) < deepest
 
 
 @pytest.mark.parametrize(

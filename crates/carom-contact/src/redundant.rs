@@ -50,6 +50,33 @@ impl<const D: usize> ContactModel<D> {
                 .is_some_and(|k| self.faced_node(&candidates[k], faced, position) == Some(node))
     }
 
+    /// Whether one of `candidates`, which are in order, is a node of the second side of its pair that was left out, as one of the first stood for it, and has
+    /// parted from that: nodes pass one another in a step. Nodes are at `position`; the gap [m] of the node there is less than `gap`.
+    pub fn has_parted(
+        &self,
+        candidate: &Candidate,
+        gap: f64,
+        position: &impl Fn(u32) -> Vector<D>,
+        candidates: &[Candidate],
+    ) -> bool {
+        let (Site::Node(_), true, Some(facet)) = (candidate.site, candidate.redundant, candidate.facet)
+        else {
+            return false;
+        };
+        let contact = self.evaluate(candidate, position);
+        let Some(surface) = self.faced_surface(candidate).filter(|_| contact.gap < gap) else { return false };
+        let normal = contact.frame.row(0);
+        let of_first = self.pairs.directions(candidate.pair as usize).start as u32;
+        // What stood for it pushes the other way; an edge beside it does not.
+        surface.facets[facet as usize].nodes.iter().any(|&n| {
+            let other = find(candidates, of_first, Site::Node(n)).map(|k| &candidates[k]);
+            other.filter(|other| !other.redundant).is_some_and(|other| {
+                let opposite = self.evaluate(other, position).frame.row(0).dot(&normal);
+                opposite < -SEARCH.alike
+            })
+        })
+    }
+
     /// Whether a corner of an obstacle faces a node of the body that faces the corner.
     fn is_at_node(
         &self,

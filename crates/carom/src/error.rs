@@ -121,7 +121,17 @@ pub enum StepError {
         /// Where it gives way and in which direction, in words, if that is known.
         motion: String,
     },
-    /// The same where inertia took it to no other either.
+    /// In a static analysis bodies press one another out of the way, and their contact problem has no solution that was found. Whether they are unstable is
+    /// not known.
+    #[error(
+        "no equilibrium near the last state was found: body {body:?} and what it touches may be about to buckle or to snap through (their contact \
+         problem is indefinite, and no solution was found); let them move on by analysis.stabilisation = \"dynamic\""
+    )]
+    Indefinite {
+        /// The body.
+        body: String,
+    },
+    /// Where there is no equilibrium nearby, and inertia took the body to no other either.
     #[error(
         "no state near the last one is in stable equilibrium, and with inertia, as analysis.stabilisation says, body {body:?} comes to rest in \
          none{motion}: lower the load, drive it by a displacement in its place, or choose a dynamic analysis"

@@ -18,7 +18,7 @@ from carom.ledger_terms import TERMS, names
 
 Row = Mapping[str, float]
 
-LARGEST_BLEND = 0.5
+LARGEST_BLEND = 2.0
 """Limit of |α|: up to here the reactions of the step are a mean of those of its start and end."""
 
 NEGLIGIBLE = 1e-14
@@ -289,11 +289,13 @@ class StepChecks:
             Where this is.
         """
         missing, available = step.balance()
-        alpha, limit = step.blend, LARGEST_BLEND * np.maximum(available, 0.0)
-        self._check("blend", np.maximum(np.abs(alpha) - LARGEST_BLEND, 0.0), 0.0, where)
-        self._check("blend", alpha - alpha[step.groups], 0.0, where)
+        alpha, (least, largest) = step.blend, step.blend_range(LARGEST_BLEND)
         leaders = np.unique(step.groups)
-        wanted = np.clip(missing, -limit, limit)
+        beyond = np.maximum(np.maximum(alpha - largest, least - alpha), 0.0)
+        self._check("blend", beyond[leaders], ROUND_OFF * LARGEST_BLEND, where)
+        self._check("blend", alpha - alpha[step.groups], 0.0, where)
+        limits = np.sort([least * available, largest * available], axis=0)
+        wanted = np.clip(missing, *limits)
         allowed = work + NEGLIGIBLE * self._scales.energy
         self._check("blend", (alpha * available - wanted)[leaders], allowed, where)
         stored, left = step.end["energy_debt"], step.left_over()
@@ -304,10 +306,10 @@ class StepChecks:
         error = (stored - step.start["energy_debt"]).sum() - _defect(step.ledger)
         sums = ROUND_OFF * (self._scales.energy + sum(abs(e) for e in step.ledger.values()))
         self._check("waiting energy", error, sums, where)
-        full = (np.abs(missing) > limit - work)[leaders]
+        full = ((missing < limits[0] + work) | (missing > limits[1] - work))[leaders]
         if full.any():
             self._findings.leave(
-                "energy that waits: a blend of stresses is at its limit of ½, or has little to move"
+                "energy that waits: a blend of stresses is at its limit, or has little to move"
             )
         self._check("energy of the step", stored[leaders][~full], allowed, where)
 

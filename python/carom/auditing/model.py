@@ -253,7 +253,7 @@ class AuditModel:
                     yield Side(a, b, friction, two_sided=False, restitution=bounce)
                     continue
                 # The auditor has no mortar rows, of which one side has the multipliers.
-                sources = sources or ("finer" if self.massless else "both")
+                sources = sources or "both"
                 if sources == "finer":
                     sources = "second" if self._is_finer(b, a) else "first"
                     swapped = False

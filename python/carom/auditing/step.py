@@ -433,6 +433,30 @@ class Step:
             np.add.at(available, leader, -sign * work.whole[known])
         return missing, available
 
+    def blend_range(self, largest: float) -> tuple[Array, Array]:
+        """Return the least and the largest α of each group, of shape [body_count].
+
+        Up to `largest`, no mean normal reaction ½ (r₀ + r₁) + α (r₁ − r₀) pulls.
+        """
+        ends: dict[tuple[int, int], list[float]] = {}
+        source = {}
+        for end, found in enumerate((self.start_contacts, self.contacts)):
+            for k, key in enumerate(_keys(found)):
+                ends.setdefault(key, [0.0, 0.0])[end] = max(float(found.normal_force[k]), 0.0)
+                source[key] = int(found.source[k])
+        lower = np.full(len(self.groups), -largest)
+        upper = np.full(len(self.groups), largest)
+        for key, (r0, r1) in ends.items():
+            if source[key] >= len(self.groups) or r0 == r1:
+                continue
+            leader = self.groups[source[key]]
+            bound = 0.5 * (r0 + r1) / (r0 - r1)
+            if bound > 0:
+                upper[leader] = min(upper[leader], bound)
+            else:
+                lower[leader] = max(lower[leader], bound)
+        return lower, upper
+
     def left_over(self) -> Array:
         """Return what the groups have yet to give back after the step, [body_count] [J]."""
         left = self._start_debt()

@@ -134,8 +134,7 @@ class Contact(Description):
     sources
         Whose nodes are checked in a pair of bodies that does not state its own: those of both, of
         one side, or of the body with the finer boundary. If the boundaries are alike, it is the
-        lighter one, or the first-named. Left out, it is both; of mortar pairs and with
-        ``massless`` the finer.
+        lighter one, or the first-named. Left out, it is both; of mortar pairs the finer.
     targets
         What they are checked against: a smooth curve, in space a smooth surface, through the
         boundary nodes of the other body, or the facets of its mesh. Curve and surface have a

@@ -149,11 +149,9 @@ fn rule(
         Some(sides) => discretisation(spec, found, sources, sides)?,
         None => Discretisation::NodeToSegment,
     };
-    // Neither side sees all that the other does. But multipliers are on one, and nodes without mass that are in static balance on
-    // both sides at once take energy.
-    let one_side = discretisation == Discretisation::Mortar || spec.condition.is_massless();
+    // Neither side sees all that the other does. But multipliers are on one.
     let directions = match (sources, swapped) {
-        (None, _) if one_side => Directions::Finer,
+        (None, _) if discretisation == Discretisation::Mortar => Directions::Finer,
         (Some(Sources::Finer), _) => Directions::Finer,
         (None | Some(Sources::Both), _) => Directions::Both,
         (Some(Sources::First), false) | (Some(Sources::Second), true) => Directions::Forward,

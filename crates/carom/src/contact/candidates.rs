@@ -68,8 +68,8 @@ impl<const D: usize> Finder<D> {
         self.found.clone_from(candidates);
     }
 
-    /// Whether a node that the search did not find has gone through its target by the end of the step. If so, what was missed is searched
-    /// from now on.
+    /// Whether a node that the search did not find, or that another stood for, has gone through its target by the end of the step. If so, what was
+    /// missed is searched from now on.
     ///
     /// Only where the condition is written there: the others choose their contacts at the start.
     pub fn missed_one(&mut self, given: &Given<'_, D>, next: &State<D>) -> bool {
@@ -81,7 +81,7 @@ impl<const D: usize> Finder<D> {
         // What is closed counts whatever the sign of round-off: an edge that goes on keeps others from being found at its end.
         let closed = CONTROL.closed * assembly.size;
         let at_end = Path::resting(&end, assembly.reach(given.interval.end) + closed);
-        let Self { search, asleep, found, missed, missed_mortar, missed_contacts, .. } = self;
+        let Self { search, asleep, found, needed, missed, missed_mortar, missed_contacts } = self;
         let contact = &assembly.contact;
         contact.detect_node_by_node(|pair| !is_asleep(asleep, pair), &at_end, search, missed);
         assembly.contact.detect_mortar(&at_end, missed_mortar, missed);
@@ -89,11 +89,17 @@ impl<const D: usize> Finder<D> {
         assembly.contact.evaluate_all(missed, &end, missed_mortar, missed_contacts);
         let gaps = missed.iter().zip(&*missed_contacts).map(|(m, c)| c.gap - given.interference(m.key())[1]);
         let missed_one = gaps.into_iter().any(|gap| gap < -assembly.round_off());
+        let known = needed.len();
+        let parted = found.iter().filter(|c| {
+            let touching = given.interference(c.key())[1] - closed;
+            c.redundant && contact.has_parted(c, touching, &end, found)
+        });
+        needed.extend(parted.map(Candidate::key));
         if missed_one {
             found.extend_from_slice(missed);
             found.sort_unstable();
         }
-        missed_one
+        missed_one || needed.len() > known
     }
 
     /// Whether candidates that nobody had found would have kept out what the measure of the step has found inside. If so, they are searched

@@ -42,6 +42,8 @@ pub(super) struct Control {
     /// Contacts up to which a dynamic step whose iterations are slow takes the stiffness of reactions. All respond to all then, in a dense matrix
     /// that is made in every iteration: 0.05 s for so many in the plane.
     pub stiffened: usize,
+    /// Unknowns at contacts up to which a load step in question asks whether its bodies resist together: 0.1 s for so many.
+    pub together: usize,
     /// What the tangent of a load step has more than K̄ is nothing below this, relative to K̄ at the contacts.
     pub negligible: f64,
 }
@@ -64,5 +66,6 @@ pub(super) const CONTROL: Control = Control {
     stiffer: 100.0,
     difference: 1e-6,
     stiffened: 300,
+    together: 1200,
     negligible: 1e-8,
 };

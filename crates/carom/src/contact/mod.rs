@@ -11,6 +11,7 @@ pub(crate) mod cross_check;
 pub(crate) mod delassus;
 mod left_out;
 pub(crate) mod reduced;
+mod second_order;
 pub(crate) mod slip;
 pub(crate) mod stiffened;
 mod woodbury;
@@ -102,6 +103,12 @@ impl<const D: usize> Contacts<D> {
     /// Whether reactions have their stiffness in the tangent.
     pub fn is_stiffened(&self) -> bool {
         self.reduced.delassus.stiffened.is_geometric
+    }
+
+    /// Whether `bodies` that touch may give way together: springs of contacts have made a tangent definite. Of many contacts this is not asked.
+    pub fn are_in_question(&self, bodies: &[usize]) -> bool {
+        let is_sprung = &self.reduced.delassus.stiffened.is_sprung;
+        self.active.contacts.len() <= CONTROL.stiffened && bodies.iter().any(|&i| is_sprung[i])
     }
 
     /// From now on they have, in the rest of the step, unless they are so many that it costs more than it saves. Returns whether they have.

@@ -19,6 +19,7 @@ use super::active::ActiveSet;
 use super::compliance::Compliance;
 use super::control::CONTROL;
 use super::left_out::{LeftOut, NONE};
+use super::second_order;
 use super::woodbury::Woodbury;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
@@ -342,6 +343,24 @@ impl<const D: usize> Stiffened<D> {
                 self.missing.add((place, place), -block);
             }
         }
+    }
+
+    /// The node at which bodies together give way most, if a motion that their closed contacts do not see sets energy free. `held` are the directions of
+    /// its frame that every contact holds.
+    pub fn gives_way(&self, active: &ActiveSet<D>, held: impl Iterator<Item = usize>) -> Option<usize> {
+        if !self.is_needed() || self.left_out.is_some() || self.nodes.len() * D > CONTROL.together {
+            return None;
+        }
+        let rows = active.contacts.iter().zip(held).flat_map(|(contact, directions)| {
+            (0..directions).map(move |k| {
+                let at = |(n, weight): (usize, f64)| {
+                    Some((self.place(n)?, contact.frame.row(k).transpose() * weight))
+                };
+                contact.stencil().filter_map(at).collect::<Vec<_>>()
+            })
+        });
+        let place = second_order::gives_way(self.missing.compliance(), rows)?;
+        Some(self.nodes[place])
     }
 
     /// The block of the compliance between two nodes of P.

@@ -102,6 +102,11 @@ impl<const D: usize> Woodbury<D> {
         Matrix::from_fn(|i, j| self.compliance[(row * D + i, column * D + j)])
     }
 
+    /// (I + C Ĝ)⁻¹ C.
+    pub fn compliance(&self) -> MatRef<'_, f64> {
+        self.compliance.as_ref()
+    }
+
     /// (I + C Ĝ)⁻¹ C x.
     pub fn yields(&self, x: &[f64]) -> Vec<f64> {
         product(self.compliance.as_ref(), x)

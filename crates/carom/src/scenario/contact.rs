@@ -15,7 +15,7 @@ pub struct ContactSpec {
     pub friction: f64,
     /// Solver of the reduced problem.
     pub solver: SolverSpec,
-    /// Whose nodes are checked in pairs of bodies that say nothing else; `None`: both; of mortar pairs and between massless nodes the finer.
+    /// Whose nodes are checked in pairs of bodies that say nothing else; `None`: both; of mortar pairs the finer.
     pub sources: Option<Sources>,
     /// What they are checked against.
     pub targets: Targets,

@@ -12,14 +12,18 @@
 //!
 //! with i and b the nodes with and without mass. D_a + α D_d = Σ μ r̄_n |w_t| less the work of obstacles that move. The change of kinetic
 //! and strain energy is then the work of the loads, less what damping and friction take.
+//!
+//! α is so small that no r̄_n pulls, and friction never does work: it may be −½ to ½ always, and more where r₀ and r₁ are nearly equal or r̄ is
+//! mostly that of the end which presses more.
 
 use carom_contact::Target;
 
 use crate::body::Balance;
 use crate::contact::contact_work::ContactWork;
 
-/// Largest |α|. Up to here r̄ is a mean of r₀ and r₁ with weights that are not negative, so that friction never does work.
-const LARGEST: f64 = 0.5;
+/// Largest |α|. Up to ½ stresses are those of a time within the step. Measured on 40 random scenes: with ½ the books of five stay open for
+/// some steps, and one of them fails; with 2 all complete.
+const LARGEST: f64 = 2.0;
 
 /// What is missing below this fraction of the energy of the model is round-off and may wait. Where the model starts from rest, it is the
 /// energy of the motion of the step. Where there is neither, nothing can be missing.
@@ -30,6 +34,8 @@ const NEGLIGIBLE: f64 = 1e-14;
 pub(crate) struct Blend {
     pub balances: Vec<Balance>,
     groups: Vec<Balance>,
+    /// The least and the largest α of every group.
+    ranges: Vec<[f64; 2]>,
     leader: Vec<usize>,
     /// α of every body.
     pub weight: Vec<f64>,
@@ -41,6 +47,7 @@ impl Blend {
         Self {
             balances: vec![Balance::default(); bodies],
             groups: vec![Balance::default(); bodies],
+            ranges: vec![[-LARGEST, LARGEST]; bodies],
             leader: (0..bodies).collect(),
             weight: vec![0.0; bodies],
         }
@@ -52,6 +59,7 @@ impl Blend {
     pub fn weigh(&mut self, bodies: &[usize], contacts: &[ContactWork], energy_debt: &[f64], energy: f64) {
         for &i in bodies {
             (self.leader[i], self.groups[i]) = (i, Balance::default());
+            self.ranges[i] = [-LARGEST, LARGEST];
         }
         for c in contacts {
             match c.target {
@@ -68,16 +76,20 @@ impl Blend {
             group.available += self.balances[i].available;
         }
         for c in contacts {
-            let group = &mut self.groups[leader_of(&self.leader, c.source)];
+            let leader = leader_of(&self.leader, c.source);
+            narrow(&mut self.ranges[leader], c);
+            let group = &mut self.groups[leader];
             let [start, end] = c.driven;
             group.missing += c.friction * 0.5 * (c.start + c.end) * c.slip - 0.5 * (start + end);
             group.available += end - start - c.friction * (c.end - c.start) * c.slip;
         }
         let energy = bodies.iter().map(|&i| self.balances[i].motion).sum::<f64>().max(energy);
         for &i in bodies {
-            let Balance { missing, available, .. } = self.groups[leader_of(&self.leader, i)];
-            let matters = missing.abs() > NEGLIGIBLE * energy && available > 0.0;
-            self.weight[i] = if matters { (missing / available).clamp(-LARGEST, LARGEST) } else { 0.0 };
+            let leader = leader_of(&self.leader, i);
+            let (Balance { missing, available, .. }, [least, largest]) =
+                (self.groups[leader], self.ranges[leader]);
+            let matters = missing.abs().min(available.abs()) > NEGLIGIBLE * energy;
+            self.weight[i] = if matters { (missing / available).clamp(least, largest) } else { 0.0 };
         }
     }
 
@@ -110,6 +122,16 @@ impl Blend {
     /// Largest |α|.
     pub fn largest_weight(&self) -> f64 {
         self.weight.iter().fold(0.0, |largest: f64, w| largest.max(w.abs()))
+    }
+}
+
+/// Narrows a range of α to where the mean reaction of a contact, r̄ = ½ (r₀ + r₁) + α (r₁ − r₀), does not pull.
+fn narrow([least, largest]: &mut [f64; 2], contact: &ContactWork) {
+    let (sum, change) = (contact.start + contact.end, contact.end - contact.start);
+    if change > 0.0 {
+        *least = least.max(-0.5 * sum / change);
+    } else if change < 0.0 {
+        *largest = largest.min(-0.5 * sum / change);
     }
 }
 

@@ -29,9 +29,16 @@ pub(super) fn equilibrate<const D: usize>(
 ) -> Result<usize, StepError> {
     match approach(bodies, given.method.newton.max_iterations, given, next, work) {
         Ok(iterations) => {
-            if bodies.iter().any(|&i| is_in_question(i, work)) {
+            let is_in_question = bodies.iter().any(|&i| is_in_question(i, work));
+            if is_in_question {
                 stability::check(bodies, given, next, work)?;
+            }
+            let are_in_question = work.contacts.are_in_question(bodies);
+            if is_in_question || are_in_question {
                 linearise(bodies, given, next, work)?;
+            }
+            if are_in_question {
+                stability::check_together(given, work)?;
             }
             Ok(iterations)
         }
@@ -47,7 +54,9 @@ pub(super) fn equilibrate<const D: usize>(
         ) => {
             let is_unsolvable = matches!(error, StepError::Friction { .. });
             let indefinite = if is_unsolvable { stability::indefinite(given, work) } else { None };
-            Err(about_to_give_way(bodies, given, work).or(indefinite).unwrap_or(error))
+            let together =
+                indefinite.map(|undecided| stability::check_together(given, work).err().unwrap_or(undecided));
+            Err(about_to_give_way(bodies, given, work).or(together).unwrap_or(error))
         }
         Err(error) => Err(error),
     }

@@ -2,8 +2,8 @@
 //!
 //! Where the tangent of a body is indefinite a load step may still end in equilibrium: beyond a bifurcation iterations that are held back stay on a path
 //! that nothing but round-off leaves. No part is ever found in such a state, so the step is refused by a witness: a motion x of one body that its closed
-//! contacts do not see, and that sets energy free, x·(K + G)x < 0, with G the stiffness of the reactions. Where there is none the state may be unstable
-//! all the same, by a motion of several bodies at once or by one that slides with friction.
+//! contacts do not see, and that sets energy free, x·(K + G)x < 0, with G the stiffness of the reactions; or one of several bodies at once. Where there is
+//! none the state may be unstable all the same, by a motion that slides with friction.
 
 use carom_contact::Contact;
 use carom_mesh::Vector;
@@ -14,6 +14,7 @@ use super::hold::{elastic_share, neutral};
 use super::report::StepReport;
 use super::workspace::Workspace;
 use crate::body::{Guess, SoftestMotion};
+use crate::contact::Contacts;
 use crate::contact::stiffened::ground;
 use crate::error::StepError;
 use crate::model::given::Given;
@@ -46,12 +47,16 @@ type Pressed<'a, const D: usize> = (&'a Contact<D>, &'a Vector<D>, f64);
 fn holding<'a, const D: usize>(
     pressed: &'a [Pressed<'a, D>],
 ) -> impl Iterator<Item = (&'a Contact<D>, usize)> + 'a {
-    let directions = |r: &Vector<D>, mu: f64| match (r[0] > 0.0, mu > 0.0) {
+    pressed.iter().map(|&(contact, r, mu)| (contact, held_by::<D>(r, mu)))
+}
+
+/// The directions of its frame in which a contact holds still then.
+fn held_by<const D: usize>(r: &Vector<D>, mu: f64) -> usize {
+    match (r[0] > 0.0, mu > 0.0) {
         (false, _) => 0,
         (true, false) => 1,
         (true, true) => D,
-    };
-    pressed.iter().map(move |&(contact, r, mu)| (contact, directions(r, mu)))
+    }
 }
 
 /// The softest motion of a body at these displacements `at`, where these contacts hold it; none if that is as good as rigid.
@@ -105,7 +110,8 @@ fn by_reactions<const D: usize>(
 
 /// Whether a body may be in an equilibrium that is not stable although its iterations have ended: they were held back.
 pub(super) fn is_in_question<const D: usize>(body: usize, work: &Workspace<D>) -> bool {
-    let is_pressed = !work.contacts.reduced.delassus.stiffened.springs[body].is_empty();
+    let stiffened = &work.contacts.reduced.delassus.stiffened;
+    let is_pressed = !stiffened.springs[body].is_empty();
     work.newton.holding[body].was_indefinite || is_pressed && work.bodies[body].hides_softness()
 }
 
@@ -141,6 +147,33 @@ pub(super) fn check<const D: usize>(
     Ok(())
 }
 
+/// Refuses the guess of a load step at which bodies that touch give way together: an equilibrium, or the last guess before contacts that found none. Their
+/// tangents are those of the guess.
+///
+/// # Errors
+/// [`StepError::Unstable`].
+pub(super) fn check_together<const D: usize>(
+    given: &Given<'_, D>,
+    work: &mut Workspace<D>,
+) -> Result<(), StepError> {
+    let Workspace { contacts, motion, bodies, newton, .. } = work;
+    contacts.evaluate(given, motion, None, bodies);
+    let was_geometric = contacts.is_stiffened();
+    if !contacts.take_stiffness_of_reactions() {
+        return Ok(());
+    }
+    contacts.stiffen(given, motion, bodies, &mut newton.residual);
+    let Contacts { active, reduced, .. } = contacts;
+    let stiffened = &mut reduced.delassus.stiffened;
+    let held = active.reactions.iter().zip(&active.friction).map(|(r, mu)| held_by::<D>(r, *mu));
+    let node = stiffened.gives_way(active, held);
+    stiffened.is_geometric = was_geometric;
+    match node.and_then(|n| given.assembly.body_of(n)) {
+        Some(body) => Err(GivingWay { body, motion: Vec::new() }.error(given)),
+        None => Ok(()),
+    }
+}
+
 /// Refuses a load step that ends in another equilibrium than the one next to its start: more is missing of the energy than the step was given.
 ///
 /// # Errors
@@ -164,7 +197,7 @@ pub(super) fn check_jump<const D: usize>(
 }
 
 /// What it says of a load step that its contact problem was not solved: one whose W is indefinite, with springs where contacts hold, may have several
-/// solutions or none, as bodies give way that hold one another. Names the body of the contact that moves most.
+/// solutions or none. Bodies that hold one another may give way there, which is not proven. Names the body of the contact that moves most.
 pub(super) fn indefinite<const D: usize>(given: &Given<'_, D>, work: &Workspace<D>) -> Option<StepError> {
     let problem = work.posed_problem()?.problem;
     let count = problem.q.len();
@@ -188,7 +221,10 @@ pub(super) fn indefinite<const D: usize>(given: &Given<'_, D>, work: &Workspace<
     let contact = modes.eigenvectors.column(softest).iamax() / D;
     let pair = work.contacts.active.candidates.get(contact)?.pair;
     let body = given.assembly.contact.pairs.get(pair as usize).source;
-    Some(GivingWay { body, motion: Vec::new() }.error(given))
+    if given.method.bridges {
+        return Some(GivingWay { body, motion: Vec::new() }.error(given));
+    }
+    Some(StepError::Indefinite { body: given.assembly.name(body).to_string() })
 }
 
 /// Why a load step of some `bodies` found no equilibrium, if that is because one of them is about to give way where the step starts.
