@@ -46,6 +46,7 @@ PARTS = {
     "random scenes": robustness.random_scenes_section,
     "statics": statics.references_section,
     "ironing": statics.ironing_section,
+    "static scenes": statics.scenes_section,
 }
 """What the page consists of, in its order; each part begins with a heading of the second level."""
 

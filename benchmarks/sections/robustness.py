@@ -24,8 +24,8 @@ LOADS = """\
 ## Loads and damping
 
 `python benchmarks/loads.py`: cylinders under gravity at once (`tests/validation/test_loads.py`), μ
-= 0.2, {end:g} s, eight contacts. **The bound of 1e-9 E₀ is not met**: α stays at its limit and energy debt
-waits.
+= 0.2, {end:g} s, eight contacts. **The bound of 1e-9 E₀ is not met**: α stays at its limit and
+energy debt waits.
 
 {cases}
 """

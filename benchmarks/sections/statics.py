@@ -5,6 +5,7 @@ from __future__ import annotations
 import ironing
 import press_fit
 import static_references
+import static_scenes
 
 from .layout import IMAGES, power, table
 from .pictures import draw_ironing
@@ -48,6 +49,21 @@ That the state in which node to segment stops is unstable is not proven:
 record 29 of `docs/decisions` has what is known.
 
 ![Forces on the iron](images/ironing.png)
+"""
+
+
+SCENES = 200
+
+SCATTERED = """\
+## Random static scenes
+
+`python benchmarks/static_scenes.py {count}`: blocks pressed on blocks, sheared, bent over posts and
+balls, squeezed between plates; all laws and cells, μ from 0 to 1, meshes that do not fit, in the
+plane and in space, ten load steps each. A scene that does not complete is listed with its reason.
+
+{summary}
+
+{failures}
 """
 
 
@@ -101,3 +117,10 @@ def _endings(runs: dict[tuple[str, str], ironing.Ironing]) -> str:
         if run.status != "completed"
     ]
     return "\n".join(failed) or "All complete."
+
+
+def scenes_section() -> str:
+    """Run random static scenes."""
+    tally = static_scenes.run(SCENES)
+    failures = "\n".join(f"- {each}" for each in tally.failures) or "All complete."
+    return SCATTERED.format(count=SCENES, summary=tally.in_words(), failures=failures)
