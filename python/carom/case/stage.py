@@ -104,9 +104,9 @@ class StageContact(Description):
         Where in time a dynamic stage writes the unilateral condition, see `Contact`; None
         is as before. A static stage rules the gap at the end of the step.
     friction
-        Coulomb's coefficient of every pair that has none of its own; None is as before.
+        Friction of every pair that has none of its own, see `Contact`; None is as before.
     pairs
-        Coefficients of single pairs.
+        Friction of single pairs.
     """
 
     condition: Condition | None = None

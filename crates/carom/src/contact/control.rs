@@ -42,6 +42,16 @@ pub(super) struct Control {
     /// Contacts up to which a dynamic step whose iterations are slow takes the stiffness of reactions. All respond to all then, in a dense matrix
     /// that is made in every iteration: 0.05 s for so many in the plane.
     pub stiffened: usize,
+    /// A contact slips where its reaction, tried against its motion, leaves the cone by more than this, relative to the cone.
+    pub slips: f64,
+    /// The coefficient of a friction law is found where the law is no farther from it than this, relative to it,
+    pub law_settled: f64,
+    /// or, after so many rounds,
+    pub law_rounds: usize,
+    /// no farther than this: what round-off leaves of slow sliding.
+    pub law_near: f64,
+    /// No secant goes farther than so many times what the law is off.
+    pub law_stride: f64,
     /// What the tangent of a load step has more than K̄ is nothing below this, relative to K̄ at the contacts.
     pub negligible: f64,
 }
@@ -65,4 +75,9 @@ pub(super) const CONTROL: Control = Control {
     difference: 1e-6,
     stiffened: 300,
     negligible: 1e-8,
+    slips: 1e-9,
+    law_settled: 1e-11,
+    law_rounds: 20,
+    law_near: 1e-8,
+    law_stride: 10.0,
 };
