@@ -133,7 +133,8 @@ fn rule(
     sides: Option<&[&NamedSide]>,
 ) -> Result<PairRule, InputError> {
     let entry = found.map(|(_, entry)| entry);
-    let own = found.and_then(|(k, entry)| Some((format!("contact.pairs.{k}.friction"), entry.friction.as_ref()?)));
+    let own =
+        found.and_then(|(k, entry)| Some((format!("contact.pairs.{k}.friction"), entry.friction.as_ref()?)));
     let friction = match own {
         Some((key, friction)) => at_rest(&key, friction)?,
         None => at_rest("contact.friction", &spec.friction)?,

@@ -85,7 +85,10 @@ fn check(key: &str, spec: &StaticKineticSpec) -> Result<(), InputError> {
         let key = format!("{key}.{name}");
         number(&key, value, value > 0.0, "must be greater than 0")?;
         if spec.static_coefficient.is_none() {
-            return Err(InputError::new(key, "there is no static friction that could fall; give it by static"));
+            return Err(InputError::new(
+                key,
+                "there is no static friction that could fall; give it by static",
+            ));
         }
     }
     number(&format!("{key}.viscous"), spec.viscous, spec.viscous >= 0.0, "must be at least 0")
@@ -115,7 +118,8 @@ pub(crate) fn friction_laws<const D: usize>(
         }
         Ok(law)
     };
-    let mut laws = FrictionLaws { default: allowed("contact.friction", &spec.friction)?, ..FrictionLaws::default() };
+    let mut laws =
+        FrictionLaws { default: allowed("contact.friction", &spec.friction)?, ..FrictionLaws::default() };
     for (k, entry) in spec.pairs.iter().enumerate() {
         let (Some(friction), Some(between)) = (&entry.friction, assembly.between(&entry.between)) else {
             continue;

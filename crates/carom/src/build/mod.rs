@@ -25,9 +25,9 @@ use std::collections::BTreeMap;
 
 use carom_mesh::{Mesh, Vector};
 
-pub use self::obstacle::Surfaces;
 pub(crate) use self::friction_law::MAX_FRICTION;
 use self::friction_law::friction_laws;
+pub use self::obstacle::Surfaces;
 use self::values::vector;
 pub(crate) use self::velocity::RigidMotion;
 use crate::body::fe::part::ModelBody;

@@ -56,7 +56,8 @@ fn sliding<const D: usize>(
             return Err(CheckpointError::new("state/sliding/pair", "names a pair that is not there"));
         }
         let site = to_site(assembly, record.pair, site);
-        record.site = site.ok_or_else(|| CheckpointError::new("state/sliding/site", "names a node that is not there"))?;
+        record.site =
+            site.ok_or_else(|| CheckpointError::new("state/sliding/site", "names a node that is not there"))?;
     }
     if records.is_sorted_by_key(SlidingRecord::key) {
         return Ok(());

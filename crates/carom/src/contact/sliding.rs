@@ -4,7 +4,7 @@
 //! both agree. What Newton's iterations then see is one problem with one solution, whatever its law.
 
 use carom_contact::Pair;
-use carom_friction::{ContactProblem, FrictionLaw, SolveReport, Sliding, cone};
+use carom_friction::{ContactProblem, FrictionLaw, Sliding, SolveReport, cone};
 use carom_mesh::Vector;
 
 use super::active::ActiveSet;
@@ -69,7 +69,11 @@ impl<const D: usize> Slider<D> {
         let at = self.sliding(slides.speed, 0.5 * slides.distance);
         let target = law.coefficient(&at);
         if !(0.0..=MAX_FRICTION).contains(&target) {
-            return Err(StepError::FrictionLaw { coefficient: target, speed: at.speed, distance: at.distance });
+            return Err(StepError::FrictionLaw {
+                coefficient: target,
+                speed: at.speed,
+                distance: at.distance,
+            });
         }
         let above = target - mu;
         let secant = self.last.and_then(|[mu_before, above_before]| {
@@ -211,7 +215,13 @@ impl<const D: usize> ActiveSet<D> {
     }
 
     /// How far the coefficient of contact `slider` is from what its law says of the motion `w` [m] at the end of a step.
-    pub fn off_law(&self, given: &Given<'_, D>, slider: &Slider<D>, w: &Vector<D>, offset: &Vector<D>) -> f64 {
+    pub fn off_law(
+        &self,
+        given: &Given<'_, D>,
+        slider: &Slider<D>,
+        w: &Vector<D>,
+        offset: &Vector<D>,
+    ) -> f64 {
         let i = slider.contact;
         let pair = given.assembly.contact.pairs.get(self.candidates[i].pair as usize);
         let Some(law) = given.assembly.friction_laws.of(&pair) else { return 0.0 };

@@ -40,7 +40,8 @@ pub(crate) fn remember<const D: usize>(
     next: &mut Vec<SlidingRecord<D>>,
 ) {
     next.clear();
-    let mut known = known.iter().map(|record| SlidingRecord { direction: Vector::zeros(), ..*record }).peekable();
+    let mut known =
+        known.iter().map(|record| SlidingRecord { direction: Vector::zeros(), ..*record }).peekable();
     for record in of_step {
         while let Some(other) = known.next_if(|other| other.key() < record.key()) {
             next.push(other);

@@ -123,7 +123,8 @@ impl<const D: usize> History<D> {
         }
         let (trails, rows) = (Vec::new(), Vec::new());
         let (parts, since) = (Vec::new(), Since::default());
-        let mut history = Self { trails, tracks, has_stages, has_laws, supports, columns, rows, since, parts };
+        let mut history =
+            Self { trails, tracks, has_stages, has_laws, supports, columns, rows, since, parts };
         history.restart(state);
         history
     }
