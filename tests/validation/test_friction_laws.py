@@ -1,89 +1,24 @@
 """Friction that depends on the sliding: masses on springs and blocks, beside closed forms."""
 
-import math
-
 import numpy as np
 import pytest
+from friction_laws import (
+    GRAVITY,
+    LOAD,
+    OMEGA,
+    SLIP,
+    oscillation,
+    sliding_block,
+    stick_slip,
+    weakening,
+)
 from rigid_bodies import run
 
 import carom
-
-MASS, GRAVITY = 1.0, 10.0
-LOAD = MASS * GRAVITY
+from carom.building.build import build
 
 
-def on_a_spring(friction, *, stiffness, time_step, start=0.0, velocity=0.0, belt=0.0):
-    """A mass on a belt that moves, held by a spring that is slack at x = 0."""
-
-    def energy(u):
-        x, y = u[0::2], u[1::2]
-        return 0.25 * stiffness * np.sum((x + start) ** 2) + 0.5 * LOAD * np.sum(y)
-
-    def force(u):
-        f = np.empty(4)
-        f[0::2] = 0.5 * stiffness * (u[0::2] + start)
-        f[1::2] = 0.5 * LOAD
-        return f
-
-    body = carom.ForeignBody(
-        "mass",
-        [[0.0, 0.0], [1.0, 0.0]],
-        [[0, 1]],
-        mass=0.5 * MASS * np.eye(4),
-        energy=energy,
-        force=force,
-        stiffness=lambda _: np.diag([0.5 * stiffness, 0.0] * 2),
-        velocity=[velocity, 0.0],
-    )
-    floor = carom.Plane(name="belt", point=[0, 0], normal=[0, 1], velocity=[belt, 0.0])
-    return carom.ForeignRun(
-        [body], [floor], time_step=time_step, contact=carom.Contact(friction=friction)
-    )
-
-
-def travelled(simulation, steps, start=0.0):
-    """Places of the mass after every step."""
-    places = np.full(steps + 1, start)
-    for k in range(1, steps + 1):
-        simulation.step()
-        places[k] = start + simulation.displacement("mass")[0, 0]
-    return places
-
-
-def spells(sticks):
-    """Lengths of the spells of sticking and of sliding that begin and end, in steps."""
-    turns = np.flatnonzero(np.diff(sticks.astype(int)))
-    lengths = np.diff(turns)
-    first_is_stuck = bool(sticks[turns[0] + 1])
-    return lengths[0 if first_is_stuck else 1 :: 2], lengths[1 if first_is_stuck else 0 :: 2]
-
-
-STATIC, KINETIC, STIFFNESS, BELT = 0.6, 0.3, 100.0, 0.1
-OMEGA = math.sqrt(STIFFNESS / MASS)
-EXCESS = (STATIC - KINETIC) * LOAD / STIFFNESS
-STICK = 2.0 * EXCESS / BELT
-SLIP = 2.0 / OMEGA * (math.pi - math.atan(OMEGA * EXCESS / BELT))
-AMPLITUDE = math.hypot(EXCESS, BELT / OMEGA)
-
-
-def stick_slip(time_step):
-    """Relative errors of the times of sticking and sliding, and of the amplitude."""
-    law = carom.StaticKinetic(static=STATIC, kinetic=KINETIC)
-    simulation = on_a_spring(
-        law, stiffness=STIFFNESS, time_step=time_step, velocity=BELT, belt=BELT
-    )
-    x = travelled(simulation, round((STICK + 3.2 * (STICK + SLIP)) / time_step))
-    stuck, slid = spells(np.abs(np.diff(x) - BELT * time_step) < 1e-9 * BELT * time_step)
-    centre = KINETIC * LOAD / STIFFNESS
-    return (
-        abs(stuck[:2].mean() * time_step / STICK - 1.0),
-        abs(slid[:2].mean() * time_step / SLIP - 1.0),
-        abs((x.max() - centre) / AMPLITUDE - 1.0),
-        abs((centre - x[len(x) // 3 :].min()) / AMPLITUDE - 1.0),
-    )
-
-
-def test_stick_slip_on_a_belt_has_the_times_and_the_amplitude_of_the_closed_form():
+def test_stick_slip_on_a_belt_is_that_of_the_closed_form():
     """A step more of sticking or sliding is the error: T_stick, T_slip and the amplitude."""
     coarse, fine = stick_slip(4e-3), stick_slip(5e-4)
     assert max(fine) < 5e-3
@@ -92,69 +27,16 @@ def test_stick_slip_on_a_belt_has_the_times_and_the_amplitude_of_the_closed_form
         assert max(errors[2:]) < 2.0 * step * OMEGA
 
 
-@pytest.mark.parametrize("law", [0.1, {"static": 0.45, "kinetic": 0.1}])
-def test_dry_friction_takes_the_same_of_every_half_cycle_until_the_spring_cannot_move_the_mass(law):
-    """The amplitude falls by 2 μ_k N/k; the mass stops where k |x| is at most μ_s N."""
-    start, step = 0.1, 1e-4
-    friction = law if isinstance(law, float) else carom.StaticKinetic(**law)
-    held, kinetic = (law, law) if isinstance(law, float) else (law["static"], law["kinetic"])
-    simulation = on_a_spring(friction, stiffness=STIFFNESS, time_step=step, start=start)
-    x = travelled(simulation, round(2.0 / step), start)
-    fall = 2.0 * kinetic * LOAD / STIFFNESS
-    wanted = [start]
-    while wanted[-1] > held * LOAD / STIFFNESS:
-        wanted.append(abs(wanted[-1] - fall))
-    turns = [k for k in range(1, len(x) - 1) if (x[k] - x[k - 1]) * (x[k + 1] - x[k]) < 0.0]
-    reached = [0.1, *np.abs(x[turns]), abs(x[-1])][: len(wanted)]
-    assert reached == pytest.approx(wanted, abs=1e-6 * start)
-    assert np.ptp(x[-100:]) < 1e-12
-    assert abs(x[-1]) == pytest.approx(wanted[-1], abs=1e-6 * start)
+@pytest.mark.parametrize(("static", "kinetic"), [(0.1, 0.1), (0.45, 0.1)])
+def test_dry_friction_stops_a_swing(static, kinetic):
+    reached, wanted = oscillation(static, kinetic)
+    assert reached == pytest.approx(wanted, abs=1e-6 * wanted[0])
 
 
 def test_slip_weakening_takes_its_fracture_energy():
-    """Friction takes N (μ_k S + (μ_s − μ_k) D_c/2) over a slip S beyond D_c."""
-    critical = 0.02
-    law = carom.StaticKinetic(static=0.6, kinetic=0.2, distance=critical)
-    simulation = on_a_spring(law, stiffness=2000.0, time_step=1e-4, velocity=BELT, belt=BELT)
-    taken, slip, largest = 0.0, 0.0, 0.0
-    place = 0.0
-    for _ in range(5000):
-        step = simulation.step()
-        now = simulation.displacement("mass")[0, 0]
-        taken += step.friction
-        slip += abs(now - place - BELT * 1e-4)
-        place = now
-        largest = max(largest, abs(step.defect))
-        assert step.certificate < 1e-12
-    assert slip > 1.5 * critical
-    wanted = LOAD * (0.2 * slip + 0.5 * (0.6 - 0.2) * critical)
-    assert taken == pytest.approx(wanted, rel=1e-5)
-    assert largest < 1e-13
-
-
-def sliding_block(friction, **given):
-    """A rigid block that slides on a floor."""
-    step = given.pop("time_step", 1e-3)
-    return carom.Scenario(
-        dimension=2,
-        analysis=carom.Dynamic(
-            end_time=given.pop("end_time", 0.3),
-            time_step=step,
-            scheme=carom.Conserving(),
-            gravity=[0.0, -GRAVITY],
-        ),
-        bodies=[
-            carom.RigidBody(
-                name="block",
-                mass=MASS,
-                mesh=carom.Rectangle(corner=[0.0, 0.0], size=[1.0, 0.1], divisions=[1, 1]),
-                velocity=[1.0, 0.0],
-            )
-        ],
-        obstacles=[carom.Plane(name="floor", point=[0, 0], normal=[0, 1])],
-        contact=carom.Contact(friction=friction, **given),
-        output=carom.Output(history_every=step, fields_every=0.1, checkpoint_every=0.1),
-    )
+    taken, by_hand, defect, certificate = weakening(1e-4)
+    assert taken == pytest.approx(by_hand, rel=1e-5)
+    assert max(defect, certificate) < 1e-12
 
 
 @pytest.mark.parametrize("condition", ["midpoint", "gap", "endpoint"])
@@ -181,3 +63,93 @@ def test_a_formula_is_the_law_that_it_writes_out(tmp_path):
             np.asarray(other.history[name]), abs=1e-13
         )
     assert one.summary["status"] == other.summary["status"] == "completed"
+
+
+def test_rate_and_state_friction_follows_a_step_of_speed(tmp_path):
+    """μ rises by a ln, falls by b ln over D_c of slip: the age at constant speed is known."""
+    a, b, speed, critical = 0.01, 0.015, 1e-3, 1e-4
+    slow, fast, jump, step = 1e-3, 5e-3, 0.1, 1e-3
+    law = carom.RateAndState(reference=0.6, direct=a, evolution=b, speed=speed, distance=critical)
+    case = sliding_block(law, time_step=step, end_time=0.2)
+    path = carom.Table(time=[0.0, jump, 1.0], value=[0.0, slow * jump, slow * jump + fast * 0.9])
+    body = case.bodies[0].model_copy(update={"velocity": None})
+    guided = carom.Guided(body="block", x=path, turn_z=0.0)
+    result = run(tmp_path, case.model_copy(update={"bodies": (body,), "motions": (guided,)}))
+    assert result.summary["status"] == "completed"
+    time = np.asarray(result.history["time"])
+    middle = 0.5 * (time[1:] + time[:-1])
+    v = np.where(middle < jump, slow, fast)
+    age = np.where(
+        middle < jump,
+        critical / slow,
+        critical / fast
+        + (critical / slow - critical / fast) * np.exp(-fast * (middle - jump) / critical),
+    )
+    wanted = 0.6 + a * np.log1p(v / speed) + b * np.log1p(age * speed / critical)
+    found = np.diff(result.history["friction"]) / (LOAD * v * step)
+    # A body that is guided presses with its weight from the first step on.
+    assert found == pytest.approx(wanted, abs=1e-9)
+    assert wanted.max() - wanted.min() > 0.01
+
+
+def test_what_contacts_have_slid_is_there_after_a_restart():
+    """A run that stops in the middle of its weakening goes on to the last bit."""
+    law = carom.StaticKinetic(static=0.5, kinetic=0.1, distance=0.2)
+    whole, other = build(sliding_block(law)), build(sliding_block(law))
+    whole.advance(0.15, np.inf)
+    other.restore(whole.checkpoint())
+    assert whole.checkpoint()["state/sliding/distance"].min() > 0.1
+    for run_on in (whole, other):
+        run_on.advance(0.3, np.inf)
+    last, wanted = other.checkpoint(), whole.checkpoint()
+    assert last.keys() == wanted.keys()
+    assert [name for name in last if not np.array_equal(last[name], wanted[name])] == []
+    assert wanted["state/sliding/distance"].min() > 0.2
+
+
+def test_a_law_without_a_fixed_point_fails_its_step(tmp_path):
+    """Friction that rises at a speed by a jump stops what it lets go."""
+    law = carom.FrictionFormula(formula="where(v > 0.5, 0.6, 0.1)")
+    with pytest.raises(
+        carom.ConvergenceError, match="friction law has no fixed point in this step"
+    ):
+        run(tmp_path, sliding_block(law))
+
+
+def test_a_law_that_gives_no_coefficient_fails_its_step(tmp_path):
+    with pytest.raises(carom.ConvergenceError, match=r"the friction law gives -0\.\d+ at a slip"):
+        run(tmp_path, sliding_block(carom.FrictionFormula(formula="0.3 - v")))
+
+
+def test_a_static_analysis_has_laws_of_the_distance_alone():
+    def pressed(law):
+        case = sliding_block(law)
+        support = carom.Guided(body="block", x=0.0, turn_z=0.0)
+        analysis = carom.Static(end_time=1.0, time_step=0.5, gravity=[0.0, -GRAVITY])
+        body = case.bodies[0].model_copy(update={"velocity": None})
+        contact = case.contact.model_copy(update={"condition": "gap"})
+        changes = {"analysis": analysis, "bodies": (body,), "motions": (support,)}
+        output = carom.Output()
+        return case.model_copy(update={**changes, "contact": contact, "output": output})
+
+    carom.Simulation(pressed(carom.StaticKinetic(static=0.5, kinetic=0.2, distance=0.01)))
+    for law in (
+        carom.StaticKinetic(static=0.5, kinetic=0.2, speed=0.01),
+        carom.StaticKinetic(kinetic=0.2, viscous=0.01),
+        carom.FrictionFormula(formula="0.2 + v"),
+    ):
+        with pytest.raises(carom.InputError, match="a static analysis has no speed of slip"):
+            carom.Simulation(pressed(law))
+
+
+def test_loops_of_others_have_coefficients_alone():
+    surface = carom.contact.Surface("block", [[0, 1]])
+    law = carom.StaticKinetic(static=0.5, kinetic=0.2)
+    with pytest.raises(carom.InputError, match="needs the steps of carom, which give it a fixed"):
+        carom.contact.ContactModel([[0.0, 0.0], [1.0, 0.0]], [surface], friction=law)
+
+
+def test_the_audit_says_that_it_does_not_know_laws(tmp_path):
+    run(tmp_path, sliding_block(carom.StaticKinetic(static=0.5, kinetic=0.2), end_time=0.1))
+    with pytest.raises(carom.InputError, match="cannot audit friction that depends on the motion"):
+        carom.audit(tmp_path / "0")

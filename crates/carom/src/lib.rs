@@ -65,7 +65,7 @@ pub use run::nominal_step::NominalStep;
 pub use run::simulation::{Fields, Outcome, Progress, Simulation, StepPair};
 pub use run::summary::Summary;
 pub use run::surface_fields::SurfaceFields;
-pub use scenario::{FrictionFormulaSpec, FrictionSpec, Scenario, StaticKineticSpec};
+pub use scenario::{FrictionFormulaSpec, FrictionSpec, RateAndStateSpec, Scenario, StaticKineticSpec};
 pub use scheme::{Scheme, StepMap, StressRule};
 pub use signal::{Dual, Expression, ExpressionError, Formula, Signal, SignalError, SignalSpec, Table};
 pub use step::report::{PairReport, StepReport};

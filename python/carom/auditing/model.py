@@ -13,7 +13,7 @@ from carom.auditing.target import Target
 from carom.case.analysis import Conserving, Static, Theta
 from carom.case.body import Body, RigidBody
 from carom.case.contact import Pair
-from carom.case.friction import FrictionFormula, StaticKinetic
+from carom.case.friction import FrictionLaw
 from carom.case.mesh import Disc, Rectangle
 from carom.case.obstacle import Obstacle, Plane
 from carom.case.scenario import Scenario
@@ -299,8 +299,8 @@ def _plane(entry: Obstacle) -> AuditPlane:
     )
 
 
-def _coefficient(friction: float | StaticKinetic | FrictionFormula) -> float:
-    if isinstance(friction, StaticKinetic | FrictionFormula):
+def _coefficient(friction: float | FrictionLaw) -> float:
+    if isinstance(friction, FrictionLaw):
         raise InputError("cannot audit friction that depends on the motion yet")
     return friction
 

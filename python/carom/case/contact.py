@@ -72,7 +72,8 @@ class Pair(Description):
     between
         Names of two bodies, or of a body and an obstacle; twice that of a body that touches itself.
     friction
-        Coulomb's coefficient, or a law: `StaticKinetic` or `FrictionFormula`; None takes the
+        Coulomb's coefficient, or a law: `StaticKinetic`, `RateAndState` or
+        `FrictionFormula`; None takes the
         default of `Contact`.
     restitution
         Coefficient of restitution e of two rigid bodies, or of a rigid one and an obstacle; None
@@ -124,8 +125,8 @@ class Contact(Description):
         every case yet.
     friction
         Friction of every pair that does not state its own: Coulomb's coefficient, or a law by which
-        it depends on the sliding, `StaticKinetic` or `FrictionFormula`, such as ``{ static = 0.6,
-        kinetic = 0.3 }``. A law goes with every condition but ``massless``.
+        it depends on the sliding, `StaticKinetic`, `RateAndState` or `FrictionFormula`, such as
+        ``{ static = 0.6, kinetic = 0.3 }``. A law goes with every condition but ``massless``.
     restitution
         Coefficient of restitution e of every pair of what is rigid that does not state its own,
         with the condition ``endpoint``: what meets at v_n parts at -e v_n (Moreau), and friction

@@ -82,7 +82,7 @@ class StagePair(Description):
     between
         Names of two bodies, or of a body and an obstacle.
     friction
-        Coulomb's coefficient.
+        Coulomb's coefficient, or a law: see `Contact`.
     """
 
     between: tuple[str, ...]

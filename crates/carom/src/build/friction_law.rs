@@ -9,7 +9,7 @@ use crate::Formula;
 use crate::error::InputError;
 use crate::model::assembly::Assembly;
 use crate::model::friction_laws::FrictionLaws;
-use crate::scenario::{ContactSpec, FrictionSpec, StaticKineticSpec};
+use crate::scenario::{ContactSpec, FrictionSpec, RateAndStateSpec, StaticKineticSpec};
 
 /// The largest friction coefficient.
 pub(crate) const MAX_FRICTION: f64 = 1e3;
@@ -56,11 +56,27 @@ fn law(key: &str, friction: &FrictionSpec) -> Result<Option<Arc<dyn FrictionLaw>
             let formula = formula.map_err(|e| InputError::new(format!("{key}.formula"), e.to_string()))?;
             Arc::new(FormulaLaw(formula))
         }
+        FrictionSpec::RateAndState(spec) => {
+            check_rate_and_state(key, spec)?;
+            Arc::new(spec.law())
+        }
         FrictionSpec::StaticKinetic(spec) => {
             check(key, spec)?;
             Arc::new(spec.law())
         }
     }))
+}
+
+fn check_rate_and_state(key: &str, spec: &RateAndStateSpec) -> Result<(), InputError> {
+    in_range(&format!("{key}.reference"), spec.reference)?;
+    for (name, value) in [("direct", spec.direct), ("evolution", spec.evolution)] {
+        number(&format!("{key}.{name}"), value, value >= 0.0, "must be at least 0")?;
+    }
+    for (name, value) in [("speed", spec.speed), ("distance", spec.distance)] {
+        number(&format!("{key}.{name}"), value, value > 0.0, "must be greater than 0")?;
+    }
+    let age = spec.law().age;
+    number(&format!("{key}.age"), age, age >= 0.0, "must be at least 0")
 }
 
 fn check(key: &str, spec: &StaticKineticSpec) -> Result<(), InputError> {

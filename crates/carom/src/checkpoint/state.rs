@@ -43,10 +43,11 @@ fn sliding<const D: usize>(
     let count = archive.rows("state/sliding/pair", records.len())?;
     let mut sites: Vec<[u32; 4]> = records.iter().map(|r| to_nodes(r.site)).collect();
     sites.resize(count, [0; 4]);
-    records.resize(count, SlidingRecord::new((0, Site::Node(0))));
+    records.resize(count, SlidingRecord::new((0, Site::Node(0)), 0.0));
     archive.integers("state/sliding/pair", records.iter_mut().map(|r| &mut r.pair))?;
     archive.integers("state/sliding/site", sites.as_flattened_mut())?;
     archive.numbers("state/sliding/distance", records.iter_mut().map(|r| &mut r.distance))?;
+    archive.numbers("state/sliding/state", records.iter_mut().map(|r| &mut r.state))?;
     archive.numbers("state/sliding/direction", records.iter_mut().flat_map(|r| r.direction.iter_mut()))?;
     if !archive.replays() {
         return Ok(());

@@ -43,12 +43,33 @@ impl<const D: usize> Slider<D> {
         self.turned = false;
         if let Some(holding) = law.holding() {
             self.holds = self.before.direction == Vector::<D>::zeros();
-            *mu = if self.holds { holding } else { law.coefficient(&self.sliding(0.0, 0.0)) };
+            *mu = if self.holds { holding } else { law.coefficient(&self.at_start()) };
         }
     }
 
-    fn sliding(&self, speed: f64, distance: f64) -> Sliding {
-        Sliding { speed, distance: self.before.distance + distance }
+    /// How it is at the start of the step, if it does not slide.
+    fn at_start(&self) -> Sliding {
+        let SlidingRecord { distance, state, .. } = self.before;
+        Sliding { distance, state, ..Sliding::default() }
+    }
+
+    /// How it is in the middle of a step in which it `slides`: friction then does the work of a law that is linear in the distance exactly.
+    fn half_way(&self, law: &dyn FrictionLaw, slides: &Slides<D>) -> Sliding {
+        let SlidingRecord { distance, state, .. } = self.before;
+        let speed = slides.speed;
+        Sliding {
+            speed,
+            distance: distance + 0.5 * slides.distance,
+            state: if slides.presses { law.evolved(state, speed, 0.5 * slides.dt) } else { state },
+        }
+    }
+
+    /// Notes what a step leaves in which it `slides`.
+    fn leave(&mut self, law: &dyn FrictionLaw, slides: &Slides<D>) {
+        let SlidingRecord { distance, state, .. } = self.before;
+        self.after.distance = distance + slides.distance;
+        self.after.direction = if slides.slips { slides.direction } else { Vector::zeros() };
+        self.after.state = if slides.presses { law.evolved(state, slides.speed, slides.dt) } else { state };
     }
 
     /// The next μ after one with which the contact slid as it `slides`, and how far this one was from the law.
@@ -65,8 +86,7 @@ impl<const D: usize> Slider<D> {
                 return Ok((holding, f64::INFINITY));
             }
         }
-        // In the middle of the step: friction then does the work of a law that is linear in the distance exactly.
-        let at = self.sliding(slides.speed, 0.5 * slides.distance);
+        let at = self.half_way(law, slides);
         let target = law.coefficient(&at);
         if !(0.0..=MAX_FRICTION).contains(&target) {
             return Err(StepError::FrictionLaw {
@@ -88,8 +108,12 @@ impl<const D: usize> Slider<D> {
 /// How a contact slides in a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Slides<const D: usize> {
-    /// Whether it does.
+    /// Whether it presses,
+    pub presses: bool,
+    /// and whether it slips.
     pub slips: bool,
+    /// Length of the step [s].
+    pub dt: f64,
     /// Speed [m/s].
     pub speed: f64,
     /// Distance in the step [m].
@@ -110,9 +134,10 @@ impl<const D: usize> ActiveSet<D> {
             let pair = assembly.contact.pairs.get(candidate.pair as usize);
             let Some(law) = assembly.friction_laws.of(&pair) else { continue };
             let found = state.sliding.binary_search_by_key(&candidate.key(), SlidingRecord::key);
-            let known = found.map_or_else(|_| SlidingRecord::new(candidate.key()), |k| state.sliding[k]);
+            let new = || SlidingRecord::new(candidate.key(), law.initial_state());
+            let known = found.map_or_else(|_| new(), |k| state.sliding[k]);
             let slider = Slider::new(i, known);
-            self.friction[i] = law.coefficient(&slider.sliding(0.0, 0.0)).clamp(0.0, MAX_FRICTION);
+            self.friction[i] = law.coefficient(&slider.at_start()).clamp(0.0, MAX_FRICTION);
             self.sliders.push(slider);
         }
     }
@@ -136,11 +161,14 @@ impl<const D: usize> ActiveSet<D> {
         let across = |x: &Vector<D>| Vector::<D>::from_fn(|k, _| if k == 0 { 0.0 } else { x[k] });
         let tried = across(r) - across(w) * step_length;
         let limit = self.friction[i] * r[0];
-        let slips = r[0] > 0.0 && tried.norm() > limit * (1.0 + CONTROL.slips);
+        let presses = r[0] > 0.0;
+        let slips = presses && tried.norm() > limit * (1.0 + CONTROL.slips);
         let direction = self.contacts[i].frame.tr_mul(&across(w));
         Slides {
+            presses,
             slips,
-            speed: if r[0] > 0.0 { cone::tangential_norm(w) * per_motion } else { 0.0 },
+            dt: interval.map.dt,
+            speed: if presses { cone::tangential_norm(w) * per_motion } else { 0.0 },
             distance: if slips { cone::tangential_norm(&(w - offset)) } else { 0.0 },
             direction: direction.try_normalize(0.0).unwrap_or_else(Vector::zeros),
         }
@@ -184,8 +212,7 @@ impl<const D: usize> ActiveSet<D> {
                 let w = problem.motion(i, &self.reactions);
                 let slides =
                     self.slides(given, i, [&self.reactions[i], &w, &offsets[i]], problem.step_length(i));
-                slider.after.distance = slider.before.distance + slides.distance;
-                slider.after.direction = if slides.slips { slides.direction } else { Vector::zeros() };
+                slider.leave(law, &slides);
                 let mu = self.friction[i];
                 match slider.next(law, mu, &slides) {
                     Ok((next, off)) => {
@@ -228,10 +255,10 @@ impl<const D: usize> ActiveSet<D> {
         if slider.holds {
             return 0.0;
         }
+        let mut slides = self.slides(given, i, [&self.reactions[i], w, offset], 0.0);
         let is_at_rest = slider.after.direction == Vector::<D>::zeros();
-        let slides = self.slides(given, i, [&self.reactions[i], w, offset], 0.0);
-        let distance = if is_at_rest { 0.0 } else { cone::tangential_norm(&(w - offset)) };
-        (law.coefficient(&slider.sliding(slides.speed, 0.5 * distance)) - self.friction[i]).abs()
+        slides.distance = if is_at_rest { 0.0 } else { cone::tangential_norm(&(w - offset)) };
+        (law.coefficient(&slider.half_way(law, &slides)) - self.friction[i]).abs()
     }
 
     /// The contact of a slider.

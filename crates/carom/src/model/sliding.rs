@@ -12,12 +12,14 @@ pub struct SlidingRecord<const D: usize> {
     pub distance: f64,
     /// The direction in which it slid in the last step, of length 1; zero if it stuck or was open.
     pub direction: Vector<D>,
+    /// The state variable of its law.
+    pub state: f64,
 }
 
 impl<const D: usize> SlidingRecord<D> {
-    /// Of a contact that has not slid yet.
-    pub(crate) fn new((pair, site): (u32, Site)) -> Self {
-        Self { pair, site, distance: 0.0, direction: Vector::zeros() }
+    /// Of a contact that has not slid yet, with this state variable.
+    pub(crate) fn new((pair, site): (u32, Site), state: f64) -> Self {
+        Self { pair, site, distance: 0.0, direction: Vector::zeros(), state }
     }
 
     /// What identifies a contact from step to step.
@@ -28,7 +30,7 @@ impl<const D: usize> SlidingRecord<D> {
 
     /// Whether there is nothing to remember.
     fn is_blank(&self) -> bool {
-        self.distance == 0.0 && self.direction == Vector::<D>::zeros()
+        self.distance == 0.0 && self.state == 0.0 && self.direction == Vector::<D>::zeros()
     }
 }
 
@@ -62,7 +64,7 @@ mod tests {
         let record = |node, distance, x| SlidingRecord::<2> {
             distance,
             direction: Vector::<2>::new(x, 0.0),
-            ..SlidingRecord::new((0, Site::Node(node)))
+            ..SlidingRecord::new((0, Site::Node(node)), 0.0)
         };
         let known = [record(1, 0.1, 1.0), record(3, 0.3, 1.0), record(5, 0.0, 1.0)];
         let of_step = [record(2, 0.2, -1.0), record(3, 0.4, -1.0), record(4, 0.0, 0.0)];

@@ -193,7 +193,7 @@ impl<const D: usize> State<D> {
         let numbers = [&self.friction_energy, &self.slip, &self.energy_debt];
         vectors.into_iter().all(|vectors| nodal::is_finite(vectors))
             && numbers.into_iter().flatten().all(|x| x.is_finite())
-            && self.sliding.iter().all(|record| record.distance.is_finite())
+            && self.sliding.iter().all(|record| record.distance.is_finite() && record.state.is_finite())
             && self.energies.kinetic.is_finite()
             && self.energies.strain.is_finite()
     }

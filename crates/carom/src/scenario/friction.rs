@@ -1,6 +1,6 @@
 //! Friction as data: a coefficient or a law.
 
-use carom_friction::{StaticKinetic, Weakening};
+use carom_friction::{RateAndState, StaticKinetic, Weakening};
 use serde::{Deserialize, Serialize};
 
 /// Friction of a pair.
@@ -11,6 +11,8 @@ pub enum FrictionSpec {
     Coefficient(f64),
     /// Its formula.
     Formula(FrictionFormulaSpec),
+    /// Rate and state friction.
+    RateAndState(RateAndStateSpec),
     /// Static and kinetic friction.
     StaticKinetic(StaticKineticSpec),
 }
@@ -28,6 +30,34 @@ impl FrictionSpec {
 pub struct FrictionFormulaSpec {
     /// The formula.
     pub formula: String,
+}
+
+/// μ that depends on speed and age of the contact.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RateAndStateSpec {
+    /// μ₀.
+    pub reference: f64,
+    /// a.
+    pub direct: f64,
+    /// b.
+    pub evolution: f64,
+    /// v* [m/s].
+    pub speed: f64,
+    /// D_c [m].
+    pub distance: f64,
+    /// Age of a new contact [s]; D_c/v* if not given.
+    #[serde(default)]
+    pub age: Option<f64>,
+}
+
+impl RateAndStateSpec {
+    /// The law.
+    pub(crate) fn law(&self) -> RateAndState {
+        let Self { reference, direct, evolution, speed, distance, age } = *self;
+        let age = age.unwrap_or(distance / speed);
+        RateAndState { reference, direct, evolution, speed, distance, age }
+    }
 }
 
 /// μ between a static and a kinetic value.

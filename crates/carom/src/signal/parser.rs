@@ -207,10 +207,10 @@ impl Parser<'_> {
         match name.as_str() {
             "pi" => Ok(Node::Number(std::f64::consts::PI)),
             "e" => Ok(Node::Number(std::f64::consts::E)),
-            _ if Function::named(&name).is_some() => {
-                let reason = format!("{name:?} is a function; give it an argument as in {name}({first})");
-                Err(self.error_at(start, reason))
-            }
+            _ if Function::named(&name).is_some() => Err(self.error_at(
+                start,
+                format!("{name:?} is a function; give it an argument as in {name}({first})"),
+            )),
             _ => Err(self.error_at(start, format!("unknown name {name:?}; known are {variables}, pi, e"))),
         }
     }
