@@ -8,8 +8,9 @@ from pydantic import model_validator
 from typing_extensions import Self
 
 from carom.case.analysis import Analysis, with_kind
-from carom.case.contact import Condition, Friction
+from carom.case.contact import Condition
 from carom.case.description import Description, Name, Number, Positive, SpaceVector, Vector
+from carom.case.friction import Friction
 from carom.case.load import Load
 from carom.case.motion import Motion
 from carom.messages import problem

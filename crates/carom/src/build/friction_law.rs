@@ -8,11 +8,8 @@ use super::values::number;
 use crate::Formula;
 use crate::error::InputError;
 use crate::model::assembly::Assembly;
-use crate::model::friction_laws::FrictionLaws;
+use crate::model::friction_laws::{FrictionLaws, MAX_FRICTION};
 use crate::scenario::{ContactSpec, FrictionSpec, RateAndStateSpec, StaticKineticSpec};
-
-/// The largest friction coefficient.
-pub(crate) const MAX_FRICTION: f64 = 1e3;
 
 const RANGE: &str = "friction must be between 0 and 1000";
 

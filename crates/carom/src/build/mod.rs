@@ -25,7 +25,6 @@ use std::collections::BTreeMap;
 
 use carom_mesh::{Mesh, Vector};
 
-pub(crate) use self::friction_law::MAX_FRICTION;
 use self::friction_law::friction_laws;
 pub use self::obstacle::Surfaces;
 use self::values::vector;

@@ -4,7 +4,7 @@ use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Target};
 use carom_mesh::{Matrix, Vector};
 
 use super::control::CONTROL;
-use super::sliding::Slider;
+use super::slider::Slider;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
 use crate::model::condition::{Opening, impact_offset};

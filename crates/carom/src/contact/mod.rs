@@ -11,6 +11,7 @@ pub(crate) mod cross_check;
 pub(crate) mod delassus;
 mod left_out;
 pub(crate) mod reduced;
+mod slider;
 pub(crate) mod sliding;
 pub(crate) mod slip;
 pub(crate) mod stiffened;

@@ -170,7 +170,8 @@ impl<const D: usize> Reduced<D> {
         let report = if active.sliders.is_empty() {
             solve(&self.problem, &mut active.reactions)
         } else {
-            active.solve_with_laws(given, &self.offsets, &mut self.problem, solve)?
+            let known = [&self.offsets[..], &self.guess];
+            active.solve_with_laws(given, known, &self.delassus.stand_ins, &mut self.problem, solve)?
         };
         self.solved_by = report.solver;
         self.friction_time += time;

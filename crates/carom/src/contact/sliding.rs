@@ -4,123 +4,16 @@
 //! both agree. What Newton's iterations then see is one problem with one solution, whatever its law.
 
 use carom_contact::Pair;
-use carom_friction::{ContactProblem, FrictionLaw, Sliding, SolveReport, cone};
-use carom_mesh::Vector;
+use carom_friction::{ContactProblem, SolveReport, cone};
+use carom_mesh::{Matrix, Vector};
 
 use super::active::ActiveSet;
 use super::control::CONTROL;
-use crate::build::MAX_FRICTION;
+use super::slider::{Slider, Slides};
 use crate::error::StepError;
+use crate::model::friction_laws::MAX_FRICTION;
 use crate::model::given::Given;
 use crate::model::sliding::SlidingRecord;
-
-/// A contact of a pair that has a friction law.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Slider<const D: usize> {
-    /// Its place among the contacts.
-    contact: usize,
-    /// What it brings from the steps before,
-    before: SlidingRecord<D>,
-    /// and what it leaves.
-    pub after: SlidingRecord<D>,
-    /// Whether it holds up to its static coefficient, where that jumps.
-    holds: bool,
-    /// Whether that was tried after it turned back, and in vain.
-    turned: bool,
-    /// The last μ and what the law was above it; none in the first round.
-    last: Option<[f64; 2]>,
-}
-
-impl<const D: usize> Slider<D> {
-    /// Of a contact with what is known of it.
-    pub fn new(contact: usize, before: SlidingRecord<D>) -> Self {
-        Self { contact, before, after: before, holds: false, turned: false, last: None }
-    }
-
-    /// Begins to look for μ anew: what stuck holds.
-    fn begin(&mut self, law: &dyn FrictionLaw, mu: &mut f64) {
-        self.last = None;
-        self.turned = false;
-        if let Some(holding) = law.holding() {
-            self.holds = self.before.direction == Vector::<D>::zeros();
-            *mu = if self.holds { holding } else { law.coefficient(&self.at_start()) };
-        }
-    }
-
-    /// How it is at the start of the step, if it does not slide.
-    fn at_start(&self) -> Sliding {
-        let SlidingRecord { distance, state, .. } = self.before;
-        Sliding { distance, state, ..Sliding::default() }
-    }
-
-    /// How it is in the middle of a step in which it `slides`: friction then does the work of a law that is linear in the distance exactly.
-    fn half_way(&self, law: &dyn FrictionLaw, slides: &Slides<D>) -> Sliding {
-        let SlidingRecord { distance, state, .. } = self.before;
-        let speed = slides.speed;
-        Sliding {
-            speed,
-            distance: distance + 0.5 * slides.distance,
-            state: if slides.presses { law.evolved(state, speed, 0.5 * slides.dt) } else { state },
-        }
-    }
-
-    /// Notes what a step leaves in which it `slides`.
-    fn leave(&mut self, law: &dyn FrictionLaw, slides: &Slides<D>) {
-        let SlidingRecord { distance, state, .. } = self.before;
-        self.after.distance = distance + slides.distance;
-        self.after.direction = if slides.slips { slides.direction } else { Vector::zeros() };
-        self.after.state = if slides.presses { law.evolved(state, slides.speed, slides.dt) } else { state };
-    }
-
-    /// The next μ after one with which the contact slid as it `slides`, and how far this one was from the law.
-    fn next(&mut self, law: &dyn FrictionLaw, mu: f64, slides: &Slides<D>) -> Result<(f64, f64), StepError> {
-        if let Some(holding) = law.holding() {
-            if self.holds {
-                if !slides.slips {
-                    return Ok((mu, 0.0));
-                }
-                (self.holds, self.turned) = (false, true);
-            } else if slides.slips && !self.turned && slides.direction.dot(&self.before.direction) < 0.0 {
-                // It came to rest on its way through the step, and may hold there.
-                self.holds = true;
-                return Ok((holding, f64::INFINITY));
-            }
-        }
-        let at = self.half_way(law, slides);
-        let target = law.coefficient(&at);
-        if !(0.0..=MAX_FRICTION).contains(&target) {
-            return Err(StepError::FrictionLaw {
-                coefficient: target,
-                speed: at.speed,
-                distance: at.distance,
-            });
-        }
-        let above = target - mu;
-        let secant = self.last.and_then(|[mu_before, above_before]| {
-            let step = -above * (mu - mu_before) / (above - above_before);
-            (step * above > 0.0 && step.abs() <= CONTROL.law_stride * above.abs()).then_some(mu + step)
-        });
-        self.last = Some([mu, above]);
-        Ok((secant.unwrap_or(target).max(0.0), above.abs()))
-    }
-}
-
-/// How a contact slides in a step.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Slides<const D: usize> {
-    /// Whether it presses,
-    pub presses: bool,
-    /// and whether it slips.
-    pub slips: bool,
-    /// Length of the step [s].
-    pub dt: f64,
-    /// Speed [m/s].
-    pub speed: f64,
-    /// Distance in the step [m].
-    pub distance: f64,
-    /// The way, of length 1.
-    pub direction: Vector<D>,
-}
 
 impl<const D: usize> ActiveSet<D> {
     /// Recalls what is known of the contacts whose pair has a friction law, and the coefficients with which they start.
@@ -175,11 +68,13 @@ impl<const D: usize> ActiveSet<D> {
     }
 
     /// Solves the `problem` by `solve`, again and again, until its coefficients are those that the laws say of its solution, which is left in the
-    /// reactions, the coefficients in [`Self::friction`]. `solve` returns whether it did.
+    /// reactions, the coefficients in [`Self::friction`]. The reactions start from a `guess`, and `stand_ins` are parts of W that move nothing by
+    /// these: see `Delassus::stand_ins`.
     pub fn solve_with_laws(
         &mut self,
         given: &Given<'_, D>,
-        offsets: &[Vector<D>],
+        [offsets, guess]: [&[Vector<D>]; 2],
+        stand_ins: &[Matrix<D>],
         problem: &mut ContactProblem<D>,
         mut solve: impl FnMut(&ContactProblem<D>, &mut [Vector<D>]) -> SolveReport,
     ) -> Result<SolveReport, StepError> {
@@ -209,7 +104,8 @@ impl<const D: usize> ActiveSet<D> {
             for slider in &mut sliders {
                 let i = slider.contact;
                 let Some(law) = law(slider, self) else { continue };
-                let w = problem.motion(i, &self.reactions);
+                // What stands in for a direction that is held moves nothing.
+                let w = problem.motion(i, &self.reactions) - stand_ins[i] * (self.reactions[i] - guess[i]);
                 let slides =
                     self.slides(given, i, [&self.reactions[i], &w, &offsets[i]], problem.step_length(i));
                 slider.leave(law, &slides);
@@ -259,6 +155,14 @@ impl<const D: usize> ActiveSet<D> {
         let is_at_rest = slider.after.direction == Vector::<D>::zeros();
         slides.distance = if is_at_rest { 0.0 } else { cone::tangential_norm(&(w - offset)) };
         (law.coefficient(&slider.half_way(law, &slides)) - self.friction[i]).abs()
+    }
+
+    /// The coefficient up to which a contact holds that sticks, where that is more than what resists it once it slides; none of others.
+    pub fn holding(&self, given: &Given<'_, D>, contact: usize) -> Option<f64> {
+        let slider = self.slider_of(contact)?;
+        let pair = given.assembly.contact.pairs.get(slider.before.pair as usize);
+        let holding = given.assembly.friction_laws.of(&pair)?.holding()?;
+        (slider.after.direction == Vector::<D>::zeros()).then_some(holding)
     }
 
     /// The contact of a slider.

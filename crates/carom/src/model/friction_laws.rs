@@ -5,6 +5,9 @@ use carom_friction::FrictionLaw;
 
 use crate::ledger::ByPair;
 
+/// The largest friction coefficient: with more, round-off of μ|w_t| would hide the normal motion.
+pub(crate) const MAX_FRICTION: f64 = 1e3;
+
 /// The friction laws of pairs whose coefficient depends on the motion.
 #[derive(Debug, Clone, Default)]
 pub struct FrictionLaws {

@@ -21,7 +21,9 @@ pub(super) fn settle<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, w
     let Given { method, interval, .. } = *given;
     let Workspace { bodies, contacts, impulses, body_ledgers, .. } = work;
     impulses.wanted.clear();
-    if method.settles() && !new.reactions.is_empty() && bodies.iter().any(|body| body.is_damped()) {
+    stop(given, new, contacts, bodies, &mut impulses.wanted);
+    let stops = !impulses.wanted.is_empty();
+    if !stops && method.settles() && !new.reactions.is_empty() && bodies.iter().any(|body| body.is_damped()) {
         choose(given, new, contacts, bodies, &mut impulses.wanted);
     }
     if impulses.wanted.is_empty() {
@@ -34,9 +36,38 @@ pub(super) fn settle<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, w
         if square <= 0.0 || work >= 0.0 {
             return 0.0;
         }
+        if stops {
+            return (-work / square).min(IMPULSIVE.borne);
+        }
         let rate = group.power / square;
         (-work / square).min(IMPULSIVE.borne) * -(-rate * dt).exp_m1()
     });
+}
+
+/// Chooses the contacts that stick by a friction law that holds more than it resists, and the impulses that leave them no velocity along their target.
+/// The force that turns this velocity round in every step would else be taken from what they hold.
+fn stop<const D: usize>(
+    given: &Given<'_, D>,
+    new: &State<D>,
+    contacts: &Contacts<D>,
+    bodies: &[Box<dyn Body<D>>],
+    out: &mut Vec<Impulse<D>>,
+) {
+    let Contacts { active, at_end, .. } = contacts;
+    if active.sliders.is_empty() || given.interval.map.is_static() {
+        return;
+    }
+    for (i, k, reaction) in active.pressing(&new.reactions) {
+        let Some(holding) = active.holding(given, i) else { continue };
+        let velocity = at_end[i].relative(|n| new.velocity[n]);
+        let mut impulse = velocity * -mass(&at_end[i], given.assembly, bodies);
+        impulse[0] = 0.0;
+        let left = reaction.force + impulse * (IMPULSIVE.borne / given.interval.map.dt);
+        let is_moving = impulse.norm() > IMPULSIVE.at_rest * reaction.force[0] * given.interval.map.dt;
+        if is_moving && tangential(&left) <= holding * left[0] {
+            out.push(Impulse { reaction: k, contact: i, impulse, energy: 0.0 });
+        }
+    }
 }
 
 /// Chooses the contacts that press for longer than this step and were closed at its start, and their impulses.
