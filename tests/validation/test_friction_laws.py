@@ -96,24 +96,25 @@ def test_what_contacts_have_slid_is_there_after_a_restart():
     """A run that stops in the middle of its weakening goes on to the last bit."""
     law = carom.StaticKinetic(static=0.5, kinetic=0.1, distance=0.2)
     whole, other = build(sliding_block(law)), build(sliding_block(law))
-    whole.advance(0.15, np.inf)
+    whole.advance(0.05, np.inf)
     other.restore(whole.checkpoint())
-    assert whole.checkpoint()["state/sliding/distance"].min() > 0.1
+    assert 0.0 < whole.checkpoint()["state/sliding/distance"].max() < 0.06
     for run_on in (whole, other):
         run_on.advance(0.3, np.inf)
     last, wanted = other.checkpoint(), whole.checkpoint()
-    assert last.keys() == wanted.keys()
-    assert [name for name in last if not np.array_equal(last[name], wanted[name])] == []
-    assert wanted["state/sliding/distance"].min() > 0.2
+    kept = [name for name in wanted if name.startswith("state/")]
+    assert [name for name in kept if not np.array_equal(last[name], wanted[name])] == []
+    assert wanted["state/sliding/distance"].min() > 0.1
 
 
 def test_a_law_without_a_fixed_point_fails_its_step(tmp_path):
-    """Friction that rises at a speed by a jump stops what it lets go."""
+    """With 0.1 the block slides too fast for 0.1, with 0.6 too slowly for 0.6."""
     law = carom.FrictionFormula(formula="where(v > 0.5, 0.6, 0.1)")
-    with pytest.raises(
-        carom.ConvergenceError, match="friction law has no fixed point in this step"
-    ):
-        run(tmp_path, sliding_block(law))
+    case = sliding_block(law).with_overrides(
+        ["bodies.0.velocity=[0.502, 0]", "analysis.max_halvings=0"]
+    )
+    with pytest.raises(carom.ConvergenceError, match="law has no fixed point in this step"):
+        run(tmp_path, case)
 
 
 def test_a_law_that_gives_no_coefficient_fails_its_step(tmp_path):
@@ -140,6 +141,15 @@ def test_a_static_analysis_has_laws_of_the_distance_alone():
     ):
         with pytest.raises(carom.InputError, match="a static analysis has no speed of slip"):
             carom.Simulation(pressed(law))
+
+
+def test_massless_contact_has_coefficients_alone():
+    case = sliding_block(carom.StaticKinetic(kinetic=0.2, viscous=0.1), condition="massless")
+    mesh = carom.Rectangle(corner=[0.0, 0.0], size=[1.0, 1.0], divisions=[4, 4])
+    body = carom.Body(name="block", material="soft", mesh=mesh)
+    soft = carom.NeoHookean(young=1e5, poisson=0.3, density=1.0)
+    with pytest.raises(carom.InputError, match='law that depends on the motion goes with "gap"'):
+        carom.Simulation(case.model_copy(update={"bodies": (body,), "materials": {"soft": soft}}))
 
 
 def test_loops_of_others_have_coefficients_alone():

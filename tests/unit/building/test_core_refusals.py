@@ -167,11 +167,6 @@ BAD = [
         "-0.1: friction must be between 0 and 1000",
     ),
     (
-        {"contact.friction": {"kinetic": 0.2}, "contact.condition": "massless"},
-        "contact.friction",
-        "a friction law that depends on the motion goes with",
-    ),
-    (
         {"output.history_every": 0},
         "output.history_every",
         "0: the interval must be greater than 0 s",
