@@ -39,7 +39,6 @@ PARTS = {
     "conservation": conservation.section,
     "dissipation": dissipation.section,
     "damping": damping.section,
-    "friction laws": friction_laws.section,
     "massless cylinders": massless.cylinders_section,
     "long runs": robustness.long_runs_section,
     "massless bars": massless.bars_section,
@@ -48,6 +47,7 @@ PARTS = {
     "random scenes": robustness.random_scenes_section,
     "statics": statics.references_section,
     "ironing": statics.ironing_section,
+    "friction laws": friction_laws.section,
 }
 """What the page consists of, in its order; each part begins with a heading of the second level."""
 

@@ -23,7 +23,7 @@ pub(crate) struct Delassus<const D: usize> {
     rows: Vec<Row<D>>,
     /// One of them, complete.
     for_row: Vec<(usize, Matrix<D>)>,
-    /// What of W stands in for the compliance of directions that are held, contact by contact [m/N]. Only the change of reactions moves by it.
+    /// What of W stands in for the compliance of directions that are held, contact by contact [m/N]: nothing moves by it.
     pub stand_ins: Vec<Matrix<D>>,
 }
 

@@ -170,8 +170,8 @@ impl<const D: usize> Reduced<D> {
         let report = if active.sliders.is_empty() {
             solve(&self.problem, &mut active.reactions)
         } else {
-            let known = [&self.offsets[..], &self.guess];
-            active.solve_with_laws(given, known, &self.delassus.stand_ins, &mut self.problem, solve)?
+            let stand_ins = &self.delassus.stand_ins;
+            active.solve_with_laws(given, &self.offsets, stand_ins, &mut self.problem, solve)?
         };
         self.solved_by = report.solver;
         self.friction_time += time;

@@ -68,12 +68,11 @@ impl<const D: usize> ActiveSet<D> {
     }
 
     /// Solves the `problem` by `solve`, again and again, until its coefficients are those that the laws say of its solution, which is left in the
-    /// reactions, the coefficients in [`Self::friction`]. The reactions start from a `guess`, and `stand_ins` are parts of W that move nothing by
-    /// these: see `Delassus::stand_ins`.
+    /// reactions, the coefficients in [`Self::friction`]. What of W moves nothing is in `stand_ins`: see `Delassus::stand_ins`.
     pub fn solve_with_laws(
         &mut self,
         given: &Given<'_, D>,
-        [offsets, guess]: [&[Vector<D>]; 2],
+        offsets: &[Vector<D>],
         stand_ins: &[Matrix<D>],
         problem: &mut ContactProblem<D>,
         mut solve: impl FnMut(&ContactProblem<D>, &mut [Vector<D>]) -> SolveReport,
@@ -105,7 +104,7 @@ impl<const D: usize> ActiveSet<D> {
                 let i = slider.contact;
                 let Some(law) = law(slider, self) else { continue };
                 // What stands in for a direction that is held moves nothing.
-                let w = problem.motion(i, &self.reactions) - stand_ins[i] * (self.reactions[i] - guess[i]);
+                let w = problem.motion(i, &self.reactions) - stand_ins[i] * self.reactions[i];
                 let slides =
                     self.slides(given, i, [&self.reactions[i], &w, &offsets[i]], problem.step_length(i));
                 slider.leave(law, &slides);
@@ -157,12 +156,13 @@ impl<const D: usize> ActiveSet<D> {
         (law.coefficient(&slider.half_way(law, &slides)) - self.friction[i]).abs()
     }
 
-    /// The coefficient up to which a contact holds that sticks, where that is more than what resists it once it slides; none of others.
-    pub fn holding(&self, given: &Given<'_, D>, contact: usize) -> Option<f64> {
+    /// The coefficient up to which a contact holds that sticks, where that is more than what resists it once it slides, with the direction in which it
+    /// slid in the step, zero if it stuck; none of others.
+    pub fn holding(&self, given: &Given<'_, D>, contact: usize) -> Option<(f64, Vector<D>)> {
         let slider = self.slider_of(contact)?;
         let pair = given.assembly.contact.pairs.get(slider.before.pair as usize);
         let holding = given.assembly.friction_laws.of(&pair)?.holding()?;
-        (slider.after.direction == Vector::<D>::zeros()).then_some(holding)
+        Some((holding, slider.after.direction))
     }
 
     /// The contact of a slider.
