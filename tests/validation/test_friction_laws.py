@@ -50,8 +50,8 @@ def test_viscous_friction_slows_a_block_as_an_exponential_does(tmp_path, conditi
     assert result.summary["status"] == "completed"
     # Velocities at the end of a step, friction of its mean velocity: second order.
     worst = np.abs(history["block.v_x"] - np.maximum(exact, 0.0)).max()
-    assert worst < (1e-5 if condition != "endpoint" else 2e-3)
-    assert history["friction_defect"].max() < 1e-9
+    assert worst < (5e-6 if condition != "endpoint" else 2e-3)
+    assert history["friction_defect"].max() < 1e-14
 
 
 def test_a_formula_is_the_law_that_it_writes_out(tmp_path):
