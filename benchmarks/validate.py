@@ -22,6 +22,7 @@ from sections import (
     cylinders,
     damping,
     dissipation,
+    friction_laws,
     layer,
     massless,
     robustness,
@@ -47,6 +48,7 @@ PARTS = {
     "statics": statics.references_section,
     "ironing": statics.ironing_section,
     "static scenes": statics.scenes_section,
+    "friction laws": friction_laws.section,
 }
 """What the page consists of, in its order; each part begins with a heading of the second level."""
 

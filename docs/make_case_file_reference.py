@@ -19,9 +19,10 @@ import annotated_types
 from generated import write_or_check
 from pydantic.fields import FieldInfo
 
-from carom import Scenario, Table
+from carom import Scenario, StaticKinetic, Table
 from carom.case.description import PER_DIMENSION, Description, InPlane, InSpace, Name
 from carom.case.docstrings import documented, summary
+from carom.case.friction import Coefficient
 from carom.case.schema import case_file_schema
 
 PAGE = Path(__file__).with_name("case-file.md")
@@ -156,6 +157,8 @@ def type_of(field: FieldInfo) -> str:  # noqa: PLR0911 (one per type)
     annotation, asked = parts(field)
     if annotation in PLAIN:
         return PLAIN[annotation]
+    if StaticKinetic in models(annotation):
+        return "number or table"
     if Table in models(annotation):
         return "D signals" if PER_DIMENSION in asked else "signal"
     if get_origin(annotation) is Literal:
@@ -189,6 +192,8 @@ def allowed(field: FieldInfo) -> str:
     """Return what values a field may have, beyond its type."""
     annotation, asked = parts(field)
     rules = []
+    if StaticKinetic in models(annotation):
+        asked += get_args(Coefficient)[-1].metadata
     if get_origin(annotation) is Literal:
         rules.append(", ".join(f"`{json.dumps(value)}`" for value in get_args(annotation)))
     if get_origin(annotation) is tuple:
@@ -263,6 +268,13 @@ def what(model: type[Description]) -> str:
     return f"{summary(model)} Python: `carom.{model.__name__}`."
 
 
+def title(model: type[Description]) -> str:
+    """Return what tells a table of one kind from those of others."""
+    if kind := model.model_fields.get("kind"):
+        return f'`kind = "{kind.default}"`'
+    return f"With `{next(name for name, field in fields(model) if field.is_required())}`"
+
+
 def page() -> str:
     """Return the text of the page."""
     text = [HEAD, "## Top level\n", what(Scenario), "", table(Scenario), ""]
@@ -275,8 +287,7 @@ def page() -> str:
         for model in section.kinds:
             tagged = len(section.kinds) > 1
             if tagged:
-                kind = model.model_fields["kind"].default
-                text.append(f'### `kind = "{kind}"`\n')
+                text.append(f"### {title(model)}\n")
             text += [what(model), "", table(model, tagged=tagged), ""]
     return "\n".join([*text, RULES])
 

@@ -63,6 +63,7 @@ def test_the_tutorial_shows_the_case_and_the_table_of_its_run(desk, monkeypatch)
     [
         "README.md",
         "docs/tutorial.md",
+        "docs/how-to/friction-laws.md",
         "docs/how-to/impacts.md",
         "docs/how-to/many-bodies.md",
         "docs/how-to/own-steps.md",

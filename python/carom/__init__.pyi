@@ -17,6 +17,9 @@ from carom.case.body import RigidBody as RigidBody
 from carom.case.contact import Contact as Contact
 from carom.case.contact import FrictionSolver as FrictionSolver
 from carom.case.contact import Pair as Pair
+from carom.case.friction import FrictionFormula as FrictionFormula
+from carom.case.friction import RateAndState as RateAndState
+from carom.case.friction import StaticKinetic as StaticKinetic
 from carom.case.initial import Initial as Initial
 from carom.case.initial import InitialDisplacement as InitialDisplacement
 from carom.case.load import Force as Force

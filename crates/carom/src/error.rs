@@ -72,6 +72,27 @@ pub enum StepError {
         /// What the solver said.
         report: Box<SolveReport>,
     },
+    /// A friction law gave what is no coefficient.
+    #[error(
+        "the friction law gives {coefficient} at a slip speed of {speed:.3e} m/s after {distance:.3e} m of slip: it must be between 0 and 1000"
+    )]
+    FrictionLaw {
+        /// What it gave.
+        coefficient: f64,
+        /// Slip speed [m/s].
+        speed: f64,
+        /// Distance of slip [m].
+        distance: f64,
+    },
+    /// No friction coefficient was found that is what its law says of the motion that it leads to.
+    #[error(
+        "the friction law has no fixed point in this step: the last coefficient is {off:.3e} away from what the law says of the \
+         motion that it leads to; take a shorter time step, or let friction fall less steeply"
+    )]
+    FrictionUnsettled {
+        /// How far the last coefficient was from the law.
+        off: f64,
+    },
     /// A node went through its target outside of the contact search.
     #[error("a node came into contact outside of a search margin of {margin:.3e} m")]
     MissedContact {

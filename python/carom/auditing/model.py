@@ -13,6 +13,7 @@ from carom.auditing.target import Target
 from carom.case.analysis import Conserving, Static, Theta
 from carom.case.body import Body, RigidBody
 from carom.case.contact import Pair
+from carom.case.friction import FrictionLaw
 from carom.case.mesh import Disc, Rectangle
 from carom.case.obstacle import Obstacle, Plane
 from carom.case.scenario import Scenario
@@ -235,22 +236,25 @@ class AuditModel:
 
     def _build_sides(self) -> Iterator[Side]:
         contact = self.scenario.contact
+        usual = _coefficient(contact.friction)
         names = [body.name for body in self.bodies]
         for a, first in enumerate(names):
             others = [(b, names[b]) for b in range(a + 1, len(names))]
             others += [(-1 - o, plane.name) for o, plane in enumerate(self.scenario.obstacles)]
             for b, second in others:
                 entry = self._pair(first, second)
-                friction, sources, swapped = contact.friction, contact.sources, False
+                sources, swapped = contact.sources, False
+                coefficient = usual
                 if entry is not None:
                     if not entry.enabled:
                         continue
-                    friction = friction if entry.friction is None else entry.friction
+                    if entry.friction is not None:
+                        coefficient = _coefficient(entry.friction)
                     if entry.sources is not None:
                         sources, swapped = entry.sources, entry.between[0] == second
                 bounce = self._restitution(first, second)
                 if b < 0:
-                    yield Side(a, b, friction, two_sided=False, restitution=bounce)
+                    yield Side(a, b, coefficient, two_sided=False, restitution=bounce)
                     continue
                 # The auditor has no mortar rows, of which one side has the multipliers.
                 sources = sources or "both"
@@ -262,9 +266,9 @@ class AuditModel:
                     forward, backward = backward, forward
                 both = forward and backward
                 if forward:
-                    yield Side(a, b, friction, two_sided=both, restitution=bounce)
+                    yield Side(a, b, coefficient, two_sided=both, restitution=bounce)
                 if backward:
-                    yield Side(b, a, friction, two_sided=both, restitution=bounce)
+                    yield Side(b, a, coefficient, two_sided=both, restitution=bounce)
 
     def _is_finer(self, body: int, other: int) -> bool:
         wide, wide_other = self._mean_facet(body), self._mean_facet(other)
@@ -293,6 +297,12 @@ def _plane(entry: Obstacle) -> AuditPlane:
         normal=normal / np.linalg.norm(normal),
         velocity=np.array(entry.velocity or (0.0, 0.0)),
     )
+
+
+def _coefficient(friction: float | FrictionLaw) -> float:
+    if isinstance(friction, FrictionLaw):
+        raise InputError("cannot audit friction that depends on the motion yet")
+    return friction
 
 
 def _refuse_what_is_driven(scenario: Scenario) -> None:

@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from typing_extensions import Self
 
 from carom.case.description import Count, Description, Number, Positive, Share
+from carom.case.friction import Friction
 from carom.case.signal import Signal
 from carom.messages import problem
 
@@ -17,9 +18,6 @@ Sources = Literal["finer", "first", "second", "both"]
 
 Discretisation = Literal["node-to-segment", "mortar"]
 """How contact between two bodies is written: node by node, or in the mean over the surface."""
-
-Friction = Annotated[Number, Field(ge=0, le=1000)]
-"""Coulomb's coefficient."""
 
 Restitution = Annotated[Number, Field(ge=0, le=1)]
 """Coefficient of restitution."""
@@ -74,7 +72,9 @@ class Pair(Description):
     between
         Names of two bodies, or of a body and an obstacle; twice that of a body that touches itself.
     friction
-        Coulomb's coefficient; None takes the default of `Contact`.
+        Coulomb's coefficient, or a law: `StaticKinetic`, `RateAndState` or
+        `FrictionFormula`; None takes the
+        default of `Contact`.
     restitution
         Coefficient of restitution e of two rigid bodies, or of a rigid one and an obstacle; None
         takes the default of `Contact`.
@@ -124,7 +124,9 @@ class Contact(Description):
         keeps the energy, is quiet and never penetrates, but takes more time and does not work in
         every case yet.
     friction
-        Coulomb's coefficient of every pair that does not state its own.
+        Friction of every pair that does not state its own: Coulomb's coefficient, or a law by which
+        it depends on the sliding, `StaticKinetic`, `RateAndState` or `FrictionFormula`, such as
+        ``{ static = 0.6, kinetic = 0.3 }``. A law goes with every condition but ``massless``.
     restitution
         Coefficient of restitution e of every pair of what is rigid that does not state its own,
         with the condition ``endpoint``: what meets at v_n parts at -e v_n (Moreau), and friction

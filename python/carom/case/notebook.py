@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from carom.case.friction import friction_text
 from carom.display.markup import Html, element
 from carom.display.tables import html_table
 
@@ -28,7 +29,7 @@ def scenario_html(scenario: Scenario) -> Html:
         *(("obstacle", f"{obstacle.name}: {obstacle.kind}") for obstacle in scenario.obstacles),
         *(("load", f"{load.kind} on {load.body}") for load in scenario.loads),
         *(("motion", f"{motion.kind}: {motion.body}") for motion in scenario.motions),
-        ("contact", f"{contact.condition}, friction {contact.friction:g}"),
+        ("contact", f"{contact.condition}, friction {friction_text(contact.friction)}"),
     ]
     case = element("details", element("summary", "case file"), element("pre", scenario.to_toml()))
     return element("div", element("strong", scenario.title or "Scenario"), html_table(rows), case)

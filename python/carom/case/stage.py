@@ -8,8 +8,9 @@ from pydantic import model_validator
 from typing_extensions import Self
 
 from carom.case.analysis import Analysis, with_kind
-from carom.case.contact import Condition, Friction
+from carom.case.contact import Condition
 from carom.case.description import Description, Name, Number, Positive, SpaceVector, Vector
+from carom.case.friction import Friction
 from carom.case.load import Load
 from carom.case.motion import Motion
 from carom.messages import problem
@@ -82,7 +83,7 @@ class StagePair(Description):
     between
         Names of two bodies, or of a body and an obstacle.
     friction
-        Coulomb's coefficient.
+        Coulomb's coefficient, or a law: see `Contact`.
     """
 
     between: tuple[str, ...]
@@ -104,9 +105,9 @@ class StageContact(Description):
         Where in time a dynamic stage writes the unilateral condition, see `Contact`; None
         is as before. A static stage rules the gap at the end of the step.
     friction
-        Coulomb's coefficient of every pair that has none of its own; None is as before.
+        Friction of every pair that has none of its own, see `Contact`; None is as before.
     pairs
-        Coefficients of single pairs.
+        Friction of single pairs.
     """
 
     condition: Condition | None = None

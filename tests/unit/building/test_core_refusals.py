@@ -63,6 +63,7 @@ def pipe(**given):
 
 REDUCED = {"bodies.0.kind": "reduced", "bodies.0.modes": 0}
 J2 = {"young": 1e5, "poisson": 0.3, "yield_stress": 1e3, "hardening": 0.0, "saturation_rate": 0.0}
+AGEING = {"reference": 0.6, "direct": 0.01, "evolution": 0.02, "speed": 1.0, "distance": 1.0}
 RUBBER = {"c10": 1e3, "c20": 0.0, "c30": 0.0, "bulk": 1e5}
 
 BAD = [
@@ -115,6 +116,56 @@ BAD = [
         "0: at least 1 iteration is needed",
     ),
     ({"contact.friction": 2e3}, "contact.friction", "2000: friction must be between 0 and 1000"),
+    (
+        {"contact.friction": {"kinetic": -0.1}},
+        "contact.friction.kinetic",
+        "-0.1: friction must be between 0 and 1000",
+    ),
+    (
+        {"contact.friction": {"static": 0.2, "kinetic": 0.3}},
+        "contact.friction.static",
+        "0.2 is less than kinetic = 0.3: what sticks would slide",
+    ),
+    (
+        {"contact.friction": {"static": 0.3, "kinetic": 0.2, "speed": 1.0, "distance": 1.0}},
+        "contact.friction.distance",
+        "static friction falls over a speed or over a distance; leave one out",
+    ),
+    (
+        {"contact.friction": {"kinetic": 0.2, "distance": 1.0}},
+        "contact.friction.distance",
+        "there is no static friction that could fall; give it by static",
+    ),
+    (
+        {"contact.friction": {"static": 0.3, "kinetic": 0.2, "speed": 0.0}},
+        "contact.friction.speed",
+        "0: must be greater than 0",
+    ),
+    (
+        {"contact.friction": {"kinetic": 0.2, "viscous": -1.0}},
+        "contact.friction.viscous",
+        "-1: must be at least 0",
+    ),
+    (
+        {"contact.friction": {**AGEING, "direct": -1.0}},
+        "contact.friction.direct",
+        "-1: must be at least 0",
+    ),
+    (
+        {"contact.friction": {**AGEING, "distance": 0.0}},
+        "contact.friction.distance",
+        "0: must be greater than 0",
+    ),
+    (
+        {"contact.friction": {"formula": "0.1*t"}},
+        "contact.friction.formula",
+        'unknown name "t"; known are v, s, pi, e at column 5 of "0.1*t"',
+    ),
+    (
+        {"contact.friction": {"formula": "v - 0.1"}},
+        "contact.friction",
+        "-0.1: friction must be between 0 and 1000",
+    ),
     (
         {"output.history_every": 0},
         "output.history_every",

@@ -128,6 +128,33 @@ BAD = [
         "obstacles.0.axis = [0, 0, 0]: must not be the zero vector",
     ),
     ("contact.friction", -0.1, "contact.friction = -0.1: must be at least 0"),
+    ("contact.friction", "rough", 'contact.friction = "rough": must be a number'),
+    ("contact.friction", {"kinetic": -1}, "contact.friction.kinetic = -1: must be at least 0"),
+    (
+        "contact.friction",
+        {"static": 0.2, "kinetic": 0.3},
+        "contact.friction.static = 0.2: is less than kinetic = 0.3: what sticks would slide and be",
+    ),
+    (
+        "contact.friction",
+        {"static": 0.4, "kinetic": 0.3, "speed": 0.1, "distance": 1e-3},
+        "contact.friction.distance = 0.001: static friction falls over a speed or over a distance",
+    ),
+    (
+        "contact.pairs.0.friction",
+        {"kinetic": 0.3, "speed": 0.1},
+        "contact.pairs.0.friction.speed = 0.1: there is no static friction that could fall",
+    ),
+    (
+        "contact.friction",
+        {"reference": 0.6, "direct": 0.01, "evolution": 0.02, "speed": 0, "distance": 1e-5},
+        "contact.friction.speed = 0: must be greater than 0",
+    ),
+    (
+        "contact.friction",
+        {"static": 0.3},
+        "contact.friction.kinetic: required key is missing",
+    ),
     ("contact.solver", {"kind": "nlgs"}, 'contact.solver.kind = "nlgs": must be \''),
     ("contact.pairs.0.between", ["left", "flor"], 'no such body or obstacle; did you mean "floor"'),
     ("title", 5, "title = 5: must be a string"),

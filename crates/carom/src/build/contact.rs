@@ -7,22 +7,15 @@ use carom_fem::Hypothesis;
 use carom_mesh::Vector;
 
 use super::body::may_touch;
+use super::friction_law::at_rest;
 use super::mortar::{discretisation, has_mortar};
 use super::obstacle::{Surfaces, obstacle};
 use super::side::{NamedSide, facet_width};
-use super::values::{number, place, vector};
+use super::values::{place, vector};
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::assembly::MANY_PAIRS;
 use crate::scenario::{BodyEntry, BodyKind, ContactSpec, MeshSpec, PairEntry, Scenario, Sources, Targets};
-
-/// The largest friction coefficient.
-const MAX_FRICTION: f64 = 1e3;
-
-/// Refuses friction coefficients that are negative, or so large that round-off of μ|w_t| would hide the normal motion.
-fn check_friction(key: &str, friction: f64) -> Result<(), InputError> {
-    number(key, friction, (0.0..=MAX_FRICTION).contains(&friction), "friction must be between 0 and 1000")
-}
 
 /// Every pair of a body with another body or an obstacle, less the exceptions of the scenario.
 pub(super) fn contact<const D: usize>(
@@ -78,7 +71,7 @@ pub(crate) fn pairs(
     bodies: &[NamedSide],
     obstacles: &[&str],
 ) -> Result<Pairs, InputError> {
-    check_friction("contact.friction", spec.friction)?;
+    at_rest("contact.friction", &spec.friction)?;
     if !Pairs::have_room_for(bodies.len(), obstacles.len()) {
         let message =
             format!("{} bodies: more pairs than there are numbers for; leave bodies out", bodies.len());
@@ -140,10 +133,12 @@ fn rule(
     sides: Option<&[&NamedSide]>,
 ) -> Result<PairRule, InputError> {
     let entry = found.map(|(_, entry)| entry);
-    let friction = entry.and_then(|entry| entry.friction).unwrap_or(spec.friction);
-    if let Some((k, _)) = found {
-        check_friction(&format!("contact.pairs.{k}.friction"), friction)?;
-    }
+    let own =
+        found.and_then(|(k, entry)| Some((format!("contact.pairs.{k}.friction"), entry.friction.as_ref()?)));
+    let friction = match own {
+        Some((key, friction)) => at_rest(&key, friction)?,
+        None => at_rest("contact.friction", &spec.friction)?,
+    };
     let sources = entry.and_then(|entry| entry.sources).or(spec.sources);
     let discretisation = match sides {
         Some(sides) => discretisation(spec, found, sources, sides)?,
@@ -207,13 +202,13 @@ mod tests {
 
     use super::*;
     use crate::ContactCondition;
-    use crate::scenario::SolverSpec;
+    use crate::scenario::{FrictionSpec, SolverSpec};
 
     #[test]
     fn bodies_whose_pairs_have_no_numbers_are_refused() {
         let spec = ContactSpec {
             condition: ContactCondition::Gap,
-            friction: 0.3,
+            friction: FrictionSpec::Coefficient(0.3),
             solver: SolverSpec {
                 kind: SolverKind::Auto,
                 tolerance: 1e-12,

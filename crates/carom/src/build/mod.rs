@@ -3,6 +3,7 @@
 mod body;
 pub(crate) mod contact;
 pub(crate) mod drive;
+pub(crate) mod friction_law;
 mod growth;
 mod guide;
 mod interference;
@@ -24,6 +25,7 @@ use std::collections::BTreeMap;
 
 use carom_mesh::{Mesh, Vector};
 
+use self::friction_law::friction_laws;
 pub use self::obstacle::Surfaces;
 use self::values::vector;
 pub(crate) use self::velocity::RigidMotion;
@@ -131,7 +133,9 @@ pub(crate) fn built<const D: usize>(
     }
     let model = drive::drive(scenario, Model::new(bodies, contact, obstacles, gravity))?;
     let model = interference::interference(scenario, model)?;
-    let model = restitution::restitution(scenario, model)?;
+    let mut model = restitution::restitution(scenario, model)?;
+    let is_static = method.scheme == Scheme::Static;
+    model.assembly.friction_laws = friction_laws(&scenario.contact, is_static, &model.assembly)?;
     if scenario.analysis.starts_from_nothing() {
         overlaps::check_overlaps(scenario, &model)?;
     }

@@ -213,6 +213,7 @@ fn history<const D: usize>(archive: &mut Archive<'_>, history: &mut History<D>) 
         &mut since.residual,
         &mut since.blend,
         &mut since.step_defect,
+        &mut since.friction_defect,
         &mut since.penetration,
         &mut since.normal_force,
     ];

@@ -4,7 +4,7 @@ use carom_contact::{Contact, Site, Target};
 use carom_mesh::{Matrix, Vector};
 
 use crate::archive::{Archive, CheckpointError};
-use crate::{Assembly, Reaction, State};
+use crate::{Assembly, Reaction, SlidingRecord, State};
 
 /// Records or replays the state.
 pub(super) fn exchange<const D: usize>(
@@ -24,6 +24,7 @@ pub(super) fn exchange<const D: usize>(
     archive.numbers("state/energies", state.energies.terms_mut())?;
     archive.numbers("state/body_energies", state.body_energies.iter_mut().flat_map(|e| e.terms_mut()))?;
     archive.numbers("state/energy_debt", &mut state.energy_debt)?;
+    sliding(archive, assembly, &mut state.sliding)?;
     archive.plastic("state/plastic", state.history.iter_mut().flatten())?;
     let mut reactions = Reactions::of(&state.reactions);
     reactions.exchange(archive)?;
@@ -31,6 +32,38 @@ pub(super) fn exchange<const D: usize>(
         state.reactions = reactions.into_reactions(assembly)?;
     }
     Ok(())
+}
+
+/// What contacts remember of their sliding.
+fn sliding<const D: usize>(
+    archive: &mut Archive<'_>,
+    assembly: &Assembly<D>,
+    records: &mut Vec<SlidingRecord<D>>,
+) -> Result<(), CheckpointError> {
+    let count = archive.rows("state/sliding/pair", records.len())?;
+    let mut sites: Vec<[u32; 4]> = records.iter().map(|r| to_nodes(r.site)).collect();
+    sites.resize(count, [0; 4]);
+    records.resize(count, SlidingRecord::new((0, Site::Node(0)), 0.0));
+    archive.integers("state/sliding/pair", records.iter_mut().map(|r| &mut r.pair))?;
+    archive.integers("state/sliding/site", sites.as_flattened_mut())?;
+    archive.numbers("state/sliding/distance", records.iter_mut().map(|r| &mut r.distance))?;
+    archive.numbers("state/sliding/state", records.iter_mut().map(|r| &mut r.state))?;
+    archive.numbers("state/sliding/direction", records.iter_mut().flat_map(|r| r.direction.iter_mut()))?;
+    if !archive.replays() {
+        return Ok(());
+    }
+    for (record, site) in records.iter_mut().zip(sites) {
+        if assembly.contact.pairs.find(record.pair as usize).is_none() {
+            return Err(CheckpointError::new("state/sliding/pair", "names a pair that is not there"));
+        }
+        let site = to_site(assembly, record.pair, site);
+        record.site =
+            site.ok_or_else(|| CheckpointError::new("state/sliding/site", "names a node that is not there"))?;
+    }
+    if records.is_sorted_by_key(SlidingRecord::key) {
+        return Ok(());
+    }
+    Err(CheckpointError::new("state/sliding/site", "is not ascending"))
 }
 
 /// Reactions as arrays: one entry or vector per reaction, and stencils one after the other.

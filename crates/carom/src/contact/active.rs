@@ -4,6 +4,7 @@ use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Target};
 use carom_mesh::{Matrix, Vector};
 
 use super::control::CONTROL;
+use super::slider::Slider;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
 use crate::model::condition::{Opening, impact_offset};
@@ -19,6 +20,11 @@ pub(crate) struct ActiveSet<const D: usize> {
     /// The frame that every contact had when it was last evaluated, in this step or as a reaction of the last one; zeros where there is none.
     frames: Vec<Matrix<D>>,
     pub friction: Vec<f64>,
+    /// The contacts of pairs with a friction law, how far their coefficients are from it where none was found that is, and the coefficients to
+    /// be tried next.
+    pub sliders: Vec<Slider<D>>,
+    pub unsettled: f64,
+    pub(super) next_friction: Vec<(usize, f64)>,
     /// The part of its gap [m] at the start that a contact may close or keep: see `ContactCondition::start_gap`.
     pub start_gaps: Vec<f64>,
     /// The interference [m] of every contact at the start and the end of the step.
@@ -105,6 +111,7 @@ impl<const D: usize> ActiveSet<D> {
         self.frames.clear();
         self.reactions.clear();
         self.friction.clear();
+        self.unsettled = 0.0;
         self.start_forces.clear();
         self.touched.fill(false);
         let weight = given.reaction_weight();
@@ -118,6 +125,7 @@ impl<const D: usize> ActiveSet<D> {
             self.friction.push(pair.friction);
             touch(&mut self.touched, &pair);
         }
+        self.recall_sliding(given);
         // Contacts that the step starts with and that are out of reach by its end still share their bodies' balance.
         self.lost.clear();
         if !given.method.condition.is_massless() {

@@ -16,6 +16,8 @@ pub(crate) struct Kept {
     pub min_gap: f64,
     /// Sum of the bi-potential gaps [J].
     pub certificate: f64,
+    /// Largest distance of a friction coefficient from its law.
+    pub friction_defect: f64,
 }
 
 /// Measures the contact law at the final motion, whose end is in `next`, keeps the reactions that press there, and evaluates the contacts `at_end`.
@@ -30,7 +32,7 @@ pub(crate) fn keep<const D: usize>(
 ) -> Kept {
     next.reactions.clear();
     next.contact_force.fill(Vector::zeros());
-    let mut kept = Kept { min_gap: f64::INFINITY, certificate: 0.0 };
+    let mut kept = Kept { min_gap: f64::INFINITY, certificate: 0.0, friction_defect: 0.0 };
     let (assembly, weight) = (given.assembly, given.reaction_weight());
     let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
     assembly.contact.evaluate_all(&active.candidates, &end, &mut active.mortar, at_end);
@@ -48,6 +50,12 @@ pub(crate) fn keep<const D: usize>(
             w[0] = at_end[i].gap;
         }
         kept.certificate += cone::bipotential_gap(&w, &r, active.friction[i]);
+        if let Some(slider) = active.slider_of(i) {
+            let off = active.off_law(given, slider, &w, &offsets[i]);
+            kept.friction_defect = kept.friction_defect.max(off);
+            // What a coefficient that is not that of the law does to the energy.
+            kept.certificate += off * r[0].max(0.0) * cone::tangential_norm(&w);
+        }
         contact.add_force(&r, &mut next.contact_force);
         if r[0] > 0.0 {
             let Candidate { pair, site, facet, .. } = *candidate;

@@ -44,6 +44,16 @@ pub(super) struct Control {
     pub stiffened: usize,
     /// Unknowns at contacts up to which a load step in question asks whether its bodies resist together: 0.1 s for so many.
     pub together: usize,
+    /// A contact slips where its reaction, tried against its motion, leaves the cone by more than this, relative to the cone.
+    pub slips: f64,
+    /// The coefficient of a friction law is found where the law is no farther from it than this, relative to it,
+    pub law_settled: f64,
+    /// or, after so many rounds,
+    pub law_rounds: usize,
+    /// no farther than this: what round-off leaves of slow sliding.
+    pub law_near: f64,
+    /// No secant goes farther than so many times what the law is off.
+    pub law_stride: f64,
     /// What the tangent of a load step has more than K̄ is nothing below this, relative to K̄ at the contacts.
     pub negligible: f64,
 }
@@ -68,4 +78,9 @@ pub(super) const CONTROL: Control = Control {
     stiffened: 300,
     together: 1200,
     negligible: 1e-8,
+    slips: 1e-9,
+    law_settled: 1e-11,
+    law_rounds: 20,
+    law_near: 1e-8,
+    law_stride: 10.0,
 };

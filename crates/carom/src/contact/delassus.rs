@@ -23,6 +23,8 @@ pub(crate) struct Delassus<const D: usize> {
     rows: Vec<Row<D>>,
     /// One of them, complete.
     for_row: Vec<(usize, Matrix<D>)>,
+    /// What of W stands in for the compliance of directions that are held, contact by contact [m/N]: nothing moves by it.
+    pub stand_ins: Vec<Matrix<D>>,
 }
 
 /// What threads make of a row of W.
@@ -54,6 +56,7 @@ impl<const D: usize> Delassus<D> {
             stiffened: Stiffened::new(assembly),
             rows: Vec::new(),
             for_row: Vec::new(),
+            stand_ins: Vec::new(),
         }
     }
 
@@ -72,7 +75,8 @@ impl<const D: usize> Delassus<D> {
     ) {
         let stiffened = self.stiffened.is_needed();
         let leaves_out = self.stiffened.leaves_out();
-        let Self { compliances, coupling, rows, for_row, stiffened: tangent } = self;
+        let Self { compliances, coupling, rows, for_row, stand_ins, stiffened: tangent } = self;
+        stand_ins.clear();
         let ActiveSet { contacts, reactions, .. } = active;
         problem.w.clear();
         problem.q.clear();
@@ -125,11 +129,13 @@ impl<const D: usize> Delassus<D> {
                 };
                 for_row.clear();
                 for_row.extend(partners.filter_map(known));
+                stand_ins.push(Matrix::zeros());
                 for (_, block) in for_row.iter_mut().filter(|(j, _)| *j == i) {
                     // A stand-in, which moves nothing: it has no part in the motion.
                     let support = support(assembly, contact, &q, motion, block);
                     problem.q[i] += support * reactions[i];
                     *block += support;
+                    stand_ins[i] = support;
                 }
                 problem.w.push_row(for_row.drain(..));
             }

@@ -12,6 +12,8 @@ pub(crate) mod delassus;
 mod left_out;
 pub(crate) mod reduced;
 mod second_order;
+mod slider;
+pub(crate) mod sliding;
 pub(crate) mod slip;
 pub(crate) mod stiffened;
 mod woodbury;

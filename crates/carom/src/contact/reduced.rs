@@ -161,9 +161,20 @@ impl<const D: usize> Reduced<D> {
         let size = size(&self.problem, &active.reactions);
         let tolerance = tolerance(active.reactions.len(), size, error, method.stopping.tolerance);
         let stopping = StoppingRule { tolerance, ..method.stopping };
-        let report = method.solver.solve(&self.problem, &mut active.reactions, &stopping);
+        let mut time = Duration::ZERO;
+        let mut solve = |problem: &ContactProblem<D>, reactions: &mut [Vector<D>]| {
+            let report = method.solver.solve(problem, reactions, &stopping);
+            time += report.time;
+            report
+        };
+        let report = if active.sliders.is_empty() {
+            solve(&self.problem, &mut active.reactions)
+        } else {
+            let stand_ins = &self.delassus.stand_ins;
+            active.solve_with_laws(given, &self.offsets, stand_ins, &mut self.problem, solve)?
+        };
         self.solved_by = report.solver;
-        self.friction_time += report.time;
+        self.friction_time += time;
         if !report.is_solved() {
             let q = &self.problem.q;
             return Err(if q.iter().all(|q| q.iter().all(|x| x.is_finite())) {

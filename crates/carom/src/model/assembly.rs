@@ -3,6 +3,7 @@ use std::ops::Range;
 use carom_contact::{Boundaries, ContactModel, Pair, Solid, Target};
 use carom_mesh::{Surface, Vector};
 
+use crate::model::friction_laws::FrictionLaws;
 use crate::model::interference::{Interference, Interferences};
 use crate::model::obstacle_motion::ObstacleMotion;
 use crate::model::restitution::Restitutions;
@@ -15,7 +16,7 @@ pub(crate) const MANY_PAIRS: usize = 1000;
 pub struct NamedPair {
     /// The two names.
     pub between: [String; 2],
-    /// Friction coefficient.
+    /// Friction coefficient; of a law that of contacts that have never slid.
     pub friction: f64,
 }
 
@@ -43,6 +44,8 @@ pub struct Assembly<const D: usize> {
     pub interferences: Interferences,
     /// The coefficients of restitution of pairs of what is rigid.
     pub restitutions: Restitutions,
+    /// The friction laws of pairs whose coefficient depends on the motion.
+    pub friction_laws: FrictionLaws,
     /// Reference positions of all nodes [m]; after those of the bodies, zero for every obstacle, whose displacement says how far
     /// it has moved.
     pub reference: Vec<Vector<D>>,
@@ -84,6 +87,7 @@ impl<const D: usize> Assembly<D> {
         let mut assembly = Self {
             interferences: Interferences::default(),
             restitutions: Restitutions::default(),
+            friction_laws: FrictionLaws::default(),
             obstacle_motions: vec![ObstacleMotion::Velocity(Vector::zeros()); obstacles],
             supports: 0,
             size: members.iter().map(|m| m.diameter).fold(0.0, f64::max),

@@ -3,11 +3,13 @@
 pub(crate) mod assembly;
 pub(crate) mod condition;
 pub(crate) mod each_body;
+pub(crate) mod friction_laws;
 pub(crate) mod given;
 pub(crate) mod interference;
 pub(crate) mod method;
 pub(crate) mod obstacle_motion;
 pub(crate) mod restitution;
+pub(crate) mod sliding;
 pub(crate) mod state;
 
 use std::sync::Arc;

@@ -7,6 +7,7 @@ use carom_mesh::{Vector, nodal};
 use crate::body::{Body, BodyState};
 use crate::ledger::Energies;
 use crate::model::assembly::Assembly;
+use crate::model::sliding::SlidingRecord;
 
 /// A contact that pressed in the last step.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,6 +59,8 @@ pub struct State<const D: usize> {
     pub velocity: Vec<Vector<D>>,
     /// Reactions of the last step by pair and site, ascending: the first guess of the next step.
     pub reactions: Vec<Reaction<D>>,
+    /// What contacts of pairs with a friction law remember, by pair and site, ascending.
+    pub sliding: Vec<SlidingRecord<D>>,
     /// Nodal contact forces Hᵀr [N]: mean over the last step, or at its end between massless nodes.
     pub contact_force: Vec<Vector<D>>,
     /// What friction has dissipated at every node since the start [J], half of it on either side of a contact.
@@ -106,6 +109,7 @@ impl<const D: usize> State<D> {
             displacement: zeros.clone(),
             velocity,
             reactions: Vec::new(),
+            sliding: Vec::new(),
             contact_force: zeros.clone(),
             friction_energy: vec![0.0; zeros.len()],
             support: vec![Vector::zeros(); assembly.supports],
@@ -189,6 +193,7 @@ impl<const D: usize> State<D> {
         let numbers = [&self.friction_energy, &self.slip, &self.energy_debt];
         vectors.into_iter().all(|vectors| nodal::is_finite(vectors))
             && numbers.into_iter().flatten().all(|x| x.is_finite())
+            && self.sliding.iter().all(|record| record.distance.is_finite() && record.state.is_finite())
             && self.energies.kinetic.is_finite()
             && self.energies.strain.is_finite()
     }

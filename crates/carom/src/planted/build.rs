@@ -11,6 +11,7 @@ use super::numbering::Numbering;
 use crate::build::Surfaces;
 use crate::build::contact::{check_manifold, pairs};
 use crate::build::drive::obstacle_motion;
+use crate::build::friction_law::{first_law, friction_laws};
 use crate::build::method::{check_solver, stopping};
 use crate::build::mortar::has_mortar;
 use crate::build::obstacle::obstacle;
@@ -58,6 +59,10 @@ impl<const D: usize> PlantedContact<D> {
         held: &[[bool; D]],
         surfaces: Surfaces<D>,
     ) -> Result<Self, InputError> {
+        if let Some(key) = first_law(&spec.contact) {
+            let message = "friction that depends on the motion needs the steps of carom, which give it a fixed point; give a coefficient";
+            return Err(InputError::new(key, message));
+        }
         let mut numbering = Numbering::default();
         let mut owner: BTreeMap<u32, &str> = BTreeMap::new();
         let (mut members, mut sides, mut model) = (Vec::new(), Vec::new(), ContactModel::default());
@@ -151,6 +156,7 @@ pub(super) fn assembled<const D: usize>(
     let names = names.into_iter().map(String::from).collect();
     let mut assembly = Assembly::new(members, model, names);
     assembly.obstacle_motions = motions;
+    assembly.friction_laws = friction_laws(&spec.contact, spec.theta.is_none(), &assembly)?;
     Ok(assembly)
 }
 

@@ -30,6 +30,8 @@ pub(crate) struct History<const D: usize> {
     tracks: Vec<Track>,
     /// Whether rows say which stage they are of.
     has_stages: bool,
+    /// Whether they say how far friction is from its laws.
+    has_laws: bool,
     /// Names of the supports of all stages.
     supports: Vec<String>,
     pub trails: Vec<Trail<D>>,
@@ -53,6 +55,7 @@ pub(crate) struct Since {
     pub residual: f64,
     pub blend: f64,
     pub step_defect: f64,
+    pub friction_defect: f64,
     /// Of the last step alone, like the next two.
     pub contacts: usize,
     pub min_gap: f64,
@@ -108,6 +111,8 @@ impl<const D: usize> History<D> {
             ]
             .map(String::from),
         );
+        let has_laws = stages.iter().any(|stage| !stage.model.assembly.friction_laws.is_empty());
+        columns.extend(has_laws.then(|| "friction_defect".to_string()));
         for name in &supports {
             columns.extend(axes.iter().map(|a| format!("{name}.force_{a}")));
         }
@@ -118,7 +123,8 @@ impl<const D: usize> History<D> {
         }
         let (trails, rows) = (Vec::new(), Vec::new());
         let (parts, since) = (Vec::new(), Since::default());
-        let mut history = Self { trails, tracks, has_stages, supports, columns, rows, since, parts };
+        let mut history =
+            Self { trails, tracks, has_stages, has_laws, supports, columns, rows, since, parts };
         history.restart(state);
         history
     }
@@ -159,6 +165,7 @@ impl<const D: usize> History<D> {
         since.residual = since.residual.max(report.residual);
         since.blend = since.blend.max(report.blend);
         since.step_defect = since.step_defect.max(report.ledger.defect().abs());
+        since.friction_defect = since.friction_defect.max(report.friction_defect);
         since.contacts = report.contacts;
         since.min_gap = report.min_gap;
         since.penetration = since.penetration.max(report.penetration.depth);
@@ -226,6 +233,7 @@ impl<const D: usize> History<D> {
             since.blend,
             since.step_defect,
         ]);
+        self.rows.extend(self.has_laws.then_some(since.friction_defect));
         // A support that is not there in this stage presses on nothing.
         for name in &self.supports {
             let motion = model.motions.iter().position(|motion| motion.name == *name);

@@ -4,6 +4,7 @@ use carom_contact::Discretisation;
 use carom_friction::SolverKind;
 use serde::{Deserialize, Serialize};
 
+use super::friction::FrictionSpec;
 use crate::{ContactCondition, SignalSpec};
 
 /// Contact.
@@ -11,8 +12,8 @@ use crate::{ContactCondition, SignalSpec};
 pub struct ContactSpec {
     /// Where in time the unilateral condition is written.
     pub condition: ContactCondition,
-    /// Friction coefficient of every pair that names none.
-    pub friction: f64,
+    /// Friction of every pair that names none.
+    pub friction: FrictionSpec,
     /// Solver of the reduced problem.
     pub solver: SolverSpec,
     /// Whose nodes are checked in pairs of bodies that say nothing else; `None`: both; of mortar pairs the finer.
@@ -95,8 +96,8 @@ pub enum Targets {
 pub struct PairEntry {
     /// The two names.
     pub between: [String; 2],
-    /// Friction coefficient.
-    pub friction: Option<f64>,
+    /// Friction.
+    pub friction: Option<FrictionSpec>,
     /// Coefficient of restitution.
     #[serde(default)]
     pub restitution: Option<f64>,

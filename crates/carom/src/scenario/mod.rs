@@ -2,6 +2,7 @@
 
 mod contact;
 mod drive;
+mod friction;
 mod mesh_spec;
 mod rigid;
 
@@ -15,6 +16,7 @@ use serde::{Deserialize, Serialize};
 pub use drive::{Axis, Displacement, LoadEntry, LoadSpec, MomentSpec, MotionEntry, MotionSpec};
 
 pub use self::contact::{ContactSpec, PairEntry, SolverSpec, Sources, Targets};
+pub use self::friction::{FrictionFormulaSpec, FrictionSpec, RateAndStateSpec, StaticKineticSpec};
 pub use self::mesh_spec::{Cell, MeshSpec};
 pub use self::rigid::{BodyKind, BodyMass, Inertia};
 use crate::{Scheme, SignalSpec};

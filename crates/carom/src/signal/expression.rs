@@ -18,13 +18,41 @@ impl Expression {
     /// # Errors
     /// If the text is none; the error says where.
     pub fn new(text: &str) -> Result<Self, ExpressionError> {
-        Ok(Self { root: parse(text)? })
+        Ok(Self { root: parse(text, &["t"])? })
     }
 
     /// Value and rate at time `t` [s].
     #[must_use]
     pub fn at(&self, t: f64) -> Dual {
-        self.root.at(Dual::time(t))
+        self.root.at(&[Dual::time(t)])
+    }
+}
+
+/// A formula of what is not the time, by the rules of an [`Expression`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Formula<const N: usize> {
+    root: Node,
+}
+
+impl<const N: usize> Formula<N> {
+    /// Reads a formula of the variables of these names.
+    ///
+    /// # Errors
+    /// If the text is none; the error says where.
+    pub fn new(text: &str, variables: [&str; N]) -> Result<Self, ExpressionError> {
+        Ok(Self { root: parse(text, &variables)? })
+    }
+
+    /// Its value.
+    #[must_use]
+    pub fn at(&self, variables: [f64; N]) -> f64 {
+        self.root.at(&variables.map(Dual::constant)).value
+    }
+
+    /// Whether it depends on a variable, by its place among the names.
+    #[must_use]
+    pub fn uses(&self, variable: usize) -> bool {
+        self.root.uses(variable)
     }
 }
 
@@ -110,6 +138,16 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn formulas_of_others_than_the_time_know_their_own_variables() {
+        let formula = Formula::new("0.2 + max(0.1, v, 2, 3, 4)*s", ["v", "s"]).expect("valid");
+        assert_eq!((formula.at([5.0, 0.5]), formula.at([0.0, 1.0])), (2.7, 4.2));
+        assert_eq!((formula.uses(0), formula.uses(1)), (true, true));
+        assert!(!Formula::new("exp(-s)", ["v", "s"]).expect("valid").uses(0));
+        let error = Formula::new("0.1*t", ["v", "s"]).expect_err("no time");
+        assert_eq!(error.reason, "unknown name \"t\"; known are v, s, pi, e");
     }
 
     #[test]

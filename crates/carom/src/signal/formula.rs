@@ -1,11 +1,15 @@
 use super::dual::Dual;
 use super::function::Function;
 
+/// So many arguments a function is called with without room of their own.
+const FEW: usize = 4;
+
 /// A part of a formula.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Node {
     Number(f64),
-    Time,
+    /// What the formula is of, by its place among the names of the variables.
+    Variable(usize),
     Negative(Box<Node>),
     Binary(Operator, Box<Node>, Box<Node>),
     Call(Function, Vec<Node>),
@@ -25,17 +29,35 @@ pub(super) enum Operator {
 }
 
 impl Node {
-    /// Value and rate where the time is `t`.
-    pub fn at(&self, t: Dual) -> Dual {
+    /// Value and rate where the variables are these.
+    pub fn at(&self, variables: &[Dual]) -> Dual {
         match self {
             Node::Number(value) => Dual::constant(*value),
-            Node::Time => t,
-            Node::Negative(x) => -x.at(t),
-            Node::Binary(operator, a, b) => operator.apply(a.at(t), b.at(t)),
+            Node::Variable(i) => variables[*i],
+            Node::Negative(x) => -x.at(variables),
+            Node::Binary(operator, a, b) => operator.apply(a.at(variables), b.at(variables)),
             Node::Call(function, arguments) => {
-                let values: Vec<Dual> = arguments.iter().map(|a| a.at(t)).collect();
-                function.apply(&values)
+                let mut values = [Dual::constant(0.0); FEW];
+                if arguments.len() > FEW {
+                    let values: Vec<Dual> = arguments.iter().map(|a| a.at(variables)).collect();
+                    return function.apply(&values);
+                }
+                for (value, argument) in values.iter_mut().zip(arguments) {
+                    *value = argument.at(variables);
+                }
+                function.apply(&values[..arguments.len()])
             }
+        }
+    }
+
+    /// Whether it depends on a variable.
+    pub fn uses(&self, variable: usize) -> bool {
+        match self {
+            Node::Number(_) => false,
+            Node::Variable(i) => *i == variable,
+            Node::Negative(x) => x.uses(variable),
+            Node::Binary(_, a, b) => a.uses(variable) || b.uses(variable),
+            Node::Call(_, arguments) => arguments.iter().any(|a| a.uses(variable)),
         }
     }
 }

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 pub use dual::Dual;
-pub use expression::Expression;
+pub use expression::{Expression, Formula};
 pub use parser::ExpressionError;
 pub use table::Table;
 

@@ -37,9 +37,9 @@ fn shortened(text: &str, most: usize) -> String {
 
 impl std::error::Error for ExpressionError {}
 
-/// Reads a whole text as a formula.
-pub(super) fn parse(text: &str) -> Result<Node, ExpressionError> {
-    let mut parser = Parser { text, characters: text.chars().collect(), position: 0, depth: 0 };
+/// Reads a whole text as a formula of the variables of these names.
+pub(super) fn parse(text: &str, variables: &[&str]) -> Result<Node, ExpressionError> {
+    let mut parser = Parser { text, variables, characters: text.chars().collect(), position: 0, depth: 0 };
     let root = parser.comparison()?;
     match parser.peek() {
         None => Ok(root),
@@ -51,6 +51,7 @@ pub(super) fn parse(text: &str) -> Result<Node, ExpressionError> {
 
 struct Parser<'a> {
     text: &'a str,
+    variables: &'a [&'a str],
     characters: Vec<char>,
     position: usize,
     depth: usize,
@@ -199,15 +200,18 @@ impl Parser<'_> {
         if self.peek() == Some('(') {
             return self.call(start, &name);
         }
+        if let Some(place) = self.variables.iter().position(|variable| *variable == name) {
+            return Ok(Node::Variable(place));
+        }
+        let (variables, first) = (self.variables.join(", "), self.variables[0]);
         match name.as_str() {
-            "t" => Ok(Node::Time),
             "pi" => Ok(Node::Number(std::f64::consts::PI)),
             "e" => Ok(Node::Number(std::f64::consts::E)),
-            _ if Function::named(&name).is_some() => {
-                Err(self
-                    .error_at(start, format!("{name:?} is a function; give it an argument as in {name}(t)")))
-            }
-            _ => Err(self.error_at(start, format!("unknown name {name:?}; known are t, pi, e"))),
+            _ if Function::named(&name).is_some() => Err(self.error_at(
+                start,
+                format!("{name:?} is a function; give it an argument as in {name}({first})"),
+            )),
+            _ => Err(self.error_at(start, format!("unknown name {name:?}; known are {variables}, pi, e"))),
         }
     }
 

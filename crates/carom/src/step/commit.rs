@@ -16,6 +16,7 @@ use crate::ledger::{BodyLedger, Energies};
 use crate::model::assembly::Assembly;
 use crate::model::each_body::{PerBody, PerNode, each_body, each_body_in_turn};
 use crate::model::given::Given;
+use crate::model::sliding::remember;
 use crate::model::state::{Reaction, State};
 
 /// What a body writes at the end of a step.
@@ -40,6 +41,9 @@ pub(super) fn commit<const D: usize>(
         ..StepReport::default()
     };
     next.time = interval.end;
+    if work.contacts.active.unsettled > 0.0 {
+        return Err(StepError::FrictionUnsettled { off: work.contacts.active.unsettled });
+    }
     keep_contacts(given, next, work, &mut report);
     if interval.is_blended {
         report.blend = work.blend.largest_weight();
@@ -85,6 +89,7 @@ fn keep_contacts<const D: usize>(
     if active.contacts.is_empty() {
         next.reactions.clear();
         next.contact_force.fill(Vector::zeros());
+        remember(&given.state.sliding, std::iter::empty(), &mut next.sliding);
         return;
     }
     let weight = given.reaction_weight();
@@ -94,6 +99,9 @@ fn keep_contacts<const D: usize>(
     let kept = keep(given, active, &reduced.offsets, motion, at_end, next);
     report.min_gap = kept.min_gap;
     report.certificate = kept.certificate;
+    report.friction_defect = kept.friction_defect;
+    let of_step = active.sliders.iter().map(|slider| slider.after);
+    remember(&given.state.sliding, of_step, &mut next.sliding);
     report.contacts = next.reactions.len();
     let reactions = active.reactions.iter().zip(&reduced.problem.q);
     report.reaction_work = reactions.map(|(r, q)| (r / weight).dot(q).abs()).sum();

@@ -106,6 +106,8 @@ pub struct StepReport {
     pub certificate: f64,
     /// The part of it that the contact problem was left with [J]; the rest is of the motion that Newton's iterations were left with.
     pub solver_certificate: f64,
+    /// Largest distance of a friction coefficient from what its law says of the motion at the end.
+    pub friction_defect: f64,
     /// Σ |r·q| [J]: what the reactions do over the motion that they prevent.
     pub reaction_work: f64,
     /// What a second solver says of the last contact problem, if it was asked.
@@ -121,9 +123,9 @@ impl StepReport {
     pub(crate) fn is_finite(&self) -> bool {
         let Self { normal_force, blend, least_friction, residual, .. } = *self;
         let Self { certificate, solver_certificate, reaction_work, mut ledger, .. } = *self;
-        let Self { penetration, travel, .. } = *self;
+        let Self { penetration, travel, friction_defect, .. } = *self;
         let numbers = [normal_force, blend, least_friction, residual, penetration.depth, travel];
-        let laws = [certificate, solver_certificate, reaction_work];
+        let laws = [certificate, solver_certificate, reaction_work, friction_defect];
         let terms = ledger.terms_mut().map(|term| *term);
         numbers.iter().chain(&laws).chain(&terms).all(|x| x.is_finite()) && !self.min_gap.is_nan()
     }

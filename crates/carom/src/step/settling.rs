@@ -1,11 +1,14 @@
 //! Rest is rest: what damping takes from the velocities that closed contacts turn round.
 
+use carom_mesh::Vector;
+
 use super::control::IMPULSIVE;
 use super::impulse::{Group, Impulse, mass, sticks, tangential};
 use super::workspace::Workspace;
 use crate::body::Body;
 use crate::contact::Contacts;
 use crate::model::given::Given;
+use crate::model::sliding::SlidingRecord;
 use crate::model::state::State;
 
 /// Takes from the velocities of a new state what closed contacts turn round in every step.
@@ -21,7 +24,9 @@ pub(super) fn settle<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, w
     let Given { method, interval, .. } = *given;
     let Workspace { bodies, contacts, impulses, body_ledgers, .. } = work;
     impulses.wanted.clear();
-    if method.settles() && !new.reactions.is_empty() && bodies.iter().any(|body| body.is_damped()) {
+    stop(given, new, contacts, bodies, &mut impulses.wanted);
+    let stops = !impulses.wanted.is_empty();
+    if !stops && method.settles() && !new.reactions.is_empty() && bodies.iter().any(|body| body.is_damped()) {
         choose(given, new, contacts, bodies, &mut impulses.wanted);
     }
     if impulses.wanted.is_empty() {
@@ -34,9 +39,50 @@ pub(super) fn settle<const D: usize>(given: &Given<'_, D>, new: &mut State<D>, w
         if square <= 0.0 || work >= 0.0 {
             return 0.0;
         }
+        if stops {
+            return (-work / square).min(IMPULSIVE.borne);
+        }
         let rate = group.power / square;
         (-work / square).min(IMPULSIVE.borne) * -(-rate * dt).exp_m1()
     });
+}
+
+/// Chooses the contacts that a friction law which holds more than it resists has at rest, and the impulses that leave them no velocity along their target:
+/// those that stick, as the force that turns this velocity round in every step would else be taken from what they hold; and those whose slip has turned
+/// round at the end of the step, which came to rest in it and stick from now on, if that holds them.
+fn stop<const D: usize>(
+    given: &Given<'_, D>,
+    new: &mut State<D>,
+    contacts: &Contacts<D>,
+    bodies: &[Box<dyn Body<D>>],
+    out: &mut Vec<Impulse<D>>,
+) {
+    let Contacts { active, at_end, .. } = contacts;
+    if active.sliders.is_empty() || given.interval.map.is_static() {
+        return;
+    }
+    let (dt, State { reactions, sliding, velocity, .. }) = (given.interval.map.dt, new);
+    for (i, k, reaction) in active.pressing(reactions) {
+        let Some((holding, slid)) = active.holding(given, i) else { continue };
+        let mut across = at_end[i].relative(|n| velocity[n]);
+        across[0] = 0.0;
+        let sticks = slid == Vector::<D>::zeros();
+        if !sticks && at_end[i].frame.tr_mul(&across).dot(&slid) >= 0.0 {
+            continue;
+        }
+        let impulse = across * -mass(&at_end[i], given.assembly, bodies);
+        // The reaction of one that stuck turned its velocity round; half of that is what it would take to stop it.
+        let times = if sticks { IMPULSIVE.borne } else { 1.0 };
+        let left = reaction.force + impulse * (times / dt);
+        let is_moving = impulse.norm() > IMPULSIVE.at_rest * reaction.force[0] * dt;
+        if !is_moving || tangential(&left) > holding * left[0] {
+            continue;
+        }
+        out.push(Impulse { reaction: k, contact: i, impulse, energy: 0.0 });
+        if let Ok(record) = sliding.binary_search_by_key(&reaction.key(), SlidingRecord::key) {
+            sliding[record].direction = Vector::zeros();
+        }
+    }
 }
 
 /// Chooses the contacts that press for longer than this step and were closed at its start, and their impulses.

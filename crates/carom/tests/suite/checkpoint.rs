@@ -116,6 +116,24 @@ fn mortar_contact_between_bodies() {
 }
 
 #[test]
+fn contacts_with_friction_that_depends_on_their_sliding() {
+    let laws = [
+        json!({"static": 0.6, "kinetic": 0.2}),
+        json!({"static": 0.6, "kinetic": 0.2, "distance": 0.1}),
+        json!({"reference": 0.3, "direct": 0.05, "evolution": 0.1, "speed": 0.1, "distance": 0.01}),
+        json!({"formula": "0.1 + 0.2*exp(-v/0.5) + 0.1*s"}),
+    ];
+    for (law, discretisation) in laws.iter().zip(["node-to-segment", "mortar"].into_iter().cycle()) {
+        let mut case = discs("conserving", "midpoint");
+        case["contact"]["friction"] = law.clone();
+        case["contact"]["discretisation"] = json!(discretisation);
+        let whole = goes_on_identically::<2>(&case, 4);
+        assert!(!whole.state().sliding.is_empty(), "{law}: contacts remember");
+        assert!(whole.summary().energy.terms.friction > 0.0, "{law}");
+    }
+}
+
+#[test]
 fn bodies_that_grow_and_are_pushed_apart() {
     let mut case = discs("conserving", "midpoint");
     case["bodies"][0]["growth"] = json!("0.1*t");

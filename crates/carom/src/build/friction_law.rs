@@ -1,0 +1,153 @@
+//! Friction out of a scenario: a coefficient that is constant, or a law.
+
+use std::sync::Arc;
+
+use carom_friction::{FrictionLaw, Sliding};
+
+use super::values::number;
+use crate::Formula;
+use crate::error::InputError;
+use crate::model::assembly::Assembly;
+use crate::model::friction_laws::{FrictionLaws, MAX_FRICTION};
+use crate::scenario::{ContactSpec, FrictionSpec, RateAndStateSpec, StaticKineticSpec};
+
+const RANGE: &str = "friction must be between 0 and 1000";
+
+/// A formula of speed and distance.
+#[derive(Debug)]
+struct FormulaLaw(Formula<2>);
+
+impl FrictionLaw for FormulaLaw {
+    fn coefficient(&self, sliding: &Sliding) -> f64 {
+        self.0.at([sliding.speed, sliding.distance])
+    }
+
+    fn depends_on_speed(&self) -> bool {
+        self.0.uses(0)
+    }
+}
+
+/// Refuses coefficients that are negative, or so large that round-off of μ|w_t| would hide the normal motion.
+fn in_range(key: &str, value: f64) -> Result<f64, InputError> {
+    number(key, value, (0.0..=MAX_FRICTION).contains(&value), RANGE)?;
+    Ok(value)
+}
+
+/// The coefficient of contacts that have never slid.
+pub(super) fn at_rest(key: &str, friction: &FrictionSpec) -> Result<f64, InputError> {
+    match law(key, friction)? {
+        Some(law) => in_range(key, law.at_rest()),
+        None => match friction {
+            FrictionSpec::Coefficient(value) => in_range(key, *value),
+            _ => Ok(0.0),
+        },
+    }
+}
+
+/// The law, if the coefficient is not constant.
+fn law(key: &str, friction: &FrictionSpec) -> Result<Option<Arc<dyn FrictionLaw>>, InputError> {
+    Ok(Some(match friction {
+        FrictionSpec::Coefficient(_) => return Ok(None),
+        FrictionSpec::Formula(spec) => {
+            let formula = Formula::new(&spec.formula, ["v", "s"]);
+            let formula = formula.map_err(|e| InputError::new(format!("{key}.formula"), e.to_string()))?;
+            Arc::new(FormulaLaw(formula))
+        }
+        FrictionSpec::RateAndState(spec) => {
+            check_rate_and_state(key, spec)?;
+            Arc::new(spec.law())
+        }
+        FrictionSpec::StaticKinetic(spec) => {
+            check(key, spec)?;
+            Arc::new(spec.law())
+        }
+    }))
+}
+
+fn check_rate_and_state(key: &str, spec: &RateAndStateSpec) -> Result<(), InputError> {
+    in_range(&format!("{key}.reference"), spec.reference)?;
+    for (name, value) in [("direct", spec.direct), ("evolution", spec.evolution)] {
+        number(&format!("{key}.{name}"), value, value >= 0.0, "must be at least 0")?;
+    }
+    for (name, value) in [("speed", spec.speed), ("distance", spec.distance)] {
+        number(&format!("{key}.{name}"), value, value > 0.0, "must be greater than 0")?;
+    }
+    let age = spec.law().age;
+    number(&format!("{key}.age"), age, age >= 0.0, "must be at least 0")
+}
+
+fn check(key: &str, spec: &StaticKineticSpec) -> Result<(), InputError> {
+    in_range(&format!("{key}.kinetic"), spec.kinetic)?;
+    if let Some(value) = spec.static_coefficient {
+        in_range(&format!("{key}.static"), value)?;
+    }
+    let jumps = spec.speed.is_none() && spec.distance.is_none();
+    if let Some(value) = spec.static_coefficient.filter(|&value| jumps && value < spec.kinetic) {
+        let message = format!(
+            "{value} is less than kinetic = {}: what sticks would slide and be held at once; give at least as much, or a speed or a distance over which friction grows",
+            spec.kinetic
+        );
+        return Err(InputError::new(format!("{key}.static"), message));
+    }
+    if spec.speed.is_some() && spec.distance.is_some() {
+        let message = "static friction falls over a speed or over a distance; leave one out, or write a formula of v and s";
+        return Err(InputError::new(format!("{key}.distance"), message));
+    }
+    for (name, value) in [("speed", spec.speed), ("distance", spec.distance)] {
+        let Some(value) = value else { continue };
+        let key = format!("{key}.{name}");
+        number(&key, value, value > 0.0, "must be greater than 0")?;
+        if spec.static_coefficient.is_none() {
+            return Err(InputError::new(
+                key,
+                "there is no static friction that could fall; give it by static",
+            ));
+        }
+    }
+    number(&format!("{key}.viscous"), spec.viscous, spec.viscous >= 0.0, "must be at least 0")
+}
+
+/// The laws of all pairs.
+///
+/// # Errors
+/// If one is none, or the kind of analysis leaves it without meaning.
+pub(crate) fn friction_laws<const D: usize>(
+    spec: &ContactSpec,
+    is_static: bool,
+    assembly: &Assembly<D>,
+) -> Result<FrictionLaws, InputError> {
+    let allowed = |key: &str, friction: &FrictionSpec| {
+        let law = law(key, friction)?;
+        let Some(found) = &law else { return Ok(None) };
+        if spec.condition.is_massless() {
+            let message = "a friction law that depends on the motion goes with \"gap\", \"midpoint\" or \"endpoint\", not with \
+                           \"massless\"; choose one of these, or give a coefficient";
+            return Err(InputError::new(key, message));
+        }
+        if is_static && found.depends_on_speed() {
+            let message = "a static analysis has no speed of slip for friction to depend on; give a law of the distance, a coefficient, \
+                           or choose a dynamic analysis";
+            return Err(InputError::new(key, message));
+        }
+        Ok(law)
+    };
+    let mut laws =
+        FrictionLaws { default: allowed("contact.friction", &spec.friction)?, ..FrictionLaws::default() };
+    for (k, entry) in spec.pairs.iter().enumerate() {
+        let (Some(friction), Some(between)) = (&entry.friction, assembly.between(&entry.between)) else {
+            continue;
+        };
+        laws.own.insert(between, allowed(&format!("contact.pairs.{k}.friction"), friction)?);
+    }
+    Ok(laws)
+}
+
+/// The first law of a contact that is not a coefficient, by its key.
+pub(crate) fn first_law(spec: &ContactSpec) -> Option<String> {
+    if spec.friction.is_law() {
+        return Some("contact.friction".to_string());
+    }
+    let is_law = |friction: &Option<FrictionSpec>| friction.as_ref().is_some_and(FrictionSpec::is_law);
+    let found = spec.pairs.iter().position(|entry| is_law(&entry.friction));
+    found.map(|k| format!("contact.pairs.{k}.friction"))
+}
