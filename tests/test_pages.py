@@ -66,6 +66,7 @@ def test_the_tutorial_shows_the_case_and_the_table_of_its_run(desk, monkeypatch)
         "docs/how-to/impacts.md",
         "docs/how-to/many-bodies.md",
         "docs/how-to/own-steps.md",
+        "docs/how-to/pictures-and-films.md",
         "docs/how-to/plant-carom-in-your-code.md",
         "docs/how-to/press-fits.md",
         "docs/how-to/read-the-ledger.md",

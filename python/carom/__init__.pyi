@@ -93,3 +93,5 @@ from carom.running.state import BodyState as BodyState
 from carom.running.state import Contacts as Contacts
 from carom.running.state import State as State
 from carom.system.progress import Progress as Progress
+from carom.view.film import film as film
+from carom.view.picture import picture as picture

@@ -10,6 +10,7 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
+from carom import __version__
 from carom.display.time_unit import TimeUnit, time_unit
 from carom.results.result import Result
 
@@ -24,6 +25,20 @@ _STYLE: dict[Any, Any] = {
     "lines.linewidth": 1.6,
     "lines.solid_capstyle": "round",
 }
+
+PAPER: dict[Any, Any] = {
+    **_STYLE,
+    "font.size": 8,
+    "axes.titlesize": 8,
+    "axes.titleweight": "normal",
+    "pdf.fonttype": 42,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "carom",
+}
+"""Of pictures for papers: small text in fonts that are in the file, and the same file each time."""
+
+FILM: dict[Any, Any] = {**_STYLE, "font.size": 11, "axes.titlesize": 11}
+"""Of films."""
 
 WIDTH = 7.0
 """Width of a picture [inch]."""
@@ -43,6 +58,28 @@ def run_unit(result: Result) -> TimeUnit:
     """Return the unit in which the time axes of a run are: s, ms, µs and so on."""
     times = result.history["time"]
     return time_unit(float(times[-1]) if len(times) else 0.0)
+
+
+def write(figure: Figure, path: Path, *, dots: int = RESOLUTION) -> Path:
+    """Write a figure in the format of the file's ending and return its path.
+
+    Parameters
+    ----------
+    figure
+        The figure.
+    path
+        A file that ends in ``.pdf``, ``.svg`` or ``.png``.
+    dots
+        Dots per inch of images.
+    """
+    made_by = f"carom {__version__}"
+    about: dict[str, dict[str, Any]] = {
+        ".pdf": {"Creator": made_by, "Producer": None, "CreationDate": None},
+        ".svg": {"Creator": made_by, "Date": None},
+        ".png": {"Software": made_by},
+    }
+    figure.savefig(path, dpi=dots, metadata=about[path.suffix.lower()])
+    return path
 
 
 def save(figure: Figure, path: Path) -> Path:
