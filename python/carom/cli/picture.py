@@ -39,6 +39,10 @@ def picture(
             help="Of the picture [mm]. Default: 85, a column of a paper; of several instants 170.",
         ),
     ] = None,
+    bare: Annotated[
+        bool,
+        typer.Option("--bare", help="Bodies and obstacles alone: no times, colour bar and scales."),
+    ] = False,
     camera: drawing.Camera = drawing.FROM_THE_FRONT,
     window: drawing.Window = None,
     force: Force = False,
@@ -61,6 +65,7 @@ def picture(
             magnification=magnification,
             colours=colours,
             width=width,
+            bare=bare,
             camera=camera,
             window=window,
         )

@@ -74,6 +74,8 @@ class Look:
         Azimuth and elevation [degrees].
     window
         What is seen of the plane: left, bottom, right, top [m]; None is all of the bodies.
+    bare
+        Whether bodies and obstacles are all that is drawn.
 
     Raises
     ------
@@ -85,6 +87,7 @@ class Look:
     colours: str | None
     camera: tuple[float, float]
     window: tuple[float, float, float, float] | None
+    bare: bool = False
 
     def __post_init__(self) -> None:
         if self.limits is not None:
@@ -117,6 +120,7 @@ def picture(
     magnification: float = 1.0,
     colours: str | None = None,
     width: float | None = None,
+    bare: bool = False,
     camera: tuple[float, float] = (AZIMUTH, ELEVATION),
     window: tuple[float, float, float, float] | None = None,
 ) -> Figure:
@@ -153,6 +157,8 @@ def picture(
         A colour map of matplotlib.
     width
         Of the picture [mm]. None is a column of a paper (85) for one instant, two (170) for more.
+    bare
+        Whether only bodies and obstacles are drawn, without times, colour bar and scales.
     camera
         Where bodies in space are seen from: around z from the x axis, and above [degrees].
     window
@@ -170,7 +176,7 @@ def picture(
         that can be, or PyVista is needed and not installed.
     """
     file = None if out is None else _checked(Path(out))
-    look = Look(limits, colours, camera, window)
+    look = Look(limits, colours, camera, window, bare)
     what = subject(
         results,
         field=field,
@@ -191,7 +197,11 @@ def picture(
 
 
 def _drawn(
-    what: Subject, frames: Sequence[int], look: Look, width: float | None, stack: ExitStack
+    what: Subject,
+    frames: Sequence[int],
+    look: Look,
+    width: float | None,
+    stack: ExitStack,
 ) -> Figure:
     colouring = what.colouring
     within = colouring.limits(frames) if colouring else (0.0, 1.0)
@@ -206,8 +216,9 @@ def _drawn(
     across = up * aspect
     free = page - 2 * _PAD - across * len(frames)  # much of it where scenes would be too tall
     between = min(free / max(len(frames) - 1, 1), _WIDEST_GAP)
-    foot = _FOOT if colouring or seen or what.reactions else _PAD
-    height = _HEAD + up + foot
+    foot = _FOOT if not look.bare and (colouring or seen or what.reactions) else _PAD
+    head = _PAD if look.bare else _HEAD
+    height = head + up + foot
     figure = Figure(figsize=(page, height))
     FigureCanvasAgg(figure)
 
@@ -219,9 +230,9 @@ def _drawn(
         axes = _axes(figure, left, foot, across, up)
         if seen:
             frame_in(axes, seen)
-        figure.text(
-            left, foot + up + 0.05, what.caption(frame), transform=figure.dpi_scale_trans, color=INK
-        )
+        if not look.bare:
+            scale = figure.dpi_scale_trans
+            figure.text(left, foot + up + 0.05, what.caption(frame), transform=scale, color=INK)
         if seen:
             scene: Scene = FlatScene(axes, what, values, largest_force=largest)
         else:
@@ -233,6 +244,8 @@ def _drawn(
                 )
             scene = SpaceScene(axes, drawing, model)
         scene.update(frame)
+    if look.bare:
+        return figure
     if colouring:
         bar = _axes(figure, _PAD + 0.02, foot - 0.29, min(0.5 * page, 2.4), 0.07)
         colour_bar(bar, values, colouring, within=within)

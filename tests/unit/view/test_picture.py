@@ -6,6 +6,7 @@ import matplotlib
 import matplotlib.image
 import numpy as np
 import pytest
+from matplotlib.lines import Line2D
 from falling import block
 from typer.testing import CliRunner
 
