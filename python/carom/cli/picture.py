@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
 from carom.cli import drawing
 from carom.cli.case import Force, ResultsDirectory
 from carom.cli.failures import failures
+from carom.plot.flow import energy_flow
+from carom.results.result import Result
 from carom.system.existing import spare_existing
 from carom.view.picture import picture as draw
 
@@ -18,6 +20,13 @@ def picture(
     directory: ResultsDirectory,
     *,
     out: Annotated[Path, typer.Option(metavar="FILE", help="File to write: .pdf, .svg or .png.")],
+    what: Annotated[
+        Literal["bodies", "energy"],
+        typer.Option(
+            help="What is drawn: the bodies, or where the energy of the run went, as bands whose "
+            "widths are joules (of the other options --width alone is of it)."
+        ),
+    ] = "bodies",
     time: Annotated[
         str | None,
         typer.Option(
@@ -53,6 +62,10 @@ def picture(
     """
     with failures(directory):
         spare_existing(out, force=force)
+        if what == "energy":
+            energy_flow(Result.open(directory), out, width=width)
+            typer.echo(out)
+            return
         draw(
             directory,
             out,

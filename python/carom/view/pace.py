@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.errors import InputError
+from carom.plot.style import positive
 
 RATE = 25.0
 """Pictures per second of a film that shows every frame of a run once."""
@@ -78,8 +79,8 @@ def pace(
         A number is none that can be, or the film would be too long.
     """
     for option, value in (("--fps", rate), ("--duration", duration), ("--speed", speed)):
-        if value is not None and not (np.isfinite(value) and value > 0.0):
-            raise InputError(f"{option} {value:g}: must be a number greater than 0")
+        if value is not None:
+            positive(option, value)
     if duration is not None and speed is not None:
         raise InputError("--duration and --speed: each says how fast time runs; give one of them")
     taken = np.arange(len(times))

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 
 from carom.display.colours import INK
 from carom.errors import InputError
-from carom.plot.style import PAPER, write
+from carom.plot.style import DOTS, INCH, PAPER, paper_file, positive, write
 from carom.results.result import Result
 from carom.view.arrows import LONGEST
 from carom.view.camera import AZIMUTH, ELEVATION, Sight
@@ -25,9 +25,6 @@ from carom.view.flat import FlatScene, Scene
 from carom.view.page import colour_bar, force_key, length_key, mappable
 from carom.view.space import SpaceModel, SpaceScene, plotter, reached
 from carom.view.subject import Subject, subject
-
-INCH = 25.4
-"""[mm]"""
 
 SINGLE, WHOLE = 85.0, 170.0
 """Widths of one column of a paper, and of two [mm]."""
@@ -42,9 +39,6 @@ _PAD, _GAP, _HEAD, _FOOT = 0.04, 0.08, 0.2, 0.46
 """Around the page, between scenes, above and below them [inch]."""
 
 _WIDEST_GAP = 0.35
-
-DOTS = 300
-"""Dots per inch of images, and of what is an image in vector files."""
 
 
 @dataclass(frozen=True)
@@ -175,7 +169,7 @@ def picture(
         There are no fields, no such field or map, the file has another ending, a number is none
         that can be, or PyVista is needed and not installed.
     """
-    file = None if out is None else _checked(Path(out))
+    file = None if out is None else paper_file(out)
     look = Look(limits, colours, camera, window, bare)
     what = subject(
         results,
@@ -210,7 +204,7 @@ def _drawn(
     seen = window_of(what, frames, look) if what.is_flat else None
     aspect = seen.aspect if seen else sight.aspect(reached(what, frames))
 
-    page = _positive("--width", width or (SINGLE if len(frames) == 1 else WHOLE)) / INCH
+    page = positive("--width", width or (SINGLE if len(frames) == 1 else WHOLE)) / INCH
     across = (page - 2 * _PAD - _GAP * (len(frames) - 1)) / len(frames)
     up = min(across / aspect, TALLEST / INCH)
     across = up * aspect
@@ -295,20 +289,8 @@ def window_of(what: Subject, frames: Sequence[int], look: Look) -> Window:
     return Window(tuple(middle - grown / 2), tuple(middle + grown / 2))
 
 
-def _checked(file: Path) -> Path:
-    if file.suffix.lower() not in (".pdf", ".svg", ".png"):
-        raise InputError(f"--out {file}: must end in .pdf, .svg or .png")
-    return file
-
-
 def _in_order(option: str, first: float, second: float) -> None:
     if not (np.isfinite([first, second]).all() and first < second):
         raise InputError(
             f"{option} {first:g} {second:g}: give two numbers, the second larger than the first"
         )
-
-
-def _positive(option: str, value: float) -> float:
-    if not (np.isfinite(value) and value > 0.0):
-        raise InputError(f"{option} {value:g}: must be a number greater than 0")
-    return value

@@ -6,8 +6,8 @@ import matplotlib
 import matplotlib.image
 import numpy as np
 import pytest
-from matplotlib.lines import Line2D
 from falling import block
+from matplotlib.lines import Line2D
 from typer.testing import CliRunner
 
 import carom
