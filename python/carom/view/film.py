@@ -211,12 +211,14 @@ class _Reel:
     def _drawn(self) -> NDArray[np.uint8]:
         """Draw what does not move, and return the pixels, shape [height, width, 4]."""
         self._canvas.draw()  # type: ignore[no-untyped-call]
-        return self._pixels().copy()
+        return np.array(self._pixels())
 
     def _pixels(self) -> NDArray[np.uint8]:
-        pixels: NDArray[np.uint8]
-        pixels = np.asarray(self._canvas.buffer_rgba())  # type: ignore[no-untyped-call]
-        return pixels
+        """Return the canvas itself, shape [height, width, 4]: what is written there is drawn."""
+        return np.asarray(
+            self._canvas.buffer_rgba(),  # type: ignore[no-untyped-call]
+            dtype=np.uint8,
+        )
 
     def picture(self, index: int) -> NDArray[np.uint8]:
         """Return a picture of the film, shape [height, width, 3]."""

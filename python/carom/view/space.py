@@ -112,6 +112,8 @@ class SpaceModel:
         self._shadows = [] if flat else list(self._cast_shadows(triangles))
         self._arrow_actor: Any = None
         self.update(frames[0])
+        # A small body in front of a large obstacle is nearer than VTK's own share of the farthest.
+        plotter.renderer.SetNearClippingPlaneTolerance(1e-4)
         plotter.renderer.ResetCameraClippingRange()
 
     def update(self, frame: int) -> None:
