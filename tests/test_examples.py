@@ -37,6 +37,30 @@ def test_example_asserts_its_numbers(example, tmp_path, name):
     example(name).main(tmp_path)
 
 
+def test_a_thin_masonry_arch_falls_and_a_thick_one_does_not(example, tmp_path):
+    example("masonry_arch").main(tmp_path, end_time=0.4)
+
+
+def test_a_shaft_presses_on_its_hub_as_lame_says(examples, tmp_path):
+    """Lamé's pressure of long parts, E δ (c² − b²) / [2 b c² (1 − ν²)], over 1 m of depth."""
+    result = carom.run(Scenario.from_toml(examples / "press_fit.toml"), out=tmp_path / "fit")
+    inner, outer, interference = 0.02, 0.04, 20e-6
+    pressure = 210e9 * interference * (outer**2 - inner**2) / (2 * inner * outer**2 * (1 - 0.3**2))
+    measured = result.history["normal_force"][-1] / (2 * np.pi * inner)
+    assert measured == pytest.approx(pressure, rel=1e-3)
+
+
+@pytest.mark.parametrize("name", ["thrown_ring", "pile"])
+def test_cases_of_the_readme_run(examples, tmp_path, name):
+    case = Scenario.from_toml(examples / f"{name}.toml")
+    short = case.with_overrides([f"analysis.end_time={30 * case.analysis.time_step}"])
+    result = carom.run(short, out=tmp_path / "run")
+    assert result.summary["status"] == "completed"
+    # The pile starts from rest: its energy is what gravity has done.
+    scale = result.history["total"].max()
+    assert result.summary["energy"]["max_defect"] < 1e-9 * scale
+
+
 def test_a_part_that_gmsh_meshes_falls_on_the_floor(example, examples, tmp_path):
     """The first steps on a coarse mesh; in full the example takes minutes."""
     pytest.importorskip("gmsh", exc_type=(ImportError, OSError))

@@ -9,6 +9,7 @@ from rich.console import Console
 
 import carom
 from carom import cli
+from carom.new.template import template
 from carom.sweep import axis, sweep
 
 ROOT = Path(__file__).parents[1]
@@ -67,6 +68,7 @@ def test_the_tutorial_shows_the_case_and_the_table_of_its_run(desk, monkeypatch)
         "docs/how-to/impacts.md",
         "docs/how-to/many-bodies.md",
         "docs/how-to/own-steps.md",
+        "docs/how-to/pictures-and-films.md",
         "docs/how-to/plant-carom-in-your-code.md",
         "docs/how-to/press-fits.md",
         "docs/how-to/read-the-ledger.md",
@@ -97,6 +99,41 @@ def test_the_case_of_many_bodies_runs(tmp_path):
     assert len(result.scenario.bodies) == 30
     energy = result.summary["energy"]
     assert energy["max_defect"] < 1e-12 * energy["final"]
+
+
+def test_the_readme_is_short():
+    """Symptom guarded against: 2,800 words, before which nobody saw anything move."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert len(text.split()) <= 900
+    assert max(map(len, text.splitlines())) <= 120
+
+
+def test_the_readme_shows_pictures_that_are_there_and_small():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    shown = [ROOT / name for name in re.findall(r'<img src="([^"]+)"', text)]
+    assert len(shown) >= 10
+    assert text.count("<img") == text.count("alt=")
+    for file in shown:
+        most = 1_500_000 if file.suffix == ".webp" else 200_000
+        assert file.stat().st_size < most, file
+
+
+def test_the_commands_under_the_pictures_of_the_readme_name_what_is_there():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    for command in re.findall(r"<code>(.*?)</code>", text):
+        program, *words = command.split()
+        if words[0] == "new":
+            assert template(words[1])
+        else:
+            assert program in ("carom", "python")
+            assert (ROOT / words[-1]).exists(), command
+
+
+def test_the_film_of_the_readme_is_what_its_commands_make():
+    script = (ROOT / "docs/images/make_readme_images.py").read_text(encoding="utf-8")
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert "--between 0 6 --speed 1 --reactions" in text
+    assert "between=(0.0, 6.0), speed=1.0, reactions=True" in script
 
 
 def test_pictures_of_the_readme_are_of_the_shipped_example():

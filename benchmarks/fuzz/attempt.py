@@ -24,12 +24,10 @@ from carom.cli.failures import BAD_INPUT, NOT_CONVERGED, failures
 from carom.cli.friction.problem_file import warnings_named
 from carom.cli.watch import watch
 from carom.friction import GlobalProblem, read_record, solve
-from carom.io import layout
-from carom.io.frames import Frames
 from carom.plot import draw
 from carom.report import write_report
 from carom.results.result import Result, read_case
-from carom.view import View, shown
+from carom.view.subject import subject
 
 LARGE = 3_000
 """Cells above which a case is checked but not built: time goes to many cases, not to large ones."""
@@ -157,9 +155,8 @@ def _watch(directory: Path) -> None:
 
 
 def _view(directory: Path) -> None:
-    for name in (layout.FIELDS, layout.SURFACE):
-        frames = Frames(directory / name)
-        View(frames, shown(frames, None), read_case(directory))
+    shown = subject(directory)
+    shown.positions(len(shown.frames.times) - 1)
 
 
 def _print(directory: Path) -> None:

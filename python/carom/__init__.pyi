@@ -83,6 +83,7 @@ from carom.foreign.run import ForeignStep as ForeignStep
 from carom.io.history import read_history as read_history
 from carom.io.summary_types import Summary as Summary
 from carom.ledger_terms import Ledger as Ledger
+from carom.plot.flow import energy_flow as energy_flow
 from carom.results.field import Field as Field
 from carom.results.fields import Fields as Fields
 from carom.results.result import Result as Result
@@ -96,3 +97,5 @@ from carom.running.state import BodyState as BodyState
 from carom.running.state import Contacts as Contacts
 from carom.running.state import State as State
 from carom.system.progress import Progress as Progress
+from carom.view.film import film as film
+from carom.view.picture import picture as picture

@@ -20,7 +20,10 @@ COMMANDS = {
     "run.",
     "audit": "Check finished results by code that shares nothing with the solver.",
     "plot": "Draw energies and tracked points of finished results again.",
-    "view": "Show results in space: bodies as they deform, coloured by a field.",
+    "picture": "Draw the bodies at one or several instants, for papers: as lines and areas, fonts "
+    "included.",
+    "film": "Make a film of the bodies as they move, with the energies beside them.",
+    "view": "Turn the bodies in a window, as they deform, coloured by a field.",
     "watch": "Follow a run from another terminal, until it ends.",
     "report": "Write a page with the animated bodies, energies and all numbers of a run; or "
     "of a study.",

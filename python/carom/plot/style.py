@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,7 +11,9 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
+from carom import __version__
 from carom.display.time_unit import TimeUnit, time_unit
+from carom.errors import InputError
 from carom.results.result import Result
 
 _STYLE: dict[Any, Any] = {
@@ -25,8 +28,28 @@ _STYLE: dict[Any, Any] = {
     "lines.solid_capstyle": "round",
 }
 
+PAPER: dict[Any, Any] = {
+    **_STYLE,
+    "font.size": 8,
+    "axes.titlesize": 8,
+    "axes.titleweight": "normal",
+    "pdf.fonttype": 42,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "carom",
+}
+"""Of pictures for papers: small text in fonts that are in the file, and the same file each time."""
+
+FILM: dict[Any, Any] = {**_STYLE, "font.size": 11, "axes.titlesize": 11}
+"""Of films."""
+
 WIDTH = 7.0
 """Width of a picture [inch]."""
+
+INCH = 25.4
+"""[mm]"""
+
+DOTS = 300
+"""Dots per inch of images on paper, and of what is an image in vector files."""
 
 RESOLUTION = 200
 """Dots per inch."""
@@ -43,6 +66,49 @@ def run_unit(result: Result) -> TimeUnit:
     """Return the unit in which the time axes of a run are: s, ms, µs and so on."""
     times = result.history["time"]
     return time_unit(float(times[-1]) if len(times) else 0.0)
+
+
+def paper_file(out: Path | str) -> Path:
+    """Return the file of a picture for a paper.
+
+    Raises
+    ------
+    InputError
+        It has no ending of one.
+    """
+    file = Path(out)
+    if file.suffix.lower() not in (".pdf", ".svg", ".png"):
+        raise InputError(f"--out {file}: must end in .pdf, .svg or .png")
+    return file
+
+
+def positive(option: str, value: float) -> float:
+    """Return a number that must be greater than zero, or say so."""
+    if not (math.isfinite(value) and value > 0.0):
+        raise InputError(f"{option} {value:g}: must be a number greater than 0")
+    return value
+
+
+def write(figure: Figure, path: Path, *, dots: int = RESOLUTION) -> Path:
+    """Write a figure in the format of the file's ending and return its path.
+
+    Parameters
+    ----------
+    figure
+        The figure.
+    path
+        A file that ends in ``.pdf``, ``.svg`` or ``.png``.
+    dots
+        Dots per inch of images.
+    """
+    made_by = f"carom {__version__}"
+    about: dict[str, dict[str, Any]] = {
+        ".pdf": {"Creator": made_by, "Producer": None, "CreationDate": None},
+        ".svg": {"Creator": made_by, "Date": None},
+        ".png": {"Software": made_by},
+    }
+    figure.savefig(path, dpi=dots, metadata=about[path.suffix.lower()])
+    return path
 
 
 def save(figure: Figure, path: Path) -> Path:

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from carom.io.frames import Frames
 from carom.report.codec import Packed, pack, pack_quantised, size, unpack
-from carom.report.outline import Outline, outline
-from carom.view.fields import TITLES, UNITS, Shown, choices, shown
+from carom.view.colouring import Colouring, colourings
+from carom.view.fields import TITLES, UNITS
+from carom.view.outline import Outline, outline
 
 BUDGET = 9_000_000
 """Characters that the fields may take in the page."""
@@ -24,7 +25,6 @@ READ_BUDGET = 20_000_000
 ORDER = ("von-mises", "displacement", "velocity", "energy_density", "strain", "plastic_strain")
 """What comes first in the list."""
 
-_LEFT_OUT = frozenset({"area"})
 _VECTORS = ("displacement", "reaction")
 
 
@@ -100,25 +100,10 @@ def _channels(frames: Frames, surface: Frames | None, seen: Outline) -> Iterator
     for name in _VECTORS:
         if name in frames.names:
             yield _Channel(name, "points", None, _vector(frames, name, seen))
-    for name in sorted(choices(frames), key=_place_in_list):
-        if name in _VECTORS:
-            continue  # the page takes their length
-        what = shown(frames, name)
-        place = "points" if what.on_points else "faces"
-        chosen = seen.points if what.on_points else seen.cell
-        yield _Channel(name, place, _described(name, place), _scalar(frames, what, chosen))
-    if surface is None or (seen.facets < 0).all():
-        return
-    for name in choices(surface):
-        if name in _LEFT_OUT or surface.is_on_points(name):
-            continue
-        place = "faces" if seen.dimension == 3 else "rim"
-        yield _Channel(
-            name,
-            place,
-            _described(name, place),
-            _scalar(surface, shown(surface, name), seen.facets),
-        )
+    made = colourings(frames, surface, seen)
+    for name in sorted(made, key=_place_in_list):
+        if name not in _VECTORS:  # of which the page takes the length
+            yield _scalar(made[name])
 
 
 def _place_in_list(name: str) -> int:
@@ -138,14 +123,14 @@ def _vector(frames: Frames, name: str, seen: Outline) -> Callable[[int], NDArray
     return lambda frame: frames.field(name, frame)[seen.points, : seen.dimension]
 
 
-def _scalar(
-    frames: Frames, what: Shown, chosen: NDArray[np.int64]
-) -> Callable[[int], NDArray[np.float64]]:
-    def rows(frame: int) -> NDArray[np.float64]:
-        values = what.values(frames, min(frame, len(frames.times) - 1))
-        return np.where(chosen >= 0, values[chosen], np.nan).reshape(-1, 1)
-
-    return rows
+def _scalar(colouring: Colouring) -> _Channel:
+    name, place = colouring.name, colouring.place
+    return _Channel(
+        name,
+        place,
+        _described(name, place),
+        lambda frame: colouring.rows(frame).reshape(-1, 1),
+    )
 
 
 def _packed(channel: _Channel, taken: NDArray[np.int64]) -> Packed:

@@ -10,6 +10,7 @@ import matplotlib as mpl
 import numpy as np
 
 from carom import __version__
+from carom.display.colours import DIVERGING, SEQUENTIAL
 from carom.display.markup import Html, element, embedded, join
 from carom.display.time_unit import TimeUnit, time_unit
 from carom.errors import InputError
@@ -29,6 +30,7 @@ from carom.report.number_tables import (
 )
 from carom.report.obstacles import obstacles
 from carom.report.source import UNFINISHED, Source
+from carom.view.colouring import SIGNED
 
 LIBRARIES = ("three.min.js", "uPlot.iife.min.js")
 
@@ -54,15 +56,13 @@ SCRIPTS = (
 )
 """In the order in which they need one another."""
 
-COLOUR_MAPS = {"sequential": "viridis", "diverging": "RdBu_r"}
+COLOUR_MAPS = {"sequential": SEQUENTIAL, "diverging": DIVERGING}
 """Of matplotlib: for sizes, and for what has a sign."""
 
 COLOURS = (
-    "Colours: viridis by N. J. Smith, S. van der Walt and E. Firing (CC0), RdBu by Cynthia Brewer "
-    "(colorbrewer2.org, Apache License 2.0), both by way of matplotlib."
+    "Colours: YlGnBu and RdBu by Cynthia Brewer (colorbrewer2.org, Apache License 2.0), by way of "
+    "matplotlib."
 )
-
-SIGNED = frozenset({"hydrostatic-pressure"})
 
 _STATUS = {
     "completed": "The run came to its end.",

@@ -1,6 +1,5 @@
-"""Pictures of bodies and their fields in space, drawn by PyVista."""
+"""Pictures and films of results: bodies as they deform, in the colours of a field."""
 
 from carom.view.fields import Shown, shown
-from carom.view.scene import View, animate, screenshot, show
 
-__all__ = ["Shown", "View", "animate", "screenshot", "show", "shown"]
+__all__ = ["Shown", "shown"]

@@ -100,7 +100,7 @@
 
   function sayWhyNoScene() {
     const text = "The scene needs WebGL 2, which this browser does not offer: turn on its graphics acceleration, or take another. "
-      + "Curves and numbers work without; carom view draws pictures.";
+      + "Curves and numbers work without; carom picture draws the bodies.";
     const stage = at("stage");
     stage.append(carom.format.create("p", { className: "nothing", textContent: text }));
     for (const name of ["role", "aria-label", "tabindex"]) stage.removeAttribute(name); // it is text, and no picture

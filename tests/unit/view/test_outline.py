@@ -5,7 +5,7 @@ import pytest
 
 import carom
 from carom.io.frames import Frames
-from carom.report.outline import outline
+from carom.view.outline import outline
 
 MATERIAL = {"kind": "linear-elastic", "young": 1.0, "poisson": 0.3, "density": 1.0}
 

@@ -87,6 +87,9 @@ class Outline:
         The cell that each face shows, shape [face_count].
     body
         The body of each face, shape [face_count].
+    around
+        The points around each face, shape [face_count, most]; where there are fewer the last is
+        repeated.
     triangles
         Corners of the triangles into which faces are cut, shape [triangle_count, 3].
     face
@@ -104,6 +107,7 @@ class Outline:
     points: Indices
     cell: Indices
     body: Indices
+    around: Indices
     triangles: Indices
     face: Indices
     edges: Indices
@@ -137,6 +141,7 @@ def outline(frames: Frames, surface: Frames | None) -> Outline:
         points=needed,
         cell=owner,
         body=np.asarray(frames.body, dtype=np.int64)[owner],
+        around=renumber[_padded(perimeters)],
         triangles=renumber[np.array(triangles, dtype=np.int64)],
         face=np.array(face, dtype=np.int64),
         edges=renumber[edges],
@@ -175,6 +180,13 @@ def _cut(perimeter: Sequence[int]) -> Iterator[tuple[int, int, int]]:
         perimeter = perimeter[1::2]
     for index in range(1, len(perimeter) - 1):
         yield perimeter[0], perimeter[index], perimeter[index + 1]
+
+
+def _padded(perimeters: Sequence[Sequence[int]]) -> Indices:
+    """Return perimeters as the rows of a table, the last node repeated where there are fewer."""
+    most = max(map(len, perimeters), default=0)
+    rows = [[*nodes, *[nodes[-1]] * (most - len(nodes))] for nodes in perimeters]
+    return np.array(rows, dtype=np.int64).reshape(-1, most)
 
 
 def _edges(perimeters: Sequence[Sequence[int]]) -> tuple[Indices, Indices]:
