@@ -74,6 +74,16 @@ def test_a_part_that_gmsh_meshes_falls_on_the_floor(example, examples, tmp_path)
     assert 0.9 * energy["initial"] < energy["final"] < 1.001 * energy["initial"]
 
 
+def test_a_side_that_leaves_a_tangent_plane_at_right_angles_is_drawn(example, tmp_path):
+    """Symptom guarded against: no number where the bracket of the gallery comes near itself."""
+    mesh = Path(__file__).parents[1] / "docs" / "gallery" / "bracket.msh"
+    scenario = example("gmsh_part").scenario(mesh, end_time=8e-6)
+    result = carom.run(scenario, out=tmp_path)
+    assert result.summary["status"] == "completed"
+    # Measured: 8, of which the body needs all.
+    assert result.summary["newton_iterations"] < 20
+
+
 def test_discs_of_scikit_fem_collide_as_those_of_carom_do(example, tmp_path):
     """The first touch, on the same triangles and by the same scheme."""
     skfem_discs = pytest.importorskip("skfem") and example("scikit_fem_discs")

@@ -13,7 +13,7 @@ use crate::project::area_normal;
 const SPANS: f64 = 0.3;
 
 /// The least cosine of the angle between a side and a tangent plane in which it still has a direction.
-const IN_PLANE: f64 = 0.2;
+pub(super) const IN_PLANE: f64 = 0.2;
 
 /// A plane at a node, tangential in the reference configuration, and the linear map from its coordinates to space that it moves with.
 #[derive(Debug, Clone)]
@@ -138,7 +138,7 @@ impl<'a, const D: usize, R: Fn(u32) -> Vector<D>> Tangents<'a, D, R> {
             let own = if is_sharp { self.edges.get(&[from, to]).cloned() } else { None };
             let slope = own.or_else(|| {
                 let plane = self.planes[self.sector_number(corner)].as_ref()?;
-                Some(plane.image(self.direction(plane, from, to)))
+                Some(plane.image(self.direction(plane, from, to)?))
             });
             Combination::sum([(sign, &slope.unwrap_or_else(|| chord(from, to, half)))])
         })
@@ -162,13 +162,19 @@ impl<'a, const D: usize, R: Fn(u32) -> Vector<D>> Tangents<'a, D, R> {
         plane.coordinates(&slope.at(self.reference))
     }
 
-    /// The place of a side in a tangent plane at its end `from`: as long as an arc that leaves there in the plane and ends where the side does.
-    fn direction(&self, plane: &TangentPlane<D>, from: u32, to: u32) -> [f64; 2] {
+    /// How long a slope is in the reference configuration.
+    pub fn length(&self, slope: &Combination) -> f64 {
+        slope.at(self.reference).norm()
+    }
+
+    /// The place of a side in a tangent plane at its end `from`: as long as an arc that leaves there in the plane and ends where the side does. None if the
+    /// side leaves the plane so steeply that it has no direction in it.
+    fn direction(&self, plane: &TangentPlane<D>, from: u32, to: u32) -> Option<[f64; 2]> {
         let chord = (self.reference)(to) - (self.reference)(from);
         let at = plane.coordinates(&chord);
-        let cosine = (at[0].hypot(at[1]) / chord.norm()).clamp(IN_PLANE, 1.0);
+        let cosine = (at[0].hypot(at[1]) / chord.norm()).min(1.0);
         // A cubic with slopes at both ends of length L/cos²(θ/4) is a circular arc to sixth order; half the angle θ is that to the chord L.
-        at.map(|x| x * 2.0 / (cosine * (1.0 + cosine)))
+        (cosine >= IN_PLANE).then(|| at.map(|x| x * 2.0 / (cosine * (1.0 + cosine))))
     }
 
     fn sector_number(&self, (tile, corner): CornerOf) -> usize {
@@ -228,7 +234,7 @@ impl<'a, const D: usize, R: Fn(u32) -> Vector<D>> Tangents<'a, D, R> {
                     .find(|(s, _)| s.node == node)?
                     .1
                     .as_ref()?;
-                return Some(plane.image(self.direction(plane, node, to)));
+                return Some(plane.image(self.direction(plane, node, to)?));
             }
             Passage::Corner => return None,
         };

@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 use super::combination::Combination;
 use super::gregory::{MAX_CONTROLS, control_count, degree_across, shape};
 use super::network::{CornerOf, Network};
-use super::tangents::{TangentPlane, Tangents};
+use super::tangents::{IN_PLANE, TangentPlane, Tangents};
 use crate::closest::{Local, Parametric};
 use crate::domain::Domain;
 use crate::project::Weights;
@@ -163,7 +163,7 @@ fn across<const D: usize, R: Fn(u32) -> Vector<D>>(
     let [Some((d0, alpha0, beta0)), Some((d1, alpha1, beta1))] =
         ends.each_ref().map(|end| end.shares(tangents))
     else {
-        // Where sides are on one line there is no tangent plane.
+        // Where sides are on one line there is no tangent plane, and a sharp edge may leave that of its corner.
         let [s0, s1] = ends.each_ref().map(|end| &end.off);
         return [[(2.0 * third, s0), (third, s1)], [(third, s0), (2.0 * third, s1)]].map(Combination::sum);
     };
@@ -201,6 +201,9 @@ impl<const D: usize> End<'_, D> {
         let [along, off] = [self.along, &self.off].map(|slope| tangents.coordinates(plane, slope));
         let turned = [-along[1], along[0]];
         let size = along[0] * along[0] + along[1] * along[1];
+        if size.sqrt() < IN_PLANE * tangents.length(self.along) {
+            return None;
+        }
         let share = |other: [f64; 2]| (off[0] * other[0] + off[1] * other[1]) / size;
         Some((plane.image(turned), share(turned), share(along)))
     }
