@@ -1,6 +1,7 @@
 """The examples run, assert their numbers, and say the same as their case files."""
 
 import importlib.util
+from pathlib import Path
 
 import meshio
 import numpy as np
