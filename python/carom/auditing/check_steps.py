@@ -19,7 +19,10 @@ from carom.ledger_terms import TERMS, names
 Row = Mapping[str, float]
 
 LARGEST_BLEND = 2.0
-"""Limit of |α|: up to here the reactions of the step are a mean of those of its start and end."""
+"""Limit of |α|."""
+
+UNCLEAR = 1e-8
+"""What a blend can move below this share of the energy is not sure to be clear of round-off."""
 
 NEGLIGIBLE = 1e-14
 """What is missing below this part of the energy may wait."""
@@ -295,9 +298,16 @@ class StepChecks:
         self._check("blend", beyond[leaders], ROUND_OFF * LARGEST_BLEND, where)
         self._check("blend", alpha - alpha[step.groups], 0.0, where)
         limits = np.sort([least * available, largest * available], axis=0)
-        wanted = np.clip(missing, *limits)
+        # Where there is next to nothing to move α stays within the step.
+        within = 0.5 * np.maximum(available, 0.0) * [[-1.0], [1.0]]
+        unclear = np.abs(available) < UNCLEAR * self._scales.energy
+        moved = alpha * available
+        error = moved - np.clip(missing, *limits)
+        other = moved - np.clip(missing, *within)
+        error = np.where(unclear & (np.abs(other) < np.abs(error)), other, error)
+        limits = np.where(unclear, within, limits)
         allowed = work + NEGLIGIBLE * self._scales.energy
-        self._check("blend", (alpha * available - wanted)[leaders], allowed, where)
+        self._check("blend", error[leaders], allowed, where)
         stored, left = step.end["energy_debt"], step.left_over()
         followers = np.setdiff1d(np.arange(len(alpha)), leaders)
         self._check("waiting energy", stored[followers], 0.0, where)

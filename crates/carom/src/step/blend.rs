@@ -25,6 +25,10 @@ use crate::contact::contact_work::ContactWork;
 /// some steps, and one of them fails; with 2 all complete.
 const LARGEST: f64 = 2.0;
 
+/// Up to this |α| stresses are those of a time within the step: it has no more where what it moves is not clear of round-off, below this fraction of the energy.
+const WITHIN: f64 = 0.5;
+const CLEAR: f64 = 1e-9;
+
 /// What is missing below this fraction of the energy of the model is round-off and may wait. Where the model starts from rest, it is the
 /// energy of the motion of the step. Where there is neither, nothing can be missing.
 const NEGLIGIBLE: f64 = 1e-14;
@@ -88,8 +92,14 @@ impl Blend {
             let leader = leader_of(&self.leader, i);
             let (Balance { missing, available, .. }, [least, largest]) =
                 (self.groups[leader], self.ranges[leader]);
-            let matters = missing.abs().min(available.abs()) > NEGLIGIBLE * energy;
-            self.weight[i] = if matters { (missing / available).clamp(least, largest) } else { 0.0 };
+            let matters = missing.abs() > NEGLIGIBLE * energy;
+            self.weight[i] = if matters && available.abs() > CLEAR * energy {
+                (missing / available).clamp(least, largest)
+            } else if matters && available > 0.0 {
+                (missing / available).clamp(-WITHIN, WITHIN)
+            } else {
+                0.0
+            };
         }
     }
 
