@@ -69,6 +69,8 @@ from carom.case.stage import Stage as Stage
 from carom.case.stage import StageContact as StageContact
 from carom.case.stage import StageOutput as StageOutput
 from carom.case.stage import StagePair as StagePair
+from carom.comparing.comparison import Comparison as Comparison
+from carom.comparing.comparison import compare as compare
 from carom.errors import CaromError as CaromError
 from carom.errors import CaromWarning as CaromWarning
 from carom.errors import CertificateError as CertificateError
