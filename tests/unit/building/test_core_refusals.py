@@ -124,7 +124,7 @@ BAD = [
     (
         {"contact.friction": {"static": 0.2, "kinetic": 0.3}},
         "contact.friction.static",
-        "0.2 is less than kinetic = 0.3: what sticks would slide",
+        "0.2: is less than kinetic = 0.3: what sticks would slide",
     ),
     (
         {"contact.friction": {"static": 0.3, "kinetic": 0.2, "speed": 1.0, "distance": 1.0}},
@@ -144,12 +144,12 @@ BAD = [
     (
         {"contact.friction": {"kinetic": 0.2, "viscous": -1.0}},
         "contact.friction.viscous",
-        "-1: must be at least 0",
+        "-1: must not be negative",
     ),
     (
         {"contact.friction": {**AGEING, "direct": -1.0}},
         "contact.friction.direct",
-        "-1: must be at least 0",
+        "-1: must not be negative",
     ),
     (
         {"contact.friction": {**AGEING, "distance": 0.0}},

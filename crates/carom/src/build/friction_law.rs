@@ -67,13 +67,13 @@ fn law(key: &str, friction: &FrictionSpec) -> Result<Option<Arc<dyn FrictionLaw>
 fn check_rate_and_state(key: &str, spec: &RateAndStateSpec) -> Result<(), InputError> {
     in_range(&format!("{key}.reference"), spec.reference)?;
     for (name, value) in [("direct", spec.direct), ("evolution", spec.evolution)] {
-        number(&format!("{key}.{name}"), value, value >= 0.0, "must be at least 0")?;
+        number(&format!("{key}.{name}"), value, value >= 0.0, "must not be negative")?;
     }
     for (name, value) in [("speed", spec.speed), ("distance", spec.distance)] {
         number(&format!("{key}.{name}"), value, value > 0.0, "must be greater than 0")?;
     }
     let age = spec.law().age;
-    number(&format!("{key}.age"), age, age >= 0.0, "must be at least 0")
+    number(&format!("{key}.age"), age, age >= 0.0, "must not be negative")
 }
 
 fn check(key: &str, spec: &StaticKineticSpec) -> Result<(), InputError> {
@@ -84,7 +84,7 @@ fn check(key: &str, spec: &StaticKineticSpec) -> Result<(), InputError> {
     let jumps = spec.speed.is_none() && spec.distance.is_none();
     if let Some(value) = spec.static_coefficient.filter(|&value| jumps && value < spec.kinetic) {
         let message = format!(
-            "{value} is less than kinetic = {}: what sticks would slide and be held at once; give at least as much, or a speed or a distance over which friction grows",
+            "{value}: is less than kinetic = {}: what sticks would slide and be held at once; give at least as much, or a speed or a distance over which friction grows",
             spec.kinetic
         );
         return Err(InputError::new(format!("{key}.static"), message));
@@ -104,7 +104,7 @@ fn check(key: &str, spec: &StaticKineticSpec) -> Result<(), InputError> {
             ));
         }
     }
-    number(&format!("{key}.viscous"), spec.viscous, spec.viscous >= 0.0, "must be at least 0")
+    number(&format!("{key}.viscous"), spec.viscous, spec.viscous >= 0.0, "must not be negative")
 }
 
 /// The laws of all pairs.
