@@ -23,7 +23,7 @@ test: $(VENV)/installed-dev
 	$(BIN)/python tools/get_browser.py
 	cargo test --release --locked --workspace --exclude carom-python
 	$(MAKE) c
-	$(BIN)/pytest
+	$(BIN)/pytest -n auto --dist worksteal
 
 # With Python 3.11 or later, which Sphinx wants, the site too: its pages and links, not its gallery.
 check: $(VENV)/installed-docs

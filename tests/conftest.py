@@ -19,9 +19,37 @@ def pytest_configure():
     heard.listen()
 
 
-def pytest_collection_modifyitems(items):
-    """Let tests that look back on all others come last."""
-    items.sort(key=lambda item: item.get_closest_marker("last") is not None)
+MET = set()
+"""Messages of the documentation that the tests of this process, or of its workers, met."""
+
+
+def pytest_sessionfinish(session, exitstatus):
+    """After the whole suite, fail if there are messages that no test met."""
+    listed = heard.listed()
+    MET.update(heard.met(listed, heard.TEXTS))
+    config = session.config
+    if hasattr(config, "workeroutput"):
+        config.workeroutput["met"] = sorted(MET)
+    elif exitstatus == pytest.ExitCode.OK and _is_whole(config) and heard.faults(MET, listed):
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node):
+    """Take over what a worker's tests met (pytest-xdist)."""
+    MET.update(getattr(node, "workeroutput", {}).get("met", ()))
+
+
+def pytest_terminal_summary(terminalreporter, exitstatus, config):
+    if exitstatus == pytest.ExitCode.OK and _is_whole(config):
+        for fault in heard.faults(MET, heard.listed()):
+            terminalreporter.write_line(fault, red=True)
+
+
+def _is_whole(config):
+    option = config.option
+    whole = config.args_source is pytest.Config.ArgsSource.TESTPATHS
+    return whole and not (option.keyword or option.markexpr or option.collectonly)
 
 
 @pytest.fixture(autouse=True, scope="session")

@@ -1,4 +1,4 @@
-"""Takes down what the tests hear from carom, so that messages which no test provokes can be named.
+"""Takes down what the tests hear from carom, and names the messages that no test provokes.
 
 Heard is what a test looks at: an error that it expects, warnings that it collects, output that it
 reads, findings that it asks for.
@@ -10,6 +10,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+import tomlkit
 from typer.testing import CliRunner
 
 from carom.doctor import Finding
@@ -21,7 +22,9 @@ _LONGEST = 2000
 """Lines of more characters are pages and data, no messages."""
 
 _HOLE = re.compile(r"\{[^{}]*\}")
-_CRATES = Path(__file__).parents[1] / "crates"
+_ROOT = Path(__file__).parents[1]
+_CRATES = _ROOT / "crates"
+_UNMET_FILE = Path(__file__).parent / "unmet-messages.toml"
 
 
 def listen():
@@ -45,6 +48,36 @@ def _take_down(owner, name, heard):
         return result
 
     setattr(owner, name, telling)
+
+
+def listed():
+    """Return the messages on the page of the documentation."""
+    page = (_ROOT / "docs" / "messages.md").read_text(encoding="utf-8")
+    return set(re.findall(r"(?m)^- `(.*)`$", page))
+
+
+def faults(met, listed):
+    """Return a line for each message that the whole suite should have met, or should not.
+
+    Parameters
+    ----------
+    met
+        The listed messages that tests in Python met.
+    listed
+        The messages on the page.
+    """
+    groups = tomlkit.parse(_UNMET_FILE.read_text(encoding="utf-8")).unwrap()["group"]
+    unmet = {text for group in groups for text in group["messages"]}
+    met = met | met_in_rust(listed)
+    return [
+        f"{what}: {message}"
+        for what, messages in (
+            ("provoke this in a test", listed - met - unmet),
+            (f"take this from {_UNMET_FILE.name}, as tests meet it", unmet & met),
+            (f"take this from {_UNMET_FILE.name}, as nobody says it", unmet - listed),
+        )
+        for message in sorted(messages)
+    ]
 
 
 def in_rust():
