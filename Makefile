@@ -21,7 +21,8 @@ demo: $(VENV)/installed
 
 test: $(VENV)/installed-dev
 	$(BIN)/python tools/get_browser.py
-	cargo test --release --locked --workspace --exclude carom-python
+	cargo test --release --locked --workspace --exclude carom-python --tests
+	cargo test --release --locked --workspace --exclude carom-python --doc
 	$(MAKE) c
 	$(BIN)/pytest -n auto --dist worksteal
 

@@ -1,5 +1,6 @@
 //! The tests of whole steps and runs, in one program: the core is generic, and every program that uses it compiles it anew.
 
+mod allocation;
 mod checkpoint;
 mod common;
 mod conservation;

@@ -1,6 +1,8 @@
-//! Time steps take no memory from the system once a run is under way, but for the scratch of friction solvers. A program of its own, because it counts for the whole process.
+//! Time steps take no memory from the system once a run is under way, but for the scratch of friction solvers.
 
 use std::alloc::System;
+use std::env;
+use std::process::Command;
 
 use carom::{Scenario, Simulation};
 use serde_json::json;
@@ -47,8 +49,19 @@ fn count(simulation: &mut Simulation<2>, step: u64) -> (usize, usize, usize, usi
     (contact_steps, allocations, change.bytes_allocated, change.bytes_deallocated)
 }
 
+/// Set in the process that counts: the allocator counts for all of a process, and other tests run beside this one.
+const ALONE: &str = "CAROM_TEST_ALONE";
+
 #[test]
 fn steps_allocate_nothing_beside_what_a_friction_solver_takes_and_gives_back() {
+    if env::var_os(ALONE).is_none() {
+        let name = "allocation::steps_allocate_nothing_beside_what_a_friction_solver_takes_and_gives_back";
+        let mut alone = Command::new(env::current_exe().expect("this program"));
+        let done = alone.args([name, "--exact"]).env(ALONE, "1").output().expect("it starts");
+        let said = String::from_utf8_lossy(&done.stdout);
+        assert!(done.status.success() && said.contains("1 passed"), "{said}");
+        return;
+    }
     // Threads that are still starting would allocate in between.
     rayon::broadcast(|_| ());
     let theta = json!({"kind": "theta", "theta": 0.5, "xi": 0.5});
