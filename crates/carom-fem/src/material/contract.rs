@@ -1,10 +1,13 @@
 //! What every law must satisfy. A new law is proved by its line in `laws`.
 
+use carom_mesh::Matrix;
 use proptest::prelude::*;
 
+use super::batch::{BATCH, LANES};
+use super::point_law::{Confined, restrict};
 use super::{
-    BlatzKo, ByInvariants, ByStretches, ElasticConstants, Hyperelastic, J2Plasticity, LinearElastic, Mat3,
-    Material, MooneyRivlin, NeoHookean, Ogden, PlasticState, SaintVenantKirchhoff, Yeoh,
+    Batch, BlatzKo, ByInvariants, ByStretches, ElasticConstants, Hyperelastic, J2Plasticity, LinearElastic,
+    Mat3, Material, MooneyRivlin, NeoHookean, Ogden, PlasticState, PointLaw, SaintVenantKirchhoff, Yeoh,
 };
 
 fn laws() -> Vec<Box<dyn Material>> {
@@ -215,6 +218,47 @@ proptest! {
             let expected = (f0 + f1) * 0.5 * (second(&f1) - second(&f0));
             prop_assert!((difference - expected).norm() < 1e-10 * SCALE, "{law:?}");
         }
+    }
+}
+
+/// What elements ask of many points at once is what each point says alone.
+fn side_by_side<const D: usize, M: Material>(law: M, points: &[[Mat3; 2]]) -> Result<(), TestCaseError> {
+    let law = Confined(law);
+    let law: &dyn PointLaw<D> = &law;
+    let count = points.len();
+    let (mut f0, mut f1) = (Batch::zeros(), Batch::zeros());
+    for (k, [start, end]) in points.iter().enumerate() {
+        f0.set(k, &restrict(start));
+        f1.set(k, &restrict(end));
+    }
+    let (mut energies, mut p) = ([0.0; BATCH], [(); 3].map(|()| Batch::zeros()));
+    let close = |batch: &Batch<D>, k: usize, alone: Matrix<D>| (batch.get(k) - alone).norm() < 1e-13 * SCALE;
+    law.energies(count, &f1, &[], &mut energies);
+    law.stresses(count, &f1, &[], &mut p[0]);
+    law.discrete_stresses(count, &f0, &f1, &[], &mut p[1]);
+    for k in 0..count {
+        prop_assert!((energies[k] - law.energy(&f1.get(k))).abs() < 1e-13 * SCALE, "{law:?}");
+        prop_assert!(close(&p[0], k, law.stress(&f1.get(k))), "{law:?}");
+        prop_assert!(close(&p[1], k, law.discrete_stress(&f0.get(k), &f1.get(k))), "{law:?}");
+    }
+    law.all_step_stresses(count, &f0, &f1, &[], &mut p);
+    for k in 0..count {
+        let alone = law.step_stresses(&f0.get(k), &f1.get(k));
+        prop_assert!(p.iter().zip(alone).all(|(p, alone)| close(p, k, alone)), "{law:?}");
+    }
+    Ok(())
+}
+
+proptest! {
+    #[test]
+    fn many_points_at_once_are_points_alone(
+        points in proptest::collection::vec([deformation(), deformation()], 2 * LANES)
+    ) {
+        let constants = ElasticConstants { young: 2700.0, poisson: 0.33 };
+        let svk = SaintVenantKirchhoff::new(&constants).expect("valid");
+        side_by_side::<2, _>(svk, &points)?;
+        side_by_side::<3, _>(svk, &points)?;
+        side_by_side::<2, _>(NeoHookean::new(&constants).expect("valid"), &points)?;
     }
 }
 

@@ -94,7 +94,7 @@ pub trait Material: Send + Sync + Debug {
     }
 
     /// [`Self::energy`] at the first `count` points of a batch, whose deformation beyond the D dimensions is held at zero. This and
-    /// the next two are what a time step consists of: a law that can works on many points at once.
+    /// the next three are what a time step consists of: a law that can works on many points at once.
     fn energies<const D: usize>(&self, count: usize, f: &Batch<D>, out: &mut [f64])
     where
         Self: Sized,
@@ -122,6 +122,22 @@ pub trait Material: Send + Sync + Debug {
     {
         for k in 0..count {
             out.set(k, &restrict(&self.discrete_stress(&embed(&f0.get(k)), &embed(&f1.get(k)))));
+        }
+    }
+
+    /// [`Self::step_stresses`] at the first `count` points of a batch.
+    fn all_step_stresses<const D: usize>(
+        &self,
+        count: usize,
+        f0: &Batch<D>,
+        f1: &Batch<D>,
+        out: &mut [Batch<D>; 3],
+    ) where
+        Self: Sized,
+    {
+        for k in 0..count {
+            let stresses = self.step_stresses(&embed(&f0.get(k)), &embed(&f1.get(k)));
+            out.iter_mut().zip(&stresses).for_each(|(out, stress)| out.set(k, &restrict(stress)));
         }
     }
 

@@ -153,4 +153,15 @@ impl<const D: usize, M: Material> PointLaw<D> for Confined<M> {
     ) {
         self.0.discrete_stresses(count, f0, f1, out);
     }
+
+    fn all_step_stresses(
+        &self,
+        count: usize,
+        f0: &Batch<D>,
+        f1: &Batch<D>,
+        _: &[PlasticState],
+        out: &mut [Batch<D>; 3],
+    ) {
+        self.0.all_step_stresses(count, f0, f1, out);
+    }
 }

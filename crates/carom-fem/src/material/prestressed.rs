@@ -145,4 +145,17 @@ impl<const D: usize> PointLaw<D> for Prestressed<D> {
         self.law.discrete_stresses(count, f0, f1, history, out);
         self.add(count, &[f0, f1], out);
     }
+
+    fn all_step_stresses(
+        &self,
+        count: usize,
+        f0: &Batch<D>,
+        f1: &Batch<D>,
+        history: &[PlasticState],
+        out: &mut [Batch<D>; 3],
+    ) {
+        self.law.all_step_stresses(count, f0, f1, history, out);
+        self.add(count, &[f0, f1], &mut out[0]);
+        self.add(count, &[f1], &mut out[2]);
+    }
 }

@@ -99,6 +99,16 @@ impl Material for SaintVenantKirchhoff {
     ) {
         Arch::new().dispatch(Stresses { law: self, count, f0: Some(f0), f1, out });
     }
+
+    fn all_step_stresses<const D: usize>(
+        &self,
+        count: usize,
+        f0: &Batch<D>,
+        f1: &Batch<D>,
+        out: &mut [Batch<D>; 3],
+    ) {
+        Arch::new().dispatch(StepStresses { law: self, count, f0, f1, out });
+    }
 }
 
 /// Twice the Green–Lagrange strain, FᵀF − 1, at as many points as a register has lanes; its lower triangle.
@@ -116,6 +126,68 @@ fn twice_strain<V: Simd, const D: usize>(simd: V, f: &[[V::f64s; D]; D]) -> [[V:
     c
 }
 
+/// S = λ tr(E) 1 + 2 μ E [Pa] where the lower triangle of `c` is twice the strain E.
+#[inline(always)]
+fn second_piola<V: Simd, const D: usize>(
+    simd: V,
+    [half_lambda, mu]: [V::f64s; 2],
+    c: &[[V::f64s; D]; D],
+) -> [[V::f64s; D]; D] {
+    let mut trace = simd.splat_f64s(0.0);
+    for i in 0..D {
+        trace = simd.add_f64s(trace, c[i][i]);
+    }
+    let pressure = simd.mul_f64s(trace, half_lambda);
+    let mut s = *c;
+    for i in 0..D {
+        for j in 0..=i {
+            s[i][j] = simd.mul_f64s(c[i][j], mu);
+            s[j][i] = s[i][j];
+        }
+        s[i][i] = simd.add_f64s(s[i][i], pressure);
+    }
+    s
+}
+
+/// F S, component by component.
+#[inline(always)]
+fn product<V: Simd, const D: usize>(
+    simd: V,
+    f: &[[V::f64s; D]; D],
+    s: &[[V::f64s; D]; D],
+) -> [[V::f64s; D]; D] {
+    let mut p = [[simd.splat_f64s(0.0); D]; D];
+    for i in 0..D {
+        for j in 0..D {
+            for k in 0..D {
+                p[i][j] = simd.mul_add_e_f64s(f[i][k], s[k][j], p[i][j]);
+            }
+        }
+    }
+    p
+}
+
+/// The mean of two matrices.
+#[inline(always)]
+fn mean<V: Simd, const D: usize>(simd: V, a: &[[V::f64s; D]; D], b: &[[V::f64s; D]; D]) -> [[V::f64s; D]; D] {
+    let half = simd.splat_f64s(0.5);
+    let mut mean = *a;
+    for i in 0..D {
+        for j in 0..D {
+            mean[i][j] = simd.mul_f64s(simd.add_f64s(a[i][j], b[i][j]), half);
+        }
+    }
+    mean
+}
+
+impl SaintVenantKirchhoff {
+    /// ½ λ and μ, by which twice the strain gives the stress.
+    #[inline(always)]
+    fn splat<V: Simd>(&self, simd: V) -> [V::f64s; 2] {
+        [simd.splat_f64s(0.5 * self.lambda), simd.splat_f64s(self.mu)]
+    }
+}
+
 /// The stresses of a step from F₀ to F₁, many points at once; P of F₁ where there is no step.
 struct Stresses<'a, const D: usize> {
     law: &'a SaintVenantKirchhoff,
@@ -131,43 +203,51 @@ impl<const D: usize> WithSimd for Stresses<'_, D> {
     #[inline(always)]
     fn with_simd<V: Simd>(self, simd: V) {
         let Self { law, count, f0, f1, out } = self;
-        let (half_lambda, mu) = (simd.splat_f64s(0.5 * law.lambda), simd.splat_f64s(law.mu));
-        let half = simd.splat_f64s(0.5);
+        let constants = law.splat(simd);
         for point in (0..count).step_by(V::F64_LANES) {
             // F and twice the strain, at the end or in the mean.
             let mut f = f1.load::<V>(point);
-            let mut s = twice_strain(simd, &f);
+            let mut c = twice_strain(simd, &f);
             if let Some(f0) = f0 {
                 let f0 = f0.load::<V>(point);
-                let c0 = twice_strain(simd, &f0);
-                for i in 0..D {
-                    for j in 0..D {
-                        f[i][j] = simd.mul_f64s(simd.add_f64s(f0[i][j], f[i][j]), half);
-                        s[i][j] = simd.mul_f64s(simd.add_f64s(c0[i][j], s[i][j]), half);
-                    }
-                }
+                c = mean(simd, &twice_strain(simd, &f0), &c);
+                f = mean(simd, &f0, &f);
             }
-            let mut trace = simd.splat_f64s(0.0);
-            for i in 0..D {
-                trace = simd.add_f64s(trace, s[i][i]);
-            }
-            let pressure = simd.mul_f64s(trace, half_lambda);
-            for i in 0..D {
-                for j in 0..=i {
-                    s[i][j] = simd.mul_f64s(s[i][j], mu);
-                    s[j][i] = s[i][j];
-                }
-                s[i][i] = simd.add_f64s(s[i][i], pressure);
-            }
-            let mut p = [[simd.splat_f64s(0.0); D]; D];
+            out.store::<V>(point, product(simd, &f, &second_piola(simd, constants, &c)));
+        }
+    }
+}
+
+/// The stresses that a blend of start and end is made of, many points at once.
+struct StepStresses<'a, const D: usize> {
+    law: &'a SaintVenantKirchhoff,
+    count: usize,
+    f0: &'a Batch<D>,
+    f1: &'a Batch<D>,
+    out: &'a mut [Batch<D>; 3],
+}
+
+impl<const D: usize> WithSimd for StepStresses<'_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, simd: V) {
+        let Self { law, count, f0, f1, out: [discrete, difference, end] } = self;
+        let constants = law.splat(simd);
+        for point in (0..count).step_by(V::F64_LANES) {
+            let (f0, f1) = (f0.load::<V>(point), f1.load::<V>(point));
+            let s0 = second_piola(simd, constants, &twice_strain(simd, &f0));
+            let s1 = second_piola(simd, constants, &twice_strain(simd, &f1));
+            let middle = mean(simd, &f0, &f1);
+            let mut change = s1;
             for i in 0..D {
                 for j in 0..D {
-                    for k in 0..D {
-                        p[i][j] = simd.mul_add_e_f64s(f[i][k], s[k][j], p[i][j]);
-                    }
+                    change[i][j] = simd.sub_f64s(s1[i][j], s0[i][j]);
                 }
             }
-            out.store::<V>(point, p);
+            discrete.store::<V>(point, product(simd, &middle, &mean(simd, &s0, &s1)));
+            difference.store::<V>(point, product(simd, &middle, &change));
+            end.store::<V>(point, product(simd, &f1, &s1));
         }
     }
 }

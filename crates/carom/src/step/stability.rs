@@ -110,8 +110,7 @@ fn by_reactions<const D: usize>(
 
 /// Whether a body may be in an equilibrium that is not stable although its iterations have ended: they were held back.
 pub(super) fn is_in_question<const D: usize>(body: usize, work: &Workspace<D>) -> bool {
-    let stiffened = &work.contacts.reduced.delassus.stiffened;
-    let is_pressed = !stiffened.springs[body].is_empty();
+    let is_pressed = !work.contacts.reduced.delassus.stiffened.springs[body].is_empty();
     work.newton.holding[body].was_indefinite || is_pressed && work.bodies[body].hides_softness()
 }
 
