@@ -1,0 +1,83 @@
+"""Workflows run what a contributor can run, by tools of known versions."""
+
+import importlib
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[3]
+WORKFLOWS = sorted(ROOT.glob(".github/workflows/*.yml"))
+
+
+@pytest.fixture(scope="module")
+def release_check():
+    sys.path.insert(0, str(ROOT / "tools"))
+    try:
+        return importlib.import_module("release_check")
+    finally:
+        sys.path.remove(str(ROOT / "tools"))
+
+
+def text_of(name):
+    return (ROOT / name).read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("workflow", WORKFLOWS, ids=lambda path: path.stem)
+def test_actions_of_others_are_pinned_to_a_commit_whose_version_is_told(workflow):
+    """A tag can be moved to other code; a commit cannot."""
+    used = re.findall(r"uses: (.*)", workflow.read_text(encoding="utf-8"))
+    assert used
+    for action in used:
+        assert re.fullmatch(r"[\w.-]+/[\w.-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+", action), action
+
+
+@pytest.mark.parametrize("workflow", WORKFLOWS, ids=lambda path: path.stem)
+def test_no_job_has_rights_that_it_does_not_name(workflow):
+    text = workflow.read_text(encoding="utf-8")
+    assert "\npermissions: {}\n" in text
+    assert text.count("    permissions:\n") == text.count("    runs-on:")
+
+
+def test_the_steps_that_workflows_name_are_there(release_check):
+    named = re.findall(r"release_check\.py (.+)", text_of(".github/workflows/release.yml"))
+    assert {step for steps in named for step in steps.split()} == set(release_check.STEPS)
+
+
+def test_a_wheel_is_tried_on_every_python_that_the_package_names(release_check):
+    project = text_of("pyproject.toml")
+    named = re.findall(r"Programming Language :: Python :: 3\.(\d+)", project)
+    assert list(map(int, named)) == list(release_check.MINORS)
+    assert f'requires-python = ">=3.{named[0]}"' in project
+    assert f"abi3-py3{named[0]}" in text_of("crates/carom-python/Cargo.toml")
+    tried = re.search(
+        r"python-version: \|\n((?: +3\.\d+\n)+)", text_of(".github/workflows/release.yml")
+    )
+    assert sorted(tried[1].split()) == [f"3.{minor}" for minor in named]
+
+
+def test_the_tests_of_an_installed_wheel_are_there(release_check):
+    assert [test for test in release_check.TESTS if not (ROOT / "tests" / test).exists()] == []
+    assert all("==" in pinned for pinned in release_check._pinned(release_check.TEST_TOOLS))
+
+
+def test_releases_are_built_by_the_maturin_of_development():
+    (developing,) = re.findall(r'"maturin==([\d.]+)"', text_of("pyproject.toml"))
+    (releasing,) = re.findall(r"(?m)^maturin==([\d.]+)", text_of("tools/release-requirements.txt"))
+    assert developing == releasing
+
+
+def test_a_rust_on_the_path_is_not_there_for_the_wheel(release_check, tmp_path, monkeypatch):
+    """A wheel that is tried where Rust is could be one that only works where Rust is."""
+    for name in ("rusty", "plain"):
+        (tmp_path / name).mkdir()
+    suffix = ".exe" if sys.platform == "win32" else ""
+    cargo = tmp_path / "rusty" / f"cargo{suffix}"
+    cargo.touch(mode=0o755)
+    folders = [str(tmp_path / name) for name in ("rusty", "plain")]
+    monkeypatch.setenv("PATH", release_check.os.pathsep.join(folders))
+    monkeypatch.setenv("PYTHONPATH", "somewhere")
+    kept = release_check._without_rust(tmp_path / "venv")
+    assert kept["PATH"].split(release_check.os.pathsep) == [str(tmp_path / "venv"), folders[1]]
+    assert "PYTHONPATH" not in kept
