@@ -62,6 +62,26 @@ def test_the_tests_of_an_installed_wheel_are_there(release_check):
     assert all("==" in pinned for pinned in release_check._pinned(release_check.TEST_TOOLS))
 
 
+@pytest.mark.parametrize(
+    ("found", "said"),
+    [
+        ({}, None),
+        ({"overall_tag": "manylinux_2_17_x86_64"}, None),
+        ({"overall_tag": "manylinux_2_34_x86_64"}, "it needs manylinux_2_34_x86_64"),
+        ({"overall_tag": "linux_x86_64"}, "it needs linux_x86_64"),
+        ({"external_libs": {"libblas.so.3": None}}, "it needs libblas.so.3, which systems may"),
+        ({"unsupported_isa": True}, "it needs a newer processor"),
+    ],
+)
+def test_a_wheel_that_promises_too_much_is_refused(release_check, found, said):
+    """Symptom guarded against: a wheel of a new machine that older ones could not import."""
+    plain = {"overall_tag": "manylinux_2_28_x86_64", "external_libs": {}, "unsupported_isa": False}
+    name = "carom-0.1.0-cp310-abi3-manylinux_2_28_x86_64.whl"
+    fault = release_check._promises_too_much(name, {**plain, **found})
+    assert (fault is None) == (said is None)
+    assert said is None or fault.startswith(said)
+
+
 def test_releases_are_built_by_the_maturin_of_development():
     (developing,) = re.findall(r'"maturin==([\d.]+)"', text_of("pyproject.toml"))
     (releasing,) = re.findall(r"(?m)^maturin==([\d.]+)", text_of("tools/release-requirements.txt"))
