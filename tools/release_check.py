@@ -60,7 +60,7 @@ TESTS = (
 """What is tried of an installed wheel: every door to the core, without extras, in a minute."""
 
 TEST_TOOLS = ("pytest", "hypothesis")
-"""Packages that these tests need: the newest that each Python has, which the extra ``dev`` is not."""
+"""Packages that these tests need: the newest that each Python has."""
 
 RUST = ("cargo", "rustc")
 
