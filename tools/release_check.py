@@ -87,9 +87,7 @@ def build_wheel() -> None:
     """Build the wheel from the sdist."""
     (packed,) = DIST.glob("*.tar.gz")
     _clean(SOURCES)
-    with tarfile.open(packed) as archive:
-        archive.extractall(SOURCES, filter="data")
-    (sources,) = SOURCES.iterdir()
+    sources = _unpack(packed, SOURCES)
     for old in DIST.glob("*.whl"):
         old.unlink()
     linux = sys.platform == "linux"
@@ -199,6 +197,20 @@ def _see_where_it_is(python: str, place: Path, environment: Environment) -> None
         raise SystemExit(f"what was tried is carom {version} of {file}, not the wheel")
     if rust:
         raise SystemExit(f"what was tried could have used {rust[0]}")
+
+
+def _unpack(packed: Path, place: Path) -> Path:
+    """Unpack an sdist and return its folder; its files are of now.
+
+    Cargo tells by times what has changed. In an sdist all files have one of long ago, so that it
+    would take what it built from another.
+    """
+    with tarfile.open(packed) as archive:
+        archive.extractall(place, filter="data")
+    for file in place.rglob("*"):
+        os.utime(file)
+    (folder,) = place.iterdir()
+    return folder
 
 
 def _see_what_was_locked(sources: Path) -> None:

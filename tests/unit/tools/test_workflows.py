@@ -1,8 +1,11 @@
 """Workflows run what a contributor can run, by tools of known versions."""
 
 import importlib
+import os
 import re
 import sys
+import tarfile
+import time
 from pathlib import Path
 
 import pytest
@@ -79,6 +82,20 @@ def test_a_wheel_that_promises_too_much_is_refused(release_check, found, said):
     fault = release_check._promises_too_much(name, {**plain, **found})
     assert (fault is None) == (said is None)
     assert said is None or fault.startswith(said)
+
+
+def test_unpacked_sources_are_newer_than_what_was_built_of_others(release_check, tmp_path):
+    """Symptom guarded against: all files of an sdist are of 2006, and Cargo built none anew."""
+    source = tmp_path / "carom-1.2.3" / "lib.rs"
+    source.parent.mkdir()
+    source.write_text("fn main() {}")
+    os.utime(source, (1e9, 1e9))
+    with tarfile.open(tmp_path / "carom.tar.gz", "w:gz") as archive:
+        archive.add(source, "carom-1.2.3/lib.rs")
+    before = time.time() - 60.0
+    folder = release_check._unpack(tmp_path / "carom.tar.gz", tmp_path / "place")
+    assert folder == tmp_path / "place" / "carom-1.2.3"
+    assert (folder / "lib.rs").stat().st_mtime > before
 
 
 def test_releases_are_built_by_the_maturin_of_development():
