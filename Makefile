@@ -4,6 +4,7 @@
 # make bench   timings (see benchmarks/README.md)
 # make c       the library for C, C++ and Fortran, into PREFIX (target/c)
 # make docs    the documentation site, site/index.html
+# make release-check  what can be tried here of a release: sdist, wheel, crates (docs/making-a-release.md)
 # make validate  long validations; rewrites docs/validation.md, says which numbers of the pages drifted
 
 PYTHON ?= python3
@@ -14,7 +15,7 @@ BIN := $(VENV)/bin
 SOURCES := $(shell find crates python -type f ! -name '*.pyc') \
 	Cargo.toml Cargo.lock pyproject.toml README.md THIRD-PARTY-NOTICES.txt
 
-.PHONY: demo test check bench c docs validate clean
+.PHONY: demo test check bench c docs release-check validate clean
 
 demo: $(VENV)/installed
 	$(BIN)/carom run examples/two_cylinders.toml --out results/two_cylinders --set output.report=true --force
@@ -57,6 +58,10 @@ c:
 
 bench:
 	cargo bench --locked --package carom
+
+# In environments of its own: a wheel is tried as those have it who install it.
+release-check:
+	$(PYTHON) tools/release_check.py
 
 validate: $(VENV)/installed-dev
 	$(BIN)/python benchmarks/validate.py

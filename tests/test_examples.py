@@ -33,13 +33,19 @@ def test_python_describes_what_the_case_files_describe(example, examples):
         assert python == Scenario.from_toml(examples / case)
 
 
-@pytest.mark.parametrize("name", ["two_bars", "two_cylinders", "oblique_layer"])
+@pytest.mark.parametrize("name", ["two_bars", "two_cylinders"])
 def test_example_asserts_its_numbers(example, tmp_path, name):
     example(name).main(tmp_path)
 
 
+def test_a_layer_sticks_or_slips_as_is_known_exactly(example, tmp_path):
+    with pytest.warns(carom.CaromWarning, match="waves run at 2 m/s"):  # it has no units
+        example("oblique_layer").main(tmp_path)
+
+
 def test_a_thin_masonry_arch_falls_and_a_thick_one_does_not(example, tmp_path):
-    example("masonry_arch").main(tmp_path, end_time=0.4)
+    with pytest.warns(carom.CaromWarning, match="waves will not be resolved"):
+        example("masonry_arch").main(tmp_path, end_time=0.4)
 
 
 def test_a_shaft_presses_on_its_hub_as_lame_says(examples, tmp_path):
@@ -51,6 +57,8 @@ def test_a_shaft_presses_on_its_hub_as_lame_says(examples, tmp_path):
     assert measured == pytest.approx(pressure, rel=1e-3)
 
 
+# Steps of the pile are long for its waves: it is about grains that come to rest.
+@pytest.mark.filterwarnings("ignore:.*waves will not be resolved")
 @pytest.mark.parametrize("name", ["thrown_ring", "pile"])
 def test_cases_of_the_readme_run(examples, tmp_path, name):
     case = Scenario.from_toml(examples / f"{name}.toml")

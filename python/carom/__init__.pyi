@@ -85,7 +85,7 @@ from carom.foreign.run import ForeignStep as ForeignStep
 from carom.io.history import read_history as read_history
 from carom.io.summary_types import Summary as Summary
 from carom.ledger_terms import Ledger as Ledger
-from carom.plot.flow import energy_flow as energy_flow
+from carom.plot.flow_figure import energy_flow as energy_flow
 from carom.results.field import Field as Field
 from carom.results.fields import Fields as Fields
 from carom.results.result import Result as Result

@@ -1,5 +1,7 @@
 """An iron is pressed into a slab and drawn across it: with inertia as without, if that is small."""
 
+import warnings
+
 import numpy as np
 
 import carom
@@ -51,7 +53,10 @@ def test_a_heavily_damped_iron_slides_as_one_without_inertia(tmp_path):
         "static": carom.Static(**ends),
         "dynamic": carom.Dynamic(**ends, scheme=damped),
     }.items():
-        result = carom.run(drawn(analysis), out=tmp_path / name)
+        with warnings.catch_warnings():
+            # There is next to no mass: waves are fast, and steps long for them.
+            warnings.filterwarnings("ignore", ".*waves (run at|will not be resolved)")
+            result = carom.run(drawn(analysis), out=tmp_path / name)
         assert result.summary["status"] == "completed"
         # Measured: 432 with inertia.
         assert result.summary["newton_iterations"] < 1000

@@ -35,6 +35,8 @@ def test_a_shaft_is_pulled_out_by_what_friction_bears(discretisation, way):
     assert pull.force == pytest.approx(press_fits.FRICTION * pull.history["normal_force"], rel=5e-4)
 
 
+# Whether the finer ones need the words depends on round-off.
+@pytest.mark.filterwarnings("ignore:.*is free to turn")
 @pytest.mark.parametrize("discretisation", DISCRETISATIONS)
 @pytest.mark.parametrize(
     ("cell", "bound"), [("tri3", 0.02), ("tri6", 1e-3), ("quad8", 1e-3), ("quad9", 1e-3)]

@@ -11,6 +11,8 @@ from typer.core import TyperGroup
 from carom import __version__
 
 COMMANDS = {
+    "tour": "Show in a minute what carom does: run an impact, say where its energy went, open its "
+    "page.",
     "new": "Write a commented case file that runs as it is.",
     "run": "Run a case and write its results.",
     "check": "Validate a case and print what would run.",

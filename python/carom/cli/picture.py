@@ -10,7 +10,7 @@ import typer
 from carom.cli import drawing
 from carom.cli.case import Force, ResultsDirectory
 from carom.cli.failures import failures
-from carom.plot.flow import energy_flow
+from carom.plot.flow_figure import energy_flow
 from carom.results.result import Result
 from carom.system.existing import spare_existing
 from carom.view.picture import picture as draw

@@ -16,6 +16,10 @@ TEMPLATES = MappingProxyType(
         "two-bodies": "two rubber discs hit each other off their centres",
         "wall-bounce": "a disc is thrown obliquely at a wall and spins away",
         "static-hertz": "a ball is pressed into a block, to compare with Hertz",
+        "press-fit": "a shaft is pressed into a hub, to compare with Lamé",
+        "seal": "a rubber cord is squeezed between plates, as an O-ring is",
+        "pile": "grains of many sizes fall into a box and settle",
+        "rigid": "a rigid block falls on a rubber pad and is thrown back",
         "mesh-file": "a part from a mesh file (--mesh) is thrown at a floor",
     }
 )

@@ -19,6 +19,7 @@ from carom.report.case_text import coloured
 from carom.report.curves import curves
 from carom.report.fields import Bodies, bodies
 from carom.report.figures import key_figures
+from carom.report.flow import energy_flow
 from carom.report.number_tables import (
     all_numbers,
     body_table,
@@ -90,7 +91,7 @@ def page(source: Source) -> str:
         status=join(source.status),
         head=_head(source),
         figures=key_figures(source.summary) if source.summary else "",
-        energy=_section("Where the energy went", "energy-table", energy_table(source.summary)),
+        energy=_energy(source),
         stages=_section("Books of the stages", "stage-table", stage_table(source.summary)),
         contacts=_section("Contact events", "contact-table", contact_table(source.summary)),
         impacts=_section(
@@ -198,13 +199,21 @@ def _head(source: Source) -> Html:
     )
 
 
-def _section(title: str, id: str, table: Html | None) -> Html:
-    if table is None:
+def _energy(source: Source) -> Html:
+    """Return where the energy went: drawn by the books of all steps, and as numbers."""
+    drawn = energy_flow(source.history, source.ledger)
+    return _section("Where the energy went", "energy-table", energy_table(source.summary), drawn)
+
+
+def _section(title: str, id: str, table: Html | None, above: Html | None = None) -> Html:
+    if table is None and above is None:
         return join()
+    scrolled = {"class_": "scroll", "tabindex": "0", "role": "region", "aria_label": title}
     return element(
         "section",
         element("h2", title),
-        element("div", table, class_="scroll", tabindex="0", role="region", aria_label=title),
+        above,
+        element("div", table, **scrolled) if table is not None else None,
         id=id,
         class_="card",
     )

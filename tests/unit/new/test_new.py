@@ -100,6 +100,50 @@ def test_static_hertz_is_near_hertz(ran):
     assert history["normal_force"][-1] == pytest.approx(1.08 * hertz[-1], rel=0.01)
 
 
+def test_the_press_fit_presses_as_lame_says(ran):
+    """Lamé's pressure of long parts of one steel, E δ (c² − b²) / [2 b c² (1 − ν²)]."""
+    history = ran("press-fit").history
+    inner, outer = 0.02, 0.04
+    part = (outer**2 - inner**2) / (2 * inner * outer**2)
+    lame = 210e9 * 20e-6 * part / (1 - 0.3**2)
+    assert history["normal_force"][-1] == pytest.approx(2 * math.pi * inner * lame, rel=2e-3)
+
+
+def test_the_seal_presses_as_a_roller_between_plates(ran):
+    """Johnson, Contact mechanics (1985), eq. 5.57: δ = 2 P / (π E*) (2 ln(4 R / b) − 1).
+
+    Of small strains; here the cord gives way by a fifth of its height.
+    """
+    history = ran("seal").history
+    plate, radius = 3e6 / (1 - 0.5**2), 0.0025
+    force = history["normal_force"][-1] / 2  # both plates press
+    half = math.sqrt(4 * force * radius / (math.pi * plate))
+    given = 2 * force / (math.pi * plate) * (2 * math.log(4 * radius / half) - 1)
+    assert given == pytest.approx(1e-3, rel=0.1)
+
+
+def test_the_pile_settles_and_its_books_close(ran):
+    result = ran("pile")
+    history = result.history
+    fallen = history["external"][-1]
+    assert len(result.scenario.bodies) == 20
+    assert history["kinetic"].max() > 0.2 * fallen
+    assert history["kinetic"][-1] < 0.1 * fallen
+    assert history["friction"][-1] > 0.1 * fallen
+    assert result.summary["energy"]["max_defect"] < 1e-9 * fallen
+
+
+def test_the_rigid_block_is_thrown_back_and_stays_rigid(ran):
+    result = ran("rigid")
+    (contact,) = result.summary["contacts"]
+    assert contact["pair"] == ["block", "pad"]
+    assert contact["release"] is not None
+    assert not result.ledger["block"]["strain"].any()
+    energy = result.summary["energy"]
+    assert 0.01 * energy["initial"] < energy["friction"] < 0.1 * energy["initial"]
+    assert energy["max_defect"] < 1e-9 * energy["initial"]
+
+
 @pytest.mark.parametrize(("unit", "material"), [("mm", "epoxy"), ("in", "steel")])
 def test_a_part_from_a_file_bounces(ran, tmp_path, unit, material):
     meshio.write(tmp_path / "part.vtu", block([20.0, 10.0, 40.0]))

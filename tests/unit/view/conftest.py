@@ -1,9 +1,9 @@
 """Results that are drawn."""
 
 import pytest
-from falling import BALL, DISC
 
 import carom
+from falling import BALL, DISC
 
 
 @pytest.fixture(scope="session")

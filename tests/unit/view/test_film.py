@@ -89,7 +89,7 @@ def test_terms_that_cannot_be_seen_are_not_drawn():
 def test_a_run_at_rest_has_a_film(tmp_path):
     case = {
         "analysis": {"end_time": 2e-3, "time_step": 1e-3},
-        "materials": {"m": {"kind": "linear-elastic", "young": 1, "poisson": 0, "density": 1}},
+        "materials": {"m": {"kind": "linear-elastic", "young": 1e6, "poisson": 0, "density": 1e3}},
         "bodies": [
             {
                 "name": "b",

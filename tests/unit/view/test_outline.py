@@ -7,7 +7,7 @@ import carom
 from carom.io.frames import Frames
 from carom.view.outline import outline
 
-MATERIAL = {"kind": "linear-elastic", "young": 1.0, "poisson": 0.3, "density": 1.0}
+MATERIAL = {"kind": "linear-elastic", "young": 1e6, "poisson": 0.3, "density": 1e3}
 
 
 def run(tmp_path, mesh, **more):

@@ -6,13 +6,13 @@ import matplotlib
 import matplotlib.image
 import numpy as np
 import pytest
-from falling import block
 from matplotlib.lines import Line2D
 from typer.testing import CliRunner
 
 import carom
 from carom.cli import app
 from carom.display.colours import FORCE
+from falling import block
 
 
 def picture(*arguments):

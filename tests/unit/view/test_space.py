@@ -6,12 +6,12 @@ import matplotlib
 import matplotlib.image
 import numpy as np
 import pytest
-from falling import block
 from typer.testing import CliRunner
 
 import carom
 from carom.cli import app
 from carom.view.space import creases
+from falling import block
 
 
 def picture(*arguments):

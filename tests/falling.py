@@ -46,9 +46,12 @@ def block(dimension, size=0.2):
     low[-1] = 0.01
     shape = "box" if dimension == 3 else "rectangle"
     down = [0.0] * (dimension - 1)
+    step = 5e-3 * size
     return {
         **BALL,
         "dimension": dimension,
+        "analysis": {**BALL["analysis"], "end_time": 4 * step, "time_step": step},
+        "output": {"fields_every": 2 * step},
         "bodies": [
             {
                 **BALL["bodies"][0],
