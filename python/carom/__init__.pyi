@@ -62,6 +62,9 @@ from carom.case.pattern import Pattern as Pattern
 from carom.case.pattern import RandomPlaces as RandomPlaces
 from carom.case.scenario import Scenario as Scenario
 from carom.case.signal import Table as Table
+from carom.case.spring import ForceTable as ForceTable
+from carom.case.spring import Place as Place
+from carom.case.spring import Spring as Spring
 from carom.case.stage import GivenVelocity as GivenVelocity
 from carom.case.stage import RemovedLoad as RemovedLoad
 from carom.case.stage import RemovedMotion as RemovedMotion

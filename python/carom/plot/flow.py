@@ -25,6 +25,9 @@ from carom.results.result import Result
 KINDS = ("translation", "rotation", "vibration")
 """Parts of the kinetic energy, where the history has them."""
 
+AT_END = {"strain": "strain energy at the end", "springs": "springs at the end"}
+"""What stored energy that is left is called."""
+
 MOST_PAIRS = 6
 """Pairs whose friction is told apart; those with the least are one, and if that were most, all."""
 
@@ -69,6 +72,7 @@ def flow(result: Result) -> Flow:
         Share("strain energy at the start", NAMED["orange"], first["strain"]),
     ]
     sinks: list[Share] = []
+    _put(Share("springs at the start", NAMED["sky"], first["springs"]), sources, sinks)
     for term in terms("run"):
         if term.name == "kinetic":
             sinks += _kinetic(ends)
@@ -78,7 +82,7 @@ def flow(result: Result) -> Flow:
             for share in _friction(result, ends["friction"]):
                 _put(share, sinks, sources)
         else:
-            label = "strain energy at the end" if term.name == "strain" else SHORT[term.name]
+            label = AT_END.get(term.name, SHORT[term.name])
             _put(Share(label, NAMED[term.colour], ends[term.name]), sinks, sources)
     _put(Share("unexplained", GREY, ends["defect"]), sources, sinks)
     return Flow(_seen(sources), _seen(sinks))

@@ -195,8 +195,10 @@ impl<const D: usize> Masses<D> for [Box<dyn Body<D>>] {
 pub struct BodyEnd<'a, const D: usize> {
     /// Contact forces [N] that the step ended with.
     pub contact_force: &'a [Vector<D>],
-    /// Those of the books: the reactions of start and end by their [weights](ContactWeights).
+    /// Those of the books: the reactions of start and end by their [weights](ContactWeights). Springs pull as contacts press.
     pub mean_contact_force: &'a [Vector<D>],
+    /// The work of springs on what of the body is free [J], which the contact forces have a part in.
+    pub spring_work: f64,
     /// v₊ [m/s].
     pub velocity: &'a mut [Vector<D>],
     /// ∂E/∂u at u₊ [N].

@@ -17,6 +17,7 @@ mod restitution;
 mod rigid;
 pub(crate) mod side;
 mod signals;
+mod springs;
 mod support_name;
 pub(crate) mod values;
 mod velocity;
@@ -132,6 +133,7 @@ pub(crate) fn built<const D: usize>(
         return Err(InputError::new("analysis.gravity", message + "; let it point along y"));
     }
     let model = drive::drive(scenario, Model::new(bodies, contact, obstacles, gravity))?;
+    let model = springs::springs(scenario, model)?;
     let model = interference::interference(scenario, model)?;
     let mut model = restitution::restitution(scenario, model)?;
     let is_static = method.scheme == Scheme::Static;

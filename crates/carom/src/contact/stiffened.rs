@@ -10,6 +10,9 @@
 //! lives on the nodes of the contacts, P. With C = Pᵀ K̄⁻¹ P, the compliance that the reduced problem is made of,
 //! Pᵀ(K̄ + P Ĝ Pᵀ)⁻¹P = (I + C Ĝ)⁻¹ C (Woodbury), and no factor is needed but K̄'s.
 //!
+//! Springs and dampers between bodies are in Ĝ too, in every step, and their nodes in P: bodies that they connect are solved for together, however stiff
+//! they are.
+//!
 //! The gaps of mortar rows change by more than the rows say (`left_out.rs`), which the reduced problem takes note of as well.
 
 use carom_contact::Contact;
@@ -24,7 +27,7 @@ use super::woodbury::Woodbury;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
-use crate::model::state::Reaction;
+use crate::model::state::{Reaction, State};
 
 /// Springs to the ground in K̄ of a body [N/m], by its own nodes, ascending.
 pub(crate) type Springs<const D: usize> = Vec<(u32, Matrix<D>)>;
@@ -77,9 +80,9 @@ pub(crate) fn held_directions<const D: usize>(r: &Vector<D>, friction: f64) -> u
 }
 
 /// Writes the springs between the nodes of `contacts` and the ground, in so many directions of each and so many `times` as stiff as κ, to `springs`,
-/// body by body.
+/// body by body; and as stiff as they are those of the model, where it is displaced by `displacement` [m].
 pub(crate) fn ground<'a, const D: usize>(
-    assembly: &Assembly<D>,
+    (assembly, displacement): (&Assembly<D>, &[Vector<D>]),
     contacts: impl Iterator<Item = (&'a Contact<D>, usize)>,
     times: f64,
     bodies: &mut [Box<dyn Body<D>>],
@@ -90,6 +93,13 @@ pub(crate) fn ground<'a, const D: usize>(
         let block = projector(&contact.frame, directions) * (times * spring(assembly, contact, bodies));
         for (node, weight) in contact.stencil() {
             let Some((b, own)) = assembly.place_of(node) else { continue };
+            springs[b].push((own as u32, block * weight.abs()));
+        }
+    }
+    for spring in &assembly.springs {
+        let block = spring.support(displacement);
+        for &(node, weight) in &spring.stencil {
+            let Some((b, own)) = assembly.place_of(node as usize) else { continue };
             springs[b].push((own as u32, block * weight.abs()));
         }
     }
@@ -145,33 +155,34 @@ impl<const D: usize> Stiffened<D> {
     pub fn spring_from_start(
         &mut self,
         assembly: &Assembly<D>,
-        reactions: &[Reaction<D>],
+        state: &State<D>,
         bodies: &mut [Box<dyn Body<D>>],
     ) {
         let friction = |r: &Reaction<D>| assembly.contact.pairs.get(r.pair as usize).friction;
-        let holding = reactions.iter().map(|r| (&r.contact, held_directions(&r.force, friction(r))));
-        self.spring_from(assembly, holding, bodies);
+        let holding = state.reactions.iter().map(|r| (&r.contact, held_directions(&r.force, friction(r))));
+        self.spring_from((assembly, &state.displacement), holding, bodies);
     }
 
-    /// The same of those of the present guess.
+    /// The same of those of the present guess, which leads to these displacements [m].
     pub fn spring_from_guess(
         &mut self,
         assembly: &Assembly<D>,
+        displacement: &[Vector<D>],
         active: &ActiveSet<D>,
         bodies: &mut [Box<dyn Body<D>>],
     ) {
         let contacts = active.contacts.iter().zip(&active.reactions).zip(&active.friction);
         let holding = contacts.map(|((contact, r), &mu)| (contact, held_directions(r, mu)));
-        self.spring_from(assembly, holding, bodies);
+        self.spring_from((assembly, displacement), holding, bodies);
     }
 
     fn spring_from<'a>(
         &mut self,
-        assembly: &Assembly<D>,
+        at: (&Assembly<D>, &[Vector<D>]),
         contacts: impl Iterator<Item = (&'a Contact<D>, usize)>,
         bodies: &mut [Box<dyn Body<D>>],
     ) {
-        ground(assembly, contacts, 1.0, bodies, &mut self.springs);
+        ground(at, contacts, 1.0, bodies, &mut self.springs);
         for (springs, times) in self.springs.iter_mut().zip(&self.times) {
             springs.iter_mut().for_each(|(_, block)| *block *= *times);
         }
@@ -239,7 +250,9 @@ impl<const D: usize> Stiffened<D> {
         motion: &[Vector<D>],
         compliances: &[Compliance<D>],
     ) {
-        if !self.is_geometric && self.springs_of_contacts.iter().all(|&(stiffness, _)| stiffness == 0.0) {
+        let of_contacts =
+            self.is_geometric || self.springs_of_contacts.iter().any(|&(stiffness, _)| stiffness != 0.0);
+        if !of_contacts && given.assembly.springs.is_empty() {
             // Elastic bodies that pressure takes little of converge without, and a round one that turns in another has nothing against it.
             self.missing.clear();
             self.left_out.clear();
@@ -248,9 +261,12 @@ impl<const D: usize> Stiffened<D> {
         self.list_nodes(given.assembly, active);
         self.missing.clear();
         self.left_out.clear();
-        self.add_geometric(given, active, motion);
-        self.left_out.make(given, active, motion, &self.places, &mut self.missing);
+        if of_contacts {
+            self.add_geometric(given, active, motion);
+            self.left_out.make(given, active, motion, &self.places, &mut self.missing);
+        }
         self.add_springs(given.assembly, active);
+        self.add_springs_of_model(given, motion);
         let nodes = &self.nodes;
         let block =
             |row: usize, column: usize| yields(given.assembly, compliances, nodes[row], nodes[column]);
@@ -269,6 +285,7 @@ impl<const D: usize> Stiffened<D> {
             let first = assembly.nodes(b).start;
             self.nodes.extend(springs.iter().map(|&(own, _)| first + own as usize));
         }
+        self.nodes.extend(assembly.connected().map(|(b, own)| assembly.nodes(b).start + own));
         self.nodes.sort_unstable();
         self.nodes.dedup();
         (0..).zip(&self.nodes).for_each(|(place, &n)| self.places[n] = place);
@@ -342,6 +359,17 @@ impl<const D: usize> Stiffened<D> {
                 let Some(place) = self.place(first + own as usize) else { continue };
                 self.missing.add((place, place), -block);
             }
+        }
+    }
+
+    /// What springs and dampers between bodies add.
+    fn add_springs_of_model(&mut self, given: &Given<'_, D>, motion: &[Vector<D>]) {
+        for spring in &given.assembly.springs {
+            let stiffness = spring.in_step(given.interval, &given.state.displacement, motion).stiffness();
+            spring.each_block(&stiffness, |n, m, block| {
+                let (Some(row), Some(column)) = (self.place(n), self.place(m)) else { return };
+                self.missing.add((row, column), block);
+            });
         }
     }
 

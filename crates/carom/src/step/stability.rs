@@ -71,7 +71,7 @@ fn softest<const D: usize>(
     let assembly = given.assembly;
     let neutral = neutral(body, holding(pressed), given, next, work);
     let mut springs = vec![Vec::new(); assembly.body_count()];
-    ground(assembly, holding(pressed), RIGID, &mut work.bodies, &mut springs);
+    ground((assembly, &next.displacement), holding(pressed), RIGID, &mut work.bodies, &mut springs);
     let motion = &work.motion[assembly.nodes(body)];
     let guess = Guess { interval: given.interval, start: given.start(body), motion, displacement: at };
     let softest = work.bodies[body].softest_motion(&guess, &springs[body], &neutral)?;

@@ -158,6 +158,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         Energies {
             strain: with_history.strain_energy(state.displacement),
             kinetic: 0.5 * nodal::dot(state.velocity, &momentum),
+            springs: 0.0,
         }
     }
 
@@ -358,7 +359,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         let exchanged = blend.map(|weight| {
             let Balance { missing, available, .. } = blended.measure(&equation, scratch);
             end.internal_force.copy_from_slice(&blended.end);
-            missing - weight * available
+            missing - weight * available + end.spring_work
         });
         if exchanged.is_none() {
             // After plastic flow the stored energy is another: that of the new history.
@@ -412,8 +413,9 @@ impl<const D: usize> Body<D> for FeBody<D> {
             plastic,
             scheme,
             contact,
+            connections: 0.0,
         };
-        (ledger, Energies { kinetic, strain })
+        (ledger, Energies { kinetic, strain, springs: 0.0 })
     }
 
     fn is_damped(&self) -> bool {
