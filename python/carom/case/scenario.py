@@ -30,6 +30,7 @@ from carom.case.motion import Motion
 from carom.case.obstacle import Obstacle
 from carom.case.output import Output, Track
 from carom.case.pattern import Pattern, pairs_of_copies
+from carom.case.point_mass import PointMass
 from carom.case.spring import Spring
 from carom.case.stage import Stage, StageOutput
 from carom.case.stage_rules import check_stages
@@ -62,6 +63,8 @@ class Scenario(Description):
         Bodies that are there many times: on a grid, at random, or where a list says.
     obstacles
         Rigid obstacles.
+    masses
+        Masses at points of bodies; of all stages.
     springs
         Springs and dampers between bodies and other places; of all stages.
     loads
@@ -85,6 +88,7 @@ class Scenario(Description):
     bodies: Annotated[tuple[AnyBody, ...], Field(min_length=1)] = ()
     patterns: tuple[Pattern, ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
+    masses: tuple[PointMass, ...] = ()
     springs: tuple[Spring, ...] = ()
     loads: tuple[Load, ...] = ()
     motions: tuple[Motion, ...] = ()
@@ -308,8 +312,10 @@ class Scenario(Description):
         return self
 
     @model_validator(mode="after")
-    def _springs_have_places(self) -> Self:
+    def _springs_and_masses_have_places(self) -> Self:
         bodies = [body.name for body in self.bodies]
+        for index, mass in enumerate(self.masses):
+            _require(mass.body, bodies, what="body", key=f"masses.{index}.body")
         obstacles = [obstacle.name for obstacle in self.obstacles]
         for index, spring in enumerate(self.springs):
             key = f"springs.{index}.between"
@@ -317,7 +323,9 @@ class Scenario(Description):
                 if place.body is not None:
                     _require(place.body, bodies, what="body", key=f"{key}.{end}.body")
                 if place.obstacle is not None:
-                    _require(place.obstacle, obstacles, what="obstacle", key=f"{key}.{end}.obstacle")
+                    _require(
+                        place.obstacle, obstacles, what="obstacle", key=f"{key}.{end}.obstacle"
+                    )
             if all(place.body is None for place in spring.between):
                 raise problem("neither place is of a body; attach one of them to a body", key=key)
         return self

@@ -7,11 +7,13 @@ pub(crate) mod friction_law;
 mod growth;
 mod guide;
 mod interference;
+mod masses;
 mod mesh;
 pub(crate) mod method;
 pub(crate) mod mortar;
 pub(crate) mod obstacle;
 mod overlaps;
+mod places;
 mod reduced;
 mod restitution;
 mod rigid;
@@ -102,6 +104,7 @@ pub(crate) fn built<const D: usize>(
         ));
     }
     let method = method::method(scenario)?;
+    masses::refuse_unknown(scenario)?;
     let mut bodies: Vec<ModelBody<D>> = Vec::new();
     for (i, entry) in scenario.bodies.iter().enumerate() {
         let first_node = bodies.last().map_or(0, |b| b.nodes().end);

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use carom_mesh::Vector;
-use nalgebra::DMatrix;
 
+use super::places;
 use super::values::vector;
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
@@ -12,14 +12,8 @@ use crate::model::Model;
 use crate::model::springs::{ForceLaw, Spring};
 use crate::scenario::{PlaceEntry, Scenario, SpringEntry};
 
-/// A point is far from a body if the nearest node is farther than this, in diameters of the body.
-const FAR: f64 = 0.25;
-
 /// Places closer than this, relative to the size of the model, are the same.
 const SAME: f64 = 1e-12;
-
-/// Nodes of a rigid body as far apart as this, relative to its diameter, span it.
-const SPANS: f64 = 1e-3;
 
 /// Where a spring is attached: nodes with their shares, and the place where nothing has moved [m].
 struct Place<const D: usize> {
@@ -135,11 +129,7 @@ fn of_set<const D: usize>(
 ) -> Result<Place<D>, InputError> {
     let body = body(key, name, model)?;
     let mesh = body.body.mesh();
-    let nodes = mesh.nodes_of(on).filter(|nodes| !nodes.is_empty()).ok_or_else(|| {
-        let known = mesh.sets().names();
-        let message = format!("{on:?}: body {name:?} has no such set; known are {known:?}");
-        InputError::new(format!("{key}.on"), message)
-    })?;
+    let nodes = places::of_set(key, name, on, mesh)?;
     let share = 1.0 / nodes.len() as f64;
     let at = nodes.iter().map(|&n| mesh.nodes()[n as usize] * share).sum();
     takes_forces(&format!("{key}.on"), body, &nodes)?;
@@ -155,24 +145,15 @@ fn of_point<const D: usize>(
     model: &Model<D>,
 ) -> Result<Place<D>, InputError> {
     let body = body(key, name, model)?;
-    let key = format!("{key}.point");
-    let (nodes, diameter) = (body.body.mesh().nodes(), body.body.mesh().diameter());
-    let first = body.nodes().start as u32;
+    let (mesh, first) = (body.body.mesh(), body.nodes().start as u32);
     if body.is_rigid() {
-        let stencil = shares_of_rigid(nodes, point, SPANS * diameter).ok_or_else(|| {
-            InputError::new(&key, format!("the nodes of body {name:?} are all on one line or plane"))
-        })?;
-        let stencil = stencil.into_iter().map(|(n, share)| (first + n, share)).collect();
+        let shares = places::of_rigid(point, mesh);
+        let stencil = shares.into_iter().map(|(n, share)| (first + n, share)).collect();
         return Ok(Place { stencil, at: *point });
     }
-    let distance = |n: &u32| (nodes[*n as usize] - point).norm();
-    let nearest = (0..nodes.len() as u32).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    let Some(nearest) = nearest.filter(|n| distance(n) <= FAR * diameter) else {
-        let message = format!("{:?} is far from body {name:?}; give a point of it as it is drawn", point.as_slice());
-        return Err(InputError::new(key, message));
-    };
-    takes_forces(&key, body, &[nearest])?;
-    Ok(Place { stencil: vec![(first + nearest, 1.0)], at: nodes[nearest as usize] })
+    let nearest = places::nearest(key, name, point, mesh)?;
+    takes_forces(&format!("{key}.point"), body, &[nearest])?;
+    Ok(Place { stencil: vec![(first + nearest, 1.0)], at: mesh.nodes()[nearest as usize] })
 }
 
 /// Refuses nodes that cannot take the force of a spring.
@@ -193,37 +174,4 @@ fn takes_forces<const D: usize>(key: &str, body: &ModelBody<D>, nodes: &[u32]) -
         return Err(InputError::new(key, message));
     }
     Ok(())
-}
-
-/// Nodes of a rigid body, and shares that add up to one, whose mean by these is the `point` however the body moves. They are apart by more than `least`
-/// [m], as far as the body lets them.
-fn shares_of_rigid<const D: usize>(
-    nodes: &[Vector<D>],
-    point: &Vector<D>,
-    least: f64,
-) -> Option<Vec<(u32, f64)>> {
-    let by = |distance: &dyn Fn(&Vector<D>) -> f64| {
-        (0..nodes.len()).max_by(|&a, &b| distance(&nodes[a]).total_cmp(&distance(&nodes[b])))
-    };
-    let origin = by(&|x| -(x - point).norm())?;
-    if (nodes[origin] - point).norm() <= SAME * least {
-        return Some(vec![(origin as u32, 1.0)]);
-    }
-    // The farthest from what those before span, one after the other.
-    let (mut chosen, mut axes) = (vec![origin], Vec::<Vector<D>>::new());
-    for _ in 0..D {
-        let beside = |x: &Vector<D>| {
-            let arm = x - nodes[origin];
-            axes.iter().fold(arm, |rest, axis| rest - axis * axis.dot(&arm))
-        };
-        let farthest = by(&|x| beside(x).norm())?;
-        let axis = beside(&nodes[farthest]).try_normalize(least)?;
-        chosen.push(farthest);
-        axes.push(axis);
-    }
-    let arms = DMatrix::from_fn(D, D, |i, k| nodes[chosen[k + 1]][i] - nodes[origin][i]);
-    let offset = nalgebra::DVector::from_fn(D, |i, _| point[i] - nodes[origin][i]);
-    let shares = arms.lu().solve(&offset)?;
-    let others = chosen[1..].iter().zip(shares.iter()).map(|(&n, &share)| (n as u32, share));
-    Some(std::iter::once((origin as u32, 1.0 - shares.sum())).chain(others).collect())
 }

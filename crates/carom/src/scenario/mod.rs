@@ -20,7 +20,7 @@ pub use self::contact::{ContactSpec, PairEntry, SolverSpec, Sources, Targets};
 pub use self::friction::{FrictionFormulaSpec, FrictionSpec, RateAndStateSpec, StaticKineticSpec};
 pub use self::mesh_spec::{Cell, MeshSpec};
 pub use self::rigid::{BodyKind, BodyMass, Inertia};
-pub use self::spring::{PlaceEntry, SpringEntry};
+pub use self::spring::{MassEntry, PlaceEntry, SpringEntry};
 use crate::{Scheme, SignalSpec};
 
 /// Moments closer than this to one another, in time steps, differ by round-off alone.
@@ -46,6 +46,9 @@ pub struct Scenario {
     /// Rigid obstacles.
     #[serde(default)]
     pub obstacles: Vec<ObstacleEntry>,
+    /// Masses at points of bodies.
+    #[serde(default)]
+    pub masses: Vec<MassEntry>,
     /// Springs and dampers between bodies and other places.
     #[serde(default)]
     pub springs: Vec<SpringEntry>,

@@ -1,4 +1,4 @@
-//! Springs and dampers, as the case file names them.
+//! Springs, dampers and masses at points, as the case file names them.
 
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +21,21 @@ pub struct SpringEntry {
     /// The length without tension [m]; that as drawn if not given.
     #[serde(default)]
     pub free_length: Option<f64>,
+}
+
+/// A mass beside that of the volume of a body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MassEntry {
+    /// Body.
+    pub body: String,
+    /// A point of it, as it is drawn [m].
+    #[serde(default)]
+    pub point: Option<Vec<f64>>,
+    /// A set of it, whose nodes take equal parts.
+    #[serde(default)]
+    pub on: Option<String>,
+    /// Mass [kg].
+    pub mass: f64,
 }
 
 /// A place that a spring is attached to: of a body a point or a set, of an obstacle a point, or a point that stays where it is.
