@@ -393,6 +393,56 @@ BAD = [
         "springs.0.between.0.on",
         'node 6 of body "block" has no mass, as nodes that may touch have none with the contact',
     ),
+    (
+        {**tied_to(body="block", point=[0.5, 0.5]), **REDUCED},
+        "springs.0.between.0.point",
+        'node 4 of body "block" is inside; the body is reduced and takes forces at nodes of its',
+    ),
+    # masses at points
+    (
+        {"masses": [{"body": "brick", "point": [0.0, 0.0], "mass": 1.0}]},
+        "masses.0.body",
+        'there is no body "brick"; known are ["block"]',
+    ),
+    (
+        {"masses": [{"body": "block", "point": [0.0, 0.0], "mass": 0.0}]},
+        "masses.0.mass",
+        "0: the mass must be greater than 0 kg",
+    ),
+    (
+        {"masses": [{"body": "block", "mass": 1.0}]},
+        "masses.0",
+        "a mass is at a point, or on a set; give one of them",
+    ),
+    (
+        {
+            "masses": [{"body": "block", "on": "top", "mass": 1.0}],
+            "contact.condition": "massless",
+        },
+        "masses.0",
+        'node 6 of body "block" may touch, and has no mass with "massless" contact; choose another',
+    ),
+    (
+        {
+            "masses": [{"body": "block", "point": [0.0, 0.0], "mass": 1.0}],
+            "bodies.0.kind": "rigid",
+            "bodies.0.mass": 1.0,
+            "bodies.0.inertia": 1.0,
+        },
+        "masses.0.body",
+        'body "block" has an inertia of its own, which tells of all its mass; leave one out',
+    ),
+    (
+        {
+            **mesh(**DISC),
+            "masses": [{"body": "block", "point": [0.0, 0.0], "mass": 1.0}],
+            "bodies.0.kind": "rigid",
+            "bodies.0.mass": 1.0,
+            "bodies.0.round": True,
+        },
+        "masses.0.body",
+        'body "block" is round, with its centre of mass in the middle; leave round out',
+    ),
     # functions of time
     (
         {"loads": [{**SIGNAL, "pressure": {"time": [0, 1], "value": [0]}}]},

@@ -75,3 +75,12 @@ def test_springs_are_written_as_they_are_read(tmp_path):
     file.write_text(case.to_toml())
     assert carom.Scenario.from_toml(file) == case
     assert case.with_overrides(["springs.0.stiffness=7"]).springs[0].stiffness == 7.0
+
+
+def test_a_mass_is_at_one_place():
+    for given in ({}, {"point": [0.0, 0.0], "on": "left"}):
+        with pytest.raises(carom.InputError, match="a mass is at a point, or on a set"):
+            carom.PointMass(body="block", mass=1.0, **given)
+    with pytest.raises(carom.InputError, match="no such body"):
+        mass = {"body": "bloc", "point": [0.0, 0.0], "mass": 1.0}
+        carom.Scenario.from_dict({**CASE, "masses": [mass]})
