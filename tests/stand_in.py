@@ -141,6 +141,7 @@ class FallingSimulation:
             "retried": 2,
             "kinetic": kinetic,
             "strain": strain,
+            "springs": 0.0,
             "friction": friction,
             "total": total,
         }

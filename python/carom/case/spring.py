@@ -84,7 +84,7 @@ class Spring(Description):
     ----------
     name
         Unique over bodies, obstacles, tracked points and springs. The history has its ``length``
-        [m] and the ``force`` in it [N], that of the damper included.
+        and the ``force`` in it, that of the damper included.
     between
         The two places; one of a body at least.
     stiffness

@@ -33,7 +33,7 @@ def with_spring(**given):
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"name": "floor"}, "springs.0.name = 'floor': name already used by obstacles.0.name"),
+        ({"name": "floor"}, 'springs.0.name = "floor": name already used by obstacles.0.name'),
         ({"stiffness": None}, "give a stiffness, a table of forces, or a damping"),
         ({"stiffness": 0.0}, "give a stiffness, a table of forces, or a damping"),
         ({"stiffness": -1.0}, "springs.0.stiffness"),
@@ -45,7 +45,7 @@ def with_spring(**given):
         ),
         (
             {"stiffness": None, "force": {"elongation": [0, 0], "force": [0, 1]}},
-            "springs.0.force.elongation = [0, 0]: must ascend",
+            "springs.0.force.elongation = [0.0, 0.0]: must ascend",
         ),
         (
             {"stiffness": None, "force": {"elongation": [0, 1], "force": [0, 1, 2]}},
