@@ -6,8 +6,8 @@ use crate::elements::{Dashpots, Elements, Past, add_mass, add_scaled_diagonal_ma
 use crate::held::{Held, HeldDof};
 use crate::massless::{followers, redistributed};
 use crate::material::{Mat3, PlasticState};
-use crate::shape_table::{Cells, Depth, facet_area};
 use crate::point_mass::with_points;
+use crate::shape_table::{Cells, Depth, facet_area};
 use crate::sparse::{NodalMatrix, NodeGraph};
 use crate::{BodySpec, FemError, Growth, Hypothesis, MassKind, RayleighDamping};
 

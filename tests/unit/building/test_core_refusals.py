@@ -321,7 +321,7 @@ BAD = [
         "both places move as one, so that the spring does nothing; choose two that do not",
     ),
     (
-        spring(between=[{"point": [0.0, 0.0]}, {"point": [3.0, 1.0]}]),
+        spring(between=[{"obstacle": "floor", "point": [0.0, 0.0]}, {"point": [3.0, 1.0]}]),
         "springs.0.between",
         "neither place is of a body; attach one of them to a body",
     ),
@@ -389,9 +389,13 @@ BAD = [
         'body "block" is one of revolution, on which a spring would be a cone; leave it out',
     ),
     (
-        {**tied_to(body="block", on="top"), "contact.condition": "massless"},
+        {
+            **tied_to(body="block", on="bottom"),
+            "contact.condition": "massless",
+            "bodies.0.contact_sets": ["bottom"],
+        },
         "springs.0.between.0.on",
-        'node 6 of body "block" has no mass, as nodes that may touch have none with the contact',
+        'node 0 of body "block" has no mass, as nodes that may touch have none with the contact',
     ),
     (
         {**tied_to(body="block", point=[0.5, 0.5]), **REDUCED},

@@ -25,11 +25,14 @@ pub(super) fn masses<const D: usize>(
         number(&format!("{key}.mass"), mass, mass > 0.0, "the mass must be greater than 0 kg")?;
         let is_rigid = entry.kind == BodyKind::Rigid;
         if is_rigid && entry.inertia.is_some() {
-            let message = format!("body {name:?} has an inertia of its own, which tells of all its mass; leave one out");
+            let message = format!(
+                "body {name:?} has an inertia of its own, which tells of all its mass; leave one out"
+            );
             return Err(InputError::new(format!("{key}.body"), message));
         }
         if is_rigid && entry.round {
-            let message = format!("body {name:?} is round, with its centre of mass in the middle; leave round out");
+            let message =
+                format!("body {name:?} is round, with its centre of mass in the middle; leave round out");
             return Err(InputError::new(format!("{key}.body"), message));
         }
         let stencils: Vec<Vec<(u32, f64)>> = match (&given.on, &given.point) {

@@ -38,7 +38,8 @@ pub(super) fn nearest<const D: usize>(
     let distance = |n: &u32| (mesh.nodes()[*n as usize] - point).norm();
     let nearest = (0..mesh.nodes().len() as u32).min_by(|a, b| distance(a).total_cmp(&distance(b)));
     nearest.filter(|n| distance(n) <= FAR * mesh.diameter()).ok_or_else(|| {
-        let message = format!("{:?} is far from body {name:?}; give a point of it as it is drawn", point.as_slice());
+        let message =
+            format!("{:?} is far from body {name:?}; give a point of it as it is drawn", point.as_slice());
         InputError::new(format!("{key}.point"), message)
     })
 }

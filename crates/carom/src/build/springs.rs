@@ -29,12 +29,9 @@ pub(super) fn springs<const D: usize>(scenario: &Scenario, model: Model<D>) -> R
     Ok(model.with_springs(springs))
 }
 
-fn spring<const D: usize>(
-    key: &str,
-    entry: &SpringEntry,
-    model: &Model<D>,
-) -> Result<Spring<D>, InputError> {
-    let [first, second] = [0, 1].map(|end| place(&format!("{key}.between.{end}"), &entry.between[end], model));
+fn spring<const D: usize>(key: &str, entry: &SpringEntry, model: &Model<D>) -> Result<Spring<D>, InputError> {
+    let [first, second] =
+        [0, 1].map(|end| place(&format!("{key}.between.{end}"), &entry.between[end], model));
     let (first, second) = (first?, second?);
     let mut shares: BTreeMap<u32, f64> = BTreeMap::new();
     for (sign, place) in [(-1.0, &first), (1.0, &second)] {
@@ -98,7 +95,8 @@ fn place<const D: usize>(key: &str, entry: &PlaceEntry, model: &Model<D>) -> Res
         }
         (None, None, None, Some(at)) => Ok(Place { stencil: Vec::new(), at }),
         _ => {
-            let message = "a place is a body with a point or a set `on` it, an obstacle with a point, or a point alone";
+            let message =
+                "a place is a body with a point or a set `on` it, an obstacle with a point, or a point alone";
             Err(InputError::new(key, message))
         }
     }
@@ -114,19 +112,15 @@ fn body<'a, const D: usize>(
         InputError::new(format!("{key}.body"), format!("there is no body {name:?}; known are {known:?}"))
     })?;
     if body.body.is_axisymmetric() {
-        let message = format!("body {name:?} is one of revolution, on which a spring would be a cone; leave it out");
+        let message =
+            format!("body {name:?} is one of revolution, on which a spring would be a cone; leave it out");
         return Err(InputError::new(format!("{key}.body"), message));
     }
     Ok(body)
 }
 
 /// The mean of the nodes of a set.
-fn of_set<const D: usize>(
-    key: &str,
-    name: &str,
-    on: &str,
-    model: &Model<D>,
-) -> Result<Place<D>, InputError> {
+fn of_set<const D: usize>(key: &str, name: &str, on: &str, model: &Model<D>) -> Result<Place<D>, InputError> {
     let body = body(key, name, model)?;
     let mesh = body.body.mesh();
     let nodes = places::of_set(key, name, on, mesh)?;

@@ -231,9 +231,9 @@ fn close_contacts<const D: usize>(
             book(report, contact, c.dissipation(weight));
         }
         next.energy_debt.copy_from_slice(&state.energy_debt);
-        let surplus = body_ledgers
-            .iter()
-            .map(|b| b.kinetic + b.strain + b.viscous + b.plastic - b.external - b.prescribed - b.connections);
+        let surplus = body_ledgers.iter().map(|b| {
+            b.kinetic + b.strain + b.viscous + b.plastic - b.external - b.prescribed - b.connections
+        });
         blend.carry(surplus, &contacts.work, &mut next.energy_debt);
         return;
     }

@@ -25,8 +25,11 @@ pub(crate) struct SpringBooks<const D: usize> {
 impl<const D: usize> SpringBooks<D> {
     /// Of an assembly.
     pub fn new(assembly: &Assembly<D>) -> Self {
-        let zeros =
-            if assembly.springs.is_empty() { Vec::new() } else { vec![Vector::zeros(); assembly.reference.len()] };
+        let zeros = if assembly.springs.is_empty() {
+            Vec::new()
+        } else {
+            vec![Vector::zeros(); assembly.reference.len()]
+        };
         Self {
             mean: zeros.clone(),
             end: zeros.clone(),
