@@ -103,6 +103,8 @@ pub struct Tangent<'a, const D: usize> {
     pub held_back: f64,
     /// Springs to the ground [N/m] at some nodes.
     pub springs: &'a [(u32, Matrix<D>)],
+    /// How stiff the softest spring of the model is that holds the body [N/m]; zero without.
+    pub softest_spring: f64,
     /// Whether it is the first one of the step: later ones are made where it was not good enough.
     pub is_first: bool,
 }

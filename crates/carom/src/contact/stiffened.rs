@@ -39,6 +39,8 @@ pub(crate) struct Stiffened<const D: usize> {
     pub springs: Vec<Springs<D>>,
     /// Whether it has them.
     pub is_sprung: Vec<bool>,
+    /// The springs of the model on every body as if they ended at the ground: in K̄ of load steps, and of others that go on as these do.
+    of_model: Vec<Springs<D>>,
     /// So many times as stiff are those of a body as the springs of its contacts.
     times: Vec<f64>,
     /// Whether reactions have their stiffness even where no body has springs.
@@ -80,9 +82,9 @@ pub(crate) fn held_directions<const D: usize>(r: &Vector<D>, friction: f64) -> u
 }
 
 /// Writes the springs between the nodes of `contacts` and the ground, in so many directions of each and so many `times` as stiff as κ, to `springs`,
-/// body by body; and as stiff as they are those of the model, where it is displaced by `displacement` [m].
+/// body by body.
 pub(crate) fn ground<'a, const D: usize>(
-    (assembly, displacement): (&Assembly<D>, &[Vector<D>]),
+    assembly: &Assembly<D>,
     contacts: impl Iterator<Item = (&'a Contact<D>, usize)>,
     times: f64,
     bodies: &mut [Box<dyn Body<D>>],
@@ -96,23 +98,38 @@ pub(crate) fn ground<'a, const D: usize>(
             springs[b].push((own as u32, block * weight.abs()));
         }
     }
+    springs.iter_mut().for_each(merge);
+}
+
+/// Adds the springs of the model, where it is displaced by `displacement` [m], to `springs` as if they ended at the ground. What is rigid has none in its K̄.
+pub(crate) fn ground_of_model<const D: usize>(
+    assembly: &Assembly<D>,
+    displacement: &[Vector<D>],
+    bodies: &mut [Box<dyn Body<D>>],
+    springs: &mut [Springs<D>],
+) {
     for spring in &assembly.springs {
         let block = spring.support(displacement);
         for &(node, weight) in &spring.stencil {
             let Some((b, own)) = assembly.place_of(node as usize) else { continue };
-            springs[b].push((own as u32, block * weight.abs()));
+            if bodies[b].stiffness_at(own as u32).is_finite() {
+                springs[b].push((own as u32, block * weight.abs()));
+            }
         }
     }
-    for springs in springs {
-        springs.sort_by_key(|&(node, _)| node);
-        springs.dedup_by(|next, kept| {
-            let same = next.0 == kept.0;
-            if same {
-                kept.1 += next.1;
-            }
-            same
-        });
-    }
+    springs.iter_mut().for_each(merge);
+}
+
+/// Makes one of the springs at every node.
+fn merge<const D: usize>(springs: &mut Springs<D>) {
+    springs.sort_by_key(|&(node, _)| node);
+    springs.dedup_by(|next, kept| {
+        let same = next.0 == kept.0;
+        if same {
+            kept.1 += next.1;
+        }
+        same
+    });
 }
 
 /// The projector on the first so many directions of a frame.
@@ -127,6 +144,7 @@ impl<const D: usize> Stiffened<D> {
         Self {
             springs: vec![Vec::new(); assembly.body_count()],
             is_sprung: vec![false; assembly.body_count()],
+            of_model: vec![Vec::new(); assembly.body_count()],
             times: vec![1.0; assembly.body_count()],
             is_geometric: false,
             springs_of_contacts: Vec::new(),
@@ -178,19 +196,27 @@ impl<const D: usize> Stiffened<D> {
 
     fn spring_from<'a>(
         &mut self,
-        at: (&Assembly<D>, &[Vector<D>]),
+        (assembly, displacement): (&Assembly<D>, &[Vector<D>]),
         contacts: impl Iterator<Item = (&'a Contact<D>, usize)>,
         bodies: &mut [Box<dyn Body<D>>],
     ) {
-        ground(at, contacts, 1.0, bodies, &mut self.springs);
+        self.of_model.iter_mut().for_each(Vec::clear);
+        ground_of_model(assembly, displacement, bodies, &mut self.of_model);
+        ground(assembly, contacts, 1.0, bodies, &mut self.springs);
         for (springs, times) in self.springs.iter_mut().zip(&self.times) {
             springs.iter_mut().for_each(|(_, block)| *block *= *times);
         }
     }
 
-    /// The springs of a body that K̄ has now.
-    pub fn support(&self, body: usize) -> &[(u32, Matrix<D>)] {
-        if self.is_sprung[body] { &self.springs[body] } else { &[] }
+    /// The springs of a body that K̄ is to have now, and how stiff the softest of those of the model is [N/m], zero without.
+    pub fn support(&self, body: usize) -> (Springs<D>, f64) {
+        let of_model = &self.of_model[body];
+        let softest = of_model.iter().map(|(_, block)| block.trace()).filter(|&k| k > 0.0).reduce(f64::min);
+        let mut springs = of_model.clone();
+        if self.is_sprung[body] {
+            springs.extend_from_slice(&self.springs[body]);
+        }
+        (springs, softest.unwrap_or(0.0))
     }
 
     /// Gives K̄ of a body springs that it has not, or stiffer ones; returns whether there are such.
@@ -210,6 +236,7 @@ impl<const D: usize> Stiffened<D> {
     /// No K̄ has springs any more: those of a step before are of no use in the next.
     pub fn let_go(&mut self) {
         self.is_sprung.fill(false);
+        self.of_model.iter_mut().for_each(Vec::clear);
         self.times.fill(1.0);
     }
 
@@ -353,7 +380,8 @@ impl<const D: usize> Stiffened<D> {
                 }
             }
         }
-        for (b, springs) in self.springs.iter().enumerate().filter(|(b, _)| self.is_sprung[*b]) {
+        let of_contacts = self.springs.iter().enumerate().filter(|(b, _)| self.is_sprung[*b]);
+        for (b, springs) in of_contacts.chain(self.of_model.iter().enumerate()) {
             let first = assembly.nodes(b).start;
             for &(own, block) in springs {
                 let Some(place) = self.place(first + own as usize) else { continue };

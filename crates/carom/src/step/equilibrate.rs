@@ -289,8 +289,9 @@ fn hold<const D: usize>(
     (stiffened, number): (&mut Stiffened<D>, usize),
 ) -> Result<u64, StepError> {
     for tries in 1.. {
-        let springs = stiffened.support(number);
-        let made = body.linearise(guess, &Tangent { held_back: holding.share, springs, is_first });
+        let (springs, softest_spring) = stiffened.support(number);
+        let tangent = Tangent { held_back: holding.share, springs: &springs, softest_spring, is_first };
+        let made = body.linearise(guess, &tangent);
         if made.is_ok() {
             return Ok(tries);
         }
