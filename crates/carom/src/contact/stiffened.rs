@@ -208,10 +208,13 @@ impl<const D: usize> Stiffened<D> {
         }
     }
 
-    /// The springs of a body that K̄ is to have now, and how stiff the softest of those of the model is [N/m], zero without.
+    /// The springs of a body that K̄ is to have now, and how stiff the softest of those of the model is [N/m], zero without and where
+    /// contacts press.
     pub fn support(&self, body: usize) -> (Springs<D>, f64) {
         let of_model = &self.of_model[body];
         let softest = of_model.iter().map(|(_, block)| block.trace()).filter(|&k| k > 0.0).reduce(f64::min);
+        // What contacts hold is held back by more: where they slide or part, springs may leave it loose.
+        let softest = softest.filter(|_| self.springs[body].is_empty());
         let mut springs = of_model.clone();
         if self.is_sprung[body] {
             springs.extend_from_slice(&self.springs[body]);
