@@ -7,6 +7,7 @@ from springs import (
     AMPLITUDE,
     BLOCK,
     DAMPING,
+    FLOOR,
     LENGTH,
     MASS,
     OMEGA,
@@ -259,3 +260,78 @@ def test_springs_bear_a_load_in_statics():
     for post in ("left", "right"):
         assert run.history[f"{post}.force"][-1] == pytest.approx(5.0, rel=1e-6)
         assert run.history[f"{post}.length"][-1] == pytest.approx(1.6, rel=1e-6)
+
+
+@pytest.mark.parametrize("stiffness", [1e-2, 1.0, 1e3, 1e7, 1e9])
+def test_a_block_on_three_springs_bears_its_weight_however_stiff_they_are(stiffness):
+    """From a millionth of what a cell resists with to a hundred thousand times as much."""
+    weight = min(1.0, 0.1 * stiffness)
+    joints = [
+        carom.Spring(
+            name=name,
+            between=(carom.Place(body="block", point=at), carom.Place(point=to)),
+            stiffness=stiffness,
+        )
+        for name, at, to in (
+            ("left", [-0.5, 0.5], [-0.5, 2.0]),
+            ("right", [0.5, 0.5], [0.5, 2.0]),
+            ("side", [0.5, 0.5], [2.0, 0.5]),
+        )
+    ]
+    case = carom.Scenario(
+        dimension=2,
+        analysis=carom.Static(end_time=1.0, time_step=0.5, gravity=[0.0, -weight]),
+        bodies=[
+            carom.Body(
+                name="block",
+                material="soft",
+                mesh=carom.Rectangle(corner=[-0.5, -0.5], size=[1.0, 1.0], divisions=[3, 3]),
+            )
+        ],
+        materials={"soft": carom.NeoHookean(young=1e4, poisson=0.3, density=1.0)},
+        springs=joints,
+        output=carom.Output(history_every=0.5, fields_every=1.0),
+    )
+    run = simulate(case)
+    borne = run.history["left.force"][-1] + run.history["right.force"][-1]
+    assert borne == pytest.approx(weight, rel=1e-2)
+    assert run.history["retried_steps"].max() == 0.0
+    assert run.history["newton_iterations"].max() < 20.0
+    assert np.abs(run.history["defect"]).max() < 1e-11 * np.abs(run.history["external"]).max()
+
+
+def test_a_spring_pulls_a_block_along_a_floor():
+    """Load steps: it sticks until the spring pulls with μ N, and follows it then."""
+    hand = carom.Plane(
+        name="hand", point=[3.0, 0.0], normal=[-1.0, 0.0], motion=carom.Displacement(x="0.2*t")
+    )
+    case = carom.Scenario(
+        dimension=2,
+        analysis=carom.Static(end_time=1.0, time_step=0.1, gravity=[0.0, -10.0]),
+        bodies=[
+            carom.Body(
+                name="block",
+                material="soft",
+                mesh=carom.Rectangle(corner=[-0.5, -0.5], size=[1.0, 1.0], divisions=[3, 3]),
+            )
+        ],
+        materials={"soft": carom.NeoHookean(young=1e4, poisson=0.3, density=1.0)},
+        springs=[
+            carom.Spring(
+                name="rope",
+                between=(
+                    carom.Place(body="block", on="right"),
+                    carom.Place(obstacle="hand", point=[2.0, 0.0]),
+                ),
+                stiffness=100.0,
+            )
+        ],
+        obstacles=[FLOOR, hand],
+        contact=carom.Contact(friction=0.3),
+        output=carom.Output(history_every=0.1, fields_every=1.0),
+    )
+    history = simulate(case).history
+    # It sticks, and gives way a little.
+    assert history["rope.force"][1] == pytest.approx(2.0, rel=5e-2)
+    assert history["rope.force"][-1] == pytest.approx(3.0, rel=1e-6)
+    assert np.abs(history["defect"]).max() < 1e-12 * history["prescribed"][-1]
