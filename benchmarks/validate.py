@@ -26,6 +26,7 @@ from sections import (
     layer,
     massless,
     robustness,
+    springs,
     statics,
 )
 from sections.layout import IMAGES, PAGE, ROOT
@@ -49,6 +50,7 @@ PARTS = {
     "ironing": statics.ironing_section,
     "static scenes": statics.scenes_section,
     "friction laws": friction_laws.section,
+    "springs": springs.section,
 }
 """What the page consists of, in its order; each part begins with a heading of the second level."""
 

@@ -70,9 +70,13 @@ RULES = """\
   before.
 - `analysis.max_halvings` is at most 30.
 - `output.fields_every` and `output.history_every` that are left out are never less than a step.
-- Names are unique over bodies, obstacles and tracked points. `bodies.N.material` names a material,
-  `output.track.N.body` a body.
+- Names are unique over bodies, obstacles, springs and tracked points. `bodies.N.material` names a
+  material, `output.track.N.body` a body.
 - A tracked point is at most a quarter of the diagonal of the body's bounding box away from a node.
+- A spring joins two places, one of a body at least. A point of a body that deforms is the nearest
+  node, at most a quarter of the diameter of the body away; of a rigid body any point goes with it.
+  A node without mass, as those that may touch with `massless` contact, takes no spring, nor does a
+  body of revolution, nor a node inside a reduced body.
 - Every body may touch every other body and every obstacle, unless `contact.pairs` says otherwise.
   An entry of `contact.pairs` names two different bodies, a body and an obstacle, or twice a body
   that may touch itself, and no two entries name the same pair.
@@ -99,7 +103,8 @@ def models(annotation: object) -> tuple[type[Description], ...]:
     """Return the descriptions that a value of this type may be made of."""
     if isinstance(annotation, type) and issubclass(annotation, Description):
         return (annotation,)
-    return tuple(model for part in get_args(annotation) for model in models(part))
+    found = (model for part in get_args(annotation) for model in models(part))
+    return tuple(dict.fromkeys(found))
 
 
 def fields(model: type[Description]) -> Iterator[tuple[str, FieldInfo]]:

@@ -44,6 +44,8 @@ COLUMNS = (
     "tip.v_y",
     "tip.vmid_x",
     "tip.vmid_y",
+    "springs",
+    "dampers",
 )
 
 
@@ -67,7 +69,18 @@ class FallingSimulation:
 
     def _row(self, time):
         kinetic = 8.0 * np.cos(time) ** 2
-        return [time, kinetic, 8.0 - kinetic, 8.0, time / 3, 0.0, 1, *np.sin(time + np.arange(6))]
+        return [
+            time,
+            kinetic,
+            8.0 - kinetic,
+            8.0,
+            time / 3,
+            0.0,
+            1,
+            *np.sin(time + np.arange(6)),
+            0.0,
+            0.0,
+        ]
 
     def describe(self):
         bodies = [{"wave_speed": 100.0, "diameter": 2.0}] * 2
@@ -141,6 +154,7 @@ class FallingSimulation:
             "retried": 2,
             "kinetic": kinetic,
             "strain": strain,
+            "springs": 0.0,
             "friction": friction,
             "total": total,
         }

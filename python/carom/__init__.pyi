@@ -60,8 +60,12 @@ from carom.case.pattern import Grid as Grid
 from carom.case.pattern import ListedPlaces as ListedPlaces
 from carom.case.pattern import Pattern as Pattern
 from carom.case.pattern import RandomPlaces as RandomPlaces
+from carom.case.point_mass import PointMass as PointMass
 from carom.case.scenario import Scenario as Scenario
 from carom.case.signal import Table as Table
+from carom.case.spring import ForceTable as ForceTable
+from carom.case.spring import Place as Place
+from carom.case.spring import Spring as Spring
 from carom.case.stage import GivenVelocity as GivenVelocity
 from carom.case.stage import RemovedLoad as RemovedLoad
 from carom.case.stage import RemovedMotion as RemovedMotion

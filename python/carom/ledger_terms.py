@@ -35,6 +35,7 @@ class Term(NamedTuple):
 TERMS = (
     Term("kinetic", ("run", "body"), "stored", "kinetic", "blue"),
     Term("strain", ("run", "body"), "stored", "strain", "orange"),
+    Term("springs", ("run",), "stored", "springs", "sky"),
     Term("external", ("run", "body"), "given", "work of gravity and loads", "grey"),
     Term(
         "prescribed",
@@ -44,8 +45,10 @@ TERMS = (
         "brown",
     ),
     Term("contact", ("body",), "given", "received through contact", "sky"),
+    Term("connections", ("body",), "given", "received through springs and dampers", "sky"),
     Term("friction", ("run", "pair"), "taken", "dissipated by friction", "green"),
     Term("viscous", ("run", "body"), "taken", "dissipated by damping and viscosity", "purple"),
+    Term("dampers", ("run",), "taken", "dissipated by dampers", "purple"),
     Term("plastic", ("run", "body"), "taken", "dissipated by plastic flow", "red"),
     Term("scheme", ("run", "body"), "taken", "dissipated by the time scheme", "yellow"),
     Term("normal_contact", ("run", "pair"), "taken", "taken by normal reactions", "sky"),
@@ -69,8 +72,8 @@ class Ledger:
     """What happened to the energy in a step, or since the start [J].
 
     Every term is computed from its own definition:
-    ΔE_kinetic + ΔE_strain = external + prescribed − friction − viscous − plastic − scheme −
-    normal_contact − settling + defect.
+    ΔE_kinetic + ΔE_strain + ΔE_springs = external + prescribed − friction − viscous − dampers −
+    plastic − scheme − normal_contact − settling + defect.
 
     Parameters
     ----------
@@ -78,6 +81,8 @@ class Ledger:
         Change of kinetic energy.
     strain
         Change of strain energy.
+    springs
+        Change of the energy of springs.
     external
         Work of gravity and loads.
     prescribed
@@ -86,6 +91,8 @@ class Ledger:
         Dissipated by friction: −Σ r_t·Δu_t ≥ 0.
     viscous
         Dissipated by damping and viscosity.
+    dampers
+        Dissipated by dampers: Σ c (ℓ₊ − ℓ)²/Δt ≥ 0.
     plastic
         Plastic work ∫ σ_y dα ≥ 0.
     scheme
@@ -98,10 +105,12 @@ class Ledger:
 
     kinetic: float
     strain: float
+    springs: float
     external: float
     prescribed: float
     friction: float
     viscous: float
+    dampers: float
     plastic: float
     scheme: float
     normal_contact: float
@@ -113,10 +122,12 @@ class Ledger:
         return (
             self.kinetic
             + self.strain
+            + self.springs
             - self.external
             - self.prescribed
             + self.friction
             + self.viscous
+            + self.dampers
             + self.plastic
             + self.scheme
             + self.normal_contact
@@ -129,10 +140,12 @@ class RunTerms(TypedDict):
 
     kinetic: float
     strain: float
+    springs: float
     external: float
     prescribed: float
     friction: float
     viscous: float
+    dampers: float
     plastic: float
     scheme: float
     normal_contact: float
@@ -147,6 +160,7 @@ class BodyTerms(TypedDict):
     external: float
     prescribed: float
     contact: float
+    connections: float
     viscous: float
     plastic: float
     scheme: float

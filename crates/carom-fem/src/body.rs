@@ -6,6 +6,7 @@ use crate::elements::{Dashpots, Elements, Past, add_mass, add_scaled_diagonal_ma
 use crate::held::{Held, HeldDof};
 use crate::massless::{followers, redistributed};
 use crate::material::{Mat3, PlasticState};
+use crate::point_mass::with_points;
 use crate::shape_table::{Cells, Depth, facet_area};
 use crate::sparse::{NodalMatrix, NodeGraph};
 use crate::{BodySpec, FemError, Growth, Hypothesis, MassKind, RayleighDamping};
@@ -101,7 +102,7 @@ impl<const D: usize> Body<D> {
             memory,
             total_mass,
             depth,
-            volume: total_mass / spec.density,
+            volume: (total_mass - spec.points.iter().map(|point| point.mass).sum::<f64>()) / spec.density,
             wave_speed: (tangent[0][0][0][0] / spec.density).sqrt(),
             shear_wave_speed: (tangent[0][1][0][1] / spec.density).sqrt(),
             damping: spec.damping,
@@ -450,6 +451,7 @@ fn mass_matrix<const D: usize>(
             }
         }
     }
+    let mass = with_points(mass, &spec.points);
     if !spec.massless_contact {
         return Ok(mass);
     }

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::material::{LawSpec, Mat3, PointLaw, Prestressed, Viscosity};
-use crate::{FemError, Formulation, Hypothesis};
+use crate::{FemError, Formulation, Hypothesis, PointMass};
 
 /// How the mass of a body is shared among its nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -58,6 +58,8 @@ pub struct BodySpec {
     pub initial_stress: Mat3,
     /// Whether the body may grow.
     pub grows: bool,
+    /// Masses at points, beside that of the volume.
+    pub points: Vec<PointMass>,
     /// Whether the mass of the nodes that may touch others moves inside; total mass, centre and inertia stay.
     pub massless_contact: bool,
 }

@@ -72,6 +72,7 @@ mod tests {
             formulation: Formulation::Standard,
             initial_stress: crate::material::Mat3::zeros(),
             grows: false,
+            points: Vec::new(),
             massless_contact: false,
         };
         let mesh = generate::grid([0.0; 3], [1.0; 3], [1, 1, 1]).expect("valid");

@@ -51,6 +51,7 @@ pub use model::interference::{Interference, Overlap};
 pub use model::method::{Method, NewtonRule};
 pub use model::obstacle_motion::ObstacleMotion;
 pub use model::sliding::SlidingRecord;
+pub use model::springs::{ForceLaw, Spring};
 pub use model::state::{Reaction, State};
 pub use planted::build::{Outline, PlantedSpec};
 pub use planted::contact::{PlantedContact, PlantedStep};

@@ -120,6 +120,7 @@ class LedgerChecks:
             steps = max(float(self._summary["steps"]), 1.0)
             off = ROUND_OFF * (self._scales.energy + (1 + steps / 1e3) * reach)
             self._check("books: external", entry["prescribed"], 0.0, f"{body.name}, no supports")
+            self._check("books: external", entry["connections"], 0.0, f"{body.name}, no springs")
             work = (centre - centre[0]) @ weight
             self._check("books: external", entry["external"] - work, off, body.name)
         rubs = not (model.massless or model.impacts) or self._summary["least_friction"] >= 0

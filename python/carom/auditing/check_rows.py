@@ -218,7 +218,8 @@ class RowChecks:
         limit = LARGEST_BLEND if self._model.blended else 0.0
         self._check("row: signs", np.maximum(h["blend"] - limit, 0.0), 0.0)
         # Of a case that can be audited, no law flows.
-        self._check("row: signs", h["plastic"], 0.0)
+        for name in ("plastic", "springs", "dampers"):
+            self._check("row: signs", h[name], 0.0)
         most = sum(len(self._model.bodies[side.source].sources) for side in self._model.sides)
         self._check("row: signs", np.maximum(h["contacts"] - most, 0.0), 0.0)
         self._check("row: signs", np.maximum(-h["penetration"], 0.0), 0.0)

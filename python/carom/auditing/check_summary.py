@@ -60,7 +60,7 @@ class SummaryChecks:
         check = self._findings.check
         check("summary: energies", _number(energy["initial"]) - h["total"][0], 0.0, "initial")
         check("summary: energies", _number(energy["final"]) - h["total"][-1], 0.0, "final")
-        for name in ("kinetic", "strain", *SUMMED):
+        for name in ("kinetic", "strain", "springs", *SUMMED):
             check("summary: energies", _number(energy[name]) - h[name][-1], 0.0, name)
 
     def _extremes(self) -> None:

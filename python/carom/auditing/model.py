@@ -311,6 +311,10 @@ def _refuse_what_is_driven(scenario: Scenario) -> None:
     for given, what in ((scenario.loads, "loads"), (scenario.motions, "motions")):
         if given:
             raise InputError(f"cannot audit a case with {what} yet")
+    if scenario.masses:
+        raise InputError("cannot audit a case with masses at points yet")
+    if scenario.springs:
+        raise InputError("cannot audit a case with springs yet")
     if moving:
         raise InputError("cannot audit an obstacle with a motion yet")
     if any(pair.interference is not None for pair in scenario.contact.pairs):

@@ -15,7 +15,7 @@ class Track(Description):
     Parameters
     ----------
     name
-        Unique over bodies, obstacles and tracked points.
+        Unique over bodies, obstacles, springs and tracked points.
     body
         Name of the body.
     point

@@ -30,6 +30,8 @@ from carom.case.motion import Motion
 from carom.case.obstacle import Obstacle
 from carom.case.output import Output, Track
 from carom.case.pattern import Pattern, pairs_of_copies
+from carom.case.point_mass import PointMass
+from carom.case.spring import Spring
 from carom.case.stage import Stage, StageOutput
 from carom.case.stage_rules import check_stages
 from carom.errors import naming
@@ -61,6 +63,10 @@ class Scenario(Description):
         Bodies that are there many times: on a grid, at random, or where a list says.
     obstacles
         Rigid obstacles.
+    masses
+        Masses at points of bodies; of all stages.
+    springs
+        Springs and dampers between bodies and other places; of all stages.
     loads
         Forces on bodies.
     motions
@@ -82,6 +88,8 @@ class Scenario(Description):
     bodies: Annotated[tuple[AnyBody, ...], Field(min_length=1)] = ()
     patterns: tuple[Pattern, ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
+    masses: tuple[PointMass, ...] = ()
+    springs: tuple[Spring, ...] = ()
     loads: tuple[Load, ...] = ()
     motions: tuple[Motion, ...] = ()
     contact: Contact = Contact()
@@ -215,7 +223,7 @@ class Scenario(Description):
             if name in first_use:
                 raise problem(
                     f"name already used by {first_use[name]}; "
-                    "names are unique over bodies, obstacles and tracked points",
+                    "names are unique over bodies, obstacles, springs and tracked points",
                     key=key,
                     value=name,
                 )
@@ -304,6 +312,25 @@ class Scenario(Description):
         return self
 
     @model_validator(mode="after")
+    def _springs_and_masses_have_places(self) -> Self:
+        bodies = [body.name for body in self.bodies]
+        for index, mass in enumerate(self.masses):
+            _require(mass.body, bodies, what="body", key=f"masses.{index}.body")
+        obstacles = [obstacle.name for obstacle in self.obstacles]
+        for index, spring in enumerate(self.springs):
+            key = f"springs.{index}.between"
+            for end, place in enumerate(spring.between):
+                if place.body is not None:
+                    _require(place.body, bodies, what="body", key=f"{key}.{end}.body")
+                if place.obstacle is not None:
+                    _require(
+                        place.obstacle, obstacles, what="obstacle", key=f"{key}.{end}.obstacle"
+                    )
+            if all(place.body is None for place in spring.between):
+                raise problem("neither place is of a body; attach one of them to a body", key=key)
+        return self
+
+    @model_validator(mode="after")
     def _pairs_exist_once(self) -> Self:
         obstacles = {obstacle.name for obstacle in self.obstacles}
         touch_themselves = {
@@ -350,9 +377,10 @@ class Scenario(Description):
 
     def _names(self) -> Iterator[tuple[str, str]]:
         """Yield every name with the dotted path of where it is given."""
-        groups: dict[str, tuple[AnyBody | Obstacle | Track, ...]] = {
+        groups: dict[str, tuple[AnyBody | Obstacle | Spring | Track, ...]] = {
             "bodies": self.bodies,
             "obstacles": self.obstacles,
+            "springs": self.springs,
             "output.track": self.output.track,
         }
         for group, members in groups.items():

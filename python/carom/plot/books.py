@@ -24,8 +24,10 @@ from carom.ledger_terms import terms
 SHORT = {
     "kinetic": "kinetic",
     "strain": "strain",
+    "springs": "springs",
     "friction": "friction",
     "viscous": "damping, viscosity",
+    "dampers": "dampers",
     "plastic": "plastic flow",
     "scheme": "time scheme",
     "normal_contact": "normal reactions",

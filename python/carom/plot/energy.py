@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from carom.display.colours import BLACK, BLUE, GREEN, ORANGE, PALE_BLUE, PALE_GREY, PURPLE
+from carom.display.colours import BLACK, BLUE, GREEN, ORANGE, PALE_BLUE, PALE_GREY, PURPLE, SKY
 from carom.display.time_unit import TimeUnit
 from carom.plot.style import figure, run_unit
 from carom.results.result import Result
@@ -16,13 +16,15 @@ from carom.results.result import Result
 CURVES = (
     ("kinetic", r"$E_c$ kinetic", BLUE, "-"),
     ("strain", r"$E_e$ strain", ORANGE, "-"),
-    ("total", r"$E_t = E_c + E_e$", BLACK, "-"),
+    ("springs", r"$E_s$ springs", SKY, "-"),
+    ("total", r"$E_t$ total", BLACK, "-"),
     ("friction", r"$D_\mathrm{friction}$", GREEN, "--"),
     ("plastic", r"$D_\mathrm{plastic}$", PURPLE, "--"),
+    ("dampers", r"$D_\mathrm{dampers}$", BLUE, "--"),
 )
 """Column of the history, label, colour and line of each curve."""
 
-IF_ANY = ("plastic",)
+IF_ANY = ("springs", "plastic", "dampers")
 """Columns that are drawn only where there is any."""
 
 

@@ -18,6 +18,9 @@ KINDS = ("translation", "rotation", "vibration")
 PALER = (0.0, 0.25, 0.5)
 """How much white there is in the colour of each."""
 
+AT_END = {"strain": "strain energy at the end", "springs": "springs at the end"}
+"""What stored energy that is left is called."""
+
 MOST_PAIRS = 6
 """Pairs whose friction is told apart; those with the least are one, and if that were most, all."""
 
@@ -124,6 +127,7 @@ def flow(history: Columns, ledger: Mapping[str, Columns]) -> Flow:
         Share("strain energy at the start", "orange", first["strain"]),
     ]
     sinks: list[Share] = []
+    _put(Share("springs at the start", "sky", first["springs"]), sources, sinks)
     for term in terms("run"):
         if term.name == "kinetic":
             sinks += _kinetic(ends)
@@ -133,7 +137,7 @@ def flow(history: Columns, ledger: Mapping[str, Columns]) -> Flow:
             for share in _friction(ledger, ends["friction"]):
                 _put(share, sinks, sources)
         else:
-            label = "strain energy at the end" if term.name == "strain" else SHORT[term.name]
+            label = AT_END.get(term.name, SHORT[term.name])
             _put(Share(label, term.colour, ends[term.name]), sinks, sources)
     _put(Share("unexplained", "grey", ends["defect"]), sources, sinks)
     return Flow(_seen(sources), _seen(sinks))

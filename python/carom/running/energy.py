@@ -1,4 +1,4 @@
-"""The energy of the bodies at a moment."""
+"""The energy of bodies and springs at a moment."""
 
 from __future__ import annotations
 
@@ -7,18 +7,21 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Energy:
-    """Energy of the bodies at a moment.
+    """Energy of bodies and springs at a moment.
 
     Parameters
     ----------
     kinetic, strain
-        Kinetic and strain energy [J].
+        Kinetic and strain energy of the bodies [J].
+    springs
+        Energy of springs [J].
     """
 
     kinetic: float
     strain: float
+    springs: float = 0.0
 
     @property
     def total(self) -> float:
-        """Kinetic plus strain energy [J]."""
-        return self.kinetic + self.strain
+        """All of it [J]."""
+        return self.kinetic + self.strain + self.springs

@@ -179,9 +179,9 @@ class State:
 
     @property
     def energy(self) -> Energy:
-        """Kinetic and strain energy."""
+        """Kinetic and strain energy, and that of springs."""
         now = self._native.progress()
-        return Energy(kinetic=now["kinetic"], strain=now["strain"])
+        return Energy(kinetic=now["kinetic"], strain=now["strain"], springs=now["springs"])
 
     @property
     def ledger(self) -> Ledger:

@@ -19,7 +19,7 @@ class Progress:
         Time reached and to reach [s].
     contacts
         Active contacts.
-    kinetic, strain, total
+    kinetic, strain, springs, total
         Energies [J].
     friction
         Energy dissipated by friction so far [J].
@@ -41,6 +41,7 @@ class Progress:
     total: float
     friction: float
     retried: int = 0
+    springs: float = 0.0
     wall: float = 0.0
     eta: float | None = None
 

@@ -61,6 +61,15 @@ def pipe(**given):
     return {**SPACE, **mesh(**{**CYLINDER, **given})}
 
 
+def spring(**given):
+    ends = [{"body": "block", "point": [1.0, 1.0]}, {"point": [3.0, 1.0]}]
+    return {"springs": [{"name": "strut", "between": ends, "stiffness": 1.0, **given}]}
+
+
+def tied_to(**place):
+    return spring(between=[place, {"point": [3.0, 1.0]}])
+
+
 REDUCED = {"bodies.0.kind": "reduced", "bodies.0.modes": 0}
 J2 = {"young": 1e5, "poisson": 0.3, "yield_stress": 1e3, "hardening": 0.0, "saturation_rate": 0.0}
 AGEING = {"reference": 0.6, "direct": 0.01, "evolution": 0.02, "speed": 1.0, "distance": 1.0}
@@ -304,6 +313,139 @@ BAD = [
         obstacle(kind="cylinder", point=[0, 0, 0], axis=[0, 0, 1], radius=1.0, cavity=False),
         "obstacles.0.kind",
         "a cylinder is an obstacle in 3D; in the plane take a sphere, which is a circle there",
+    ),
+    # springs
+    (
+        spring(between=[{"body": "block", "point": [1.0, 1.0]}] * 2),
+        "springs.0.between",
+        "both places move as one, so that the spring does nothing; choose two that do not",
+    ),
+    (
+        spring(between=[{"obstacle": "floor", "point": [0.0, 0.0]}, {"point": [3.0, 1.0]}]),
+        "springs.0.between",
+        "neither place is of a body; attach one of them to a body",
+    ),
+    (
+        spring(
+            between=[{"body": "block", "point": [1.0, 1.0]}, {"point": [1.0, 1.0]}],
+            free_length=0.5,
+        ),
+        "springs.0.between",
+        "its places are one and the same, so that its force has no direction; draw them apart, or",
+    ),
+    (
+        spring(stiffness=-1.0),
+        "springs.0.stiffness",
+        "-1: must be a finite number, 0 at least",
+    ),
+    (
+        spring(force={"elongation": [0, 1], "force": [0, 1]}),
+        "springs.0.force",
+        "a spring has a stiffness or a table of forces, not both; leave one out",
+    ),
+    (
+        spring(stiffness=None, force={"elongation": [0], "force": [1]}),
+        "springs.0.force",
+        "1 elongations and 1 forces: give as many of one as of the other, 2 at least",
+    ),
+    (
+        spring(stiffness=None, force={"elongation": [1, 0], "force": [0, 1]}),
+        "springs.0.force",
+        "elongation 0 follows 1: elongations must ascend",
+    ),
+    (
+        spring(stiffness=0.0),
+        "springs.0",
+        "does nothing; give a stiffness, a table of forces, or a damping",
+    ),
+    (
+        tied_to(body="block"),
+        "springs.0.between.0",
+        "a place is a body with a point or a set `on` it, an obstacle with a point, or a point",
+    ),
+    (
+        tied_to(body="brick", point=[0.0, 0.0]),
+        "springs.0.between.0.body",
+        'there is no body "brick"; known are ["block"]',
+    ),
+    (
+        tied_to(obstacle="wall", point=[0.0, 0.0]),
+        "springs.0.between.0.obstacle",
+        'there is no obstacle "wall"',
+    ),
+    (
+        tied_to(body="block", on="lid"),
+        "springs.0.between.0.on",
+        '"lid": body "block" has no such set; known are [',
+    ),
+    (
+        tied_to(body="block", point=[9.0, 9.0]),
+        "springs.0.between.0.point",
+        '[9.0, 9.0] is far from body "block"; give a point of it as it is drawn',
+    ),
+    (
+        {**tied_to(body="block", point=[1.0, 1.0]), "bodies.0.hypothesis": "axisymmetric"},
+        "springs.0.between.0.body",
+        'body "block" is one of revolution, on which a spring would be a cone; leave it out',
+    ),
+    (
+        {
+            **tied_to(body="block", on="bottom"),
+            "contact.condition": "massless",
+            "bodies.0.contact_sets": ["bottom"],
+        },
+        "springs.0.between.0.on",
+        'node 0 of body "block" has no mass, as nodes that may touch have none with the contact',
+    ),
+    (
+        {**tied_to(body="block", point=[0.5, 0.5]), **REDUCED},
+        "springs.0.between.0.point",
+        'node 4 of body "block" is inside; the body is reduced and takes forces at nodes of its',
+    ),
+    # masses at points
+    (
+        {"masses": [{"body": "brick", "point": [0.0, 0.0], "mass": 1.0}]},
+        "masses.0.body",
+        'there is no body "brick"; known are ["block"]',
+    ),
+    (
+        {"masses": [{"body": "block", "point": [0.0, 0.0], "mass": 0.0}]},
+        "masses.0.mass",
+        "0: the mass must be greater than 0 kg",
+    ),
+    (
+        {"masses": [{"body": "block", "mass": 1.0}]},
+        "masses.0",
+        "a mass is at a point, or on a set; give one of them",
+    ),
+    (
+        {
+            "masses": [{"body": "block", "on": "top", "mass": 1.0}],
+            "contact.condition": "massless",
+        },
+        "masses.0",
+        'node 6 of body "block" may touch, and has no mass with "massless" contact; choose another',
+    ),
+    (
+        {
+            "masses": [{"body": "block", "point": [0.0, 0.0], "mass": 1.0}],
+            "bodies.0.kind": "rigid",
+            "bodies.0.mass": 1.0,
+            "bodies.0.inertia": 1.0,
+        },
+        "masses.0.body",
+        'body "block" has an inertia of its own, which tells of all its mass; leave one out',
+    ),
+    (
+        {
+            **mesh(**DISC),
+            "masses": [{"body": "block", "point": [0.0, 0.0], "mass": 1.0}],
+            "bodies.0.kind": "rigid",
+            "bodies.0.mass": 1.0,
+            "bodies.0.round": True,
+        },
+        "masses.0.body",
+        'body "block" is round, with its centre of mass in the middle; leave round out',
     ),
     # functions of time
     (

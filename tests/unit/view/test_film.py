@@ -79,7 +79,7 @@ def test_without_energies_the_bodies_have_all_the_room(disc, tmp_path):
 
 def test_terms_that_cannot_be_seen_are_not_drawn():
     names = ("kinetic", "strain", "friction", "viscous", "plastic", "scheme", "normal_contact")
-    history = {name: np.zeros(3) for name in (*names, "settling")}
+    history = {name: np.zeros(3) for name in (*names, "settling", "springs", "dampers")}
     history |= {"kinetic": np.array([1.0, 0.5, 0.2]), "friction": np.array([0.0, 0.5, 0.8])}
     history["scheme"] = np.full(3, 1e-9)
     assert [layer.label for layer in layers(history)] == ["kinetic", "friction"]

@@ -103,6 +103,8 @@ pub struct Tangent<'a, const D: usize> {
     pub held_back: f64,
     /// Springs to the ground [N/m] at some nodes.
     pub springs: &'a [(u32, Matrix<D>)],
+    /// How stiff the softest spring of the model is that holds the body [N/m]; zero without.
+    pub softest_spring: f64,
     /// Whether it is the first one of the step: later ones are made where it was not good enough.
     pub is_first: bool,
 }
@@ -195,8 +197,10 @@ impl<const D: usize> Masses<D> for [Box<dyn Body<D>>] {
 pub struct BodyEnd<'a, const D: usize> {
     /// Contact forces [N] that the step ended with.
     pub contact_force: &'a [Vector<D>],
-    /// Those of the books: the reactions of start and end by their [weights](ContactWeights).
+    /// Those of the books: the reactions of start and end by their [weights](ContactWeights). Springs pull as contacts press.
     pub mean_contact_force: &'a [Vector<D>],
+    /// The work of springs on what of the body is free [J], which the contact forces have a part in.
+    pub spring_work: f64,
     /// v₊ [m/s].
     pub velocity: &'a mut [Vector<D>],
     /// ∂E/∂u at u₊ [N].

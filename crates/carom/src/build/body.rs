@@ -5,6 +5,7 @@ use carom_fem::{Body, BodySpec, FemError, MassKind};
 use carom_mesh::sets::facet_key;
 use carom_mesh::{Mesh, Surface};
 
+use super::masses::masses;
 use super::mesh::mesh;
 use super::values::number;
 use crate::error::InputError;
@@ -38,6 +39,7 @@ pub(super) fn body<const D: usize>(
         );
         return Err(InputError::new("contact.condition", message));
     }
+    let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
     let spec = BodySpec {
         law: material.law.clone(),
         density: material.density,
@@ -49,9 +51,9 @@ pub(super) fn body<const D: usize>(
         thickness: entry.thickness,
         initial_stress: initial_stress::<D>(&format!("{key}.initial_stress"), entry.initial_stress)?,
         grows: entry.growth.is_some(),
+        points: masses(scenario, entry, &mesh, if massless_contact { surface.nodes() } else { &[] })?,
         massless_contact,
     };
-    let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
     Body::with_contact_surface(mesh, surface, &spec).map_err(|e| match e {
         FemError::MaterialConstant { name: "thickness", .. } => {
             InputError::new(format!("{key}.thickness"), e.to_string())

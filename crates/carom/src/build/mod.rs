@@ -7,16 +7,19 @@ pub(crate) mod friction_law;
 mod growth;
 mod guide;
 mod interference;
+mod masses;
 mod mesh;
 pub(crate) mod method;
 pub(crate) mod mortar;
 pub(crate) mod obstacle;
 mod overlaps;
+mod places;
 mod reduced;
 mod restitution;
 mod rigid;
 pub(crate) mod side;
 mod signals;
+mod springs;
 mod support_name;
 pub(crate) mod values;
 mod velocity;
@@ -101,6 +104,7 @@ pub(crate) fn built<const D: usize>(
         ));
     }
     let method = method::method(scenario)?;
+    masses::refuse_unknown(scenario)?;
     let mut bodies: Vec<ModelBody<D>> = Vec::new();
     for (i, entry) in scenario.bodies.iter().enumerate() {
         let first_node = bodies.last().map_or(0, |b| b.nodes().end);
@@ -132,6 +136,7 @@ pub(crate) fn built<const D: usize>(
         return Err(InputError::new("analysis.gravity", message + "; let it point along y"));
     }
     let model = drive::drive(scenario, Model::new(bodies, contact, obstacles, gravity))?;
+    let model = springs::springs(scenario, model)?;
     let model = interference::interference(scenario, model)?;
     let mut model = restitution::restitution(scenario, model)?;
     let is_static = method.scheme == Scheme::Static;

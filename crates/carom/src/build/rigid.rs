@@ -5,6 +5,7 @@ use carom_fem::{Body, BodySpec, FemError, Formulation, MassKind, RayleighDamping
 use carom_mesh::{Matrix, Mesh};
 
 use super::body::contact_surface;
+use super::masses::masses;
 use super::mesh::mesh;
 use super::values::number;
 use crate::error::InputError;
@@ -36,6 +37,7 @@ pub(super) fn rigid_body<const D: usize>(
         return Err(InputError::mesh(format!("{key}.mesh.periodic"), message));
     }
     let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
+    let points = masses(scenario, entry, &mesh, &[])?;
     let made = |density: f64| {
         let spec = BodySpec {
             law: LawSpec::Unstressed,
@@ -48,6 +50,7 @@ pub(super) fn rigid_body<const D: usize>(
             thickness: entry.thickness,
             initial_stress: Mat3::zeros(),
             grows: false,
+            points: points.clone(),
             massless_contact: false,
         };
         Body::with_contact_surface(mesh.clone(), surface.clone(), &spec).map_err(|e| match e {

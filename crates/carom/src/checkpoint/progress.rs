@@ -70,7 +70,7 @@ fn books(archive: &mut Archive<'_>, name: &str, pairs: &Pairs, books: &mut Books
 
 /// The books of every stage that has begun.
 fn accounts<const D: usize>(archive: &mut Archive<'_>, run: &mut Simulation<D>) -> Done {
-    let blank = Account::new(&run.initial_energies);
+    let blank = Account::new(run.initial_energies.clone());
     run.accounts.resize(run.current + 1, blank);
     for (i, (account, stage)) in run.accounts.iter_mut().zip(&run.stages).enumerate() {
         let name = format!("stages/{i}");

@@ -40,7 +40,7 @@ pub(crate) struct ActiveSet<const D: usize> {
     pub reactions: Vec<Vector<D>>,
     /// Reactions of the state whose contacts have no part in the step.
     pub lost: Vec<usize>,
-    /// Whether contacts act on a body.
+    /// Whether contacts or springs act on a body.
     pub touched: Vec<bool>,
 }
 
@@ -113,7 +113,7 @@ impl<const D: usize> ActiveSet<D> {
         self.friction.clear();
         self.unsettled = 0.0;
         self.start_forces.clear();
-        self.touched.fill(false);
+        self.touched.copy_from_slice(&given.assembly.is_connected);
         let weight = given.reaction_weight();
         for candidate in &self.candidates {
             let known = given.state.reaction(candidate.key());

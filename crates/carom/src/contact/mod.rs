@@ -102,6 +102,11 @@ impl<const D: usize> Contacts<D> {
         self.reduced.prepare(given, &self.active, bodies);
     }
 
+    /// Whether anything acts on bodies from outside that depends on their motion: contacts or springs.
+    pub fn react(&self, assembly: &Assembly<D>) -> bool {
+        !self.active.contacts.is_empty() || !assembly.springs.is_empty()
+    }
+
     /// Whether reactions have their stiffness in the tangent.
     pub fn is_stiffened(&self) -> bool {
         self.reduced.delassus.stiffened.is_geometric

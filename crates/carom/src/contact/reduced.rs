@@ -68,7 +68,7 @@ impl<const D: usize> Reduced<D> {
         }
     }
 
-    /// Lists the nodes of every body that these contacts, and springs in K̄, act on.
+    /// Lists the nodes of every body that these contacts, springs of the model, and springs in K̄, act on.
     fn list_nodes<'a>(
         &mut self,
         assembly: &Assembly<D>,
@@ -80,6 +80,7 @@ impl<const D: usize> Reduced<D> {
         for (b, own) in contacts.flat_map(Contact::stencil).filter_map(|(n, _)| assembly.place_of(n)) {
             self.nodes[b].push(own as u32);
         }
+        assembly.connected().for_each(|(b, own)| self.nodes[b].push(own as u32));
         let stiffened = &self.delassus.stiffened;
         for (i, nodes) in self.nodes.iter_mut().enumerate() {
             if touched[i] && stiffened.is_sprung[i] {
@@ -157,6 +158,10 @@ impl<const D: usize> Reduced<D> {
         let Self { delassus, problem, offsets, known_motion, .. } = self;
         delassus.condense(assembly, active, offsets, known_motion, problem);
         self.guess.clone_from(&active.reactions);
+        if self.problem.is_empty() {
+            self.give(assembly, active, bodies);
+            return Ok(0.0);
+        }
         let motions = size(&self.problem, &[]);
         let size = size(&self.problem, &active.reactions);
         let tolerance = tolerance(active.reactions.len(), size, error, method.stopping.tolerance);

@@ -10,6 +10,9 @@
 //! lives on the nodes of the contacts, P. With C = Pᵀ K̄⁻¹ P, the compliance that the reduced problem is made of,
 //! Pᵀ(K̄ + P Ĝ Pᵀ)⁻¹P = (I + C Ĝ)⁻¹ C (Woodbury), and no factor is needed but K̄'s.
 //!
+//! Springs and dampers between bodies are in Ĝ too, in every step, and their nodes in P: bodies that they connect are solved for together, however stiff
+//! they are.
+//!
 //! The gaps of mortar rows change by more than the rows say (`left_out.rs`), which the reduced problem takes note of as well.
 
 use carom_contact::Contact;
@@ -24,7 +27,7 @@ use super::woodbury::Woodbury;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
-use crate::model::state::Reaction;
+use crate::model::state::{Reaction, State};
 
 /// Springs to the ground in K̄ of a body [N/m], by its own nodes, ascending.
 pub(crate) type Springs<const D: usize> = Vec<(u32, Matrix<D>)>;
@@ -36,6 +39,8 @@ pub(crate) struct Stiffened<const D: usize> {
     pub springs: Vec<Springs<D>>,
     /// Whether it has them.
     pub is_sprung: Vec<bool>,
+    /// The springs of the model on every body as if they ended at the ground: in K̄ of load steps, and of others that go on as these do.
+    of_model: Vec<Springs<D>>,
     /// So many times as stiff are those of a body as the springs of its contacts.
     times: Vec<f64>,
     /// Whether reactions have their stiffness even where no body has springs.
@@ -93,16 +98,38 @@ pub(crate) fn ground<'a, const D: usize>(
             springs[b].push((own as u32, block * weight.abs()));
         }
     }
-    for springs in springs {
-        springs.sort_by_key(|&(node, _)| node);
-        springs.dedup_by(|next, kept| {
-            let same = next.0 == kept.0;
-            if same {
-                kept.1 += next.1;
+    springs.iter_mut().for_each(merge);
+}
+
+/// Adds the springs of the model, where it is displaced by `displacement` [m], to `springs` as if they ended at the ground. What is rigid has none in its K̄.
+pub(crate) fn ground_of_model<const D: usize>(
+    assembly: &Assembly<D>,
+    displacement: &[Vector<D>],
+    bodies: &mut [Box<dyn Body<D>>],
+    springs: &mut [Springs<D>],
+) {
+    for spring in &assembly.springs {
+        let block = spring.support(displacement);
+        for &(node, weight) in &spring.stencil {
+            let Some((b, own)) = assembly.place_of(node as usize) else { continue };
+            if bodies[b].stiffness_at(own as u32).is_finite() {
+                springs[b].push((own as u32, block * weight.abs()));
             }
-            same
-        });
+        }
     }
+    springs.iter_mut().for_each(merge);
+}
+
+/// Makes one of the springs at every node.
+fn merge<const D: usize>(springs: &mut Springs<D>) {
+    springs.sort_by_key(|&(node, _)| node);
+    springs.dedup_by(|next, kept| {
+        let same = next.0 == kept.0;
+        if same {
+            kept.1 += next.1;
+        }
+        same
+    });
 }
 
 /// The projector on the first so many directions of a frame.
@@ -117,6 +144,7 @@ impl<const D: usize> Stiffened<D> {
         Self {
             springs: vec![Vec::new(); assembly.body_count()],
             is_sprung: vec![false; assembly.body_count()],
+            of_model: vec![Vec::new(); assembly.body_count()],
             times: vec![1.0; assembly.body_count()],
             is_geometric: false,
             springs_of_contacts: Vec::new(),
@@ -145,41 +173,53 @@ impl<const D: usize> Stiffened<D> {
     pub fn spring_from_start(
         &mut self,
         assembly: &Assembly<D>,
-        reactions: &[Reaction<D>],
+        state: &State<D>,
         bodies: &mut [Box<dyn Body<D>>],
     ) {
         let friction = |r: &Reaction<D>| assembly.contact.pairs.get(r.pair as usize).friction;
-        let holding = reactions.iter().map(|r| (&r.contact, held_directions(&r.force, friction(r))));
-        self.spring_from(assembly, holding, bodies);
+        let holding = state.reactions.iter().map(|r| (&r.contact, held_directions(&r.force, friction(r))));
+        self.spring_from((assembly, &state.displacement), holding, bodies);
     }
 
-    /// The same of those of the present guess.
+    /// The same of those of the present guess, which leads to these displacements [m].
     pub fn spring_from_guess(
         &mut self,
         assembly: &Assembly<D>,
+        displacement: &[Vector<D>],
         active: &ActiveSet<D>,
         bodies: &mut [Box<dyn Body<D>>],
     ) {
         let contacts = active.contacts.iter().zip(&active.reactions).zip(&active.friction);
         let holding = contacts.map(|((contact, r), &mu)| (contact, held_directions(r, mu)));
-        self.spring_from(assembly, holding, bodies);
+        self.spring_from((assembly, displacement), holding, bodies);
     }
 
     fn spring_from<'a>(
         &mut self,
-        assembly: &Assembly<D>,
+        (assembly, displacement): (&Assembly<D>, &[Vector<D>]),
         contacts: impl Iterator<Item = (&'a Contact<D>, usize)>,
         bodies: &mut [Box<dyn Body<D>>],
     ) {
+        self.of_model.iter_mut().for_each(Vec::clear);
+        ground_of_model(assembly, displacement, bodies, &mut self.of_model);
         ground(assembly, contacts, 1.0, bodies, &mut self.springs);
         for (springs, times) in self.springs.iter_mut().zip(&self.times) {
             springs.iter_mut().for_each(|(_, block)| *block *= *times);
         }
     }
 
-    /// The springs of a body that K̄ has now.
-    pub fn support(&self, body: usize) -> &[(u32, Matrix<D>)] {
-        if self.is_sprung[body] { &self.springs[body] } else { &[] }
+    /// The springs of a body that K̄ is to have now, and how stiff the softest of those of the model is [N/m], zero without and where
+    /// contacts press.
+    pub fn support(&self, body: usize) -> (Springs<D>, f64) {
+        let of_model = &self.of_model[body];
+        let softest = of_model.iter().map(|(_, block)| block.trace()).filter(|&k| k > 0.0).reduce(f64::min);
+        // What contacts hold is held back by more: where they slide or part, springs may leave it loose.
+        let softest = softest.filter(|_| self.springs[body].is_empty());
+        let mut springs = of_model.clone();
+        if self.is_sprung[body] {
+            springs.extend_from_slice(&self.springs[body]);
+        }
+        (springs, softest.unwrap_or(0.0))
     }
 
     /// Gives K̄ of a body springs that it has not, or stiffer ones; returns whether there are such.
@@ -199,6 +239,7 @@ impl<const D: usize> Stiffened<D> {
     /// No K̄ has springs any more: those of a step before are of no use in the next.
     pub fn let_go(&mut self) {
         self.is_sprung.fill(false);
+        self.of_model.iter_mut().for_each(Vec::clear);
         self.times.fill(1.0);
     }
 
@@ -239,7 +280,9 @@ impl<const D: usize> Stiffened<D> {
         motion: &[Vector<D>],
         compliances: &[Compliance<D>],
     ) {
-        if !self.is_geometric && self.springs_of_contacts.iter().all(|&(stiffness, _)| stiffness == 0.0) {
+        let of_contacts =
+            self.is_geometric || self.springs_of_contacts.iter().any(|&(stiffness, _)| stiffness != 0.0);
+        if !of_contacts && given.assembly.springs.is_empty() {
             // Elastic bodies that pressure takes little of converge without, and a round one that turns in another has nothing against it.
             self.missing.clear();
             self.left_out.clear();
@@ -248,9 +291,12 @@ impl<const D: usize> Stiffened<D> {
         self.list_nodes(given.assembly, active);
         self.missing.clear();
         self.left_out.clear();
-        self.add_geometric(given, active, motion);
-        self.left_out.make(given, active, motion, &self.places, &mut self.missing);
+        if of_contacts {
+            self.add_geometric(given, active, motion);
+            self.left_out.make(given, active, motion, &self.places, &mut self.missing);
+        }
         self.add_springs(given.assembly, active);
+        self.add_springs_of_model(given, motion);
         let nodes = &self.nodes;
         let block =
             |row: usize, column: usize| yields(given.assembly, compliances, nodes[row], nodes[column]);
@@ -269,6 +315,7 @@ impl<const D: usize> Stiffened<D> {
             let first = assembly.nodes(b).start;
             self.nodes.extend(springs.iter().map(|&(own, _)| first + own as usize));
         }
+        self.nodes.extend(assembly.connected().map(|(b, own)| assembly.nodes(b).start + own));
         self.nodes.sort_unstable();
         self.nodes.dedup();
         (0..).zip(&self.nodes).for_each(|(place, &n)| self.places[n] = place);
@@ -336,12 +383,24 @@ impl<const D: usize> Stiffened<D> {
                 }
             }
         }
-        for (b, springs) in self.springs.iter().enumerate().filter(|(b, _)| self.is_sprung[*b]) {
+        let of_contacts = self.springs.iter().enumerate().filter(|(b, _)| self.is_sprung[*b]);
+        for (b, springs) in of_contacts.chain(self.of_model.iter().enumerate()) {
             let first = assembly.nodes(b).start;
             for &(own, block) in springs {
                 let Some(place) = self.place(first + own as usize) else { continue };
                 self.missing.add((place, place), -block);
             }
+        }
+    }
+
+    /// What springs and dampers between bodies add.
+    fn add_springs_of_model(&mut self, given: &Given<'_, D>, motion: &[Vector<D>]) {
+        for spring in &given.assembly.springs {
+            let stiffness = spring.in_step(given.interval, &given.state.displacement, motion).stiffness();
+            spring.each_block(&stiffness, |n, m, block| {
+                let (Some(row), Some(column)) = (self.place(n), self.place(m)) else { return };
+                self.missing.add((row, column), block);
+            });
         }
     }
 

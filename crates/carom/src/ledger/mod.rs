@@ -17,19 +17,21 @@ pub struct Energies {
     pub kinetic: f64,
     /// ∫ψ dV.
     pub strain: f64,
+    /// Σψ of springs, which are of no body.
+    pub springs: f64,
 }
 
 impl Energies {
-    /// Kinetic plus strain energy [J].
+    /// All of them [J].
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.kinetic + self.strain
+        self.kinetic + self.strain + self.springs
     }
 }
 
 impl Energies {
-    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 2] {
-        [&mut self.kinetic, &mut self.strain]
+    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 3] {
+        [&mut self.kinetic, &mut self.strain, &mut self.springs]
     }
 }
 
@@ -38,6 +40,7 @@ impl Sum for Energies {
         energies.fold(Self::default(), |a, b| Self {
             kinetic: a.kinetic + b.kinetic,
             strain: a.strain + b.strain,
+            springs: a.springs + b.springs,
         })
     }
 }
@@ -45,7 +48,7 @@ impl Sum for Energies {
 impl Ledger {
     /// The same with energies in place of their changes: what there is, and what became of the rest.
     pub(crate) fn with_energies(&self, now: &Energies) -> Self {
-        Self { kinetic: now.kinetic, strain: now.strain, ..*self }
+        Self { kinetic: now.kinetic, strain: now.strain, springs: now.springs, ..*self }
     }
 }
 
@@ -83,12 +86,13 @@ impl Books {
         pairs.for_each(|(between, step)| *self.pairs.or_default(between) += step);
     }
 
-    /// Replaces the changes of energy, which are sums of many steps, by the differences of `now` and `initial`.
-    pub fn set_changes(&mut self, initial: &[Energies], now: &[Energies]) {
-        for ((body, a), b) in self.bodies.iter_mut().zip(initial).zip(now) {
+    /// Replaces the changes of energy, which are sums of many steps, by the differences of `now` and `initial`: of every body, and of springs.
+    pub fn set_changes(&mut self, initial: &[Energies], now: impl Iterator<Item = Energies> + Clone) {
+        for ((body, a), b) in self.bodies.iter_mut().zip(initial).zip(now.clone()) {
             (body.kinetic, body.strain) = (b.kinetic - a.kinetic, b.strain - a.strain);
         }
-        let (a, b): (Energies, Energies) = (initial.iter().copied().sum(), now.iter().copied().sum());
+        let (a, b): (Energies, Energies) = (initial.iter().copied().sum(), now.sum());
         (self.total.kinetic, self.total.strain) = (b.kinetic - a.kinetic, b.strain - a.strain);
+        self.total.springs = b.springs - a.springs;
     }
 }

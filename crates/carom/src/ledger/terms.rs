@@ -5,14 +5,17 @@ use std::ops::AddAssign;
 use serde::Serialize;
 
 /// Terms of all books, in the order of their columns.
-pub const TERMS: [&str; 11] = [
+pub const TERMS: [&str; 14] = [
     "kinetic",
     "strain",
+    "springs",
     "external",
     "prescribed",
     "contact",
+    "connections",
     "friction",
     "viscous",
+    "dampers",
     "plastic",
     "scheme",
     "normal_contact",
@@ -21,13 +24,15 @@ pub const TERMS: [&str; 11] = [
 
 /// What happened to the energy in a step, or since the start [J]. Every term is computed from its own definition:
 ///
-/// ΔE_kinetic + ΔE_strain = external + prescribed − friction − viscous − plastic − scheme − normal_contact − settling + defect.
+/// ΔE_kinetic + ΔE_strain + ΔE_springs = external + prescribed − friction − viscous − dampers − plastic − scheme − normal_contact − settling + defect.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Ledger {
     /// Change of kinetic energy.
     pub kinetic: f64,
     /// Change of strain energy.
     pub strain: f64,
+    /// Change of the energy of springs.
+    pub springs: f64,
     /// Work of gravity and loads.
     pub external: f64,
     /// Work of what is prescribed: motion, growth of bodies, interference that grows.
@@ -36,6 +41,8 @@ pub struct Ledger {
     pub friction: f64,
     /// Dissipated by damping and viscosity.
     pub viscous: f64,
+    /// Dissipated by dampers: Σ c (ℓ₊ − ℓ)²/Δt ≥ 0.
+    pub dampers: f64,
     /// Plastic work ∫ σ_y dα ≥ 0.
     pub plastic: f64,
     /// Dissipated by the time scheme's own algebra (θ, ξ > ½).
@@ -48,13 +55,15 @@ pub struct Ledger {
 
 impl Ledger {
     /// The names of its terms.
-    pub(crate) const NAMES: [&str; 10] = [
+    pub(crate) const NAMES: [&str; 12] = [
         "kinetic",
         "strain",
+        "springs",
         "external",
         "prescribed",
         "friction",
         "viscous",
+        "dampers",
         "plastic",
         "scheme",
         "normal_contact",
@@ -62,14 +71,16 @@ impl Ledger {
     ];
 
     /// Its terms in the order of the columns.
-    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 10] {
+    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 12] {
         [
             &mut self.kinetic,
             &mut self.strain,
+            &mut self.springs,
             &mut self.external,
             &mut self.prescribed,
             &mut self.friction,
             &mut self.viscous,
+            &mut self.dampers,
             &mut self.plastic,
             &mut self.scheme,
             &mut self.normal_contact,
@@ -80,9 +91,10 @@ impl Ledger {
     /// What the other terms do not explain [J].
     #[must_use]
     pub fn defect(&self) -> f64 {
-        self.kinetic + self.strain - self.external - self.prescribed
+        self.kinetic + self.strain + self.springs - self.external - self.prescribed
             + self.friction
             + self.viscous
+            + self.dampers
             + self.plastic
             + self.scheme
             + self.normal_contact
@@ -114,10 +126,12 @@ impl AddAssign for Ledger {
     fn add_assign(&mut self, step: Self) {
         self.kinetic += step.kinetic;
         self.strain += step.strain;
+        self.springs += step.springs;
         self.external += step.external;
         self.prescribed += step.prescribed;
         self.friction += step.friction;
         self.viscous += step.viscous;
+        self.dampers += step.dampers;
         self.plastic += step.plastic;
         self.scheme += step.scheme;
         self.normal_contact += step.normal_contact;
@@ -127,7 +141,7 @@ impl AddAssign for Ledger {
 
 /// What happened to the energy of a body in a step, or since the start [J]:
 ///
-/// ΔE_kinetic + ΔE_strain = external + prescribed + contact − viscous − plastic − scheme + defect.
+/// ΔE_kinetic + ΔE_strain = external + prescribed + contact + connections − viscous − plastic − scheme + defect.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct BodyLedger {
     /// Change of kinetic energy.
@@ -140,6 +154,8 @@ pub struct BodyLedger {
     pub prescribed: f64,
     /// Received through contact: the work of the contact forces on what of the body is free.
     pub contact: f64,
+    /// Received through springs and dampers: their work on all of the body; supports do as much against it where they hold it.
+    pub connections: f64,
     /// Dissipated by damping and viscosity.
     pub viscous: f64,
     /// Plastic work ∫ σ_y dα ≥ 0.
@@ -150,13 +166,14 @@ pub struct BodyLedger {
 
 impl BodyLedger {
     /// Its terms in the order of the columns.
-    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 8] {
+    pub(crate) fn terms_mut(&mut self) -> [&mut f64; 9] {
         [
             &mut self.kinetic,
             &mut self.strain,
             &mut self.external,
             &mut self.prescribed,
             &mut self.contact,
+            &mut self.connections,
             &mut self.viscous,
             &mut self.plastic,
             &mut self.scheme,
@@ -164,15 +181,18 @@ impl BodyLedger {
     }
 
     /// Its terms in the columns `TERMS`; NaN where it has none.
-    pub(crate) fn columns(&self) -> [f64; 11] {
+    pub(crate) fn columns(&self) -> [f64; 14] {
         [
             self.kinetic,
             self.strain,
+            f64::NAN,
             self.external,
             self.prescribed,
             self.contact,
+            self.connections,
             f64::NAN,
             self.viscous,
+            f64::NAN,
             self.plastic,
             self.scheme,
             f64::NAN,
@@ -183,7 +203,7 @@ impl BodyLedger {
     /// What the other terms do not explain [J].
     #[must_use]
     pub fn defect(&self) -> f64 {
-        self.kinetic + self.strain - self.external - self.prescribed - self.contact
+        self.kinetic + self.strain - self.external - self.prescribed - self.contact - self.connections
             + self.viscous
             + self.plastic
             + self.scheme
@@ -197,6 +217,7 @@ impl AddAssign for BodyLedger {
         self.external += step.external;
         self.prescribed += step.prescribed;
         self.contact += step.contact;
+        self.connections += step.connections;
         self.viscous += step.viscous;
         self.plastic += step.plastic;
         self.scheme += step.scheme;
@@ -225,14 +246,17 @@ impl PairLedger {
     }
 
     /// Its terms in the columns `TERMS`; NaN where it has none.
-    pub(crate) fn columns(&self) -> [f64; 11] {
+    pub(crate) fn columns(&self) -> [f64; 14] {
         [
+            f64::NAN,
             f64::NAN,
             f64::NAN,
             f64::NAN,
             self.prescribed,
             f64::NAN,
+            f64::NAN,
             self.friction,
+            f64::NAN,
             f64::NAN,
             f64::NAN,
             f64::NAN,

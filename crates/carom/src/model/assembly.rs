@@ -7,6 +7,7 @@ use crate::model::friction_laws::FrictionLaws;
 use crate::model::interference::{Interference, Interferences};
 use crate::model::obstacle_motion::ObstacleMotion;
 use crate::model::restitution::Restitutions;
+use crate::model::springs::Spring;
 
 /// More pairs than these are not listed: where hundreds of bodies may touch, most never come near one another, and no one reads of all.
 pub(crate) const MANY_PAIRS: usize = 1000;
@@ -46,6 +47,10 @@ pub struct Assembly<const D: usize> {
     pub restitutions: Restitutions,
     /// The friction laws of pairs whose coefficient depends on the motion.
     pub friction_laws: FrictionLaws,
+    /// Springs and dampers between bodies and other places.
+    pub springs: Vec<Spring<D>>,
+    /// Which bodies have one.
+    pub(crate) is_connected: Vec<bool>,
     /// Reference positions of all nodes [m]; after those of the bodies, zero for every obstacle, whose displacement says how far
     /// it has moved.
     pub reference: Vec<Vector<D>>,
@@ -88,6 +93,8 @@ impl<const D: usize> Assembly<D> {
             interferences: Interferences::default(),
             restitutions: Restitutions::default(),
             friction_laws: FrictionLaws::default(),
+            springs: Vec::new(),
+            is_connected: vec![false; members.len()],
             obstacle_motions: vec![ObstacleMotion::Velocity(Vector::zeros()); obstacles],
             supports: 0,
             size: members.iter().map(|m| m.diameter).fold(0.0, f64::max),
@@ -119,6 +126,28 @@ impl<const D: usize> Assembly<D> {
         assembly.boundaries = Boundaries::new(bodies, &assembly.contact.obstacles, &position);
         assembly.held.resize(count + obstacles, [true; D]);
         assembly
+    }
+
+    /// Puts `springs` between its bodies, in place of those that there are.
+    pub(crate) fn connect(&mut self, springs: Vec<Spring<D>>) {
+        self.is_connected.fill(false);
+        for &(node, _) in springs.iter().flat_map(|spring| &spring.stencil) {
+            if let Some(body) = self.body_of(node as usize) {
+                self.is_connected[body] = true;
+            }
+        }
+        self.springs = springs;
+    }
+
+    /// The nodes that springs act on, as body and number in that; obstacles do not respond.
+    pub(crate) fn connected(&self) -> impl Iterator<Item = (usize, usize)> {
+        let nodes = self.springs.iter().flat_map(|spring| &spring.stencil);
+        nodes.filter_map(|&(node, _)| self.place_of(node as usize))
+    }
+
+    /// The energy of the springs [J] at these displacements.
+    pub(crate) fn spring_energy(&self, displacement: &[Vector<D>]) -> f64 {
+        self.springs.iter().map(|spring| spring.energy(displacement)).sum()
     }
 
     /// Says which components of the nodes of body `index` are prescribed; none if `held` is empty.
@@ -188,6 +217,11 @@ impl<const D: usize> Assembly<D> {
             Solid::Body(i) => self.name(i),
             Solid::Obstacle(o) => &self.obstacle_names[o],
         }
+    }
+
+    /// The number of the obstacle of this name.
+    pub(crate) fn obstacle(&self, name: &str) -> Option<usize> {
+        self.obstacle_names.iter().position(|own| own == name)
     }
 
     /// The names of two solids.

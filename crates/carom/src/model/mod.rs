@@ -10,6 +10,7 @@ pub(crate) mod method;
 pub(crate) mod obstacle_motion;
 pub(crate) mod restitution;
 pub(crate) mod sliding;
+pub(crate) mod springs;
 pub(crate) mod state;
 
 use std::sync::Arc;
@@ -21,6 +22,7 @@ use self::assembly::{Assembly, Member};
 use self::interference::Interferences;
 use self::obstacle_motion::ObstacleMotion;
 use self::restitution::Restitutions;
+use self::springs::Spring;
 use self::state::State;
 use crate::body::Body;
 use crate::body::fe::FeBody;
@@ -87,6 +89,13 @@ impl<const D: usize> Model<D> {
     #[must_use]
     pub fn with_restitutions(mut self, restitutions: Restitutions) -> Self {
         self.assembly.restitutions = restitutions;
+        self
+    }
+
+    /// The same with these springs between its bodies.
+    #[must_use]
+    pub fn with_springs(mut self, springs: Vec<Spring<D>>) -> Self {
+        self.assembly.connect(springs);
         self
     }
 

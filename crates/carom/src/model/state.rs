@@ -75,7 +75,7 @@ pub struct State<const D: usize> {
     pub slip: Vec<f64>,
     /// Internal forces ∂E/∂u [N] at `displacement`, kept because every step starts with them.
     pub internal_force: Vec<Vector<D>>,
-    /// Energies [J] at `displacement` and `velocity`.
+    /// Energies [J] at `displacement` and `velocity`, those of springs included.
     pub energies: Energies,
     /// Those of every body.
     pub body_energies: Vec<Energies>,
@@ -150,7 +150,7 @@ impl<const D: usize> State<D> {
         let mut forces = vec![Vector::zeros(); nodes.len()];
         let energies = bodies[index].measure(&self.body(index, nodes), &mut forces);
         self.body_energies[index].kinetic = energies.kinetic;
-        self.energies = self.body_energies.iter().copied().sum();
+        self.sum_energies(assembly);
         energies.kinetic - before
     }
 
@@ -163,7 +163,20 @@ impl<const D: usize> State<D> {
             self.body_energies[i] = energies;
         }
         self.internal_force = forces;
+        self.sum_energies(assembly);
+    }
+
+    /// Sums the energies of bodies and springs.
+    pub(crate) fn sum_energies(&mut self, assembly: &Assembly<D>) {
+        let springs = assembly.spring_energy(&self.displacement);
         self.energies = self.body_energies.iter().copied().sum();
+        self.energies.springs = springs;
+    }
+
+    /// The energies of every body and, after them, of the springs.
+    pub(crate) fn all_energies(&self) -> impl Iterator<Item = Energies> + Clone {
+        let springs = Energies { springs: self.energies.springs, ..Energies::default() };
+        self.body_energies.iter().copied().chain([springs])
     }
 
     /// The part of body `index`, which has these `nodes`.
@@ -196,5 +209,6 @@ impl<const D: usize> State<D> {
             && self.sliding.iter().all(|record| record.distance.is_finite() && record.state.is_finite())
             && self.energies.kinetic.is_finite()
             && self.energies.strain.is_finite()
+            && self.energies.springs.is_finite()
     }
 }

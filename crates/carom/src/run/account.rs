@@ -6,9 +6,9 @@ use crate::{Books, Energies, State};
 /// What a stage has done so far.
 #[derive(Debug, Clone)]
 pub(crate) struct Account {
-    /// Energies of the bodies when it began.
+    /// Energies of the bodies, and of springs, when it began.
     pub start: Vec<Energies>,
-    /// Energies of the bodies at its end, or now.
+    /// The same at its end, or now.
     pub end: Vec<Energies>,
     pub books: Books,
     pub steps: u64,
@@ -20,12 +20,12 @@ pub(crate) struct Account {
 }
 
 impl Account {
-    /// Of a stage that begins with these energies of bodies.
-    pub fn new(energies: &[Energies]) -> Self {
+    /// Of a stage that begins with these energies of bodies and, after them, of springs.
+    pub fn new(energies: Vec<Energies>) -> Self {
         Self {
-            start: energies.to_vec(),
-            end: energies.to_vec(),
-            books: Books::new(energies.len()),
+            books: Books::new(energies.len() - 1),
+            start: energies.clone(),
+            end: energies,
             steps: 0,
             newton_iterations: 0,
             retried: 0,
@@ -37,8 +37,9 @@ impl Account {
 
     /// Takes note of a step, or a part of one, that ended in `state`; `books` has been told of it.
     pub fn note<const D: usize>(&mut self, report: &StepReport, state: &State<D>) {
-        self.end.clone_from(&state.body_energies);
-        self.books.set_changes(&self.start, &self.end);
+        self.end.clear();
+        self.end.extend(state.all_energies());
+        self.books.set_changes(&self.start, state.all_energies());
         self.newton_iterations += report.newton_iterations as u64;
         let initial = self.start.iter().map(Energies::total).sum::<f64>();
         self.max_drift = self.max_drift.max((state.energies.total() - initial).abs());

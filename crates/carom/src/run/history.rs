@@ -121,6 +121,9 @@ impl<const D: usize> History<D> {
                 columns.extend(axes.iter().map(|a| format!("{}.{quantity}_{a}", t.name)));
             }
         }
+        for spring in &model.assembly.springs {
+            columns.extend(["length", "force"].map(|quantity| format!("{}.{quantity}", spring.name)));
+        }
         let (trails, rows) = (Vec::new(), Vec::new());
         let (parts, since) = (Vec::new(), Since::default());
         let mut history =
@@ -244,6 +247,9 @@ impl<const D: usize> History<D> {
             self.rows.extend(state.displacement[t.node].iter());
             self.rows.extend(state.velocity[t.node].iter());
             self.rows.extend(trail.mean_velocity.iter());
+        }
+        for spring in &model.assembly.springs {
+            self.rows.extend(spring.length_and_tension(&state.displacement, &state.velocity));
         }
         min_gap
     }

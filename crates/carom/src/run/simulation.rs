@@ -94,9 +94,11 @@ pub struct Progress {
     pub kinetic: f64,
     /// Strain energy [J].
     pub strain: f64,
+    /// Energy of springs [J].
+    pub springs: f64,
     /// Dissipated by friction since the start [J].
     pub friction: f64,
-    /// Kinetic plus strain energy [J].
+    /// All energy [J].
     pub total: f64,
 }
 
@@ -152,9 +154,9 @@ impl<const D: usize> Simulation<D> {
             halvings: 0,
             history_rows: 0,
             last_recorded: None,
-            initial_energies: state.body_energies.clone(),
+            initial_energies: state.all_energies().collect(),
             books: Books::new(model.bodies.len()),
-            accounts: vec![Account::new(&state.body_energies)],
+            accounts: vec![Account::new(state.all_energies().collect())],
             ledger_table: LedgerTable::default(),
             totals: Totals::new(&state.energies),
             cross_checks: CrossCheckSummary::default(),
@@ -255,8 +257,8 @@ impl<const D: usize> Simulation<D> {
     /// Begins the books anew with the present state.
     pub(crate) fn restart(&mut self) {
         self.spare.clone_from(&self.state);
-        self.initial_energies.clone_from(&self.state.body_energies);
-        self.accounts = vec![Account::new(&self.state.body_energies)];
+        self.initial_energies = self.state.all_energies().collect();
+        self.accounts = vec![Account::new(self.initial_energies.clone())];
         self.description =
             describe(&self.description.title, self.model(), &self.state, self.description.steps);
         self.totals = Totals::new(&self.state.energies);
@@ -357,7 +359,7 @@ impl<const D: usize> Simulation<D> {
     /// Opens the books of a stage in which bodies begin with so much energy more [J]: the work of what gave them their velocity.
     fn begin_stage(&mut self, gained: &[f64]) {
         let Self { state, spare, accounts, books, history_rows, grid, stages, current, .. } = self;
-        let mut account = Account::new(&state.body_energies);
+        let mut account = Account::new(state.all_energies().collect());
         for (i, gain) in gained.iter().enumerate() {
             account.start[i].kinetic -= gain;
             for books in [&mut account.books, &mut *books] {
@@ -366,7 +368,7 @@ impl<const D: usize> Simulation<D> {
             }
         }
         for (books, start) in [(&mut account.books, &account.start), (&mut *books, &self.initial_energies)] {
-            books.set_changes(start, &state.body_energies);
+            books.set_changes(start, state.all_energies());
         }
         accounts.push(account);
         *history_rows = grid.intervals(state.time, stages[*current].history_every);
@@ -395,7 +397,7 @@ impl<const D: usize> Simulation<D> {
                 let pairs = work.pair_reports.iter().map(|(between, pair)| (between, pair.ledger));
                 books.add(report.ledger, &work.body_ledgers, pairs);
             }
-            books.set_changes(initial_energies, &state.body_energies);
+            books.set_changes(initial_energies, state.all_energies());
             account.note(report, state);
             *last_step = Some(report.ledger);
             nominal_step.note(report);
@@ -472,6 +474,7 @@ impl<const D: usize> Simulation<D> {
             retried: self.totals.retried,
             kinetic: e.kinetic,
             strain: e.strain,
+            springs: e.springs,
             friction: self.books.total.friction,
             total: e.total(),
         }

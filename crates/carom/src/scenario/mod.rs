@@ -5,6 +5,7 @@ mod drive;
 mod friction;
 mod mesh_spec;
 mod rigid;
+mod spring;
 
 use std::collections::BTreeMap;
 
@@ -19,6 +20,7 @@ pub use self::contact::{ContactSpec, PairEntry, SolverSpec, Sources, Targets};
 pub use self::friction::{FrictionFormulaSpec, FrictionSpec, RateAndStateSpec, StaticKineticSpec};
 pub use self::mesh_spec::{Cell, MeshSpec};
 pub use self::rigid::{BodyKind, BodyMass, Inertia};
+pub use self::spring::{MassEntry, PlaceEntry, SpringEntry};
 use crate::{Scheme, SignalSpec};
 
 /// Moments closer than this to one another, in time steps, differ by round-off alone.
@@ -44,6 +46,12 @@ pub struct Scenario {
     /// Rigid obstacles.
     #[serde(default)]
     pub obstacles: Vec<ObstacleEntry>,
+    /// Masses at points of bodies.
+    #[serde(default)]
+    pub masses: Vec<MassEntry>,
+    /// Springs and dampers between bodies and other places.
+    #[serde(default)]
+    pub springs: Vec<SpringEntry>,
     /// Forces on bodies.
     #[serde(default)]
     pub loads: Vec<LoadEntry>,

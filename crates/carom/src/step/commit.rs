@@ -53,20 +53,23 @@ pub(super) fn commit<const D: usize>(
         *v = motion.velocity(next.time);
     }
     next.support.fill(Vector::zeros());
+    work.springs.pull(given, &work.motion, &next.displacement);
     close_bodies(given, next, work);
+    work.springs.close(&mut work.body_ledgers);
     work.pair_reports.clear();
     let Workspace { bodies, contacts, impulses, motion, body_ledgers, .. } = work;
     let (active, at_end) = (&contacts.active, &contacts.at_end);
     let landing = Landing { active, at_end, motion, masses: bodies.as_mut_slice(), ledgers: body_ledgers };
     restore(given, next, landing, impulses);
     settle(given, next, work);
-    next.energies = next.body_energies.iter().copied().sum();
+    next.sum_energies(assembly);
     close_contacts(given, next, work, &mut report);
     book_impulses(given, next, work, &mut report);
     report.contacts -= work.impulses.arriving.len();
     for body in &work.body_ledgers {
         report.ledger.add_body(body);
     }
+    work.springs.add_to(&mut report.ledger);
     for pair in work.pair_reports.values() {
         report.ledger.add_pair(&pair.ledger);
         report.normal_force += pair.normal_force;
@@ -110,9 +113,12 @@ fn keep_contacts<const D: usize>(
 /// Completes the states of the bodies and closes their books.
 fn close_bodies<const D: usize>(given: &Given<'_, D>, next: &mut State<D>, work: &mut Workspace<D>) {
     let assembly = given.assembly;
-    let Workspace { bodies, contacts, blend, motion, body_ledgers, .. } = work;
+    let Workspace { bodies, contacts, blend, motion, body_ledgers, springs, .. } = work;
     let State { displacement, contact_force, velocity, internal_force, .. } = next;
     contacts.weigh(&given.interval.contact_weights, [&given.state.reactions, &next.reactions]);
+    springs.join(given, &mut contacts.mean_force, contact_force);
+    let springs = &*springs;
+    let contact_force = springs.with_those_at_end(contact_force);
     let close =
         |i: usize, (body, (velocity, internal_force), written): Own<'_, D>, support: &mut [Vector<D>]| {
             let (history, (ledger, energies)) = written;
@@ -120,6 +126,7 @@ fn close_bodies<const D: usize>(given: &Given<'_, D>, next: &mut State<D>, work:
             let end = BodyEnd {
                 contact_force: &contact_force[nodes.clone()],
                 mean_contact_force: &contacts.mean_force[nodes],
+                spring_work: springs.work_on_free(i),
                 velocity: velocity.0,
                 internal_force: internal_force.0,
                 history: history.own(),
@@ -224,9 +231,9 @@ fn close_contacts<const D: usize>(
             book(report, contact, c.dissipation(weight));
         }
         next.energy_debt.copy_from_slice(&state.energy_debt);
-        let surplus = body_ledgers
-            .iter()
-            .map(|b| b.kinetic + b.strain + b.viscous + b.plastic - b.external - b.prescribed);
+        let surplus = body_ledgers.iter().map(|b| {
+            b.kinetic + b.strain + b.viscous + b.plastic - b.external - b.prescribed - b.connections
+        });
         blend.carry(surplus, &contacts.work, &mut next.energy_debt);
         return;
     }

@@ -44,7 +44,7 @@ fn weigh_blend<const D: usize>(
     blend.weigh(bodies, contact_work, &given.state.energy_debt, given.state.energies.total());
 }
 
-/// Adds the reactions known so far to the residuals of the `bodies`, and starts to solve for their corrections.
+/// Adds the reactions known so far, and what springs pull with, to the residuals of the `bodies`, and starts to solve for their corrections.
 pub(super) fn begin_solves<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
@@ -54,6 +54,10 @@ pub(super) fn begin_solves<const D: usize>(
     let residual = &mut work.newton.residual;
     if reacts {
         work.contacts.active.add_reactions(residual);
+        for spring in &given.assembly.springs {
+            let step = spring.in_step(given.interval, &given.state.displacement, &work.motion);
+            spring.add_force(&step.pull(), residual);
+        }
     }
     each_body(given.assembly, bodies, PerBody(&mut work.bodies), &|i, body| {
         body.own().begin_solve(&residual[given.assembly.nodes(i)]);

@@ -180,7 +180,7 @@ fn solve<const D: usize>(
         work.contacts.evaluate(given, &work.motion, late, &mut work.bodies);
     }
     residuals(bodies, given, next, work);
-    let reacts = touched && !work.contacts.active.contacts.is_empty();
+    let reacts = touched && work.contacts.react(given.assembly);
     if bodies.iter().any(|&i| !nodal::is_finite(&work.newton.residual[given.assembly.nodes(i)])) {
         return Err(StepError::NotFinite("internal force"));
     }
@@ -219,7 +219,7 @@ fn linearise<const D: usize>(
 ) -> Result<(), StepError> {
     let Workspace { bodies: all, contacts, motion, .. } = work;
     let Contacts { active, reduced, .. } = contacts;
-    reduced.delassus.stiffened.spring_from_guess(given.assembly, active, all);
+    reduced.delassus.stiffened.spring_from_guess(given.assembly, &next.displacement, active, all);
     if given.interval.map.is_static() {
         reduced.expect_more(all);
     }
@@ -242,7 +242,7 @@ pub(super) fn set_out<const D: usize>(
     contacts.reduced.expect_those_of(given.state, given.assembly, bodies);
     let stiffened = &mut contacts.reduced.delassus.stiffened;
     stiffened.let_go();
-    stiffened.spring_from_start(given.assembly, &given.state.reactions, bodies);
+    stiffened.spring_from_start(given.assembly, given.state, bodies);
     stiffened.is_geometric = false;
     newton.holding.fill(Holding::default());
     (newton.caught, newton.giving_way) = (None, None);
@@ -289,8 +289,9 @@ fn hold<const D: usize>(
     (stiffened, number): (&mut Stiffened<D>, usize),
 ) -> Result<u64, StepError> {
     for tries in 1.. {
-        let springs = stiffened.support(number);
-        let made = body.linearise(guess, &Tangent { held_back: holding.share, springs, is_first });
+        let (springs, softest_spring) = stiffened.support(number);
+        let tangent = Tangent { held_back: holding.share, springs: &springs, softest_spring, is_first };
+        let made = body.linearise(guess, &tangent);
         if made.is_ok() {
             return Ok(tries);
         }

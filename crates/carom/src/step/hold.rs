@@ -95,7 +95,7 @@ impl<'a, const D: usize> Motions<'a, D> {
     }
 }
 
-/// What supports, and contacts that hold so many directions of their frames, see of rigid motions: Σ of the squares, a quadratic form.
+/// What supports, springs, and contacts that hold so many directions of their frames, see of rigid motions: Σ of the squares, a quadratic form.
 fn resisted<'a, const D: usize>(
     motions: &Motions<'_, D>,
     holding: impl Iterator<Item = (&'a Contact<D>, usize)>,
@@ -116,6 +116,12 @@ fn resisted<'a, const D: usize>(
         for axis in 0..directions {
             let direction: Vector<D> = contact.frame.row(axis).transpose();
             resist(motions.row(given, next, &direction, contact.stencil()));
+        }
+    }
+    for spring in &assembly.springs {
+        for direction in spring.held_directions(&next.displacement) {
+            let stencil = spring.stencil.iter().map(|&(n, weight)| (n as usize, weight));
+            resist(motions.row(given, next, &direction, stencil));
         }
     }
     resisted

@@ -77,8 +77,8 @@ fn iterate_bodies<const D: usize>(
             contacts.evaluate(given, motion, late, all);
         }
         residuals(bodies, given, next, work);
-        let reacts = touched && !work.contacts.active.contacts.is_empty();
-        if reacts && work.contacts.is_stiffened() {
+        let reacts = touched && work.contacts.react(given.assembly);
+        if reacts && (work.contacts.is_stiffened() || !given.assembly.springs.is_empty()) {
             let Workspace { contacts, motion, bodies, newton, .. } = work;
             contacts.stiffen(given, motion, bodies, &mut newton.residual);
         }

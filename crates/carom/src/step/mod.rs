@@ -16,6 +16,7 @@ pub(crate) mod newton;
 pub(crate) mod report;
 mod settling;
 mod since_look;
+mod springs;
 mod stability;
 mod waking;
 pub(crate) mod workspace;

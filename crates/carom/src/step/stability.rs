@@ -15,7 +15,7 @@ use super::report::StepReport;
 use super::workspace::Workspace;
 use crate::body::{Guess, SoftestMotion};
 use crate::contact::Contacts;
-use crate::contact::stiffened::ground;
+use crate::contact::stiffened::{ground, ground_of_model};
 use crate::error::StepError;
 use crate::model::given::Given;
 use crate::model::state::State;
@@ -72,6 +72,7 @@ fn softest<const D: usize>(
     let neutral = neutral(body, holding(pressed), given, next, work);
     let mut springs = vec![Vec::new(); assembly.body_count()];
     ground(assembly, holding(pressed), RIGID, &mut work.bodies, &mut springs);
+    ground_of_model(assembly, &next.displacement, &mut work.bodies, &mut springs);
     let motion = &work.motion[assembly.nodes(body)];
     let guess = Guess { interval: given.interval, start: given.start(body), motion, displacement: at };
     let softest = work.bodies[body].softest_motion(&guess, &springs[body], &neutral)?;

@@ -8,6 +8,7 @@ use super::impulse::Impulses;
 use super::newton::Newton;
 use super::report::PairReport;
 use super::since_look::SinceLook;
+use super::springs::SpringBooks;
 use crate::body::{Body, Forecast};
 use crate::contact::{Contacts, PosedProblem};
 use crate::ledger::{BodyLedger, ByPair};
@@ -22,6 +23,7 @@ pub struct Workspace<const D: usize> {
     pub(crate) newton: Newton<D>,
     pub(crate) blend: Blend,
     pub(crate) impulses: Impulses<D>,
+    pub(crate) springs: SpringBooks<D>,
     pub(crate) boundaries: Boundaries<D>,
     /// Since every body was looked at for going through itself.
     pub(crate) since_look: Vec<SinceLook>,
@@ -56,6 +58,7 @@ impl<const D: usize> Workspace<D> {
             newton: Newton::new(assembly),
             blend: Blend::new(bodies.len()),
             impulses: Impulses::new(assembly.reference.len(), bodies.len()),
+            springs: SpringBooks::new(assembly),
             boundaries: assembly.boundaries.clone(),
             since_look: vec![SinceLook::default(); bodies.len()],
             in_itself: vec![false; bodies.len()],

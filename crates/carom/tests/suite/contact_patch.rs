@@ -38,6 +38,7 @@ fn body<const D: usize>(mesh: Mesh<D>) -> Body<D> {
         thickness: 1.0,
         initial_stress: Mat3::zeros(),
         grows: false,
+        points: Vec::new(),
         massless_contact: false,
     };
     Body::new(mesh, &spec).expect("valid")

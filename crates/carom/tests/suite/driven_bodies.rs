@@ -28,6 +28,7 @@ fn spec(law: LawSpec, density: f64, massless_contact: bool) -> BodySpec {
         formulation: Formulation::Standard,
         initial_stress: Mat3::zeros(),
         grows: false,
+        points: Vec::new(),
         massless_contact,
     }
 }

@@ -47,6 +47,7 @@ impl Body<2> for PointMass {
         Energies {
             kinetic: 0.5 * MASS * state.velocity[0].norm_squared(),
             strain: 0.5 * u.dot(&internal_force[0]),
+            springs: 0.0,
         }
     }
 

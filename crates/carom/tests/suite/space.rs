@@ -43,6 +43,7 @@ fn block_of(
         thickness: 1.0,
         initial_stress: Mat3::zeros(),
         grows: false,
+        points: Vec::new(),
         massless_contact: massless,
     };
     let mesh = generate::Grid { corner, size: [1.0; 3], divisions: [cells; 3] }.mesh(kind).expect("valid");

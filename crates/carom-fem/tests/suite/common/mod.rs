@@ -34,6 +34,7 @@ pub fn spec(law: LawSpec) -> BodySpec {
         thickness: 1.0,
         initial_stress: Mat3::zeros(),
         grows: false,
+        points: Vec::new(),
         massless_contact: false,
     }
 }

@@ -22,6 +22,10 @@ fn lowest_inertia<const D: usize>(body: &Body<D>) -> f64 {
 /// which may turn in a hub does not.
 const LOOSE: f64 = 0.05;
 
+/// The same of what springs hold, relative to the softest of them: it leaves that much of an error in every iteration. A mechanism of springs has nothing
+/// else against it.
+const BESIDE_SPRINGS: f64 = 1e-3;
+
 /// Iterations that a new tangent is worth, of small bodies and of large ones.
 const WORTH: [i32; 2] = [3, 12];
 
@@ -268,7 +272,11 @@ impl<const D: usize> IterationMatrix<D> {
         u: &[Vector<D>],
         tangent: &Tangent<'_, D>,
     ) -> Result<(), StepError> {
-        self.support(body, &mut stiffness, tangent.springs, self.inertia(tangent.held_back));
+        let mut inertia = self.inertia(tangent.held_back);
+        if tangent.held_back == 0.0 && tangent.softest_spring > 0.0 {
+            inertia = inertia.min(BESIDE_SPRINGS * tangent.softest_spring / body.total_mass());
+        }
+        self.support(body, &mut stiffness, tangent.springs, inertia);
         self.invert(body, stiffness, u, tangent.is_first)
     }
 

@@ -45,7 +45,8 @@ impl<const D: usize> FeBody<D> {
             plastic,
             scheme: inside + contact + kinetic,
             contact,
+            connections: 0.0,
         };
-        (ledger, Energies { kinetic: 0.0, strain })
+        (ledger, Energies { strain, ..Energies::default() })
     }
 }

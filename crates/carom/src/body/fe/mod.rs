@@ -158,6 +158,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         Energies {
             strain: with_history.strain_energy(state.displacement),
             kinetic: 0.5 * nodal::dot(state.velocity, &momentum),
+            springs: 0.0,
         }
     }
 
@@ -293,7 +294,8 @@ impl<const D: usize> Body<D> for FeBody<D> {
         neutral: &[Vec<Vector<D>>],
     ) -> Option<SoftestMotion<D>> {
         let held_back = softest::held_back(|held_back| {
-            self.linearise(guess, &Tangent { held_back, springs, is_first: false }).is_ok()
+            self.linearise(guess, &Tangent { held_back, springs, softest_spring: 0.0, is_first: false })
+                .is_ok()
         })?;
         let softest = softest::find(&mut self.matrix, &self.part.body, held_back, neutral);
         self.forget();
@@ -358,7 +360,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         let exchanged = blend.map(|weight| {
             let Balance { missing, available, .. } = blended.measure(&equation, scratch);
             end.internal_force.copy_from_slice(&blended.end);
-            missing - weight * available
+            missing - weight * available + end.spring_work
         });
         if exchanged.is_none() {
             // After plastic flow the stored energy is another: that of the new history.
@@ -412,8 +414,9 @@ impl<const D: usize> Body<D> for FeBody<D> {
             plastic,
             scheme,
             contact,
+            connections: 0.0,
         };
-        (ledger, Energies { kinetic, strain })
+        (ledger, Energies { kinetic, strain, springs: 0.0 })
     }
 
     fn is_damped(&self) -> bool {

@@ -125,6 +125,7 @@ impl<const D: usize> Body<D> for ForeignBody<D> {
         Energies {
             strain: self.code.energy(state.displacement),
             kinetic: 0.5 * nodal::dot(state.velocity, &momentum),
+            springs: 0.0,
         }
     }
 
@@ -223,7 +224,7 @@ impl<const D: usize> Body<D> for ForeignBody<D> {
             contact: self.held.free_dot(guess.motion, end.mean_contact_force),
             ..BodyLedger::default()
         };
-        (ledger, Energies { kinetic, strain })
+        (ledger, Energies { kinetic, strain, springs: 0.0 })
     }
 
     fn mass_of(&self, node: u32) -> f64 {

@@ -198,6 +198,7 @@ impl<const D: usize> ReducedPart<D> {
         Energies {
             kinetic: self.shape.kinetic(&place.pose, &rates.twist) + 0.5 * vibration,
             strain: 0.5 * stored.map(|(a, k)| k * a * a).sum::<f64>(),
+            springs: 0.0,
         }
     }
 

@@ -39,7 +39,7 @@ impl<const D: usize> RigidBody<D> {
             contact: self.work(&contact, &self.moved),
             ..BodyLedger::default()
         };
-        (ledger, Energies { kinetic, strain: 0.0 })
+        (ledger, Energies { kinetic, ..Energies::default() })
     }
 
     /// What the scheme takes of the free motion [J], and what guides do where the motion at the end is not what the scheme makes of the step:

@@ -148,7 +148,8 @@ impl<const D: usize> Body<D> for RigidBody<D> {
         let shape = &self.part().shape;
         internal_force.fill(Vector::zeros());
         let pose = shape.pose(state.displacement);
-        Energies { strain: 0.0, kinetic: shape.kinetic(&pose, &shape.twist(&pose, state.velocity)) }
+        let kinetic = shape.kinetic(&pose, &shape.twist(&pose, state.velocity));
+        Energies { kinetic, ..Energies::default() }
     }
 
     fn mean_velocity(&self, velocity: &[Vector<D>]) -> Vector<D> {
