@@ -30,7 +30,8 @@ errors by the number of steps of a period; observed order {order:.2f}. Asserted 
 
 **Dry friction**, μ = {friction:g}, from 0.37 m: the amplitude falls by 2 μ N/k = {fall:g} m in
 every half cycle, and the block stops where k |x| ≤ μ N. Δt = 1e-4 s; the largest error of all
-amplitudes and of the place where it stops, relative to 0.37 m: {rubbed} in {halves} half cycles, bound 1e-6
+amplitudes and of the place where it stops, relative to 0.37 m: {rubbed} in {halves} half cycles,
+bound 1e-6
 (`test_springs.py::test_dry_friction_takes_its_part_of_the_amplitude_in_every_half_cycle`).
 
 **Stick–slip** on a belt at {belt:g} m/s, μ_s = {static:g}, μ_k = {kinetic:g}: sticking for
