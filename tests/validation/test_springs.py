@@ -333,5 +333,6 @@ def test_a_spring_pulls_a_block_along_a_floor():
     history = simulate(case).history
     # It sticks, and gives way a little.
     assert history["rope.force"][1] == pytest.approx(2.0, rel=5e-2)
-    assert history["rope.force"][-1] == pytest.approx(3.0, rel=1e-6)
+    # It slides, and leans into the pull: the line of the rope tilts by as much.
+    assert history["rope.force"][-1] == pytest.approx(3.0, rel=5e-4)
     assert np.abs(history["defect"]).max() < 1e-12 * history["prescribed"][-1]
