@@ -5,6 +5,7 @@ import json
 
 import numpy as np
 
+from carom.io.ledger import COLUMNS as LEDGER_COLUMNS
 from carom.io.summary_types import EnergySummary
 
 MESH = {
@@ -114,8 +115,23 @@ class FallingSimulation:
         return ["left", "left|floor"][number]
 
     def take_ledger(self):
-        body = [self.time, 0, 1, 2, 3, 10, 6, np.nan, 4, 0, 5, np.nan, 7]
-        pair = [self.time, 1, *[np.nan] * 3, 10, np.nan, 8, *[np.nan] * 3, 9, np.nan]
+        of_body = {
+            "kinetic": 1,
+            "strain": 2,
+            "external": 3,
+            "prescribed": 10,
+            "contact": 6,
+            "connections": 0,
+            "viscous": 4,
+            "plastic": 0,
+            "scheme": 5,
+            "defect": 7,
+        }
+        of_pair = {"prescribed": 10, "friction": 8, "normal_contact": 9}
+        body, pair = (
+            [self.time, number, *(terms.get(column, np.nan) for column in LEDGER_COLUMNS[2:])]
+            for number, terms in enumerate((of_body, of_pair))
+        )
         return np.array([body, pair], dtype=float)
 
     def history_columns(self):
