@@ -63,7 +63,7 @@ def _scheme(stage: FullStage, analysis: Dynamic) -> Iterator[Finding]:
         yield Finding(
             "advice",
             "contact.condition",
-            "massless contact is quiet and exact, but takes two to three times as long and does "
+            "massless contact is quiet and exact, but takes half as long again and does "
             "not bear every case yet",
             'if steps fail, take condition = "midpoint"',
         )
