@@ -118,15 +118,7 @@ def length_key(figure: Figure, right: float, bottom: float, *, metre: float, mos
     for x in ([left, right], [left, left], [right, right]):
         ends = [bottom, bottom] if x[0] != x[1] else [bottom - 0.025, bottom + 0.025]
         figure.add_artist(Line2D(x, ends, color=INK, linewidth=0.8, transform=scale))
-    figure.text(
-        (left + right) / 2,
-        bottom - 0.06,
-        f"{length / size:g} {unit}",
-        ha="center",
-        va="top",
-        color=INK,
-        transform=scale,
-    )
+    _say_below(figure, (left + right) / 2, bottom, f"{length / size:g} {unit}", INK)
 
 
 def force_key(
@@ -153,12 +145,10 @@ def force_key(
     scale = figure.dpi_scale_trans
     arrow = arrows(np.array([[right - length, bottom]]), np.array([[length, 0.0]]), size=size)
     figure.add_artist(PolyCollection(list(arrow), facecolors=FORCE, linewidths=0, transform=scale))
-    figure.text(
-        right - length / 2,
-        bottom - 0.06,
-        f"{force / worth:g} {unit}",
-        ha="center",
-        va="top",
-        color=FORCE,
-        transform=scale,
-    )
+    _say_below(figure, right - length / 2, bottom, f"{force / worth:g} {unit}", FORCE)
+
+
+def _say_below(figure: Figure, x: float, y: float, text: str, colour: str) -> None:
+    """Write what a key is worth under it."""
+    scale = figure.dpi_scale_trans
+    figure.text(x, y - 0.06, text, ha="center", va="top", color=colour, transform=scale)
