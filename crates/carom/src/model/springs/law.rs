@@ -112,6 +112,16 @@ mod tests {
     }
 
     #[test]
+    fn a_table_of_what_is_no_number_is_none() {
+        for (elongations, forces, bad) in
+            [([0.0, f64::NAN], [0.0, 1.0], "NaN"), ([0.0, 1.0], [0.0, f64::INFINITY], "inf")]
+        {
+            let said = ForceLaw::table(&elongations, &forces).expect_err("no number");
+            assert_eq!(said, format!("{bad}: elongations and forces must be finite numbers"));
+        }
+    }
+
+    #[test]
     fn a_table_is_linear_between_its_points_and_goes_on_beyond_them() {
         for (elongation, force, slope, energy) in [
             (-7.0, 0.0, 0.0, 0.0),
