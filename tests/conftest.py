@@ -22,15 +22,23 @@ def pytest_configure():
 MET = set()
 """Messages of the documentation that the tests of this process, or of its workers, met."""
 
+FAULTS = []
+"""What is wrong with them after the whole suite."""
+
 
 def pytest_sessionfinish(session, exitstatus):
     """After the whole suite, fail if there are messages that no test met."""
+    config = session.config
+    is_worker = hasattr(config, "workeroutput")
+    if not (is_worker or (exitstatus == pytest.ExitCode.OK and _is_whole(config))):
+        return
     listed = heard.listed()
     MET.update(heard.met(listed, heard.TEXTS))
-    config = session.config
-    if hasattr(config, "workeroutput"):
+    if is_worker:
         config.workeroutput["met"] = sorted(MET)
-    elif exitstatus == pytest.ExitCode.OK and _is_whole(config) and heard.faults(MET, listed):
+        return
+    FAULTS.extend(heard.faults(MET, listed))
+    if FAULTS:
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
 
@@ -40,10 +48,9 @@ def pytest_testnodedown(node):
     MET.update(getattr(node, "workeroutput", {}).get("met", ()))
 
 
-def pytest_terminal_summary(terminalreporter, exitstatus, config):
-    if exitstatus == pytest.ExitCode.OK and _is_whole(config):
-        for fault in heard.faults(MET, heard.listed()):
-            terminalreporter.write_line(fault, red=True)
+def pytest_terminal_summary(terminalreporter):
+    for fault in FAULTS:
+        terminalreporter.write_line(fault, red=True)
 
 
 def _is_whole(config):

@@ -232,6 +232,19 @@ def test_a_rope_is_slack_until_it_pulls():
     assert run.history["block.v_x"][-1] == pytest.approx(-SPEED, rel=1e-12)
 
 
+def hanging(springs, law, *, cells, weight, time_step):
+    """A block of 1 m and 1 kg that its weight pulls down, in load steps."""
+    block = carom.Rectangle(corner=[-0.5, -0.5], size=[1.0, 1.0], divisions=[cells, cells])
+    return carom.Scenario(
+        dimension=2,
+        analysis=carom.Static(end_time=1.0, time_step=time_step, gravity=[0.0, -weight]),
+        bodies=[carom.Body(name="block", material="soft", mesh=block)],
+        materials={"soft": law},
+        springs=springs,
+        output=carom.Output(history_every=time_step, fields_every=1.0),
+    )
+
+
 def test_springs_bear_a_load_in_statics():
     """A block hangs from two springs side by side, and its weight stretches them by m g/2k."""
     posts = [
@@ -242,21 +255,8 @@ def test_springs_bear_a_load_in_statics():
         )
         for name, x in (("left", -0.5), ("right", 0.5))
     ]
-    case = carom.Scenario(
-        dimension=2,
-        analysis=carom.Static(end_time=1.0, time_step=0.25, gravity=[0.0, -10.0]),
-        bodies=[
-            carom.Body(
-                name="block",
-                material="soft",
-                mesh=carom.Rectangle(corner=[-0.5, -0.5], size=[1.0, 1.0], divisions=[2, 2]),
-            )
-        ],
-        materials={"soft": carom.LinearElastic(young=1e4, poisson=0.0, density=1.0)},
-        springs=posts,
-        output=carom.Output(history_every=0.25, fields_every=1.0),
-    )
-    run = simulate(case)
+    soft = carom.LinearElastic(young=1e4, poisson=0.0, density=1.0)
+    run = simulate(hanging(posts, soft, cells=2, weight=10.0, time_step=0.25))
     for post in ("left", "right"):
         assert run.history[f"{post}.force"][-1] == pytest.approx(5.0, rel=1e-6)
         assert run.history[f"{post}.length"][-1] == pytest.approx(1.6, rel=1e-6)
@@ -278,21 +278,8 @@ def test_a_block_on_three_springs_bears_its_weight_however_stiff_they_are(stiffn
             ("side", [0.5, 0.5], [2.0, 0.5]),
         )
     ]
-    case = carom.Scenario(
-        dimension=2,
-        analysis=carom.Static(end_time=1.0, time_step=0.5, gravity=[0.0, -weight]),
-        bodies=[
-            carom.Body(
-                name="block",
-                material="soft",
-                mesh=carom.Rectangle(corner=[-0.5, -0.5], size=[1.0, 1.0], divisions=[3, 3]),
-            )
-        ],
-        materials={"soft": carom.NeoHookean(young=1e4, poisson=0.3, density=1.0)},
-        springs=joints,
-        output=carom.Output(history_every=0.5, fields_every=1.0),
-    )
-    run = simulate(case)
+    soft = carom.NeoHookean(young=1e4, poisson=0.3, density=1.0)
+    run = simulate(hanging(joints, soft, cells=3, weight=weight, time_step=0.5))
     borne = run.history["left.force"][-1] + run.history["right.force"][-1]
     assert borne == pytest.approx(weight, rel=1e-2)
     assert run.history["retried_steps"].max() == 0.0
