@@ -14,7 +14,7 @@ import cylinders
 from runs import Run
 from sections.layout import power, table, told
 
-STEPS = (2e-3, 1e-3, 5e-4, 2.5e-4)  # s
+STEPS = (1e-2, 2e-3, 1e-3, 5e-4, 2.5e-4)  # s
 FAST = "bodies.0.velocity=[4.0, -8.0]"
 
 HEADER = (

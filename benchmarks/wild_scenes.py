@@ -38,9 +38,6 @@ CLOSED = 1e-6
 """Largest defect of the ledger, of the energy that there was, with the scheme `conserving`. That of
 `theta` is the error of its stresses, of which a run warns where it is large."""
 
-OWED = 0.01
-"""The same with the condition `massless`, which may owe a thousandth of what there is in a step."""
-
 CONDITIONS = {
     "theta": ("gap", "midpoint", "endpoint"),
     "conserving": ("gap", "midpoint", "massless"),
@@ -238,8 +235,7 @@ def main() -> None:
         scheme = scenario.analysis.scheme.kind
         end = ending(scenario)
         rows[scheme, scenario.contact.condition, scenario.dimension].append(end)
-        closed = OWED if scenario.contact.condition == "massless" else CLOSED
-        if scheme == "conserving" and end.status == "completed" and end.defect > closed:
+        if scheme == "conserving" and end.status == "completed" and end.defect > CLOSED:
             bad.append(f"scene {seed} ({scheme}): the ledger misses {end.defect:.1e}")
         if end.status not in ("completed", "failed", "uncertified", "intersecting"):
             bad.append(f"scene {seed}: {end.status}: {end.reason}")

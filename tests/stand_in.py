@@ -200,6 +200,7 @@ class FallingSimulation:
             "bodies": [],
             "pairs": [],
             "max_blend": 0.0,
+            "repaid": 0.0,
             "least_friction": 0.0,
             "min_gap": float("inf"),
             "penetration": {"max_depth": 0.0, "worst": None},

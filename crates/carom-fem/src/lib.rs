@@ -21,6 +21,7 @@ mod reduction;
 mod rigid;
 mod shape_table;
 pub mod sparse;
+mod vibration;
 mod with_history;
 
 pub use body::Body;
@@ -36,4 +37,5 @@ pub use loose::rigid_motion;
 pub use point_mass::PointMass;
 pub use reduction::{Content, Reduction};
 pub use rigid::{KineticParts, Momenta, RigidMass};
+pub use vibration::Vibration;
 pub use with_history::BodyWithHistory;

@@ -176,6 +176,7 @@ impl Simulation {
             out.set_item(name, arrays::state(py, run.model(), state)?)?;
         }
         out.set_item("blend", PyArray1::from_slice(py, step.blend))?;
+        out.set_item("vibration", PyArray1::from_slice(py, step.vibration))?;
         for (name, forces) in ["landing", "settling"].into_iter().zip(&step.impulses) {
             out.set_item(name, arrays::vectors(py, forces)?)?;
         }

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.auditing.arrays import Array, Indices, cross, einsum
+from carom.auditing.arrays import Array, Indices, cross, einsum, turned
 from carom.auditing.cells import Cells, boundary
 from carom.auditing.laws import Law
 from carom.auditing.mass import Mass
@@ -200,6 +200,17 @@ class AuditBody:
             moment = self.angular_momentum(u, v) - float(cross(centre, momentum))
             rotation = 0.5 * moment**2 / inertia
         return translation, rotation, self.kinetic_energy(u, v) - translation - rotation
+
+    def vibration(self, u: Array, v: Array) -> Array:
+        """Return v less a rigid motion of the same momenta [m/s]; zero at nodes without mass."""
+        arms = self.points + u - self.mass.mean(self.points + u)
+        field: Array = v - self.mass.times(v).sum(axis=0) / self.mass.total
+        if not self.images.size:
+            inertia = float((arms * self.mass.times(arms)).sum())
+            moment = float(cross(arms, self.mass.times(v)).sum())
+            field -= turned(arms, moment / inertia)
+        field[self.massless] = 0.0
+        return field
 
     def spin(self, u: Array, v: Array) -> float:
         """Return Σ m y × (v − v̄) / Σ m |y|² about the centre [rad/s]."""

@@ -104,6 +104,10 @@ CHECKS: dict[str, tuple[str, str]] = {
     "energy of the step": ("a conserving step closes its ledger", "J"),
     "energy of bodies": ("and that of every body, by what it receives through contact", "J"),
     "blend": ("α closes the balance of its bodies as far as no mean reaction pulls, |α| ≤ 2", "J"),
+    "repaying": (
+        "vibration takes or gives what the blend leaves over, at most half of itself",
+        "J",
+    ),
     "waiting energy": ("what steps have left over is what later ones have yet to give back", "J"),
     "pairs": ("contacts are of pairs that the case enables", ""),
     "contact gaps": ("stored gaps are those of the auditor's closest points", "m"),

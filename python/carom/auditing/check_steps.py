@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.auditing.arrays import Array, cross
+from carom.auditing.arrays import Array, Indices, cross
 from carom.auditing.body import AuditBody
 from carom.auditing.contacts import Contacts, all_forces
 from carom.auditing.model import AuditModel
@@ -20,6 +20,9 @@ Row = Mapping[str, float]
 
 LARGEST_BLEND = 2.0
 """Limit of |α|."""
+
+LARGEST_PART = 0.5
+"""The largest part of the energy of vibration that a step may take or give."""
 
 UNCLEAR = 1e-8
 """What a blend can move below this share of the energy is not sure to be clear of round-off."""
@@ -308,6 +311,7 @@ class StepChecks:
         limits = np.where(unclear, within, limits)
         allowed = work + NEGLIGIBLE * self._scales.energy
         self._check("blend", error[leaders], allowed, where)
+        self._repaid(step, leaders, allowed, where)
         stored, left = step.end["energy_debt"], step.left_over()
         followers = np.setdiff1d(np.arange(len(alpha)), leaders)
         self._check("waiting energy", stored[followers], 0.0, where)
@@ -322,6 +326,33 @@ class StepChecks:
                 "energy that waits: a blend of stresses is at its limit, or has little to move"
             )
         self._check("energy of the step", stored[leaders][~full], allowed, where)
+
+    def _repaid(self, step: Step, leaders: Indices, allowed: float, where: str) -> None:
+        """Check that vibration pays what the blend leaves over, as far as it may.
+
+        Parameters
+        ----------
+        step
+            The step.
+        leaders
+            The bodies that stand for their groups.
+        allowed
+            How far what is left over may be off [J].
+        where
+            Where this is.
+        """
+        shares = step.shares
+        self._check("repaying", shares - shares[step.groups], ROUND_OFF, where)
+        if not shares.any():
+            return
+        vibration, repaid = (
+            np.bincount(step.groups, weights=energy, minlength=len(shares))[leaders]
+            for energy in (step.vibration, step.repaid)
+        )
+        debt = step.left_over()[leaders] - repaid
+        most = LARGEST_PART * vibration
+        error = np.where(shares[leaders] == 0.0, 0.0, repaid + np.clip(debt, -most, most))
+        self._check("repaying", error, allowed, where)
 
     def _newton_work(self, step: Step) -> float:
         """Return the work that the error of the equation of motion may do in a step [J]."""

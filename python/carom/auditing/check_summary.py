@@ -51,6 +51,7 @@ class SummaryChecks:
         self._energies()
         self._extremes()
         self._friction()
+        self._repaid()
         self._counts()
         self._run()
         self._status()
@@ -125,6 +126,18 @@ class SummaryChecks:
         self._findings.check("summary: extremes", min(least, 0.0), off, "least_friction")
         self._findings.leave(
             "the least friction of a step, which is round-off", "summary.json: least_friction"
+        )
+
+    def _repaid(self) -> None:
+        """Check that vibration took or gave nothing where no stresses are blended."""
+        repaid = _number(self._summary["repaid"])
+        if not self._model.blended:
+            self._findings.check("summary: extremes", repaid, 0.0, "repaid")
+            return
+        self._findings.check("summary: extremes", min(repaid, 0.0), 0.0, "repaid")
+        self._findings.leave(
+            "what vibrations took or gave of what blends left over, in all steps together",
+            "summary.json: repaid",
         )
 
     def _tolerance(self, off: float) -> None:

@@ -28,7 +28,7 @@ class BodyForces:
     Parameters
     ----------
     inertia
-        M (v₁ − v₀)/Δt.
+        M (v₁ − v₀)/Δt, before vibration takes or gives what the blend leaves over.
     gravity
         M g.
     viscous
@@ -88,7 +88,7 @@ class Step:
     model
         The model.
     stored
-        ``start``, ``end``, ``blend`` and ``ledger``, see `carom.io.audit`.
+        ``start``, ``end``, ``blend``, ``vibration`` and ``ledger``, see `carom.io.audit`.
     """
 
     def __init__(self, model: AuditModel, stored: Mapping[str, Any]) -> None:
@@ -102,7 +102,8 @@ class Step:
         self.u0: Array = self.start["displacement"]
         self.u1: Array = self.end["displacement"]
         self.v0: Array = self.start["velocity"]
-        self.v1: Array = self.end["velocity"]
+        self.shares: Array = stored["vibration"]
+        self.v1, self.vibration = self._before_repaying()
         self.d: Array = self.u1 - self.u0
         self.motion = self._motion()
         self.v_scheme = self._scheme_velocity()
@@ -123,6 +124,28 @@ class Step:
         grid = (lengths[:, None] * 0.5 ** np.arange(analysis.max_halvings + 1)).ravel()
         best = int(np.abs(grid - raw).argmin())
         return float(grid[best]), float(abs(grid[best] - raw))
+
+    def _before_repaying(self) -> tuple[Array, Array]:
+        """Return what the equations of the step made of velocities, and what vibrated then.
+
+        These are the velocities before vibration took or gave what the blend left over [m/s], and
+        the energy of vibration of the bodies that had a part in that, else zero [J], [body_count].
+        """
+        before: Array = self.end["velocity"].copy()
+        energy = np.zeros(len(self.model.bodies))
+        for index in np.flatnonzero(self.shares):
+            body, share = self.model.bodies[index], self.shares[index]
+            v, u = before[body.span], self.u1[body.span]
+            field = body.vibration(u, v) / (1.0 + share)
+            energy[index] = body.kinetic_energy(u, field)
+            v -= share * field
+        return before, energy
+
+    @property
+    def repaid(self) -> Array:
+        """What vibration gave of what the blend left over [J], shape [body_count]."""
+        repaid: Array = self.vibration * self.shares * (2.0 + self.shares)
+        return repaid
 
     def _motion(self) -> float:
         """Return the largest motion of a node in the step, or that of free flight if larger [m]."""
@@ -327,6 +350,7 @@ class Step:
     def _body_terms(self, index: int, body: AuditBody) -> dict[str, float]:
         model, f = self.model, self.forces[index]
         u0, u1, v0, v1, d = (a[body.span] for a in (self.u0, self.u1, self.v0, self.v1, self.d))
+        end = self.end["velocity"][body.span]
         jump = self.v_scheme[body.span] - v0
         if body.rigid:
             jump = self.rigid(body).scheme(u0, v0, model.theta, self.dt)[1]
@@ -334,6 +358,7 @@ class Step:
         scheme += (model.xi - 0.5) * float(((f.end - f.start) * d).sum())
         if model.blended:
             contact = f.missing - float(self.blend[index]) * f.available
+            contact += float(self.repaid[index])
         else:
             share = model.xi if model.massless else 1.0
             force = share * self.pressed.nodal_forces(len(model.points))
@@ -346,7 +371,7 @@ class Step:
             b = body.massless
             scheme += float(((received - f.viscous - f.internal)[b] * d[b]).sum())
         return {
-            "kinetic": body.kinetic_energy(u1, v1) - body.kinetic_energy(u0, v0),
+            "kinetic": body.kinetic_energy(u1, end) - body.kinetic_energy(u0, v0),
             "strain": body.strain_energy(u1) - body.strain_energy(u0),
             "external": float((f.gravity * d).sum()),
             "viscous": float((f.viscous * d).sum()),

@@ -16,11 +16,11 @@ from carom.io.atomic import write_whole
 from carom.io.damage import DAMAGE
 from carom.io.journal import changed, going_on, shorter
 
-SCHEMA = 3
+SCHEMA = 4
 """Version of the layout; a reader refuses others."""
 
 _ENDS = ("start", "end")
-_ARRAYS = ("blend", "landing", "settling")
+_ARRAYS = ("blend", "vibration", "landing", "settling")
 
 
 class AuditWriter:
@@ -63,8 +63,9 @@ class AuditWriter:
         ----------
         steps
             What `carom.Simulation.last_step` gives: ``start`` and ``end``, mappings of the time
-            [s] and arrays; ``blend``, shape [body_count]; ``landing`` and ``settling``, the parts
-            of the reactions at the end that are impulses there [N], each of shape [count, D];
+            [s] and arrays; ``blend`` and ``vibration``, shape [body_count]; ``landing`` and
+            ``settling``, the parts of the reactions at the end that are impulses there [N], each
+            of shape [count, D];
             ``ledger``, energies by name [J].
         """
         with changed(self._path) as file:

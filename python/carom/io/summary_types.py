@@ -172,6 +172,7 @@ class Summary(TypedDict):
     bodies: list[BodySummary]
     pairs: list[PairSummary]
     max_blend: float
+    repaid: float
     least_friction: float
     min_gap: float | None
     free_motion: NotRequired[FreeMotionSummary]

@@ -144,14 +144,6 @@ BAD = [
         '"z": there are 2 dimensions',
     ),
     (
-        {
-            "materials.elastic": {**MATERIAL, "kind": "j2-plasticity", "yield_stress": 1e3},
-            "contact.condition": "massless",
-        },
-        "contact.condition: ",
-        '"massless" contact of body "block", whose material flows; choose "gap"',
-    ),
-    (
         {"analysis": STATIC, "contact.condition": "midpoint"},
         "contact.condition: ",
         'a static analysis rules the gap at the end of the step; write condition = "gap"',
@@ -178,20 +170,6 @@ BAD = [
         },
         "contact.discretisation: mortar: ",
         'one side has the multipliers; choose "finer", "first" or "second" for sources',
-    ),
-    (
-        {
-            "bodies.0.mesh": {**BLOCK, "divisions": [8, 8]},
-            "bodies.1": {
-                "name": "other",
-                "material": "elastic",
-                "mesh": {**ABOVE, "divisions": [8, 8]},
-            },
-            "contact.discretisation": "mortar",
-            "contact.condition": "massless",
-        },
-        "contact.discretisation: mortar: ",
-        'the condition "massless" is written for nodes; choose "node-to-segment" or another',
     ),
     (formula("2 t"), "loads.0.pressure: ", 'expected an operator at column 3 of "2 t"'),
     (formula("(" * 70), "loads.0.pressure: ", "nested deeper than 64 levels at column 65 of"),
@@ -261,11 +239,6 @@ BAD = [
         {"bodies.0.growth": "20*t"},
         "bodies.0.growth: ",
         "growth is a linear strain, from -2/3 to 2; for a temperature T give alpha*T",
-    ),
-    (
-        {"bodies.0.growth": "0.1*t", "contact.condition": "massless"},
-        "contact.condition: ",
-        '"massless" contact of body "block", which grows; choose "gap" or "midpoint"',
     ),
 ]
 

@@ -12,3 +12,4 @@ mod patch_test;
 mod reduction;
 mod revolution;
 mod threads;
+mod vibration;

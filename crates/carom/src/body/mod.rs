@@ -358,6 +358,16 @@ pub trait Body<const D: usize>: Send + Sync {
         *velocity
     }
 
+    /// The energy [J] of what vibrates in the body at the end of a step that [is blended](Interval::is_blended): of the velocities less those of a rigid
+    /// motion with the same momenta. It is zero where supports move.
+    fn vibration(&mut self, _state: &BodyState<'_, D>) -> f64 {
+        0.0
+    }
+
+    /// Adds a `share` of the [vibration](Self::vibration) that was asked for last to the velocities. What supports give for that over `dt` [s] is added
+    /// to `support`, the force of every support of the model [N].
+    fn vibrate(&mut self, _share: f64, _dt: f64, _velocity: &mut [Vector<D>], _support: &mut [Vector<D>]) {}
+
     /// Grows with every K̄.
     fn generation(&self) -> u64;
 

@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use carom_fem::material::{LawSpec, Mat3};
+use carom_fem::material::Mat3;
 use carom_fem::{Body, BodySpec, FemError, MassKind};
 use carom_mesh::sets::facet_key;
 use carom_mesh::{Mesh, Surface};
@@ -27,18 +27,6 @@ pub(super) fn body<const D: usize>(
     })?;
     let mesh = mesh(&format!("{key}.mesh"), &entry.mesh, given)?;
     let massless_contact = scenario.contact.condition.is_massless() && may_touch(scenario, &entry.name);
-    if massless_contact && matches!(material.law, LawSpec::J2Plasticity(_)) {
-        let message =
-            format!("\"massless\" contact of body {:?}, whose material flows; choose \"gap\"", entry.name);
-        return Err(InputError::new("contact.condition", message));
-    }
-    if massless_contact && entry.growth.is_some() {
-        let message = format!(
-            "\"massless\" contact of body {:?}, which grows; choose \"gap\" or \"midpoint\"",
-            entry.name
-        );
-        return Err(InputError::new("contact.condition", message));
-    }
     let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
     let spec = BodySpec {
         law: material.law.clone(),

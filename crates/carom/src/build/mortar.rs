@@ -29,10 +29,6 @@ pub(super) fn discretisation(
         return Ok(discretisation);
     }
     let refuse = |reason: String| Err(InputError::new(key, format!("mortar: {reason}")));
-    if spec.condition.is_massless() {
-        let reason = "the condition \"massless\" is written for nodes; choose \"node-to-segment\" or another condition";
-        return refuse(reason.to_string());
-    }
     if sources == Some(Sources::Both) {
         let reason = "one side has the multipliers; choose \"finer\", \"first\" or \"second\" for sources";
         return refuse(reason.to_string());

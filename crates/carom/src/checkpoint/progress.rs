@@ -98,6 +98,7 @@ fn totals(archive: &mut Archive<'_>, t: &mut Totals) -> Done {
         &mut t.solver_certificate,
         &mut t.max_residual,
         &mut t.max_blend,
+        &mut t.repaid,
         &mut t.least_friction,
     ];
     archive.numbers("totals/sizes", sizes)?;

@@ -73,6 +73,8 @@ pub struct StepPair<'a, const D: usize> {
     pub end: &'a State<D>,
     /// Blend α of start and end stresses of every body.
     pub blend: &'a [f64],
+    /// See [`Workspace::vibration_shares`].
+    pub vibration: &'a [f64],
     /// See [`Workspace::impulse_forces`].
     pub impulses: [Vec<Vector<D>>; 2],
     /// What the step says of the energy.
@@ -228,6 +230,7 @@ impl<const D: usize> Simulation<D> {
             start: &self.spare,
             end: &self.state,
             blend: self.work.blend_weights(),
+            vibration: self.work.vibration_shares(),
             impulses: self.work.impulse_forces(self.state.reactions.len()),
             ledger,
         })

@@ -159,6 +159,8 @@ pub struct Summary {
     pub pairs: Vec<PairSummary>,
     /// Largest blend |α| of start and end stresses; 0 unless massless contacts conserve.
     pub max_blend: f64,
+    /// What blends left over and vibrations took or gave [J], without its sign.
+    pub repaid: f64,
     /// Smallest dissipation by friction of a contact in a step [J]; never negative by more than round-off.
     pub least_friction: f64,
     /// Smallest gap seen [m].
@@ -296,6 +298,7 @@ impl<const D: usize> Simulation<D> {
             bodies: self.bodies(&self.books),
             pairs: self.pairs(&self.books, self.stage()),
             max_blend: t.max_blend,
+            repaid: t.repaid,
             least_friction: t.least_friction,
             min_gap: t.min_gap,
             penetration: self.penetration(),

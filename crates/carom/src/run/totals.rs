@@ -21,6 +21,8 @@ pub(crate) struct Totals {
     pub solver_certificate: f64,
     pub max_residual: f64,
     pub max_blend: f64,
+    /// See [`super::summary::Summary::repaid`].
+    pub repaid: f64,
     pub least_friction: f64,
     pub min_gap: f64,
     /// Largest motion of a node in a step [m].
@@ -66,6 +68,7 @@ impl Totals {
             solver_certificate: 0.0,
             max_residual: 0.0,
             max_blend: 0.0,
+            repaid: 0.0,
             least_friction: 0.0,
             min_gap: f64::INFINITY,
             max_travel: 0.0,
@@ -94,6 +97,7 @@ impl Totals {
         }
         self.max_residual = self.max_residual.max(report.residual);
         self.max_blend = self.max_blend.max(report.blend);
+        self.repaid += report.repaid;
         self.least_friction = self.least_friction.min(report.least_friction);
         self.min_gap = self.min_gap.min(report.min_gap);
         self.max_travel = self.max_travel.max(report.travel);

@@ -43,6 +43,12 @@ pub(crate) struct Blend {
     leader: Vec<usize>,
     /// α of every body.
     pub weight: Vec<f64>,
+    /// The energy of the vibration of every body at the end of the step [J], where it is asked for.
+    pub vibration: Vec<f64>,
+    /// The same of every group.
+    pub vibration_of_group: Vec<f64>,
+    /// What every body took on of its vibration in the last step, as a share of it.
+    pub share: Vec<f64>,
 }
 
 impl Blend {
@@ -54,6 +60,9 @@ impl Blend {
             ranges: vec![[-LARGEST, LARGEST]; bodies],
             leader: (0..bodies).collect(),
             weight: vec![0.0; bodies],
+            vibration: vec![0.0; bodies],
+            vibration_of_group: vec![0.0; bodies],
+            share: vec![0.0; bodies],
         }
     }
 
@@ -125,7 +134,8 @@ impl Blend {
             .for_each(|(energy_debt, group)| *energy_debt = group.missing);
     }
 
-    fn leader_of(&self, body: usize) -> usize {
+    /// The first body of the group that a body belongs to.
+    pub fn leader_of(&self, body: usize) -> usize {
         leader_of(&self.leader, body)
     }
 

@@ -5,6 +5,7 @@ use carom_fem::material::PlasticState;
 use carom_mesh::Vector;
 
 use super::landing::{Landing, restore};
+use super::repaying::repay;
 use super::report::{PairReport, StepReport};
 use super::settling::settle;
 use super::workspace::Workspace;
@@ -64,6 +65,7 @@ pub(super) fn commit<const D: usize>(
     settle(given, next, work);
     next.sum_energies(assembly);
     close_contacts(given, next, work, &mut report);
+    repay(given, next, work, &mut report);
     book_impulses(given, next, work, &mut report);
     report.contacts -= work.impulses.arriving.len();
     for body in &work.body_ledgers {

@@ -13,6 +13,7 @@ mod iterate;
 pub(crate) mod landing;
 mod measure;
 pub(crate) mod newton;
+mod repaying;
 pub(crate) mod report;
 mod settling;
 mod since_look;

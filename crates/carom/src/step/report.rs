@@ -98,6 +98,8 @@ pub struct StepReport {
     pub normal_force: f64,
     /// Largest blend |α| of start and end stresses: see the scheme `conserving` with `massless` contact.
     pub blend: f64,
+    /// What blends left over and [vibration](super::repaying) took or gave [J], without its sign.
+    pub repaid: f64,
     /// Smallest dissipation by friction of a contact [J]; negative = friction did work on the bodies.
     pub least_friction: f64,
     /// Residual of the contact laws (see `carom_friction::Measure`).
@@ -123,8 +125,8 @@ impl StepReport {
     pub(crate) fn is_finite(&self) -> bool {
         let Self { normal_force, blend, least_friction, residual, .. } = *self;
         let Self { certificate, solver_certificate, reaction_work, mut ledger, .. } = *self;
-        let Self { penetration, travel, friction_defect, .. } = *self;
-        let numbers = [normal_force, blend, least_friction, residual, penetration.depth, travel];
+        let Self { penetration, travel, friction_defect, repaid, .. } = *self;
+        let numbers = [normal_force, blend, repaid, least_friction, residual, penetration.depth, travel];
         let laws = [certificate, solver_certificate, reaction_work, friction_defect];
         let terms = ledger.terms_mut().map(|term| *term);
         numbers.iter().chain(&laws).chain(&terms).all(|x| x.is_finite()) && !self.min_gap.is_nan()

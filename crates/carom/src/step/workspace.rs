@@ -86,6 +86,12 @@ impl<const D: usize> Workspace<D> {
         &self.blend.weight
     }
 
+    /// What every body took on of its vibration at the end of the last step, as a share of it: see [`super::repaying`].
+    #[must_use]
+    pub fn vibration_shares(&self) -> &[f64] {
+        &self.blend.share
+    }
+
     /// The forces [N] of the impulses that were given at the end of the last step, one of each kind for each of its so many `reactions`: those
     /// that restore what landing took, and those that settle contacts at rest. They are part of the reactions.
     #[must_use]

@@ -13,9 +13,9 @@ pub(crate) mod supports;
 
 use std::sync::Arc;
 
-use carom_fem::MassSolver;
 use carom_fem::material::PlasticState;
 use carom_fem::sparse::{Inverse, Precision};
+use carom_fem::{MassSolver, Vibration};
 use carom_mesh::{Matrix, Vector, nodal, tensor};
 
 use self::blended::BlendedForces;
@@ -51,6 +51,7 @@ pub(crate) struct FeBody<const D: usize> {
     drive: Drive<D>,
     scratch: ResidualScratch<D>,
     blended: BlendedForces<D>,
+    vibration: Vibration<D>,
     mass_solver: MassSolver<D>,
     /// The mass that moves with every node, those tied to it included [kg].
     nodal_mass: Vec<f64>,
@@ -76,6 +77,7 @@ impl<const D: usize> FeBody<D> {
             drive: Drive::new(&part),
             scratch: ResidualScratch::new(part.body.node_count()),
             blended: BlendedForces::default(),
+            vibration: Vibration::default(),
             mass_solver: MassSolver::default(),
             nodal_mass: mass_of_tied_nodes(&part.body),
             node_stiffness: Vec::new(),
@@ -453,6 +455,19 @@ impl<const D: usize> Body<D> for FeBody<D> {
         }
         let power = nodal::dot(change, scratch.resistance(body, &pose.frame, state.displacement, change));
         Jolt { power, ..Jolt::default() }
+    }
+
+    fn vibration(&mut self, state: &BodyState<'_, D>) -> f64 {
+        self.vibration.measure(&self.part.body, state.displacement, state.velocity)
+    }
+
+    fn vibrate(&mut self, share: f64, dt: f64, velocity: &mut [Vector<D>], support: &mut [Vector<D>]) {
+        let Self { part, vibration, .. } = self;
+        nodal::each(velocity, [&vibration.field], |v, [w]| *v += w * share);
+        for (dof, k) in part.supports.driven(&part.body) {
+            let i = dof.component as usize;
+            support[k][i] += vibration.momentum[dof.node as usize][i] * (share / dt);
+        }
     }
 
     fn generation(&self) -> u64 {
