@@ -7,13 +7,14 @@ import carom
 
 HERE = Path(__file__).parent
 # Gallery scripts describe the cases of examples/, and draw them with gallery/pictures.py.
-sys.path[:0] = [str(HERE.parent / "examples"), str(HERE / "gallery")]
+sys.path[:0] = [str(HERE), str(HERE.parent / "examples"), str(HERE / "gallery")]
 
 project = "carom"
 author = "the authors of carom"
 version = release = carom.__version__
 
 extensions = [
+    "mathml",  # beside this file
     "myst_parser",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
@@ -22,6 +23,9 @@ extensions = [
     "sphinxcontrib.bibtex",
 ]
 html_theme = "furo"
+html_math_renderer = "mathml"
+html_static_path = ["static"]
+html_css_files = ["site.css"]
 html_show_copyright = False
 html_title = f"carom {release}"
 exclude_patterns = ["decisions", "gallery", "gallery-pages/**/*.ipynb", "images"]
@@ -47,6 +51,7 @@ sphinx_gallery_conf = {
     "remove_config_comments": True,
     "download_all_examples": False,
     "show_memory": False,
+    "write_computation_times": False,  # its page loads scripts of others
     "min_reported_time": 1,
     # `make check` looks at pages and links; `make docs` runs the cases.
     "plot_gallery": "False" if tags.has("unexecuted") else "True",  # noqa: F821 (Sphinx has it)

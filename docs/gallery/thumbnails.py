@@ -1,0 +1,90 @@
+"""Make the thumbnails of the gallery: ``python docs/gallery/thumbnails.py [NAME …]``.
+
+Runs the scripts, each as the site does, draws one instant of the result of each (bodies and colour,
+and nothing else) and says how long it took. A script of more than a minute is refused.
+"""
+
+from __future__ import annotations
+
+import runpy
+import sys
+import time
+import warnings
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+
+HERE = Path(__file__).resolve().parent
+PICTURES = HERE.parent / "images"
+sys.path[:0] = [str(HERE), str(PICTURES), str(HERE.parents[1] / "examples")]
+
+LONGEST = 60.0
+"""Processor time that a case may take [s]: machines are shared, and their clocks count that too."""
+
+LOOKS: dict[str, dict[str, Any]] = {
+    "1_bars": {"times": 0.02, "field": "velocity", "edges": False},
+    "2_cylinders": {"times": 2.9, "field": "von-mises"},
+    "3_oblique_layer": {"field": "von-mises"},
+    "4_hertz": {
+        "field": "von-mises",
+        "magnification": 40.0,
+        "smooth": True,
+        "edges": False,
+        "window": (0.0, -0.04, 0.06, 0.005),
+    },
+    "5_incline": {"field": "von-mises"},
+    "6_billiard": {"times": 0.02, "field": "velocity"},
+    "7_ring": {"times": 0.8, "field": "von-mises"},
+    "8_bracket": {"times": 1.4e-4, "field": "von-mises", "smooth": True, "camera": (-50.0, 28.0)},
+    "10_post": {"times": 1.0, "field": "von-mises"},
+    "11_stack": {"times": 0.2, "field": "von-mises"},
+    "12_bullet": {"times": 6e-3, "field": "von-mises"},
+    "13_corners": {"field": "von-mises"},
+    "14_wedge": {"field": "von-mises"},
+    "15_thrown_ring": {"times": 0.105, "field": "von-mises", "limits": (0.0, 6e5)},
+    "16_arch": {"times": 0.36, "field": "body", "camera": (-65.0, 14.0)},
+    "17_pile": {"field": "von-mises"},
+    "18_press_fit": {"field": "von-mises", "edges": False},
+    "19_seal": {"field": "von-mises"},
+    "20_cradle": {"times": 0.1, "field": "velocity"},
+    "21_racket": {"times": 1.2, "field": "body"},
+    "22_dominoes": {"times": 0.3, "field": "body"},
+    "23_stick_slip": {"times": 0.6, "field": "body"},
+    "24_two_drop": {"times": 0.03, "field": "velocity"},
+    "25_taylor": {"times": 4.4e-5, "field": "plastic_strain"},
+    "27_backspin": {"field": "body"},
+    "28_bowling": {"field": "velocity"},
+    "29_wall": {"times": 0.25, "field": "body"},
+}
+"""How the result of each script is drawn; those that are not here have a picture of their own."""
+
+
+def file_of(name: str) -> Path:
+    """Return the file of a thumbnail, which the script names in a comment."""
+    return PICTURES / "gallery" / f"{name.partition('_')[2].replace('_', '-')}.png"
+
+
+def main(names: list[str]) -> int:
+    """Make the thumbnails of these names, or all."""
+    mpl.use("agg")
+    import carom  # noqa: PLC0415 (after the choice of what draws)
+    from make_thumbnails import thumbnail  # noqa: PLC0415 (of images/)
+
+    warnings.simplefilter("ignore")
+    (PICTURES / "gallery").mkdir(exist_ok=True)
+    slow = False
+    for name in names or LOOKS:
+        begun, wall = time.process_time(), time.perf_counter()
+        left = runpy.run_path(str(HERE / f"plot_{name}.py"))
+        took, wall = time.process_time() - begun, time.perf_counter() - wall
+        slow |= took > LONGEST
+        print(f"{name}: {took:.1f} s of processor time, {wall:.1f} s", flush=True)
+        if name in LOOKS:
+            drawn = carom.picture(left["result"], bare=True, width=120.0, **LOOKS[name])
+            thumbnail(drawn, file_of(name))
+    return int(slow)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
