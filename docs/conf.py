@@ -28,9 +28,14 @@ html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_show_copyright = False
 html_title = f"carom {release}"
+html_theme_options = {
+    # Of WCAG's contrast for text, on the ground of the page and of what is pointed at.
+    "light_css_variables": {"color-brand-primary": "#0b5fa5", "color-brand-content": "#0b5fa5"},
+    "dark_css_variables": {"color-brand-primary": "#7db8f0", "color-brand-content": "#7db8f0"},
+}
 exclude_patterns = ["decisions", "gallery", "gallery-pages/**/*.ipynb", "images"]
 
-myst_enable_extensions = ["dollarmath"]
+myst_enable_extensions = ["colon_fence", "dollarmath"]
 myst_heading_anchors = 4
 bibtex_bibfiles = ["references.bib"]
 
@@ -45,7 +50,8 @@ sphinx_gallery_conf = {
     "examples_dirs": "gallery",
     "gallery_dirs": "gallery-pages",
     "filename_pattern": r"/plot_",
-    "ignore_pattern": r"pictures\.py",
+    "ignore_pattern": r"(pictures|thumbnails)\.py",
+    "thumbnail_size": (480, 360),
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
     "remove_config_comments": True,

@@ -20,7 +20,7 @@ dominoes = [
         name=f"domino-{k}",
         density=1000.0,
         mesh=carom.Rectangle(corner=[SPACING * k, 0.0], size=[WIDTH, HEIGHT], divisions=[1, 4]),
-        spin=-6.0 if k == 0 else 0.0,
+        spin=-16.0 if k == 0 else 0.0,
     )
     for k in range(COUNT)
 ]
@@ -38,13 +38,14 @@ history = result.history
 # %%
 # When each begins to turn, and how fast the wave is.
 
-starts = np.array(
-    [history["time"][np.argmax(history[f"domino-{k}.spin"] < -0.5)] for k in range(COUNT)]
-)
+turning = [history[f"domino-{k}.spin"] < -0.5 for k in range(COUNT)]
+assert all(turns.any() for turns in turning)
+starts = np.array([history["time"][turns.argmax()] for turns in turning])
 speed = SPACING / np.diff(starts)
-print("speed of the wave, domino by domino:", speed.round(2), "m/s")
-energy = result.summary["energy"]
-print(f"not explained: {energy['max_defect']:.0e} J of {history['friction'][-1] + history['normal_contact'][-1]:.2f} J lost")
+print("speed of the wave from each to the next [m/s]:", speed.round(2))
+lost = history["friction"][-1] + history["normal_contact"][-1]
+defect = result.summary["energy"]["max_defect"]
+print(f"friction and impacts took {lost:.3f} J; not explained: {defect:.0e} J")
 
 draw(result, [0.0, 0.15, 0.3, 0.6], field="body")
 plt.show()

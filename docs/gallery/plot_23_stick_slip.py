@@ -10,7 +10,6 @@ from tempfile import mkdtemp
 
 import matplotlib.pyplot as plt
 import numpy as np
-from pictures import draw
 
 import carom
 
@@ -19,6 +18,7 @@ block = carom.RigidBody(
     name="block",
     mass=MASS,
     mesh=carom.Rectangle(corner=[0.0, 0.0], size=[0.2, 0.1], divisions=[2, 1]),
+    velocity=[BELT, 0.0],
 )
 spring = carom.Spring(
     name="spring",
@@ -48,7 +48,8 @@ history = result.history
 ride = STATIC * MASS * GRAVITY / STIFFNESS / BELT
 print(f"first slip expected at {ride:.3f} s")
 x = history["block.x"] - history["block.x"][0]
-slips = np.flatnonzero((history["block.v_x"][:-1] >= 0.99 * BELT) & (history["block.v_x"][1:] < 0.99 * BELT))
+rides = history["block.v_x"] >= 0.99 * BELT
+slips = np.flatnonzero(rides[:-1] & ~rides[1:])
 print("slips begin at", history["time"][slips].round(3), "s")
 omega = np.sqrt(STIFFNESS / MASS)
 jump = (STATIC - KINETIC) * MASS * GRAVITY / STIFFNESS

@@ -19,7 +19,7 @@ ball = carom.RigidBody(
     name="ball",
     density=1300.0,
     round=True,
-    mesh=carom.Ball(centre=[0.0, 0.0, RADIUS], radius=RADIUS, divisions=5),
+    mesh=carom.Ball(centre=[0.0, 0.0, RADIUS], radius=RADIUS, divisions=4),
     velocity=[SPEED, 0.0, 0.0],
 )
 scenario = carom.Scenario(

@@ -48,9 +48,10 @@ scenario = carom.Scenario(
 )
 result = carom.run(scenario, out=mkdtemp())
 history, energy = result.history, result.summary["energy"]
-print(f"the ball had {history['ball.kinetic'][0]:.0f} J and has {history['ball.kinetic'][-1]:.0f} J")
+brought = history["kinetic"][0]
+print(f"the ball brought {brought:.0f} J, gravity gave {history['external'][-1]:.0f} J")
 print(f"friction took {history['friction'][-1]:.0f} J, impacts {history['normal_contact'][-1]:.0f} J")
-print(f"not explained: {energy['max_defect']:.0e} J")
+print(f"{history['kinetic'][-1]:.0f} J still move; not explained: {energy['max_defect']:.0e} J")
 
 draw(result, [0.0, 0.1, 0.25, 0.5], field="body")
 plt.show()

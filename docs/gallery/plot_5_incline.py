@@ -61,3 +61,5 @@ axes.set_xlabel("time [s]")
 axes.set_ylabel("velocity down the slope [m/s]; dotted: exact")
 axes.legend(title=f"friction angle {np.degrees(np.arctan(FRICTION)):.1f}°")
 plt.show()
+
+# sphinx_gallery_thumbnail_path = 'images/gallery/incline.png'

@@ -14,6 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
 HERE = Path(__file__).resolve().parent
 PICTURES = HERE.parent / "images"
@@ -37,6 +40,7 @@ LOOKS: dict[str, dict[str, Any]] = {
     "6_billiard": {"times": 0.02, "field": "velocity"},
     "7_ring": {"times": 0.8, "field": "von-mises"},
     "8_bracket": {"times": 1.4e-4, "field": "von-mises", "smooth": True, "camera": (-50.0, 28.0)},
+    "9_fclib": {},
     "10_post": {"times": 1.0, "field": "von-mises"},
     "11_stack": {"times": 0.2, "field": "von-mises"},
     "12_bullet": {"times": 6e-3, "field": "von-mises"},
@@ -47,22 +51,39 @@ LOOKS: dict[str, dict[str, Any]] = {
     "17_pile": {"field": "von-mises"},
     "18_press_fit": {"field": "von-mises", "edges": False},
     "19_seal": {"field": "von-mises"},
-    "20_cradle": {"times": 0.1, "field": "velocity"},
+    "20_cradle": {"times": 0.04, "field": "velocity"},
     "21_racket": {"times": 1.2, "field": "body"},
     "22_dominoes": {"times": 0.3, "field": "body"},
     "23_stick_slip": {"times": 0.6, "field": "body"},
     "24_two_drop": {"times": 0.03, "field": "velocity"},
     "25_taylor": {"times": 4.4e-5, "field": "plastic_strain"},
+    "26_scikit_fem": {},
     "27_backspin": {"field": "body"},
     "28_bowling": {"field": "velocity"},
     "29_wall": {"times": 0.25, "field": "body"},
 }
-"""How the result of each script is drawn; those that are not here have a picture of their own."""
+"""How the result of each script is drawn; that of scikit-fem has the picture of the README."""
 
 
 def file_of(name: str) -> Path:
     """Return the file of a thumbnail, which the script names in a comment."""
     return PICTURES / "gallery" / f"{name.partition('_')[2].replace('_', '-')}.png"
+
+
+def blocks(left: dict[str, Any]) -> Figure:
+    """Draw the wall of which the page about FCLIB has the contacts alone."""
+    figure = Figure(figsize=(4.8, 3.6))
+    FigureCanvasAgg(figure)
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    width, height = left["WIDTH"], left["HEIGHT"]
+    for row, x in left["blocks"]:
+        colour = ("#8FB8DE", "#F2B98A", "#A9D3B8")[(row + round(2.0 * x / width)) % 3]
+        corner = (x - 0.5 * width, row * height)
+        axes.add_patch(Rectangle(corner, width, height, facecolor=colour, edgecolor="#1B2230"))
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    axes.autoscale()
+    return figure
 
 
 def main(names: list[str]) -> int:
@@ -80,7 +101,9 @@ def main(names: list[str]) -> int:
         took, wall = time.process_time() - begun, time.perf_counter() - wall
         slow |= took > LONGEST
         print(f"{name}: {took:.1f} s of processor time, {wall:.1f} s", flush=True)
-        if name in LOOKS:
+        if name == "9_fclib":
+            thumbnail(blocks(left), file_of(name))
+        elif LOOKS[name]:
             drawn = carom.picture(left["result"], bare=True, width=120.0, **LOOKS[name])
             thumbnail(drawn, file_of(name))
     return int(slow)
