@@ -65,9 +65,9 @@ def test_links_to_files_lead_somewhere(page):
         if re.match(r"\w+:", target) or "gallery-pages" in path:
             continue
         file = (page.parent / path).resolve() if path else page
-        if not file.exists() and not file.with_suffix(".md").exists():
-            missing.append(target)
-        elif anchor and file.suffix == ".md" and anchor not in anchors(file):
+        if (not file.exists() and not file.with_suffix(".md").exists()) or (
+            anchor and file.suffix == ".md" and anchor not in anchors(file)
+        ):
             missing.append(target)
     assert missing == []
 

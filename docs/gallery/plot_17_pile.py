@@ -19,7 +19,9 @@ EXAMPLES = Path(two_bars.__file__).parent
 result = carom.run(carom.Scenario.from_toml(EXAMPLES / "pile.toml"), out=mkdtemp())
 history = result.history
 print(f"deepest penetration {result.summary['penetration']['max_depth']:.0e} m")
-print(f"not explained: {result.summary['energy']['max_defect']:.0e} J of {history['external'][-1]:.0f} J")
+print(
+    f"not explained: {result.summary['energy']['max_defect']:.0e} J of {history['external'][-1]:.0f} J"
+)
 
 # %%
 # Colours are von Mises' stress.

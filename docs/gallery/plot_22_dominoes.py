@@ -26,7 +26,7 @@ dominoes = [
 ]
 scenario = carom.Scenario(
     title="Dominoes",
-    analysis=carom.Dynamic(end_time=0.6, time_step=5e-4, gravity=[0.0, -9.81]),
+    analysis=carom.Dynamic(end_time=0.6, time_step=2e-4, gravity=[0.0, -9.81]),
     output=carom.Output(fields_every=0.01),
     bodies=dominoes,
     obstacles=[carom.Plane(name="table", point=[0.0, 0.0], normal=[0.0, 1.0])],

@@ -50,7 +50,9 @@ result = carom.run(scenario, out=mkdtemp())
 history, energy = result.history, result.summary["energy"]
 brought = history["kinetic"][0]
 print(f"the ball brought {brought:.0f} J, gravity gave {history['external'][-1]:.0f} J")
-print(f"friction took {history['friction'][-1]:.0f} J, impacts {history['normal_contact'][-1]:.0f} J")
+print(
+    f"friction took {history['friction'][-1]:.0f} J, impacts {history['normal_contact'][-1]:.0f} J"
+)
 print(f"{history['kinetic'][-1]:.0f} J still move; not explained: {energy['max_defect']:.0e} J")
 
 draw(result, [0.0, 0.1, 0.25, 0.5], field="body")

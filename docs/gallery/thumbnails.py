@@ -10,13 +10,18 @@ import runpy
 import sys
 import time
 import warnings
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Polygon, Rectangle
+from scipy.spatial import ConvexHull
+
+import carom
 
 HERE = Path(__file__).resolve().parent
 PICTURES = HERE.parent / "images"
@@ -36,7 +41,7 @@ LOOKS: dict[str, dict[str, Any]] = {
         "edges": False,
         "window": (0.0, -0.04, 0.06, 0.005),
     },
-    "5_incline": {"field": "von-mises"},
+    "5_incline": {"strobe": (0.0, 0.15, 0.3), "turn": 25.0},
     "6_billiard": {"times": 0.02, "field": "velocity"},
     "7_ring": {"times": 0.8, "field": "von-mises"},
     "8_bracket": {"times": 1.4e-4, "field": "von-mises", "smooth": True, "camera": (-50.0, 28.0)},
@@ -54,15 +59,19 @@ LOOKS: dict[str, dict[str, Any]] = {
     "20_cradle": {"times": 0.04, "field": "velocity"},
     "21_racket": {"times": 1.2, "field": "body"},
     "22_dominoes": {"times": 0.3, "field": "body"},
-    "23_stick_slip": {"times": 0.6, "field": "body"},
-    "24_two_drop": {"times": 0.03, "field": "velocity"},
+    "23_stick_slip": {"strobe": (0.0, 0.25, 0.5)},
+    "24_two_drop": {"strobe": (0.0, 0.012, 0.03, 0.045)},
     "25_taylor": {"times": 4.4e-5, "field": "plastic_strain"},
     "26_scikit_fem": {},
-    "27_backspin": {"field": "body"},
-    "28_bowling": {"field": "velocity"},
+    "27_backspin": {"strobe": tuple(0.03 * k for k in range(30))},
+    "28_bowling": {"strobe": tuple(0.15 * k for k in range(4))},
     "29_wall": {"times": 0.25, "field": "body"},
 }
 """How the result of each script is drawn; that of scikit-fem has the picture of the README."""
+
+
+PALE = ("#8FB8DE", "#F2B98A", "#A9D3B8")
+"""Colours of bodies that have nothing else to show."""
 
 
 def file_of(name: str) -> Path:
@@ -86,10 +95,57 @@ def blocks(left: dict[str, Any]) -> Figure:
     return figure
 
 
+def strobe(result: carom.Result, times: Sequence[float], turn: float = 0.0) -> Figure:
+    """Draw bodies at several times upon one another, as by a flash that goes on and off.
+
+    Parameters
+    ----------
+    result
+        What is drawn, seen along y where it is in space.
+    times
+        When [s], the palest first.
+    turn
+        By how much the picture is turned, clockwise [degrees].
+    """
+    figure = Figure(figsize=(4.8, 3.6))
+    FigureCanvasAgg(figure)
+    axes = figure.add_axes((0.03, 0.03, 0.94, 0.94))
+    fields, up = result.fields, result.scenario.dimension - 1
+    angle = np.radians(-turn)
+    turned = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    lowest = np.inf
+    for order, time in enumerate(times):
+        frame = int(np.argmin(np.abs(fields.times - time)))
+        for number, body in enumerate(result.scenario.bodies):
+            own = fields.body(body.name)
+            places = (own.points + own["displacement"][frame])[:, [0, up]]
+            hull = places[ConvexHull(places).vertices]
+            lowest = min(lowest, hull[:, 1].min())
+            axes.add_patch(
+                Polygon(
+                    hull @ turned.T,
+                    facecolor=PALE[number % len(PALE)],
+                    edgecolor="#1B2230",
+                    alpha=0.25 + 0.75 * (order + 1) / len(times),
+                )
+            )
+            # A line by which one sees it turn.
+            spoke = np.array([hull.mean(axis=0), places[len(places) - 1]]) @ turned.T
+            axes.plot(*spoke.T, color="#1B2230", linewidth=0.8)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    axes.autoscale()
+    left, right = axes.get_xlim()
+    ground = np.array([[left - right, lowest], [2.0 * right - left, lowest]]) @ turned.T
+    limits = axes.get_xlim(), axes.get_ylim()
+    axes.plot(*ground.T, color="#8A94A6", linewidth=2.0, zorder=0)
+    axes.set(xlim=limits[0], ylim=limits[1])
+    return figure
+
+
 def main(names: list[str]) -> int:
     """Make the thumbnails of these names, or all."""
     mpl.use("agg")
-    import carom  # noqa: PLC0415 (after the choice of what draws)
     from make_thumbnails import thumbnail  # noqa: PLC0415 (of images/)
 
     warnings.simplefilter("ignore")
@@ -103,6 +159,10 @@ def main(names: list[str]) -> int:
         print(f"{name}: {took:.1f} s of processor time, {wall:.1f} s", flush=True)
         if name == "9_fclib":
             thumbnail(blocks(left), file_of(name))
+        elif "strobe" in LOOKS[name]:
+            look = LOOKS[name]
+            drawn = strobe(left["result"], look["strobe"], look.get("turn", 0.0))
+            thumbnail(drawn, file_of(name))
         elif LOOKS[name]:
             drawn = carom.picture(left["result"], bare=True, width=120.0, **LOOKS[name])
             thumbnail(drawn, file_of(name))

@@ -221,7 +221,9 @@ def contact() -> Drawing:
         if slip:
             page.line([(middle, ground + 12), (middle + slip, ground + 12)], ORANGE, arrow=True)
         page.text((middle, ground + 42), [where, force], size=14, colour=SOFT)
-    page.text((680, 324), "the cone is as wide as the coefficient of friction: |rₜ| ≤ μ rₙ", size=14)
+    page.text(
+        (680, 324), "the cone is as wide as the coefficient of friction: |rₜ| ≤ μ rₙ", size=14
+    )
     return page
 
 
