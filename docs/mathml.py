@@ -14,6 +14,7 @@ from docutils.utils.math import MathError
 from docutils.utils.math.latex2mathml import tex2mathml
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
+from sphinx.writers.html5 import HTML5Translator
 
 MATHML = "http://www.w3.org/1998/Math/MathML"
 
@@ -39,12 +40,12 @@ def mathml(formula: str, *, block: bool = False) -> str:
     return ET.tostring(element, encoding="unicode")
 
 
-def _inline(self: Any, node: nodes.math) -> None:
+def _inline(self: HTML5Translator, node: nodes.math) -> None:
     self.body.append(mathml(node.astext()))
     raise nodes.SkipNode
 
 
-def _block(self: Any, node: nodes.math_block) -> None:
+def _block(self: HTML5Translator, node: nodes.math_block) -> None:
     # Wide formulae scroll by themselves, by keys too.
     attributes = {"role": "region", "aria-label": "formula", "tabindex": "0"}
     self.body.append(self.starttag(node, "div", CLASS="formula", **attributes))

@@ -65,9 +65,9 @@ def test_links_to_files_lead_somewhere(page):
         if re.match(r"\w+:", target) or "gallery-pages" in path:
             continue
         file = (page.parent / path).resolve() if path else page
-        if (not file.exists() and not file.with_suffix(".md").exists()) or (
-            anchor and file.suffix == ".md" and anchor not in anchors(file)
-        ):
+        is_there = file.exists() or file.with_suffix(".md").exists()
+        has_anchor = not anchor or file.suffix != ".md" or anchor in anchors(file)
+        if not (is_there and has_anchor):
             missing.append(target)
     assert missing == []
 

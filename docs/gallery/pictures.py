@@ -19,7 +19,7 @@ def draw(
     times: Sequence[float],
     *,
     field: str,
-    **look: Any,
+    **look: Any,  # noqa: ANN401 (whatever carom.picture takes)
 ) -> None:
     """Draw the bodies of a run at some times [s], side by side, in the colours of a field.
 

@@ -24,7 +24,8 @@ for thickness in (0.15, 0.08):
     print(f"thickness {thickness} m: after 0.4 s the crown is {1e3 * -crown:.2f} mm lower")
 
 # %%
-# The thin arch turns about hinges at its joints, inside and outside by turns. Each colour is a stone.
+# The thin arch turns about hinges at its joints, inside and outside by turns. Each colour is a
+# stone.
 
 result = results[0.08]
 draw(result, [0.0, 0.3, 0.4], field="body", camera=(-65.0, 14.0))

@@ -19,9 +19,8 @@ EXAMPLES = Path(two_bars.__file__).parent
 result = carom.run(carom.Scenario.from_toml(EXAMPLES / "pile.toml"), out=mkdtemp())
 history = result.history
 print(f"deepest penetration {result.summary['penetration']['max_depth']:.0e} m")
-print(
-    f"not explained: {result.summary['energy']['max_defect']:.0e} J of {history['external'][-1]:.0f} J"
-)
+defect = result.summary["energy"]["max_defect"]
+print(f"not explained: {defect:.0e} J of the {history['external'][-1]:.0f} J that gravity gave")
 
 # %%
 # Colours are von Mises' stress.

@@ -20,7 +20,8 @@ EXAMPLES = Path(two_bars.__file__).parent
 result = carom.run(carom.Scenario.from_toml(EXAMPLES / "press_fit.toml"), out=mkdtemp())
 
 # %%
-# Long parts of one material with radii a and b, in plane strain: p = E δ (b² − a²) / [2 (1 − ν²) a b²].
+# Long parts of one material with radii a and b, in plane strain:
+# p = E δ (b² − a²) / [2 (1 − ν²) a b²].
 
 young, poisson, inner, outer, excess = 210e9, 0.3, 0.02, 0.04, 20e-6
 lame = young * excess * (outer**2 - inner**2) / (2 * (1 - poisson**2) * inner * outer**2)

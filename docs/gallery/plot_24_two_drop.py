@@ -2,8 +2,8 @@
 A small ball on a large one: thrown higher than it fell
 =======================================================
 
-A small disc falls on top of a large one. The large one comes back from the floor and meets the small
-one still falling, which leaves with nearly three times the speed that it had, and so rises to
+A small disc falls on top of a large one. The large one comes back from the floor and meets the
+small one still falling, which leaves with nearly three times the speed that it had, and so rises to
 nearly nine times the height.
 """
 

@@ -42,9 +42,8 @@ falling = np.sqrt(2.0 * GRAVITY * HEIGHT)
 sliding = FORWARD + SPIN * RADIUS
 loss = min(FRICTION * (1.0 + RESTITUTION) * falling, sliding / 3.0)
 after = int(np.argmax(history["ball.v_y"] > 0.0))
-print(
-    f"after the first bounce {history['ball.v_x'][after]:+.4f} m/s, expected {FORWARD - loss:+.4f} m/s"
-)
+found, expected = history["ball.v_x"][after], FORWARD - loss
+print(f"after the first bounce {found:+.4f} m/s, expected {expected:+.4f} m/s")
 print(f"at the end {history['ball.v_x'][-1]:+.4f} m/s")
 
 # %%

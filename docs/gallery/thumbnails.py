@@ -114,8 +114,8 @@ def strobe(result: carom.Result, times: Sequence[float], turn: float = 0.0) -> F
     angle = np.radians(-turn)
     turned = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     lowest = np.inf
-    for order, time in enumerate(times):
-        frame = int(np.argmin(np.abs(fields.times - time)))
+    for order, when in enumerate(times):
+        frame = int(np.argmin(np.abs(fields.times - when)))
         for number, body in enumerate(result.scenario.bodies):
             own = fields.body(body.name)
             places = (own.points + own["displacement"][frame])[:, [0, up]]
