@@ -1,5 +1,7 @@
 """The scene of a result in the output of a cell, as Jupyter and exported HTML show it."""
 
+import html
+import re
 import xml.etree.ElementTree as ET
 
 import pytest
@@ -87,7 +89,8 @@ def test_the_frame_has_no_rights_and_a_name(ball):
     (frame,) = ET.fromstring(ball._repr_html_()).iter("iframe")
     assert frame.get("sandbox") == "allow-scripts"
     assert frame.get("title").endswith("the bodies in motion")
-    policy = frame.get("srcdoc").split('Content-Security-Policy" content="')[1].split('"')[0]
+    (policy,) = re.findall(r'Content-Security-Policy" content="([^"]*)"', frame.get("srcdoc"))
+    policy = html.unescape(policy)
     assert policy.startswith("default-src 'none'; script-src 'sha256-")
     assert "http" not in policy
     assert "unsafe-eval" not in policy
