@@ -39,4 +39,4 @@ plt.show()
 # .. literalinclude:: ../../examples/masonry_arch.py
 #    :pyobject: scenario
 
-# sphinx_gallery_thumbnail_path = 'images/gallery/arch.png'
+# sphinx_gallery_thumbnail_path = 'images/thumbnail-arch.png'

@@ -45,4 +45,4 @@ plt.show()
 # .. literalinclude:: ../../examples/pile.toml
 #    :language: toml
 
-# sphinx_gallery_thumbnail_path = 'images/gallery/pile.png'
+# sphinx_gallery_thumbnail_path = 'images/thumbnail-pile.png'

@@ -40,4 +40,4 @@ plt.show()
 # .. literalinclude:: ../../examples/press_fit.toml
 #    :language: toml
 
-# sphinx_gallery_thumbnail_path = 'images/gallery/press-fit.png'
+# sphinx_gallery_thumbnail_path = 'images/thumbnail-press-fit.png'

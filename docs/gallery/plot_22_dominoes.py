@@ -26,7 +26,7 @@ dominoes = [
 ]
 scenario = carom.Scenario(
     title="Dominoes",
-    analysis=carom.Dynamic(end_time=0.6, time_step=2e-4, gravity=[0.0, -9.81]),
+    analysis=carom.Dynamic(end_time=0.55, time_step=1e-4, gravity=[0.0, -9.81]),
     output=carom.Output(fields_every=0.01),
     bodies=dominoes,
     obstacles=[carom.Plane(name="table", point=[0.0, 0.0], normal=[0.0, 1.0])],
@@ -47,7 +47,7 @@ lost = history["friction"][-1] + history["normal_contact"][-1]
 defect = result.summary["energy"]["max_defect"]
 print(f"friction and impacts took {lost:.3f} J; not explained: {defect:.0e} J")
 
-draw(result, [0.0, 0.15, 0.3, 0.6], field="body")
+draw(result, [0.0, 0.15, 0.3, 0.55], field="body")
 plt.show()
 
 # sphinx_gallery_thumbnail_path = 'images/gallery/dominoes.png'

@@ -31,4 +31,4 @@ print(f"plastic flow took {energy['plastic'] / energy['initial']:.1%} of the ene
 draw(result, [0.0, 2e-5, 8e-5], field="plastic_strain")
 plt.show()
 
-# sphinx_gallery_thumbnail_path = 'images/gallery/taylor.png'
+# sphinx_gallery_thumbnail_path = 'images/thumbnail-taylor.png'
