@@ -1,6 +1,6 @@
 """The report of a part of 200,000 cells: how large it is, and how long until it can be used.
 
-``python benchmarks/large_report.py [--out DIR]``. A plate of hexahedra falls on an edge, explicitly in
+``python benchmarks/large_report.py [--out DIR]``. A plate falls on an edge, explicitly in
 time: what matters here is what the page makes of it. Where there is a Chromium it opens the page.
 """
 

@@ -14,7 +14,8 @@ author = "the authors of carom"
 version = release = carom.__version__
 
 extensions = [
-    "mathml",  # beside this file
+    "mathml",  # this and the next: beside this file
+    "subscripts",
     "myst_parser",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
@@ -50,7 +51,7 @@ sphinx_gallery_conf = {
     "examples_dirs": "gallery",
     "gallery_dirs": "gallery-pages",
     "filename_pattern": r"/plot_",
-    "ignore_pattern": r"(pictures|thumbnails)\.py",
+    "ignore_pattern": r"pictures\.py",
     "thumbnail_size": (480, 360),
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,

@@ -10,6 +10,7 @@ exchange their velocities in pairs are an idealisation.
 from tempfile import mkdtemp
 
 import matplotlib.pyplot as plt
+import numpy as np
 from pictures import draw
 
 import carom
@@ -36,7 +37,7 @@ result = carom.run(scenario, out=mkdtemp())
 history = result.history
 for k in range(5):
     print(f"disc {k}: {history[f'disc-{k}.v_x'][-1]:+.4f} m/s at the end")
-momentum = sum(history[f"disc-{k}.v_x"] for k in range(5))
+momentum = np.sum([history[f"disc-{k}.v_x"] for k in range(5)], axis=0)
 print(f"their sum differs from {SPEED:g} m/s by at most {abs(momentum - SPEED).max():.0e} m/s")
 
 # %%

@@ -41,7 +41,7 @@ print("moments of inertia", inertia.round(3), "kg m²")
 
 def rate(spin: np.ndarray) -> np.ndarray:
     """Return how the spin changes in axes of the body [rad/s²]."""
-    return np.cross(inertia * spin, spin) / inertia
+    return np.asarray(np.cross(inertia * spin, spin) / inertia)
 
 
 spin, step, middle = np.array([0.02, 10.0, 0.0]), 1e-3, []

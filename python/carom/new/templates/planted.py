@@ -79,6 +79,7 @@ def main() -> None:
     for _ in range(STEPS):
         # (4) what may touch in this step, by the velocities at its start
         start = code.nodes + u.reshape(-1, 2)
+        candidates: contact.Candidates | None
         candidates = touch.search(start, velocity=v.reshape(-1, 2), time_step=TIME_STEP)
         d = TIME_STEP * v
         while candidates is not None:

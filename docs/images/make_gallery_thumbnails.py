@@ -1,4 +1,4 @@
-"""Make the thumbnails of the gallery: ``python docs/gallery/thumbnails.py [NAME …]``.
+"""Make the thumbnails of the gallery: ``python docs/images/make_gallery_thumbnails.py [NAME …]``.
 
 Runs the scripts, each as the site does, draws one instant of the result of each (bodies and colour,
 and nothing else) and says how long it took. A script of more than a minute is refused.
@@ -24,22 +24,22 @@ from scipy.spatial import ConvexHull
 import carom
 
 HERE = Path(__file__).resolve().parent
-PICTURES = HERE.parent / "images"
-sys.path[:0] = [str(HERE), str(PICTURES), str(HERE.parents[1] / "examples")]
+SCRIPTS = HERE.parent / "gallery"
+sys.path[:0] = [str(SCRIPTS), str(HERE.parents[1] / "examples")]
 
 LONGEST = 60.0
 """Processor time that a case may take [s]: machines are shared, and their clocks count that too."""
 
 LOOKS: dict[str, dict[str, Any]] = {
-    "1_bars": {"times": 0.02, "field": "velocity", "edges": False},
-    "2_cylinders": {"times": 2.9, "field": "von-mises"},
-    "3_oblique_layer": {"field": "von-mises"},
-    "4_hertz": {},
-    "5_incline": {"strobe": (0.0, 0.15, 0.3), "turn": 25.0},
-    "6_billiard": {"times": 0.02, "field": "velocity"},
-    "7_ring": {"times": 0.8, "field": "von-mises"},
-    "8_bracket": {},
-    "9_fclib": {},
+    "01_bars": {"times": 0.02, "field": "velocity", "edges": False},
+    "02_cylinders": {"times": 2.9, "field": "von-mises"},
+    "03_oblique_layer": {"field": "von-mises"},
+    "04_hertz": {},
+    "05_incline": {"strobe": (0.0, 0.15, 0.3), "turn": 25.0},
+    "06_billiard": {"times": 0.02, "field": "velocity"},
+    "07_ring": {"times": 0.8, "field": "von-mises"},
+    "08_bracket": {},
+    "09_fclib": {},
     "10_post": {"times": 1.0, "field": "von-mises"},
     "11_stack": {"times": 0.2, "field": "von-mises"},
     "12_bullet": {"times": 6e-3, "field": "von-mises"},
@@ -70,7 +70,7 @@ PALE = ("#8FB8DE", "#F2B98A", "#A9D3B8")
 
 def file_of(name: str) -> Path:
     """Return the file of a thumbnail, which the script names in a comment."""
-    return PICTURES / "gallery" / f"{name.partition('_')[2].replace('_', '-')}.png"
+    return HERE / "gallery" / f"{name.partition('_')[2].replace('_', '-')}.png"
 
 
 def blocks(left: dict[str, Any]) -> Figure:
@@ -143,15 +143,15 @@ def main(names: list[str]) -> int:
     from make_thumbnails import thumbnail  # noqa: PLC0415 (of images/)
 
     warnings.simplefilter("ignore")
-    (PICTURES / "gallery").mkdir(exist_ok=True)
+    (HERE / "gallery").mkdir(exist_ok=True)
     slow = False
     for name in names or LOOKS:
         begun, wall = time.process_time(), time.perf_counter()
-        left = runpy.run_path(str(HERE / f"plot_{name}.py"))
+        left = runpy.run_path(str(SCRIPTS / f"plot_{name}.py"))
         took, wall = time.process_time() - begun, time.perf_counter() - wall
         slow |= took > LONGEST
         print(f"{name}: {took:.1f} s of processor time, {wall:.1f} s", flush=True)
-        if name == "9_fclib":
+        if name == "09_fclib":
             thumbnail(blocks(left), file_of(name))
         elif "strobe" in LOOKS[name]:
             look = LOOKS[name]
