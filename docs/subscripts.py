@@ -17,7 +17,7 @@ GENERATED = ("case-file", "commands", "messages", "api", "api-pages/", "gallery-
 
 SYMBOL = r"[ΔδΣ∫∂]?[A-Za-zͰ-Ͽℓ∇][\u0300-\u036f⁺₊]*"
 
-INDEX = re.compile(rf"(?<![A-Za-z0-9_])({SYMBOL})_([A-Za-z0-9Ͱ-Ͽ]{{1,7}})(?!\w)")
+INDEX = re.compile(rf"(?<![A-Za-z0-9_])({SYMBOL})_([A-Za-z0-9α-ω]{{1,7}})(?![A-Za-z0-9_])")
 """A symbol of one letter, with its accents, and its index."""
 
 
