@@ -35,7 +35,7 @@ LOOKS: dict[str, dict[str, Any]] = {
     "02_cylinders": {"times": 2.9, "field": "von-mises"},
     "03_oblique_layer": {"field": "von-mises"},
     "04_hertz": {},
-    "05_incline": {"strobe": (0.0, 0.15, 0.3), "turn": 25.0},
+    "05_incline": {"strobe": (0.0, 0.3, 0.45, 0.6), "turn": 25.0},
     "06_billiard": {"times": 0.02, "field": "velocity"},
     "07_ring": {"times": 0.8, "field": "von-mises"},
     "08_bracket": {},
@@ -123,9 +123,9 @@ def strobe(result: carom.Result, times: Sequence[float], turn: float = 0.0) -> F
                     alpha=0.25 + 0.75 * (order + 1) / len(times),
                 )
             )
-            # A line by which one sees it turn.
-            spoke = np.array([hull.mean(axis=0), places[len(places) - 1]]) @ turned.T
-            axes.plot(*spoke.T, color="#1B2230", linewidth=0.8)
+            if isinstance(body, carom.RigidBody):  # a line by which one sees it turn
+                spoke = np.array([hull.mean(axis=0), places[len(places) - 1]]) @ turned.T
+                axes.plot(*spoke.T, color="#1B2230", linewidth=0.8)
     axes.set_aspect("equal")
     axes.set_axis_off()
     axes.autoscale()
