@@ -123,7 +123,7 @@ def strobe(result: carom.Result, times: Sequence[float], turn: float = 0.0) -> F
                     alpha=0.25 + 0.75 * (order + 1) / len(times),
                 )
             )
-            if isinstance(body, carom.RigidBody):  # a line by which one sees it turn
+            if getattr(body, "round", False):  # a line by which one sees it turn
                 spoke = np.array([hull.mean(axis=0), places[len(places) - 1]]) @ turned.T
                 axes.plot(*spoke.T, color="#1B2230", linewidth=0.8)
     axes.set_aspect("equal")
