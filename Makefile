@@ -40,6 +40,7 @@ check: $(VENV)/installed-docs
 	$(BIN)/python docs/make_case_file_reference.py --check
 	$(BIN)/python docs/make_command_reference.py --check
 	$(BIN)/python docs/make_messages.py --check
+	$(BIN)/python docs/images/make_drawings.py --check
 	$(BIN)/python tools/renew_vendored.py --check
 	$(BIN)/python tools/make_notices.py --check
 	$(BIN)/python tools/make_ledger.py --check
@@ -47,9 +48,10 @@ check: $(VENV)/installed-docs
 	$(BIN)/typos
 	if [ -x $(BIN)/sphinx-build ]; then $(BIN)/sphinx-build -W --keep-going -q -t unexecuted -b html docs target/site; fi
 
-# Warnings are errors. Runs the cases of the gallery, those again that have changed.
+# Warnings are errors. Runs the cases of the gallery, those again that have changed, and looks at every page in a browser.
 docs: $(VENV)/installed-docs
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs site
+	$(BIN)/python tools/check_site.py site
 
 PREFIX ?= target/c
 

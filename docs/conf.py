@@ -7,13 +7,15 @@ import carom
 
 HERE = Path(__file__).parent
 # Gallery scripts describe the cases of examples/, and draw them with gallery/pictures.py.
-sys.path[:0] = [str(HERE.parent / "examples"), str(HERE / "gallery")]
+sys.path[:0] = [str(HERE), str(HERE.parent / "examples"), str(HERE / "gallery")]
 
 project = "carom"
 author = "the authors of carom"
 version = release = carom.__version__
 
 extensions = [
+    "mathml",  # this and the next: beside this file
+    "subscripts",
     "myst_parser",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
@@ -22,11 +24,19 @@ extensions = [
     "sphinxcontrib.bibtex",
 ]
 html_theme = "furo"
+html_math_renderer = "mathml"
+html_static_path = ["static"]
+html_css_files = ["site.css"]
 html_show_copyright = False
 html_title = f"carom {release}"
+html_theme_options = {
+    # Of WCAG's contrast for text, on the ground of the page and of what is pointed at.
+    "light_css_variables": {"color-brand-primary": "#0b5fa5", "color-brand-content": "#0b5fa5"},
+    "dark_css_variables": {"color-brand-primary": "#7db8f0", "color-brand-content": "#7db8f0"},
+}
 exclude_patterns = ["decisions", "gallery", "gallery-pages/**/*.ipynb", "images"]
 
-myst_enable_extensions = ["dollarmath"]
+myst_enable_extensions = ["colon_fence", "dollarmath"]
 myst_heading_anchors = 4
 bibtex_bibfiles = ["references.bib"]
 
@@ -42,11 +52,13 @@ sphinx_gallery_conf = {
     "gallery_dirs": "gallery-pages",
     "filename_pattern": r"/plot_",
     "ignore_pattern": r"pictures\.py",
+    "thumbnail_size": (480, 360),
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
     "remove_config_comments": True,
     "download_all_examples": False,
     "show_memory": False,
+    "write_computation_times": False,  # its page loads scripts of others
     "min_reported_time": 1,
     # `make check` looks at pages and links; `make docs` runs the cases.
     "plot_gallery": "False" if tags.has("unexecuted") else "True",  # noqa: F821 (Sphinx has it)

@@ -47,7 +47,9 @@ but for a dynamic analysis and a deformable body.
 
 A *signal* is a function of time: a number; a formula of the time `t` as text, such as
 `"0.1*(1 - cos(pi*t))"`; or a table `{ time = [0, 1], value = [0, 5] }` with straight lines between
-its points, constant before and after (Python: `carom.Table`). A formula knows `+ - * / ^` (or
+its points, constant before and after (Python: `carom.Table`).
+
+A formula knows `+ - * / ^` (or
 `**`), brackets, comparisons (`<`, `<=`, `>`, `>=`, 1 where true and 0 where not), the constants
 `pi` and `e`, and abs, acos, asin, atan, cos, cosh, exp, log (natural), max, min, sign, sin, sinh,
 sqrt, step(x) (1 from x = 0 on), tan, tanh and where(condition, a, b).

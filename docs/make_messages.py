@@ -25,7 +25,9 @@ HEAD = """\
 <!-- Written by docs/make_messages.py; edit that script, message-areas.toml or the messages. -->
 
 Every error, warning and finding that a user can meet, with cause and cure. `{…}` stands for a name
-or a number. An error is one line: the file, the key of the case as a dotted path, its value, what
+or a number.
+
+An error is one line: the file, the key of the case as a dotted path, its value, what
 is wrong, and, after a semicolon or in the second half, what to do. Nothing is written before the
 case has been checked. Where a message says what to do, that is the cure; what each section says
 besides is true of all its messages. Messages that say too little by themselves have a line below.

@@ -76,6 +76,9 @@ def test_the_tutorial_shows_the_case_and_the_table_of_its_run(desk, monkeypatch)
         "docs/how-to/results-in-python.md",
         "docs/how-to/stages.md",
         "docs/how-to/sweep.md",
+        "docs/tutorials/engineer.md",
+        "docs/tutorials/researcher.md",
+        "docs/tutorials/teacher.md",
     ],
 )
 def test_a_page_prints_what_it_says(page, desk, monkeypatch, capsys):

@@ -39,7 +39,9 @@ averaged internal force of the scheme does not integrate exactly, and it vanishe
 
 **When the energy rises.** With μ = 0.2 no interval until 5 s sees more rise than the defect in it:
 E − defect rises by {rough_rise}. Without friction the same holds until the cylinders meet
-({free_rise}). Then E − defect rises by up to {meeting_rise}: within an impact of the two cylinders
+({free_rise}).
+
+Then E − defect rises by up to {meeting_rise}: within an impact of the two cylinders
 the normal reactions also do a little positive work, which those of plane obstacles never do. The
 cause is not established; nodes that slide past corners of the other body's boundary are a
 candidate. The prototype does the same: its energy rises by 4.6e-4 there.

@@ -13,9 +13,10 @@ LAYER = """\
 ## Oblique impact of a layer
 
 `carom run examples/oblique_layer.toml`: an elastic layer of height H, periodic along x, hits a
-rough rigid floor with the velocity (v_t, −v_n); ρ = H = c_s = 1, c_p = 2 (ν = 1/3), μ = 0.2. Exact,
-derived in `tests/validation/layer.py`: contact for 2 H/c_p = 1 s; it sticks and dissipates nothing
-if v_t/v_n ≤ μ c_p/c_s = 0.4, else it slips throughout and
+rough rigid floor with the velocity (v_t, −v_n); ρ = H = c_s = 1, c_p = 2 (ν = 1/3), μ = 0.2.
+
+Exact, derived in `tests/validation/layer.py`: contact for 2 H/c_p = 1 s; it sticks and dissipates
+nothing if v_t/v_n ≤ μ c_p/c_s = 0.4, else it slips throughout and
 D = 2 μ ρ H v_n (v_t − μ (c_p/c_s) v_n). D is per area, in units of ρ H v_n². N square elements
 across the layer, c_pΔt = h/4. The order is that in h of the errors, by least squares over
 N = {first} … {last}. Asserted in `test_oblique_layer.py`.

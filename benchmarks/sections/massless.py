@@ -14,7 +14,9 @@ CYLINDERS = """\
 ## Energy-exact, quiet and non-penetrating in one run
 
 `python benchmarks/prize.py`: the cylinders with scheme `conserving`, condition `massless` and
-smooth targets, the first one 0.3 mm higher, 15 s. Bounds: drift 5e-10, defect 1e-9, gap −1e-12 m,
+smooth targets, the first one 0.3 mm higher, 15 s.
+
+Bounds: drift 5e-10, defect 1e-9, gap −1e-12 m,
 total variation of the normal force in the first two impacts {quiet:.0f} N, momenta between two
 touches of a wall 1e-9 of their largest value, least friction 0; asserted in `test_prize.py` at Δt =
 1e-3 s, at 5e-4 s until 3.4 s, and at four times the speed. α reaches its limit in some steps

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from io import BytesIO
+from typing import Any
 
 import matplotlib.pyplot as plt
 
@@ -18,13 +19,14 @@ def draw(
     times: Sequence[float],
     *,
     field: str,
-    magnification: float = 1.0,
+    **look: Any,  # noqa: ANN401 (whatever carom.picture takes)
 ) -> None:
-    """Draw the bodies of a run at some times [s], side by side, in the colours of a field."""
+    """Draw the bodies of a run at some times [s], side by side, in the colours of a field.
+
+    Keywords are those of `carom.picture`, as ``magnification`` and ``camera``.
+    """
     width = WIDTH if len(times) > 1 else WIDTH / 2
-    drawn = carom.picture(
-        result, times=times, field=field, magnification=magnification, width=width
-    )
+    drawn = carom.picture(result, times=times, field=field, width=width, **look)
     file = BytesIO()
     drawn.savefig(file, format="png", dpi=200)
     file.seek(0)

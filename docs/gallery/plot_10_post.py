@@ -47,3 +47,5 @@ print(f"deepest penetration {result.summary['penetration']['max_depth']:.0e} m")
 
 draw(result, [0.0, 0.2, 1.0], field="von-mises")
 plt.show()
+
+# sphinx_gallery_thumbnail_path = 'images/gallery/post.png'

@@ -51,3 +51,5 @@ axes.semilogy(result.history["time"][1:], result.history["kinetic"][1:])
 axes.set_xlabel("time [s]")
 axes.set_ylabel("kinetic energy, of 1 m of depth [J]")
 plt.show()
+
+# sphinx_gallery_thumbnail_path = 'images/gallery/stack.png'

@@ -41,3 +41,5 @@ print(f"deepest penetration {result.summary['penetration']['max_depth']:.0e} m")
 
 draw(result, [0.0, 0.006, 0.02], field="von-mises")
 plt.show()
+
+# sphinx_gallery_thumbnail_path = 'images/gallery/bullet.png'

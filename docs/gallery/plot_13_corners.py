@@ -57,3 +57,5 @@ print(f"deepest penetration {result.summary['penetration']['max_depth']:.0e} m")
 
 draw(result, [0.1, 0.7, 1.1], field="von-mises")
 plt.show()
+
+# sphinx_gallery_thumbnail_path = 'images/gallery/corners.png'

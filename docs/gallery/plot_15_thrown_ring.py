@@ -37,3 +37,5 @@ print(f"the ring touches itself first at {own[0]['onset']:.3f} s")
 
 draw(result, [0.0, 0.1, 0.15, 0.3], field="von-mises")
 plt.show()
+
+# sphinx_gallery_thumbnail_path = 'images/thumbnail-ring.png'

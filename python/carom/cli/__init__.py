@@ -13,7 +13,7 @@ from carom import __version__
 COMMANDS = {
     "tour": "Show in a minute what carom does: run an impact, say where its energy went, open its "
     "page.",
-    "new": "Write a commented case file that runs as it is.",
+    "new": "Write a commented case file, or script, that runs as it is.",
     "run": "Run a case and write its results.",
     "check": "Validate a case and print what would run.",
     "doctor": "Examine a case: units, meshes, meetings, contact, time step and cost, with "

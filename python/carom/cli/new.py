@@ -14,7 +14,7 @@ from carom.cli.failures import failures
 from carom.display.tables import add, two_columns
 from carom.errors import InputError
 from carom.new.mesh_case import MATERIALS, UNITS, mesh_case
-from carom.new.template import MESH_FILE, TEMPLATES, place, template
+from carom.new.template import MESH_FILE, SCRIPTS, TEMPLATES, file_name, place, template
 
 
 def new(
@@ -29,7 +29,9 @@ def new(
     ] = None,
     file: Annotated[
         Path | None,
-        typer.Argument(metavar="[FILE]", help="Case file to write; default TEMPLATE.toml."),
+        typer.Argument(
+            metavar="[FILE]", help="File to write; default TEMPLATE.toml, of a script TEMPLATE.py."
+        ),
     ] = None,
     force: Force = False,
     mesh: Annotated[
@@ -51,11 +53,11 @@ def new(
         ),
     ] = None,
 ) -> None:
-    """Write a commented case file that runs as it is."""
+    """Write a commented case file, or script, that runs as it is."""
     if name is None:
         _list()
         return
-    path = Path(f"{name}.toml") if file is None else file
+    path = Path(file_name(name)) if file is None else file
     with failures(path):
         text = template(name)
         if name == MESH_FILE:
@@ -67,7 +69,10 @@ def new(
                 f"--mesh, --unit and --material are of the template {MESH_FILE}, not of {name}"
             )
         place(text, path, force=force)
-    typer.echo(f"{path} is written; look at it: carom doctor {path}; run it: carom run {path}")
+    if name in SCRIPTS:
+        typer.echo(f"{path} is written; run it: python {path}")
+    else:
+        typer.echo(f"{path} is written; look at it: carom doctor {path}; run it: carom run {path}")
 
 
 def _list() -> None:

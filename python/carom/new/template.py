@@ -20,6 +20,7 @@ TEMPLATES = MappingProxyType(
         "seal": "a rubber cord is squeezed between plates, as an O-ring is",
         "pile": "grains of many sizes fall into a box and settle",
         "rigid": "a rigid block falls on a rubber pad and is thrown back",
+        "planted": "a script that plants carom's contact in a code of your own",
         "mesh-file": "a part from a mesh file (--mesh) is thrown at a floor",
     }
 )
@@ -27,6 +28,15 @@ TEMPLATES = MappingProxyType(
 
 MESH_FILE = "mesh-file"
 """The template that needs a mesh."""
+
+
+SCRIPTS = frozenset({"planted"})
+"""Templates that are scripts of Python and no case files."""
+
+
+def file_name(name: str) -> str:
+    """Return what the file of a template is called."""
+    return f"{name}.py" if name in SCRIPTS else f"{name}.toml"
 
 
 def template(name: str) -> str:
@@ -39,7 +49,8 @@ def template(name: str) -> str:
     """
     if name not in TEMPLATES:
         raise InputError(f"no template {name!r}; {known(name, TEMPLATES)}")
-    return (resources.files("carom.new") / "templates" / f"{name}.toml").read_text(encoding="utf-8")
+    file = resources.files("carom.new") / "templates" / file_name(name)
+    return file.read_text(encoding="utf-8")
 
 
 def place(text: str, file: Path, *, force: bool = False) -> None:

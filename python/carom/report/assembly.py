@@ -15,12 +15,21 @@ def asset(folder: str, name: str) -> str:
     return (resources.files("carom.report") / folder / name).read_text(encoding="utf-8")
 
 
-def policy(scripts: Sequence[str]) -> str:
-    """Return a policy under which no other script runs, and nothing is fetched."""
+def policy(scripts: Sequence[str], *, unpacked: bool = False) -> str:
+    """Return a policy under which no other script runs, and nothing is fetched.
+
+    Parameters
+    ----------
+    scripts
+        What may run.
+    unpacked
+        Whether these may run what they have unpacked from the page itself.
+    """
     digests = (hashlib.sha256(script.encode()).digest() for script in scripts)
     allowed = " ".join(f"'sha256-{base64.b64encode(digest).decode()}'" for digest in digests)
+    own = " blob:" if unpacked else ""
     return (
-        f"default-src 'none'; script-src {allowed}; style-src 'unsafe-inline'; "
+        f"default-src 'none'; script-src {allowed}{own}; style-src 'unsafe-inline'; "
         "img-src data: blob:; base-uri 'none'; form-action 'none'"
     )
 

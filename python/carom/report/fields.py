@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -73,10 +74,27 @@ class Bodies:
     high: NDArray[np.float64]
 
 
-def bodies(frames: Frames, surface: Frames | None, *, budget: int = BUDGET) -> Bodies:
-    """Return the bodies with as many evenly spaced frames as the budget allows, two at least."""
+def bodies(
+    frames: Frames,
+    surface: Frames | None,
+    *,
+    budget: int = BUDGET,
+    most_fields: int | None = None,
+) -> Bodies:
+    """Return the bodies with as many evenly spaced frames as the budget allows, two at least.
+
+    Parameters
+    ----------
+    frames, surface
+        Fields in the bodies and on their boundaries.
+    budget
+        Characters that the fields may take in the page.
+    most_fields
+        How many there may be for colours, the first of the list; all if not given.
+    """
     seen = outline(frames, surface)
-    channels = list(_channels(frames, surface, seen))
+    vectors, colours = _vectors(frames, seen), _colours(frames, surface, seen)
+    channels = [*vectors, *islice(colours, most_fields)]
     recorded = len(frames.times)
     values_per_frame = max(len(seen.points), len(seen.cell)) * seen.dimension
     stride = max(1, math.ceil(recorded * values_per_frame / READ_BUDGET))
@@ -96,10 +114,13 @@ def _every(count: int, stride: int) -> NDArray[np.int64]:
     return np.unique(np.rint(np.linspace(0, count - 1, intervals + 1)).astype(np.int64))
 
 
-def _channels(frames: Frames, surface: Frames | None, seen: Outline) -> Iterator[_Channel]:
+def _vectors(frames: Frames, seen: Outline) -> Iterator[_Channel]:
     for name in _VECTORS:
         if name in frames.names:
             yield _Channel(name, "points", None, _vector(frames, name, seen))
+
+
+def _colours(frames: Frames, surface: Frames | None, seen: Outline) -> Iterator[_Channel]:
     made = colourings(frames, surface, seen)
     for name in sorted(made, key=_place_in_list):
         if name not in _VECTORS:  # of which the page takes the length

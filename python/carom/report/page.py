@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-import base64
 from string import Template
 from typing import Any
 
-import matplotlib as mpl
-import numpy as np
-
 from carom import __version__
-from carom.display.colours import DIVERGING, SEQUENTIAL
 from carom.display.markup import Html, element, embedded, join
-from carom.display.time_unit import TimeUnit, time_unit
-from carom.errors import InputError
 from carom.report.assembly import asset, elements, policy
 from carom.report.case_text import coloured
 from carom.report.curves import curves
-from carom.report.fields import Bodies, bodies
+from carom.report.fields import Bodies
 from carom.report.figures import key_figures
 from carom.report.flow import energy_flow
 from carom.report.number_tables import (
@@ -29,9 +22,8 @@ from carom.report.number_tables import (
     pair_table,
     stage_table,
 )
-from carom.report.obstacles import obstacles
+from carom.report.scene import scene_data, shown_bodies
 from carom.report.source import UNFINISHED, Source
-from carom.view.colouring import SIGNED
 
 LIBRARIES = ("three.min.js", "uPlot.iife.min.js")
 
@@ -46,6 +38,7 @@ SCRIPTS = (
     "shapes.js",
     "scene.js",
     "colour_bar.js",
+    "stage.js",
     "charts.js",
     "timeline.js",
     "explorer.js",
@@ -56,9 +49,6 @@ SCRIPTS = (
     "main.js",
 )
 """In the order in which they need one another."""
-
-COLOUR_MAPS = {"sequential": SEQUENTIAL, "diverging": DIVERGING}
-"""Of matplotlib: for sizes, and for what has a sign."""
 
 COLOURS = (
     "Colours: YlGnBu and RdBu by Cynthia Brewer (colorbrewer2.org, Apache License 2.0), by way of "
@@ -79,7 +69,7 @@ _STATUS = {
 def page(source: Source) -> str:
     """Return the whole page."""
     notes = list(source.notes)
-    shown = _bodies(source, notes)
+    shown = shown_bodies(source, notes)
     scripts = [asset("vendor", name) for name in LIBRARIES]
     scripts.append("\n".join(asset("assets", name) for name in SCRIPTS))
     data = _data(source, shown, notes)
@@ -105,35 +95,12 @@ def page(source: Source) -> str:
         else "",
         licences=_licences(),
         notes=element("ul", *(element("li", note) for note in notes), id="notes"),
+        scene=asset("assets", "scene.html"),
+        transport=asset("assets", "transport.html"),
         time_unit=join(data["time_unit"]["symbol"]),
         data=embedded(data, id="data"),
         scripts=join(*elements(scripts)),
     )
-
-
-def _bodies(source: Source, notes: list[str]) -> Bodies | None:
-    if source.frames is None:
-        if source.history:
-            notes.append("There are no fields, so that the bodies are not drawn.")
-        return None
-    try:
-        shown = bodies(source.frames, source.surface)
-    except (InputError, KeyError, IndexError, OSError, ValueError) as error:
-        notes.append(f"The bodies are not drawn: fields.vtkhdf cannot be read: {error}.")
-        return None
-    taken = len(shown.frames)
-    notes.append(
-        f"The scene has {'all' if taken == shown.recorded else f'{taken} of'} "
-        f"{shown.recorded} frames of fields.vtkhdf"
-        + (", evenly spaced, to keep the page small. " if taken < shown.recorded else ". ")
-        + "Values in it are rounded to one part in 65,534 of their range, "
-        f"displacements to within {_rounding(shown):.2g} m."
-    )
-    return shown
-
-
-def _rounding(shown: Bodies) -> float:
-    return float(max(shown.data["arrays"]["displacement"]["step"])) / 2
 
 
 def _data(source: Source, shown: Bodies | None, notes: list[str]) -> dict[str, Any]:
@@ -143,42 +110,7 @@ def _data(source: Source, shown: Bodies | None, notes: list[str]) -> dict[str, A
             f"Curves have {drawn['rows']} of {drawn['recorded']} rows of history.csv, evenly "
             "spaced."
         )
-    unit = _time_unit(source)
-    data: dict[str, Any] = {
-        "curves": drawn,
-        "contacts": source.summary.get("contacts") or [],
-        "end": source.summary.get("end_time"),
-        "time_unit": {"symbol": unit.symbol, "seconds": unit.seconds},
-        "colour_maps": {name: _colours(map_) for name, map_ in COLOUR_MAPS.items()},
-        "scene": None,
-    }
-    if shown is not None and source.frames is not None:
-        times = source.frames.times[shown.frames]
-        case = source.scenario
-        for field in shown.data["fields"]:
-            field["map"] = "diverging" if field["key"] in SIGNED else "sequential"
-        data["scene"] = {
-            **shown.data,
-            "low": shown.low.tolist(),
-            "high": shown.high.tolist(),
-            "bodies": [body.name for body in case.bodies] if case else [],
-            "obstacles": obstacles(case, times, notes) if case else [],
-        }
-    return data
-
-
-def _time_unit(source: Source) -> TimeUnit:
-    """Return the unit of the times that are drawn, by the last that there is."""
-    times = [*source.history.get("time", ())[-1:]]
-    if source.frames is not None:
-        times += [*source.frames.times[-1:]]
-    return time_unit(max(map(float, times), default=0.0))
-
-
-def _colours(name: str) -> str:
-    """Return a colour map of matplotlib as 256 RGBA colours in base64."""
-    table = mpl.colormaps[name](np.linspace(0.0, 1.0, 256), bytes=True)
-    return base64.b64encode(np.asarray(table, dtype=np.uint8).tobytes()).decode()
+    return {"curves": drawn, **scene_data(source, shown, notes)}
 
 
 def _head(source: Source) -> Html:

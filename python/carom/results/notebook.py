@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -43,10 +44,20 @@ def result_html(result: Result) -> Html:
         "div",
         element("strong", summary_title(result.summary)),
         html_table(outcome(result.summary)),
+        _scene(result.path),
         _energies(result.history),
         html_table(contact_events(result.summary)),
         element("div", str(result.path), ": " if links else None, separated),
     )
+
+
+def _scene(directory: Path) -> Html | None:
+    """Return the bodies in motion, where there are fields.
+
+    The report, a higher room, has the scene and is not known here: it comes by its name.
+    """
+    drawn: Html | None = import_module("carom.report.notebook").notebook_scene(directory)
+    return drawn
 
 
 def _address(path: Path) -> str:

@@ -1,6 +1,9 @@
 """``carom new``: every template is a case that runs, and no file is lost to it."""
 
 import math
+import re
+import subprocess
+import sys
 from pathlib import Path
 
 import jsonschema
@@ -13,7 +16,7 @@ from carom import cli
 from carom.case import case_file
 from carom.case.schema import case_file_schema
 from carom.new.mesh_case import MATERIALS, UNITS
-from carom.new.template import MESH_FILE, TEMPLATES, template
+from carom.new.template import MESH_FILE, SCRIPTS, TEMPLATES, template
 
 
 @pytest.fixture
@@ -170,7 +173,22 @@ def test_a_plane_part_makes_a_plane_case(command, tmp_path):
     carom.check(scenario)
 
 
-@pytest.mark.parametrize("name", [n for n in TEMPLATES if n != MESH_FILE])
+def test_the_planted_script_lands_its_block_and_its_books_close(command, tmp_path):
+    status, out, _ = command("planted")
+    assert status == 0
+    assert "run it: python planted.py" in out
+    ran = subprocess.run([sys.executable, "planted.py"], capture_output=True, text=True, check=True)
+    taken, initial = map(float, re.search(r"took ([\d.]+) J of ([\d.]+) J", ran.stdout).groups())
+    assert initial == pytest.approx(0.5 * 0.24 * 0.12 * 1000.0 * 2.0)
+    # While all of it slides, friction slows it by μ of what turns it round.
+    assert 0.1 * initial < taken < 0.5 * initial
+    assert float(re.search(r"not explained: (\S+) of", ran.stdout).group(1)) < 2e-12
+    certificate, gap = re.search(r"certificate (\S+) J, least gap (\S+) m", ran.stdout).groups()
+    assert float(certificate) < 3e-11
+    assert float(gap) > -1e-14
+
+
+@pytest.mark.parametrize("name", [n for n in TEMPLATES if n != MESH_FILE and n not in SCRIPTS])
 def test_templates_fit_the_schema_and_draw_no_warning(name, tmp_path):
     (tmp_path / "case.toml").write_text(template(name), encoding="utf-8")
     jsonschema.Draft7Validator(case_file_schema()).validate(case_file.read(tmp_path / "case.toml"))

@@ -27,7 +27,8 @@ def test_a_result_shows_summary_energies_and_links(impact):
     assert "dissipated" in rows["friction"]
     assert any(quantity.startswith("left – ") for quantity in rows)
     assert [link.text for link in tree.iter("a")] == ["fields.vtkhdf"]
-    assert len(text) < 30_000
+    assert [frame.get("sandbox") for frame in tree.iter("iframe")] == ["allow-scripts"]
+    assert len(text) < 450_000
 
 
 def test_the_picture_keeps_every_peak(impact):

@@ -70,3 +70,5 @@ axes.axvline(1.65 * own[0]["onset"], color="0.6", linestyle=":")
 axes.set_xlabel("way of the stamp [m]; dotted: the ring touches itself")
 axes.set_ylabel("force of the stamp, on 1 m of depth [N]")
 plt.show()
+
+# sphinx_gallery_thumbnail_path = 'images/gallery/ring.png'

@@ -30,3 +30,5 @@ print(f"friction took {energy['friction'] / energy['initial']:.1%} of the energy
 
 draw(result, [1.2e-4, 3.6e-4], field="von-mises")
 plt.show()
+
+# sphinx_gallery_thumbnail_path = 'images/thumbnail-bracket.png'

@@ -69,4 +69,4 @@ axes.set_xlabel("x [m]")
 places[0].legend()
 plt.show()
 
-# sphinx_gallery_thumbnail_number = 1
+# sphinx_gallery_thumbnail_path = 'images/gallery/bars.png'

@@ -70,3 +70,5 @@ axes.set_xlabel("iterations (+ 1)")
 axes.set_ylabel("residual")
 axes.legend(fontsize=7)
 plt.show()
+
+# sphinx_gallery_thumbnail_path = 'images/gallery/fclib.png'

@@ -64,3 +64,5 @@ axes.set_xlabel("time [ms]")
 axes.set_ylabel("spin about the vertical [rad/s]")
 axes.legend()
 plt.show()
+
+# sphinx_gallery_thumbnail_path = 'images/gallery/billiard.png'

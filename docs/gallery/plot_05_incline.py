@@ -35,6 +35,7 @@ def slide(slope: float) -> carom.Result:
             gravity=pull,
             scheme=carom.Theta(theta=0.6, xi=0.6),
         ),
+        output=carom.Output(fields_every=0.05),
         materials={"stiff": stiff},
         bodies=[block],
         obstacles=[carom.Plane(name="plane", point=[0.0, 0.0], normal=[0.0, 1.0])],
@@ -61,3 +62,5 @@ axes.set_xlabel("time [s]")
 axes.set_ylabel("velocity down the slope [m/s]; dotted: exact")
 axes.legend(title=f"friction angle {np.degrees(np.arctan(FRICTION)):.1f}°")
 plt.show()
+
+# sphinx_gallery_thumbnail_path = 'images/gallery/incline.png'

@@ -67,3 +67,5 @@ print(f"largest at {-middles[mises.argmax(), 1] / radius:.2f} times the radius o
 
 draw(result, [1.0], field="von-mises", magnification=50.0)
 plt.show()
+
+# sphinx_gallery_thumbnail_path = 'images/thumbnail-hertz.png'

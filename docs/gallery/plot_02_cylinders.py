@@ -41,3 +41,5 @@ axes.set_xlabel("time [s]")
 axes.set_ylabel("spin of the left cylinder [rad/s]")
 axes.legend()
 plt.show()
+
+# sphinx_gallery_thumbnail_path = 'images/gallery/cylinders.png'

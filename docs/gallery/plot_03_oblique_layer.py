@@ -31,3 +31,5 @@ axes.set_xlabel("time [s]")
 axes.set_ylabel(r"dissipated by friction [$\rho H v_n^2$]; dotted: exact")
 axes.legend()
 plt.show()
+
+# sphinx_gallery_thumbnail_path = 'images/gallery/oblique-layer.png'
