@@ -9,15 +9,16 @@ use crate::model::given::Given;
 use crate::model::state::State;
 
 /// Takes note of how far nodes of boundaries wander in the step, and which bodies may have gone through themselves since they were looked at.
-pub(super) fn wander<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) {
-    let Workspace { motion, since_look, boundaries, .. } = work;
-    each_body(given.assembly, &given.assembly.everyone, PerBody(since_look), &|i, look| {
+pub(super) fn wander<const D: usize>(given: &Given<'_, D>, next: &State<D>, work: &mut Workspace<D>) {
+    let Workspace { bodies, motion, since_look, boundaries, .. } = work;
+    let all = (PerBody(since_look), PerBody(bodies));
+    each_body(given.assembly, &given.assembly.everyone, all, &|i, (look, body)| {
         let look = look.own();
         let moving = boundaries.nodes(i).map(|n| {
             let d = motion[n as usize];
-            (given.position(n) + d * 0.5, d)
+            (given.assembly.reference[n as usize] + next.displacement[n as usize] - d * 0.5, d)
         });
-        look.in_step = against_one_another(moving);
+        look.in_step = body.own().wander().unwrap_or_else(|| against_one_another(moving));
         look.is_due = look.wandered + look.in_step > WAKING.unseen * boundaries.least_cell(i);
     });
 }

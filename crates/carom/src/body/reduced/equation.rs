@@ -5,7 +5,7 @@
 
 use carom_mesh::{Matrix, Vector};
 
-use super::part::{Place, Rates, ReducedPart};
+use super::part::{Place, Rates, Reading, ReducedPart};
 use crate::StepMap;
 use crate::body::rigid::equation::Equation;
 use crate::body::rigid::pose::{Displaced, lift, lower};
@@ -198,6 +198,35 @@ impl ReducedEquation {
         let stretch = part.reduction.displacement(node, &moved.stretch);
         let Displaced { shift, turn } = moved.rigid;
         lower(&(shift + turn.cross(&(mean * arm)) + mean * lift(&stretch)))
+    }
+
+    /// Finds the motion in which the nodes that are read move as `asked` [m], from the guess that `moved` is.
+    pub fn read<const D: usize>(
+        &self,
+        part: &ReducedPart<D>,
+        asked: impl Fn(usize) -> Vector<D>,
+        moved: &mut Moved,
+        reading: &mut Reading<D>,
+    ) {
+        let Reading { local, content, .. } = reading;
+        let mut last = f64::INFINITY;
+        for _ in 0..ROUNDS {
+            let mean = moved.rigid.mean_rotation(&self.place.pose);
+            let mut size = 0.0_f64;
+            for (local, &node) in local.iter_mut().zip(part.reduction.read_nodes()) {
+                let left = asked(node as usize) - self.motion(part, moved, &mean, node as usize);
+                size = size.max(left.norm_squared());
+                *local = lower(&mean.tr_mul(&lift(&left)));
+            }
+            if size.is_nan() || size >= last || size == 0.0 {
+                break;
+            }
+            last = size;
+            part.reduction.read(local, content);
+            moved.rigid.shift += mean * lift(&content.shift);
+            moved.rigid.turn += mean * Vector::<3>::from(content.turn);
+            moved.stretch.iter_mut().zip(&content.amplitudes).for_each(|(d, a)| *d += a);
+        }
     }
 
     /// Velocities of amplitudes at the end of the step.

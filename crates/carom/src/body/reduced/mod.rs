@@ -6,6 +6,7 @@
 
 mod books;
 mod equation;
+mod outline;
 pub(crate) mod part;
 
 use std::sync::Arc;
@@ -18,7 +19,7 @@ use super::fe::part::ModelBody;
 use super::rigid::equation::Equation;
 use super::rigid::pose::{Displaced, Twist, cross_matrix, inverse_on, lift, lower};
 use super::rigid::shape::{RigidShape, Wrench};
-use super::{Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt};
+use super::{Ball, Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt};
 use crate::error::StepError;
 use crate::ledger::{BodyLedger, Energies};
 use crate::scheme::{Scheme, StepMap};
@@ -106,13 +107,20 @@ impl<const D: usize> ReducedBody<D> {
     }
 
     /// Takes a guess of the motion for what of it the body can do.
+    ///
+    /// It is read from how far nodes move, and not from where they are: round-off of places would be one of velocities, over the time step.
     fn take(&mut self, guess: &Guess<'_, D>) {
         let own = part(&self.body);
         own.moved.iter().for_each(|&n| self.motion[n as usize] = guess.motion[n as usize]);
-        own.place(guess.displacement, &mut self.reading, &mut self.reached);
-        self.moved.rigid = Displaced::between(&self.equation.place.pose, &self.reached.pose);
-        let ends = self.reached.amplitudes.iter().zip(&self.equation.place.amplitudes);
-        self.moved.stretch.iter_mut().zip(ends).for_each(|(d, (a1, a0))| *d = a1 - a0);
+        if self.is_solved {
+            self.moved.copy(&self.solved);
+        }
+        let Self { equation, moved, reached, healed, motion, reading, .. } = self;
+        let asked = |n: usize| motion[n] - healed[n];
+        equation.read(own, asked, moved, reading);
+        reached.pose = moved.rigid.from(&equation.place.pose);
+        let ends = equation.place.amplitudes.iter().zip(&moved.stretch);
+        reached.amplitudes.iter_mut().zip(ends).for_each(|(end, (a, d))| *end = a + d);
         self.is_solved = false;
     }
 
@@ -362,14 +370,30 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         (0..D * (D + 1) / 2).collect()
     }
 
-    fn complete(&mut self, displacement: &mut [Vector<D>], motion: &mut [Vector<D>]) {
+    fn wander(&self) -> Option<f64> {
+        let own = part(&self.body);
+        let moved =
+            own.moved.iter().map(|&n| own.reduction.displacement(n as usize, &self.moved.stretch).norm());
+        Some(moved.fold(own.outline.bend(&self.moved.stretch), f64::max))
+    }
+
+    fn balls(&mut self, displacement: &[Vector<D>], out: &mut Vec<Ball<D>>) {
         let own = part(&self.body);
         // The guess that was taken last is that before the last correction.
         own.place(displacement, &mut self.reading, &mut self.reached);
-        for node in own.beside.iter().map(|&n| n as usize) {
-            let before = displacement[node] - motion[node];
-            displacement[node] = own.displacement(&self.reached, node);
-            motion[node] = displacement[node] - before;
+        let ends = self.reached.amplitudes.iter().zip(&self.equation.place.amplitudes);
+        self.moved.stretch.iter_mut().zip(ends).for_each(|(d, (a1, a0))| *d = a1 - a0);
+        own.outline.balls(&own.shape, [&self.equation.place, &self.reached], out);
+    }
+
+    fn complete(&mut self, places: [&mut [Vector<D>]; 2], is_near: &dyn Fn(usize) -> bool) {
+        let own = part(&self.body);
+        let ends = [&self.equation.place, &self.reached];
+        let [displacement, motion] = places;
+        for node in own.tracked.iter().map(|&n| n as usize) {
+            displacement[node] = own.displacement(ends[1], node);
+            motion[node] = displacement[node] - own.displacement(ends[0], node);
         }
+        own.outline.place(own, ends, [displacement, motion], is_near);
     }
 }
