@@ -144,7 +144,17 @@ impl<const D: usize> Reduction<D> {
     #[inline]
     #[must_use]
     pub fn displacement(&self, node: usize, amplitudes: &[f64]) -> Vector<D> {
-        self.shapes_at(node).iter().zip(amplitudes).fold(Vector::zeros(), |sum, (shape, a)| sum + shape * *a)
+        // Four sums at once: one would wait for itself.
+        let (mut sums, shapes) = ([Vector::<D>::zeros(); 4], self.shapes_at(node));
+        let (fours, of_fours) = (shapes.chunks_exact(4), amplitudes.chunks_exact(4));
+        let rest = fours.remainder().iter().zip(of_fours.remainder());
+        rest.for_each(|(shape, a)| sums[0] += shape * *a);
+        for (shapes, amplitudes) in fours.zip(of_fours) {
+            for k in 0..4 {
+                sums[k] += shapes[k] * amplitudes[k];
+            }
+        }
+        (sums[0] + sums[1]) + (sums[2] + sums[3])
     }
 
     /// The nodes, ascending, whose displacements say everything.

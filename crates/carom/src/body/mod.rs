@@ -339,10 +339,14 @@ pub trait Body<const D: usize>: Send + Sync {
     /// [`Self::balls`] says where it has to be exact.
     fn complete(&mut self, _places: [&mut [Vector<D>]; 2], _is_near: &dyn Fn(usize) -> bool) {}
 
-    /// How far its nodes move in the step beside its motion as a rigid body, at most [m], if it knows without them, after [`Self::balls`].
-    fn wander(&self) -> Option<f64> {
+    /// How far its nodes have moved beside its motion as a rigid body since [`Self::looked_at`] at most [m], if it knows without them, after
+    /// [`Self::balls`].
+    fn wandered(&self) -> Option<f64> {
         None
     }
+
+    /// Somebody has looked at where all of it is.
+    fn looked_at(&mut self) {}
 
     /// Completes the state at the end of a step and says what happened to the energy; returns that and the energies [J].
     fn end_step(

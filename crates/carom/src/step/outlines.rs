@@ -33,7 +33,7 @@ pub(super) fn place_outlines<const D: usize>(
     next: &mut State<D>,
     work: &mut Workspace<D>,
 ) {
-    let Workspace { bodies, motion, boundaries, since_look, outlines, .. } = work;
+    let Workspace { bodies, motion, boundaries, outlines, .. } = work;
     let Outlines { balls, boxes, near } = outlines;
     let assembly = given.assembly;
     for (i, (body, balls)) in bodies.iter_mut().zip(&mut *balls).enumerate() {
@@ -54,9 +54,7 @@ pub(super) fn place_outlines<const D: usize>(
         near.clear();
         near.extend((0..bodies.len()).filter(|&j| j != i && overlap(&boxes[i], &boxes[j])));
         // Where it may have gone through itself all of it is looked at.
-        let look = &since_look[i];
-        let wandered = look.wandered + bodies[i].wander().unwrap_or(0.0);
-        let is_due = wandered > WAKING.unseen * boundaries.least_cell(i);
+        let is_due = bodies[i].wandered().is_some_and(|w| w > WAKING.unseen * boundaries.least_cell(i));
         let (places, obstacles) = next.displacement.split_at_mut(assembly.node_count());
         let (motions, of_obstacles) = motion.split_at_mut(assembly.node_count());
         let half_way = |n: u32| {

@@ -27,7 +27,7 @@ use crate::scheme::{Scheme, StepMap};
 /// A reduced body in a step.
 pub(crate) struct ReducedBody<const D: usize> {
     body: Arc<ModelBody<D>>,
-    equation: ReducedEquation,
+    equation: ReducedEquation<D>,
     /// The present guess, and what the forces known so far make of it, once that is asked for.
     moved: Moved,
     solved: Moved,
@@ -50,6 +50,10 @@ pub(crate) struct ReducedBody<const D: usize> {
     arms_in: Matrix<3>,
     generation: u64,
     reading: Reading<D>,
+    /// Amplitudes where somebody last looked at all of it, if anybody did, and what they have changed by.
+    looked_at: Vec<f64>,
+    is_looked_at: bool,
+    since_look: Vec<f64>,
     /// What an impulse gave it.
     jolted: Rates,
     scratch: Vec<f64>,
@@ -84,6 +88,7 @@ impl<const D: usize> ReducedBody<D> {
                 rates,
                 compliance: vec![0.0; count],
                 mean: vec![0.0; count],
+                bent: zeros.clone(),
             },
             moved: Moved::of(count),
             solved: Moved::of(count),
@@ -100,6 +105,9 @@ impl<const D: usize> ReducedBody<D> {
             arms_in: Matrix::identity(),
             generation: 0,
             reading: Reading::new(own),
+            looked_at: vec![0.0; count],
+            is_looked_at: false,
+            since_look: vec![0.0; count],
             jolted: Rates::of(count),
             scratch: vec![0.0; count],
             body,
@@ -370,19 +378,28 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         (0..D * (D + 1) / 2).collect()
     }
 
-    fn wander(&self) -> Option<f64> {
+    fn wandered(&self) -> Option<f64> {
         let own = part(&self.body);
         let moved =
-            own.moved.iter().map(|&n| own.reduction.displacement(n as usize, &self.moved.stretch).norm());
-        Some(moved.fold(own.outline.bend(&self.moved.stretch), f64::max))
+            own.moved.iter().map(|&n| own.reduction.displacement(n as usize, &self.since_look).norm());
+        Some(if self.is_looked_at {
+            moved.fold(own.outline.bend(&self.since_look), f64::max)
+        } else {
+            f64::MAX
+        })
+    }
+
+    fn looked_at(&mut self) {
+        self.is_looked_at = true;
+        self.looked_at.copy_from_slice(&self.reached.amplitudes);
     }
 
     fn balls(&mut self, displacement: &[Vector<D>], out: &mut Vec<Ball<D>>) {
         let own = part(&self.body);
         // The guess that was taken last is that before the last correction.
         own.place(displacement, &mut self.reading, &mut self.reached);
-        let ends = self.reached.amplitudes.iter().zip(&self.equation.place.amplitudes);
-        self.moved.stretch.iter_mut().zip(ends).for_each(|(d, (a1, a0))| *d = a1 - a0);
+        let ends = self.reached.amplitudes.iter().zip(&self.looked_at);
+        self.since_look.iter_mut().zip(ends).for_each(|(since, (now, then))| *since = now - then);
         own.outline.balls(&own.shape, [&self.equation.place, &self.reached], out);
     }
 
