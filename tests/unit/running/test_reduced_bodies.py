@@ -269,6 +269,7 @@ def test_books_close_to_round_off_whatever_the_step():
         assert np.abs(history["defect"]).max() < 1e-10 * history["total"][0], step
 
 
+@pytest.mark.filterwarnings("ignore:.*inside one another")
 def test_what_may_not_touch_is_found_inside_and_is_no_contact():
     """Symptom guarded against: the core panicked at a node beyond the surface that is kept."""
     below = carom.Body(

@@ -17,7 +17,7 @@ use self::equation::{Forces, Moved, ReducedEquation};
 use self::part::{Place, Rates, Reading, ReducedPart};
 use super::fe::part::ModelBody;
 use super::rigid::equation::Equation;
-use super::rigid::pose::{Displaced, Twist, cross_matrix, inverse_on, lift, lower};
+use super::rigid::pose::{Twist, cross_matrix, inverse_on, lift, lower};
 use super::rigid::shape::{RigidShape, Wrench};
 use super::{Ball, Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt};
 use crate::error::StepError;
@@ -310,6 +310,8 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         end: BodyEnd<'_, D>,
     ) -> (BodyLedger, Energies) {
         self.take(guess);
+        // The next step starts where the nodes are, which know the place less well than the motion.
+        part(&self.body).place(guess.displacement, &mut self.reading, &mut self.reached);
         self.close(guess, end)
     }
 
