@@ -55,12 +55,12 @@ def main(end_time: float = 0.6) -> None:
     start = process_time()
     run = example.collide(discs, end_time)
     took = process_time() - start
-    own = TAKEN["carom"] - TAKEN["solver"]
+    own, assembly = TAKEN["carom"] - TAKEN["solver"], TAKEN["assembly"]
+    factors = TAKEN["factors"] + TAKEN["solver"]
     print(
         f"{run.iterations} iterations in {took:.1f} s: carom {own / took:.1%}, assembly "
-        f"{TAKEN['assembly'] / took:.1%}, factors and their solutions "
-        f"{(TAKEN['factors'] + TAKEN['solver']) / took:.1%}; carom takes {own / TAKEN['assembly']:.1%} "
-        "of the time of the assembly"
+        f"{assembly / took:.1%}, factors and their solutions {factors / took:.1%}; carom takes "
+        f"{own / assembly:.1%} of the time of the assembly"
     )
 
 

@@ -147,6 +147,7 @@ impl Clump {
 fn divide<const D: usize>(mut nodes: Vec<u32>, x: &[Vector<D>], out: &mut Vec<Vec<u32>>) {
     if nodes.len() <= NODES {
         if !nodes.is_empty() {
+            nodes.sort_unstable();
             out.push(nodes);
         }
         return;
