@@ -5,6 +5,7 @@
 //! stored but displacements and velocities of nodes; its place and the amplitudes are read from some of them.
 
 mod books;
+mod compliance;
 mod equation;
 mod outline;
 pub(crate) mod part;
@@ -13,12 +14,13 @@ use std::sync::Arc;
 
 use carom_mesh::{Matrix, Vector};
 
+use self::compliance::{inner, mobility};
 use self::equation::{Forces, Moved, ReducedEquation};
 use self::part::{Place, Rates, Reading, ReducedPart};
 use super::fe::part::ModelBody;
 use super::rigid::equation::Equation;
-use super::rigid::pose::{Twist, cross_matrix, inverse_on, lift, lower};
-use super::rigid::shape::{RigidShape, Wrench};
+use super::rigid::pose::{Twist, cross_matrix, lift, lower};
+use super::rigid::shape::Wrench;
 use super::{Ball, Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt};
 use crate::error::StepError;
 use crate::ledger::{BodyLedger, Energies};
@@ -179,36 +181,6 @@ impl<const D: usize> ReducedBody<D> {
     fn motion_of(&self, moved: &Moved, mean: &Matrix<3>, node: usize) -> Vector<D> {
         self.equation.motion(part(&self.body), moved, mean, node) + self.healed[node]
     }
-
-    /// How a node yields to a force on itself where it is drawn, with these compliances of rigid motions and of amplitudes, in the mean of the directions.
-    fn own_compliance(
-        &self,
-        node: u32,
-        [shift, turn]: &[Matrix<3>; 2],
-        compliance: impl Fn(usize) -> f64,
-    ) -> f64 {
-        let own = part(&self.body);
-        let arm = cross_matrix(&own.shape.arm(node as usize));
-        let rigid = shift - arm * turn * arm;
-        let shapes = own.reduction.shapes_at(node as usize);
-        let rigid: f64 = (0..D).map(|i| rigid[(i, i)]).sum();
-        (rigid + inner(shapes, shapes, compliance).trace()) / D as f64
-    }
-}
-
-/// Σ c Φ_a ⊗ Φ_b: how the vibrations let one node yield to a force on another, in the frame of the body.
-fn inner<const D: usize>(a: &[Vector<D>], b: &[Vector<D>], compliance: impl Fn(usize) -> f64) -> Matrix<D> {
-    let mut sum = Matrix::zeros();
-    for (k, (a, b)) in a.iter().zip(b).enumerate() {
-        sum += a * (b * compliance(k)).transpose();
-    }
-    sum
-}
-
-/// How shifts and turns answer to impulses: the inverse of the mass [1/kg] and of the inertia [1/(kg m²)].
-fn mobility<const D: usize>(shape: &RigidShape<D>, rotation: &Matrix<3>) -> [Matrix<3>; 2] {
-    let mass = Matrix::<3>::from_diagonal_element(shape.mass);
-    [inverse_on(&shape.moves_along, &mass), inverse_on(&shape.turns_about, &shape.inertia_at(rotation))]
 }
 
 impl<const D: usize> Body<D> for ReducedBody<D> {
