@@ -28,7 +28,7 @@ import carom
 
 STEEL = carom.LinearElastic(young=210e9, poisson=0.3, density=7800.0)
 SIZE = (1.0, 0.05, 0.05)
-PART = Path(__file__).with_name("reduced_part.geo")
+PART = Path(__file__).parents[1] / "examples" / "standing_bracket.geo"
 COUNTS = (None, 0, 4, 8, 16, 32, 64)
 
 
