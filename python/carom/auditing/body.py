@@ -202,7 +202,7 @@ class AuditBody:
         return translation, rotation, self.kinetic_energy(u, v) - translation - rotation
 
     def spin(self, u: Array, v: Array) -> float:
-        """Return Σ m y × (v − v̄) / Σ m |y|² about the centre [rad/s], of mean axes where it has them."""
+        """Return Σ m y × (v − v̄) / Σ m |y|² about the centre [rad/s]; that of mean axes."""
         if self.modes is not None:
             return self._axes(u).rates(v)[1]
         arms = self.points + u - self.mass.mean(self.points + u)

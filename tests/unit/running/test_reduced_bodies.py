@@ -298,6 +298,22 @@ def test_looking_at_a_run_changes_nothing():
         assert np.array_equal(one, other), what
 
 
+def test_a_tracked_node_inside_moves_where_all_of_the_outline_may_touch():
+    """Symptom guarded against: nobody placed it, as no node of the outline was left to place."""
+    whole = bar(contact_sets=None, velocity=[-0.2, 0.0])
+    track = [carom.Track(name="inner", body="bar", point=[1.0, 0.25])]
+    simulation = carom.Simulation(
+        case(whole, output=carom.Output(history_every=0.01, fields_every=0.2, track=track))
+    )
+    simulation.advance(0.04)
+    history = simulation.history
+    body = simulation.bodies["bar"]
+    node = np.argmin(np.linalg.norm(body.points - [1.0, 0.25], axis=1))
+    assert history["inner.u_x"][-1] == pytest.approx(body.displacement[node, 0], rel=1e-12)
+    assert history["inner.v_x"][-1] == pytest.approx(body.velocity[node, 0], rel=1e-12)
+    assert history["inner.u_x"][-1] == pytest.approx(-0.2 * 0.04, rel=0.2)
+
+
 @pytest.mark.parametrize("cell", ["hex8", "hex20", "tet10"])
 def test_reduced_blocks_of_every_order_keep_their_energy_with_gravity_and_friction(cell):
     mesh = carom.Box(corner=[0.0, 0.0, 0.02], size=[1.0, 0.2, 0.2], divisions=[6, 2, 2], cell=cell)

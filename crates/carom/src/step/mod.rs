@@ -13,13 +13,14 @@ mod iterate;
 pub(crate) mod landing;
 mod measure;
 pub(crate) mod newton;
-pub(crate) mod outlines;
+mod outlines;
 pub(crate) mod report;
 mod settling;
 mod since_look;
 mod springs;
 mod stability;
 mod waking;
+pub(crate) mod whereabouts;
 pub(crate) mod workspace;
 
 use std::time::Instant;

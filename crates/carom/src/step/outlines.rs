@@ -4,28 +4,11 @@ use carom_contact::Boundaries;
 use carom_mesh::Vector;
 
 use super::control::WAKING;
+use super::whereabouts::Whereabouts;
 use super::workspace::Workspace;
 use crate::body::Ball;
 use crate::model::given::Given;
 use crate::model::state::State;
-
-/// Scratch of [`place_outlines`].
-#[derive(Debug, Default)]
-pub(crate) struct Outlines<const D: usize> {
-    /// Of every body: the balls that hold its outline all the way through the step, none if all its nodes are placed.
-    balls: Vec<Vec<Ball<D>>>,
-    /// The box that it is in all the way, by its lowest and its highest corner [m].
-    boxes: Vec<[Vector<D>; 2]>,
-    /// Those that come near the body that is placed.
-    near: Vec<usize>,
-}
-
-impl<const D: usize> Outlines<D> {
-    /// Of so many bodies.
-    pub fn new(bodies: usize) -> Self {
-        Self { balls: vec![Vec::new(); bodies], boxes: vec![[Vector::zeros(); 2]; bodies], near: Vec::new() }
-    }
-}
 
 /// Lets bodies place those nodes of their outlines that no iteration asks for.
 pub(super) fn place_outlines<const D: usize>(
@@ -33,26 +16,23 @@ pub(super) fn place_outlines<const D: usize>(
     next: &mut State<D>,
     work: &mut Workspace<D>,
 ) {
-    let Workspace { bodies, motion, boundaries, outlines, .. } = work;
-    let Outlines { balls, boxes, near } = outlines;
+    let Workspace { bodies, motion, boundaries, whereabouts, .. } = work;
+    let Whereabouts { balls, boxes, near } = whereabouts;
     let assembly = given.assembly;
     for (i, (body, balls)) in bodies.iter_mut().zip(&mut *balls).enumerate() {
         balls.clear();
         body.balls(&next.displacement[assembly.nodes(i)], balls);
     }
-    if balls.iter().all(Vec::is_empty) {
-        return;
-    }
-    for (i, (room, balls)) in boxes.iter_mut().zip(&*balls).enumerate() {
+    let is_asked = balls.iter().any(|balls| !balls.is_empty());
+    for (i, (room, balls)) in boxes.iter_mut().zip(&*balls).enumerate().filter(|_| is_asked) {
         let position = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
         *room = if balls.is_empty() { way_of(boundaries, i, &position, motion) } else { around(balls) };
     }
     for i in 0..bodies.len() {
-        if balls[i].is_empty() {
-            continue;
-        }
         near.clear();
-        near.extend((0..bodies.len()).filter(|&j| j != i && overlap(&boxes[i], &boxes[j])));
+        if !balls[i].is_empty() {
+            near.extend((0..bodies.len()).filter(|&j| j != i && overlap(&boxes[i], &boxes[j])));
+        }
         // Where it may have gone through itself all of it is looked at.
         let is_due = bodies[i].wandered().is_some_and(|w| w > WAKING.unseen * boundaries.least_cell(i));
         let (places, obstacles) = next.displacement.split_at_mut(assembly.node_count());

@@ -2,25 +2,22 @@
 
 use carom_mesh::{Matrix, Vector};
 
-use super::{ReducedBody, part};
+use super::part::ReducedPart;
 use crate::body::rigid::pose::{cross_matrix, inverse_on};
 use crate::body::rigid::shape::RigidShape;
 
-impl<const D: usize> ReducedBody<D> {
-    /// How a node yields to a force on itself where it is drawn, with these compliances of rigid motions and of amplitudes, in the mean of the directions.
-    pub(super) fn own_compliance(
-        &self,
-        node: u32,
-        [shift, turn]: &[Matrix<3>; 2],
-        compliance: impl Fn(usize) -> f64,
-    ) -> f64 {
-        let own = part(&self.body);
-        let arm = cross_matrix(&own.shape.arm(node as usize));
-        let rigid = shift - arm * turn * arm;
-        let shapes = own.reduction.shapes_at(node as usize);
-        let rigid: f64 = (0..D).map(|i| rigid[(i, i)]).sum();
-        (rigid + inner(shapes, shapes, compliance).trace()) / D as f64
-    }
+/// How a node yields to a force on itself where it is drawn, with these compliances of rigid motions and of amplitudes, in the mean of the directions.
+pub(super) fn own_compliance<const D: usize>(
+    part: &ReducedPart<D>,
+    node: u32,
+    [shift, turn]: &[Matrix<3>; 2],
+    compliance: impl Fn(usize) -> f64,
+) -> f64 {
+    let arm = cross_matrix(&part.shape.arm(node as usize));
+    let rigid = shift - arm * turn * arm;
+    let shapes = part.reduction.shapes_at(node as usize);
+    let rigid: f64 = (0..D).map(|i| rigid[(i, i)]).sum();
+    (rigid + inner(shapes, shapes, compliance).trace()) / D as f64
 }
 
 /// Σ c Φ_a ⊗ Φ_b: how the vibrations let one node yield to a force on another, in the frame of the body.

@@ -5,7 +5,8 @@
 
 use carom_mesh::{Matrix, Vector};
 
-use super::part::{Place, Rates, Reading, ReducedPart};
+use super::part::{Reading, ReducedPart};
+use super::place::{Place, Rates};
 use crate::StepMap;
 use crate::body::rigid::equation::Equation;
 use crate::body::rigid::pose::{Displaced, lift, lower};

@@ -9,14 +9,16 @@ mod compliance;
 mod equation;
 mod outline;
 pub(crate) mod part;
+mod place;
 
 use std::sync::Arc;
 
 use carom_mesh::{Matrix, Vector};
 
-use self::compliance::{inner, mobility};
+use self::compliance::{inner, mobility, own_compliance};
 use self::equation::{Forces, Moved, ReducedEquation};
-use self::part::{Place, Rates, Reading, ReducedPart};
+use self::part::{Reading, ReducedPart};
+use self::place::{Place, Rates};
 use super::fe::part::ModelBody;
 use super::rigid::equation::Equation;
 use super::rigid::pose::{Twist, cross_matrix, lift, lower};
@@ -270,7 +272,7 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
 
     fn stiffness_at(&mut self, node: u32) -> f64 {
         let stiffness = part(&self.body).reduction.stiffness();
-        1.0 / self.own_compliance(node, &[Matrix::zeros(); 2], |k| 1.0 / stiffness[k])
+        1.0 / own_compliance(part(&self.body), node, &[Matrix::zeros(); 2], |k| 1.0 / stiffness[k])
     }
 
     fn forget(&mut self) {}
@@ -294,7 +296,7 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
     /// The mass that a force at the node moves, in the mean of all directions.
     fn mass_of(&self, node: u32) -> f64 {
         let mobility = mobility(&part(&self.body).shape, &Matrix::identity());
-        1.0 / self.own_compliance(node, &mobility, |_| 1.0)
+        1.0 / own_compliance(part(&self.body), node, &mobility, |_| 1.0)
     }
 
     fn jolt(
@@ -385,6 +387,7 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
             displacement[node] = own.displacement(ends[1], node);
             motion[node] = displacement[node] - own.displacement(ends[0], node);
         }
-        own.outline.place(own, ends, [displacement, motion], is_near);
+        let exact = |place: &Place, node: usize| own.displacement(place, node);
+        own.outline.place((&own.shape, exact), ends, [displacement, motion], is_near);
     }
 }

@@ -3,9 +3,9 @@
 //! To place a node where it is takes all shapes. Where nothing is near it does as well where the body without strain would have it.
 
 use carom_fem::{Body, Reduction};
-use carom_mesh::{Surface, Vector};
+use carom_mesh::{Matrix, Surface, Vector};
 
-use super::part::{Place, ReducedPart};
+use super::place::Place;
 use crate::body::Ball;
 use crate::body::rigid::pose::lower;
 use crate::body::rigid::shape::RigidShape;
@@ -111,26 +111,28 @@ impl Outline {
         }));
     }
 
-    /// Places the nodes of every clump at the `end` of a step and says how far they moved [m]: as the body has them where the clump `is_near` of something,
-    /// elsewhere as the body without strain.
+    /// Places the nodes of every clump at the `end` of a step and says how far they moved [m]: where the clump `is_near` of something by what is `exact`, the
+    /// displacement of a node in a place, elsewhere as the body without strain would have them.
     pub fn place<const D: usize>(
         &self,
-        part: &ReducedPart<D>,
+        (shape, exact): (&RigidShape<D>, impl Fn(&Place, usize) -> Vector<D>),
         [start, end]: [&Place; 2],
         [displacement, motion]: [&mut [Vector<D>]; 2],
         is_near: &dyn Fn(usize) -> bool,
     ) {
         let shift = end.pose.shift - start.pose.shift;
         let turn = end.pose.rotation - start.pose.rotation;
+        let turned = end.pose.rotation - Matrix::identity();
         for (k, clump) in self.clumps.iter().enumerate() {
             let is_near = is_near(k);
             for node in clump.nodes.iter().map(|&n| n as usize) {
                 if is_near {
-                    displacement[node] = part.displacement(end, node);
-                    motion[node] = displacement[node] - part.displacement(start, node);
+                    displacement[node] = exact(end, node);
+                    motion[node] = displacement[node] - exact(start, node);
                 } else {
-                    displacement[node] = part.without_strain(end, node);
-                    motion[node] = lower(&(shift + turn * part.shape.arm(node)));
+                    let arm = shape.arm(node);
+                    displacement[node] = lower(&(end.pose.shift + turned * arm));
+                    motion[node] = lower(&(shift + turn * arm));
                 }
             }
         }

@@ -4,6 +4,7 @@ use carom_fem::{Body, CellState, Content, FemError, KineticParts, Momenta, Reduc
 use carom_mesh::{Matrix, Vector, nodal, tensor};
 
 use super::outline::Outline;
+use super::place::{Place, Rates};
 use crate::body::rigid::pose::{Pose, Twist, cayley, lift, lower};
 use crate::body::rigid::shape::RigidShape;
 use crate::ledger::Energies;
@@ -28,37 +29,6 @@ pub(crate) struct ReducedPart<const D: usize> {
     pub(super) outline: Outline,
     /// What displacements of the nodes that are read are weighed with to guess the rotation [1/m].
     fit: Vec<Vector<D>>,
-}
-
-/// Where a reduced body is: x = c + R (X − C + Φ η).
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Place {
-    pub pose: Pose,
-    /// η [m √kg].
-    pub amplitudes: Vec<f64>,
-}
-
-/// How a reduced body moves.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Rates {
-    pub twist: Twist,
-    /// dη/dt [m √kg/s].
-    pub amplitudes: Vec<f64>,
-}
-
-impl Place {
-    /// Where it is drawn.
-    pub fn of(count: usize) -> Self {
-        Self { pose: Pose::default(), amplitudes: vec![0.0; count] }
-    }
-}
-
-impl Rates {
-    /// At rest.
-    pub fn of(count: usize) -> Self {
-        let twist = Twist { velocity: Vector::zeros(), spin: Vector::zeros() };
-        Self { twist, amplitudes: vec![0.0; count] }
-    }
 }
 
 /// Room for what is read.
@@ -127,13 +97,6 @@ impl<const D: usize> ReducedPart<D> {
         let Pose { shift, rotation } = place.pose;
         let own = rotation * lift(&self.reduction.displacement(node, &place.amplitudes));
         lower(&(shift + (rotation - Matrix::identity()) * self.shape.arm(node) + own))
-    }
-
-    /// The displacement that a node would have without vibrations [m].
-    #[inline]
-    pub fn without_strain(&self, place: &Place, node: usize) -> Vector<D> {
-        let Pose { shift, rotation } = place.pose;
-        lower(&(shift + (rotation - Matrix::identity()) * self.shape.arm(node)))
     }
 
     /// The velocity of a node [m/s].
