@@ -270,7 +270,7 @@ def test_books_close_to_round_off_whatever_the_step():
 
 
 @pytest.mark.filterwarnings("ignore:.*inside one another")
-def test_what_may_not_touch_is_found_inside_and_is_no_contact():
+def test_what_may_not_touch_is_found_inside_and_is_no_contact(tmp_path):
     """Symptom guarded against: the core panicked at a node beyond the surface that is kept."""
     below = carom.Body(
         name="below",
@@ -279,9 +279,11 @@ def test_what_may_not_touch_is_found_inside_and_is_no_contact():
     )
     flat = bar(velocity=[0.0, -1.0], spin=None)
     floor = carom.Plane(name="floor", point=[0.0, -0.05], normal=[0.0, 1.0])
-    for others in ({"bodies": [flat, below], "obstacles": []}, {"obstacles": [floor]}):
+    for k, others in enumerate(
+        ({"bodies": [flat, below], "obstacles": []}, {"bodies": [flat], "obstacles": [floor]})
+    ):
         with pytest.raises(carom.PenetrationError, match="inside one another"):
-            carom.run(case(**{"bodies": [flat], **others}))
+            carom.run(case(**others), out=tmp_path / f"run-{k}")
 
 
 def test_looking_at_a_run_changes_nothing():
@@ -299,7 +301,7 @@ def test_looking_at_a_run_changes_nothing():
 
 
 def test_a_tracked_node_inside_moves_where_all_of_the_outline_may_touch():
-    """Symptom guarded against: nobody placed it, as no node of the outline was left to place."""
+    """There is then no node of the outline left to place."""
     whole = bar(contact_sets=None, velocity=[-0.2, 0.0])
     track = [carom.Track(name="inner", body="bar", point=[1.0, 0.25])]
     simulation = carom.Simulation(
