@@ -18,3 +18,4 @@ Physical Surface("feet") = {feet()};
 
 Mesh.MeshSizeMin = h;
 Mesh.MeshSizeMax = h;
+Mesh.ElementOrder = 1;
