@@ -34,6 +34,10 @@ impl<const D: usize> ContactModel<D> {
             match feature {
                 Feature::Node(node) => {
                     let node = own.master(node);
+                    // Boundaries are looked at as wholes, and may touch in part alone.
+                    if own.nodes.binary_search(&node).is_err() {
+                        continue;
+                    }
                     let facet = other.nearest_on_the_way(node, swept, path);
                     out.extend(facet.map(|f| Candidate::at_node(there as u32, node, Some(f))));
                 }

@@ -115,8 +115,9 @@ impl Simulation {
         })
     }
 
-    fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        with!(&self.inner, run => {
+    fn fields<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        with!(&mut self.inner, run => {
+        run.complete();
         let fields = run.fields();
         let voigt = |tensor: &dyn Fn(usize) -> [f64; 6]| (0..fields.cells.len()).flat_map(tensor).collect();
         let six = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
@@ -145,8 +146,9 @@ impl Simulation {
         })
     }
 
-    fn surface_fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        with!(&self.inner, run => {
+    fn surface_fields<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        with!(&mut self.inner, run => {
+        run.complete();
         let fields = run.surface_fields();
         let out = PyDict::new(py);
         out.set_item("displacement", arrays::vectors(py, run.fields().displacement)?)?;
@@ -168,8 +170,9 @@ impl Simulation {
     }
 
     /// The last step made, as its two states and its energy terms; None before the first.
-    fn last_step<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        with!(&self.inner, run => {
+    fn last_step<'py>(&mut self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        with!(&mut self.inner, run => {
+        run.complete();
         let Some(step) = run.last_step() else { return Ok(None) };
         let out = PyDict::new(py);
         for (name, state) in [("start", step.start), ("end", step.end)] {
@@ -186,8 +189,11 @@ impl Simulation {
     }
 
     /// The present state, see `arrays::state`.
-    fn state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        with!(&self.inner, run => arrays::state(py, run.model(), run.state()))
+    fn state<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        with!(&mut self.inner, run => {
+            run.complete();
+            arrays::state(py, run.model(), run.state())
+        })
     }
 
     /// The energy terms since the start [J].
@@ -257,7 +263,10 @@ impl Simulation {
 
     /// All that it takes to go on from here, as arrays by name.
     fn checkpoint<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let made = with!(&mut self.inner, run => run.checkpoint());
+        let made = with!(&mut self.inner, run => {
+            run.complete();
+            run.checkpoint()
+        });
         checkpoint::to_python(py, &made.map_err(|e| PyValueError::new_err(e.to_string()))?)
     }
 
@@ -292,7 +301,7 @@ fn advance<const D: usize>(
         let start = Instant::now();
         let mut last_look = 0.0;
         let mut interrupt = None;
-        let outcome = run.advance(until, || {
+        let outcome = run.go_to(until, || {
             let elapsed = start.elapsed().as_secs_f64();
             if elapsed - last_look >= SIGNAL_INTERVAL {
                 last_look = elapsed;

@@ -213,7 +213,9 @@ class AuditBody:
         return field
 
     def spin(self, u: Array, v: Array) -> float:
-        """Return Σ m y × (v − v̄) / Σ m |y|² about the centre [rad/s]."""
+        """Return Σ m y × (v − v̄) / Σ m |y|² about the centre [rad/s]; that of mean axes."""
+        if self.modes is not None:
+            return self._axes(u).rates(v)[1]
         arms = self.points + u - self.mass.mean(self.points + u)
         moment = self.mass.nodal @ cross(arms, v - self.mass.mean(v))
         return float(moment / (self.mass.nodal @ (arms**2).sum(axis=1)))

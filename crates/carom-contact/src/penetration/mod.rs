@@ -120,6 +120,12 @@ impl<const D: usize> Boundaries<D> {
         self.shells[body].least_cell
     }
 
+    /// Diameter of the largest facet of a body where it was first [m].
+    #[must_use]
+    pub fn largest_cell(&self, body: usize) -> f64 {
+        self.shells[body].largest_cell
+    }
+
     /// The nodes of the boundary of a body, ascending.
     pub fn nodes(&self, body: usize) -> impl Iterator<Item = u32> + Clone {
         self.shells[body].nodes.iter().map(|(node, _)| *node)

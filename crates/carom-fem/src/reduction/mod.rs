@@ -24,6 +24,9 @@ const LOOSE: f64 = 1e-13;
 /// Nodes hold a body where no rigid motion of the size of the body moves them by less than the root of this part of it, in the mean.
 const HELD: f64 = 1e-12;
 
+/// Rows of a block of [`products`].
+const ROWS: usize = 512;
+
 /// A body reduced to its rigid motions and some free vibrations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reduction<const D: usize> {
@@ -72,7 +75,7 @@ impl<const D: usize> Reduction<D> {
                 multiply(column, &mut product);
                 all.column_mut(k).copy_from_slice(bytemuck::cast_slice(&product));
             }
-            let reduced = basis.tr_mul(&all);
+            let reduced = products(&basis, &all);
             (&reduced + reduced.transpose()) * 0.5
         };
         let mass = times(&|x, y| body.mass().multiply(x, y));
@@ -141,7 +144,17 @@ impl<const D: usize> Reduction<D> {
     #[inline]
     #[must_use]
     pub fn displacement(&self, node: usize, amplitudes: &[f64]) -> Vector<D> {
-        self.shapes_at(node).iter().zip(amplitudes).fold(Vector::zeros(), |sum, (shape, a)| sum + shape * *a)
+        // Four sums at once: one would wait for itself.
+        let (mut sums, shapes) = ([Vector::<D>::zeros(); 4], self.shapes_at(node));
+        let (fours, of_fours) = (shapes.chunks_exact(4), amplitudes.chunks_exact(4));
+        let rest = fours.remainder().iter().zip(of_fours.remainder());
+        rest.for_each(|(shape, a)| sums[0] += shape * *a);
+        for (shapes, amplitudes) in fours.zip(of_fours) {
+            for k in 0..4 {
+                sums[k] += shapes[k] * amplitudes[k];
+            }
+        }
+        (sums[0] + sums[1]) + (sums[2] + sums[3])
     }
 
     /// The nodes, ascending, whose displacements say everything.
@@ -153,6 +166,12 @@ impl<const D: usize> Reduction<D> {
     /// Reads what displacements [m] are made of, given those of [`Self::read_nodes`] in their order.
     pub fn read(&self, displacements: &[Vector<D>], content: &mut Content<D>) {
         self.reader.read(displacements, content);
+    }
+
+    /// The turn alone that [`Self::read`] reads.
+    #[must_use]
+    pub fn read_turn(&self, displacements: &[Vector<D>]) -> [f64; 3] {
+        self.reader.read_turn(displacements)
     }
 }
 
@@ -182,6 +201,16 @@ fn constraint_modes<const D: usize>(
             shape
         })
         .collect()
+}
+
+/// aᵀ b, block after block of rows: of tall matrices that is what fits into caches.
+fn products(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut sum = DMatrix::zeros(a.ncols(), b.ncols());
+    for first in (0..a.nrows()).step_by(ROWS) {
+        let count = ROWS.min(a.nrows() - first);
+        sum.gemm(1.0, &a.rows(first, count).transpose(), &b.rows(first, count), 1.0);
+    }
+    sum
 }
 
 /// These nodal vectors as the columns of a matrix.

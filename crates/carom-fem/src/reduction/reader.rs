@@ -47,6 +47,19 @@ impl<const D: usize> Reader<D> {
         &self.nodes
     }
 
+    /// See [`super::Reduction::read_turn`].
+    pub fn read_turn(&self, displacements: &[Vector<D>]) -> [f64; 3] {
+        let turns = if D == 2 { 1 } else { 3 };
+        let mut turn = [0.0; 3];
+        for (k, u) in displacements.iter().enumerate() {
+            for i in 0..D {
+                let column = self.rows.column(k * D + i);
+                (0..turns).for_each(|j| turn[3 - turns + j] += column[D + j] * u[i]);
+            }
+        }
+        turn
+    }
+
     /// See [`super::Reduction::read`].
     pub fn read(&self, displacements: &[Vector<D>], content: &mut Content<D>) {
         let Content { shift, turn, amplitudes } = content;

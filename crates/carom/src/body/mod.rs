@@ -152,6 +152,15 @@ pub struct Balance {
     pub motion: f64,
 }
 
+/// A place in which something of a body is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ball<const D: usize> {
+    /// Its centre [m].
+    pub centre: Vector<D>,
+    /// Its radius [m].
+    pub radius: f64,
+}
+
 /// What an impulse meant for a body.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Jolt {
@@ -322,8 +331,22 @@ pub trait Body<const D: usize>: Send + Sync {
     /// Lets no step rely on K̄ as it is.
     fn forget(&mut self);
 
-    /// Writes the displacements and motions [m] at the end of a step of nodes that nobody asks for in iterations, and may look at after.
-    fn complete(&mut self, _displacement: &mut [Vector<D>], _motion: &mut [Vector<D>]) {}
+    /// Writes balls that hold what of its outline it places at the end of a step alone, all the way there, where its nodes have these displacements [m];
+    /// none if every iteration places all.
+    fn balls(&mut self, _displacement: &[Vector<D>], _out: &mut Vec<Ball<D>>) {}
+
+    /// Places at the end of a step what no iteration asks for: writes displacements and motions [m]. Whether anything `is_near` of the balls of
+    /// [`Self::balls`] says where it has to be exact.
+    fn complete(&mut self, _places: [&mut [Vector<D>]; 2], _is_near: &dyn Fn(usize) -> bool) {}
+
+    /// How far its nodes have moved beside its motion as a rigid body since [`Self::looked_at`] at most [m], if it knows without them, after
+    /// [`Self::balls`].
+    fn wandered(&self) -> Option<f64> {
+        None
+    }
+
+    /// Somebody has looked at where all of it is.
+    fn looked_at(&mut self) {}
 
     /// Completes the state at the end of a step and says what happened to the energy; returns that and the energies [J].
     fn end_step(

@@ -207,9 +207,10 @@ impl<const D: usize> History<D> {
         self.rows.extend(all);
         for ((b, energies), parts) in model.bodies.iter().zip(&state.body_energies).zip(&self.parts) {
             let (u, v) = (&state.displacement[b.nodes()], &state.velocity[b.nodes()]);
-            self.rows.extend(b.body.centre(u).iter());
-            self.rows.extend(b.body.mean(v).iter());
-            self.rows.extend(rotational::<D>(&b.body.spin(u, v)));
+            let [centre, drift, spin] = b.drift(u, v);
+            self.rows.extend(&centre[..D]);
+            self.rows.extend(&drift[..D]);
+            self.rows.extend(rotational::<D>(&spin));
             self.rows.extend(parts);
             self.rows.push(energies.strain);
         }

@@ -1,7 +1,10 @@
 //! Nodes inside reduced bodies: no step asks for them, and whoever looks at a run does.
 
+use carom_mesh::Vector;
+
 use super::error::RunError;
 use super::simulation::{Outcome, Simulation};
+use crate::body::reduced::part::ReducedPart;
 
 impl<const D: usize> Simulation<D> {
     /// Runs until time `until` [s] (the end of the run at most), or until `pause`, asked after every step, says so.
@@ -14,12 +17,23 @@ impl<const D: usize> Simulation<D> {
         made
     }
 
-    /// Lets nodes inside reduced bodies, which steps do not ask for, be where they are.
-    pub(super) fn complete(&mut self) {
+    /// Lets nodes of reduced bodies that steps do not ask for be where they are, after [`Self::go_to`].
+    pub fn complete(&mut self) {
+        if !std::mem::replace(&mut self.is_complete, true) {
+            self.each_reduced(ReducedPart::complete);
+        }
+    }
+
+    /// Lets those nodes of reduced bodies that are tracked be where they are, and move so.
+    pub(super) fn complete_tracked(&mut self) {
+        self.each_reduced(ReducedPart::complete_tracked);
+    }
+
+    fn each_reduced(&mut self, complete: impl Fn(&ReducedPart<D>, &mut [Vector<D>], &mut [Vector<D>])) {
         for b in self.stages[self.current].model.bodies.iter() {
             let Some(reduced) = &b.reduced else { continue };
             for state in [&mut self.state, &mut self.spare] {
-                reduced.complete(&mut state.displacement[b.nodes()], &mut state.velocity[b.nodes()]);
+                complete(reduced, &mut state.displacement[b.nodes()], &mut state.velocity[b.nodes()]);
             }
         }
     }

@@ -20,17 +20,19 @@ pub(super) fn measure<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<PenetrationReport, StepError> {
     let Given { assembly, method, state, interval } = *given;
-    let at = |state: &State<D>, n: u32| assembly.reference[n as usize] + state.displacement[n as usize];
-    let (start, end) = (|n: u32| at(state, n), |n: u32| at(next, n));
+    let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
+    // Not where the state has them: outlines of reduced bodies may have been completed in between.
+    let Workspace { boundaries, motion, .. } = work;
+    let start = |n: u32| end(n) - motion[n as usize];
     let counts = |between: [Solid; 2]| between[0] != between[1] && assembly.must_not_overlap(between);
     let obstacles = &assembly.contact.obstacles;
     let times = [state.time, interval.end];
-    let parts = work.boundaries.parts(nodal::largest(&work.motion), obstacles, counts, &start, &end);
+    let parts = boundaries.parts(nodal::largest(motion), obstacles, counts, &start, &end);
     for part in 1..parts {
         let share = part as f64 / parts as f64;
         let between = |n: u32| start(n) * (1.0 - share) + end(n) * share;
         let mut in_the_way = None;
-        work.boundaries.measure(obstacles, counts, &between, |found| {
+        boundaries.measure(obstacles, counts, &between, |found| {
             let clearance =
                 times.map(|t| assembly.clearance(found.between, t)).into_iter().fold(0.0, f64::max);
             if found.depth - clearance > method.allowed_penetration(found.cell, found.arcs, 0.0) {
@@ -44,7 +46,7 @@ pub(super) fn measure<const D: usize>(
     }
     let mut report = PenetrationReport::default();
     let mut largest = 0.0;
-    wander(given, work);
+    wander(given, next, work);
     let Workspace { boundaries, since_look, in_itself, .. } = work;
     in_itself.fill(false);
     let counts = |between: [Solid; 2]| match between {

@@ -13,6 +13,7 @@ mod iterate;
 pub(crate) mod landing;
 mod measure;
 pub(crate) mod newton;
+mod outlines;
 mod repaying;
 pub(crate) mod report;
 mod settling;
@@ -20,6 +21,7 @@ mod since_look;
 mod springs;
 mod stability;
 mod waking;
+pub(crate) mod whereabouts;
 pub(crate) mod workspace;
 
 use std::time::Instant;
@@ -31,6 +33,7 @@ use self::control::SEARCH;
 use self::equilibrate::set_out;
 use self::iterate::iterate;
 use self::measure::measure;
+use self::outlines::place_outlines;
 use self::report::{PenetrationReport, StepReport};
 use self::stability::check_jump;
 use self::waking::wake;
@@ -94,10 +97,7 @@ pub(crate) fn step_over<const D: usize>(
             }
         }
         iterations += made?;
-        for (i, body) in work.bodies.iter_mut().enumerate() {
-            let nodes = assembly.nodes(i);
-            body.complete(&mut next.displacement[nodes.clone()], &mut work.motion[nodes]);
-        }
+        place_outlines(&given, next, work);
         let since = Instant::now();
         let penetration = looked_at(&given, next, repetition, work);
         work.detection_time += since.elapsed();

@@ -9,15 +9,20 @@ use crate::model::given::Given;
 use crate::model::state::State;
 
 /// Takes note of how far nodes of boundaries wander in the step, and which bodies may have gone through themselves since they were looked at.
-pub(super) fn wander<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) {
-    let Workspace { motion, since_look, boundaries, .. } = work;
-    each_body(given.assembly, &given.assembly.everyone, PerBody(since_look), &|i, look| {
+pub(super) fn wander<const D: usize>(given: &Given<'_, D>, next: &State<D>, work: &mut Workspace<D>) {
+    let Workspace { bodies, motion, since_look, boundaries, .. } = work;
+    let all = (PerBody(since_look), PerBody(bodies));
+    each_body(given.assembly, &given.assembly.everyone, all, &|i, (look, body)| {
         let look = look.own();
         let moving = boundaries.nodes(i).map(|n| {
             let d = motion[n as usize];
-            (given.position(n) + d * 0.5, d)
+            (given.assembly.reference[n as usize] + next.displacement[n as usize] - d * 0.5, d)
         });
-        look.in_step = against_one_another(moving);
+        if let Some(wandered) = body.own().wandered() {
+            (look.wandered, look.in_step) = (wandered, 0.0);
+        } else {
+            look.in_step = against_one_another(moving);
+        }
         look.is_due = look.wandered + look.in_step > WAKING.unseen * boundaries.least_cell(i);
     });
 }
@@ -25,7 +30,7 @@ pub(super) fn wander<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<
 /// Wakes the bodies that have come near themselves and lets those sleep that have not. Returns whether one was found inside itself that nobody
 /// had searched.
 pub(super) fn wake<const D: usize>(given: &Given<'_, D>, next: &State<D>, work: &mut Workspace<D>) -> bool {
-    let Workspace { since_look, in_itself, boundaries, contacts, .. } = work;
+    let Workspace { bodies, since_look, in_itself, boundaries, contacts, .. } = work;
     let end = |n: u32| given.assembly.reference[n as usize] + next.displacement[n as usize];
     let mut is_surprise = false;
     for (i, look) in since_look.iter_mut().enumerate() {
@@ -43,6 +48,7 @@ pub(super) fn wake<const D: usize>(given: &Given<'_, D>, next: &State<D>, work: 
         let reach = (WAKING.near * boundaries.least_cell(i)).max(WAKING.near_in_motions * look.in_step);
         finder.asleep[i] = !finder.comes_near_itself(given, i, reach, &end);
         look.wandered = 0.0;
+        bodies[i].looked_at();
     }
     is_surprise
 }

@@ -9,6 +9,7 @@ use super::newton::Newton;
 use super::report::PairReport;
 use super::since_look::SinceLook;
 use super::springs::SpringBooks;
+use super::whereabouts::Whereabouts;
 use crate::body::{Body, Forecast};
 use crate::contact::{Contacts, PosedProblem};
 use crate::ledger::{BodyLedger, ByPair};
@@ -25,6 +26,7 @@ pub struct Workspace<const D: usize> {
     pub(crate) impulses: Impulses<D>,
     pub(crate) springs: SpringBooks<D>,
     pub(crate) boundaries: Boundaries<D>,
+    pub(crate) whereabouts: Whereabouts<D>,
     /// Since every body was looked at for going through itself.
     pub(crate) since_look: Vec<SinceLook>,
     /// Which bodies were found inside themselves in the last step.
@@ -60,6 +62,7 @@ impl<const D: usize> Workspace<D> {
             impulses: Impulses::new(assembly.reference.len(), bodies.len()),
             springs: SpringBooks::new(assembly),
             boundaries: assembly.boundaries.clone(),
+            whereabouts: Whereabouts::new(bodies.len()),
             since_look: vec![SinceLook::default(); bodies.len()],
             in_itself: vec![false; bodies.len()],
             forecasts: vec![Forecast::default(); bodies.len()],

@@ -58,7 +58,7 @@ fn a_run_that_cannot_go_on_says_why_and_keeps_the_last_good_state() {
 
 /// Symptom guarded against: runs with massless nodes that completed without a fifth of their energy.
 #[test]
-fn impacts_too_violent_for_massless_nodes_are_refused_instead_of_losing_energy() {
+fn violent_impacts_of_massless_nodes_keep_their_energy() {
     let ball = body("ball", disc([1.25, 1.25], 0.8009, 4), [0.076, 2.312]);
     let walls = [plane("floor", [0.0, 0.0], [0.0, 1.0]), plane("west", [0.0, 0.0], [1.0, 0.0])];
     let mut case = scenario(0.649, 8.11e-3, &[ball], &walls);
@@ -71,12 +71,27 @@ fn impacts_too_violent_for_massless_nodes_are_refused_instead_of_losing_energy()
     case["contact"]["targets"] = json!("smooth");
     case["contact"]["friction"] = json!(0.2765);
     let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
-    let error = simulation.advance(f64::INFINITY, || false).expect_err("turns too fast for small strains");
-    assert!(error.to_string().contains("contact of massless nodes leaves"));
+    assert_eq!(simulation.advance(f64::INFINITY, || false), Ok(Outcome::Reached));
+    let summary = simulation.summary();
+    assert!(summary.energy.max_defect < 1e-12 * summary.energy.initial, "{:?}", summary.energy);
+    assert!(summary.repaid > 1e-3 * summary.energy.initial, "the blend alone would do: {:e} J", summary.repaid);
+}
+
+/// In rigid flight nothing vibrates that could pay for what sudden growth takes from the balance of the boundary.
+#[test]
+fn what_nothing_can_pay_for_is_refused_instead_of_losing_energy() {
+    let block = body("block", rectangle([0.0, 0.5], [1.0, 1.0], [6, 6]), [0.0, -10.0]);
+    let mut case = scenario(0.01, 5e-4, &[block], &[plane("floor", [0.0, 0.0], [0.0, 1.0])]);
+    case["bodies"][0]["growth"] = json!("0.1*sin(400*t)^2");
+    case["materials"]["elastic"]["young"] = json!(1e4);
+    case["analysis"]["scheme"] = json!({"kind": "conserving"});
+    case["analysis"]["max_halvings"] = json!(0);
+    case["contact"]["condition"] = json!("massless");
+    let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
+    let error = simulation.advance(f64::INFINITY, || false).expect_err("grows by a tenth in eight steps");
+    assert!(error.to_string().contains("contact of massless nodes leaves"), "{error}");
     let StepError::Unbalanced { missing, allowed } = error.reason else { panic!("{error}") };
     assert!(missing > allowed);
-    let books = simulation.summary().energy;
-    assert!(books.max_defect < 0.01 * books.initial, "the steps before close: {:e} J", books.max_defect);
 }
 
 /// Symptom guarded against: what damping leaves over at the onset of each contact ended runs whose bodies had lost most of their energy.
@@ -93,5 +108,5 @@ fn damped_bodies_may_come_to_rest_on_massless_nodes() {
     assert_eq!(simulation.advance(f64::INFINITY, || false), Ok(Outcome::Reached));
     let energy = simulation.summary().energy;
     assert!(energy.terms.viscous > 0.5 * energy.initial, "{energy:?}");
-    assert!(energy.max_defect < 5e-3 * energy.initial, "{energy:?}");
+    assert!(energy.max_defect < 1e-12 * energy.initial, "{energy:?}");
 }

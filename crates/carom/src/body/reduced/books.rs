@@ -2,7 +2,7 @@
 
 use carom_mesh::Vector;
 
-use super::part::Rates;
+use super::place::Rates;
 use super::{ReducedBody, part};
 use crate::body::rigid::equation::End;
 use crate::body::rigid::shape::Wrench;

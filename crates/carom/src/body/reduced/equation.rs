@@ -5,7 +5,8 @@
 
 use carom_mesh::{Matrix, Vector};
 
-use super::part::{Place, Rates, ReducedPart};
+use super::part::{Reading, ReducedPart};
+use super::place::{Place, Rates};
 use crate::StepMap;
 use crate::body::rigid::equation::Equation;
 use crate::body::rigid::pose::{Displaced, lift, lower};
@@ -83,7 +84,7 @@ impl<const D: usize> Forces<D> {
 
 /// A step of a reduced body without contacts: how it starts, and what is the same for all forces.
 #[derive(Debug, Clone)]
-pub(super) struct ReducedEquation {
+pub(super) struct ReducedEquation<const D: usize> {
     pub rigid: Equation,
     pub place: Place,
     pub rates: Rates,
@@ -91,6 +92,8 @@ pub(super) struct ReducedEquation {
     pub compliance: Vec<f64>,
     /// η̄ where K̄ was made.
     pub mean: Vec<f64>,
+    /// Φη at the start of every node that steps move [m].
+    pub bent: Vec<Vector<D>>,
 }
 
 /// Damping of a mode with a stiffness [1/s].
@@ -105,10 +108,13 @@ fn end_share(map: &StepMap) -> f64 {
     if map.stress == StressRule::Weighted { map.xi } else { 0.5 }
 }
 
-impl ReducedEquation {
+impl<const D: usize> ReducedEquation<D> {
     /// Makes the equation of a step that starts in `place` at these `rates`.
-    pub fn begin<const D: usize>(&mut self, part: &ReducedPart<D>, map: StepMap) {
-        let Self { rigid, place, rates, compliance, .. } = self;
+    pub fn begin(&mut self, part: &ReducedPart<D>, map: StepMap) {
+        let Self { rigid, place, rates, compliance, bent, .. } = self;
+        for node in part.moved.iter().map(|&n| n as usize) {
+            bent[node] = part.reduction.displacement(node, &place.amplitudes);
+        }
         *rigid = Equation::new(&part.shape, map, place.pose, rates.twist);
         for (own, &k) in compliance.iter_mut().zip(part.reduction.stiffness()) {
             let damped = damping(part, k) * map.damping_coefficient();
@@ -117,13 +123,7 @@ impl ReducedEquation {
     }
 
     /// Finds the motion under these forces, from the guess that `moved` is; `before` is scratch of as many amplitudes.
-    pub fn solve<const D: usize>(
-        &self,
-        part: &ReducedPart<D>,
-        forces: &Forces<D>,
-        moved: &mut Moved,
-        before: &mut [f64],
-    ) {
+    pub fn solve(&self, part: &ReducedPart<D>, forces: &Forces<D>, moved: &mut Moved, before: &mut [f64]) {
         let map = &self.rigid.map;
         let size = part.shape.mass.sqrt();
         let mut last = f64::INFINITY;
@@ -156,20 +156,20 @@ impl ReducedEquation {
         }
     }
 
-    /// X − C + Φη̄ of a node [m].
+    /// X − C + Φη̄ of a node that steps move [m].
     #[inline]
-    pub fn mean_arm<const D: usize>(&self, part: &ReducedPart<D>, stretch: &[f64], node: usize) -> Vector<3> {
-        let shapes = part.reduction.shapes_at(node);
-        let amplitudes = self.place.amplitudes.iter().zip(stretch);
-        let bent = shapes
-            .iter()
-            .zip(amplitudes)
-            .fold(Vector::<D>::zeros(), |sum, (shape, (a, d))| sum + shape * (a + 0.5 * d));
-        part.shape.arm(node) + lift(&bent)
+    pub fn mean_arm(&self, part: &ReducedPart<D>, stretch: &[f64], node: usize) -> Vector<3> {
+        self.arm_half_way(part, &part.reduction.displacement(node, stretch), node)
+    }
+
+    /// The same where ΦΔη is known [m].
+    #[inline]
+    fn arm_half_way(&self, part: &ReducedPart<D>, stretched: &Vector<D>, node: usize) -> Vector<3> {
+        part.shape.arm(node) + lift(&(self.bent[node] + stretched * 0.5))
     }
 
     /// Writes Φᵀ R̄ᵀ f to `out`.
-    pub fn force_on_amplitudes<const D: usize>(
+    pub fn force_on_amplitudes(
         &self,
         part: &ReducedPart<D>,
         forces: &Forces<D>,
@@ -187,17 +187,40 @@ impl ReducedEquation {
 
     /// The motion of a node [m], where ½(R₀ + R₁) is `mean`.
     #[inline]
-    pub fn motion<const D: usize>(
-        &self,
-        part: &ReducedPart<D>,
-        moved: &Moved,
-        mean: &Matrix<3>,
-        node: usize,
-    ) -> Vector<D> {
-        let arm = self.mean_arm(part, &moved.stretch, node);
+    pub fn motion(&self, part: &ReducedPart<D>, moved: &Moved, mean: &Matrix<3>, node: usize) -> Vector<D> {
         let stretch = part.reduction.displacement(node, &moved.stretch);
+        let arm = self.arm_half_way(part, &stretch, node);
         let Displaced { shift, turn } = moved.rigid;
         lower(&(shift + turn.cross(&(mean * arm)) + mean * lift(&stretch)))
+    }
+
+    /// Finds the motion in which the nodes that are read move as `asked` [m], from the guess that `moved` is.
+    pub fn read(
+        &self,
+        part: &ReducedPart<D>,
+        asked: impl Fn(usize) -> Vector<D>,
+        moved: &mut Moved,
+        reading: &mut Reading<D>,
+    ) {
+        let Reading { local, content, .. } = reading;
+        let mut last = f64::INFINITY;
+        for _ in 0..ROUNDS {
+            let mean = moved.rigid.mean_rotation(&self.place.pose);
+            let mut size = 0.0_f64;
+            for (local, &node) in local.iter_mut().zip(part.reduction.read_nodes()) {
+                let left = asked(node as usize) - self.motion(part, moved, &mean, node as usize);
+                size = size.max(left.norm_squared());
+                *local = lower(&mean.tr_mul(&lift(&left)));
+            }
+            if size.is_nan() || size >= last || size == 0.0 {
+                break;
+            }
+            last = size;
+            part.reduction.read(local, content);
+            moved.rigid.shift += mean * lift(&content.shift);
+            moved.rigid.turn += mean * Vector::<3>::from(content.turn);
+            moved.stretch.iter_mut().zip(&content.amplitudes).for_each(|(d, a)| *d += a);
+        }
     }
 
     /// Velocities of amplitudes at the end of the step.
@@ -209,7 +232,7 @@ impl ReducedEquation {
     }
 
     /// What damping takes [J], and the scheme from the vibrations, where they end at these `rates`.
-    pub fn taken<const D: usize>(&self, part: &ReducedPart<D>, stretch: &[f64], rates: &[f64]) -> [f64; 2] {
+    pub fn taken(&self, part: &ReducedPart<D>, stretch: &[f64], rates: &[f64]) -> [f64; 2] {
         let map = &self.rigid.map;
         let (mut damped, mut scheme) = (0.0, 0.0);
         let motions = stretch.iter().zip(&self.rates.amplitudes).zip(rates);

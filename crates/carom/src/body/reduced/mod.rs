@@ -5,20 +5,25 @@
 //! stored but displacements and velocities of nodes; its place and the amplitudes are read from some of them.
 
 mod books;
+mod compliance;
 mod equation;
+mod outline;
 pub(crate) mod part;
+mod place;
 
 use std::sync::Arc;
 
 use carom_mesh::{Matrix, Vector};
 
+use self::compliance::{inner, mobility, own_compliance};
 use self::equation::{Forces, Moved, ReducedEquation};
-use self::part::{Place, Rates, Reading, ReducedPart};
+use self::part::{Reading, ReducedPart};
+use self::place::{Place, Rates};
 use super::fe::part::ModelBody;
 use super::rigid::equation::Equation;
-use super::rigid::pose::{Displaced, Twist, cross_matrix, inverse_on, lift, lower};
-use super::rigid::shape::{RigidShape, Wrench};
-use super::{Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt};
+use super::rigid::pose::{Twist, cross_matrix, lift, lower};
+use super::rigid::shape::Wrench;
+use super::{Ball, Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt};
 use crate::error::StepError;
 use crate::ledger::{BodyLedger, Energies};
 use crate::scheme::{Scheme, StepMap};
@@ -26,7 +31,7 @@ use crate::scheme::{Scheme, StepMap};
 /// A reduced body in a step.
 pub(crate) struct ReducedBody<const D: usize> {
     body: Arc<ModelBody<D>>,
-    equation: ReducedEquation,
+    equation: ReducedEquation<D>,
     /// The present guess, and what the forces known so far make of it, once that is asked for.
     moved: Moved,
     solved: Moved,
@@ -49,6 +54,10 @@ pub(crate) struct ReducedBody<const D: usize> {
     arms_in: Matrix<3>,
     generation: u64,
     reading: Reading<D>,
+    /// Amplitudes where somebody last looked at all of it, if anybody did, and what they have changed by.
+    looked_at: Vec<f64>,
+    is_looked_at: bool,
+    since_look: Vec<f64>,
     /// What an impulse gave it.
     jolted: Rates,
     scratch: Vec<f64>,
@@ -83,6 +92,7 @@ impl<const D: usize> ReducedBody<D> {
                 rates,
                 compliance: vec![0.0; count],
                 mean: vec![0.0; count],
+                bent: zeros.clone(),
             },
             moved: Moved::of(count),
             solved: Moved::of(count),
@@ -99,6 +109,9 @@ impl<const D: usize> ReducedBody<D> {
             arms_in: Matrix::identity(),
             generation: 0,
             reading: Reading::new(own),
+            looked_at: vec![0.0; count],
+            is_looked_at: false,
+            since_look: vec![0.0; count],
             jolted: Rates::of(count),
             scratch: vec![0.0; count],
             body,
@@ -106,13 +119,20 @@ impl<const D: usize> ReducedBody<D> {
     }
 
     /// Takes a guess of the motion for what of it the body can do.
+    ///
+    /// It is read from how far nodes move, and not from where they are: round-off of places would be one of velocities, over the time step.
     fn take(&mut self, guess: &Guess<'_, D>) {
         let own = part(&self.body);
         own.moved.iter().for_each(|&n| self.motion[n as usize] = guess.motion[n as usize]);
-        own.place(guess.displacement, &mut self.reading, &mut self.reached);
-        self.moved.rigid = Displaced::between(&self.equation.place.pose, &self.reached.pose);
-        let ends = self.reached.amplitudes.iter().zip(&self.equation.place.amplitudes);
-        self.moved.stretch.iter_mut().zip(ends).for_each(|(d, (a1, a0))| *d = a1 - a0);
+        if self.is_solved {
+            self.moved.copy(&self.solved);
+        }
+        let Self { equation, moved, reached, healed, motion, reading, .. } = self;
+        let asked = |n: usize| motion[n] - healed[n];
+        equation.read(own, asked, moved, reading);
+        reached.pose = moved.rigid.from(&equation.place.pose);
+        let ends = equation.place.amplitudes.iter().zip(&moved.stretch);
+        reached.amplitudes.iter_mut().zip(ends).for_each(|(end, (a, d))| *end = a + d);
         self.is_solved = false;
     }
 
@@ -163,36 +183,6 @@ impl<const D: usize> ReducedBody<D> {
     fn motion_of(&self, moved: &Moved, mean: &Matrix<3>, node: usize) -> Vector<D> {
         self.equation.motion(part(&self.body), moved, mean, node) + self.healed[node]
     }
-
-    /// How a node yields to a force on itself where it is drawn, with these compliances of rigid motions and of amplitudes, in the mean of the directions.
-    fn own_compliance(
-        &self,
-        node: u32,
-        [shift, turn]: &[Matrix<3>; 2],
-        compliance: impl Fn(usize) -> f64,
-    ) -> f64 {
-        let own = part(&self.body);
-        let arm = cross_matrix(&own.shape.arm(node as usize));
-        let rigid = shift - arm * turn * arm;
-        let shapes = own.reduction.shapes_at(node as usize);
-        let rigid: f64 = (0..D).map(|i| rigid[(i, i)]).sum();
-        (rigid + inner(shapes, shapes, compliance).trace()) / D as f64
-    }
-}
-
-/// Σ c Φ_a ⊗ Φ_b: how the vibrations let one node yield to a force on another, in the frame of the body.
-fn inner<const D: usize>(a: &[Vector<D>], b: &[Vector<D>], compliance: impl Fn(usize) -> f64) -> Matrix<D> {
-    let mut sum = Matrix::zeros();
-    for (k, (a, b)) in a.iter().zip(b).enumerate() {
-        sum += a * (b * compliance(k)).transpose();
-    }
-    sum
-}
-
-/// How shifts and turns answer to impulses: the inverse of the mass [1/kg] and of the inertia [1/(kg m²)].
-fn mobility<const D: usize>(shape: &RigidShape<D>, rotation: &Matrix<3>) -> [Matrix<3>; 2] {
-    let mass = Matrix::<3>::from_diagonal_element(shape.mass);
-    [inverse_on(&shape.moves_along, &mass), inverse_on(&shape.turns_about, &shape.inertia_at(rotation))]
 }
 
 impl<const D: usize> Body<D> for ReducedBody<D> {
@@ -282,7 +272,7 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
 
     fn stiffness_at(&mut self, node: u32) -> f64 {
         let stiffness = part(&self.body).reduction.stiffness();
-        1.0 / self.own_compliance(node, &[Matrix::zeros(); 2], |k| 1.0 / stiffness[k])
+        1.0 / own_compliance(part(&self.body), node, &[Matrix::zeros(); 2], |k| 1.0 / stiffness[k])
     }
 
     fn forget(&mut self) {}
@@ -294,6 +284,8 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         end: BodyEnd<'_, D>,
     ) -> (BodyLedger, Energies) {
         self.take(guess);
+        // The next step starts where the nodes are, which know the place less well than the motion.
+        part(&self.body).place(guess.displacement, &mut self.reading, &mut self.reached);
         self.close(guess, end)
     }
 
@@ -304,7 +296,7 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
     /// The mass that a force at the node moves, in the mean of all directions.
     fn mass_of(&self, node: u32) -> f64 {
         let mobility = mobility(&part(&self.body).shape, &Matrix::identity());
-        1.0 / self.own_compliance(node, &mobility, |_| 1.0)
+        1.0 / own_compliance(part(&self.body), node, &mobility, |_| 1.0)
     }
 
     fn jolt(
@@ -362,14 +354,40 @@ impl<const D: usize> Body<D> for ReducedBody<D> {
         (0..D * (D + 1) / 2).collect()
     }
 
-    fn complete(&mut self, displacement: &mut [Vector<D>], motion: &mut [Vector<D>]) {
+    fn wandered(&self) -> Option<f64> {
+        let own = part(&self.body);
+        let moved =
+            own.moved.iter().map(|&n| own.reduction.displacement(n as usize, &self.since_look).norm());
+        Some(if self.is_looked_at {
+            moved.fold(own.outline.bend(&self.since_look), f64::max)
+        } else {
+            f64::MAX
+        })
+    }
+
+    fn looked_at(&mut self) {
+        self.is_looked_at = true;
+        self.looked_at.copy_from_slice(&self.reached.amplitudes);
+    }
+
+    fn balls(&mut self, displacement: &[Vector<D>], out: &mut Vec<Ball<D>>) {
         let own = part(&self.body);
         // The guess that was taken last is that before the last correction.
         own.place(displacement, &mut self.reading, &mut self.reached);
-        for node in own.beside.iter().map(|&n| n as usize) {
-            let before = displacement[node] - motion[node];
-            displacement[node] = own.displacement(&self.reached, node);
-            motion[node] = displacement[node] - before;
+        let ends = self.reached.amplitudes.iter().zip(&self.looked_at);
+        self.since_look.iter_mut().zip(ends).for_each(|(since, (now, then))| *since = now - then);
+        own.outline.balls(&own.shape, [&self.equation.place, &self.reached], out);
+    }
+
+    fn complete(&mut self, places: [&mut [Vector<D>]; 2], is_near: &dyn Fn(usize) -> bool) {
+        let own = part(&self.body);
+        let ends = [&self.equation.place, &self.reached];
+        let [displacement, motion] = places;
+        for node in own.tracked.iter().map(|&n| n as usize) {
+            displacement[node] = own.displacement(ends[1], node);
+            motion[node] = displacement[node] - own.displacement(ends[0], node);
         }
+        let exact = |place: &Place, node: usize| own.displacement(place, node);
+        own.outline.place((&own.shape, exact), ends, [displacement, motion], is_near);
     }
 }

@@ -1,8 +1,10 @@
 //! What makes a body of the model reduced, and where such a body is.
 
 use carom_fem::{Body, CellState, Content, FemError, KineticParts, Momenta, Reduction};
-use carom_mesh::{Matrix, Surface, Vector, nodal, tensor};
+use carom_mesh::{Matrix, Vector, nodal, tensor};
 
+use super::outline::Outline;
+use super::place::{Place, Rates};
 use crate::body::rigid::pose::{Pose, Twist, cayley, lift, lower};
 use crate::body::rigid::shape::RigidShape;
 use crate::ledger::Energies;
@@ -21,49 +23,20 @@ pub(crate) struct ReducedPart<const D: usize> {
     pub damping: f64,
     /// The nodes, ascending, that the step moves: those that may touch, and those that are read.
     pub moved: Vec<u32>,
-    /// The nodes, ascending, that steps look at beside: those of the outline, and those that are tracked.
-    pub beside: Vec<u32>,
+    /// The nodes, ascending, that are placed at the end of every step beside those: the ones that are tracked.
+    pub tracked: Vec<u32>,
+    /// All others that steps may look at.
+    pub(super) outline: Outline,
     /// What displacements of the nodes that are read are weighed with to guess the rotation [1/m].
     fit: Vec<Vector<D>>,
-}
-
-/// Where a reduced body is: x = c + R (X − C + Φ η).
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Place {
-    pub pose: Pose,
-    /// η [m √kg].
-    pub amplitudes: Vec<f64>,
-}
-
-/// How a reduced body moves.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Rates {
-    pub twist: Twist,
-    /// dη/dt [m √kg/s].
-    pub amplitudes: Vec<f64>,
-}
-
-impl Place {
-    /// Where it is drawn.
-    pub fn of(count: usize) -> Self {
-        Self { pose: Pose::default(), amplitudes: vec![0.0; count] }
-    }
-}
-
-impl Rates {
-    /// At rest.
-    pub fn of(count: usize) -> Self {
-        let twist = Twist { velocity: Vector::zeros(), spin: Vector::zeros() };
-        Self { twist, amplitudes: vec![0.0; count] }
-    }
 }
 
 /// Room for what is read.
 #[derive(Debug, Clone)]
 pub(crate) struct Reading<const D: usize> {
-    local: Vec<Vector<D>>,
+    pub(super) local: Vec<Vector<D>>,
     bent: Vec<Vector<D>>,
-    content: Content<D>,
+    pub(super) content: Content<D>,
 }
 
 impl<const D: usize> Reading<D> {
@@ -94,12 +67,13 @@ impl<const D: usize> ReducedPart<D> {
             all
         };
         let moved = joined(read, body.surface().nodes());
-        let outline = joined(Surface::of(body.mesh()).nodes(), tracked);
-        let beside = outline.into_iter().filter(|n| moved.binary_search(n).is_err()).collect();
+        let placed = joined(&moved, tracked);
+        let shape = RigidShape::new(body, None);
         Ok(Self {
-            shape: RigidShape::new(body, None),
+            outline: Outline::new(body, &shape, &reduction, &placed),
+            shape,
             damping: body.damping().stiffness,
-            beside,
+            tracked: placed.into_iter().filter(|n| moved.binary_search(n).is_err()).collect(),
             moved,
             fit: from_middle.iter().map(|y| inverse * y).collect(),
             reduction,
@@ -151,17 +125,17 @@ impl<const D: usize> ReducedPart<D> {
                 let turned = (rotation - Matrix::identity()).tr_mul(&self.shape.arm(node as usize));
                 *local = lower(&(turned + rotation.tr_mul(&lift(&u[node as usize]))));
             }
-            self.reduction.read(local, content);
-            let turn = Vector::<3>::from(content.turn);
+            let turn = Vector::<3>::from(self.reduction.read_turn(local));
             let size = turn.norm();
-            place.pose = Pose { shift: rotation * lift(&content.shift), rotation };
-            place.amplitudes.copy_from_slice(&content.amplitudes);
             if size.is_nan() || size >= last || size == 0.0 {
                 break;
             }
             rotation *= cayley(&turn);
             last = size;
         }
+        self.reduction.read(local, content);
+        place.pose = Pose { shift: rotation * lift(&content.shift), rotation };
+        place.amplitudes.copy_from_slice(&content.amplitudes);
     }
 
     /// Finds how the body moves in a place where the nodes that are read have these velocities [m/s], which are of all nodes.
@@ -178,8 +152,7 @@ impl<const D: usize> ReducedPart<D> {
                 let own = rotation.tr_mul(&lift(&v[node as usize]));
                 *local = lower(&(own - spin.cross(&lift(bent))));
             }
-            self.reduction.read(local, content);
-            let turn = Vector::<3>::from(content.turn);
+            let turn = Vector::<3>::from(self.reduction.read_turn(local));
             let change = (turn - spin).norm();
             spin = turn;
             if change.is_nan() || change >= last || change == 0.0 {
@@ -187,6 +160,7 @@ impl<const D: usize> ReducedPart<D> {
             }
             last = change;
         }
+        self.reduction.read(local, content);
         rates.twist = Twist { velocity: rotation * lift(&content.shift), spin: rotation * spin };
         rates.amplitudes.copy_from_slice(&content.amplitudes);
     }
@@ -233,15 +207,27 @@ impl<const D: usize> ReducedPart<D> {
         [(self.shape.centre + pose.shift).into(), twist.velocity.into(), twist.spin.into()]
     }
 
-    /// Lets the nodes that no step places be where those that are read say [m], and all that none moves move so [m/s].
+    /// Lets all nodes that no step moves be where those that are read say [m], and move so [m/s].
     pub fn complete(&self, u: &mut [Vector<D>], v: &mut [Vector<D>]) {
         let (place, rates) = self.seen(u, v);
-        let is_of = |nodes: &[u32], node: usize| nodes.binary_search(&(node as u32)).is_ok();
-        for (node, (u, v)) in u.iter_mut().zip(v).enumerate().filter(|(n, _)| !is_of(&self.moved, *n)) {
-            if !is_of(&self.beside, node) {
+        let mut moved = self.moved.iter().copied().peekable();
+        for (node, (u, v)) in u.iter_mut().zip(v).enumerate() {
+            if moved.next_if_eq(&(node as u32)).is_none() {
                 *u = self.displacement(&place, node);
+                *v = self.velocity(&place, &rates, node);
             }
-            *v = self.velocity(&place, &rates, node);
+        }
+    }
+
+    /// The same of the nodes that are tracked alone.
+    pub fn complete_tracked(&self, u: &mut [Vector<D>], v: &mut [Vector<D>]) {
+        if self.tracked.is_empty() {
+            return;
+        }
+        let (place, rates) = self.seen(u, v);
+        for node in self.tracked.iter().map(|&n| n as usize) {
+            u[node] = self.displacement(&place, node);
+            v[node] = self.velocity(&place, &rates, node);
         }
     }
 
