@@ -74,13 +74,18 @@ fn violent_impacts_of_massless_nodes_keep_their_energy() {
     assert_eq!(simulation.advance(f64::INFINITY, || false), Ok(Outcome::Reached));
     let summary = simulation.summary();
     assert!(summary.energy.max_defect < 1e-12 * summary.energy.initial, "{:?}", summary.energy);
-    assert!(summary.repaid > 1e-3 * summary.energy.initial, "the blend alone would do: {:e} J", summary.repaid);
+    assert!(
+        summary.repaid > 1e-3 * summary.energy.initial,
+        "the blend alone would do: {:e} J",
+        summary.repaid
+    );
 }
 
 /// In rigid flight nothing vibrates that could pay for what sudden growth takes from the balance of the boundary.
 #[test]
 fn what_nothing_can_pay_for_is_refused_instead_of_losing_energy() {
-    let block = body("block", rectangle([0.0, 0.5], [1.0, 1.0], [6, 6]), [0.0, -10.0]);
+    let mesh = json!({"kind": "rectangle", "corner": [0.0, 0.5], "size": [1.0, 1.0], "divisions": [6, 6]});
+    let block = body("block", mesh, [0.0, -10.0]);
     let mut case = scenario(0.01, 5e-4, &[block], &[plane("floor", [0.0, 0.0], [0.0, 1.0])]);
     case["bodies"][0]["growth"] = json!("0.1*sin(400*t)^2");
     case["materials"]["elastic"]["young"] = json!(1e4);
