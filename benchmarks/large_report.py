@@ -1,6 +1,6 @@
 """The report of a part of 200,000 cells: how large it is, and how long until it can be used.
 
-``python benchmarks/large_report.py [--out DIR]``. A spinning plate falls on an edge, explicit in
+``python benchmarks/large_report.py [--out DIR]``. A plate falls on an edge, explicit in
 time: what matters here is what the page makes of it. Where there is a Chromium it opens the page.
 """
 
@@ -27,7 +27,6 @@ def scenario() -> carom.Scenario:
         self_contact=False,
         mesh=carom.Box(corner=[0.0, 0.0, 1e-5], size=[0.2, 0.1, 0.01], divisions=list(DIVISIONS)),
         velocity=[0.0, 0.0, -5.0],
-        spin=[50.0, -200.0, 100.0],  # so that no field is zero anywhere, and none is easily packed
     )
     return carom.Scenario(
         title="A plate of 200,000 cells",
