@@ -1,8 +1,7 @@
 //! Nodal and cell data as NumPy arrays.
 
-use carom::{Model, State};
+use carom::{Model, ModelBody, State};
 use carom_contact::Target;
-use carom_fem::Body;
 use carom_mesh::{CellKind, Mesh, Surface, Vector};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -28,7 +27,8 @@ pub fn from_rows<const D: usize>(
 }
 
 /// Mass [kg] and stiffness [N/m] of a body where nothing has moved, as blocks of pairs of nodes, and which displacements are held.
-pub fn matrices<'py, const D: usize>(py: Python<'py>, body: &Body<D>) -> PyResult<Bound<'py, PyDict>> {
+pub fn matrices<'py, const D: usize>(py: Python<'py>, part: &ModelBody<D>) -> PyResult<Bound<'py, PyDict>> {
+    let body = &part.body;
     let (graph, mass) = (body.graph(), body.mass());
     let stiffness = body.stiffness(&vec![Vector::zeros(); body.node_count()]);
     let (mut rows, mut columns) = (vec![0; graph.entry_count()], vec![0; graph.entry_count()]);

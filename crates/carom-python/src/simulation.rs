@@ -95,12 +95,20 @@ impl Simulation {
         })
     }
 
-    /// Mass and stiffness of a body as it is drawn, without its initial stress' work, as blocks of pairs of nodes: rows, columns,
+    /// Mass and stiffness of a body as it is drawn, as blocks of pairs of nodes: rows, columns,
     /// mass [kg], stiffness [N/m], and which displacements are held.
     fn matrices<'py>(&self, py: Python<'py>, body: usize) -> PyResult<Bound<'py, PyDict>> {
         with!(&self.inner, run => {
             let part = run.model().bodies.get(body).ok_or_else(|| PyIndexError::new_err(body))?;
-            arrays::matrices(py, &part.body)
+            arrays::matrices(py, part)
+        })
+    }
+
+    /// The strain energy [J] of a body without a past at displacements [m] of its nodes.
+    fn strain_energy<'py>(&self, body: usize, displacement: PyReadonlyArray2<'py, f64>) -> PyResult<f64> {
+        with!(&self.inner, run => {
+            let part = run.model().bodies.get(body).ok_or_else(|| PyIndexError::new_err(body))?;
+            Ok(part.body.strain_energy(&arrays::from_rows(&displacement, part.body.node_count())?))
         })
     }
 

@@ -10,5 +10,6 @@ mod initial_stress;
 mod locking;
 mod patch_test;
 mod reduction;
+mod regions;
 mod revolution;
 mod threads;

@@ -64,23 +64,22 @@ fn cells<const D: usize>(
     mesh: &Mesh<D>,
 ) -> Result<Vec<u32>, InputError> {
     let refused = |at: &str, message: String| InputError::new(format!("{key}.{at}"), message);
-    match (&region.on, &region.within) {
-        (Some(name), None) => {
+    match (&region.on, &region.corner, &region.size) {
+        (Some(name), None, None) => {
             let sets = &mesh.sets().cells;
             sets.get(name).filter(|cells| !cells.is_empty() && name != ALL).cloned().ok_or_else(|| {
                 let known: Vec<&String> = sets.keys().collect();
                 let message = if known.is_empty() {
-                    format!("{name:?}: the mesh of body {:?} has no sets of cells; give two corners of a box, `within`", entry.name)
+                    format!("{name:?}: the mesh of body {:?} has no sets of cells; give `corner` and `size` of a box", entry.name)
                 } else {
                     format!("{name:?}: body {:?} has no such set of cells; known are {known:?}", entry.name)
                 };
                 refused("on", message)
             })
         }
-        (None, Some([first, second])) => {
-            let corners: [Vector<D>; 2] =
-                [vector(&format!("{key}.within.0"), first)?, vector(&format!("{key}.within.1"), second)?];
-            let (low, high) = (corners[0].inf(&corners[1]), corners[0].sup(&corners[1]));
+        (None, Some(corner), Some(size)) => {
+            let low: Vector<D> = vector(&format!("{key}.corner"), corner)?;
+            let high = low + vector::<D>(&format!("{key}.size"), size)?;
             let middle = |cell: &[u32]| -> Vector<D> {
                 cell.iter().map(|&n| mesh.nodes()[n as usize]).sum::<Vector<D>>() / cell.len() as f64
             };
@@ -95,13 +94,13 @@ fn cells<const D: usize>(
                     mesh.bounds().0.as_slice(),
                     mesh.bounds().1.as_slice()
                 );
-                return Err(refused("within", message));
+                return Err(refused("corner", message));
             }
             Ok(inside)
         }
         _ => Err(InputError::new(
             key,
-            "a region is a set of cells, `on`, or what is `within` a box; give one of them",
+            "a region is a set of cells, `on`, or a box with `corner` and `size`; give one of them",
         )),
     }
 }

@@ -308,9 +308,12 @@ pub struct RegionEntry {
     /// Name of a set of cells of the mesh.
     #[serde(default)]
     pub on: Option<String>,
-    /// Two corners of an upright box [m]: cells of which the middle is in it.
+    /// The corner with the smallest coordinates of an upright box [m]: of cells that have their middle in it.
     #[serde(default)]
-    pub within: Option<[Vec<f64>; 2]>,
+    pub corner: Option<Vec<f64>>,
+    /// Sides of the box [m].
+    #[serde(default)]
+    pub size: Option<Vec<f64>>,
 }
 
 /// A symmetric stress [Pa].

@@ -1,0 +1,201 @@
+"""The energy of an impact by modes: closed forms, and books that add up to those of the run."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from runs import observed_order
+
+import carom
+
+SPEED, WAVES, HEIGHT = 0.1, 100.0, 0.5  # m/s, m/s, m
+LONG = 2.0  # m; the other bar is half as long
+
+
+def bars(cells, law="linear-elastic"):
+    """A bar hits one of twice its length, which then moves as a whole and rings."""
+    return carom.Scenario.from_dict(
+        {
+            "analysis": {
+                "end_time": 0.06,
+                "time_step": 0.5 * LONG / cells / WAVES,
+                "scheme": {"kind": "conserving"},
+            },
+            "output": {"history_every": 0.01, "fields_every": 0.01},
+            "materials": {
+                "steel": {"kind": law, "young": WAVES**2, "poisson": 0.0, "density": 1.0}
+            },
+            "bodies": [
+                {
+                    "name": name,
+                    "material": "steel",
+                    "mesh": {
+                        "kind": "rectangle",
+                        "corner": [corner, 0.0],
+                        "size": [length, HEIGHT],
+                        "divisions": [round(cells * length / LONG), 1],
+                    },
+                    "velocity": [speed, 0.0],
+                    "contact_sets": [side],
+                }
+                for name, corner, length, speed, side in (
+                    ("short", -LONG / 2, LONG / 2, SPEED, "right"),
+                    ("long", 0.0, LONG, 0.0, "left"),
+                )
+            ],
+            "contact": {"condition": "massless"},
+        }
+    )
+
+
+def recorded(result, body):
+    """Return kinetic and strain energy of a body in the history [J]."""
+    parts = ("translation", "rotation", "vibration", "strain")
+    return sum(result.history[f"{body}.{part}"] for part in parts)
+
+
+def test_a_bar_that_was_hit_rings_in_its_odd_modes(tmp_path):
+    """Behind the impact the long bar moves at v/2 and is strained by v/2c everywhere.
+
+    Mode n, cos nπx/L, has 8/(n²π²) of the m v²/8 that the strain is, for odd n; even modes have
+    nothing. So it is as long as the bar flies.
+    """
+    errors, sizes = [], (50, 100, 200)
+    for cells in sizes:
+        result = carom.run(bars(cells), out=tmp_path / str(cells))
+        energies = carom.modal_energies(result, count=60, bodies=["long"])["long"]
+        found = [
+            int(abs(energies.frequencies - n * WAVES / (2 * LONG)).argmin()) for n in (1, 2, 3)
+        ]
+        assert_allclose(energies.frequencies[found], 25.0 * np.arange(1, 4), rtol=12.0 / cells**2)
+        late = energies.times > 0.025
+        ringing = LONG * HEIGHT * SPEED**2 / 8.0
+        shares = energies.energies[late][:, found].mean(axis=0) / ringing
+        assert energies.energies[late][:, found].std(axis=0).max() < 1e-6 * ringing
+        errors.append(abs(shares - 8.0 / np.pi**2 * np.array([1.0, 0.0, 1.0 / 9.0])).max())
+    assert errors[-1] < 0.02
+    assert observed_order([1.0 / cells for cells in sizes], errors) > 0.7
+
+
+def test_all_modes_have_all_of_the_energy_of_a_small_strain(tmp_path):
+    result = carom.run(bars(20), out=tmp_path)
+    size = result.summary["energy"]["initial"]
+    rests = []
+    for count in (5, 20, 1000):
+        energies = carom.modal_energies(result, count=count)["long"]
+        assert_allclose(energies.total, recorded(result, "long"), rtol=0, atol=1e-10 * size)
+        rests.append(energies.rest.max())
+    # With massless contact the nodes of the end that was hit have no inertia, and no mode alone.
+    assert rests[0] > rests[1] > 10 * rests[2]
+    assert abs(energies.rest[-3:]).max() < 1e-10 * size
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_body_that_turns_and_rings_keeps_its_books_by_modes(tmp_path, dimension):
+    """With all modes, what is left is what a finite strain has beside them."""
+    size = [1.0, 0.7, 0.6][:dimension]
+    rests = []
+    for speed in (0.2, 0.05):
+        spin = speed if dimension == 2 else [speed, -speed, 0.5 * speed]
+        scenario = carom.Scenario.from_dict(
+            {
+                "dimension": dimension,
+                "analysis": {
+                    "end_time": 0.4,
+                    "time_step": 2e-3,
+                    "scheme": {"kind": "conserving"},
+                },
+                "output": {"history_every": 0.05, "fields_every": 0.05},
+                "materials": {
+                    "soft": {
+                        "kind": "saint-venant-kirchhoff",
+                        "young": 2700.0,
+                        "poisson": 0.3,
+                        "density": 1.0,
+                    }
+                },
+                "bodies": [
+                    {
+                        "name": "block",
+                        "material": "soft",
+                        "mesh": {
+                            "kind": "rectangle" if dimension == 2 else "box",
+                            "corner": [0.0, 1e-3, 0.0][:dimension],
+                            "size": size,
+                            "divisions": [3, 2, 2][:dimension],
+                        },
+                        "velocity": [0.3 * speed, -speed, 0.0][:dimension],
+                        "spin": spin,
+                    }
+                ],
+                "obstacles": [
+                    {
+                        "kind": "plane",
+                        "name": "floor",
+                        "point": [0.0] * dimension,
+                        "normal": [0.0, 1.0, 0.0][:dimension],
+                    }
+                ],
+                "contact": {"condition": "midpoint", "friction": 0.3},
+            }
+        )
+        result = carom.run(scenario, out=tmp_path / f"{speed}")
+        initial = result.summary["energy"]["initial"]
+        energies = carom.modal_energies(result, count=500)["block"]
+        assert_allclose(energies.total, recorded(result, "block"), rtol=0, atol=1e-10 * initial)
+        rigid = result.history["block.translation"] + result.history["block.rotation"]
+        assert_allclose(energies.rigid, rigid, rtol=0, atol=1e-10 * initial)
+        rings = energies.energies.sum(axis=1).max()
+        assert rings > 0.05 * initial
+        rests.append(abs(energies.rest).max() / rings)
+    assert rests[1] < 0.4 * rests[0] < 0.1
+
+
+def test_a_clamped_beam_swings_in_its_first_mode(tmp_path):
+    """Euler and Bernoulli: ω₁ = 1.8751² √(EI/ρA)/L²; a gust of the first mode's half period."""
+    length, height, young = 10.0, 0.5, 1e6
+    scenario = carom.Scenario.from_dict(
+        {
+            "analysis": {
+                "end_time": 20.0,
+                "time_step": 0.05,
+                "scheme": {"kind": "conserving"},
+            },
+            "output": {"history_every": 0.5, "fields_every": 0.5},
+            "materials": {
+                "steel": {
+                    "kind": "linear-elastic",
+                    "young": young,
+                    "poisson": 0.0,
+                    "density": 1.0,
+                }
+            },
+            "bodies": [
+                {
+                    "name": "beam",
+                    "material": "steel",
+                    "mesh": {
+                        "kind": "rectangle",
+                        "corner": [0.0, 0.0],
+                        "size": [length, height],
+                        "divisions": [20, 1],
+                        "cell": "quad8",
+                    },
+                }
+            ],
+            "motions": [{"kind": "fixed", "body": "beam", "on": "left"}],
+            "loads": [
+                {"kind": "force", "body": "beam", "on": "right", "force": [0.0, "max(1-t, 0)"]}
+            ],
+        }
+    )
+    result = carom.run(scenario, out=tmp_path)
+    energies = carom.modal_energies(result, count=10)["beam"]
+    bending = 1.8751**2 * np.sqrt(young * height**2 / 12) / length**2 / (2 * np.pi)
+    assert energies.frequencies[0] == pytest.approx(bending, rel=5e-3)
+    size = recorded(result, "beam").max()
+    assert_allclose(energies.total, recorded(result, "beam"), rtol=0, atol=1e-10 * size)
+    late = energies.times > 1.01
+    assert energies.energies[late, 0].min() > 0.9 * size
+    assert np.ptp(energies.energies[late], axis=0).max() < 1e-3 * size
+    assert abs(energies.rest[late]).max() < 1e-3 * size
+    assert energies.rigid.max() == 0.0
