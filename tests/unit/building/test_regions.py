@@ -143,7 +143,7 @@ def test_groups_of_a_mesh_file_are_regions(tmp_path):
         build(scenario)
 
 
-def test_what_would_run_is_told_material_by_material(capsys):
+def test_what_would_run_is_told_material_by_material():
     description = check(two(RIGHT)).description
     (body,) = description["bodies"]
     slow, fast = (of["wave_speed"] for of in body["materials"])
@@ -152,8 +152,9 @@ def test_what_would_run_is_told_material_by_material(capsys):
     assert body["wave_speed"] == slow
     assert description["suggested_time_step"] == pytest.approx(0.5 / fast)
     unlikely = two(RIGHT, **{"materials.stiff": {**STIFF, "young": 9e14}})
-    (warning,) = check(unlikely).warnings
-    assert "materials.stiff" in warning
+    waves = [warning for warning in check(unlikely).warnings if "waves run at" in warning]
+    assert len(waves) == 1
+    assert "materials.stiff" in waves[0]
 
 
 def test_copies_of_a_body_take_its_regions_with_them():

@@ -3,54 +3,10 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from ringing_bar import EXACT, NUMBERS, bars, recorded, ringing
 from runs import observed_order
 
 import carom
-
-SPEED, WAVES, HEIGHT = 0.1, 100.0, 0.5  # m/s, m/s, m
-LONG = 2.0  # m; the other bar is half as long
-
-
-def bars(cells, law="linear-elastic"):
-    """A bar hits one of twice its length, which then moves as a whole and rings."""
-    return carom.Scenario.from_dict(
-        {
-            "analysis": {
-                "end_time": 0.06,
-                "time_step": 0.5 * LONG / cells / WAVES,
-                "scheme": {"kind": "conserving"},
-            },
-            "output": {"history_every": 0.01, "fields_every": 0.01},
-            "materials": {
-                "steel": {"kind": law, "young": WAVES**2, "poisson": 0.0, "density": 1.0}
-            },
-            "bodies": [
-                {
-                    "name": name,
-                    "material": "steel",
-                    "mesh": {
-                        "kind": "rectangle",
-                        "corner": [corner, 0.0],
-                        "size": [length, HEIGHT],
-                        "divisions": [round(cells * length / LONG), 1],
-                    },
-                    "velocity": [speed, 0.0],
-                    "contact_sets": [side],
-                }
-                for name, corner, length, speed, side in (
-                    ("short", -LONG / 2, LONG / 2, SPEED, "right"),
-                    ("long", 0.0, LONG, 0.0, "left"),
-                )
-            ],
-            "contact": {"condition": "massless"},
-        }
-    )
-
-
-def recorded(result, body):
-    """Return kinetic and strain energy of a body in the history [J]."""
-    parts = ("translation", "rotation", "vibration", "strain")
-    return sum(result.history[f"{body}.{part}"] for part in parts)
 
 
 def test_a_bar_that_was_hit_rings_in_its_odd_modes(tmp_path):
@@ -61,32 +17,25 @@ def test_a_bar_that_was_hit_rings_in_its_odd_modes(tmp_path):
     """
     errors, sizes = [], (50, 100, 200)
     for cells in sizes:
-        result = carom.run(bars(cells), out=tmp_path / str(cells))
-        energies = carom.modal_energies(result, count=60, bodies=["long"])["long"]
-        found = [
-            int(abs(energies.frequencies - n * WAVES / (2 * LONG)).argmin()) for n in (1, 2, 3)
-        ]
-        assert_allclose(energies.frequencies[found], 25.0 * np.arange(1, 4), rtol=12.0 / cells**2)
-        late = energies.times > 0.025
-        ringing = LONG * HEIGHT * SPEED**2 / 8.0
-        shares = energies.energies[late][:, found].mean(axis=0) / ringing
-        assert energies.energies[late][:, found].std(axis=0).max() < 1e-6 * ringing
-        errors.append(abs(shares - 8.0 / np.pi**2 * np.array([1.0, 0.0, 1.0 / 9.0])).max())
-    assert errors[-1] < 0.02
-    assert observed_order([1.0 / cells for cells in sizes], errors) > 0.7
+        frequencies, shares, change, off = ringing(cells, tmp_path / str(cells))
+        assert_allclose(frequencies, 25.0 * NUMBERS, rtol=12.0 / cells**2)
+        assert change < 1e-3
+        assert off < 1e-10
+        errors.append(abs(shares - EXACT).max())
+    assert errors[-1] < 1e-3
+    assert observed_order([1.0 / cells for cells in sizes], errors) > 1.5
 
 
 def test_all_modes_have_all_of_the_energy_of_a_small_strain(tmp_path):
-    result = carom.run(bars(20), out=tmp_path)
+    result = carom.run(bars(20, "gap"), out=tmp_path)
     size = result.summary["energy"]["initial"]
     rests = []
     for count in (5, 20, 1000):
         energies = carom.modal_energies(result, count=count)["long"]
         assert_allclose(energies.total, recorded(result, "long"), rtol=0, atol=1e-10 * size)
-        rests.append(energies.rest.max())
-    # With massless contact the nodes of the end that was hit have no inertia, and no mode alone.
-    assert rests[0] > rests[1] > 10 * rests[2]
-    assert abs(energies.rest[-3:]).max() < 1e-10 * size
+        rests.append(abs(energies.rest).max() / size)
+    assert rests[0] > rests[1] > 1e-3
+    assert rests[2] < 1e-11
 
 
 @pytest.mark.parametrize("dimension", [2, 3])
@@ -152,12 +101,12 @@ def test_a_body_that_turns_and_rings_keeps_its_books_by_modes(tmp_path, dimensio
 
 def test_a_clamped_beam_swings_in_its_first_mode(tmp_path):
     """Euler and Bernoulli: ω₁ = 1.8751² √(EI/ρA)/L²; a gust of the first mode's half period."""
-    length, height, young = 10.0, 0.5, 1e6
+    length, height, young = 10.0, 1.0, 1e4
     scenario = carom.Scenario.from_dict(
         {
             "analysis": {
                 "end_time": 20.0,
-                "time_step": 0.05,
+                "time_step": 0.02,
                 "scheme": {"kind": "conserving"},
             },
             "output": {"history_every": 0.5, "fields_every": 0.5},
@@ -177,7 +126,7 @@ def test_a_clamped_beam_swings_in_its_first_mode(tmp_path):
                         "kind": "rectangle",
                         "corner": [0.0, 0.0],
                         "size": [length, height],
-                        "divisions": [20, 1],
+                        "divisions": [10, 1],
                         "cell": "quad8",
                     },
                 }
@@ -191,7 +140,7 @@ def test_a_clamped_beam_swings_in_its_first_mode(tmp_path):
     result = carom.run(scenario, out=tmp_path)
     energies = carom.modal_energies(result, count=10)["beam"]
     bending = 1.8751**2 * np.sqrt(young * height**2 / 12) / length**2 / (2 * np.pi)
-    assert energies.frequencies[0] == pytest.approx(bending, rel=5e-3)
+    assert energies.frequencies[0] == pytest.approx(bending, rel=1e-2)  # shear takes 0.6 %
     size = recorded(result, "beam").max()
     assert_allclose(energies.total, recorded(result, "beam"), rtol=0, atol=1e-10 * size)
     late = energies.times > 1.01
