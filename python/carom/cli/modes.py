@@ -24,7 +24,11 @@ from carom.system.existing import spare_existing
 def modes(
     directory: Annotated[
         Path,
-        typer.Argument(help="Results directory of `carom run`.", autocompletion=complete.results),
+        typer.Argument(
+            metavar="DIR",
+            help="Results directory of `carom run`.",
+            autocompletion=complete.results,
+        ),
     ],
     *,
     count: Annotated[int, typer.Option(min=1, help="Modes of each body.")] = 20,

@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 from typer.testing import CliRunner
 
 import carom
+import staging
 from carom.cli import app
 from carom.modes.basis import DENSE, modes
 
@@ -82,6 +83,12 @@ def test_what_is_asked_wrongly_is_refused(results, tmp_path):
         carom.modal_energies(results, bodies=["brick"])
     with pytest.raises(carom.InputError, match="0 modes: ask for 1 at least"):
         carom.modal_energies(results, count=0)
+
+
+def test_stages_may_hold_a_body_otherwise_and_have_no_modes(tmp_path):
+    result = carom.run(staging.scenario(), out=tmp_path)
+    with pytest.raises(carom.InputError, match="modes are of a case of one analysis"):
+        carom.modal_energies(result)
 
 
 def test_the_slowest_of_many_modes_are_those_of_all():
