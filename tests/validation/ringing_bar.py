@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -68,15 +69,33 @@ EXACT = np.where(NUMBERS % 2, 8.0 / (np.pi * NUMBERS) ** 2, 0.0)
 """Their shares of the energy m v²/8 that rings."""
 
 
-def ringing(cells: int, out: Path) -> tuple[Array, Array, float, float]:
-    """Run the case and look at the long bar after the impact.
+@dataclass(frozen=True)
+class Ringing:
+    """The long bar after the impact.
 
-    Returns
-    -------
-    tuple
-        Frequencies [Hz] and mean shares of the modes of `NUMBERS`, the largest change of a share,
-        and the largest error of the sum over all parts, relative to the energy at the start.
+    Parameters
+    ----------
+    frequencies
+        Of the modes of `NUMBERS` [Hz].
+    shares
+        Their mean shares of the energy that rings.
+    change
+        The largest change of a share.
+    off
+        The largest error of the sum over all parts, relative to the energy at the start.
+    restitution
+        Of the impact: ½, the ratio of the lengths.
     """
+
+    frequencies: Array
+    shares: Array
+    change: float
+    off: float
+    restitution: float
+
+
+def ringing(cells: int, out: Path) -> Ringing:
+    """Run the case and look at the long bar after the impact."""
     result = carom.run(bars(cells), out=out)
     energies = carom.modal_energies(result, count=60, bodies=["long"])["long"]
     off = abs(energies.total - recorded(result, "long")).max()
@@ -84,10 +103,10 @@ def ringing(cells: int, out: Path) -> tuple[Array, Array, float, float]:
     found = [int(abs(energies.frequencies - n * first).argmin()) for n in NUMBERS]
     late = energies.times > 1.25 * LONG / WAVES
     shares = energies.energies[late][:, found] / (LONG * HEIGHT * SPEED**2 / 8.0)
-    error = float(off / result.summary["energy"]["initial"])
-    return (
-        energies.frequencies[found],
-        shares.mean(axis=0),
-        float(np.ptp(shares, axis=0).max()),
-        error,
+    return Ringing(
+        frequencies=energies.frequencies[found],
+        shares=shares.mean(axis=0),
+        change=float(np.ptp(shares, axis=0).max()),
+        off=float(off / result.summary["energy"]["initial"]),
+        restitution=result.summary["contacts"][0]["impact"]["restitution"],
     )

@@ -5,6 +5,7 @@ import json
 import h5py
 import numpy as np
 import pytest
+from matplotlib.text import Text
 from test_core_messages import BLOCK, MATERIAL, case
 
 import carom
@@ -13,6 +14,7 @@ from carom import InputError, Observer, Stop
 from carom._carom import Simulation
 from carom.building.build import build
 from carom.building.checking import check
+from carom.report.writing import write_report
 
 STIFF = {**MATERIAL, "young": 9e5, "density": 4e3}
 RIGHT = {"material": "stiff", "corner": [0.5, 0.0], "size": [0.5, 1.0]}
@@ -224,6 +226,10 @@ def test_a_run_stopped_while_one_of_two_materials_flows_goes_on_to_the_last_bit(
         assert file["VTKHDF/CellData/material"].shape == (16,)
         offsets = file["VTKHDF/Steps/CellDataOffsets/material"][:]
     assert offsets.tolist() == [0] * len(whole.fields.times)
+    drawn = carom.picture(tmp_path / "whole", field="material")
+    assert any(text.get_text() == "material" for text in drawn.findobj(Text))
+    page = write_report(tmp_path / "whole").read_text()
+    assert '"material"' in page
     with pytest.raises(InputError, match="cannot audit a body of several materials yet"):
         carom.audit(tmp_path / "whole")
 
