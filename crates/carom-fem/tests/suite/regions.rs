@@ -72,7 +72,7 @@ fn every_cell_passes_the_patch_test_through_two_materials() {
     let small = [[0.02, 0.03], [0.02 * soft / stiff, 0.03 * soft_shear / stiff_shear]];
     // P = M (e + e²/2)(1 + e) in uniaxial strain.
     let stress = |e: f64| (e + 0.5 * e * e) * (1.0 + e);
-    let mut stretch = 0.1;
+    let mut stretch: f64 = 0.1;
     for _ in 0..50 {
         let slope = (1.0 + stretch).powi(2) + stretch + 0.5 * stretch * stretch;
         stretch -= (stress(stretch) - stress(0.1) * soft / stiff) / slope;
