@@ -14,6 +14,7 @@ from carom import InputError, Observer, Stop
 from carom._carom import Simulation
 from carom.building.build import build
 from carom.building.checking import check
+from carom.modes.basis import modes
 from carom.report.writing import write_report
 
 STIFF = {**MATERIAL, "young": 9e5, "density": 4e3}
@@ -143,6 +144,14 @@ def test_groups_of_a_mesh_file_are_regions(tmp_path):
     scenario = two({"material": "stiff", "on": "kern"}, **{"bodies.0.mesh": mesh})
     with pytest.raises(InputError, match=r'"kern": .*has no such set of cells; known are \["core"'):
         build(scenario)
+
+
+def test_a_reduced_body_of_two_materials_has_the_vibrations_of_the_whole_one():
+    whole = modes(build(two(RIGHT)).matrices(0), 1, slow=10.0)
+    changes = {"bodies.0.kind": "reduced", "bodies.0.modes": 2}
+    (body,) = build(two(RIGHT, **changes)).describe()["bodies"]
+    assert body["mass"] == pytest.approx(0.5e3 + 2e3)
+    assert body["vibrations"]["lowest"] == pytest.approx(whole.frequencies[whole.rigid], rel=1e-9)
 
 
 def test_what_would_run_is_told_material_by_material():
