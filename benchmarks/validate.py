@@ -25,6 +25,7 @@ from sections import (
     friction_laws,
     layer,
     massless,
+    materials,
     robustness,
     springs,
     statics,
@@ -51,6 +52,8 @@ PARTS = {
     "static scenes": statics.scenes_section,
     "friction laws": friction_laws.section,
     "springs": springs.section,
+    "materials": materials.materials_section,
+    "modes": materials.modes_section,
 }
 """What the page consists of, in its order; each part begins with a heading of the second level."""
 

@@ -84,7 +84,8 @@ class FallingSimulation:
         ]
 
     def describe(self):
-        bodies = [{"wave_speed": 100.0, "diameter": 2.0}] * 2
+        materials = [{"wave_speed": 100.0}]
+        bodies = [{"wave_speed": 100.0, "diameter": 2.0, "materials": materials}] * 2
         return {"suggested_time_step": self._analysis["time_step"], "bodies": bodies}
 
     def mesh(self):

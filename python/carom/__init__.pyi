@@ -13,6 +13,7 @@ from carom.case.analysis import Theta as Theta
 from carom.case.body import Body as Body
 from carom.case.body import InitialStress as InitialStress
 from carom.case.body import ReducedBody as ReducedBody
+from carom.case.body import Region as Region
 from carom.case.body import RigidBody as RigidBody
 from carom.case.contact import Contact as Contact
 from carom.case.contact import FrictionSolver as FrictionSolver
@@ -89,6 +90,8 @@ from carom.foreign.run import ForeignStep as ForeignStep
 from carom.io.history import read_history as read_history
 from carom.io.summary_types import Summary as Summary
 from carom.ledger_terms import Ledger as Ledger
+from carom.modes.split import ModalEnergies as ModalEnergies
+from carom.modes.split import modal_energies as modal_energies
 from carom.plot.flow_figure import energy_flow as energy_flow
 from carom.results.field import Field as Field
 from carom.results.fields import Fields as Fields

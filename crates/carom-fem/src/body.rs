@@ -2,12 +2,13 @@ use std::sync::Arc;
 
 use carom_mesh::{Facet, Matrix, Mesh, Surface, Vector};
 
+use crate::composition::{OfMaterial, for_each_piece, for_each_piece_of, laws, materials_of};
 use crate::elements::{Dashpots, Elements, Past, add_mass, add_scaled_diagonal_mass, dashpots, elements};
 use crate::held::{Held, HeldDof};
 use crate::massless::{followers, redistributed};
 use crate::material::{Mat3, PlasticState};
 use crate::point_mass::with_points;
-use crate::shape_table::{Cells, Depth, facet_area};
+use crate::shape_table::{Depth, facet_area};
 use crate::sparse::{NodalMatrix, NodeGraph};
 use crate::{BodySpec, FemError, Growth, Hypothesis, MassKind, RayleighDamping};
 
@@ -32,15 +33,16 @@ pub struct Body<const D: usize> {
     massless_stiffness: Vec<f64>,
     total_mass: f64,
     depth: Depth,
-    volume: f64,
+    materials: Vec<OfMaterial>,
     damping: RayleighDamping,
+    /// Σ β K₀ over the materials [N s/m].
     damping_stiffness: Option<NodalMatrix<Matrix<D>>>,
+    /// The numbers of the cells in the order of the elements; empty if that is theirs.
+    pub(crate) cells_in_order: Vec<u32>,
     is_objective: bool,
     turns: bool,
     /// See [`Self::reference_arms`].
     pub(crate) frame_arms: Vec<Vector<D>>,
-    wave_speed: f64,
-    shear_wave_speed: f64,
     held: Held,
 }
 
@@ -59,54 +61,38 @@ impl<const D: usize> Body<D> {
     /// # Errors
     /// As for [`Body::new`].
     pub fn with_contact_surface(mesh: Mesh<D>, surface: Surface, spec: &BodySpec) -> Result<Self, FemError> {
-        let positive = |name, value: f64, remedy| {
-            if value.is_finite() && value > 0.0 {
-                Ok(value)
-            } else {
-                Err(FemError::MaterialConstant { name, value, remedy })
-            }
-        };
-        positive("density", spec.density, "the density must be greater than 0 kg/m³")?;
-        positive("thickness", spec.thickness, "the thickness must be greater than 0 m")?;
-        for (name, value) in
-            [("damping.mass", spec.damping.mass), ("damping.stiffness", spec.damping.stiffness)]
-        {
-            if !(value.is_finite() && value >= 0.0) {
-                return Err(FemError::MaterialConstant { name, value, remedy: "damping cannot be negative" });
-            }
-        }
+        let laws = laws::<D>(spec)?;
         let depth = depth(&mesh, spec)?;
         // The axis is inside a body of revolution.
         let axis = if depth == Depth::Revolution { axis(&mesh) } else { Vec::new() };
         let surface = surface.part(|f| f.nodes.iter().any(|n| axis.binary_search(n).is_err()));
-        let law = spec.law.point_law::<D>(spec.hypothesis)?;
+        let objective = laws[0].is_objective();
         // What repeats itself along a line or around an axis cannot turn.
-        let turns = law.is_objective() && mesh.ties().is_empty() && depth != Depth::Revolution;
+        let turns = objective && mesh.ties().is_empty() && depth != Depth::Revolution;
         let mass = mass_matrix(&mesh, &surface, spec, depth)?;
         let graph = Arc::clone(mass.shared_graph());
-        spec.viscosity.check()?;
-        let (mut blocks, mut viscous) = (Vec::new(), Vec::new());
-        for_each_block(&mesh, depth, |cells| {
+        let (mut blocks, mut viscous, mut cells_in_order) = (Vec::new(), Vec::new(), Vec::new());
+        for_each_piece(&mesh, depth, spec, |cells, spec| {
             blocks.push(elements(spec, cells, &graph)?);
+            cells_in_order.extend_from_slice(cells.numbers);
             if spec.viscosity.is_active() {
-                viscous.push(dashpots(spec, law.is_objective(), cells, &graph)?);
+                viscous.push(dashpots(spec, objective, cells, &graph)?);
             }
             Ok(())
         })?;
         let nodal_mass = mass.row_sums();
-        let (_, tangent) = law.stress_and_tangent(&Matrix::identity());
-        let total_mass: f64 = nodal_mass.iter().sum();
-        let memory = if law.remembers() { blocks.iter().map(|b| b.point_count()).sum() } else { 0 };
+        let remembers = laws.iter().any(|law| law.remembers());
+        let memory = if remembers { blocks.iter().map(|b| b.point_count()).sum() } else { 0 };
+        let materials = materials_of(&mesh, depth, spec, &laws)?;
         let mut body = Self {
             surface,
             memory,
-            total_mass,
+            total_mass: nodal_mass.iter().sum(),
             depth,
-            volume: (total_mass - spec.points.iter().map(|point| point.mass).sum::<f64>()) / spec.density,
-            wave_speed: (tangent[0][0][0][0] / spec.density).sqrt(),
-            shear_wave_speed: (tangent[0][1][0][1] / spec.density).sqrt(),
+            materials,
             damping: spec.damping,
             damping_stiffness: None,
+            cells_in_order: if spec.regions.is_empty() { Vec::new() } else { cells_in_order },
             mesh,
             graph,
             elements: blocks,
@@ -115,7 +101,7 @@ impl<const D: usize> Body<D> {
             massless_stiffness: Vec::new(),
             massless_contact: spec.massless_contact,
             nodal_mass,
-            is_objective: law.is_objective(),
+            is_objective: objective,
             turns,
             frame_arms: Vec::new(),
             held: Held::default(),
@@ -130,9 +116,7 @@ impl<const D: usize> Body<D> {
                 .map(|&n| stiffness.values[body.graph.entry(n, n)].trace() / D as f64)
                 .collect();
         }
-        if spec.damping.stiffness > 0.0 {
-            body.damping_stiffness = Some(body.unstressed_stiffness(spec)?);
-        }
+        body.damping_stiffness = body.stiffness_of_damping(spec)?;
         Ok(body)
     }
 
@@ -233,25 +217,40 @@ impl<const D: usize> Body<D> {
         if self.is_axisymmetric() { axis(&self.mesh) } else { Vec::new() }
     }
 
+    /// What it has of each of its materials: of that of the rest, then of those of its regions.
+    #[must_use]
+    pub fn materials(&self) -> &[OfMaterial] {
+        &self.materials
+    }
+
     /// Volume of the reference configuration [m³].
     #[must_use]
     pub fn volume(&self) -> f64 {
-        self.volume
+        self.materials.iter().map(|of| of.volume).sum()
     }
 
-    /// Speed of pressure waves in the reference configuration [m/s].
+    /// For every cell the number of its material: 0 is that of the rest.
+    #[must_use]
+    pub fn material_of_cells(&self) -> Vec<usize> {
+        let mut numbers = vec![0; self.mesh.cell_count()];
+        let in_order = self.materials.iter().enumerate().flat_map(|(k, of)| std::iter::repeat_n(k, of.cells));
+        self.cells_in_order.iter().zip(in_order).for_each(|(&cell, number)| numbers[cell as usize] = number);
+        numbers
+    }
+
+    /// Speed of pressure waves in the reference configuration [m/s], where it is lowest: none needs longer to cross the body.
     #[must_use]
     pub fn wave_speed(&self) -> f64 {
-        self.wave_speed
+        self.materials.iter().map(|of| of.wave_speed).fold(f64::INFINITY, f64::min)
     }
 
-    /// Speed of shear waves in the reference configuration [m/s].
+    /// Speed of shear waves in the reference configuration [m/s], where it is lowest.
     #[must_use]
     pub fn shear_wave_speed(&self) -> f64 {
-        self.shear_wave_speed
+        self.materials.iter().map(|of| of.shear_wave_speed).fold(f64::INFINITY, f64::min)
     }
 
-    /// Damping coefficients.
+    /// Damping coefficients, but of regions, whose α is the same.
     #[must_use]
     pub fn damping(&self) -> RayleighDamping {
         self.damping
@@ -316,16 +315,40 @@ impl<const D: usize> Body<D> {
             return Ok(self.stiffness(&rest));
         }
         let spec = BodySpec { initial_stress: Mat3::zeros(), ..spec.clone() };
-        let past = Past { history: &[], growth: Growth::default() };
+        let past = Past::none();
         let mut k = NodalMatrix::filled(&self.graph, Matrix::zeros());
-        for_each_block(&self.mesh, self.depth, |cells| {
-            elements(&spec, cells, &self.graph)?.add_stiffness(&rest, past, &mut k);
+        for_each_piece(&self.mesh, self.depth, &spec, |cells, spec| {
+            elements(spec, cells, &self.graph)?.add_stiffness(&rest, past, &mut k);
             Ok(())
         })?;
         Ok(k)
     }
 
-    /// The stiffness K₀ that damping is made of, if there is any.
+    /// Σ β K₀ over the materials of the body, which is like `spec` [N s/m]; none where no β is more than zero.
+    fn stiffness_of_damping(&self, spec: &BodySpec) -> Result<Option<NodalMatrix<Matrix<D>>>, FemError> {
+        let unstressed = BodySpec { initial_stress: Mat3::zeros(), ..spec.clone() };
+        let rest = vec![Vector::zeros(); self.node_count()];
+        let mut sum: Option<NodalMatrix<Matrix<D>>> = None;
+        for (index, of) in spec.by_material().iter().enumerate() {
+            let factor = of.damping.stiffness;
+            if factor == 0.0 {
+                continue;
+            }
+            let mut k = NodalMatrix::filled(&self.graph, Matrix::zeros());
+            for_each_piece_of(index, &self.mesh, self.depth, &unstressed, |cells, spec| {
+                elements(spec, cells, &self.graph)?.add_stiffness(&rest, Past::none(), &mut k);
+                Ok(())
+            })?;
+            k.values.iter_mut().for_each(|block| *block *= factor);
+            match &mut sum {
+                None => sum = Some(k),
+                Some(sum) => sum.values.iter_mut().zip(&k.values).for_each(|(sum, k)| *sum += k),
+            }
+        }
+        Ok(sum)
+    }
+
+    /// Σ β K₀ over its materials [N s/m], if there is any: what resists velocities in the frame of the body.
     #[must_use]
     pub fn damping_stiffness(&self) -> Option<&NodalMatrix<Matrix<D>>> {
         self.damping_stiffness.as_ref()
@@ -345,7 +368,7 @@ impl<const D: usize> Body<D> {
                     *s = frame.tr_mul(v);
                 }
                 k0.multiply(scratch, f);
-                f.iter_mut().for_each(|f| *f = frame * *f * self.damping.stiffness);
+                f.iter_mut().for_each(|f| *f = frame * *f);
             }
             None => f.fill(Vector::zeros()),
         }
@@ -360,7 +383,7 @@ impl<const D: usize> Body<D> {
     /// Whether anything resists velocities: damping or viscosity.
     #[must_use]
     pub fn is_damped(&self) -> bool {
-        self.damping.is_active() || !self.dashpots.is_empty()
+        self.damping.mass != 0.0 || self.damping_stiffness.is_some() || !self.dashpots.is_empty()
     }
 
     /// Adds the force [N] of the material's viscosity in a step from `u0` to `u1` in `dt` [s] to `f`: its work is what the step
@@ -413,20 +436,6 @@ fn depth<const D: usize>(mesh: &Mesh<D>, spec: &BodySpec) -> Result<Depth, FemEr
     }
 }
 
-/// Does something with the cells of every block of a mesh.
-fn for_each_block<const D: usize>(
-    mesh: &Mesh<D>,
-    depth: Depth,
-    mut with: impl FnMut(&Cells<'_, D>) -> Result<(), FemError>,
-) -> Result<(), FemError> {
-    let mut first = 0;
-    for block in mesh.blocks() {
-        with(&Cells { mesh, block, first, depth })?;
-        first += block.cells().len();
-    }
-    Ok(())
-}
-
 /// The mass matrix on the graph of the body.
 fn mass_matrix<const D: usize>(
     mesh: &Mesh<D>,
@@ -436,7 +445,7 @@ fn mass_matrix<const D: usize>(
 ) -> Result<NodalMatrix<f64>, FemError> {
     let graph = Arc::new(NodeGraph::of(mesh));
     let mut mass = NodalMatrix::filled(&graph, 0.0);
-    for_each_block(mesh, depth, |cells| {
+    for_each_piece(mesh, depth, spec, |cells, spec| {
         if spec.mass == MassKind::Lumped && cells.block.kind.is_quadratic() {
             add_scaled_diagonal_mass(cells, spec.density, &mut mass)
         } else {

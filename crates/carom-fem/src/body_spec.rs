@@ -34,9 +34,11 @@ impl RayleighDamping {
     }
 }
 
-/// What a body is made of.
+/// Cells of a body that are of another material than the rest.
 #[derive(Debug, Clone, PartialEq)]
-pub struct BodySpec {
+pub struct RegionSpec {
+    /// The numbers of the cells; what is not of the mesh does no harm. A cell of two regions is of the last.
+    pub cells: Vec<u32>,
     /// Material law.
     pub law: LawSpec,
     /// Density ρ [kg/m³].
@@ -45,6 +47,21 @@ pub struct BodySpec {
     pub damping: RayleighDamping,
     /// Viscosity.
     pub viscosity: Viscosity,
+}
+
+/// What a body is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodySpec {
+    /// Material law, but of regions.
+    pub law: LawSpec,
+    /// Density ρ [kg/m³], but of regions.
+    pub density: f64,
+    /// Damping, but of regions; that by mass is the same in all.
+    pub damping: RayleighDamping,
+    /// Viscosity, but of regions.
+    pub viscosity: Viscosity,
+    /// What is of other materials.
+    pub regions: Vec<RegionSpec>,
     /// Mass matrix.
     pub mass: MassKind,
     /// What a 2D body is in space.
@@ -65,6 +82,45 @@ pub struct BodySpec {
 }
 
 impl BodySpec {
+    /// A body that is all of the material of a region.
+    #[must_use]
+    pub fn all_of(&self, region: &RegionSpec) -> Self {
+        let RegionSpec { law, density, damping, viscosity, .. } = region.clone();
+        Self { law, density, damping, viscosity, regions: Vec::new(), ..self.clone() }
+    }
+
+    /// One body of each of its materials: of that of the rest, then of those of its regions.
+    #[must_use]
+    pub fn by_material(&self) -> Vec<Self> {
+        let rest = Self { regions: Vec::new(), ..self.clone() };
+        std::iter::once(rest).chain(self.regions.iter().map(|region| self.all_of(region))).collect()
+    }
+
+    /// Checks the constants of the material of the rest.
+    ///
+    /// # Errors
+    /// If one is out of range, or the hypothesis does not suit the law.
+    pub fn check<const D: usize>(&self) -> Result<(), FemError> {
+        let positive = |name, value: f64, remedy| {
+            if value.is_finite() && value > 0.0 {
+                Ok(())
+            } else {
+                Err(FemError::MaterialConstant { name, value, remedy })
+            }
+        };
+        positive("density", self.density, "the density must be greater than 0 kg/m³")?;
+        positive("thickness", self.thickness, "the thickness must be greater than 0 m")?;
+        for (name, value) in
+            [("damping.mass", self.damping.mass), ("damping.stiffness", self.damping.stiffness)]
+        {
+            if !(value.is_finite() && value >= 0.0) {
+                return Err(FemError::MaterialConstant { name, value, remedy: "damping cannot be negative" });
+            }
+        }
+        self.law.point_law::<D>(self.hypothesis)?;
+        self.viscosity.check()
+    }
+
     /// The law as elements see it that see D dimensions, under the initial stress.
     ///
     /// # Errors

@@ -53,6 +53,14 @@ pub enum FemError {
         /// What to do.
         remedy: &'static str,
     },
+    /// Materials that one body cannot be of.
+    #[error("the materials of one body {what}: {remedy}")]
+    Mixed {
+        /// What they differ in.
+        what: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
     /// A formulation is not one for the cells, the law or the hypothesis of a body.
     #[error("formulation \"mean-dilatation\" does not suit this body of {cell} cells: {remedy}")]
     Formulation {

@@ -5,6 +5,7 @@
 
 mod body;
 mod body_spec;
+mod composition;
 mod elements;
 mod error;
 mod facets;
@@ -25,7 +26,8 @@ mod vibration;
 mod with_history;
 
 pub use body::Body;
-pub use body_spec::{BodySpec, MassKind, RayleighDamping};
+pub use body_spec::{BodySpec, MassKind, RayleighDamping, RegionSpec};
+pub use composition::OfMaterial;
 pub use elements::{CellState, Elements, Past, StepForces};
 pub use error::FemError;
 pub use facets::FacetPatch;

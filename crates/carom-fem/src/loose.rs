@@ -66,6 +66,7 @@ mod tests {
             density: 1.0,
             damping: RayleighDamping::default(),
             viscosity: Viscosity::default(),
+            regions: Vec::new(),
             mass: MassKind::Consistent,
             thickness: 1.0,
             hypothesis: Hypothesis::PlaneStrain,

@@ -1,18 +1,19 @@
 use carom_mesh::cell::MAX_FACET_NODES;
-use carom_mesh::{CellBlock, Facet, Mesh, Vector, tensor};
+use carom_mesh::{CellBlock, CellKind, Facet, Mesh, Vector, tensor};
 
 use crate::FemError;
+use crate::elements::with_node_count;
 use crate::quadrature::{Integrand, rule};
 
-/// A block of cells in its mesh.
+/// Cells of one kind and one material in their mesh.
 #[derive(Debug, Clone, Copy)]
 pub struct Cells<'a, const D: usize> {
     /// The mesh.
     pub mesh: &'a Mesh<D>,
-    /// The block.
+    /// Their nodes.
     pub block: &'a CellBlock,
-    /// Number of its first cell in the mesh.
-    pub first: usize,
+    /// The numbers of its cells in the mesh.
+    pub numbers: &'a [u32],
     /// What it is in space.
     pub depth: Depth,
 }
@@ -78,6 +79,16 @@ pub fn facet_area<const D: usize>(mesh: &Mesh<D>, facet: &Facet, depth: Depth) -
     area
 }
 
+/// Volume of cells [m³].
+///
+/// # Errors
+/// If a cell is inverted or degenerate.
+pub fn volume_of<const D: usize>(cells: &Cells<'_, D>) -> Result<f64, FemError> {
+    with_node_count!(cells.block.kind, N => {
+        Ok(ShapeTable::<D, N>::new(cells, Integrand::Values)?.weights.iter().sum())
+    })
+}
+
 /// A cell whose Jacobian is below this, relative to the cube of its size, is degenerate.
 const DEGENERATE: f64 = 1e-10;
 
@@ -87,7 +98,7 @@ impl<const D: usize, const N: usize> ShapeTable<D, N> {
     /// # Errors
     /// If a cell is inverted or degenerate.
     pub fn new(cells: &Cells<'_, D>, integrand: Integrand) -> Result<Self, FemError> {
-        let Cells { mesh, block, first, depth } = *cells;
+        let Cells { mesh, block, numbers, depth } = *cells;
         let reference = block.kind.reference();
         let points = rule(block.kind, integrand, depth == Depth::Revolution);
         let mut values = vec![[0.0; N]; points.len()];
@@ -120,10 +131,10 @@ impl<const D: usize, const N: usize> ShapeTable<D, N> {
                 let volume = det / size.powi(D as i32);
                 if volume.is_nan() || volume <= DEGENERATE {
                     if let Some(FemError::InvertedCell { others, .. }) = &mut inverted {
-                        others.push(first + cell);
+                        others.push(numbers[cell] as usize);
                     } else {
                         inverted = Some(FemError::InvertedCell {
-                            cell: first + cell,
+                            cell: numbers[cell] as usize,
                             nodes: nodes.to_vec(),
                             at: mesh.nodes()[nodes[0] as usize].iter().copied().collect(),
                             volume,

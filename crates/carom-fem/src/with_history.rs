@@ -98,7 +98,13 @@ impl<'a, const D: usize> BodyWithHistory<'a, D> {
         let mut out = Vec::with_capacity(self.body.mesh().cell_count());
         self.blocks().for_each(|(e, past)| e.cell_states(u, past, &mut out));
         out.iter_mut().for_each(|cell| cell.energy_density *= self.growth.energy());
-        out
+        let order = &self.body.cells_in_order;
+        if order.is_empty() {
+            return out;
+        }
+        let mut sorted = out.clone();
+        order.iter().zip(out).for_each(|(&number, state)| sorted[number as usize] = state);
+        sorted
     }
 
     /// Whether the material remembers nothing.

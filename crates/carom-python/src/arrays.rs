@@ -1,6 +1,6 @@
 //! Nodal and cell data as NumPy arrays.
 
-use carom::{Model, State};
+use carom::{Model, ModelBody, State};
 use carom_contact::Target;
 use carom_mesh::{CellKind, Mesh, Surface, Vector};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
@@ -24,6 +24,31 @@ pub fn from_rows<const D: usize>(
         return Err(PyValueError::new_err(format!("shape {:?} instead of {:?}", rows.dim(), (count, D))));
     }
     Ok(rows.rows().into_iter().map(|row| Vector::from_fn(|i, _| row[i])).collect())
+}
+
+/// Mass [kg] and stiffness [N/m] of a body where nothing has moved, as blocks of pairs of nodes, and which displacements are held.
+pub fn matrices<'py, const D: usize>(py: Python<'py>, part: &ModelBody<D>) -> PyResult<Bound<'py, PyDict>> {
+    let body = &part.body;
+    let (graph, mass) = (body.graph(), body.mass());
+    let stiffness = body.stiffness(&vec![Vector::zeros(); body.node_count()]);
+    let (mut rows, mut columns) = (vec![0; graph.entry_count()], vec![0; graph.entry_count()]);
+    for row in 0..graph.node_count() {
+        for (entry, column) in graph.row(row) {
+            (rows[entry], columns[entry]) = (row as i64, column as i64);
+        }
+    }
+    let blocks = stiffness
+        .values
+        .iter()
+        .flat_map(|block| (0..D).flat_map(move |i| (0..D).map(move |j| block[(i, j)])));
+    let held = (0..body.node_count()).flat_map(|n| (0..D).map(move |i| body.held().holds(n, i)));
+    let out = PyDict::new(py);
+    out.set_item("rows", PyArray1::from_vec(py, rows))?;
+    out.set_item("columns", PyArray1::from_vec(py, columns))?;
+    out.set_item("mass", PyArray1::from_slice(py, &mass.values))?;
+    out.set_item("stiffness", table(py, blocks.collect(), D * D)?)?;
+    out.set_item("held", PyArray1::from_iter(py, held))?;
+    Ok(out)
 }
 
 /// One row of `width` numbers after the other.

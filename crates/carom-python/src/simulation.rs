@@ -85,7 +85,30 @@ impl Simulation {
         with!(&self.inner, run => {
             let model = run.model();
             let meshes = model.bodies.iter().map(|b| (b.first_node, b.body.mesh()));
-            arrays::grid(py, &model.assembly.reference[..model.node_count()], meshes)
+            let grid = arrays::grid(py, &model.assembly.reference[..model.node_count()], meshes)?;
+            // Most bodies are of one material, and what is read of them has nothing to tell.
+            if model.bodies.iter().any(|b| b.body.materials().len() > 1) {
+                let of_cells = model.bodies.iter().flat_map(|b| b.body.material_of_cells());
+                grid.set_item("region", PyArray1::from_iter(py, of_cells.map(|number| number as i32)))?;
+            }
+            Ok(grid)
+        })
+    }
+
+    /// Mass and stiffness of a body as it is drawn, as blocks of pairs of nodes: rows, columns,
+    /// mass [kg], stiffness [N/m], and which displacements are held.
+    fn matrices<'py>(&self, py: Python<'py>, body: usize) -> PyResult<Bound<'py, PyDict>> {
+        with!(&self.inner, run => {
+            let part = run.model().bodies.get(body).ok_or_else(|| PyIndexError::new_err(body))?;
+            arrays::matrices(py, part)
+        })
+    }
+
+    /// The strain energy [J] of a body without a past at displacements [m] of its nodes.
+    fn strain_energy<'py>(&self, body: usize, displacement: PyReadonlyArray2<'py, f64>) -> PyResult<f64> {
+        with!(&self.inner, run => {
+            let part = run.model().bodies.get(body).ok_or_else(|| PyIndexError::new_err(body))?;
+            Ok(part.body.strain_energy(&arrays::from_rows(&displacement, part.body.node_count())?))
         })
     }
 

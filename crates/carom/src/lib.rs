@@ -58,7 +58,7 @@ pub use planted::contact::{PlantedContact, PlantedStep};
 pub use planted::mass::ForeignMass;
 pub use planted::run::{ForeignPart, ForeignRun, ForeignSpec};
 pub use run::crushed::Crushed;
-pub use run::describe::{BodyDescription, Description, PairDescription, Vibrations};
+pub use run::describe::{BodyDescription, Description, MaterialDescription, PairDescription, Vibrations};
 pub use run::error::RunError;
 pub use run::events::ContactEvent;
 pub use run::impact::Impact;

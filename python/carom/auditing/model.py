@@ -11,7 +11,7 @@ from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
 from carom.auditing.target import Target
 from carom.case.analysis import Conserving, Static, Theta
-from carom.case.body import Body, RigidBody
+from carom.case.body import Body, RigidBody, materials_of
 from carom.case.contact import Pair
 from carom.case.friction import FrictionLaw
 from carom.case.mesh import Disc, Rectangle
@@ -321,5 +321,7 @@ def _refuse_what_is_driven(scenario: Scenario) -> None:
         raise InputError("cannot audit a pair with an interference yet")
     if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):
         raise InputError("cannot audit the steps of a reduced body yet, as with output.audit")
+    if any(len(materials_of(body)) > 1 for body in scenario.bodies):
+        raise InputError("cannot audit a body of several materials yet")
     if any(isinstance(body, Body) and body.growth is not None for body in scenario.bodies):
         raise InputError("cannot audit a body that grows yet")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from carom.building.build import build
-from carom.case.body import Body
+from carom.case.body import Body, materials_of
 from carom.case.mesh import MeshFile
 from carom.case.scenario import Scenario
 from carom.mesh_file import Note
@@ -92,15 +92,18 @@ def _doubts_of_units(scenario: Scenario, description: Mapping[str, Any]) -> Iter
     """Yield what points to units that are not SI."""
     slowest, fastest = WAVE_SPEEDS
     for index, (body, built) in enumerate(zip(scenario.bodies, description["bodies"], strict=True)):
-        speed, size = built["wave_speed"], built["diameter"]
-        if isinstance(body, Body) and not slowest <= speed <= fastest:
-            density = scenario.materials[body.material].density
+        size = built["diameter"]
+        for name, of in zip(materials_of(body), built["materials"], strict=True):
+            speed = of["wave_speed"]
+            if not isinstance(body, Body) or slowest <= speed <= fastest:
+                continue
+            density = scenario.materials[name].density
             yield Doubt(
                 "wave-speed",
-                f"body {body.name}: waves run at {speed:.3g} m/s in materials.{body.material}, no "
+                f"body {body.name}: waves run at {speed:.3g} m/s in materials.{name}, no "
                 f"solid between foam and diamond has that; give moduli in Pa and density "
                 f"({density:g}) in kg/m³",
-                f"materials.{body.material}",
+                f"materials.{name}",
                 speed,
                 slowest if speed < slowest else fastest,
             )

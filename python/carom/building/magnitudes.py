@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from carom.case.body import RigidBody
+from carom.case.body import RigidBody, materials_of
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 
@@ -46,10 +46,10 @@ def refuse_unbounded(scenario: Scenario, description: Mapping[str, Any]) -> None
                     raise _vanishing(index, body.name, what, value, "its density or mass")
                 continue
             if value is None or not value > 0.0:
-                density = scenario.materials[body.material].density
-                made_of = (
-                    f"the constants and the density ({density:g} kg/m³) of "
-                    f"materials.{body.material}"
+                made_of = " and ".join(
+                    f"the constants and the density ({scenario.materials[name].density:g} kg/m³) "
+                    f"of materials.{name}"
+                    for name in dict.fromkeys(materials_of(body))
                 )
                 raise _vanishing(index, body.name, what, value, made_of)
     for pair in description["pairs"]:

@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from typing_extensions import Self
 
 from carom.case.description import (
+    PER_DIMENSION,
     Description,
     InSpace,
     Name,
@@ -53,6 +54,40 @@ class InitialStress(Description):
     xz: Number = 0.0
 
 
+class Region(Description):
+    """Cells of a body that are of another material than the rest.
+
+    They share their nodes with the rest: the materials are bonded. A cell is of one material: it is
+    in one region at most, and some cell of the body is in none.
+
+    Parameters
+    ----------
+    material
+        Name of one of the scenario's materials.
+    on
+        Name of a set of cells of the mesh.
+    corner
+        In place of a set: the corner with the smallest coordinates of an upright box [m],
+        shape [D]. Of the region are cells that have the mean of their nodes, as drawn, in it.
+    size
+        Sides of the box [m], shape [D].
+    """
+
+    material: str
+    on: str | None = None
+    corner: Vector | None = None
+    size: Annotated[tuple[Positive, ...], PER_DIMENSION] | None = None
+
+    @model_validator(mode="after")
+    def _is_a_set_or_a_box(self) -> Self:
+        box = [self.corner, self.size]
+        if (self.on is None) != all(part is not None for part in box) or (
+            self.on is not None and any(part is not None for part in box)
+        ):
+            raise problem("give a set of cells `on`, or `corner` and `size` of a box")
+        return self
+
+
 class Body(Description):
     """A deformable body.
 
@@ -62,6 +97,8 @@ class Body(Description):
         Unique over bodies, obstacles and tracked points.
     material
         Name of one of the scenario's materials.
+    regions
+        Cells that are of other materials.
     hypothesis
         What a body of the plane is in space: a slice of a long body (no strain across the plane),
         a sheet (no stress across it) or a body of revolution. In the last, x is the radius and y
@@ -97,6 +134,7 @@ class Body(Description):
     kind: Literal["deformable"] = "deformable"
     name: Name
     material: str
+    regions: tuple[Region, ...] = ()
     hypothesis: Literal["plane-strain", "plane-stress", "axisymmetric"] = "plane-strain"
     formulation: Literal["standard", "mean-dilatation"] = "standard"
     thickness: Positive = 1.0
@@ -218,6 +256,8 @@ class ReducedBody(Description):
     material
         Name of one of the scenario's materials, an elastic one; its stiffness without strain
         counts. Of damping it has that of the stiffness.
+    regions
+        Cells that are of other materials, which are damped alike.
     modes
         Number of modes beside the shapes of its contact surface.
     hypothesis
@@ -243,6 +283,7 @@ class ReducedBody(Description):
     kind: Literal["reduced"] = "reduced"
     name: Name
     material: str
+    regions: tuple[Region, ...] = ()
     modes: Annotated[int, Field(strict=True, ge=0)]
     hypothesis: Literal["plane-strain", "plane-stress"] = "plane-strain"
     formulation: Literal["standard", "mean-dilatation"] = "standard"
@@ -265,6 +306,13 @@ class ReducedBody(Description):
     def _contact_sets_exist(self) -> Self:
         _require_sets(self.mesh, self.contact_sets)
         return self
+
+
+def materials_of(body: AnyBody) -> tuple[str, ...]:
+    """Return the names of the materials of a body: that of the rest, then those of its regions."""
+    if isinstance(body, RigidBody):
+        return ()
+    return (body.material, *(region.material for region in body.regions))
 
 
 AnyBody = Annotated[Body | RigidBody | ReducedBody, Field(discriminator="kind")]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from carom.case.body import materials_of
 from carom.case.friction import friction_text
 from carom.display.markup import Html, element
 from carom.display.tables import html_table
@@ -36,5 +37,5 @@ def scenario_html(scenario: Scenario) -> Html:
 
 
 def _body_text(body: AnyBody) -> str:
-    made_of = "rigid" if body.kind == "rigid" else body.material
+    made_of = ", ".join(dict.fromkeys(materials_of(body))) or "rigid"
     return f"{body.name}: {body.mesh.kind}, {made_of}"

@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 from pydantic import BeforeValidator, Field, model_validator
 from typing_extensions import Self
 
-from carom.case.body import AnyBody, of_kind
+from carom.case.body import AnyBody, Region, RigidBody, of_kind
 from carom.case.contact import Pair
 from carom.case.description import (
     PER_DIMENSION,
@@ -280,11 +280,25 @@ def _own(body: AnyBody, number: int, copy: Copy) -> dict[str, Any]:
         "name": f"{body.name}-{number}",
         "mesh": placed(body.mesh, copy.at, copy.scale),
     }
+    if not isinstance(body, RigidBody):
+        middle = centre(body.mesh, len(copy.at))
+        own["regions"] = tuple(
+            _moved(region, middle, copy.at, copy.scale) for region in body.regions
+        )
     if copy.velocity is not None:
         own["velocity"] = copy.velocity
     if copy.spin is not None:
         own["spin"] = copy.spin
     return own
+
+
+def _moved(region: Region, middle: Vector, at: Vector, scale: float) -> Region:
+    """Return a region as it is in a copy with its centre elsewhere, so many times as large."""
+    if region.corner is None or region.size is None:
+        return region
+    corner = [a + scale * (c - m) for a, c, m in zip(at, region.corner, middle, strict=True)]
+    size = [scale * side for side in region.size]
+    return region.model_copy(update={"corner": tuple(corner), "size": tuple(size)})
 
 
 def _check_lengths(at: Grid | RandomPlaces | ListedPlaces, dimension: int) -> None:

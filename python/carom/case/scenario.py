@@ -266,7 +266,11 @@ class Scenario(Description):
         for index, body in enumerate(self.bodies):
             if isinstance(body, RigidBody):
                 continue
-            _require(body.material, self.materials, what="material", key=f"bodies.{index}.material")
+            path = f"bodies.{index}"
+            _require(body.material, self.materials, what="material", key=f"{path}.material")
+            for number, region in enumerate(body.regions):
+                key = f"{path}.regions.{number}.material"
+                _require(region.material, self.materials, what="material", key=key)
         return self
 
     @model_validator(mode="after")

@@ -20,7 +20,10 @@ COMMANDS = {
     "remedies.",
     "sweep": "Run a case with many values side by side; one table, one picture, a folder for each "
     "run.",
+    "restitution": "Run a case with many values, and show what an impact did: curves of e, and of "
+    "the energy.",
     "compare": "Show two runs side by side: what differs in the case, what came of it, and curves.",
+    "modes": "Split the energy of bodies over the modes in which they vibrate, frame by frame.",
     "audit": "Check finished results by code that shares nothing with the solver.",
     "plot": "Draw energies and tracked points of finished results again.",
     "picture": "Draw the bodies at one or several instants, for papers: as lines and areas, fonts "

@@ -62,8 +62,8 @@ def _waves(body: Mapping[str, Any]) -> str:
     if body["vibrations"] is not None:
         count, lowest = body["vibrations"]["count"], body["vibrations"]["lowest"]
         return f"reduced to {count} vibrations, the lowest of {lowest / (2 * math.pi):.4g} Hz"
-    speed, step = body["wave_speed"], body["suggested_time_step"]
-    return f"wave speed {speed:.4g} m/s, suggested Δt {step:.3g} s"
+    speeds = ", ".join(f"{of['wave_speed']:.4g}" for of in body["materials"])
+    return f"wave speed {speeds} m/s, suggested Δt {body['suggested_time_step']:.3g} s"
 
 
 def _steps(stage: FullStage) -> str:

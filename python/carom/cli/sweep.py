@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,38 +14,44 @@ from carom.cli.failures import NOT_CONVERGED, failures
 from carom.display.sheet import Sheet, print_whole
 from carom.errors import naming
 from carom.plot.style import save
-from carom.sweep import PICTURE, TABLE, axis
+from carom.sweep import PICTURE, TABLE, Done, axis
 from carom.sweep import sweep as run_all
 from carom.sweep.figure import sweep_figure
 from carom.sweep.table import shown_cells
+
+Vary = Annotated[
+    list[str],
+    typer.Option(
+        metavar="KEY=VALUES",
+        help="What to vary: START:STOP:COUNT with both ends, or a comma list; can be repeated.",
+    ),
+]
+Jobs = Annotated[
+    int | None, typer.Option(min=1, help="Processes at a time; default one per processor.")
+]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(metavar="ADDRESS", help="Dask scheduler to run on, which sees these files."),
+]
+Force = Annotated[
+    bool, typer.Option("--force", help="Run finished points again; replace another study.")
+]
+Quiet = Annotated[bool, typer.Option("--quiet", help="Print errors only.")]
 
 
 def sweep(
     *,
     case: CaseFile,
-    vary: Annotated[
-        list[str],
-        typer.Option(
-            metavar="KEY=VALUES",
-            help="What to vary: START:STOP:COUNT with both ends, or a comma list; can be repeated.",
-        ),
-    ],
+    vary: Vary,
     overrides: Overrides = None,
     out: Annotated[
         Path | None,
         typer.Option(metavar="DIR", help="Directory of the study; default results/CASE-sweep."),
     ] = None,
-    jobs: Annotated[
-        int | None, typer.Option(min=1, help="Processes at a time; default one per processor.")
-    ] = None,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(metavar="ADDRESS", help="Dask scheduler to run on, which sees these files."),
-    ] = None,
-    force: Annotated[
-        bool, typer.Option("--force", help="Run finished points again; replace another study.")
-    ] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", help="Print errors only.")] = False,
+    jobs: Jobs = None,
+    scheduler: Scheduler = None,
+    force: Force = False,
+    quiet: Quiet = False,
 ) -> None:
     """Run a case with many values side by side; one table, one picture, a folder for each run.
 
@@ -53,21 +60,19 @@ def sweep(
     """
     console = Console(quiet=quiet)
     directory = Path("results") / f"{case.stem}-sweep" if out is None else out
-
-    def done(count: int, of: int, row: dict[str, Any]) -> None:
-        where = ", ".join(f"{key} = {row[key]}" for key in keys)
-        said = f"{count}/{of}: {where}: {row['status']}"
-        if row["warnings"]:
-            said += f", warnings: {row['warnings']}"
-        console.print(said, markup=False, highlight=False)
-
     with failures(case):
         scenario = load(case, overrides)
         with naming(case):
             axes = [axis(text) for text in vary]
             keys = [one.key for one in axes]
             rows = run_all(
-                scenario, axes, directory, jobs=jobs, scheduler=scheduler, force=force, done=done
+                scenario,
+                axes,
+                directory,
+                jobs=jobs,
+                scheduler=scheduler,
+                force=force,
+                done=teller(console, keys),
             )
         save(sweep_figure(scenario.title, keys, rows), directory / PICTURE)
     header, cells = shown_cells(keys, rows)
@@ -78,6 +83,24 @@ def sweep(
             said = f"{where}: {row['status']}: {row['reason']}"
             console.print(said, markup=False, highlight=False, soft_wrap=True)
     console.print(f"{directory / TABLE}, {directory / PICTURE}", highlight=False, soft_wrap=True)
+    refuse_failed(rows)
+
+
+def teller(console: Console, keys: Sequence[str]) -> Done:
+    """Return what tells of every run that is done."""
+
+    def done(count: int, of: int, row: dict[str, Any]) -> None:
+        where = ", ".join(f"{key} = {row[key]}" for key in keys)
+        said = f"{count}/{of}: {where}: {row['status']}"
+        if row["warnings"]:
+            said += f", warnings: {row['warnings']}"
+        console.print(said, markup=False, highlight=False)
+
+    return done
+
+
+def refuse_failed(rows: Sequence[dict[str, Any]]) -> None:
+    """Exit with a status that says so if runs did not complete."""
     if failed := [row for row in rows if row["status"] != "completed"]:
         typer.echo(f"{len(failed)} of {len(rows)} runs did not complete", err=True)
         raise typer.Exit(NOT_CONVERGED)

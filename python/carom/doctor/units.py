@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from carom.building.checking import LARGE, WAVE_SPEEDS
-from carom.case.body import RigidBody
+from carom.case.body import RigidBody, materials_of
 from carom.case.material import BlatzKo, Material, MooneyRivlin, Ogden, Yeoh
 from carom.case.mesh import MeshFile
 from carom.doctor.finding import Finding
@@ -38,35 +38,16 @@ STRONG_GRAVITY = 100.0
 
 def units(patient: Patient) -> Iterator[Finding]:
     """Look at wave speeds, velocities, gravity and sizes."""
-    slowest, fastest = WAVE_SPEEDS
     bodies = patient.description["bodies"]
     seen: set[str] = set()
     for index, (body, built) in enumerate(zip(patient.scenario.bodies, bodies, strict=True)):
         speed = built["wave_speed"]
         if isinstance(body, RigidBody):
             continue
-        key = f"materials.{body.material}"
-        if body.material not in seen:
-            seen.add(body.material)
-            material = patient.scenario.materials[body.material]
-            shear = math.sqrt(shear_modulus(material) / material.density)
-            fact = (
-                f"pressure waves run at {speed:.4g} m/s and shear waves at {shear:.4g} m/s in "
-                f"{body.material}"
-            )
-            if slowest <= speed <= fastest:
-                yield Finding("ok", key, fact)
-            elif has_no_units(material.density):
-                without = "a density of 1 is that of a case without units"
-                yield Finding("ok", key, f"{fact}; {without}")
-            else:
-                yield Finding(
-                    "warning",
-                    key,
-                    f"{fact}: no solid between foam and diamond has that",
-                    "give moduli in Pa and the density in kg/m³"
-                    + _likely_mix(speed, material.density),
-                )
+        for name, of in zip(materials_of(body), built["materials"], strict=True):
+            if name not in seen:
+                seen.add(name)
+                yield _waves(name, patient.scenario.materials[name], of["wave_speed"])
         for place, given in _velocities(patient, index):
             if (velocity := math.hypot(*given)) > FAST * speed:
                 yield Finding(
@@ -93,6 +74,24 @@ def units(patient: Patient) -> Iterator[Finding]:
                 "give it in m/s², not in mm/s²",
             )
             return
+
+
+def _waves(name: str, material: Material, speed: float) -> Finding:
+    """Judge the speed of pressure waves in a material [m/s]."""
+    slowest, fastest = WAVE_SPEEDS
+    shear = math.sqrt(shear_modulus(material) / material.density)
+    key = f"materials.{name}"
+    fact = f"pressure waves run at {speed:.4g} m/s and shear waves at {shear:.4g} m/s in {name}"
+    if slowest <= speed <= fastest:
+        return Finding("ok", key, fact)
+    if has_no_units(material.density):
+        return Finding("ok", key, f"{fact}; a density of 1 is that of a case without units")
+    return Finding(
+        "warning",
+        key,
+        f"{fact}: no solid between foam and diamond has that",
+        "give moduli in Pa and the density in kg/m³" + _likely_mix(speed, material.density),
+    )
 
 
 def _velocities(patient: Patient, body: int) -> Iterator[tuple[str, tuple[float, ...]]]:

@@ -36,6 +36,9 @@ SURFACE_CELL_FIELDS = {"friction_energy": 1, "slip": 1, "pressure": 1, "area": 1
 [m²]. Energy and pressure are per area of the reference configuration, so energy times area sums
 to the ledger's friction."""
 
+_OF_MESH = ("body", "material")
+"""On cells: what never changes, and is there once for all frames."""
+
 _CHUNK_ROWS = 16_384
 
 
@@ -50,7 +53,8 @@ class FieldsWriter:
         File to write.
     mesh
         ``points`` [m], shape [point_count, D]; ``connectivity``; ``offsets``, shape
-        [cell_count + 1]; ``types``, VTK cell types; ``body``, index of each cell's body.
+        [cell_count + 1]; ``types``, VTK cell types; ``body``, index of each cell's body; if there
+        is one, ``material``, index of each cell's material among those of the case.
     point_fields, cell_fields
         Names of the vectors at points, and of the fields on cells with their components.
     frames
@@ -70,6 +74,7 @@ class FieldsWriter:
         self._path = path
         self._point_fields = point_fields
         self._cell_fields = cell_fields
+        self._of_mesh = [name for name in _OF_MESH if name in mesh]
         points, cells = len(mesh["points"]), len(mesh["types"])
         if frames is not None:
             self._cut(frames, points, cells)
@@ -103,8 +108,9 @@ class FieldsWriter:
                     root, f"CellData/{name}", dtype=np.float64, components=components, rows=cells
                 )
                 _growing(steps, f"CellDataOffsets/{name}", dtype=np.int64)
-            root["CellData/body"] = mesh["body"].astype(np.int32)
-            _growing(steps, "CellDataOffsets/body", dtype=np.int64)
+            for name in self._of_mesh:
+                root[f"CellData/{name}"] = mesh[name].astype(np.int32)
+                _growing(steps, f"CellDataOffsets/{name}", dtype=np.int64)
         write_whole(path, content.getvalue())
 
     def append(
@@ -132,7 +138,7 @@ class FieldsWriter:
                 "PointOffsets": zero,
                 "CellOffsets": zero,
                 "ConnectivityIdOffsets": zero,
-                "CellDataOffsets/body": zero,
+                **{f"CellDataOffsets/{name}": zero for name in self._of_mesh},
             }
             for name in self._point_fields:
                 rows = [_spatial(fields[name]) for fields in frames]

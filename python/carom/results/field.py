@@ -18,6 +18,7 @@ ABOUT = {
     "strain": ("Green–Lagrange strain", ""),
     "energy_density": ("strain energy per reference volume", "J/m³"),
     "plastic_strain": ("equivalent plastic strain", ""),
+    "material": ("number of the material among those of the case, from 0; -1 of a rigid body", ""),
     "friction_energy": ("energy dissipated by friction per reference area", "J/m²"),
     "slip": ("distance slid", "m"),
     "pressure": ("contact pressure per reference area", "Pa"),

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from typing_extensions import Self
 
 from carom import _carom
+from carom.building.materials import with_materials
 from carom.case.scenario import Scenario
 from carom.io import layout
 from carom.io.atomic import sync, write_whole
@@ -95,7 +96,9 @@ class Recorder:
         )
         self._queue = FrameQueue(
             FieldsWriter(
-                directory / layout.FIELDS, simulation.mesh(), frames=written.get("frames")
+                directory / layout.FIELDS,
+                with_materials(simulation.mesh(), scenario),
+                frames=written.get("frames"),
             ),
             FieldsWriter(
                 directory / layout.SURFACE,

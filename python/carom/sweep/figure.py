@@ -57,9 +57,8 @@ def sweep_figure(title: str, keys: Sequence[str], rows: Sequence[Mapping[str, An
     """
     first, *others = keys
     completed = [one for one in rows if one["status"] == "completed"]
-    numeric = all(isinstance(one[first], NUMBER) for one in rows)
-    ticks = {word: n for n, word in enumerate(dict.fromkeys(_word(one[first]) for one in rows))}
-    curves = dict.fromkeys(tuple(_word(one[key]) for key in others) for one in rows)
+    ticks = ticks_of(first, rows)
+    curves = dict.fromkeys(curve_of(one, others) for one in rows)
     unit = time_unit(_largest(completed, ["contact_time"]))
     has_impacts = any(one.get("restitution") is not None for one in completed)
     drawn = (*CURVES, *(OF_IMPACTS if has_impacts else ()))
@@ -69,18 +68,18 @@ def sweep_figure(title: str, keys: Sequence[str], rows: Sequence[Mapping[str, An
             for number, curve in enumerate(curves):
                 mine = [
                     (
-                        one[first] if numeric else ticks[_word(one[first])],
+                        ticks[word(one[first])] if ticks else one[first],
                         one[column] / unit.seconds if column == "contact_time" else one[column],
                     )
                     for one in completed
-                    if tuple(_word(one[key]) for key in others) == curve and one[column] is not None
+                    if curve_of(one, others) == curve and one[column] is not None
                 ]
                 axes.plot(
                     *zip(*sorted(mine), strict=True) if mine else ([], []),
                     "o-",
                     markersize=4,
                     color=COLOURS[number % len(COLOURS)],
-                    label=_curve(others, curve),
+                    label=curve_title(others, curve),
                 )
             axes.set_ylabel(f"{label} [{unit.symbol}]" if column == "contact_time" else label)
             axes.margins(x=0.03)
@@ -89,11 +88,11 @@ def sweep_figure(title: str, keys: Sequence[str], rows: Sequence[Mapping[str, An
             _keep_flat(axes, size / (unit.seconds if column == "contact_time" else 1.0))
         for axes in diagrams[-2:]:
             axes.set_xlabel(first, parse_math=False)
-            if not numeric:
+            if ticks:
                 axes.set_xticks(list(ticks.values()), list(ticks))
         picture.suptitle(title, parse_math=False, x=0.02, ha="left", fontsize=11)
         if others:
-            _legend(picture, diagrams[0])
+            legend(picture, diagrams[0])
     return picture
 
 
@@ -116,16 +115,31 @@ def _keep_flat(axes: Axes, size: float) -> None:
     axes.set_ylim(middle - FLAT * size, middle + FLAT * size)
 
 
-def _curve(keys: Sequence[str], values: Sequence[str]) -> str:
+def ticks_of(key: str, rows: Sequence[Mapping[str, Any]]) -> dict[str, int]:
+    """Return where the values of a key that are no numbers are drawn; nothing if all are."""
+    if all(isinstance(one[key], NUMBER) for one in rows):
+        return {}
+    return {text: n for n, text in enumerate(dict.fromkeys(word(one[key]) for one in rows))}
+
+
+def curve_of(row: Mapping[str, Any], keys: Sequence[str]) -> tuple[str, ...]:
+    """Return the values of some keys, by which a row belongs to a curve."""
+    return tuple(word(row[key]) for key in keys)
+
+
+def curve_title(keys: Sequence[str], values: Sequence[str]) -> str:
+    """Return what a curve is called."""
     pairs = zip(keys, values, strict=True)
     return ", ".join(f"{key.rpartition('.')[2]} = {value}" for key, value in pairs)
 
 
-def _legend(picture: Figure, axes: Axes) -> None:
+def legend(picture: Figure, axes: Axes) -> None:
+    """Say beside the diagrams which curve is which."""
     handles, labels = axes.get_legend_handles_labels()
     shown = list(itertools.islice(zip(handles, labels, strict=True), 12))
     picture.legend(*zip(*shown, strict=True), loc="outside right center")
 
 
-def _word(value: object) -> str:
+def word(value: object) -> str:
+    """Return a value that was varied as it is written."""
     return value if isinstance(value, str) else json.dumps(value, default=str)

@@ -70,6 +70,13 @@ pub struct Past<'a> {
     pub growth: Growth,
 }
 
+impl Past<'_> {
+    /// Nothing.
+    pub fn none() -> Self {
+        Self { history: &[], growth: Growth::default() }
+    }
+}
+
 /// The elements of one block of cells. Chosen once per block; what is inside runs without dispatch.
 ///
 /// `u` and `f` hold one vector per node of the body. Energies, forces and stiffnesses are those that the law gives for the elastic part of the

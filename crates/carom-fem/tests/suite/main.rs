@@ -10,6 +10,7 @@ mod initial_stress;
 mod locking;
 mod patch_test;
 mod reduction;
+mod regions;
 mod revolution;
 mod threads;
 mod vibration;

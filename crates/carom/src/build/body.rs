@@ -7,6 +7,7 @@ use carom_mesh::{Mesh, Surface};
 
 use super::masses::masses;
 use super::mesh::mesh;
+use super::regions::{material, regions};
 use super::values::number;
 use crate::error::InputError;
 use crate::scenario::{BodyEntry, BodyKind, BodyMass, InitialStress, PairEntry, Scenario};
@@ -19,20 +20,18 @@ pub(super) fn body<const D: usize>(
     given: Option<Mesh<D>>,
 ) -> Result<Body<D>, InputError> {
     let key = format!("bodies.{index}");
-    let name = entry.material.as_deref().unwrap_or_default();
-    let material = scenario.materials.get(name).ok_or_else(|| {
-        let known: Vec<&str> = scenario.materials.keys().map(String::as_str).collect();
-        let message = format!("there is no material {name:?}; known are {known:?}");
-        InputError::new(format!("{key}.material"), message)
-    })?;
+    let material =
+        material(scenario, &format!("{key}.material"), entry.material.as_deref().unwrap_or_default())?;
     let mesh = mesh(&format!("{key}.mesh"), &entry.mesh, given)?;
     let massless_contact = scenario.contact.condition.is_massless() && may_touch(scenario, &entry.name);
+    let regions = regions(scenario, &key, entry, &mesh)?;
     let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
     let spec = BodySpec {
         law: material.law.clone(),
         density: material.density,
         damping: material.damping,
         viscosity: material.viscosity,
+        regions,
         mass: mass_kind(&key, entry)?,
         hypothesis: entry.hypothesis,
         formulation: entry.formulation,
@@ -42,21 +41,31 @@ pub(super) fn body<const D: usize>(
         points: masses(scenario, entry, &mesh, if massless_contact { surface.nodes() } else { &[] })?,
         massless_contact,
     };
-    Body::with_contact_surface(mesh, surface, &spec).map_err(|e| match e {
+    let names = entry.material.iter().chain(entry.regions.iter().map(|region| &region.material));
+    for (of, name) in spec.by_material().iter().zip(names) {
+        of.check::<D>().map_err(|e| refused(&key, name, &e))?;
+    }
+    let name = entry.material.as_deref().unwrap_or_default();
+    Body::with_contact_surface(mesh, surface, &spec).map_err(|e| refused(&key, name, &e))
+}
+
+/// What is wrong with the body under `key`, or with its `material`.
+fn refused(key: &str, material: &str, e: &FemError) -> InputError {
+    match e {
         FemError::MaterialConstant { name: "thickness", .. } => {
             InputError::new(format!("{key}.thickness"), e.to_string())
         }
         FemError::MaterialConstant { name, .. } => {
-            let material = entry.material.as_deref().unwrap_or_default();
             InputError::new(format!("materials.{material}.{name}"), e.to_string())
         }
+        FemError::Mixed { .. } => InputError::new(format!("{key}.regions"), e.to_string()),
         FemError::Hypothesis { .. } | FemError::PlaneStress { .. } => {
             InputError::new(format!("{key}.hypothesis"), e.to_string())
         }
         FemError::InitialStress { .. } => InputError::new(format!("{key}.initial_stress"), e.to_string()),
         FemError::Formulation { .. } => InputError::new(format!("{key}.formulation"), e.to_string()),
         _ => InputError::mesh(format!("{key}.mesh"), e.to_string()),
-    })
+    }
 }
 
 /// How the mass of a deformable body is shared.

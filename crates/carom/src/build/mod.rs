@@ -15,6 +15,7 @@ pub(crate) mod obstacle;
 mod overlaps;
 mod places;
 mod reduced;
+mod regions;
 mod restitution;
 mod rigid;
 pub(crate) mod side;

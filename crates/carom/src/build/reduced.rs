@@ -52,12 +52,24 @@ pub(super) fn reduced_body<const D: usize>(
         let message = format!("body {name:?} is reduced and starts without stress; leave it out");
         return refused(format!("{key}.initial_stress"), message);
     }
-    let material = entry.material.as_deref().unwrap_or_default();
-    if let Some(of) = scenario.materials.get(material) {
+    let regions = (0..)
+        .zip(&entry.regions)
+        .map(|(i, region)| (format!("{key}.regions.{i}.material"), &region.material));
+    let mut stiffness_damping = None;
+    for (at_name, material) in entry.material.iter().map(|of| (format!("{key}.material"), of)).chain(regions)
+    {
+        let Some(of) = scenario.materials.get(material) else { continue };
         let at = |what: &str| format!("materials.{material}.{what}");
         if matches!(of.law, LawSpec::J2Plasticity(_)) {
             let message = format!("body {name:?} is reduced and cannot flow; choose an elastic law");
-            return refused(format!("{key}.material"), message);
+            return refused(at_name, message);
+        }
+        if *stiffness_damping.get_or_insert(of.damping.stiffness) != of.damping.stiffness {
+            let message = format!(
+                "{}: body {name:?} is reduced and damped mode by mode, by one number; give all of its materials the same",
+                of.damping.stiffness
+            );
+            return refused(at("damping.stiffness"), message);
         }
         if of.viscosity != Viscosity::default() {
             let message = format!("body {name:?} is reduced; damp it by damping.stiffness instead");

@@ -31,6 +31,10 @@ pub(super) fn rigid_body<const D: usize>(
         );
         return Err(InputError::new("contact.condition", message));
     }
+    if !entry.regions.is_empty() {
+        let message = format!("body {:?} is rigid and of no material; leave its regions out", entry.name);
+        return Err(InputError::new(format!("{key}.regions"), message));
+    }
     let mesh = mesh(&format!("{key}.mesh"), &entry.mesh, given)?;
     if !mesh.ties().is_empty() {
         let message = format!("body {:?} is rigid and cannot be periodic; leave periodic out", entry.name);
@@ -44,6 +48,7 @@ pub(super) fn rigid_body<const D: usize>(
             density,
             damping: RayleighDamping::default(),
             viscosity: Viscosity::default(),
+            regions: Vec::new(),
             mass: MassKind::Consistent,
             hypothesis: entry.hypothesis,
             formulation: Formulation::default(),

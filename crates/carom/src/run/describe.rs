@@ -1,7 +1,8 @@
 use carom_contact::{Pair, Proximity, Target};
-use carom_fem::Reduction;
+use carom_fem::{Body, OfMaterial, Reduction};
 use serde::Serialize;
 
+use crate::body::fe::part::ModelBody;
 use crate::ledger::ByPair;
 use crate::model::assembly::{Assembly, NamedPair};
 use crate::{Model, State};
@@ -44,14 +45,29 @@ pub struct BodyDescription {
     pub mass: f64,
     /// Volume [m³].
     pub volume: f64,
-    /// Speed of pressure waves [m/s]; none of a rigid body.
+    /// Speed of pressure waves [m/s], where it is lowest; none of a rigid body.
     pub wave_speed: Option<f64>,
+    /// What it has of each of its materials; none of a rigid body.
+    pub materials: Vec<MaterialDescription>,
     /// Length of the diagonal of the bounding box [m].
     pub diameter: f64,
     /// Shortest edge [m].
     pub smallest_edge: f64,
-    /// Time of a pressure wave through it [s]; none of a rigid body.
+    /// Time of a pressure wave through the shortest edge of a material, the least [s]; none of a rigid body.
     pub suggested_time_step: Option<f64>,
+}
+
+/// What a body has of a material: of that of the rest, then of those of its regions.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MaterialDescription {
+    /// Cells.
+    pub cells: usize,
+    /// Volume [m³].
+    pub volume: f64,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Speed of pressure waves [m/s].
+    pub wave_speed: f64,
 }
 
 /// In how many shapes a reduced body vibrates.
@@ -98,9 +114,10 @@ pub(crate) fn describe<const D: usize>(
                 mass: b.body.total_mass(),
                 volume: b.body.volume(),
                 wave_speed,
+                materials: materials(b),
                 diameter: b.body.mesh().diameter(),
                 smallest_edge,
-                suggested_time_step: wave_speed.map(|speed| smallest_edge / speed),
+                suggested_time_step: wave_speed.map(|_| shortest_wave(&b.body)),
             }
         })
         .collect();
@@ -114,6 +131,21 @@ pub(crate) fn describe<const D: usize>(
         bodies,
         pairs,
     }
+}
+
+fn materials<const D: usize>(body: &ModelBody<D>) -> Vec<MaterialDescription> {
+    let of = |of: &OfMaterial| MaterialDescription {
+        cells: of.cells,
+        volume: of.volume,
+        mass: of.mass,
+        wave_speed: of.wave_speed,
+    };
+    if body.is_rigid() { Vec::new() } else { body.body.materials().iter().map(of).collect() }
+}
+
+/// Time that a pressure wave needs through the smallest edge of a body [s], material by material.
+fn shortest_wave<const D: usize>(body: &Body<D>) -> f64 {
+    body.materials().iter().map(|of| of.smallest_edge / of.wave_speed).fold(f64::INFINITY, f64::min)
 }
 
 fn vibrations<const D: usize>(reduction: &Reduction<D>) -> Vibrations {

@@ -252,6 +252,9 @@ pub struct BodyEntry {
     /// Name of its material; of deformable bodies.
     #[serde(default)]
     pub material: Option<String>,
+    /// Parts of it that are of other materials; of bodies that are not rigid.
+    #[serde(default)]
+    pub regions: Vec<RegionEntry>,
     /// Density [kg/m³] of a rigid body that does not give its mass.
     #[serde(default)]
     pub density: Option<f64>,
@@ -295,6 +298,22 @@ pub struct BodyEntry {
     /// Initial spin about the centre of mass [rad/s].
     #[serde(default)]
     pub spin: Spin,
+}
+
+/// Cells of a body that are of another material than the rest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RegionEntry {
+    /// Name of their material.
+    pub material: String,
+    /// Name of a set of cells of the mesh.
+    #[serde(default)]
+    pub on: Option<String>,
+    /// The corner with the smallest coordinates of an upright box [m]: of cells that have their middle in it.
+    #[serde(default)]
+    pub corner: Option<Vec<f64>>,
+    /// Sides of the box [m].
+    #[serde(default)]
+    pub size: Option<Vec<f64>>,
 }
 
 /// A symmetric stress [Pa].

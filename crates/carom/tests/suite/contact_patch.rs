@@ -32,6 +32,7 @@ fn body<const D: usize>(mesh: Mesh<D>) -> Body<D> {
         density: 1.0,
         damping: RayleighDamping::default(),
         viscosity: Viscosity::default(),
+        regions: Vec::new(),
         mass: MassKind::Consistent,
         hypothesis: Hypothesis::PlaneStrain,
         formulation: Formulation::Standard,

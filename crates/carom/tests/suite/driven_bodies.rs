@@ -22,6 +22,7 @@ fn spec(law: LawSpec, density: f64, massless_contact: bool) -> BodySpec {
         density,
         damping: RayleighDamping::default(),
         viscosity: Viscosity::default(),
+        regions: Vec::new(),
         mass: MassKind::Consistent,
         thickness: 1.0,
         hypothesis: Hypothesis::PlaneStrain,

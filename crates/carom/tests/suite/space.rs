@@ -37,6 +37,7 @@ fn block_of(
         density: 1.0,
         damping: RayleighDamping::default(),
         viscosity: Viscosity::default(),
+        regions: Vec::new(),
         mass: MassKind::Consistent,
         hypothesis: Hypothesis::PlaneStrain,
         formulation: Formulation::Standard,

@@ -28,6 +28,7 @@ pub fn spec(law: LawSpec) -> BodySpec {
         density: 1.5,
         damping: RayleighDamping::default(),
         viscosity: Viscosity::default(),
+        regions: Vec::new(),
         mass: MassKind::Consistent,
         hypothesis: Hypothesis::PlaneStrain,
         formulation: Formulation::Standard,

@@ -379,7 +379,7 @@ impl<const D: usize> IterationMatrix<D> {
             *block *= k;
             *block += Matrix::from_diagonal_element(mass.values[entry] * mass_coefficient);
             if let Some(k0) = damping_stiffness {
-                *block += frame * k0.values[entry] * frame.transpose() * (c * damping.stiffness);
+                *block += frame * k0.values[entry] * frame.transpose() * c;
             }
             if let Some(viscosity) = &viscosity {
                 *block += viscosity.values[entry] / map.dt;

@@ -82,7 +82,7 @@ impl<const D: usize> ModelBody<D> {
         self.rigid.as_ref().map_or_else(|| self.body.dofs(), RigidPart::dofs)
     }
 
-    /// Speed of pressure waves in it [m/s]; none of a rigid body, in which they need no time.
+    /// Speed of pressure waves in it [m/s], where it is lowest; none of a rigid body, in which they need no time.
     #[must_use]
     pub fn wave_speed(&self) -> Option<f64> {
         (!self.is_rigid()).then(|| self.body.wave_speed())

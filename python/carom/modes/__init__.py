@@ -1,0 +1,1 @@
+"""Where the energy of a body is: by the modes in which it vibrates."""
