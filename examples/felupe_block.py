@@ -5,6 +5,7 @@ Needs felupe: pip install felupe.
 
 import argparse
 from dataclasses import dataclass, field
+from typing import Any
 
 import felupe
 import numpy as np
@@ -45,7 +46,8 @@ class Block:
     def stiffness(self, u: Array) -> Array:
         """Return the tangent [N/m], sparse."""
         self._at(u)
-        return self.solid.assemble.matrix(self.field).tocsc()
+        tangent: Any = self.solid.assemble.matrix(self.field).tocsc()
+        return tangent
 
     def strain_energy(self, u: Array) -> float:
         """Return the strain energy [J]."""
