@@ -43,11 +43,10 @@ class Block:
         forces: Array = self.solid.assemble.vector(self.field).toarray().ravel()
         return forces
 
-    def stiffness(self, u: Array) -> Array:
+    def stiffness(self, u: Array) -> Any:
         """Return the tangent [N/m], sparse."""
         self._at(u)
-        tangent: Any = self.solid.assemble.matrix(self.field).tocsc()
-        return tangent
+        return self.solid.assemble.matrix(self.field).tocsc()
 
     def strain_energy(self, u: Array) -> float:
         """Return the strain energy [J]."""
