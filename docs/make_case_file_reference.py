@@ -63,6 +63,20 @@ carom run CASE --set analysis.end_time=3 --set bodies.0.mesh.divisions=12 \\
 ```
 """
 
+CONDITIONS = """\
+## What a contact condition gives and costs
+
+In a dynamic analysis with the scheme `conserving`; a static one has `gap`.
+[Exactness](exactness.md) has the figures, [a how-to](how-to/condition-and-solver.md) the choice.
+
+| `contact.condition` | energy | at the end of a step | contact force | costs | not with |
+|---|---|---|---|---|---|
+| `midpoint` | kept to round-off | nodes on their targets | chatters | least | – |
+| `gap` | each impact takes some, less on finer meshes | nothing is inside | chatters | as `midpoint` | – |
+| `massless` | kept to round-off | nothing is inside | quiet | half as much again | rigid and reduced bodies, bodies without cells inside, friction laws, springs at contact nodes |
+| `endpoint` | nodes that stop lose theirs | inside by a step's way | quiet | as `midpoint` | – |
+"""
+
 RULES = """\
 ## Rules that join several keys
 
@@ -296,7 +310,7 @@ def page() -> str:
             if tagged:
                 text.append(f"### {title(model)}\n")
             text += [what(model), "", table(model, tagged=tagged), ""]
-    return "\n".join([*text, RULES])
+    return "\n".join([*text, CONDITIONS, RULES])
 
 
 def schema() -> str:

@@ -121,8 +121,8 @@ class Contact(Description):
         increment over the step, ``endpoint`` on the velocity at its end. ``massless`` again uses
         the gap at the end, but between nodes without mass. With the scheme ``conserving``,
         ``midpoint`` keeps the energy, and nodes land on their targets. ``massless``
-        keeps the energy, is quiet and never penetrates, but takes more time and does not work in
-        every case yet.
+        keeps the energy, is quiet and never penetrates, but takes more time and needs cells inside
+        every body that may touch.
     friction
         Friction of every pair that does not state its own: Coulomb's coefficient, or a law by which
         it depends on the sliding, `StaticKinetic`, `RateAndState` or `FrictionFormula`, such as
@@ -146,8 +146,8 @@ class Contact(Description):
         How contact is written between two bodies that do not state their own: as gaps of the nodes
         of the source, or (mortar) as means under their shape functions. Mortar carries a uniform
         pressure exactly between meshes that do not match. `targets` says what both sides are
-        between their nodes. It takes one side as the source, and every condition but
-        ``massless``. Obstacles are always checked node by node.
+        between their nodes. It takes one side as the source. Obstacles are always checked node by
+        node.
     certificate_tolerance
         Largest distance from Coulomb's law in a step, the sum of bi-potential gaps. It is relative
         to the largest energy of the run or, where that is more, to the largest work of a step's

@@ -63,8 +63,7 @@ def _scheme(stage: FullStage, analysis: Dynamic) -> Iterator[Finding]:
         yield Finding(
             "advice",
             "contact.condition",
-            "massless contact is quiet and exact, but takes half as long again and does "
-            "not bear every case yet",
+            "massless contact is quiet and exact, but takes half as long again",
             'if steps fail, take condition = "midpoint"',
         )
     elif analysis.scheme.kind == "theta" and stage.contact.condition == "midpoint":
