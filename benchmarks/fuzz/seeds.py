@@ -10,7 +10,7 @@ import numpy as np
 import carom
 from carom.case import case_file
 from carom.friction import Problem, write
-from carom.new.template import MESH_FILE, TEMPLATES, template
+from carom.new.template import MESH_FILE, SCRIPTS, TEMPLATES, template
 
 HERE = Path(__file__).resolve().parent
 EXAMPLES = HERE.parents[1] / "examples"
@@ -20,7 +20,7 @@ def cases(folder: Path) -> list[bytes]:
     """Return case files; one refers to a mesh that is written into the folder."""
     files = [*sorted(EXAMPLES.glob("*.toml")), HERE / "everything.toml", HERE / "in_space.toml"]
     texts = [file.read_text(encoding="utf-8") for file in files]
-    texts += [template(name) for name in TEMPLATES if name != MESH_FILE]
+    texts += [template(name) for name in TEMPLATES if name not in {MESH_FILE, *SCRIPTS}]
     meshio.write(folder / "part.vtu", _hexahedra(2))
     before, _, rest = texts[len(files) - 1].partition('mesh = { kind = "box"')
     in_a_file = before + 'mesh = { file = "part.vtu", scale = 1.0 }' + rest[rest.index("\n") :]

@@ -16,8 +16,9 @@ TEXT = """\
 A bar of two materials hits a wall at {speed:g} m/s: ρc = {first:g} and {second:g} Pa s/m, waves
 cross each half in {crossing:g} s, ν = 0 (`tests/validation/composite_bar.py`). By d'Alembert's
 solution the impulse of the wall per area is {exact:g} Pa s when the bar leaves after 6 ms; the
-interface throws back (Z₁ − Z₂)/(Z₁ + Z₂) = {thrown:g}. Conserving, massless contact. The
-largest error of the impulse at any time and that at the end, relative to the whole, and the
+interface throws back (Z₁ − Z₂)/(Z₁ + Z₂) = {thrown:g}.
+
+Conserving, massless contact. The largest error of the impulse at any time and that at the end, relative to the whole, and the
 largest defect of the ledger relative to E₀. Asserted in `test_composite_bar.py`; the patch test
 through two materials, to 1e-13 of the stress, in `crates/carom-fem/tests/suite/regions.rs`.
 
@@ -31,7 +32,9 @@ A bar hits one of twice its length, which is then strained by v/2c all along: mo
 has 8/(n²π²) of m v²/8 for odd n, and nothing for even n (`tests/validation/ringing_bar.py`).
 Errors of the shares of the first three by the number of cells of the long bar, how far shares
 change as it flies, and by how much rigid motion, modes and rest together are off kinetic and
-strain energy of the history, relative to E₀. Last, the relative error of e, which is ½.
+strain energy of the history, relative to E₀.
+
+Last, the relative error of e, which is ½.
 Asserted in `test_modal_energies.py`.
 
 {shares}

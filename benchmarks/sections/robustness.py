@@ -17,15 +17,14 @@ mean and standard deviation of the change per step.
 
 {runs}
 
-`massless` carries what a step leaves over and takes it back.
+`massless` pays from vibration what a blend leaves over.
 """
 
 LOADS = """\
 ## Loads and damping
 
 `python benchmarks/loads.py`: cylinders under gravity at once (`tests/validation/test_loads.py`), μ
-= 0.2, {end:g} s, eight contacts. **The bound of 1e-9 E₀ is not met**: α stays at its limit and
-energy debt waits.
+= 0.2, {end:g} s, eight contacts. What α cannot move where it is at its limit, vibration pays.
 
 {cases}
 """

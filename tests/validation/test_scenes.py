@@ -4,6 +4,7 @@ The bounds are of the penetration that runs tell of, within ten times of what is
 """
 
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -110,16 +111,14 @@ def test_corners_stay_outside_of_coarse_bodies_without_mass(seed, deepest):
     assert np.max(simulation.history["penetration"]) < deepest
 
 
-@pytest.mark.parametrize(
-    ("seed", "reason"), [(224, "Newton's iterations"), (197, "unaccounted for")]
-)
+@pytest.mark.parametrize(("seed", "reason"), [(224, "Newton's iterations"), (197, None)])
 def test_a_step_that_is_repeated_with_more_contacts_goes_back_to_no_guess_of_fewer(seed, reason):
     """Symptom guarded against: a panic where contacts with the stiffness of their reactions failed.
 
-    Of 500 random scenes these two did. They crush a body, and end with a reason.
+    Of 500 random scenes these two did. One crushes a body, and ends with a reason.
     """
     scenario = wild_scenes.scene(seed)
     simulation = carom.Simulation(scenario)
-    with pytest.raises(carom.ConvergenceError, match=reason):
+    with pytest.raises(carom.ConvergenceError, match=reason) if reason else nullcontext():
         while simulation.time < scenario.analysis.end_time * (1 - 1e-9):
             simulation.step()
