@@ -18,9 +18,10 @@ cross each half in {crossing:g} s, ν = 0 (`tests/validation/composite_bar.py`).
 solution the impulse of the wall per area is {exact:g} Pa s when the bar leaves after 6 ms; the
 interface throws back (Z₁ − Z₂)/(Z₁ + Z₂) = {thrown:g}.
 
-Conserving, massless contact. The largest error of the impulse at any time and that at the end, relative to the whole, and the
-largest defect of the ledger relative to E₀. Asserted in `test_composite_bar.py`; the patch test
-through two materials, to 1e-13 of the stress, in `crates/carom-fem/tests/suite/regions.rs`.
+Conserving, massless contact. The largest error of the impulse at any time and that at the end,
+relative to the whole, and the largest defect of the ledger relative to E₀. Asserted in
+`test_composite_bar.py`; the patch test through two materials, to 1e-13 of the stress, in
+`crates/carom-fem/tests/suite/regions.rs`.
 
 {bars}
 """
