@@ -72,8 +72,10 @@ In a dynamic analysis with the scheme `conserving`; a static one has `gap`.
 | `contact.condition` | energy | at the end of a step | contact force | costs | not with |
 |---|---|---|---|---|---|
 | `midpoint` | kept to round-off | nodes on their targets | chatters | least | – |
-| `gap` | each impact takes some, less on finer meshes | nothing is inside | chatters | as `midpoint` | – |
-| `massless` | kept to round-off | nothing is inside | quiet | half as much again | rigid and reduced bodies, bodies without cells inside, friction laws, springs at contact nodes |
+| `gap` | each impact takes some, less on finer meshes | nothing is inside | chatters \
+| as `midpoint` | – |
+| `massless` | kept to round-off | nothing is inside | quiet | half as much again \
+| rigid and reduced bodies, bodies without cells inside, friction laws, springs at contact nodes |
 | `endpoint` | nodes that stop lose theirs | inside by a step's way | quiet | as `midpoint` | – |
 """
 
