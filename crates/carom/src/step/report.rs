@@ -98,7 +98,7 @@ pub struct StepReport {
     pub normal_force: f64,
     /// Largest blend |α| of start and end stresses: see the scheme `conserving` with `massless` contact.
     pub blend: f64,
-    /// What blends left over and [vibration](super::repaying) took or gave [J], without its sign.
+    /// What blends left over and vibration took or gave [J], without its sign.
     pub repaid: f64,
     /// Smallest dissipation by friction of a contact [J]; negative = friction did work on the bodies.
     pub least_friction: f64,

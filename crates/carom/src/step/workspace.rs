@@ -89,7 +89,7 @@ impl<const D: usize> Workspace<D> {
         &self.blend.weight
     }
 
-    /// What every body took on of its vibration at the end of the last step, as a share of it: see [`super::repaying`].
+    /// What every body took on of its vibration at the end of the last step, as a share of it: what the blend left over.
     #[must_use]
     pub fn vibration_shares(&self) -> &[f64] {
         &self.blend.share
