@@ -35,6 +35,12 @@ html_theme_options = {
     "dark_css_variables": {"color-brand-primary": "#7db8f0", "color-brand-content": "#7db8f0"},
 }
 exclude_patterns = ["decisions", "gallery", "gallery-pages/**/*.ipynb", "images"]
+# Pages that an earlier build made of scripts with other names are nobody's.
+exclude_patterns += [
+    f"gallery-pages/{page.name}"
+    for page in (HERE / "gallery-pages").glob("plot_*.rst")
+    if not (HERE / "gallery" / f"{page.stem}.py").exists()
+]
 
 myst_enable_extensions = ["colon_fence", "dollarmath"]
 myst_heading_anchors = 4

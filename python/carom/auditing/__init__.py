@@ -11,7 +11,13 @@ from pathlib import Path
 import numpy as np
 
 from carom.auditing.believed import leave_rows
-from carom.auditing.check_case import check_files, check_links, check_mesh, check_start
+from carom.auditing.check_case import (
+    check_files,
+    check_links,
+    check_materials,
+    check_mesh,
+    check_start,
+)
 from carom.auditing.check_events import EventChecks
 from carom.auditing.check_frames import FrameChecks
 from carom.auditing.check_ledger import LedgerChecks
@@ -77,6 +83,7 @@ def _check(files: Files, findings: Findings) -> None:
         frames.append(frame.time)
     check_files(files.path, files.summary, findings)
     check_mesh(model, findings)
+    check_materials(model, files.materials(), findings)
     ledger = LedgerChecks(
         model, scales, findings, files.ledger, history=files.history, summary=files.summary
     )

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carom.auditing.arrays import Array, Indices, cross, einsum, turned
 from carom.auditing.cells import Cells, boundary
-from carom.auditing.laws import Law
+from carom.auditing.composition import Composition
 from carom.auditing.mass import Mass
 from carom.auditing.reduced import MeanAxes
-from carom.case.body import AnyBody, Body, ReducedBody, RigidBody
-from carom.case.material import Damping, Material
+from carom.case.body import AnyBody, ReducedBody, RigidBody
+from carom.case.material import Material
 from carom.case.mesh import Rectangle
 from carom.errors import InputError
 
@@ -32,8 +32,8 @@ class AuditBody:
     ----------
     entry
         What the case says of it.
-    material
-        Its material; None of a rigid body.
+    materials
+        The materials of the case.
     vtk_type, nodes, points
         Its cells and reference positions, see `Cells`.
     first_node
@@ -45,7 +45,7 @@ class AuditBody:
     def __init__(
         self,
         entry: AnyBody,
-        material: Material | None,
+        materials: Mapping[str, Material],
         *,
         vtk_type: int,
         nodes: Indices,
@@ -67,15 +67,14 @@ class AuditBody:
         """Whether its nodes move as one."""
         self.modes = entry.modes if isinstance(entry, ReducedBody) else None
         """Modes of a reduced body beside the shapes of its contact surface."""
-        stress = entry.initial_stress if isinstance(entry, Body) else None
-        self.law = Law.none() if material is None else Law.of(material, stress)
+        self.law = Composition(entry, materials, points[nodes].mean(axis=1))
+        """Its materials, cell by cell."""
         self.masters = _masters(entry, points)
         """For every node the one that it moves with, itself as a rule, [node_count]."""
         self.images: Indices = np.flatnonzero(self.masters != np.arange(len(points)))
         """Nodes that move with another: of a body that repeats itself."""
         self.turns = self.law.objective and not self.images.size
         """Whether it can turn without storing energy."""
-        self.damping = Damping() if material is None else material.damping
         self.cells = Cells(vtk_type, nodes, points, entry.thickness)
         outer = boundary(nodes)
         if self.images.size:
@@ -90,7 +89,7 @@ class AuditBody:
         self.mass = Mass(
             self.cells,
             points,
-            _density(entry, material, self.cells),
+            _density(entry, self.law, self.cells),
             lumped=entry.mass == "lumped",
             massless=self.massless,
             facets=self.facets,
@@ -139,11 +138,12 @@ class AuditBody:
 
     def damping_force(self, u: Array, v: Array) -> Array:
         """Return C v [N] with C = α M + β R K₀ Rᵀ and R the mean rotation at u."""
-        force = self.damping.mass * self.mass.times(v)
-        if self.damping.stiffness > 0:
+        force = self.law.mass_damping * self.mass.times(v)
+        share = self.law.stiffness_damping
+        if share.any():
             rotation = self.rotation(u)
             local = einsum("caibk,cbk->cai", self._stiffness, (v @ rotation)[self.cells.nodes])
-            force += self.damping.stiffness * self.cells.assembled(local) @ rotation.T
+            force += self.cells.assembled(share[:, None, None] * local) @ rotation.T
         return force
 
     def rotation(self, u: Array) -> Array:
@@ -246,19 +246,19 @@ class AuditBody:
         outer = einsum("cq,cqai,cqbk->caibk", w, g, g)
         crossed = outer.transpose(0, 1, 4, 3, 2)
         isotropic = einsum("cab,ik->caibk", shear, np.eye(2))
-        stiffness: Array = self.law.first * outer + self.law.second * (isotropic + crossed)
+        first, second = (m[:, None, None, None, None] for m in (self.law.first, self.law.second))
+        stiffness: Array = first * outer + second * (isotropic + crossed)
         return stiffness
 
 
-def _density(entry: AnyBody, material: Material | None, cells: Cells) -> float:
-    """Return the density of a body [kg/m³]; the mass of a rigid one may be given."""
-    if material is not None:
-        return material.density
-    assert isinstance(entry, RigidBody)
+def _density(entry: AnyBody, law: Composition, cells: Cells) -> Array:
+    """Return the density of each cell [kg/m³]; the mass of a rigid body may be given."""
+    if not isinstance(entry, RigidBody):
+        return law.density
     if entry.density is not None:
-        return entry.density
+        return np.full(len(cells.nodes), entry.density)
     assert entry.mass is not None
-    return entry.mass / float(cells.shared_volumes.sum())
+    return np.full(len(cells.nodes), entry.mass / float(cells.shared_volumes.sum()))
 
 
 def _contact_facets(entry: AnyBody, facets: Indices, points: Array) -> Indices:

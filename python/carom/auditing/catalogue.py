@@ -5,6 +5,7 @@ from __future__ import annotations
 CHECKS: dict[str, tuple[str, str]] = {
     # The case and its mesh.
     "files": ("case, history and ledger are the files that the run left", ""),
+    "materials": ("every cell is of the material that the case says", ""),
     "mesh": ("the mesh has the size and the cells of the case", "m"),
     "initial velocity": ("the run starts at rest in shape, with the velocities of the case", "m/s"),
     # The states at output times.

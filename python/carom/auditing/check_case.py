@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.auditing.arrays import turned
+from carom.auditing.arrays import Indices, turned
 from carom.auditing.body import AuditBody
 from carom.auditing.files import Frame
 from carom.auditing.model import AuditModel
@@ -37,6 +37,16 @@ def check_mesh(model: AuditModel, findings: Findings) -> None:
         findings.check("mesh", _misfit(entry, body), tolerance, entry.name)
         cells = _cell_count(entry) - len(body.cells.nodes)
         findings.check("mesh", float(cells), 0.0, f"{entry.name}, number of cells")
+
+
+def check_materials(model: AuditModel, stored: Indices | None, findings: Findings) -> None:
+    """Check that every cell is of the material that the case says."""
+    mine = np.concatenate([body.law.material for body in model.bodies])
+    if stored is not None:
+        findings.check("materials", stored - mine, 0.0, "fields")
+        return
+    several = [len(np.unique(body.law.material)) > 1 for body in model.bodies]
+    findings.check("materials", float(any(several)), 0.0, "fields have no materials")
 
 
 def _misfit(entry: AnyBody, body: AuditBody) -> float:

@@ -286,8 +286,7 @@ class EventChecks:
         """
         given = self._model.scenario.output.merge_contacts
         waves = {
-            body.name: float(np.ptp(body.points, axis=0).max())
-            / body.law.wave_speed(self._model.density(body.name))
+            body.name: float(np.ptp(body.points, axis=0).max()) / body.law.wave_speed
             for body in self._model.bodies
             if not body.rigid
         }

@@ -94,7 +94,7 @@ class FrameChecks:
             at = f"{body.name}, {where}"
             self._check("stress", frame.stress[mine] - stress, off, at)
             # Of a neo-Hookean body ψ is a small difference of terms of the size of its moduli.
-            rest = body.law.modulus * EPS if body.law.kind == "neo-hookean" else off * strain
+            rest = body.law.modulus * EPS if body.law.subtracts else off * strain
             off = ROUND_OFF * density.max() + np.abs(stress).max() * strain + SAFETY * rest
             self._check("energy density", frame.energy_density[mine] - density, off, at)
 

@@ -70,7 +70,7 @@ class MomentumChecks:
         if model.massless and not model.conserving:
             # Boundaries without mass may leave momentum behind.
             return
-        damping = next(body.damping.mass for body in model.bodies if body.name == name)
+        damping = next(body.law.mass_damping for body in model.bodies if body.name == name)
         x, v = rows.centre(name), rows.drift(name)
         for row in np.flatnonzero(free):
             count = int(rows.steps[row])
@@ -101,7 +101,7 @@ class MomentumChecks:
     def _angular(self) -> None:
         """Check that angular momentum changes by gravity alone where no obstacle is touched."""
         model, rows, scales = self._model, self._rows, self._scales
-        damped = any(body.damping.mass > 0 or body.damping.stiffness > 0 for body in model.bodies)
+        damped = any(body.law.damped for body in model.bodies)
         turning = all(body.turns for body in model.bodies)
         free = self.angular
         free &= rows.single & ~self._touches({o.name for o in model.scenario.obstacles})

@@ -147,7 +147,7 @@ class RowChecks:
         self._check("row: momentum", np.abs(stored - momentum).max(axis=1), off)
         off = ROUND_OFF * scales.energy
         self._check("row: kinetic", np.maximum(least - h["kinetic"], 0.0), off)
-        damped = any(body.damping.mass > 0 for body in model.bodies)
+        damped = any(body.law.mass_damping > 0 for body in model.bodies)
         lossy = model.massless and not model.conserving
         if not (model.planes or model.gravity.any() or damped or lossy):
             newton = model.analysis.newton.tolerance

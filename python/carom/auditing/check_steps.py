@@ -138,7 +138,10 @@ class StepChecks:
         # d is known from displacements, with their round-off.
         off = (np.abs(step.u0) + np.abs(step.u1)) * rate + np.abs(step.v0) / self._model.theta
         off = 4 * EPS * (off + np.abs(step.v1))
-        for body in self._model.bodies:
+        for body, share in zip(self._model.bodies, step.shares, strict=True):
+            if len(body.massless) or share:
+                # Means over the body, and what is no vibration, have the round-off of all of it.
+                off[body.span] += 4 * EPS * np.abs(step.v1[body.span]).max()
             if body.rigid:
                 # Its velocities are those of its momenta, its motion that of the iterations.
                 off[body.span] += self._scales.displacement(step) * rate

@@ -159,6 +159,11 @@ class Files:
             kinds.append(int(kind[0]))
         return AuditModel(self.scenario, points, cells, kinds)
 
+    def materials(self) -> Indices | None:
+        """Return the number of the material of each cell, where the fields say it."""
+        with _Fields(self.path / layout.FIELDS) as root:
+            return root["CellData/material"][:] if "material" in root["CellData"] else None
+
     def row(self, index: int) -> dict[str, float]:
         """Return a row of the history by column."""
         return {column: float(values[index]) for column, values in self.history.items()}

@@ -39,7 +39,7 @@ class Mass:
     points
         Reference positions [m], shape [node_count, 2].
     density
-        Density [kg/m³].
+        Density of each cell [kg/m³], shape [cell_count].
     lumped
         Whether M is replaced by its row sums.
     massless
@@ -52,14 +52,14 @@ class Mass:
         self,
         cells: Cells,
         points: Array,
-        density: float,
+        density: Array,
         *,
         lumped: bool,
         massless: Indices,
         facets: Indices,
     ) -> None:
         self._cells = cells
-        self._local = density * cells.shared_volumes
+        self._local = density[:, None, None] * cells.shared_volumes
         self._lumped: Array | None = None
         if lumped:
             ones = np.ones((cells.node_count, 2))

@@ -11,7 +11,7 @@ from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
 from carom.auditing.target import Target
 from carom.case.analysis import Conserving, Static, Theta
-from carom.case.body import Body, RigidBody, materials_of
+from carom.case.body import Body
 from carom.case.contact import Pair
 from carom.case.friction import FrictionLaw
 from carom.case.mesh import Disc, Rectangle
@@ -145,12 +145,6 @@ class AuditModel:
         mine = (i for i, b in enumerate(self.bodies) if b.span.start <= node < b.span.stop)
         return next(mine, len(self.bodies))
 
-    def density(self, body: str) -> float:
-        """Return the density of a deformable body by name [kg/m³]."""
-        entry = next(entry for entry in self.scenario.bodies if entry.name == body)
-        assert not isinstance(entry, RigidBody)
-        return self.scenario.materials[entry.material].density
-
     def name(self, index: int) -> str:
         """Return the name of a body, or of the obstacle −1 − index; no name if there is none."""
         members = self.bodies if index >= 0 else self.scenario.obstacles
@@ -185,7 +179,7 @@ class AuditModel:
                 raise InputError(f"body {entry.name!r}: the mesh is not numbered body after body")
             yield AuditBody(
                 entry,
-                None if entry.kind == "rigid" else self.scenario.materials[entry.material],
+                self.scenario.materials,
                 vtk_type=vtk_type,
                 nodes=nodes - first,
                 points=self.points[first:last],
@@ -221,8 +215,7 @@ class AuditModel:
     @property
     def jolts(self) -> bool:
         """Whether impulses change velocities: of landing, or settling of bodies that are damped."""
-        dampings = [body.damping for body in self.bodies]
-        damped = any(damping.mass > 0 or damping.stiffness > 0 for damping in dampings)
+        damped = any(body.law.damped for body in self.bodies)
         return self.condition == "midpoint" or (damped and not self.massless)
 
     def _enabled(self, a: str, b: str) -> bool:
@@ -321,7 +314,5 @@ def _refuse_what_is_driven(scenario: Scenario) -> None:
         raise InputError("cannot audit a pair with an interference yet")
     if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):
         raise InputError("cannot audit the steps of a reduced body yet, as with output.audit")
-    if any(len(materials_of(body)) > 1 for body in scenario.bodies):
-        raise InputError("cannot audit a body of several materials yet")
     if any(isinstance(body, Body) and body.growth is not None for body in scenario.bodies):
         raise InputError("cannot audit a body that grows yet")

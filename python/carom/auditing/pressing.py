@@ -136,7 +136,7 @@ class Pressing:
     def _resultants(self, name: str) -> tuple[Array, Array]:
         """Return m Δv/Δt − m g + α m v̄ of the steps that end at the rows, and how far it is off."""
         model, rows, body = self._model, self._rows, self._bodies[name]
-        mass, damping = body.mass.total, body.damping.mass
+        mass, damping = body.mass.total, body.law.mass_damping
         v = rows.drift(name)
         h = np.diff(rows.times, prepend=rows.times[0] - rows.dt)
         before = np.concatenate([v[:1], v[:-1]])

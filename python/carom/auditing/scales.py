@@ -120,6 +120,5 @@ class Scales:
         """Return the force on nodes where all displacements are off by 1 m [N/m], [node_count]."""
         body, model = self._model.bodies[index], self._model
         rate = 1 / (model.theta * dt)
-        damping = body.damping
-        iteration = body.row_stiffness * (1.0 + damping.stiffness * rate)
-        return iteration + np.abs(body.mass.nodal) * (rate / dt + damping.mass * rate)
+        resisted: Array = body.row_stiffness * (1.0 + body.law.stiffness_damping.max() * rate)
+        return resisted + np.abs(body.mass.nodal) * (rate / dt + body.law.mass_damping * rate)

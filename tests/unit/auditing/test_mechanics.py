@@ -49,7 +49,7 @@ def body(
     )
     return AuditBody(
         entry,
-        material,
+        {"m": material},
         vtk_type=VTK_TRIANGLE if triangles else VTK_QUAD,
         nodes=TRIANGLES if triangles else QUADS,
         points=POINTS,
