@@ -34,12 +34,18 @@ html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#0b5fa5", "color-brand-content": "#0b5fa5"},
     "dark_css_variables": {"color-brand-primary": "#7db8f0", "color-brand-content": "#7db8f0"},
 }
-exclude_patterns = ["decisions", "gallery", "gallery-pages/**/*.ipynb", "images"]
-# Pages that an earlier build made of scripts with other names are nobody's.
-exclude_patterns += [
-    f"gallery-pages/{page.name}"
-    for page in (HERE / "gallery-pages").glob("plot_*.rst")
-    if not (HERE / "gallery" / f"{page.stem}.py").exists()
+exclude_patterns = [
+    "decisions",
+    "gallery",
+    "gallery-pages/**/*.ipynb",
+    "images",
+    "sg_execution_times.rst",
+    "gallery-pages/sg_execution_times.rst",  # of an earlier build, as are pages of scripts with other names
+    *(
+        f"gallery-pages/{page.name}"
+        for page in (HERE / "gallery-pages").glob("plot_*.rst")
+        if not (HERE / "gallery" / f"{page.stem}.py").exists()
+    ),
 ]
 
 myst_enable_extensions = ["colon_fence", "dollarmath"]
