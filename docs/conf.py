@@ -39,8 +39,9 @@ exclude_patterns = [
     "gallery",
     "gallery-pages/**/*.ipynb",
     "images",
+    # Of an earlier build, as are pages of scripts with other names.
     "sg_execution_times.rst",
-    "gallery-pages/sg_execution_times.rst",  # of an earlier build, as are pages of scripts with other names
+    "gallery-pages/sg_execution_times.rst",
     *(
         f"gallery-pages/{page.name}"
         for page in (HERE / "gallery-pages").glob("plot_*.rst")
