@@ -11,12 +11,11 @@ from rich.console import Console
 
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import failures
-from carom.cli.sweep import Force, Jobs, Quiet, Scheduler, Vary, refuse_failed, teller
+from carom.cli.sweep import Force, Jobs, Quiet, Scheduler, Vary, refuse_failed, run_told
 from carom.display.sheet import Sheet, print_whole
 from carom.errors import naming
 from carom.plot.style import save
 from carom.sweep import axis
-from carom.sweep import sweep as run_all
 from carom.sweep.impacts import CURVES, IMPACTS, impact_rows, names_of
 from carom.sweep.impacts_figure import impacts_figure
 
@@ -69,16 +68,10 @@ def restitution(
         with naming(case):
             two = names_of(scenario, between)
             axes = [axis(text) for text in vary]
-            keys = [one.key for one in axes]
-            made = run_all(
-                scenario,
-                axes,
-                directory,
-                jobs=jobs,
-                scheduler=scheduler,
-                force=force,
-                done=teller(console, keys),
+            made = run_told(
+                console, scenario, axes, directory, jobs=jobs, scheduler=scheduler, force=force
             )
+        keys = [one.key for one in axes]
         rows = impact_rows(scenario, axes, directory, between=two, number=impact)
         save(impacts_figure(scenario.title, keys, rows), directory / CURVES)
     sheet = Sheet((*keys, *SHOWN.values()), _cells(keys, rows), len(keys))

@@ -9,12 +9,13 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
+from carom.case.scenario import Scenario
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import NOT_CONVERGED, failures
 from carom.display.sheet import Sheet, print_whole
 from carom.errors import naming
 from carom.plot.style import save
-from carom.sweep import PICTURE, TABLE, Done, axis
+from carom.sweep import PICTURE, TABLE, Axis, Done, axis
 from carom.sweep import sweep as run_all
 from carom.sweep.figure import sweep_figure
 from carom.sweep.table import shown_cells
@@ -64,16 +65,10 @@ def sweep(
         scenario = load(case, overrides)
         with naming(case):
             axes = [axis(text) for text in vary]
-            keys = [one.key for one in axes]
-            rows = run_all(
-                scenario,
-                axes,
-                directory,
-                jobs=jobs,
-                scheduler=scheduler,
-                force=force,
-                done=teller(console, keys),
+            rows = run_told(
+                console, scenario, axes, directory, jobs=jobs, scheduler=scheduler, force=force
             )
+        keys = [one.key for one in axes]
         save(sweep_figure(scenario.title, keys, rows), directory / PICTURE)
     header, cells = shown_cells(keys, rows)
     print_whole(console, Sheet(header, cells, len(keys)), title=scenario.title or "Study")
@@ -86,7 +81,29 @@ def sweep(
     refuse_failed(rows)
 
 
-def teller(console: Console, keys: Sequence[str]) -> Done:
+def run_told(
+    console: Console,
+    scenario: Scenario,
+    axes: Sequence[Axis],
+    directory: Path,
+    *,
+    jobs: int | None,
+    scheduler: str | None,
+    force: bool,
+) -> list[dict[str, Any]]:
+    """Run a study, see `carom.sweep`, and tell of every run that is done."""
+    return run_all(
+        scenario,
+        axes,
+        directory,
+        jobs=jobs,
+        scheduler=scheduler,
+        force=force,
+        done=_teller(console, [one.key for one in axes]),
+    )
+
+
+def _teller(console: Console, keys: Sequence[str]) -> Done:
     """Return what tells of every run that is done."""
 
     def done(count: int, of: int, row: dict[str, Any]) -> None:
