@@ -75,7 +75,7 @@ In a dynamic analysis with the scheme `conserving`; a static one has `gap`.
 | `gap` | each impact takes some, less on finer meshes | nothing is inside | chatters \
 | as `midpoint` | – |
 | `massless` | kept to round-off | nothing is inside | quiet | half as much again \
-| rigid and reduced bodies, bodies without cells inside, friction laws, springs at contact nodes |
+| – (as `midpoint` between what keeps its mass: rigid and reduced bodies, bodies without cells inside, those with friction laws, or with springs or masses on their contact nodes) |
 | `endpoint` | nodes that stop lose theirs | inside by a step's way | quiet | as `midpoint` | – |
 """
 

@@ -143,15 +143,6 @@ def test_a_static_analysis_has_laws_of_the_distance_alone():
             carom.Simulation(pressed(law))
 
 
-def test_massless_contact_has_coefficients_alone():
-    case = sliding_block(carom.StaticKinetic(kinetic=0.2, viscous=0.1), condition="massless")
-    mesh = carom.Rectangle(corner=[0.0, 0.0], size=[1.0, 1.0], divisions=[4, 4])
-    body = carom.Body(name="block", material="soft", mesh=mesh)
-    soft = carom.NeoHookean(young=1e5, poisson=0.3, density=1.0)
-    with pytest.raises(carom.InputError, match='law that depends on the motion goes with "gap"'):
-        carom.Simulation(case.model_copy(update={"bodies": (body,), "materials": {"soft": soft}}))
-
-
 def test_loops_of_others_have_coefficients_alone():
     surface = carom.contact.Surface("block", [[0, 1]])
     law = carom.StaticKinetic(static=0.5, kinetic=0.2)

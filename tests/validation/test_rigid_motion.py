@@ -213,12 +213,7 @@ def test_a_body_that_no_mass_makes_is_refused(tmp_path, change, message):
         run(tmp_path, scenario)
 
 
-def test_a_rigid_body_is_neither_massless_nor_periodic(tmp_path):
-    body = carom.RigidBody(name="b", density=1.0, mesh=CUBOID)
-    contact = carom.Contact(condition="massless")
-    case = flying(body, dimension=3, end_time=1.0, time_step=0.1, contact=contact)
-    with pytest.raises(carom.InputError, match="is rigid and has its mass at its surface too"):
-        run(tmp_path, case)
+def test_a_rigid_body_is_not_periodic():
     mesh = carom.Rectangle(corner=[0.0, 0.0], size=[1.0, 1.0], divisions=[3, 3], periodic=True)
     with pytest.raises(carom.InputError, match="a rigid body cannot be periodic"):
         carom.RigidBody(name="b", density=1.0, mesh=mesh)

@@ -20,6 +20,8 @@ from carom.errors import InputError
 STEADYING = 0.1
 """Resistance of a node without mass to a change of its motion, in terms of what holds it."""
 
+MUCH_SHORTER = 8.0
+"""From so many parts of a nominal step on that grows with their square."""
 
 KINETIC_PARTS = ("translation", "rotation", "vibration")
 """What kinetic energy is split into, as `AuditBody.kinetic_parts` returns it."""

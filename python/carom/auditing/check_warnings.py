@@ -12,6 +12,9 @@ from carom.auditing.scales import EPS, ROUND_OFF, SAFETY
 LARGE_DEFECT = 0.02
 """Share of the energy that the ledger may miss without a word."""
 
+MUCH_REPAID = 0.02
+"""Share of the energy that vibrations may take or give without a word."""
+
 AT_REST = 1e-9
 """Share of the work that reactions prevent in a step below which defects are round-off."""
 
@@ -59,10 +62,14 @@ def _due(summary: Mapping[str, Any]) -> Iterator[tuple[str, str, Figures]]:
     energy = summary["energy"]
     supplied = sum(abs(energy[name]) for name in ("initial", "external", "prescribed"))
     reference, defect = max(supplied, energy["max_drift"]), energy["max_defect"]
-    share = defect / reference if reference > 0 else (float("inf") if defect > 0 else 0.0)
+    parts = (defect, summary.get("repaid", 0.0))
+    share, repaid = (
+        part / reference if reference > 0 else (float("inf") if part > 0 else 0.0) for part in parts
+    )
     held = summary["certificate"].get("reference_joule")
     if held is None or defect > AT_REST * held:
         yield "ledger-defect", "energy.max_defect", (share, LARGE_DEFECT)
+    yield "much-repaid", "repaid", (repaid, MUCH_REPAID)
     worst = summary["penetration"]["worst"] or {"depth": 0.0, "allowed": 0.0}
     yield "penetration", "penetration.worst", (worst["depth"], worst["allowed"])
     free = summary.get("free_motion") or {"driving": 0.0}

@@ -168,7 +168,9 @@ def _leaders(
         if amplification <= AMPLIFICATION * (1 + TIE):
             break
     if best is None:
-        raise InputError(f"node {node} has no massive nodes near that could carry its mass")
+        raise InputError(
+            f"cannot audit massless contact of a body without cells inside, as at node {node}, yet"
+        )
     return best[1], best[2]
 
 

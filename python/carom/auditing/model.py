@@ -11,7 +11,7 @@ from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
 from carom.auditing.target import Target
 from carom.case.analysis import Conserving, Static, Theta
-from carom.case.body import Body
+from carom.case.body import Body, ReducedBody, RigidBody
 from carom.case.contact import Pair
 from carom.case.friction import FrictionLaw
 from carom.case.mesh import Disc, Rectangle
@@ -117,8 +117,13 @@ class AuditModel:
         written = [scenario.contact.discretisation, *(p.discretisation for p in pairs)]
         if "mortar" in written:
             raise InputError("cannot audit mortar contact yet")
-        self.condition = condition
-        self.massless = condition == "massless"
+        kept = _keep_mass(scenario) if condition == "massless" else []
+        if kept and len(kept) < len(scenario.bodies):
+            raise InputError(
+                f"cannot audit massless contact where {kept[0]!r} has its mass and others have not yet"
+            )
+        self.condition = "midpoint" if kept else condition
+        self.massless = self.condition == "massless"
         if isinstance(self.analysis, Static):
             raise InputError("cannot audit a static analysis yet")
         scheme = self.analysis.scheme
@@ -296,6 +301,11 @@ def _coefficient(friction: float | FrictionLaw) -> float:
     if isinstance(friction, FrictionLaw):
         raise InputError("cannot audit friction that depends on the motion yet")
     return friction
+
+
+def _keep_mass(scenario: Scenario) -> list[str]:
+    """Return the bodies that have no mass to spare where they touch."""
+    return [body.name for body in scenario.bodies if isinstance(body, RigidBody | ReducedBody)]
 
 
 def _refuse_what_is_driven(scenario: Scenario) -> None:

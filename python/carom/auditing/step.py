@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.auditing import contacts
 from carom.auditing.arrays import Array, Indices, cross, rotation, turned
-from carom.auditing.body import STEADYING, AuditBody
+from carom.auditing.body import MUCH_SHORTER, STEADYING, AuditBody
 from carom.auditing.contacts import Contacts
 from carom.auditing.model import AuditModel
 from carom.auditing.rigid import RigidStep
@@ -98,7 +98,7 @@ class Step:
         self._impulses = [stored["landing"], stored["settling"]]
         self.ledger: Mapping[str, float] = stored["ledger"]
         self.time = float(self.end["time"])
-        self.dt, self.off_grid = self._length()
+        self.dt, self.off_grid, self.parts = self._length()
         self.u0: Array = self.start["displacement"]
         self.u1: Array = self.end["displacement"]
         self.v0: Array = self.start["velocity"]
@@ -108,8 +108,9 @@ class Step:
         self.motion = self._motion()
         self.v_scheme = self._scheme_velocity()
 
-    def _length(self) -> tuple[float, float]:
-        """Return the length of the step [s], and how far it is from one on the time grid [s].
+    def _length(self) -> tuple[float, float, float]:
+        """Return the length of the step [s], how far it is from one on the time grid [s], and how
+        often that has it in a nominal step.
 
         Nominal steps are equal but for a shorter last one, and those that failed are halved; the
         difference of two times has more round-off than a step may have.
@@ -121,9 +122,11 @@ class Step:
         last = end - (steps - 1) * nominal
         # A last step that is shorter by no more than round-off is as long as the others.
         lengths = np.array([nominal, last if last < (1 - 1e-6) * nominal else nominal])
-        grid = (lengths[:, None] * 0.5 ** np.arange(analysis.max_halvings + 1)).ravel()
+        halvings = np.arange(analysis.max_halvings + 1)
+        grid = (lengths[:, None] * 0.5**halvings).ravel()
         best = int(np.abs(grid - raw).argmin())
-        return float(grid[best]), float(abs(grid[best] - raw))
+        parts = 2.0 ** halvings[best % len(halvings)]
+        return float(grid[best]), float(abs(grid[best] - raw)), float(parts)
 
     def _before_repaying(self) -> tuple[Array, Array]:
         """Return what the equations of the step made of velocities, and what vibrated then.
@@ -255,7 +258,8 @@ class Step:
         pressed = self.start["contact_force"][span].sum(axis=0)
         fall = dt * dt * model.theta * (model.gravity + pressed / body.mass.total)
         resisted = (d - fall - dt * (drift + (v0 - drift) @ turn.T))[body.massless]
-        steadying[body.massless] = STEADYING * body.holding[:, None] * resisted
+        share = STEADYING * max(self.parts / MUCH_SHORTER, 1.0) ** 2
+        steadying[body.massless] = share * body.holding[:, None] * resisted
         if model.blended:
             held = end + viscous + steadying
             internal, missing, available = self._blended(index, body, viscous, held)

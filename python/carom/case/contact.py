@@ -121,12 +121,12 @@ class Contact(Description):
         increment over the step, ``endpoint`` on the velocity at its end. ``massless`` again uses
         the gap at the end, but between nodes without mass. With the scheme ``conserving``,
         ``midpoint`` keeps the energy, and nodes land on their targets. ``massless``
-        keeps the energy, is quiet and never penetrates, but takes more time and needs cells inside
-        every body that may touch.
+        keeps the energy, is quiet and never penetrates, but takes more time. One of two sides must
+        have cells inside; pairs whose sides both keep their mass are ruled as with ``midpoint``.
     friction
         Friction of every pair that does not state its own: Coulomb's coefficient, or a law by which
         it depends on the sliding, `StaticKinetic`, `RateAndState` or `FrictionFormula`, such as
-        ``{ static = 0.6, kinetic = 0.3 }``. A law goes with every condition but ``massless``.
+        ``{ static = 0.6, kinetic = 0.3 }``. Bodies whose friction has a law keep their mass.
     restitution
         Coefficient of restitution e of every pair of what is rigid that does not state its own,
         with the condition ``endpoint``: what meets at v_n parts at -e v_n (Moreau), and friction

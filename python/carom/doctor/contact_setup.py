@@ -33,6 +33,7 @@ def contact_setup(patient: Patient) -> Iterator[Finding]:
     for stage in patient.stages:
         if isinstance(stage.analysis, Dynamic):
             yield from _scheme(stage, stage.analysis)
+    yield from _masses(patient, partners)
     first = patient.stages[0]
     stands = all(body.velocity is None and not body.spin for body in scenario.bodies)
     if not (first.is_dynamic and stands and scenario.initial is None):
@@ -55,6 +56,24 @@ def _rubs_later(patient: Patient) -> bool:
     """Return whether there is friction from a later stage on."""
     contacts = [stage.contact for stage in patient.stages]
     return any(c.friction or any(pair.friction for pair in c.pairs) for c in contacts[1:])
+
+
+def _masses(patient: Patient, partners: set[str]) -> Iterator[Finding]:
+    """Look at which bodies cannot do without mass where they touch."""
+    if patient.stages[0].contact.condition != "massless":
+        return
+    keep = [
+        body["name"]
+        for body in patient.description["bodies"]
+        if body["name"] in partners and not body["is_massless"]
+    ]
+    if keep:
+        yield Finding(
+            "ok",
+            "contact.condition",
+            f"keeping their mass where they touch: {', '.join(keep)}; pairs of these, and of these "
+            "with obstacles, are ruled as with midpoint",
+        )
 
 
 def _scheme(stage: FullStage, analysis: Dynamic) -> Iterator[Finding]:

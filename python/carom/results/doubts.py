@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 LARGE_DEFECT = 0.02
 """Defect of the ledger, relative to the energy that the run had or was given, to be warned of."""
 
+MUCH_REPAID = 0.02
+"""What vibrations took or gave in all, relative to the same energy, to be warned of."""
+
 ROUND_OFF = 1e-9
 """Part of the work that the reactions of a step prevent that is round-off in every respect."""
 
@@ -100,6 +103,16 @@ def doubts(summary: Mapping[str, Any]) -> Iterator[Doubt]:
             share,
             LARGE_DEFECT,
         )
+    repaid = _over_energy(summary.get("repaid", 0.0), summary["energy"])
+    if repaid > MUCH_REPAID:
+        yield Doubt(
+            "much-repaid",
+            f"vibrations took or gave {repaid:.2g} of the energy, as cells fold where nodes without "
+            'mass press: mesh more finely, or compare with contact.condition = "midpoint"',
+            "repaid",
+            repaid,
+            MUCH_REPAID,
+        )
     if (worst := too_deep(summary)) is not None:
         yield Doubt(
             "penetration",
@@ -155,17 +168,22 @@ def _is_round_off(summary: Mapping[str, Any]) -> bool:
 
 
 def defect_share(energy: Mapping[str, float]) -> float:
-    """Return the largest defect of the ledger relative to the energy that the run had.
+    """Return the largest defect of the ledger relative to the energy that the run had."""
+    return _over_energy(energy["max_defect"], energy)
+
+
+def _over_energy(part: float, energy: Mapping[str, float]) -> float:
+    """Return a part of the energy that a run had.
 
     That is what came in, from the start on, by loads and by what is moved, or the largest change
     of the energy, if that is more. A load that is taken off again leaves nothing at the end. Of no
-    energy at all, any defect is infinitely much, and none is nothing.
+    energy at all, any part is infinitely much, and none is nothing.
     """
     supplied = abs(energy["initial"]) + abs(energy["external"]) + abs(energy["prescribed"])
-    reference, defect = max(supplied, energy["max_drift"]), energy["max_defect"]
+    reference = max(supplied, energy["max_drift"])
     if reference > 0.0:
-        return defect / reference
-    return math.inf if defect > 0.0 else 0.0
+        return part / reference
+    return math.inf if part > 0.0 else 0.0
 
 
 def _unconfirmed(check: Mapping[str, Any]) -> Iterator[Doubt]:

@@ -84,11 +84,6 @@ BAD = [
         "has no plane-stress hypothesis; choose another hypothesis or leave it out",
     ),
     (
-        {"bodies.0.mesh": {**BLOCK, "divisions": [1, 1]}, "contact.condition": "massless"},
-        "bodies.0.mesh: ",
-        "finds no nodes inside to move to; refine the mesh, name fewer contact_sets",
-    ),
-    (
         {"output.track": [{"name": "far", "body": "block", "point": [5.0, 5.0]}]},
         "output.track.0.point: ",
         "give a point of it in the reference configuration",

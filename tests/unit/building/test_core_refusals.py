@@ -389,15 +389,6 @@ BAD = [
         'body "block" is one of revolution, on which a spring would be a cone; leave it out',
     ),
     (
-        {
-            **tied_to(body="block", on="bottom"),
-            "contact.condition": "massless",
-            "bodies.0.contact_sets": ["bottom"],
-        },
-        "springs.0.between.0.on",
-        'node 0 of body "block" has no mass, as nodes that may touch have none with the contact',
-    ),
-    (
         {**tied_to(body="block", point=[0.5, 0.5]), **REDUCED},
         "springs.0.between.0.point",
         'node 4 of body "block" is inside; the body is reduced and takes forces at nodes of its',
@@ -417,14 +408,6 @@ BAD = [
         {"masses": [{"body": "block", "mass": 1.0}]},
         "masses.0",
         "a mass is at a point, or on a set; give one of them",
-    ),
-    (
-        {
-            "masses": [{"body": "block", "on": "top", "mass": 1.0}],
-            "contact.condition": "massless",
-        },
-        "masses.0",
-        'node 6 of body "block" may touch, and has no mass with "massless" contact; choose another',
     ),
     (
         {

@@ -120,10 +120,6 @@ def fixed(**given):
             "is reduced and free: only gravity and contacts act on it",
         ),
         (
-            {"contact": carom.Contact(condition="massless")},
-            "is reduced and has its mass at its surface too",
-        ),
-        (
             {
                 "analysis": carom.Static(end_time=1.0, time_step=1.0),
                 "bodies": [bar(velocity=None, spin=None)],

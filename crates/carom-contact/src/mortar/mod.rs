@@ -119,6 +119,17 @@ impl<const D: usize> ContactModel<D> {
         out: &mut Vec<Contact<D>>,
     ) {
         out.clear();
+        self.evaluate_more(candidates, position, mortar, out);
+    }
+
+    /// The same after what is in `out`.
+    pub fn evaluate_more(
+        &self,
+        candidates: &[Candidate],
+        position: &impl Fn(u32) -> Vector<D>,
+        mortar: &mut Mortar<D>,
+        out: &mut Vec<Contact<D>>,
+    ) {
         for of_pair in candidates.chunk_by(|a, b| a.pair == b.pair) {
             let pair = of_pair[0].pair as usize;
             if !self.is_mortar(pair) {

@@ -31,8 +31,6 @@ pub struct Interval {
     pub is_load_step: bool,
     /// The numbers that factors are kept in.
     pub precision: Precision,
-    /// How much the reactions at its start and at its end count in its books.
-    pub contact_weights: ContactWeights,
     /// Whether stresses of start and end are blended so that massless contact keeps the energy: see [`Body::balance`].
     pub is_blended: bool,
 }

@@ -8,6 +8,7 @@ use carom_mesh::{Mesh, Surface};
 use super::masses::masses;
 use super::mesh::mesh;
 use super::regions::{material, regions};
+use super::spare_mass::spares_mass;
 use super::values::number;
 use crate::error::InputError;
 use crate::scenario::{BodyEntry, BodyKind, BodyMass, InitialStress, PairEntry, Scenario};
@@ -23,10 +24,10 @@ pub(super) fn body<const D: usize>(
     let material =
         material(scenario, &format!("{key}.material"), entry.material.as_deref().unwrap_or_default())?;
     let mesh = mesh(&format!("{key}.mesh"), &entry.mesh, given)?;
-    let massless_contact = scenario.contact.condition.is_massless() && may_touch(scenario, &entry.name);
     let regions = regions(scenario, &key, entry, &mesh)?;
     let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
-    let spec = BodySpec {
+    let massless_contact = spares_mass(scenario, entry, &mesh, &surface);
+    let mut spec = BodySpec {
         law: material.law.clone(),
         density: material.density,
         damping: material.damping,
@@ -38,7 +39,7 @@ pub(super) fn body<const D: usize>(
         thickness: entry.thickness,
         initial_stress: initial_stress::<D>(&format!("{key}.initial_stress"), entry.initial_stress)?,
         grows: entry.growth.is_some(),
-        points: masses(scenario, entry, &mesh, if massless_contact { surface.nodes() } else { &[] })?,
+        points: masses(scenario, entry, &mesh)?,
         massless_contact,
     };
     let names = entry.material.iter().chain(entry.regions.iter().map(|region| &region.material));
@@ -46,6 +47,13 @@ pub(super) fn body<const D: usize>(
         of.check::<D>().map_err(|e| refused(&key, name, &e))?;
     }
     let name = entry.material.as_deref().unwrap_or_default();
+    if spec.massless_contact {
+        match Body::with_contact_surface(mesh.clone(), surface.clone(), &spec) {
+            // One cell across it has none to spare.
+            Err(FemError::NoMassInside { .. }) => spec.massless_contact = false,
+            made => return made.map_err(|e| refused(&key, name, &e)),
+        }
+    }
     Body::with_contact_surface(mesh, surface, &spec).map_err(|e| refused(&key, name, &e))
 }
 

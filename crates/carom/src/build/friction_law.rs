@@ -119,11 +119,6 @@ pub(crate) fn friction_laws<const D: usize>(
     let allowed = |key: &str, friction: &FrictionSpec| {
         let law = law(key, friction)?;
         let Some(found) = &law else { return Ok(None) };
-        if spec.condition.is_massless() {
-            let message = "a friction law that depends on the motion goes with \"gap\", \"midpoint\" or \"endpoint\", not with \
-                           \"massless\"; choose one of these, or give a coefficient";
-            return Err(InputError::new(key, message));
-        }
         if is_static && found.depends_on_speed() {
             let message = "a static analysis has no speed of slip for friction to depend on; give a law of the distance, a coefficient, \
                            or choose a dynamic analysis";

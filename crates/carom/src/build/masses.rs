@@ -8,7 +8,7 @@ use super::values::{number, vector};
 use crate::error::InputError;
 use crate::scenario::{BodyEntry, BodyKind, Scenario};
 
-/// The masses that a body with this `mesh` carries. Nodes of `massless` can have none.
+/// The masses that a body with this `mesh` carries.
 ///
 /// # Errors
 /// If a mass is none, or its place is not of the body.
@@ -16,7 +16,6 @@ pub(super) fn masses<const D: usize>(
     scenario: &Scenario,
     entry: &BodyEntry,
     mesh: &Mesh<D>,
-    massless: &[u32],
 ) -> Result<Vec<PointMass>, InputError> {
     let mut all = Vec::new();
     for (k, given) in scenario.masses.iter().enumerate().filter(|(_, given)| given.body == entry.name) {
@@ -49,13 +48,6 @@ pub(super) fn masses<const D: usize>(
             }
             _ => return Err(InputError::new(key, "a mass is at a point, or on a set; give one of them")),
         };
-        let mut nodes = stencils.iter().flatten();
-        if let Some((node, _)) = nodes.find(|(node, _)| massless.binary_search(node).is_ok()) {
-            let message = format!(
-                "node {node} of body {name:?} may touch, and has no mass with \"massless\" contact; choose another place or condition"
-            );
-            return Err(InputError::new(key, message));
-        }
         let mass = mass / stencils.len() as f64;
         all.extend(stencils.into_iter().map(|stencil| PointMass { mass, stencil }));
     }

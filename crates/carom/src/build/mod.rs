@@ -20,6 +20,7 @@ mod restitution;
 mod rigid;
 pub(crate) mod side;
 mod signals;
+mod spare_mass;
 mod springs;
 mod support_name;
 pub(crate) mod values;
@@ -38,7 +39,7 @@ use crate::error::InputError;
 use crate::model::Model;
 use crate::model::method::Method;
 use crate::scenario::{BodyKind, Scenario};
-use crate::{Scheme, State};
+use crate::{ContactCondition, Scheme, State};
 
 /// Meshes that a scenario takes from files, by the names of their bodies.
 pub type Meshes<const D: usize> = BTreeMap<String, Mesh<D>>;
@@ -104,7 +105,7 @@ pub(crate) fn built<const D: usize>(
             format!("{}: the core was asked for {D}", scenario.dimension),
         ));
     }
-    let method = method::method(scenario)?;
+    let mut method = method::method(scenario)?;
     masses::refuse_unknown(scenario)?;
     let mut bodies: Vec<ModelBody<D>> = Vec::new();
     for (i, entry) in scenario.bodies.iter().enumerate() {
@@ -124,6 +125,10 @@ pub(crate) fn built<const D: usize>(
     }
     if bodies.is_empty() {
         return Err(InputError::new("bodies", "there is no body; add one [[bodies]] table at least"));
+    }
+    if method.condition.is_massless() && bodies.iter().all(|b| b.body.massless().is_empty()) {
+        // What pairs are ruled by that have mass on both sides.
+        method.condition = ContactCondition::Midpoint;
     }
     let contact = contact::contact(scenario, &bodies, surfaces)?;
     let obstacles = scenario.obstacles.iter().map(|o| o.name.clone()).collect();

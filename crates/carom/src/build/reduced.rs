@@ -25,13 +25,6 @@ pub(super) fn reduced_body<const D: usize>(
         let message = format!("body {name:?} is reduced and moves in time alone; choose \"dynamic\"");
         return refused("analysis.kind".to_string(), message);
     }
-    if scenario.contact.condition.is_massless() {
-        let message = format!(
-            "\"massless\" contact, where body {name:?} is reduced and has its mass at its surface too; choose \"midpoint\", \"gap\" or \
-             \"endpoint\""
-        );
-        return refused("contact.condition".to_string(), message);
-    }
     let Some(modes) = entry.modes else {
         let message =
             format!("body {name:?} is reduced; say how many modes it has beside those of its surface");

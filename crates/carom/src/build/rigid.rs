@@ -23,14 +23,6 @@ pub(super) fn rigid_body<const D: usize>(
     given: Option<Mesh<D>>,
 ) -> Result<(Body<D>, Option<Matrix<3>>), InputError> {
     let key = format!("bodies.{index}");
-    if scenario.contact.condition.is_massless() {
-        let message = format!(
-            "\"massless\" contact, where body {:?} is rigid and has its mass at its surface too; choose \"midpoint\", \"gap\" or \
-             \"endpoint\"",
-            entry.name
-        );
-        return Err(InputError::new("contact.condition", message));
-    }
     if !entry.regions.is_empty() {
         let message = format!("body {:?} is rigid and of no material; leave its regions out", entry.name);
         return Err(InputError::new(format!("{key}.regions"), message));
@@ -41,7 +33,7 @@ pub(super) fn rigid_body<const D: usize>(
         return Err(InputError::mesh(format!("{key}.mesh.periodic"), message));
     }
     let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
-    let points = masses(scenario, entry, &mesh, &[])?;
+    let points = masses(scenario, entry, &mesh)?;
     let made = |density: f64| {
         let spec = BodySpec {
             law: LawSpec::Unstressed,

@@ -153,13 +153,6 @@ fn of_point<const D: usize>(
 /// Refuses nodes that cannot take the force of a spring.
 fn takes_forces<const D: usize>(key: &str, body: &ModelBody<D>, nodes: &[u32]) -> Result<(), InputError> {
     let name = &body.name;
-    if let Some(node) = nodes.iter().find(|node| body.body.massless().contains(node)) {
-        let message = format!(
-            "node {node} of body {name:?} has no mass, as nodes that may touch have none with the contact condition of \
-             the case; attach the spring to nodes inside the body, or choose another condition"
-        );
-        return Err(InputError::new(key, message));
-    }
     let touches = body.body.surface().nodes();
     if let Some(node) = nodes.iter().find(|node| body.is_reduced() && touches.binary_search(node).is_err()) {
         let message = format!(

@@ -7,7 +7,7 @@ use super::control::CONTROL;
 use super::slider::Slider;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
-use crate::model::condition::{Opening, impact_offset};
+use crate::model::condition::{ContactCondition, Opening, impact_offset};
 use crate::model::given::Given;
 use crate::model::state::{Reaction, State};
 
@@ -17,6 +17,9 @@ pub(crate) struct ActiveSet<const D: usize> {
     pub candidates: Vec<Candidate>,
     pub mortar: Mortar<D>,
     pub contacts: Vec<Contact<D>>,
+    /// What rules every contact, and how much of its reaction the reduced problem has: see `ContactCondition::reaction_weight`.
+    pub conditions: Vec<ContactCondition>,
+    pub weights: Vec<f64>,
     /// The frame that every contact had when it was last evaluated, in this step or as a reaction of the last one; zeros where there is none.
     frames: Vec<Matrix<D>>,
     pub friction: Vec<f64>,
@@ -96,7 +99,7 @@ impl<const D: usize> ActiveSet<D> {
                     && (contact.is_two_sided(c.pair as usize)
                         || !map.is_static() && is_stuck(c, at_start, gap));
                 self.interferences.push(interference);
-                self.start_gaps.push(method.condition.start_gap(gap, closed, stays));
+                self.start_gaps.push(given.condition_of(c.pair).start_gap(gap, closed, stays));
             }
             active
         });
@@ -114,10 +117,15 @@ impl<const D: usize> ActiveSet<D> {
         self.unsettled = 0.0;
         self.start_forces.clear();
         self.touched.copy_from_slice(&given.assembly.is_connected);
-        let weight = given.reaction_weight();
+        self.conditions.clear();
+        self.weights.clear();
         for candidate in &self.candidates {
             let known = given.state.reaction(candidate.key());
             let force = known.map_or_else(Vector::zeros, |r| r.force);
+            let condition = given.condition_of(candidate.pair);
+            let weight = condition.reaction_weight(&given.interval.map);
+            self.conditions.push(condition);
+            self.weights.push(weight);
             self.frames.push(known.map_or_else(Matrix::zeros, |r| r.contact.frame));
             self.reactions.push(force * weight);
             self.start_forces.push(force);
@@ -132,7 +140,8 @@ impl<const D: usize> ActiveSet<D> {
             return;
         }
         for (k, reaction) in reactions.iter().enumerate() {
-            if self.candidates.binary_search_by_key(&reaction.key(), Candidate::key).is_err() {
+            let is_massless = given.condition_of(reaction.pair).is_massless();
+            if is_massless && self.candidates.binary_search_by_key(&reaction.key(), Candidate::key).is_err() {
                 self.lost.push(k);
                 touch(&mut self.touched, &pairs.get(reaction.pair as usize));
             }
@@ -142,40 +151,49 @@ impl<const D: usize> ActiveSet<D> {
     /// Evaluates the contacts where the condition is written, their gaps less their interference, in frames that follow those before: reactions
     /// are known in these.
     pub fn evaluate(&mut self, given: &Given<'_, D>, motion: &[Vector<D>]) {
-        let weight = given.method.condition.evaluation_weight();
-        let position = |n: u32| given.position(n) + motion[n as usize] * weight;
-        let contact = &given.assembly.contact;
-        contact.evaluate_all(&self.candidates, &position, &mut self.mortar, &mut self.contacts);
-        self.stand_off(weight);
+        self.place(given, motion);
+        self.stand_off();
         self.follow_frames();
+    }
+
+    /// Evaluates the contacts at the configurations of their conditions.
+    fn place(&mut self, given: &Given<'_, D>, motion: &[Vector<D>]) {
+        let Self { candidates, conditions, mortar, contacts, .. } = self;
+        contacts.clear();
+        for alike in conditions.chunk_by(|a, b| a == b) {
+            let candidates = &candidates[contacts.len()..][..alike.len()];
+            let position = evaluated_at(given, motion, alike[0]);
+            given.assembly.contact.evaluate_more(candidates, &position, mortar, contacts);
+        }
     }
 
     /// [`Self::evaluate`] where the last correction was of `correction` [m], late in the iterations of a step. A contact whose normal turns by
     /// more than such a motion explains stands at a kink of its target. It keeps its normal and stencil from now on: any normal between those of
     /// both sides will do there, and with either of them the reaction would push it to the other side.
     pub fn evaluate_late(&mut self, given: &Given<'_, D>, motion: &[Vector<D>], correction: f64) {
-        let weight = given.method.condition.evaluation_weight();
-        let position = |n: u32| given.position(n) + motion[n as usize] * weight;
         let contact = &given.assembly.contact;
         std::mem::swap(&mut self.before, &mut self.contacts);
-        contact.evaluate_all(&self.candidates, &position, &mut self.mortar, &mut self.contacts);
+        self.place(given, motion);
         self.at_kink.resize(self.candidates.len(), false);
         let contacts = self.contacts.iter_mut().zip(&self.before).zip(&mut self.at_kink);
-        for (((contact_now, before), at_kink), candidate) in contacts.zip(&self.candidates) {
+        let ruled = self.candidates.iter().zip(&self.conditions);
+        for (((contact_now, before), at_kink), (candidate, condition)) in contacts.zip(ruled) {
             let turn = (contact_now.frame.row(0) - before.frame.row(0)).norm();
             let size = given.assembly.pair_size(&contact.pairs.get(candidate.pair as usize));
             *at_kink |= turn * size > CONTROL.kink * correction && turn > CONTROL.straight;
             if *at_kink {
-                *contact_now = before.moved(&position);
+                *contact_now = before.moved(&evaluated_at(given, motion, *condition));
             }
         }
-        self.stand_off(weight);
+        self.stand_off();
         self.follow_frames();
     }
 
-    /// Takes the interference off the gaps, where contacts are evaluated at this `weight` between start and end of the step.
-    fn stand_off(&mut self, weight: f64) {
-        for (contact, [h0, h1]) in self.contacts.iter_mut().zip(&self.interferences) {
+    /// Takes the interference off the gaps.
+    fn stand_off(&mut self) {
+        let ruled = self.interferences.iter().zip(&self.conditions);
+        for (contact, ([h0, h1], condition)) in self.contacts.iter_mut().zip(ruled) {
+            let weight = condition.evaluation_weight();
             contact.gap -= h0 * (1.0 - weight) + h1 * weight;
         }
     }
@@ -194,10 +212,10 @@ impl<const D: usize> ActiveSet<D> {
         given: &'a Given<'_, D>,
         motion: &'a [Vector<D>],
     ) -> impl Iterator<Item = Vector<D>> + 'a {
-        let Given { assembly, method, state, interval, .. } = *given;
+        let Given { assembly, state, interval, .. } = *given;
         let contacts = self.contacts.iter().zip(&self.start_gaps).zip(&self.interferences);
-        let contacts = contacts.zip(self.candidates.iter().zip(&self.meeting));
-        contacts.map(move |(((contact, &start_gap), [h0, h1]), (candidate, met))| {
+        let contacts = contacts.zip(self.candidates.iter().zip(&self.meeting).zip(&self.conditions));
+        contacts.map(move |(((contact, &start_gap), [h0, h1]), ((candidate, met), condition))| {
             let opening = Opening { start_gap, widening: h1 - h0 };
             let pair = || assembly.contact.pairs.get(candidate.pair as usize);
             if assembly.restitutions.default.is_some()
@@ -206,8 +224,7 @@ impl<const D: usize> ActiveSet<D> {
                 return impact_offset(met, opening.widening, restitution, &interval.map);
             }
             let velocity = |n: usize| state.velocity[n];
-            let along =
-                method.condition.normal_offset(contact, opening, &interval.map, |n| motion[n], velocity);
+            let along = condition.normal_offset(contact, opening, &interval.map, |n| motion[n], velocity);
             Vector::from_fn(|i, _| if i == 0 { along } else { 0.0 })
         })
     }
@@ -241,12 +258,20 @@ impl<const D: usize> ActiveSet<D> {
         })
     }
 
-    /// The reactions [N] of contact `k` at the start and the end of a blended step; those that are lost come after the others.
-    pub fn forces(&self, k: usize, state: &State<D>, weight: f64) -> [Vector<D>; 2] {
+    /// Contact `k` of a blended step, and its reactions [N] at the start and the end; those that are lost come after the others.
+    pub fn with_forces<'a>(&'a self, k: usize, state: &'a State<D>) -> (&'a Contact<D>, [Vector<D>; 2]) {
         match k.checked_sub(self.contacts.len()) {
-            None => [self.start_forces[k], self.reactions[k] / weight],
-            Some(lost) => [state.reactions[self.lost[lost]].force, Vector::zeros()],
+            None => (&self.contacts[k], [self.start_forces[k], self.reactions[k] / self.weights[k]]),
+            Some(lost) => {
+                let reaction = &state.reactions[self.lost[lost]];
+                (&reaction.contact, [reaction.force, Vector::zeros()])
+            }
         }
+    }
+
+    /// The least that the reduced problem has of a reaction: 1 without contacts.
+    pub fn least_weight(&self) -> f64 {
+        self.weights.iter().copied().fold(1.0, f64::min)
     }
 
     /// Adds the reactions known so far to `forces` [N].
@@ -255,6 +280,16 @@ impl<const D: usize> ActiveSet<D> {
             contact.add_force(r, forces);
         }
     }
+}
+
+/// Where nodes are [m] when a contact is evaluated that this condition rules.
+fn evaluated_at<'a, const D: usize>(
+    given: &'a Given<'_, D>,
+    motion: &'a [Vector<D>],
+    condition: ContactCondition,
+) -> impl Fn(u32) -> Vector<D> + 'a {
+    let weight = condition.evaluation_weight();
+    move |n| given.position(n) + motion[n as usize] * weight
 }
 
 /// Whether a normal reaction could move anything: not where both sides are prescribed, as where a support stands on an obstacle.

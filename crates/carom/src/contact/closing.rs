@@ -33,7 +33,7 @@ pub(crate) fn keep<const D: usize>(
     next.reactions.clear();
     next.contact_force.fill(Vector::zeros());
     let mut kept = Kept { min_gap: f64::INFINITY, certificate: 0.0, friction_defect: 0.0 };
-    let (assembly, weight) = (given.assembly, given.reaction_weight());
+    let assembly = given.assembly;
     let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
     assembly.contact.evaluate_all(&active.candidates, &end, &mut active.mortar, at_end);
     for ((contact, before), [_, h1]) in at_end.iter_mut().zip(&active.contacts).zip(&active.interferences) {
@@ -42,7 +42,7 @@ pub(crate) fn keep<const D: usize>(
         kept.min_gap = kept.min_gap.min(contact.gap);
     }
     for (i, (candidate, contact)) in active.candidates.iter().zip(&active.contacts).enumerate() {
-        let r = active.reactions[i] / weight;
+        let r = active.reactions[i] / active.weights[i];
         let mut w = contact.relative(|n| motion[n]);
         w += offsets[i];
         if given.interval.map.is_static() && matches!(candidate.site, Site::Multiplier(..)) {
@@ -88,7 +88,8 @@ pub(crate) fn for_each_work<const D: usize>(
     for (end, reactions) in ends.into_iter().enumerate() {
         for reaction in reactions {
             let Reaction { contact, force, .. } = reaction;
-            let force = given.interval.contact_weights.part(end, force);
+            let condition = given.condition_of(reaction.pair);
+            let force = condition.weights_of_ends(&given.interval.map).part(end, force);
             if force == Vector::<D>::zeros() {
                 continue;
             }

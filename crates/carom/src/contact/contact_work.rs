@@ -8,6 +8,8 @@ use crate::model::given::Given;
 /// A contact in the eyes of the balance: its bodies, μ, normal reactions at the start and the end of the step, and |w_t|.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactWork {
+    /// Which of the contacts of the step it is; those that are lost come after the others.
+    pub number: usize,
     pub between: [Solid; 2],
     pub source: usize,
     pub target: Target,
@@ -45,20 +47,20 @@ pub(crate) fn driven<const D: usize>(
     r.dot(&(contact.frame * travel))
 }
 
-/// Writes what the contacts mean for the balance of their bodies to `out`: those of the step, and those that it starts with and loses.
+/// Writes what massless contacts mean for the balance of their bodies to `out`: those of the step, and those that it starts with and loses.
 pub(crate) fn measure<const D: usize>(
     given: &Given<'_, D>,
     active: &ActiveSet<D>,
     motion: &[Vector<D>],
     out: &mut Vec<ContactWork>,
 ) {
-    let weight = given.reaction_weight();
-    let work = |key: (u32, Site), contact: &Contact<D>, start: Vector<D>, end: Vector<D>| {
+    let work = |number: usize, key: (u32, Site), contact: &Contact<D>, start: Vector<D>, end: Vector<D>| {
         let [h0, h1] = given.interference(key);
         let pair = given.assembly.contact.pairs.get(key.0 as usize);
         let w = contact.relative(|n| motion[n]);
         let driven = [start, end].map(|r| driven(given.assembly, contact, &r, motion) + r[0] * (h1 - h0));
         ContactWork {
+            number,
             between: pair.between(),
             source: pair.source,
             target: pair.target,
@@ -70,11 +72,14 @@ pub(crate) fn measure<const D: usize>(
         }
     };
     out.clear();
-    for (k, contact) in active.contacts.iter().enumerate() {
-        let (start, end) = (active.start_forces[k], active.reactions[k] / weight);
-        out.push(work(active.candidates[k].key(), contact, start, end));
+    for (k, contact) in
+        active.contacts.iter().enumerate().filter(|(k, _)| active.conditions[*k].is_massless())
+    {
+        let (start, end) = (active.start_forces[k], active.reactions[k] / active.weights[k]);
+        out.push(work(k, active.candidates[k].key(), contact, start, end));
     }
-    for reaction in active.lost.iter().map(|&k| &given.state.reactions[k]) {
-        out.push(work(reaction.key(), &reaction.contact, reaction.force, Vector::zeros()));
+    for (k, reaction) in active.lost.iter().map(|&k| &given.state.reactions[k]).enumerate() {
+        let number = active.contacts.len() + k;
+        out.push(work(number, reaction.key(), &reaction.contact, reaction.force, Vector::zeros()));
     }
 }

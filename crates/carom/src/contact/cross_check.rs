@@ -52,7 +52,7 @@ pub(crate) fn cross_check<const D: usize>(
         status: report.status,
         difference: difference_of_motions(problem, &active.reactions, &second),
         explained: explained_difference(problem.len() * D, method.stopping.tolerance),
-        certificate: report.measure.certificate / given.reaction_weight(),
+        certificate: report.measure.certificate / active.least_weight(),
     })
 }
 

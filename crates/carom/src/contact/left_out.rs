@@ -96,7 +96,7 @@ impl<const D: usize> LeftOut<D> {
         self.candidates.extend(of_node.iter().map(|&(_, k)| active.candidates[k]));
         let size = |c: &Candidate| given.assembly.pair_size(&model.pairs.get(c.pair as usize));
         let step = CONTROL.difference * self.candidates.iter().map(size).fold(f64::INFINITY, f64::min);
-        let condition = given.method.condition;
+        let condition = active.conditions[of_node[0].1];
         let (evaluated, rules_gaps) = (condition.evaluation_weight(), condition.rules_gaps());
         for &(_, k) in of_node {
             let contact = &active.contacts[k];

@@ -10,6 +10,7 @@ mod coupling;
 pub(crate) mod cross_check;
 pub(crate) mod delassus;
 mod left_out;
+pub(crate) mod on_masses;
 pub(crate) mod reduced;
 mod second_order;
 mod slider;
@@ -26,9 +27,10 @@ use self::active::ActiveSet;
 use self::candidates::Finder;
 use self::contact_work::ContactWork;
 use self::control::CONTROL;
+use self::on_masses::OnMasses;
 use self::reduced::Reduced;
 use self::slip::Slip;
-use crate::body::{Body, ContactWeights};
+use crate::body::Body;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
@@ -51,6 +53,8 @@ pub(crate) struct Contacts<const D: usize> {
     pub reduced: Reduced<D>,
     /// What the contacts mean for the balance of blended steps.
     pub work: Vec<ContactWork>,
+    /// What those without mass do to bodies with it.
+    pub on_masses: OnMasses<D>,
     pub slip: Slip,
     /// Contacts at the end of the step.
     pub at_end: Vec<Contact<D>>,
@@ -66,17 +70,19 @@ impl<const D: usize> Contacts<D> {
             active: ActiveSet::new(assembly.body_count()),
             reduced: Reduced::new(assembly),
             work: Vec::new(),
+            on_masses: OnMasses::default(),
             slip: Slip::new(assembly.node_count()),
             at_end: Vec::new(),
             mean_force: vec![Vector::zeros(); assembly.reference.len()],
         }
     }
 
-    /// Sums the forces of the books: the reactions at the two `ends` of a step by their `weights`.
-    pub fn weigh(&mut self, weights: &ContactWeights, ends: [&[Reaction<D>]; 2]) {
+    /// Sums the forces of the books: the reactions at the two `ends` of a step by the weights of their conditions.
+    pub fn weigh(&mut self, given: &Given<'_, D>, ends: [&[Reaction<D>]; 2]) {
         self.mean_force.fill(Vector::zeros());
         for (end, reactions) in ends.into_iter().enumerate() {
             for reaction in reactions {
+                let weights = given.condition_of(reaction.pair).weights_of_ends(&given.interval.map);
                 let force = weights.part(end, &reaction.force);
                 if force != Vector::<D>::zeros() {
                     reaction.contact.add_force(&force, &mut self.mean_force);
@@ -152,7 +158,7 @@ impl<const D: usize> Contacts<D> {
         self.reduced.solve(given, &mut self.active, motion, error, bodies)
     }
 
-    /// What the contacts mean for the balance of blended steps, at a guess.
+    /// What massless contacts mean for the balance of blended steps, at a guess.
     pub fn measure_work(&mut self, given: &Given<'_, D>, motion: &[Vector<D>]) -> &[ContactWork] {
         contact_work::measure(given, &self.active, motion, &mut self.work);
         &self.work

@@ -329,7 +329,6 @@ impl<const D: usize> Stiffened<D> {
     /// G: how the forces of the reactions change as nodes move, by central differences of what the search makes of their places.
     fn add_geometric(&mut self, given: &Given<'_, D>, active: &ActiveSet<D>, motion: &[Vector<D>]) {
         let contact_model = &given.assembly.contact;
-        let weight = given.method.condition.evaluation_weight();
         let mut force = vec![Vector::<D>::zeros(); motion.len()];
         let contacts = active.candidates.iter().zip(&active.contacts).zip(&active.reactions);
         for (k, ((candidate, contact), r)) in contacts.enumerate() {
@@ -337,6 +336,7 @@ impl<const D: usize> Stiffened<D> {
             if is_fixed || *r == Vector::<D>::zeros() || contact_model.is_mortar(candidate.pair as usize) {
                 continue;
             }
+            let weight = active.conditions[k].evaluation_weight();
             let step = CONTROL.difference
                 * given.assembly.pair_size(&contact_model.pairs.get(candidate.pair as usize));
             for (node, _) in contact.stencil() {

@@ -34,6 +34,10 @@ pub struct Member<const D: usize> {
     pub boundary: Surface,
     /// Which components of the displacement of every node are prescribed; empty where none is.
     pub held: Vec<[bool; D]>,
+    /// Whether the nodes that may touch have no mass.
+    pub is_massless: bool,
+    /// Whether it can turn, which a body of revolution cannot.
+    pub turns: bool,
 }
 
 /// Bodies in their places and what may touch what: all that a step needs to know beside the bodies themselves.
@@ -66,6 +70,11 @@ pub struct Assembly<const D: usize> {
     pub(crate) everyone: Vec<usize>,
     names: Vec<String>,
     obstacle_names: Vec<String>,
+    /// The bodies whose nodes that may touch have no mass, whether there are such, and others too.
+    is_massless: Vec<bool>,
+    is_mixed: bool,
+    /// The bodies that can turn.
+    turns: Vec<bool>,
     /// The numbers of the nodes of every body.
     nodes: Vec<Range<usize>>,
     body_of_node: Vec<u32>,
@@ -100,6 +109,9 @@ impl<const D: usize> Assembly<D> {
             size: members.iter().map(|m| m.diameter).fold(0.0, f64::max),
             farthest: members.iter().flat_map(|m| &m.reference).map(Vector::amax).fold(0.0, f64::max),
             everyone: (0..members.len()).collect(),
+            is_massless: members.iter().map(|m| m.is_massless).collect(),
+            is_mixed: members.iter().any(|m| m.is_massless) && members.iter().any(|m| !m.is_massless),
+            turns: members.iter().map(|m| m.turns).collect(),
             names: Vec::with_capacity(members.len()),
             nodes: Vec::with_capacity(members.len()),
             body_of_node: Vec::with_capacity(count),
@@ -245,6 +257,26 @@ impl<const D: usize> Assembly<D> {
     pub(crate) fn named_pair(&self, between: [Solid; 2]) -> NamedPair {
         let friction = self.contact.pairs.of(between).next().map(|p| self.contact.pairs.get(p).friction);
         NamedPair { between: self.names(between), friction: friction.unwrap_or_default() }
+    }
+
+    /// Whether the nodes of body `index` that may touch have no mass.
+    #[inline]
+    #[must_use]
+    pub fn is_massless(&self, index: usize) -> bool {
+        self.is_massless[index]
+    }
+
+    /// Whether nodes that may touch have mass in some bodies and in others none.
+    #[inline]
+    #[must_use]
+    pub fn is_mixed(&self) -> bool {
+        self.is_mixed
+    }
+
+    /// Whether body `index` can turn.
+    #[must_use]
+    pub fn turns(&self, index: usize) -> bool {
+        self.turns[index]
     }
 
     /// The body that a node belongs to; none if it is the position of an obstacle.

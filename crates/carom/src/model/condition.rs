@@ -31,7 +31,8 @@ pub enum ContactCondition {
     /// The normal relative velocity at the end of the step, of contacts closed at its start (Moreau): a plastic impact.
     Endpoint,
     /// The gap at the end of the step, between nodes without mass that are in static balance there. It never penetrates,
-    /// and nothing can bounce (Khenous, Laborde & Renard 2008).
+    /// and nothing can bounce (Khenous, Laborde & Renard 2008). One side without mass is enough; pairs that have none are ruled as
+    /// `Midpoint` does.
     Massless,
 }
 
@@ -94,13 +95,13 @@ impl ContactCondition {
         matches!(self, ContactCondition::Gap | ContactCondition::Massless)
     }
 
-    /// Whether what normal reactions take on landing is given back.
+    /// Whether what normal reactions take on landing is given back; with `Massless` in pairs whose sides have mass.
     #[must_use]
     pub fn restores(self) -> bool {
-        self == ContactCondition::Midpoint
+        matches!(self, ContactCondition::Midpoint | ContactCondition::Massless)
     }
 
-    /// Whether contact nodes carry no mass.
+    /// Whether contact nodes carry no mass where bodies can spare it.
     #[must_use]
     pub fn is_massless(self) -> bool {
         self == ContactCondition::Massless

@@ -1,9 +1,10 @@
-use carom_contact::Site;
+use carom_contact::{Pair, Site, Target};
 use carom_mesh::Vector;
 
 use crate::StepError;
 use crate::body::{BodyState, Guess, Interval};
 use crate::model::assembly::Assembly;
+use crate::model::condition::ContactCondition;
 use crate::model::method::Method;
 use crate::model::state::State;
 
@@ -50,9 +51,17 @@ impl<'a, const D: usize> Given<'a, D> {
         self.assembly.interference(contact.0).ends(contact, self.interval)
     }
 
-    /// How much of a reaction the reduced problem solves for.
-    pub fn reaction_weight(&self) -> f64 {
-        self.method.condition.reaction_weight(&self.interval.map)
+    /// The condition of a pair of the contact model: that of the method, unless it wants nodes without mass and neither side has such. Then it is
+    /// the motion that is ruled.
+    pub fn condition_of(&self, pair: u32) -> ContactCondition {
+        let condition = self.method.condition;
+        if !(condition.is_massless() && self.assembly.is_mixed()) {
+            return condition;
+        }
+        let Pair { source, target, .. } = self.assembly.contact.pairs.get(pair as usize);
+        let is_massless = |body: usize| self.assembly.is_massless(body);
+        let is_met_by_one = matches!(target, Target::Surface(target) if is_massless(target));
+        if is_massless(source) || is_met_by_one { condition } else { ContactCondition::Midpoint }
     }
 
     /// Sets the motion [m] of obstacles, whose places come after the nodes of bodies; returns the largest that is prescribed [m].

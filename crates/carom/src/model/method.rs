@@ -62,7 +62,6 @@ impl<const D: usize> Method<D> {
             end,
             is_load_step: self.scheme == Scheme::Static,
             precision: self.precision(),
-            contact_weights: self.condition.weights_of_ends(&map),
             is_blended: self.is_blended(),
         }
     }
@@ -86,14 +85,14 @@ impl<const D: usize> Method<D> {
         }
     }
 
-    /// Whether what normal reactions take on landing is given back. Without inertia nothing lands.
+    /// Whether what normal reactions take on landing is given back, in pairs that rule the motion. Without inertia nothing lands.
     pub(crate) fn restores(&self) -> bool {
         self.scheme != Scheme::Static && self.condition.restores()
     }
 
-    /// Whether there are velocities that closed contacts turn round in every step: where there is inertia, and nodes in contact have mass.
+    /// Whether there are velocities that closed contacts turn round in every step: where there is inertia.
     pub(crate) fn settles(&self) -> bool {
-        self.scheme != Scheme::Static && !self.condition.is_massless()
+        self.scheme != Scheme::Static
     }
 
     /// Whether the balance of massless contact nodes is closed by a blend of start and end stresses.

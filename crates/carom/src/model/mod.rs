@@ -60,6 +60,8 @@ impl<const D: usize> Model<D> {
             diameter: b.body.mesh().diameter(),
             boundary: Surface::of(b.body.mesh()),
             held: b.held(),
+            is_massless: !b.body.massless().is_empty(),
+            turns: b.body.turns(),
         };
         let assembly = Assembly::new(bodies.iter().map(member).collect(), contact, obstacle_names);
         let surroundings = stiffness_of_deformable(&bodies);

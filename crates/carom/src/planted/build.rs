@@ -93,6 +93,8 @@ impl<const D: usize> PlantedContact<D> {
                 // What is inside what is not measured: an outline need not be the whole boundary of a body.
                 boundary: Surface::default(),
                 held: nodes.iter().filter_map(|&n| held.get(n as usize).copied()).collect(),
+                is_massless: false,
+                turns: true,
             });
         }
         let method = method(spec)?;

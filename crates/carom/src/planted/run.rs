@@ -96,6 +96,8 @@ impl<const D: usize> ForeignRun<D> {
                 reference: points,
                 boundary: if own.is_closed() { own } else { Surface::default() },
                 held,
+                is_massless: false,
+                turns: true,
             });
             bodies.push(Box::new(body));
         }

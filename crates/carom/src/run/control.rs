@@ -10,8 +10,9 @@ use super::error::RunError;
 use super::stepper::{Nominal, Stepper};
 use crate::error::StepError;
 use crate::step::report::StepReport;
+use crate::step::step_over;
 use crate::step::workspace::Workspace;
-use crate::{Scheme, State, step};
+use crate::{Scheme, State};
 
 /// A load step that took no more iterations than this was easy.
 const EASY: usize = 12;
@@ -42,7 +43,7 @@ impl<const D: usize> Stepper<'_, D> {
         let mut size = if load_steps { whole >> *self.halvings } else { whole };
         while done < whole {
             let length = dt * (size as f64 / whole as f64);
-            match self.substep(length, energy) {
+            match self.substep(length, dt, energy) {
                 Ok(report) => {
                     done += size;
                     self.spare.time = end - dt * ((whole - done) as f64 / whole as f64);
@@ -79,12 +80,14 @@ impl<const D: usize> Stepper<'_, D> {
         Ok(())
     }
 
-    /// Writes the state after `length` [s] to `spare`.
-    fn substep(&mut self, length: f64, energy: f64) -> Result<StepReport, StepError> {
+    /// Writes the state after `length` [s] of a step of `whole` [s] to `spare`.
+    fn substep(&mut self, length: f64, whole: f64, energy: f64) -> Result<StepReport, StepError> {
         let Self { model, method, state, spare, work, .. } = self;
         let assembly = &model.assembly;
+        let mut interval = method.interval(state.time, length);
+        interval.map = interval.map.part_of(whole);
         let report =
-            among_threads(model.node_count(), || step(assembly, method, state, spare, length, work))?;
+            among_threads(model.node_count(), || step_over(assembly, method, &interval, state, spare, work))?;
         check_debt(state, spare, energy, &report)?;
         Ok(report)
     }

@@ -33,6 +33,8 @@ pub struct BodyDescription {
     pub name: String,
     /// Whether it is rigid.
     pub is_rigid: bool,
+    /// Whether its nodes that may touch have no mass.
+    pub is_massless: bool,
     /// The vibrations of a reduced body.
     pub vibrations: Option<Vibrations>,
     /// Nodes.
@@ -109,6 +111,7 @@ pub(crate) fn describe<const D: usize>(
                 nodes: b.body.node_count(),
                 cells: b.body.mesh().cell_count(),
                 is_rigid: b.is_rigid(),
+            is_massless: !b.body.massless().is_empty(),
                 vibrations: b.reduced.as_ref().map(|reduced| vibrations(&reduced.reduction)),
                 dofs: b.dofs(),
                 mass: b.body.total_mass(),

@@ -1,4 +1,4 @@
-use super::step_map::{StepMap, StressRule};
+use super::step_map::{STEADYING, StepMap, StressRule};
 
 /// No inertia: the forces balance at the end of the step (ξ = 1), and time only says how far loads and supports have come.
 ///
@@ -12,5 +12,6 @@ pub(super) fn step_map(dt: f64) -> StepMap {
         stress: StressRule::Weighted,
         kinetic_dissipation: 0.0,
         strain_dissipation: 0.0,
+        steadying: STEADYING,
     }
 }

@@ -26,7 +26,15 @@ pub struct StepMap {
     pub kinetic_dissipation: f64,
     /// The work of the weighted internal force and its trapezoidal mean differ by this times d·(f₊ − f).
     pub strain_dissipation: f64,
+    /// How much nodes without mass resist a change of their motion, in terms of the stiffness that holds them: see [`StepMap::part_of`].
+    pub steadying: f64,
 }
+
+/// [`StepMap::steadying`] of a whole step.
+pub(super) const STEADYING: f64 = 0.1;
+
+/// Of so many parts of a step each is much shorter. Measured on 93 wild scenes.
+const SHORT: f64 = 8.0;
 
 impl StepMap {
     /// v₊ [m/s] of a node with velocity `v` at the start and motion `d` in the step.
@@ -41,6 +49,15 @@ impl StepMap {
     #[must_use]
     pub fn mean_velocity<const D: usize>(&self, v: &Vector<D>, d: &Vector<D>) -> Vector<D> {
         v * (1.0 - self.xi) + self.end_velocity(v, d) * self.xi
+    }
+
+    /// The same of a part of a step of `whole` [s] that was too long. Nodes without mass resist by the inertia of a mass `steadying`·k·Δt², far
+    /// below their own. Where static balance snaps, shorter steps alone do not help: in much shorter ones that mass falls no more, and they
+    /// follow the snap through.
+    #[must_use]
+    pub(crate) fn part_of(self, whole: f64) -> Self {
+        let parts = (whole / self.dt / SHORT).max(1.0);
+        Self { steadying: STEADYING * parts * parts, ..self }
     }
 
     /// Whether there is no inertia: the balance of forces at the end of the step, and no velocities.

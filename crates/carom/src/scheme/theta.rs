@@ -1,4 +1,4 @@
-use super::step_map::{StepMap, StressRule};
+use super::step_map::{STEADYING, StepMap, StressRule};
 
 /// The paper's scheme: d = Δt[(1 − θ)v + θ v₊], hence v₊ = (1 − 1/θ)v + d/(θΔt) (4), forces weighted by 1 − ξ and ξ (3).
 ///
@@ -13,5 +13,6 @@ pub(super) fn step_map(theta: f64, xi: f64, dt: f64) -> StepMap {
         stress: StressRule::Weighted,
         kinetic_dissipation: theta - 0.5,
         strain_dissipation: xi - 0.5,
+        steadying: STEADYING,
     }
 }

@@ -10,13 +10,14 @@
 //!
 //! α = [Σ (f_a + C v̄)_b·d_b − d_a·d_i + D_a] / [Σ (f_d)_i·d_i + d_d·d_i − D_d]
 //!
-//! with i and b the nodes with and without mass. D_a + α D_d = Σ μ r̄_n |w_t| less the work of obstacles that move. The change of kinetic
+//! with i and b the nodes with and without mass. A body that has its mass where it touches adds the work of r₀ and r₁ on it: see
+//! [`crate::contact::on_masses`]. D_a + α D_d = Σ μ r̄_n |w_t| less the work of obstacles that move. The change of kinetic
 //! and strain energy is then the work of the loads, less what damping and friction take.
 //!
 //! α is so small that no r̄_n pulls, and friction never does work: it may be −½ to ½ always, and more where r₀ and r₁ are nearly equal or r̄ is
 //! mostly that of the end which presses more.
 
-use carom_contact::Target;
+use carom_contact::{Pair, Target};
 
 use crate::body::Balance;
 use crate::contact::contact_work::ContactWork;
@@ -76,10 +77,7 @@ impl Blend {
         }
         for c in contacts {
             match c.target {
-                Target::Surface(target) if c.start > 0.0 || c.end > 0.0 => {
-                    let (a, b) = (self.leader_of(c.source), self.leader_of(target));
-                    self.leader[a.max(b)] = a.min(b);
-                }
+                Target::Surface(target) if c.start > 0.0 || c.end > 0.0 => self.join(c.source, target),
                 _ => {}
             }
         }
@@ -112,13 +110,26 @@ impl Blend {
         }
     }
 
-    /// Adds what a step left over to `energy_debt`: `surplus` of every body and what friction took, group by group.
+    /// Puts two bodies in one group.
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.leader_of(a), self.leader_of(b));
+        self.leader[a.max(b)] = a.min(b);
+    }
+
+    /// Adds what a step left over to `energy_debt`: `surplus` of every body and what friction took, group by group. `booked` is what contacts
+    /// of pairs with mass, which are not blended, took [J].
     pub fn carry(
         &mut self,
         surplus: impl Iterator<Item = f64>,
         contacts: &[ContactWork],
+        booked: &[(Pair, f64)],
         energy_debt: &mut [f64],
     ) {
+        for (pair, _) in booked {
+            if let Target::Surface(target) = pair.target {
+                self.join(pair.source, target);
+            }
+        }
         self.groups.fill(Balance::default());
         for (i, surplus) in surplus.enumerate() {
             self.groups[leader_of(&self.leader, i)].missing += energy_debt[i] + surplus;
@@ -127,6 +138,9 @@ impl Blend {
             let weight = self.weight[c.source];
             let group = &mut self.groups[leader_of(&self.leader, c.source)];
             group.missing += c.dissipation(weight) - c.prescribed(weight);
+        }
+        for (pair, taken) in booked {
+            self.groups[leader_of(&self.leader, pair.source)].missing += taken;
         }
         energy_debt
             .iter_mut()

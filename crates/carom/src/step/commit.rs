@@ -97,10 +97,9 @@ fn keep_contacts<const D: usize>(
         remember(&given.state.sliding, std::iter::empty(), &mut next.sliding);
         return;
     }
-    let weight = given.reaction_weight();
     let measure = carom_friction::measure(&reduced.problem, &active.reactions);
     report.residual = measure.natural_residual;
-    report.solver_certificate = measure.certificate / weight;
+    report.solver_certificate = measure.certificate / active.least_weight();
     let kept = keep(given, active, &reduced.offsets, motion, at_end, next);
     report.min_gap = kept.min_gap;
     report.certificate = kept.certificate;
@@ -108,8 +107,8 @@ fn keep_contacts<const D: usize>(
     let of_step = active.sliders.iter().map(|slider| slider.after);
     remember(&given.state.sliding, of_step, &mut next.sliding);
     report.contacts = next.reactions.len();
-    let reactions = active.reactions.iter().zip(&reduced.problem.q);
-    report.reaction_work = reactions.map(|(r, q)| (r / weight).dot(q).abs()).sum();
+    let reactions = active.reactions.iter().zip(&active.weights).zip(&reduced.problem.q);
+    report.reaction_work = reactions.map(|((r, weight), q)| (r / *weight).dot(q).abs()).sum();
 }
 
 /// Completes the states of the bodies and closes their books.
@@ -117,7 +116,13 @@ fn close_bodies<const D: usize>(given: &Given<'_, D>, next: &mut State<D>, work:
     let assembly = given.assembly;
     let Workspace { bodies, contacts, blend, motion, body_ledgers, springs, .. } = work;
     let State { displacement, contact_force, velocity, internal_force, .. } = next;
-    contacts.weigh(&given.interval.contact_weights, [&given.state.reactions, &next.reactions]);
+    contacts.weigh(given, [&given.state.reactions, &next.reactions]);
+    let Contacts { on_masses, active, mean_force, .. } = &mut *contacts;
+    on_masses.take(&assembly.everyone, given, active);
+    if given.interval.is_blended {
+        on_masses.weigh(&assembly.everyone, given, motion, bodies.as_slice(), &mut blend.balances);
+    }
+    on_masses.add_blended(&assembly.everyone, given, blend, mean_force);
     springs.join(given, &mut contacts.mean_force, contact_force);
     let springs = &*springs;
     let contact_force = springs.with_those_at_end(contact_force);
@@ -191,7 +196,7 @@ fn close_contacts<const D: usize>(
     report: &mut StepReport,
 ) {
     let Given { assembly, state, interval, .. } = *given;
-    let Workspace { contacts, blend, motion, pair_reports, body_ledgers, impulses, .. } = work;
+    let Workspace { contacts, blend, motion, pair_reports, body_ledgers, impulses, booked, .. } = work;
     let pair_of = |reaction: &Reaction<D>| assembly.contact.pairs.get(reaction.pair as usize).between();
     for (k, reaction) in next.reactions.iter().enumerate() {
         if impulses.arriving.binary_search(&k).is_ok() {
@@ -220,32 +225,42 @@ fn close_contacts<const D: usize>(
     if interval.is_blended {
         // The blend returns what normal reactions take, so there is nothing to book for them.
         contacts.measure_work(given, motion);
-        let lost = contacts.active.lost.iter().map(|&k| &state.reactions[k].contact);
-        for (k, (c, contact)) in
-            contacts.work.iter().zip(contacts.active.contacts.iter().chain(lost)).enumerate()
-        {
+        for c in &contacts.work {
             let weight = blend.weight[c.source];
             let report = pair_reports.or_default(c.between);
             report.ledger.prescribed += c.prescribed(weight);
-            let [start, end] = contacts.active.forces(k, state, given.reaction_weight());
+            let (contact, [start, end]) = contacts.active.with_forces(c.number, state);
             let force = start * (0.5 - weight) + end * (0.5 + weight);
             report.given.add(contact, &(force * dt), c.between[0] == Solid::Body(c.source), place);
             book(report, contact, c.dissipation(weight));
         }
-        next.energy_debt.copy_from_slice(&state.energy_debt);
-        let surplus = body_ledgers.iter().map(|b| {
-            b.kinetic + b.strain + b.viscous + b.plastic - b.external - b.prescribed - b.connections
-        });
-        blend.carry(surplus, &contacts.work, &mut next.energy_debt);
-        return;
     }
+    booked.clear();
     for_each_work(given, motion, [&state.reactions, &next.reactions], |reaction, work| {
+        if interval.is_blended {
+            if given.condition_of(reaction.pair).is_massless() {
+                return;
+            }
+            let pair = assembly.contact.pairs.get(reaction.pair as usize);
+            booked.push((pair, work.dissipation - work.normal - work.prescribed));
+        }
         let report = pair_reports.or_default(pair_of(reaction));
         report.ledger.normal_contact -= work.normal;
         report.ledger.prescribed += work.prescribed;
         push(report, reaction.pair, &reaction.contact, &work.force);
         book(report, &reaction.contact, work.dissipation);
     });
+    if interval.is_blended {
+        for done in &impulses.done {
+            let pair = assembly.contact.pairs.get(next.reactions[done.reaction].pair as usize);
+            booked.push((pair, done.taken[0] + done.taken[1] - done.prescribed));
+        }
+        next.energy_debt.copy_from_slice(&state.energy_debt);
+        let surplus = body_ledgers.iter().map(|b| {
+            b.kinetic + b.strain + b.viscous + b.plastic - b.external - b.prescribed - b.connections
+        });
+        blend.carry(surplus, &contacts.work, booked, &mut next.energy_debt);
+    }
 }
 
 /// Leaves the energy that friction takes at a contact to its nodes: half to the source, half to those of a deformable target.

@@ -4,6 +4,7 @@ use carom_mesh::nodal;
 
 use super::newton::Newton;
 use super::workspace::Workspace;
+use crate::contact::Contacts;
 use crate::error::StepError;
 use crate::model::each_body::{PerBody, PerNode, each_body, try_each_body};
 use crate::model::given::Given;
@@ -17,15 +18,18 @@ pub(super) fn residuals<const D: usize>(
     work: &mut Workspace<D>,
 ) {
     let is_blended = given.interval.is_blended;
+    let Contacts { on_masses, active, .. } = &mut work.contacts;
+    on_masses.take(bodies, given, active);
     if is_blended {
         weigh_blend(bodies, given, next, work);
     }
-    let Workspace { bodies: all, newton, blend, motion, .. } = work;
+    let Workspace { bodies: all, newton, blend, motion, contacts, .. } = work;
     let all = (PerBody(all), PerNode(&mut newton.residual));
     each_body(given.assembly, bodies, all, &|i, (body, residual)| {
         let guess = given.guess(i, motion, &next.displacement);
         body.own().residual(&guess, is_blended.then_some(blend.weight[i]), residual.0);
     });
+    contacts.on_masses.add_known(bodies, given, blend, &mut newton.residual);
 }
 
 /// The blend of start and end stresses at the present guess.
@@ -36,9 +40,11 @@ fn weigh_blend<const D: usize>(
     work: &mut Workspace<D>,
 ) {
     let Workspace { bodies: all, contacts, blend, motion, .. } = work;
-    each_body(given.assembly, bodies, (PerBody(all), PerBody(&mut blend.balances)), &|i, (body, balance)| {
+    let each = (PerBody(&mut all[..]), PerBody(&mut blend.balances));
+    each_body(given.assembly, bodies, each, &|i, (body, balance)| {
         *balance.own() = body.own().balance(&given.guess(i, motion, &next.displacement));
     });
+    contacts.on_masses.weigh(bodies, given, motion, all.as_slice(), &mut blend.balances);
     let touched = bodies.iter().any(|&i| contacts.active.touched[i]);
     let contact_work = if touched { contacts.measure_work(given, motion) } else { &[] };
     blend.weigh(bodies, contact_work, &given.state.energy_debt, given.state.energies.total());

@@ -28,6 +28,7 @@ pub(super) fn iterate<const D: usize>(
 ) -> Result<usize, StepError> {
     let Workspace { contacts, newton, motion, .. } = work;
     contacts.active.select(given, &contacts.finder.search);
+    contacts.on_masses.begin(given);
     if !given.interval.map.is_static() {
         // The guess that softened contacts would go back to may be of other contacts, where the step is repeated.
         contacts.soften();

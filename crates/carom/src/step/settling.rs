@@ -97,6 +97,10 @@ fn choose<const D: usize>(
     let dt = interval.map.dt;
     let Contacts { active, at_end, .. } = contacts;
     for (i, k, reaction) in active.pressing(&new.reactions) {
+        // What is in static balance has no such velocity.
+        if active.conditions[i].is_massless() {
+            continue;
+        }
         // Surfaces that are being pushed apart are not at rest.
         let [h0, h1] = active.interferences[i];
         if state.reaction(reaction.key()).is_none() || active.start_gaps[i] > 0.0 || h0 != h1 {

@@ -1,6 +1,6 @@
 use std::time::Duration;
 
-use carom_contact::Boundaries;
+use carom_contact::{Boundaries, Pair};
 use carom_mesh::Vector;
 
 use super::blend::Blend;
@@ -37,6 +37,8 @@ pub struct Workspace<const D: usize> {
     pub(crate) motion: Vec<Vector<D>>,
     /// What pairs did in the last step, those of which anything is known.
     pub pair_reports: ByPair<PairReport>,
+    /// What contacts of pairs with mass took in the last step, if it was blended [J].
+    pub(crate) booked: Vec<(Pair, f64)>,
     /// What happened to the energy of each body in the last step.
     pub body_ledgers: Vec<BodyLedger>,
     /// Factorisations made so far.
@@ -68,6 +70,7 @@ impl<const D: usize> Workspace<D> {
             forecasts: vec![Forecast::default(); bodies.len()],
             motion: vec![Vector::zeros(); assembly.reference.len()],
             pair_reports: ByPair::default(),
+            booked: Vec::new(),
             body_ledgers: vec![BodyLedger::default(); bodies.len()],
             factorisations: 0,
             detection_time: Duration::ZERO,

@@ -180,6 +180,8 @@ fn setting(stiffness: f64, gravity: f64, obstacle: Obstacle<2>, friction: f64) -
         diameter: 1.0,
         boundary: Surface::default(),
         held: Vec::new(),
+        is_massless: false,
+        turns: false,
     };
     let body = PointMass { stiffness, gravity: Vector::<2>::new(0.0, -gravity), ..PointMass::default() };
     Setting {

@@ -8,9 +8,6 @@ use super::part::ModelBody;
 use crate::body::Guess;
 use crate::scheme::{StepMap, StressRule};
 
-/// Resistance of massless nodes to a change of motion, in terms of the stiffness that holds them.
-pub(crate) const STEADYING: f64 = 0.1;
-
 /// A motion this short, in diameters of the body, stands for a velocity.
 pub(crate) const STRAIGHT: f64 = 1e-6;
 
@@ -233,13 +230,13 @@ impl<'a, const D: usize> Equation<'a, D> {
     /// The force [N] with which a massless node resists a change of its motion from step to step; `stiffness` holds it.
     ///
     /// Static balance alone may have no stable solution near the last one: under strong compression, as where a law like
-    /// Saint-Venant–Kirchhoff's softens, boundary nodes snap. This is the inertia of a mass STEADYING·k·Δt², far below the node's
-    /// own, taken at the end of the step; a body that moves rigidly feels none, be it in free fall. It vanishes with Δt², and the blend returns
-    /// its work and its momentum.
+    /// Saint-Venant–Kirchhoff's softens, boundary nodes snap. This is the inertia of a mass s·k·Δt², far below the node's own, with s the
+    /// [`StepMap::steadying`], taken at the end of the step; a body that moves rigidly feels none, be it in free fall. It vanishes with Δt², and
+    /// the blend returns its work and its momentum.
     #[inline]
     pub fn steadying_force(&self, node: usize, stiffness: f64) -> Vector<D> {
         let expected = self.drift + self.turn * (self.velocity[node] - self.drift);
-        (self.motion[node] - expected * self.map.dt - self.fall) * (STEADYING * stiffness)
+        (self.motion[node] - expected * self.map.dt - self.fall) * (self.map.steadying * stiffness)
     }
 
     /// What it takes to write the rows of massless nodes at the end of the step instead of over it [J]. It is the work of the forces that these nodes

@@ -5,7 +5,6 @@ use carom_fem::sparse::{Inverse, NodalMatrix, Precision};
 use carom_fem::{Body, BodyWithHistory, Held};
 use carom_mesh::{Matrix, Vector, nodal};
 
-use super::equation::STEADYING;
 use crate::archive::{Archive, CheckpointError};
 use crate::body::Tangent;
 use crate::error::StepError;
@@ -49,7 +48,7 @@ pub(super) fn sign(k: usize) -> f64 {
 pub(crate) struct IterationMatrix<const D: usize> {
     inverse: Inverse<D>,
     /// The factors of K, C and M that K̄ was made with.
-    coefficients: Option<[f64; 3]>,
+    coefficients: Option<[f64; 4]>,
     /// See [`lowest_inertia`].
     pub lowest_inertia: f64,
     /// Whether its supports leave the body loose.
@@ -73,6 +72,8 @@ pub(crate) struct IterationMatrix<const D: usize> {
 struct Origin<const D: usize> {
     /// Length of the steps [s].
     dt: f64,
+    /// How much they steadied nodes without mass.
+    steadying: f64,
     precision: Precision,
     /// Frame of the body.
     frame: Matrix<D>,
@@ -135,6 +136,7 @@ impl<const D: usize> IterationMatrix<D> {
             scratch: vec![Vector::zeros(); body.node_count()],
             origin: Origin {
                 dt: 0.0,
+                steadying: 0.0,
                 precision: Precision::Double,
                 frame: Matrix::identity(),
                 displacement: vec![Vector::zeros(); body.node_count()],
@@ -154,9 +156,9 @@ impl<const D: usize> IterationMatrix<D> {
         self.round_off
     }
 
-    /// The factors of K, C and M in K̄.
-    fn coefficients(map: &StepMap) -> [f64; 3] {
-        [map.stiffness_coefficient(), map.damping_coefficient(), map.mass_coefficient()]
+    /// The factors of K, C and M in K̄, and of what steadies nodes without mass.
+    fn coefficients(map: &StepMap) -> [f64; 4] {
+        [map.stiffness_coefficient(), map.damping_coefficient(), map.mass_coefficient(), map.steadying]
     }
 
     /// Whether the factor is exact but for round-off.
@@ -186,6 +188,7 @@ impl<const D: usize> IterationMatrix<D> {
         let mut origin = self.origin.clone();
         let mut is_double = origin.precision == Precision::Double;
         archive.numbers(&name("dt"), [&mut origin.dt])?;
+        archive.numbers(&name("steadying"), [&mut origin.steadying])?;
         archive.flags(&name("is_double"), [&mut is_double])?;
         archive.numbers(&name("frame"), origin.frame.iter_mut())?;
         archive.vectors(&name("displacement"), &mut origin.displacement)?;
@@ -199,7 +202,8 @@ impl<const D: usize> IterationMatrix<D> {
         }
         let precision = if is_double { Precision::Double } else { Precision::Single };
         let with_history = body.after(&origin.history).grown(origin.growth);
-        self.factorize(&with_history, &map(origin.dt), &origin.displacement, &origin.frame, precision)
+        let map = StepMap { steadying: origin.steadying, ..map(origin.dt) };
+        self.factorize(&with_history, &map, &origin.displacement, &origin.frame, precision)
             .map_err(|e| CheckpointError::new(&name("displacement"), e.to_string()))?;
         Ok(true)
     }
@@ -238,7 +242,8 @@ impl<const D: usize> IterationMatrix<D> {
         *growth = with_history.growth();
         displacement.copy_from_slice(u);
         history.copy_from_slice(with_history.history());
-        (self.origin.dt, self.origin.precision, self.origin.frame) = (map.dt, precision, *frame);
+        (self.origin.dt, self.origin.steadying) = (map.dt, map.steadying);
+        (self.origin.precision, self.origin.frame) = (precision, *frame);
         Ok(())
     }
 
@@ -346,7 +351,7 @@ impl<const D: usize> IterationMatrix<D> {
         self.held.uncouple(&mut stiffness);
         self.inverse.make(precision, &stiffness)?;
         let coefficients = Self::coefficients(map);
-        let [_, c, m] = coefficients;
+        let [_, c, m, _] = coefficients;
         self.coefficients = Some(coefficients);
         let mass_coefficient = m + c * with_history.body.damping().mass;
         self.translation.iter_mut().for_each(|t| t.coefficient = mass_coefficient);
@@ -365,10 +370,10 @@ impl<const D: usize> IterationMatrix<D> {
     ) -> NodalMatrix<Matrix<D>> {
         let body = with_history.body;
         let mut stiffness = with_history.stiffness(u);
-        for (&n, k) in body.massless().iter().zip(body.massless_stiffness()) {
-            stiffness.values[body.graph().entry(n, n)] += Matrix::from_diagonal_element(STEADYING * k);
+        let [k, c, m, steadying] = Self::coefficients(map);
+        for (&n, stiff) in body.massless().iter().zip(body.massless_stiffness()) {
+            stiffness.values[body.graph().entry(n, n)] += Matrix::from_diagonal_element(steadying * stiff);
         }
-        let [k, c, m] = Self::coefficients(map);
         let damping = body.damping();
         let mass_coefficient = m + c * damping.mass;
         let mass: &NodalMatrix<f64> = body.mass();
