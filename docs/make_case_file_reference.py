@@ -69,14 +69,16 @@ CONDITIONS = """\
 In a dynamic analysis with the scheme `conserving`; a static one has `gap`.
 [Exactness](exactness.md) has the figures, [a how-to](how-to/condition-and-solver.md) the choice.
 
-| `contact.condition` | energy | at the end of a step | contact force | costs | not with |
-|---|---|---|---|---|---|
-| `midpoint` | kept to round-off | nodes on their targets | chatters | least | – |
-| `gap` | each impact takes some, less on finer meshes | nothing is inside | chatters \
-| as `midpoint` | – |
-| `massless` | kept to round-off | nothing is inside | quiet | half as much again \
-| – (as `midpoint` between what keeps its mass: rigid and reduced bodies, bodies without cells inside, those with friction laws, or with springs or masses on their contact nodes) |
-| `endpoint` | nodes that stop lose theirs | inside by a step's way | quiet | as `midpoint` | – |
+| `contact.condition` | energy | at the end of a step | contact force | costs |
+|---|---|---|---|---|
+| `midpoint` | kept to round-off | nodes on their targets | chatters | least |
+| `gap` | impacts take some, less on finer meshes | nothing is inside | chatters | as `midpoint` |
+| `massless` | kept to round-off | nothing is inside | quiet | half as much again |
+| `endpoint` | nodes that stop lose theirs | inside by a step's way | quiet | as `midpoint` |
+
+With `massless` a body keeps its mass where it touches if it is rigid or reduced, has no cells
+inside, has a friction law, or carries springs or masses there. Where both sides of a pair keep
+theirs, or one that meets an obstacle, the pair is ruled as with `midpoint`.
 """
 
 RULES = """\

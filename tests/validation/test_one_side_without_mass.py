@@ -1,4 +1,4 @@
-"""Massless contact where one side has its mass: rigid and reduced bodies, and bodies one cell across.
+"""Massless contact where one side has its mass: rigid, reduced, or one cell across.
 
 Pairs that have mass on both sides are ruled by the motion, as with the condition ``midpoint``.
 The bounds are within ten times of what is measured; defects are of the energy at the start.

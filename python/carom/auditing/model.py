@@ -120,7 +120,8 @@ class AuditModel:
         kept = _keep_mass(scenario) if condition == "massless" else []
         if kept and len(kept) < len(scenario.bodies):
             raise InputError(
-                f"cannot audit massless contact where {kept[0]!r} has its mass and others have not yet"
+                f"cannot audit massless contact where {kept[0]!r} has its mass and others have "
+                "not yet"
             )
         self.condition = "midpoint" if kept else condition
         self.massless = self.condition == "massless"

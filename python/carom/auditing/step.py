@@ -109,8 +109,9 @@ class Step:
         self.v_scheme = self._scheme_velocity()
 
     def _length(self) -> tuple[float, float, float]:
-        """Return the length of the step [s], how far it is from one on the time grid [s], and how
-        often that has it in a nominal step.
+        """Return the length of the step, how far it is from one of the time grid, and its parts.
+
+        Both are in s, and the parts are how often a nominal step has the length.
 
         Nominal steps are equal but for a shorter last one, and those that failed are halved; the
         difference of two times has more round-off than a step may have.

@@ -107,8 +107,8 @@ def doubts(summary: Mapping[str, Any]) -> Iterator[Doubt]:
     if repaid > MUCH_REPAID:
         yield Doubt(
             "much-repaid",
-            f"vibrations took or gave {repaid:.2g} of the energy, as cells fold where nodes without "
-            'mass press: mesh more finely, or compare with contact.condition = "midpoint"',
+            f"vibrations took or gave {repaid:.2g} of the energy, as cells fold where nodes "
+            'without mass press: mesh more finely, or compare with contact.condition = "midpoint"',
             "repaid",
             repaid,
             MUCH_REPAID,

@@ -111,7 +111,7 @@ pub(crate) fn describe<const D: usize>(
                 nodes: b.body.node_count(),
                 cells: b.body.mesh().cell_count(),
                 is_rigid: b.is_rigid(),
-            is_massless: !b.body.massless().is_empty(),
+                is_massless: !b.body.massless().is_empty(),
                 vibrations: b.reduced.as_ref().map(|reduced| vibrations(&reduced.reduction)),
                 dofs: b.dofs(),
                 mass: b.body.total_mass(),
