@@ -4,6 +4,7 @@ Pairs that have mass on both sides are ruled by the motion, as with the conditio
 The bounds are within ten times of what is measured; defects are of the energy at the start.
 """
 
+import h5py
 import numpy as np
 import pytest
 
@@ -61,6 +62,7 @@ def scenario(bodies, end, dt, condition, friction, *, gravity=None, material=SOF
     )
 
 
+BOX = rigid(block("a", [-0.5, 0.02], [1.0, 0.3], [4, 2], [0.0, 0.0]))
 SPINNING = [
     rigid(disc("a", [0.0, 0.0], [0.5, 0.0], spin=3.0)),
     disc("b", [1.05, 0.3], [-2.0, 0.0], spin=-2.0),
@@ -129,8 +131,7 @@ def test_a_rigid_body_is_met_without_chatter_and_without_penetration():
 @pytest.mark.parametrize("friction", [0.0, 0.4])
 def test_pairs_with_and_without_mass_share_a_case(friction):
     """A rigid box on the floor, which both have mass, and a disc that falls on it."""
-    box = rigid(block("a", [-0.5, 0.02], [1.0, 0.3], [4, 2], [0.0, 0.0]))
-    bodies = [box, disc("b", [0.0, 0.85], [0.2, -1.0])]
+    bodies = [BOX, disc("b", [0.0, 0.85], [0.2, -1.0])]
     history = stepped(
         bodies,
         end=0.5,
@@ -235,18 +236,43 @@ def test_what_keeps_its_mass_meets_obstacles_as_midpoint_says(kind):
         assert np.array_equal(runs[0][name], runs[1][name])
 
 
-@pytest.mark.parametrize(
-    ("bodies", "message"),
-    [
-        (SPINNING, "cannot audit massless contact where 'a' has its mass and others have not yet"),
-        (PLATE, "cannot audit massless contact of a body without cells inside, as at node 0, yet"),
-    ],
-)
-def test_the_audit_refuses_cases_where_some_bodies_have_mass(tmp_path, bodies, message):
-    case = scenario(bodies, 2e-3, 1e-3, "massless", 0.3)
-    carom.run(case, out=tmp_path / "run")
-    with pytest.raises(carom.InputError, match=message):
-        carom.audit(tmp_path / "run")
+AUDITED = {
+    "rigid disc": (SPINNING, {}),
+    "rigid disc between two": (BETWEEN, {}),
+    "plate of one cell": (PLATE, {}),
+    "box on a floor": (
+        [BOX, disc("b", [0.0, 0.85], [0.2, -1.0])],
+        {"material": STIFF, "gravity": [0.0, -9.81], "obstacles": [FLOOR]},
+    ),
+}
+
+
+def audited(tmp_path, bodies, **given):
+    """Run a case whose steps are stored, and return where."""
+    case = scenario(bodies, 0.4, 1e-3, "massless", 0.3, **given)
+    stored = carom.Output(fields_every=0.02, history_every=1e-3, audit=True)
+    directory = tmp_path / "run"
+    carom.run(case.model_copy(update={"output": stored}), out=directory)
+    return directory
+
+
+@pytest.mark.parametrize("kind", AUDITED)
+def test_the_audit_confirms_what_has_mass_beside_what_has_none(tmp_path, kind):
+    bodies, given = AUDITED[kind]
+    audit = carom.audit(audited(tmp_path, bodies, **given))
+    assert [str(check) for check in audit.refuted] == []
+
+
+def test_the_audit_notices_reactions_that_a_rigid_body_did_not_take(tmp_path):
+    """Its velocities are those of 0.1 % more of the impulse."""
+    directory = audited(tmp_path, SPINNING)
+    with h5py.File(directory / "audit.h5", "r+") as file:
+        pressed = [step for step in file["steps"].values() if len(step["end/contact_node"])]
+        velocity, start = (pressed[-1][f"{end}/velocity"] for end in ("end", "start"))
+        nodes = velocity.shape[0] // 2  # the rigid disc, which comes first
+        velocity[:nodes] = velocity[:nodes] + 1e-3 * (velocity[:nodes] - start[:nodes])
+    refuted = {check.name for check in carom.audit(directory).refuted}
+    assert "impulse" in refuted
 
 
 def test_rigid_bodies_alone_are_audited_as_what_they_are_ruled_by(tmp_path):

@@ -106,7 +106,11 @@ class FrameChecks:
         self._findings.report("deepest penetration at output times", max(-min(gaps), 0.0), "m")
         if model.condition in ("gap", "massless"):
             allowed = self._scales.penetration()
-            one_sided = [g for g, s in zip(gaps, model.sides, strict=True) if not s.two_sided]
+            one_sided = [
+                gap
+                for gap, side in zip(gaps, model.sides, strict=True)
+                if not side.two_sided and (side.massless or not model.mixed)
+            ]
             for gap in one_sided:
                 self._check("no penetration", max(-gap, 0.0), allowed, where)
         return min(gaps)

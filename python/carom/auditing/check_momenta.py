@@ -105,7 +105,7 @@ class MomentumChecks:
         turning = all(body.turns for body in model.bodies)
         free = self.angular
         free &= rows.single & ~self._touches({o.name for o in model.scenario.obstacles})
-        if not model.massless:
+        if model.mixed or not model.massless:
             # Reactions may act where nodes and feet are not at the same place.
             free &= ~self._touches({body.name for body in model.bodies})
         if not (model.conserving and turning) or damped:

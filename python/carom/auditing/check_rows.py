@@ -230,7 +230,7 @@ class RowChecks:
             float(h["residual"].max()),
             "",
         )
-        two_sided = any(side.two_sided for side in self._model.sides)
+        two_sided = any(side.two_sided for side in self._model.sides) or self._model.mixed
         if self._model.condition in ("gap", "massless") and self._model.sides and not two_sided:
             off = self._scales.penetration()
             self._check("row: penetration", np.maximum(-h["min_gap"], 0.0), off)

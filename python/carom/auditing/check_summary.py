@@ -94,7 +94,8 @@ class SummaryChecks:
             excess = h["min_gap"].min() - _number(summary["min_gap"])
             self._extreme("min_gap", excess, 0.0, exact=every)
         if self._model.condition in ("gap", "massless") and self._model.sides:
-            one_sided = not any(side.two_sided for side in self._model.sides)
+            mixed = self._model.mixed
+            one_sided = not (mixed or any(side.two_sided for side in self._model.sides))
             depth = -_number(summary["min_gap"]) if summary["min_gap"] is not None else 0.0
             if one_sided:
                 allowed = self._scales.penetration()

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from carom.auditing.arrays import Array, Indices, cross, einsum
 from carom.auditing.model import AuditModel, Side
@@ -61,6 +62,26 @@ class Contacts:
 
     def __len__(self) -> int:
         return len(self.node)
+
+    @property
+    def massless(self) -> NDArray[np.bool_]:
+        """Which of them have a side without mass, shape [count]."""
+        return np.array([side is not None and side.massless for side in self.side], dtype=bool)
+
+    def only(self, chosen: NDArray[np.bool_]) -> Contacts:
+        """Return those that are chosen."""
+        side = tuple(side for side, keep in zip(self.side, chosen, strict=True) if keep)
+        arrays = (one for one in fields(self) if one.name != "side")
+        return Contacts(**{one.name: getattr(self, one.name)[chosen] for one in arrays}, side=side)
+
+    def placed(self, chosen: NDArray[np.bool_], others: Contacts) -> Contacts:
+        """Return the same contacts where they are if chosen, and else where `others` are."""
+        geometry = ("gap", "normal", "followed", "weights", "gap_error", "normal_error")
+        found = {}
+        for name in geometry:
+            mine, theirs = getattr(self, name), getattr(others, name)
+            found[name] = np.where(chosen[:, None] if mine.ndim > 1 else chosen, mine, theirs)
+        return replace(self, **found)
 
     @property
     def friction(self) -> Array:

@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from carom.auditing.arrays import Array, Indices, einsum
 from carom.auditing.cells import Cells
-from carom.errors import InputError
 
 LAYERS = 5
 """Layers of massive nodes that share what a node without mass carried."""
@@ -23,6 +22,10 @@ REPRODUCED = 1e-9
 
 TIE = 1e-9
 """Nodes are as far aside as one another up to this part of how far away they are."""
+
+
+class NoMassInsideError(Exception):
+    """What would be without mass is all there is near some node."""
 
 
 class Mass:
@@ -168,9 +171,7 @@ def _leaders(
         if amplification <= AMPLIFICATION * (1 + TIE):
             break
     if best is None:
-        raise InputError(
-            f"cannot audit massless contact of a body without cells inside, as at node {node}, yet"
-        )
+        raise NoMassInsideError
     return best[1], best[2]
 
 

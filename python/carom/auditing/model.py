@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
+from carom.auditing.mass import NoMassInsideError
 from carom.auditing.target import Target
 from carom.case.analysis import Conserving, Static, Theta
 from carom.case.body import Body, ReducedBody, RigidBody
@@ -41,6 +43,8 @@ class Side:
         Whether the pair is checked from the other side too.
     restitution
         Coefficient of restitution of what is rigid where velocities are ruled; None elsewhere.
+    massless
+        Whether nodes of either body are without mass.
     """
 
     source: int
@@ -48,6 +52,7 @@ class Side:
     friction: float
     two_sided: bool
     restitution: float | None = None
+    massless: bool = False
 
 
 @dataclass(frozen=True)
@@ -117,14 +122,7 @@ class AuditModel:
         written = [scenario.contact.discretisation, *(p.discretisation for p in pairs)]
         if "mortar" in written:
             raise InputError("cannot audit mortar contact yet")
-        kept = _keep_mass(scenario) if condition == "massless" else []
-        if kept and len(kept) < len(scenario.bodies):
-            raise InputError(
-                f"cannot audit massless contact where {kept[0]!r} has its mass and others have "
-                "not yet"
-            )
-        self.condition = "midpoint" if kept else condition
-        self.massless = self.condition == "massless"
+        self.massless = condition == "massless"
         if isinstance(self.analysis, Static):
             raise InputError("cannot audit a static analysis yet")
         scheme = self.analysis.scheme
@@ -132,9 +130,16 @@ class AuditModel:
             raise InputError(f"cannot audit the scheme {scheme.kind!r} yet")
         self.conserving = isinstance(scheme, Conserving)
         self.theta, self.xi = (scheme.theta, scheme.xi) if isinstance(scheme, Theta) else (0.5, 0.5)
-        self.blended = self.conserving and self.massless
         self.gravity = np.array(self.analysis.gravity or (0.0, 0.0))
         self.bodies = list(self._build_bodies(cells, types))
+        light = [len(body.massless) > 0 for body in self.bodies]
+        self.massless = any(light)
+        """Whether there are nodes without mass."""
+        self.mixed = self.massless and not all(light)
+        """Whether some bodies keep their mass where others have none."""
+        # What has mass on both sides is ruled by its motion.
+        self.condition = "midpoint" if condition == "massless" and not self.massless else condition
+        self.blended = self.conserving and self.massless
         smooth = scenario.contact.targets == "smooth"
         self.targets = [Target(b.facets, b.points, smooth=smooth) for b in self.bodies]
         self.planes = [_plane(obstacle) for obstacle in scenario.obstacles]
@@ -183,15 +188,20 @@ class AuditModel:
             last = int(nodes.max()) + 1
             if int(nodes.min()) != first or last > len(self.points):
                 raise InputError(f"body {entry.name!r}: the mesh is not numbered body after body")
-            yield AuditBody(
+            make = partial(
+                AuditBody,
                 entry,
                 self.scenario.materials,
                 vtk_type=vtk_type,
                 nodes=nodes - first,
                 points=self.points[first:last],
                 first_node=first,
-                massless=self.massless and self._may_touch(entry.name),
             )
+            spares = not isinstance(entry, RigidBody | ReducedBody) and self._may_touch(entry.name)
+            try:
+                yield make(massless=self.massless and spares)
+            except NoMassInsideError:
+                yield make(massless=False)
             first = last
         if first != len(self.points):
             raise InputError(f"the mesh has {len(self.points)} nodes, its bodies have {first}")
@@ -222,7 +232,7 @@ class AuditModel:
     def jolts(self) -> bool:
         """Whether impulses change velocities: of landing, or settling of bodies that are damped."""
         damped = any(body.law.damped for body in self.bodies)
-        return self.condition == "midpoint" or (damped and not self.massless)
+        return self.condition == "midpoint" or self.mixed or (damped and not self.massless)
 
     def _enabled(self, a: str, b: str) -> bool:
         entry = self._pair(a, b)
@@ -252,8 +262,15 @@ class AuditModel:
                     if entry.sources is not None:
                         sources, swapped = entry.sources, entry.between[0] == second
                 bounce = self._restitution(first, second)
+                met = [self.bodies[index] for index in (a, b) if index >= 0]
+                make = partial(
+                    Side,
+                    friction=coefficient,
+                    restitution=bounce,
+                    massless=any(len(body.massless) > 0 for body in met),
+                )
                 if b < 0:
-                    yield Side(a, b, coefficient, two_sided=False, restitution=bounce)
+                    yield make(a, b, two_sided=False)
                     continue
                 # The auditor has no mortar rows, of which one side has the multipliers.
                 sources = sources or "both"
@@ -265,9 +282,9 @@ class AuditModel:
                     forward, backward = backward, forward
                 both = forward and backward
                 if forward:
-                    yield Side(a, b, coefficient, two_sided=both, restitution=bounce)
+                    yield make(a, b, two_sided=both)
                 if backward:
-                    yield Side(b, a, coefficient, two_sided=both, restitution=bounce)
+                    yield make(b, a, two_sided=both)
 
     def _is_finer(self, body: int, other: int) -> bool:
         wide, wide_other = self._mean_facet(body), self._mean_facet(other)
@@ -302,11 +319,6 @@ def _coefficient(friction: float | FrictionLaw) -> float:
     if isinstance(friction, FrictionLaw):
         raise InputError("cannot audit friction that depends on the motion yet")
     return friction
-
-
-def _keep_mass(scenario: Scenario) -> list[str]:
-    """Return the bodies that have no mass to spare where they touch."""
-    return [body.name for body in scenario.bodies if isinstance(body, RigidBody | ReducedBody)]
 
 
 def _refuse_what_is_driven(scenario: Scenario) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -194,7 +194,10 @@ class Step:
     def contacts(self) -> Contacts:
         """The contacts of the step, where the condition is written, with their whole reactions."""
         written = 1.0 if self.model.condition in ("gap", "massless") else 0.5
-        return self._find(self.end, written)
+        found = self._find(self.end, written)
+        if not self.model.mixed:
+            return found
+        return found.placed(found.massless, self._find(self.end, 0.5))
 
     @cached_property
     def impulses(self) -> list[Contacts]:
@@ -233,8 +236,47 @@ class Step:
 
     @cached_property
     def start_contacts(self) -> Contacts:
-        """The contacts that the step started with, where the start of the step is."""
-        return self._find(self.start, 0.0)
+        """The contacts that the step started with, where the start of the step is.
+
+        Only those of pairs without mass have a part in the step, if there are others.
+        """
+        found = self._find(self.start, 0.0)
+        return found.only(found.massless) if self.model.mixed else found
+
+    @cached_property
+    def balanced(self) -> Contacts:
+        """The contacts of the step whose pairs have a side without mass."""
+        return self.pressed.only(self.pressed.massless)
+
+    @cached_property
+    def moved(self) -> Contacts:
+        """The others, whose pairs are ruled by the motion."""
+        return self.pressed.only(~self.pressed.massless)
+
+    def on_mass(self, body: AuditBody) -> tuple[Array, Array]:
+        """Return what contacts of the other kind do to a body with mass in the step [N].
+
+        The part without the blend and that which goes with it, each with the couple that gives the
+        moments of the start where that is and of the end where that is; see docs/theory.md.
+        """
+        xi, span = self.model.xi, body.span
+        start, end = (
+            found.nodal_forces(len(self.model.points))[span]
+            for found in (self.start_contacts, self.balanced)
+        )
+        parts = [(1 - xi) * start + xi * end, end - start]
+        if not self.model.blended:
+            return parts[0], np.zeros_like(start)
+        d = self.d[span]
+        if body.turns:
+            middle = body.points + 0.5 * (self.u0 + self.u1)[span]
+            weight = body.mass.nodal[:, None]
+            arms = middle - (weight * middle).sum(axis=0) / weight.sum()
+            inertia = float((weight * arms**2).sum())
+            leads = (0.5 * (xi * end - (1 - xi) * start), 0.5 * (start + end))
+            for k, lead in enumerate(leads):
+                parts[k] += weight * turned(arms, float(cross(d, lead).sum()) / inertia)
+        return parts[0], parts[1]
 
     def _find(self, state: Mapping[str, Any], weight: float) -> Contacts:
         time = float(self.start["time"]) + weight * self.dt
@@ -261,13 +303,17 @@ class Step:
         resisted = (d - fall - dt * (drift + (v0 - drift) @ turn.T))[body.massless]
         share = STEADYING * max(self.parts / MUCH_SHORTER, 1.0) ** 2
         steadying[body.massless] = share * body.holding[:, None] * resisted
-        if model.blended:
+        if model.blended and not body.rigid:
             held = end + viscous + steadying
             internal, missing, available = self._blended(index, body, viscous, held)
         elif model.conserving:
             internal = body.conserving_force(u0, u1)
         else:
             internal = (1 - model.xi) * start + model.xi * end
+        if model.mixed and model.blended and not len(body.massless):
+            without, beside = self.on_mass(body)
+            missing += float((without * d).sum())
+            available -= float((beside * d).sum())
         return BodyForces(
             inertia=body.mass.times(v1 - v0) / dt,
             gravity=body.mass.nodal[:, None] * model.gravity,
@@ -316,8 +362,13 @@ class Step:
         return mean + given + self.blend[index] * rest, missing, available
 
     def contact_force(self, body: AuditBody) -> Array:
-        """Return the stored contact forces on a body at the end of the step [N]."""
+        """Return the stored contact forces on a body as its equation of the step has them [N]."""
         force: Array = self.end["contact_force"][body.span]
+        if self.model.mixed and not len(body.massless):
+            without, beside = self.on_mass(body)
+            at_end = self.balanced.nodal_forces(len(self.model.points))[body.span]
+            alpha = float(self.blend[self.model.bodies.index(body)])
+            return force - at_end + without + alpha * beside
         return force
 
     def residual(self, index: int) -> Array:
@@ -354,7 +405,7 @@ class Step:
 
     def _body_terms(self, index: int, body: AuditBody) -> dict[str, float]:
         model, f = self.model, self.forces[index]
-        u0, u1, v0, v1, d = (a[body.span] for a in (self.u0, self.u1, self.v0, self.v1, self.d))
+        u0, u1, v0, d = (a[body.span] for a in (self.u0, self.u1, self.v0, self.d))
         end = self.end["velocity"][body.span]
         jump = self.v_scheme[body.span] - v0
         if body.rigid:
@@ -364,14 +415,15 @@ class Step:
         if model.blended:
             contact = f.missing - float(self.blend[index]) * f.available
             contact += float(self.repaid[index])
+            if model.mixed:
+                received = self.moved.nodal_forces(len(model.points))[body.span]
+                contact += self._received(body, received)
         else:
-            share = model.xi if model.massless else 1.0
-            force = share * self.pressed.nodal_forces(len(model.points))
-            if model.massless:
-                force += (1 - share) * self.start_contacts.nodal_forces(len(model.points))
+            force = np.zeros_like(model.points)
+            for found, share in self._shares():
+                force += share * found.nodal_forces(len(model.points))
             received = force[body.span]
-            mean = 0.5 * (self.v_scheme[body.span] + v1)
-            contact = float((received * d).sum() + (self.impulse(body) * mean).sum())
+            contact = self._received(body, received)
             # What rows that are static at the end of a step leave of its mean forces.
             b = body.massless
             scheme += float(((received - f.viscous - f.internal)[b] * d[b]).sum())
@@ -384,20 +436,29 @@ class Step:
             "contact": contact,
         }
 
+    def _received(self, body: AuditBody, force: Array) -> float:
+        """Return the work of a force over the step, and of impulses at its end, on a body [J]."""
+        mean = 0.5 * (self.v_scheme + self.v1)[body.span]
+        return float((force * self.d[body.span]).sum() + (self.impulse(body) * mean).sum())
+
+    def _shares(self) -> list[tuple[Contacts, float]]:
+        """Return the contacts whose work is booked one by one, and how much of it counts."""
+        model = self.model
+        if model.blended:
+            return [(self.moved, 1.0)] if model.mixed else []
+        if not model.massless:
+            return [(self.pressed, 1.0)]
+        ends = [(self.balanced, model.xi), (self.start_contacts, 1 - model.xi)]
+        return [*ends, (self.moved, 1.0)]
+
     @cached_property
     def contact_work(self) -> list[ContactWork]:
         """The work of the reactions at the end of the step, then of those at its start.
 
         Each counts as much as the scheme lets it.
         """
-        model = self.model
-        if model.blended:
-            return self._rubbing()
-        parts = [(self.pressed, model.xi if model.massless else 1.0)]
-        if model.massless:
-            parts.append((self.start_contacts, 1 - model.xi))
-        work = []
-        for found, share in parts:
+        work = list(self.rubbing) if self.model.blended else []
+        for found, share in self._shares():
             w_n, w_t = found.relative(self.d, self.dt)
             work.append(
                 ContactWork(
@@ -411,6 +472,8 @@ class Step:
                     doubt=np.zeros(len(found)),
                 )
             )
+        if self.model.blended and not self.model.mixed:
+            return work
         return [*work, *self._impulse_work()]
 
     def _impulse_work(self) -> list[ContactWork]:
@@ -438,9 +501,17 @@ class Step:
 
     @cached_property
     def groups(self) -> Indices:
+        """The first body of the group of bodies that share a blend with each, [body_count]."""
+        return self._connected([self.balanced, self.start_contacts])
+
+    @cached_property
+    def books(self) -> Indices:
         """The first body of the group of bodies in contact that each belongs to, [body_count]."""
+        return self._connected([self.balanced, self.start_contacts, self.moved])
+
+    def _connected(self, contacts: Sequence[Contacts]) -> Indices:
         leader = np.arange(len(self.model.bodies))
-        for found in (self.contacts, self.start_contacts):
+        for found in contacts:
             for pair in zip(found.source, found.target, strict=True):
                 if min(pair) >= 0 and max(pair) < len(leader):
                     members = np.isin(leader, leader[list(pair)])
@@ -452,11 +523,11 @@ class Step:
 
         Both are of shape [body_count], at the first body of every group.
         """
-        missing, available = self._start_debt(), np.zeros(len(self.model.bodies))
+        missing, available = self._start_debt(self.groups), np.zeros(len(self.model.bodies))
         for f, leader in zip(self.forces, self.groups, strict=True):
             missing[leader] += f.missing
             available[leader] += f.available
-        for sign, work in zip((1.0, -1.0), self.contact_work, strict=True):
+        for sign, work in zip((1.0, -1.0), self.rubbing, strict=True):
             known = work.found.source < len(self.groups)
             leader = self.groups[work.found.source[known]]
             np.add.at(missing, leader, 0.5 * work.whole[known])
@@ -470,7 +541,7 @@ class Step:
         """
         ends: dict[tuple[int, int], list[float]] = {}
         source = {}
-        for end, found in enumerate((self.start_contacts, self.contacts)):
+        for end, found in enumerate((self.start_contacts, self.balanced)):
             for k, key in enumerate(_keys(found)):
                 ends.setdefault(key, [0.0, 0.0])[end] = max(float(found.normal_force[k]), 0.0)
                 source[key] = int(found.source[k])
@@ -489,32 +560,37 @@ class Step:
 
     def left_over(self) -> Array:
         """Return what the groups have yet to give back after the step, [body_count] [J]."""
-        left = self._start_debt()
-        for terms, leader in zip(self.body_terms, self.groups, strict=True):
+        left = self._start_debt(self.books)
+        for terms, leader in zip(self.body_terms, self.books, strict=True):
             left[leader] += terms["kinetic"] + terms["strain"] + terms["viscous"]
             left[leader] -= terms["external"]
         for work in self.contact_work:
-            known = work.found.source < len(self.groups)
-            leader = self.groups[work.found.source[known]]
-            taken = work.terms["friction"] - work.terms["prescribed"]
+            known = work.found.source < len(self.books)
+            leader = self.books[work.found.source[known]]
+            nothing = np.zeros(len(work.found))
+            taken = -work.terms["prescribed"]
+            for name in ("friction", "normal_contact", "settling"):
+                taken = taken + work.terms.get(name, nothing)
             np.add.at(left, leader, taken[known])
         return left
 
-    def _start_debt(self) -> Array:
-        """Return what the groups had yet to give back before the step, [body_count] [J]."""
+    def _start_debt(self, groups: Indices) -> Array:
+        """Return what groups had yet to give back before the step, [body_count] [J]."""
         debt = np.zeros(len(self.model.bodies))
-        np.add.at(debt, self.groups, self.start["energy_debt"])
+        np.add.at(debt, groups, self.start["energy_debt"])
         return debt
 
-    def _rubbing(self) -> list[ContactWork]:
-        """Return what friction, μ r̄_n |w_t|, and obstacles do, r̄ = (½ − α) r₀ + (½ + α) r₁.
+    @cached_property
+    def rubbing(self) -> list[ContactWork]:
+        """What friction, μ r̄_n |w_t|, and obstacles do, r̄ = (½ − α) r₀ + (½ + α) r₁.
 
         Slip is measured in the frame of the end. Where a contact has no reaction there, it is not
         stored whether the run measured it there or, with the contact out of reach, at the start.
         """
-        ended = {key: k for k, key in enumerate(_keys(self.contacts))}
-        end_slip = np.abs(self.contacts.relative(self.d, self.dt)[1])
-        frames = (self._find(self.start, 1.0), self.start_contacts)
+        ended = {key: k for k, key in enumerate(_keys(self.balanced))}
+        end_slip = np.abs(self.balanced.relative(self.d, self.dt)[1])
+        late = self._find(self.start, 1.0)
+        frames = (late.only(late.massless) if self.model.mixed else late, self.start_contacts)
         moved, left = (np.abs(found.relative(self.d, self.dt)[1]) for found in frames)
         for k, key in enumerate(_keys(self.start_contacts)):
             if key in ended:
@@ -522,7 +598,7 @@ class Step:
         blend = np.append(self.blend, 0.0)  # the last is of nodes of no body
         work = []
         for sign, found, slip, off in (
-            (1.0, self.contacts, end_slip, np.zeros(len(end_slip))),
+            (1.0, self.balanced, end_slip, np.zeros(len(end_slip))),
             (-1.0, self.start_contacts, moved, np.abs(moved - left)),
         ):
             share = 0.5 + sign * blend[found.source]

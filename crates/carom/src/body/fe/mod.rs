@@ -402,7 +402,10 @@ impl<const D: usize> Body<D> for FeBody<D> {
                 * (nodal::dot(guess.motion, end.internal_force)
                     - nodal::dot(guess.motion, start.internal_force));
         }
-        let contact = exchanged.unwrap_or_else(|| held.free_dot(guess.motion, end.mean_contact_force));
+        // Without mass where it touches, a body feels contact by its blend alone.
+        let pressed = || held.free_dot(guess.motion, end.mean_contact_force);
+        let contact = exchanged.unwrap_or(0.0)
+            + if exchanged.is_none() || body.massless().is_empty() { pressed() } else { 0.0 };
         if exchanged.is_none() {
             let ends = [start.contact_force, end.contact_force];
             scheme += equation.static_balance_work(ends, end.internal_force, scratch.viscous());
