@@ -238,7 +238,7 @@ def test_what_keeps_its_mass_meets_obstacles_as_midpoint_says(kind):
 
 AUDITED = {
     "rigid disc": (SPINNING, {}),
-    "rigid disc between two": (BETWEEN, {}),
+    "rigid disc between two": (BETWEEN, {"friction": 0.0}),
     "plate of one cell": (PLATE, {}),
     "box on a floor": (
         [BOX, disc("b", [0.0, 0.85], [0.2, -1.0])],
@@ -247,9 +247,9 @@ AUDITED = {
 }
 
 
-def audited(tmp_path, bodies, **given):
+def audited(tmp_path, bodies, friction=0.3, **given):
     """Run a case whose steps are stored, and return where."""
-    case = scenario(bodies, 0.4, 1e-3, "massless", 0.3, **given)
+    case = scenario(bodies, 0.4, 1e-3, "massless", friction, **given)
     stored = carom.Output(fields_every=0.02, history_every=1e-3, audit=True)
     directory = tmp_path / "run"
     carom.run(case.model_copy(update={"output": stored}), out=directory)

@@ -63,6 +63,10 @@ pub(super) fn measure<const D: usize>(
         if let [Solid::Body(a), Solid::Body(b)] = between {
             in_itself[a] |= a == b;
         }
+        if depth <= assembly.round_off() {
+            // What is allowed may be less where a facet is crushed to nothing.
+            return;
+        }
         let excess = depth / method.allowed_penetration(cell, arcs, 0.0);
         if excess > largest {
             largest = excess;
