@@ -4,6 +4,7 @@ use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Target};
 use carom_mesh::{Matrix, Vector};
 
 use super::control::CONTROL;
+use super::pressing::Pressing;
 use super::slider::Slider;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
@@ -24,6 +25,7 @@ pub(crate) struct ActiveSet<const D: usize> {
     /// be tried next.
     pub sliders: Vec<Slider<D>>,
     pub unsettled: f64,
+    pub(super) pressing: Pressing,
     pub(super) next_friction: Vec<(usize, f64)>,
     /// The part of its gap [m] at the start that a contact may close or keep: see `ContactCondition::start_gap`.
     pub start_gaps: Vec<f64>,
@@ -147,7 +149,7 @@ impl<const D: usize> ActiveSet<D> {
         let contact = &given.assembly.contact;
         contact.evaluate_all(&self.candidates, &position, &mut self.mortar, &mut self.contacts);
         self.stand_off(weight);
-        self.follow_frames();
+        self.follow_frames(given, &position);
     }
 
     /// [`Self::evaluate`] where the last correction was of `correction` [m], late in the iterations of a step. A contact whose normal turns by
@@ -170,7 +172,7 @@ impl<const D: usize> ActiveSet<D> {
             }
         }
         self.stand_off(weight);
-        self.follow_frames();
+        self.follow_frames(given, &position);
     }
 
     /// Takes the interference off the gaps, where contacts are evaluated at this `weight` between start and end of the step.
@@ -180,10 +182,15 @@ impl<const D: usize> ActiveSet<D> {
         }
     }
 
-    /// Turns the frames to where those before were.
-    fn follow_frames(&mut self) {
-        for (contact, frame) in self.contacts.iter_mut().zip(&mut self.frames) {
-            contact.carry_frame(frame);
+    /// Turns the frames to where those before were, or to where friction has its directions.
+    fn follow_frames(&mut self, given: &Given<'_, D>, position: &impl Fn(u32) -> Vector<D>) {
+        let assembly = given.assembly;
+        let contacts = self.contacts.iter_mut().zip(&mut self.frames).zip(&self.candidates);
+        for ((contact, frame), candidate) in contacts {
+            match assembly.orthotropies.of(candidate.pair, &assembly.contact) {
+                Some(orthotropy) => orthotropy.orient(contact, position),
+                None => contact.carry_frame(frame),
+            }
             *frame = contact.frame;
         }
     }

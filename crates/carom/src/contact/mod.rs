@@ -10,6 +10,7 @@ mod coupling;
 pub(crate) mod cross_check;
 pub(crate) mod delassus;
 mod left_out;
+mod pressing;
 pub(crate) mod reduced;
 mod second_order;
 mod slider;

@@ -5,7 +5,7 @@ use carom_fem::sparse::{Inverse, NodalMatrix, Precision};
 use carom_fem::{Body, BodyWithHistory, Held};
 use carom_mesh::{Matrix, Vector, nodal};
 
-use super::equation::STEADYING;
+use super::equation::steadied;
 use crate::archive::{Archive, CheckpointError};
 use crate::body::Tangent;
 use crate::error::StepError;
@@ -365,8 +365,9 @@ impl<const D: usize> IterationMatrix<D> {
     ) -> NodalMatrix<Matrix<D>> {
         let body = with_history.body;
         let mut stiffness = with_history.stiffness(u);
-        for (&n, k) in body.massless().iter().zip(body.massless_stiffness()) {
-            stiffness.values[body.graph().entry(n, n)] += Matrix::from_diagonal_element(STEADYING * k);
+        for (n, resistance) in steadied(body, map) {
+            stiffness.values[body.graph().entry(n as u32, n as u32)] +=
+                Matrix::from_diagonal_element(resistance);
         }
         let [k, c, m] = Self::coefficients(map);
         let damping = body.damping();
