@@ -19,9 +19,9 @@ PLATES = """\
 
 A steel sphere of 10 mm strikes a plate of steel from which no wave returns, a body of revolution
 (`tests/validation/zener.py`); the thickness, {thick:.1f} mm to {thin:.1f} mm at 1 m/s, makes
-Zener's λ. His equation is integrated by `scipy.integrate.solve_ivp`. It knows the plate as one without
-thickness and the sphere as a half space where they touch; both are the better the slower the
-impact, as v^⅖ and v^⅕.
+Zener's λ. His equation is integrated by `scipy.integrate.solve_ivp`. It knows the plate as one
+without thickness and the sphere as a half space where they touch; both are the better the slower
+the impact.
 
 Coefficients of restitution, by the speed and the cells over 1.4 radii of the
 contact, and what they are off Zener's. Conserving, midpoint; the defect of the books is at most
@@ -60,15 +60,15 @@ THROWS = """\
 ## A sphere thrown obliquely
 
 A steel sphere of 10 mm is thrown at a floor of steel at {speed:g} m/s and an angle,
-μ = {friction:g} (`tests/validation/oblique_spheres.py`): half of it in space, {cells:.1f} cells over a radius of the
-contact, {steps} steps in its time. ψ₁ = κ v_t/(μ v_n) is the tangential speed of the point that
-touches before, ψ₂ that after the impact, over the same v_n.
+μ = {friction:g} (`tests/validation/oblique_spheres.py`): half of it in space, {cells:.1f} cells
+over a radius of the contact, {steps} steps in its time. ψ₁ = κ v_t/(μ v_n) is the tangential
+speed of the point that touches before, ψ₂ that after the impact, over the same v_n.
 
 Maw, Barber & Fawcett's equations (Wear 38, 1976) are solved on 50 rings of uniform traction with
 displacements by elliptic integrals, which share nothing with carom; with twice as many ψ₂ changes
 by no more than 8e-4. χ = {chi:.4f}: from ψ₁ = 4χ − 1 = {gross:.3f} on all slips throughout, and
-ψ₂ = ψ₁ − 4χ. In between the point that touches comes back the way it came. Differences are in terms of 4χ,
-what slipping throughout would take. Asserted in `test_oblique_spheres.py`.
+ψ₂ = ψ₁ − 4χ. In between the point that touches comes back the way it came. Differences are in
+terms of 4χ, what slipping throughout would take. Asserted in `test_oblique_spheres.py`.
 
 {table}
 """

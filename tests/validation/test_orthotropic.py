@@ -6,6 +6,7 @@ import numpy as np
 import orthotropic
 import painleve
 import pytest
+from friction_laws import on_a_spring, sliding_block
 from orthotropic import ALONG, GRAIN, LOAD, errors, pulled
 
 import carom
@@ -110,6 +111,37 @@ def test_what_has_no_direction_is_refused():
     whole = case.model_copy(update={"contact": carom.Contact(friction=friction)})
     with pytest.raises(carom.InputError, match="needs a surface that carries it"):
         orthotropic.simulate(whole)
+    with pytest.raises(carom.InputError, match="the plane has one direction to slide in"):
+        orthotropic.simulate(in_the_plane(friction))
+    with pytest.raises(carom.InputError, match="is round, and nothing is drawn on it"):
+        orthotropic.simulate(round_ball())
+    with pytest.raises(carom.InputError, match="is not there for bodies of other codes"):
+        on_a_spring(friction, stiffness=1.0, time_step=0.1)
+    pressed = carom.FrictionFormula(formula="min(0.3, 2/p)")
+    with pytest.raises(carom.InputError, match="areas of bodies of other codes are not known"):
+        on_a_spring(pressed, stiffness=1.0, time_step=0.1)
+
+
+def in_the_plane(friction):
+    """Return a block in the plane whose pair with the floor has this friction."""
+    case = sliding_block(0.1)
+    floor = case.obstacles[0].name
+    pair = carom.Pair(between=["block", floor], friction=friction)
+    return case.model_copy(update={"contact": carom.Contact(pairs=[pair])})
+
+
+def round_ball():
+    """Return a ball that is round and should carry a direction."""
+    friction = carom.OrthotropicFriction(
+        along=0.1, across=0.3, direction=[1.0, 0.0, 0.0], of="ball"
+    )
+    case = soft_block(friction)
+    mesh = carom.Ball(centre=[0.0, 0.0, 1.1], radius=1.0, divisions=2)
+    ball = carom.RigidBody(name="ball", mass=1.0, mesh=mesh, round=True)
+    pair = carom.Pair(between=["ball", "floor"], friction=friction)
+    return case.model_copy(
+        update={"bodies": (ball,), "contact": carom.Contact(pairs=[pair]), "materials": {}}
+    )
 
 
 LAWS = painleve.LAWS | {

@@ -138,8 +138,8 @@ class OrthotropicFriction(Description):
         line drawn on its surface, or an obstacle.
     """
 
-    along: Annotated[Coefficient, Field(gt=0)]
-    across: Annotated[Coefficient, Field(gt=0)]
+    along: Annotated[Number, Field(gt=0, le=1000)]
+    across: Annotated[Number, Field(gt=0, le=1000)]
     direction: SpaceVector
     of: str
 

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use carom_friction::{FrictionLaw, Sliding};
 
-use super::orthotropy;
 use super::values::number;
 use crate::Formula;
 use crate::error::InputError;
@@ -12,7 +11,9 @@ use crate::model::Model;
 use crate::model::assembly::Assembly;
 use crate::model::bearing::Bearing;
 use crate::model::friction_laws::{FrictionLaws, MAX_FRICTION};
-use crate::scenario::{ContactSpec, FrictionSpec, RateAndStateSpec, Scenario, StaticKineticSpec};
+use crate::scenario::{
+    ContactSpec, FrictionSpec, OrthotropicSpec, RateAndStateSpec, Scenario, StaticKineticSpec,
+};
 
 const RANGE: &str = "friction must be between 0 and 1000";
 
@@ -35,9 +36,19 @@ impl FrictionLaw for FormulaLaw {
 }
 
 /// Refuses coefficients that are negative, or so large that round-off of μ|w_t| would hide the normal motion.
-pub(super) fn in_range(key: &str, value: f64) -> Result<f64, InputError> {
+fn in_range(key: &str, value: f64) -> Result<f64, InputError> {
     number(key, value, (0.0..=MAX_FRICTION).contains(&value), RANGE)?;
     Ok(value)
+}
+
+/// The larger of both coefficients, which are in range.
+pub(super) fn largest(key: &str, spec: &OrthotropicSpec) -> Result<f64, InputError> {
+    for (name, value) in [("along", spec.along), ("across", spec.across)] {
+        let key = format!("{key}.{name}");
+        in_range(&key, value)?;
+        number(&key, value, value > 0.0, "must be greater than 0")?;
+    }
+    Ok(spec.along.max(spec.across))
 }
 
 /// The coefficient of contacts that have never slid.
@@ -46,7 +57,7 @@ pub(super) fn at_rest(key: &str, friction: &FrictionSpec) -> Result<f64, InputEr
         Some(law) => in_range(key, law.at_rest()),
         None => match friction {
             FrictionSpec::Coefficient(value) => in_range(key, *value),
-            FrictionSpec::Orthotropic(spec) => orthotropy::largest(key, spec),
+            FrictionSpec::Orthotropic(spec) => largest(key, spec),
             _ => Ok(0.0),
         },
     }

@@ -6,8 +6,8 @@ use carom_contact::Solid;
 use carom_mesh::{Matrix, Vector};
 use nalgebra::DMatrix;
 
-use super::friction_law::in_range;
-use super::values::{number, vector};
+use super::friction_law::largest;
+use super::values::vector;
 use crate::ModelBody;
 use crate::error::InputError;
 use crate::ledger::ByPair;
@@ -17,16 +17,6 @@ use crate::scenario::{FrictionSpec, OrthotropicSpec, Scenario};
 
 /// Spreads of arms below this, relative to the largest, are none: the nodes around one of a flat side lie in it.
 const FLAT: f64 = 1e-10;
-
-/// The larger of both coefficients, which are in range.
-pub(super) fn largest(key: &str, spec: &OrthotropicSpec) -> Result<f64, InputError> {
-    for (name, value) in [("along", spec.along), ("across", spec.across)] {
-        let key = format!("{key}.{name}");
-        in_range(&key, value)?;
-        number(&key, value, value > 0.0, "must be greater than 0: a cone that is flat has no sliding rule")?;
-    }
-    Ok(spec.along.max(spec.across))
-}
 
 /// The pairs whose friction is orthotropic.
 pub(super) fn orthotropies<const D: usize>(

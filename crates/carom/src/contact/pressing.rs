@@ -1,9 +1,8 @@
 //! The pressure at contacts whose friction depends on it.
 
-use carom_contact::shares;
+use carom_contact::{Candidate, Contact, shares};
 use carom_mesh::Vector;
 
-use super::active::ActiveSet;
 use super::slider::Slider;
 use crate::model::given::Given;
 
@@ -26,7 +25,8 @@ impl Pressing {
     pub fn prepare<const D: usize>(
         &mut self,
         given: &Given<'_, D>,
-        active: &ActiveSet<D>,
+        candidates: &[Candidate],
+        contacts: &[Contact<D>],
         sliders: &[Slider<D>],
     ) {
         let Self { shares: all, ends, terms } = self;
@@ -37,19 +37,19 @@ impl Pressing {
             return;
         }
         all.clear();
-        for (j, contact) in active.contacts.iter().enumerate() {
+        for (j, contact) in contacts.iter().enumerate() {
             for (node, share) in shares(contact.sources()).chain(shares(contact.targets())) {
                 all.push((node, j, share));
             }
         }
         all.sort_unstable_by_key(|&(node, j, _)| (node, j));
-        let pair_of = |i: usize| assembly.contact.pairs.get(active.candidates[i].pair as usize);
+        let pair_of = |i: usize| assembly.contact.pairs.get(candidates[i].pair as usize);
         let position = |n: u32| given.position(n);
         for &Slider { contact: i, .. } in sliders {
             let pair = pair_of(i);
             let depends = assembly.friction_laws.of(&pair).is_some_and(|law| law.depends_on_pressure());
             if depends {
-                let contact = &active.contacts[i];
+                let contact = &contacts[i];
                 let pushes: Vector<D> = contact.frame.row(0).transpose();
                 for (node, share) in shares(contact.sources()) {
                     let area = assembly.bearing.area(node, &pushes, &position);

@@ -84,9 +84,7 @@ impl<const D: usize> ActiveSet<D> {
             let pair = active.candidates[slider.contact].pair as usize;
             assembly.friction_laws.of(&assembly.contact.pairs.get(pair))
         };
-        let mut pressing = std::mem::take(&mut self.pressing);
-        pressing.prepare(given, self, &sliders);
-        self.pressing = pressing;
+        self.pressing.prepare(given, &self.candidates, &self.contacts, &sliders);
         for slider in &mut sliders {
             if let Some(law) = law(slider, self) {
                 slider.begin(law, &mut self.friction[slider.contact]);

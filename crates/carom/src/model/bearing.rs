@@ -2,9 +2,9 @@ use carom_mesh::{Facet, Vector};
 
 use crate::ModelBody;
 
-/// Facets around a node bear its contact if they face it at least this well, relative to the one that does best: the sides of a sole stand across
-/// it and bear nothing.
-const BEARS: f64 = 0.5;
+/// Facets around a node bear its contact if they face it at least this well, relative to the one that does best. The sides of a sole stand across
+/// it and bear nothing, whatever friction pulls at their nodes.
+pub(crate) const BEARS: f64 = 0.5;
 
 /// The areas that bear the contact of the nodes of bodies, where friction depends on the pressure.
 #[derive(Debug, Clone, Default)]
