@@ -4,7 +4,7 @@ What is pulled from rest by F slides straight on along the d of length 1 with
 
     F − N M² d/|M d| = m a d,  M = diag(μ₁, μ₂) in the directions of friction,
 
-if F is outside the ellipse |M⁻¹ F| ≤ N; else it stays. It has taken N |M d| s over the way s.
+if F is outside the ellipse |M⁻¹ F| ≤ N; else it stays. Friction takes N |M d| s over the way s.
 """
 
 from __future__ import annotations
@@ -58,9 +58,12 @@ def closed_form(angle: float, pull: float, grain: float = GRAIN) -> Slide:
     guess = math.atan2(force[1], force[0])
     found = brentq(aside, guess - math.pi / 2, guess + math.pi / 2, xtol=1e-14)
     d = np.array([math.cos(found), math.sin(found)])
-    way = float(left(found) @ d) / MASS * END**2 / 2
+    # Forces of a step are the mean of both its ends: half of all there is in the first one.
+    speeding, rest = float(left(found) @ d) / MASS, END - STEP
+    first = speeding * STEP**2 / 4
+    way = first + speeding * (rest**2 + rest * STEP) / 2
     sliding = frame.T @ d
-    taken = LOAD * float(np.linalg.norm(limits * d)) * way
+    taken = LOAD * float(np.linalg.norm(limits * d)) * (way - first / 2)
     return Slide(way, math.atan2(sliding[1], sliding[0]), taken)
 
 

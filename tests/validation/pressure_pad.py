@@ -27,7 +27,7 @@ def thrown(law, *, width=1.0, time_step=2e-3):
                 name="block",
                 mass=1.0,
                 mesh=carom.Rectangle(
-                    corner=[0.0, 0.0], size=[width, 0.05 * width], divisions=[4, 1]
+                    corner=[0.0, 0.0], size=[width, 0.05 * width], divisions=[1, 1]
                 ),
                 velocity=[1.0, 0.0],
             )
