@@ -23,6 +23,7 @@ from sections import (
     damping,
     dissipation,
     friction_laws,
+    impacts,
     layer,
     massless,
     materials,
@@ -54,6 +55,8 @@ PARTS = {
     "springs": springs.section,
     "materials": materials.materials_section,
     "modes": materials.modes_section,
+    "plates": impacts.plates_section,
+    "throws": impacts.throws_section,
 }
 """What the page consists of, in its order; each part begins with a heading of the second level."""
 

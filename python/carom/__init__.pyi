@@ -19,6 +19,7 @@ from carom.case.contact import Contact as Contact
 from carom.case.contact import FrictionSolver as FrictionSolver
 from carom.case.contact import Pair as Pair
 from carom.case.friction import FrictionFormula as FrictionFormula
+from carom.case.friction import OrthotropicFriction as OrthotropicFriction
 from carom.case.friction import RateAndState as RateAndState
 from carom.case.friction import StaticKinetic as StaticKinetic
 from carom.case.initial import Initial as Initial

@@ -3,14 +3,14 @@ use carom_mesh::{Matrix, Vector};
 use smallvec::SmallVec;
 
 use crate::edge::Crossing;
-use crate::frame::{carried, frame};
+use crate::frame::{carried, frame, lengths, stretched};
 
 /// What may touch at one place: gap, frame, and the stencil that maps nodal to relative motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contact<const D: usize> {
     /// Distance along the normal [m]; negative = penetration. Of a mortar row the mean under its multiplier.
     pub gap: f64,
-    /// Rows n, t₁, t₂; n points from the target to the source.
+    /// Rows n, t₁, t₂; n points from the target to the source. Of [orthotropic](Self::stretch_frame) friction tangents are shorter than one.
     pub frame: Matrix<D>,
     /// The area that a reaction is spread over, so that the pressure is r_n over it. For a body in the plane it is a length
     /// [m], to be multiplied by the thickness, otherwise [m²]. 0 where a node stands for it.
@@ -88,6 +88,31 @@ impl<const D: usize> Contact<D> {
     /// Turns the tangents to where those of an earlier frame of the contact were (`carried` in frame.rs). A frame of zeros stands for none.
     pub fn carry_frame(&mut self, before: &Matrix<D>) {
         self.frame = carried(&self.frame, before);
+    }
+
+    /// Lays the first tangent along `direction` and makes the tangents as long as these `lengths`, so that an elliptic cone is a circular one; leaves
+    /// the frame as it is where the direction stands on the surface.
+    pub fn stretch_frame(&mut self, direction: &Vector<D>, lengths: [f64; 2]) {
+        if let Some(frame) = stretched(&self.frame, direction, lengths) {
+            self.frame = frame;
+        }
+    }
+
+    /// The components of a `force` [N] in the frame: the reaction whose force it is.
+    #[must_use]
+    pub fn components(&self, force: &Vector<D>) -> Vector<D> {
+        let mut components = self.frame * force;
+        for (k, length) in (1..D).zip(lengths(&self.frame)) {
+            components[k] /= length * length;
+        }
+        components
+    }
+
+    /// How far along the surface a relative motion `w` goes that is given in the frame [m].
+    #[must_use]
+    pub fn distance(&self, w: &Vector<D>) -> f64 {
+        let lengths = lengths(&self.frame);
+        (1..D).zip(lengths).map(|(k, length)| (w[k] / length).powi(2)).sum::<f64>().sqrt()
     }
 
     /// The same contact, frame and stencil, with its gap where nodes are at `position`.

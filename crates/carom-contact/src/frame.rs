@@ -38,17 +38,58 @@ fn with_tangent<const D: usize>(normal: &Vector<D>, t: &Vector<D>) -> Matrix<D> 
 /// has turned over.
 ///
 /// In space no choice of tangents is continuous for all normals, and components of a reaction only mean something in the frame that they are of.
-/// Where a normal trembles by round-off about the vertical the tangents of [`frame`] turn by 90°.
+/// Where a normal trembles by round-off about the vertical the tangents of [`frame`] turn by 90°. Tangents that are [stretched](stretched) stay so.
 #[must_use]
 pub fn carried<const D: usize>(frame: &Matrix<D>, before: &Matrix<D>) -> Matrix<D> {
     if D < 3 {
         return *frame;
     }
     let normal: Vector<D> = frame.row(0).transpose();
-    let tangent: Vector<D> = before.row(1).transpose();
+    let lengths = lengths(before);
+    let tangent: Vector<D> = before.row(1).transpose() / lengths[0];
     let tangent = tangent - normal * normal.dot(&tangent);
     let length = tangent.norm();
-    if length < 0.5 { *frame } else { with_tangent(&normal, &(tangent / length)) }
+    // Where there is none before, its length is no number.
+    if length >= 0.5 { stretch(with_tangent(&normal, &(tangent / length)), lengths) } else { *frame }
+}
+
+/// The frame with the normal of `frame` whose first tangent is as nearly along `direction` as it can be, with tangents of these `lengths`. None where
+/// the direction stands on the surface.
+///
+/// In a frame whose tangents are shorter the elliptic cone of orthotropic friction is a circular one, and the work of reactions is what it is.
+#[must_use]
+pub fn stretched<const D: usize>(
+    frame: &Matrix<D>,
+    direction: &Vector<D>,
+    lengths: [f64; 2],
+) -> Option<Matrix<D>> {
+    let normal: Vector<D> = frame.row(0).transpose();
+    let tangent = direction - normal * normal.dot(direction);
+    let length = tangent.norm();
+    let lies = D == 3 && length > ALONG * direction.norm();
+    lies.then(|| stretch(with_tangent(&normal, &(tangent / length)), lengths))
+}
+
+/// The sine of the angle with the normal below which no direction in the surface is meant.
+const ALONG: f64 = 1e-6;
+
+/// Lengths this near to one are one.
+const ROUND_OFF: f64 = 1e-9;
+
+/// The lengths of the tangents of a frame in space, exactly one where they are not stretched.
+pub(crate) fn lengths<const D: usize>(frame: &Matrix<D>) -> [f64; 2] {
+    [1, 2].map(|k| {
+        let length = frame.row(k.min(D - 1)).norm();
+        if (length - 1.0).abs() < ROUND_OFF { 1.0 } else { length }
+    })
+}
+
+/// Makes the tangents of a frame in space as long as that.
+fn stretch<const D: usize>(mut frame: Matrix<D>, lengths: [f64; 2]) -> Matrix<D> {
+    for (k, length) in lengths.into_iter().enumerate() {
+        frame.row_mut((k + 1).min(D - 1)).scale_mut(length);
+    }
+    frame
 }
 
 #[cfg(test)]
@@ -68,6 +109,20 @@ mod tests {
         let f = frame(&Vector::<2>::new(0.6, 0.8));
         assert!((f * f.transpose() - Matrix::identity()).norm() < 1e-15);
         assert!((determinant(&f) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn tangents_that_are_stretched_stay_so_where_they_are_carried() {
+        let own = frame(&Vector::<3>::new(0.0, 0.6, 0.8));
+        let direction = Vector::<3>::new(0.5, -0.2, 0.7);
+        let made = stretched(&own, &direction, [0.2, 1.0]).expect("it lies in the surface");
+        assert_eq!(made.row(0), own.row(0));
+        assert!((made.row(1).norm() - 0.2).abs() < 1e-15 && made.row(1).dot(&made.row(2)).abs() < 1e-15);
+        assert!(made.row(1).transpose().dot(&direction) > 0.0);
+        let carried_on = carried(&frame(&Vector::<3>::new(0.1, 0.6, 0.8).normalize()), &made);
+        let [along, across] = lengths(&carried_on);
+        assert!((along - 0.2).abs() < 1e-15 && across == 1.0);
+        assert!(stretched(&own, &Vector::<3>::new(0.0, 1.2, 1.6), [0.2, 1.0]).is_none());
     }
 
     /// Symptom guarded against: a normal that trembled about the vertical turned the tangents by 90° from one iteration to the next.

@@ -31,6 +31,7 @@ pub struct Body<const D: usize> {
     mass: NodalMatrix<f64>,
     nodal_mass: Vec<f64>,
     massless_stiffness: Vec<f64>,
+    massless_mass: Vec<f64>,
     total_mass: f64,
     depth: Depth,
     materials: Vec<OfMaterial>,
@@ -69,7 +70,7 @@ impl<const D: usize> Body<D> {
         let objective = laws[0].is_objective();
         // What repeats itself along a line or around an axis cannot turn.
         let turns = objective && mesh.ties().is_empty() && depth != Depth::Revolution;
-        let mass = mass_matrix(&mesh, &surface, spec, depth)?;
+        let (mass, massless_mass) = mass_matrix(&mesh, &surface, spec, depth)?;
         let graph = Arc::clone(mass.shared_graph());
         let (mut blocks, mut viscous, mut cells_in_order) = (Vec::new(), Vec::new(), Vec::new());
         for_each_piece(&mesh, depth, spec, |cells, spec| {
@@ -99,6 +100,7 @@ impl<const D: usize> Body<D> {
             dashpots: viscous,
             mass,
             massless_stiffness: Vec::new(),
+            massless_mass,
             massless_contact: spec.massless_contact,
             nodal_mass,
             is_objective: objective,
@@ -179,6 +181,12 @@ impl<const D: usize> Body<D> {
     #[must_use]
     pub fn massless_stiffness(&self) -> &[f64] {
         &self.massless_stiffness
+    }
+
+    /// For every massless node, the mass [kg] that it had before it moved inside, point masses not counted.
+    #[must_use]
+    pub fn massless_mass(&self) -> &[f64] {
+        &self.massless_mass
     }
 
     /// Row sums of the mass matrix [kg].
@@ -442,7 +450,7 @@ fn mass_matrix<const D: usize>(
     surface: &Surface,
     spec: &BodySpec,
     depth: Depth,
-) -> Result<NodalMatrix<f64>, FemError> {
+) -> Result<(NodalMatrix<f64>, Vec<f64>), FemError> {
     let graph = Arc::new(NodeGraph::of(mesh));
     let mut mass = NodalMatrix::filled(&graph, 0.0);
     for_each_piece(mesh, depth, spec, |cells, spec| {
@@ -460,10 +468,11 @@ fn mass_matrix<const D: usize>(
             }
         }
     }
-    let mass = with_points(mass, &spec.points);
     if !spec.massless_contact {
-        return Ok(mass);
+        return Ok((with_points(mass, &spec.points), Vec::new()));
     }
+    let sums = mass.row_sums();
+    let moved = surface.nodes().iter().map(|&n| sums[n as usize]).collect();
     let followers = followers(mesh, &graph, surface)?;
-    Ok(redistributed(&mass, surface.nodes(), &followers))
+    Ok((redistributed(&with_points(mass, &spec.points), surface.nodes(), &followers), moved))
 }

@@ -12,6 +12,8 @@ pub struct Sliding {
     pub speed: f64,
     /// How far it has slid since the start, whichever way; in a step as far as in its middle [m].
     pub distance: f64,
+    /// Normal reaction per area of the reference configuration [Pa].
+    pub pressure: f64,
     /// The [state variable](FrictionLaw::evolved) of the contact.
     pub state: f64,
 }
@@ -29,6 +31,11 @@ pub trait FrictionLaw: Debug + Send + Sync {
     /// Whether the speed says anything. Load steps have none.
     fn depends_on_speed(&self) -> bool {
         true
+    }
+
+    /// Whether the pressure says anything.
+    fn depends_on_pressure(&self) -> bool {
+        false
     }
 
     /// The state variable of a contact that is new.

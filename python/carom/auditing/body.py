@@ -20,8 +20,11 @@ from carom.errors import InputError
 STEADYING = 0.1
 """Resistance of a node without mass to a change of its motion, in terms of what holds it."""
 
+HEAVIEST = 0.25
+"""The same at most, as the inertia of this part of the mass that the node had."""
+
 MUCH_SHORTER = 8.0
-"""From so many parts of a nominal step on that grows with their square."""
+"""From so many parts of a nominal step on the resistance grows with their square."""
 
 KINETIC_PARTS = ("translation", "rotation", "vibration")
 """What kinetic energy is split into, as `AuditBody.kinetic_parts` returns it."""

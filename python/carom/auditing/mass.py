@@ -68,6 +68,8 @@ class Mass:
             ones = np.ones((cells.node_count, 2))
             self._lumped = self._all_nodes(ones)[:, :1]
         self._massless = massless
+        self.moved: Array = self._all_nodes(np.ones((cells.node_count, 2)))[massless, 0]
+        """What nodes without mass had before it moved inside [kg]."""
         self._follow = _Follow(cells.nodes, points, massless, facets)
         self.nodal: Array = self.times(np.ones((cells.node_count, 2)))[:, 0]
         """Row sums [kg], shape [node_count]."""

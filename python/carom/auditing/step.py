@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.auditing import contacts
 from carom.auditing.arrays import Array, Indices, cross, rotation, turned
-from carom.auditing.body import MUCH_SHORTER, STEADYING, AuditBody
+from carom.auditing.body import HEAVIEST, MUCH_SHORTER, STEADYING, AuditBody
 from carom.auditing.contacts import Contacts
 from carom.auditing.model import AuditModel
 from carom.auditing.rigid import RigidStep
@@ -302,7 +302,8 @@ class Step:
         fall = dt * dt * model.theta * (model.gravity + pressed / body.mass.total)
         resisted = (d - fall - dt * (drift + (v0 - drift) @ turn.T))[body.massless]
         share = STEADYING * max(self.parts / MUCH_SHORTER, 1.0) ** 2
-        steadying[body.massless] = share * body.holding[:, None] * resisted
+        resistance = np.minimum(share * body.holding, HEAVIEST * body.mass.moved / dt**2)
+        steadying[body.massless] = resistance[:, None] * resisted
         if model.blended and not body.rigid:
             held = end + viscous + steadying
             internal, missing, available = self._blended(index, body, viscous, held)

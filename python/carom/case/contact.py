@@ -72,9 +72,8 @@ class Pair(Description):
     between
         Names of two bodies, or of a body and an obstacle; twice that of a body that touches itself.
     friction
-        Coulomb's coefficient, or a law: `StaticKinetic`, `RateAndState` or
-        `FrictionFormula`; None takes the
-        default of `Contact`.
+        Coulomb's coefficient, or a law: `StaticKinetic`, `RateAndState` or `FrictionFormula`, or
+        `OrthotropicFriction`; None takes the default of `Contact`.
     restitution
         Coefficient of restitution e of two rigid bodies, or of a rigid one and an obstacle; None
         takes the default of `Contact`.

@@ -1,4 +1,4 @@
-"""Friction between two surfaces: a coefficient, or a law by which it depends on the sliding."""
+"""Friction between two surfaces: a coefficient, or a law by which it depends on the contact."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Annotated
 from pydantic import Discriminator, Field, Tag, model_validator
 from typing_extensions import Self
 
-from carom.case.description import Description, NonNegative, Number, Positive
+from carom.case.description import Description, NonNegative, Number, Positive, SpaceVector
 from carom.messages import problem
 
 Coefficient = Annotated[Number, Field(ge=0, le=1000)]
@@ -106,13 +106,42 @@ class FrictionFormula(Description):
     Parameters
     ----------
     formula
-        μ of the slip speed ``v`` in m/s and of the distance ``s`` in m that a contact has slid
-        since the start of the run, whichever way, such as ``"0.2 + 0.1*exp(-v/0.05)"``, with the
+        μ of the slip speed ``v`` in m/s, of the distance ``s`` in m that a contact has slid since
+        the start of the run, whichever way, and of the pressure ``p`` in Pa, such as ``"0.2 +
+        0.1*exp(-v/0.05)"``, or ``"min(0.3, 2e8/p)"`` for a shear that has a limit, with the
         functions of a signal. Between 0 and 1000, and continuous; at v = 0 it is what holds. A
-        static analysis knows no ``v``.
+        static analysis knows no ``v``; ``p`` is not known of cells of second order, round bodies
+        and bodies of other codes.
     """
 
     formula: str
+
+
+class OrthotropicFriction(Description):
+    """Friction that depends on the direction, of pairs in space.
+
+    Tangential reactions stay within an ellipse, (r₁/μ₁)² + (r₂/μ₂)² ≤ rₙ², and what slides goes
+    along its normal, (r₁/μ₁², r₂/μ₂²): of all reactions in the ellipse the one that dissipates
+    most.
+
+    Parameters
+    ----------
+    along
+        Coefficient μ₁ along `direction`, greater than 0.
+    across
+        Coefficient μ₂ across it, greater than 0.
+    direction
+        Direction in the reference configuration, of any length, shape [3]. Its part along the
+        surface counts.
+    of
+        Name of the one of the pair that carries it: a body, with which it turns and deforms as a
+        line drawn on its surface, or an obstacle.
+    """
+
+    along: Annotated[Number, Field(gt=0, le=1000)]
+    across: Annotated[Number, Field(gt=0, le=1000)]
+    direction: SpaceVector
+    of: str
 
 
 def _form(value: object) -> str:
@@ -121,6 +150,8 @@ def _form(value: object) -> str:
         return "[formula]"
     if isinstance(value, RateAndState) or (isinstance(value, Mapping) and "reference" in value):
         return "[rate and state]"
+    if isinstance(value, OrthotropicFriction) or (isinstance(value, Mapping) and "along" in value):
+        return "[orthotropic]"
     return "[law]" if isinstance(value, Mapping | StaticKinetic) else "[coefficient]"
 
 
@@ -128,20 +159,24 @@ Friction = Annotated[
     Annotated[Coefficient, Tag("[coefficient]")]
     | Annotated[StaticKinetic, Tag("[law]")]
     | Annotated[RateAndState, Tag("[rate and state]")]
-    | Annotated[FrictionFormula, Tag("[formula]")],
+    | Annotated[FrictionFormula, Tag("[formula]")]
+    | Annotated[OrthotropicFriction, Tag("[orthotropic]")],
     Discriminator(_form),
 ]
-"""Friction: Coulomb's coefficient, or a law by which it depends on the sliding."""
+"""Friction: Coulomb's coefficient, a law by which it depends on the contact, or an ellipse."""
 
 
-FrictionLaw = StaticKinetic | RateAndState | FrictionFormula
-"""Friction that depends on the sliding."""
+FrictionLaw = StaticKinetic | RateAndState | FrictionFormula | OrthotropicFriction
+"""Friction that is no coefficient."""
 
 
 def friction_text(friction: float | FrictionLaw) -> str:
     """Return friction as a summary shows it."""
     if isinstance(friction, FrictionFormula):
         return friction.formula
+    if isinstance(friction, OrthotropicFriction):
+        along, across = friction.along, friction.across
+        return f"{along:g} along {list(friction.direction)} of {friction.of}, {across:g} across"
     if isinstance(friction, StaticKinetic | RateAndState):
         given = friction.model_dump(exclude_defaults=True)
         return ", ".join(f"{key} {value:g}" for key, value in given.items())

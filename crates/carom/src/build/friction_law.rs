@@ -7,23 +7,31 @@ use carom_friction::{FrictionLaw, Sliding};
 use super::values::number;
 use crate::Formula;
 use crate::error::InputError;
+use crate::model::Model;
 use crate::model::assembly::Assembly;
+use crate::model::bearing::Bearing;
 use crate::model::friction_laws::{FrictionLaws, MAX_FRICTION};
-use crate::scenario::{ContactSpec, FrictionSpec, RateAndStateSpec, StaticKineticSpec};
+use crate::scenario::{
+    ContactSpec, FrictionSpec, OrthotropicSpec, RateAndStateSpec, Scenario, StaticKineticSpec,
+};
 
 const RANGE: &str = "friction must be between 0 and 1000";
 
-/// A formula of speed and distance.
+/// A formula of speed, distance and pressure.
 #[derive(Debug)]
-struct FormulaLaw(Formula<2>);
+struct FormulaLaw(Formula<3>);
 
 impl FrictionLaw for FormulaLaw {
     fn coefficient(&self, sliding: &Sliding) -> f64 {
-        self.0.at([sliding.speed, sliding.distance])
+        self.0.at([sliding.speed, sliding.distance, sliding.pressure])
     }
 
     fn depends_on_speed(&self) -> bool {
         self.0.uses(0)
+    }
+
+    fn depends_on_pressure(&self) -> bool {
+        self.0.uses(2)
     }
 }
 
@@ -33,12 +41,23 @@ fn in_range(key: &str, value: f64) -> Result<f64, InputError> {
     Ok(value)
 }
 
+/// The larger of both coefficients, which are in range.
+pub(super) fn largest(key: &str, spec: &OrthotropicSpec) -> Result<f64, InputError> {
+    for (name, value) in [("along", spec.along), ("across", spec.across)] {
+        let key = format!("{key}.{name}");
+        in_range(&key, value)?;
+        number(&key, value, value > 0.0, "must be greater than 0")?;
+    }
+    Ok(spec.along.max(spec.across))
+}
+
 /// The coefficient of contacts that have never slid.
 pub(super) fn at_rest(key: &str, friction: &FrictionSpec) -> Result<f64, InputError> {
     match law(key, friction)? {
         Some(law) => in_range(key, law.at_rest()),
         None => match friction {
             FrictionSpec::Coefficient(value) => in_range(key, *value),
+            FrictionSpec::Orthotropic(spec) => largest(key, spec),
             _ => Ok(0.0),
         },
     }
@@ -47,9 +66,9 @@ pub(super) fn at_rest(key: &str, friction: &FrictionSpec) -> Result<f64, InputEr
 /// The law, if the coefficient is not constant.
 fn law(key: &str, friction: &FrictionSpec) -> Result<Option<Arc<dyn FrictionLaw>>, InputError> {
     Ok(Some(match friction {
-        FrictionSpec::Coefficient(_) => return Ok(None),
+        FrictionSpec::Coefficient(_) | FrictionSpec::Orthotropic(_) => return Ok(None),
         FrictionSpec::Formula(spec) => {
-            let formula = Formula::new(&spec.formula, ["v", "s"]);
+            let formula = Formula::new(&spec.formula, ["v", "s", "p"]);
             let formula = formula.map_err(|e| InputError::new(format!("{key}.formula"), e.to_string()))?;
             Arc::new(FormulaLaw(formula))
         }
@@ -137,12 +156,46 @@ pub(crate) fn friction_laws<const D: usize>(
     Ok(laws)
 }
 
+/// The areas by which laws have their pressure; none where no law depends on it.
+///
+/// # Errors
+/// If one does, and a body has no pressure at its nodes.
+pub(super) fn bearing<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Result<Bearing, InputError> {
+    if !model.assembly.friction_laws.depend_on_pressure() {
+        return Ok(Bearing::default());
+    }
+    let key = first_law(&scenario.contact).unwrap_or_default();
+    for (b, entry) in model.bodies.iter().zip(&scenario.bodies) {
+        let quadratic = b.body.surface().facets().iter().any(|facet| facet.kind.is_quadratic());
+        let why = if entry.round {
+            "is round and has no area of contact; leave \"round\" out"
+        } else if quadratic {
+            "has cells of second order, whose nodes have no pressure of their own; take cells of first order"
+        } else {
+            continue;
+        };
+        let message =
+            format!("friction that depends on the pressure: body {:?} {why}, or leave p out", b.name);
+        return Err(InputError::new(key, message));
+    }
+    Ok(Bearing::of(model.bodies.iter().map(|b| &**b)))
+}
+
 /// The first law of a contact that is not a coefficient, by its key.
 pub(crate) fn first_law(spec: &ContactSpec) -> Option<String> {
-    if spec.friction.is_law() {
+    first(spec, FrictionSpec::is_law)
+}
+
+/// The first friction that depends on the direction, by its key.
+pub(crate) fn first_orthotropic(spec: &ContactSpec) -> Option<String> {
+    first(spec, |friction| matches!(friction, FrictionSpec::Orthotropic(_)))
+}
+
+/// The key of the first friction of which this is true.
+fn first(spec: &ContactSpec, is_it: impl Fn(&FrictionSpec) -> bool) -> Option<String> {
+    if is_it(&spec.friction) {
         return Some("contact.friction".to_string());
     }
-    let is_law = |friction: &Option<FrictionSpec>| friction.as_ref().is_some_and(FrictionSpec::is_law);
-    let found = spec.pairs.iter().position(|entry| is_law(&entry.friction));
+    let found = spec.pairs.iter().position(|entry| entry.friction.as_ref().is_some_and(&is_it));
     found.map(|k| format!("contact.pairs.{k}.friction"))
 }

@@ -12,6 +12,7 @@ mod mesh;
 pub(crate) mod method;
 pub(crate) mod mortar;
 pub(crate) mod obstacle;
+mod orthotropy;
 mod overlaps;
 mod places;
 mod reduced;
@@ -147,6 +148,8 @@ pub(crate) fn built<const D: usize>(
     let mut model = restitution::restitution(scenario, model)?;
     let is_static = method.scheme == Scheme::Static;
     model.assembly.friction_laws = friction_laws(&scenario.contact, is_static, &model.assembly)?;
+    model.assembly.bearing = friction_law::bearing(scenario, &model)?;
+    model.assembly.orthotropies = orthotropy::orthotropies(scenario, &model)?;
     if scenario.analysis.starts_from_nothing() {
         overlaps::check_overlaps(scenario, &model)?;
     }

@@ -4,6 +4,7 @@ use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Target};
 use carom_mesh::{Matrix, Vector};
 
 use super::control::CONTROL;
+use super::pressing::Pressing;
 use super::slider::Slider;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
@@ -27,6 +28,7 @@ pub(crate) struct ActiveSet<const D: usize> {
     /// be tried next.
     pub sliders: Vec<Slider<D>>,
     pub unsettled: f64,
+    pub(super) pressing: Pressing,
     pub(super) next_friction: Vec<(usize, f64)>,
     /// The part of its gap [m] at the start that a contact may close or keep: see `ContactCondition::start_gap`.
     pub start_gaps: Vec<f64>,
@@ -153,7 +155,7 @@ impl<const D: usize> ActiveSet<D> {
     pub fn evaluate(&mut self, given: &Given<'_, D>, motion: &[Vector<D>]) {
         self.place(given, motion);
         self.stand_off();
-        self.follow_frames();
+        self.follow_frames(given, motion);
     }
 
     /// Evaluates the contacts at the configurations of their conditions.
@@ -186,7 +188,7 @@ impl<const D: usize> ActiveSet<D> {
             }
         }
         self.stand_off();
-        self.follow_frames();
+        self.follow_frames(given, motion);
     }
 
     /// Takes the interference off the gaps.
@@ -198,10 +200,16 @@ impl<const D: usize> ActiveSet<D> {
         }
     }
 
-    /// Turns the frames to where those before were.
-    fn follow_frames(&mut self) {
-        for (contact, frame) in self.contacts.iter_mut().zip(&mut self.frames) {
-            contact.carry_frame(frame);
+    /// Turns the frames to where those before were, or to where friction has its directions.
+    fn follow_frames(&mut self, given: &Given<'_, D>, motion: &[Vector<D>]) {
+        let assembly = given.assembly;
+        let contacts = self.contacts.iter_mut().zip(&mut self.frames);
+        let ruled = self.candidates.iter().zip(&self.conditions);
+        for ((contact, frame), (candidate, condition)) in contacts.zip(ruled) {
+            match assembly.orthotropies.of(candidate.pair, &assembly.contact) {
+                Some(orthotropy) => orthotropy.orient(contact, &evaluated_at(given, motion, *condition)),
+                None => contact.carry_frame(frame),
+            }
             *frame = contact.frame;
         }
     }

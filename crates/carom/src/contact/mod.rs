@@ -11,6 +11,7 @@ pub(crate) mod cross_check;
 pub(crate) mod delassus;
 mod left_out;
 pub(crate) mod on_masses;
+mod pressing;
 pub(crate) mod reduced;
 mod second_order;
 mod slider;

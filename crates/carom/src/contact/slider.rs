@@ -54,6 +54,7 @@ impl<const D: usize> Slider<D> {
         Sliding {
             speed,
             distance: distance + 0.5 * slides.distance,
+            pressure: slides.pressure,
             state: if slides.presses { law.evolved(state, speed, 0.5 * slides.dt) } else { state },
         }
     }
@@ -115,6 +116,8 @@ pub(crate) struct Slides<const D: usize> {
     pub dt: f64,
     /// Speed [m/s].
     pub speed: f64,
+    /// Pressure [Pa].
+    pub pressure: f64,
     /// Distance in the step [m].
     pub distance: f64,
     /// The way, of length 1.

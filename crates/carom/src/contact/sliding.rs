@@ -62,6 +62,7 @@ impl<const D: usize> ActiveSet<D> {
             slips,
             dt: interval.map.dt,
             speed: if presses { cone::tangential_norm(w) * per_motion } else { 0.0 },
+            pressure: self.pressing.at(i, &self.reactions) / self.weights[i],
             distance: if slips { cone::tangential_norm(&(w - offset)) } else { 0.0 },
             direction: direction.try_normalize(0.0).unwrap_or_else(Vector::zeros),
         }
@@ -83,6 +84,7 @@ impl<const D: usize> ActiveSet<D> {
             let pair = active.candidates[slider.contact].pair as usize;
             assembly.friction_laws.of(&assembly.contact.pairs.get(pair))
         };
+        self.pressing.prepare(given, &self.candidates, &self.contacts, &sliders);
         for slider in &mut sliders {
             if let Some(law) = law(slider, self) {
                 slider.begin(law, &mut self.friction[slider.contact]);

@@ -22,8 +22,7 @@ impl Slip {
     pub fn add<const D: usize>(&mut self, reactions: &[Reaction<D>], motion: &[Vector<D>], slip: &mut [f64]) {
         let pressing = || reactions.iter().filter(|r| r.force[0] > 0.0).map(|r| &r.contact);
         for contact in pressing() {
-            let w = contact.relative(|n| motion[n]);
-            let distance = (1..D).map(|t| w[t] * w[t]).sum::<f64>().sqrt();
+            let distance = contact.distance(&contact.relative(|n| motion[n]));
             for (node, weight) in nodes(contact) {
                 if let Some(slid) = self.slid.get_mut(node) {
                     slid[0] += weight;

@@ -3,9 +3,11 @@ use std::ops::Range;
 use carom_contact::{Boundaries, ContactModel, Pair, Solid, Target};
 use carom_mesh::{Surface, Vector};
 
+use crate::model::bearing::Bearing;
 use crate::model::friction_laws::FrictionLaws;
 use crate::model::interference::{Interference, Interferences};
 use crate::model::obstacle_motion::ObstacleMotion;
+use crate::model::orthotropy::Orthotropies;
 use crate::model::restitution::Restitutions;
 use crate::model::springs::Spring;
 
@@ -51,6 +53,10 @@ pub struct Assembly<const D: usize> {
     pub restitutions: Restitutions,
     /// The friction laws of pairs whose coefficient depends on the motion.
     pub friction_laws: FrictionLaws,
+    /// The areas by which laws that depend on the pressure have it; empty where none does.
+    pub bearing: Bearing,
+    /// The pairs whose friction depends on the direction.
+    pub orthotropies: Orthotropies<D>,
     /// Springs and dampers between bodies and other places.
     pub springs: Vec<Spring<D>>,
     /// Which bodies have one.
@@ -102,6 +108,8 @@ impl<const D: usize> Assembly<D> {
             interferences: Interferences::default(),
             restitutions: Restitutions::default(),
             friction_laws: FrictionLaws::default(),
+            bearing: Bearing::default(),
+            orthotropies: Orthotropies::default(),
             springs: Vec::new(),
             is_connected: vec![false; members.len()],
             obstacle_motions: vec![ObstacleMotion::Velocity(Vector::zeros()); obstacles],

@@ -24,6 +24,12 @@ impl FrictionLaws {
         self.default.is_none() && self.own.values().all(Option::is_none)
     }
 
+    /// Whether one of them depends on the pressure.
+    pub(crate) fn depend_on_pressure(&self) -> bool {
+        let all = std::iter::once(&self.default).chain(self.own.values());
+        all.flatten().any(|law| law.depends_on_pressure())
+    }
+
     /// That of a pair; none where its coefficient is constant.
     #[must_use]
     pub fn of(&self, pair: &Pair) -> Option<&dyn FrictionLaw> {

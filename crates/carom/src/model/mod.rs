@@ -1,6 +1,7 @@
 //! What does not change during a run: bodies in their places, and the method that takes them through time.
 
 pub(crate) mod assembly;
+pub(crate) mod bearing;
 pub(crate) mod condition;
 pub(crate) mod each_body;
 pub(crate) mod friction_laws;
@@ -8,6 +9,7 @@ pub(crate) mod given;
 pub(crate) mod interference;
 pub(crate) mod method;
 pub(crate) mod obstacle_motion;
+pub(crate) mod orthotropy;
 pub(crate) mod restitution;
 pub(crate) mod sliding;
 pub(crate) mod springs;

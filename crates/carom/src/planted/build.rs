@@ -11,7 +11,7 @@ use super::numbering::Numbering;
 use crate::build::Surfaces;
 use crate::build::contact::{check_manifold, pairs};
 use crate::build::drive::obstacle_motion;
-use crate::build::friction_law::{first_law, friction_laws};
+use crate::build::friction_law::{first_law, first_orthotropic, friction_laws};
 use crate::build::method::{check_solver, stopping};
 use crate::build::mortar::has_mortar;
 use crate::build::obstacle::obstacle;
@@ -159,6 +159,14 @@ pub(super) fn assembled<const D: usize>(
     let mut assembly = Assembly::new(members, model, names);
     assembly.obstacle_motions = motions;
     assembly.friction_laws = friction_laws(&spec.contact, spec.theta.is_none(), &assembly)?;
+    if assembly.friction_laws.depend_on_pressure() {
+        let message = "the areas of bodies of other codes are not known, and so no pressure; leave p out";
+        return Err(InputError::new(first_law(&spec.contact).unwrap_or_default(), message));
+    }
+    if let Some(key) = first_orthotropic(&spec.contact) {
+        let message = "friction that depends on the direction is not there for bodies of other codes; give a coefficient or another law";
+        return Err(InputError::new(key, message));
+    }
     Ok(assembly)
 }
 

@@ -3,11 +3,8 @@
 use carom_contact::shares;
 use carom_mesh::{Facet, Vector};
 
+use crate::model::bearing::BEARS;
 use crate::{Model, ModelBody, State};
-
-/// Facets around a node bear its contact if they face it at least this well, relative to the one that does best. The sides of a sole stand
-/// across it and bear nothing, whatever friction pulls at their nodes.
-const BEARS: f64 = 0.5;
 
 /// Fields on the facets that may touch others, body after body.
 #[derive(Debug, Clone, PartialEq)]

@@ -13,6 +13,8 @@ pub enum FrictionSpec {
     Formula(FrictionFormulaSpec),
     /// Rate and state friction.
     RateAndState(RateAndStateSpec),
+    /// Friction that depends on the direction.
+    Orthotropic(OrthotropicSpec),
     /// Static and kinetic friction.
     StaticKinetic(StaticKineticSpec),
 }
@@ -20,8 +22,22 @@ pub enum FrictionSpec {
 impl FrictionSpec {
     /// Whether the coefficient depends on the motion.
     pub(crate) fn is_law(&self) -> bool {
-        !matches!(self, Self::Coefficient(_))
+        !matches!(self, Self::Coefficient(_) | Self::Orthotropic(_))
     }
+}
+
+/// μ₁ along a direction that a surface carries, and μ₂ across it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OrthotropicSpec {
+    /// μ₁.
+    pub along: f64,
+    /// μ₂.
+    pub across: f64,
+    /// The direction of μ₁ in the reference configuration, of any length.
+    pub direction: Vec<f64>,
+    /// The name of what carries it.
+    pub of: String,
 }
 
 /// μ as a formula of the slip speed v [m/s] and the distance s [m] that a contact has slid.

@@ -17,7 +17,9 @@ use serde::{Deserialize, Serialize};
 pub use drive::{Axis, Displacement, LoadEntry, LoadSpec, MomentSpec, MotionEntry, MotionSpec};
 
 pub use self::contact::{ContactSpec, PairEntry, SolverSpec, Sources, Targets};
-pub use self::friction::{FrictionFormulaSpec, FrictionSpec, RateAndStateSpec, StaticKineticSpec};
+pub use self::friction::{
+    FrictionFormulaSpec, FrictionSpec, OrthotropicSpec, RateAndStateSpec, StaticKineticSpec,
+};
 pub use self::mesh_spec::{Cell, MeshSpec};
 pub use self::rigid::{BodyKind, BodyMass, Inertia};
 pub use self::spring::{MassEntry, PlaceEntry, SpringEntry};

@@ -117,7 +117,7 @@ impl<const D: usize> Impulses<D> {
     ) {
         for (k, done) in self.done.iter().enumerate() {
             let reaction = &mut reactions[done.reaction];
-            let force = reaction.contact.frame * contacts[done.contact].frame.tr_mul(&done.force);
+            let force = reaction.contact.components(&contacts[done.contact].frame.tr_mul(&done.force));
             reaction.force += force;
             book(reaction, done, force[0], k < self.landings);
         }

@@ -3,7 +3,7 @@
 use carom_fem::{RigidMass, StepForces};
 use carom_mesh::{Vector, tensor};
 
-use super::equation::{Equation, ResidualScratch};
+use super::equation::{Equation, ResidualScratch, steadied};
 use crate::body::Balance;
 
 /// The forces of a step that is blended, node by node [N]; empty until one is.
@@ -42,14 +42,14 @@ impl<const D: usize> BlendedForces<D> {
         let mut balance = Balance::default();
         // What the forces of the boundary have more than the reactions (½ ∓ α) of start and end: resultants and moments.
         let (mut excess, mut excess_moment) = ([Vector::zeros(); 2], [[0.0; 3]; 2]);
-        for (&n, k) in body.massless().iter().zip(body.massless_stiffness()) {
-            let n = n as usize;
+        for (n, resistance) in steadied(body, equation.map) {
             // What supports hold is theirs: contact neither moves it nor receives its work.
             let held = body.held();
             let d = held.free_part(n, &equation.motion[n]);
             let x1 = body.mesh().nodes()[n] + equation.displacement[n] - rigid.centre;
             let (x0, x_mid) = (x1 - equation.motion[n], x1 - equation.motion[n] * 0.5);
-            let balance_at_end = end[n] + viscous[n] + equation.steadying_force(n, *k) - equation.end_load(n);
+            let balance_at_end =
+                end[n] + viscous[n] + equation.steadying_force(n, resistance) - equation.end_load(n);
             let [p0, p1] = [equation.contact_force[n], balance_at_end].map(|p| held.free_part(n, &p));
             let inner = [conserving[n] + viscous[n] - equation.mean_load(n), difference[n]]
                 .map(|f| held.free_part(n, &f));

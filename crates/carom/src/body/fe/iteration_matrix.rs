@@ -5,6 +5,7 @@ use carom_fem::sparse::{Inverse, NodalMatrix, Precision};
 use carom_fem::{Body, BodyWithHistory, Held};
 use carom_mesh::{Matrix, Vector, nodal};
 
+use super::equation::steadied;
 use crate::archive::{Archive, CheckpointError};
 use crate::body::Tangent;
 use crate::error::StepError;
@@ -370,9 +371,10 @@ impl<const D: usize> IterationMatrix<D> {
     ) -> NodalMatrix<Matrix<D>> {
         let body = with_history.body;
         let mut stiffness = with_history.stiffness(u);
-        let [k, c, m, steadying] = Self::coefficients(map);
-        for (&n, stiff) in body.massless().iter().zip(body.massless_stiffness()) {
-            stiffness.values[body.graph().entry(n, n)] += Matrix::from_diagonal_element(steadying * stiff);
+        let [k, c, m, _] = Self::coefficients(map);
+        for (n, resistance) in steadied(body, map) {
+            stiffness.values[body.graph().entry(n as u32, n as u32)] +=
+                Matrix::from_diagonal_element(resistance);
         }
         let damping = body.damping();
         let mass_coefficient = m + c * damping.mass;
