@@ -13,7 +13,7 @@ use crate::error::InputError;
 use crate::ledger::ByPair;
 use crate::model::Model;
 use crate::model::orthotropy::{Grain, Orthotropies, Orthotropy};
-use crate::scenario::{FrictionSpec, OrthotropicSpec, Scenario};
+use crate::scenario::{FrictionSpec, Scenario};
 
 /// Spreads of arms below this, relative to the largest, are none: the nodes around one of a flat side lie in it.
 const FLAT: f64 = 1e-10;
