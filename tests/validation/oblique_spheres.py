@@ -205,7 +205,8 @@ def throw(incidence: float, *, divisions: int, steps: int) -> Throw:
                 carom.Fixed(body="floor", on="y", components=["y"]),
                 carom.Fixed(body="floor", on="rim", components=["x", "z"]),
             ],
-            contact=carom.Contact(friction=FRICTION),
+            # Forces are large beside the energy of so slow a sphere.
+            contact=carom.Contact(friction=FRICTION, certificate_tolerance=1e-7),
         )
         result = carom.run(case, out=Path(folder) / "results")
         history, energy = result.history, result.summary["energy"]
