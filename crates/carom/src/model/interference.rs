@@ -87,6 +87,13 @@ impl Interference {
         self.common(t) - self.overlap.as_ref().map_or(0.0, |overlap| overlap.largest * overlap.left(t))
     }
 
+    /// Whether it is the same at two times [s].
+    #[must_use]
+    pub fn is_alike(&self, [a, b]: [f64; 2]) -> bool {
+        self.common(a) == self.common(b)
+            && self.overlap.as_ref().is_none_or(|overlap| overlap.left(a) == overlap.left(b))
+    }
+
     /// The part that all contacts have in common.
     fn common(&self, t: f64) -> f64 {
         self.signal.as_ref().map_or(0.0, |signal| signal.at(t).value)

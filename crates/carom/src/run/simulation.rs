@@ -167,7 +167,7 @@ impl<const D: usize> Simulation<D> {
             last_step: None,
             nominal_step: NominalStep::default(),
             is_complete: true,
-            work: Workspace::new(model),
+            work: stages[0].workspace(),
             current: 0,
             stages,
             state,
@@ -366,7 +366,7 @@ impl<const D: usize> Simulation<D> {
         self.grid = stage.grid;
         self.halvings = 0;
         self.events.go_on(&stage.merge);
-        self.work = Workspace::new(&stage.model).counting_on(&self.work);
+        self.work = stage.workspace().counting_on(&self.work);
     }
 
     /// Opens the books of a stage in which bodies begin with so much energy more [J]: the work of what gave them their velocity.

@@ -51,6 +51,18 @@ pub(super) const IMPULSIVE: Impulsive = Impulsive {
     borne: 2.0,
 };
 
+/// When a body has come to rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Lying {
+    /// So many steps it is still before,
+    pub steps: u64,
+    /// and for this share of its run or stage: over the whole of it a creep that no step sees comes to no more than round-off over this.
+    pub share: f64,
+}
+
+/// Those of every body.
+pub(super) const RESTING: Lying = Lying { steps: 100, share: 0.01 };
+
 /// When a body is looked at for touching itself, in diameters of its smallest facet where nothing else is said.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Waking {
