@@ -32,6 +32,12 @@ impl Interferences {
         self.own.get(between).unwrap_or(&self.default)
     }
 
+    /// Whether nothing pushes surfaces apart.
+    #[must_use]
+    pub fn are_none(&self) -> bool {
+        self.all().all(|interference| *interference == Interference::default())
+    }
+
     /// All that there are.
     pub fn all(&self) -> impl Iterator<Item = &Interference> {
         self.own.values().chain([&self.default])

@@ -306,6 +306,12 @@ impl<const D: usize> Simulation<D> {
         self.work.factor_bytes()
     }
 
+    /// Which bodies rest: they take no part in steps until something changes.
+    #[must_use]
+    pub fn resting(&self) -> &[bool] {
+        &self.work.resting.who.bodies
+    }
+
     /// Newton iterations made so far.
     #[must_use]
     pub fn newton_iterations(&self) -> u64 {

@@ -204,6 +204,16 @@ impl<const D: usize> Resting<D> {
         }
         islands.begin(watches.len());
         awake.iter().filter(|&&i| !is_for_long(i)).for_each(|&i| islands.disturb(i));
+        // What nothing presses on has no noise: any velocity is a drift.
+        let is_still = |i: usize| next.velocity[assembly.nodes(i)].iter().all(|v| *v == Vector::<D>::zeros());
+        for pair in next.reactions.iter().map(|r| assembly.contact.pairs.get(r.pair as usize)) {
+            sides(&pair).into_iter().flatten().for_each(|i| islands.is_pressed[i] = true);
+        }
+        for &i in awake.iter().filter(|i| !is_still(**i)) {
+            if !islands.is_pressed[i] {
+                islands.disturb(i);
+            }
+        }
         let pressing = next.reactions.iter().map(|r| r.pair);
         for pair in found.iter().map(|c| c.pair).chain(pressing) {
             let pair = assembly.contact.pairs.get(pair as usize);
@@ -271,6 +281,8 @@ struct Islands {
     parents: Vec<usize>,
     /// Whether something of the island of a root moves.
     is_disturbed: Vec<bool>,
+    /// Whether a reaction acts on a body.
+    is_pressed: Vec<bool>,
 }
 
 impl Islands {
@@ -280,6 +292,8 @@ impl Islands {
         self.parents.extend(0..bodies);
         self.is_disturbed.clear();
         self.is_disturbed.resize(bodies, false);
+        self.is_pressed.clear();
+        self.is_pressed.resize(bodies, false);
     }
 
     fn root(&mut self, mut body: usize) -> usize {
