@@ -88,7 +88,8 @@ mod tests {
 
     use super::*;
     use crate::{
-        Directions, Discretisation, Gauge, KnownGaps, Obstacle, PairRule, PairRules, Pairs, Path, Search, Side,
+        Directions, Discretisation, Gauge, KnownGaps, Obstacle, PairRule, PairRules, Pairs, Path, Search,
+        Side,
     };
 
     /// Eight discs in a row that is bent, above a floor, and every pair of them: listed if they are no more than `many`.

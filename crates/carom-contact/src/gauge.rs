@@ -147,8 +147,7 @@ impl<const D: usize> Gauge<D> {
                     }
                     // Outside of the box of the target nothing is behind a facet: what is farther than the smallest so far has no say.
                     let reach = if distance > 0.0 { smallest } else { smallest.max(deepest) };
-                    smallest =
-                        smallest.min(signed_distance_within(reach, &x, surface, &side.tree, position));
+                    smallest = smallest.min(signed_distance_within(reach, &x, surface, &side.tree, position));
                 }
                 smallest
             }

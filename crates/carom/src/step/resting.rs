@@ -1,10 +1,9 @@
 //! Bodies that rest: what has come to lie still takes no part in steps until something changes.
 //!
-//! A body is still in a step if round-off of the model is more than any node moves in it, by its velocity or away from where it was when
-//! it became still. That is less than what iterations leave of any motion ([`Convergence`](super::newton::convergence)). It is still for long
-//! if it is so for [`RESTING::steps`] and for a share of the run, so that a creep that is not seen would not come to more than so many times
-//! round-off in the whole run, however short the steps are. Bodies rest by islands: all that may touch one another in a step, and what drives
-//! them is what it was.
+//! A body is still in a step if none of its nodes moves by more than round-off of the model by its velocity, which is what iterations leave of any
+//! motion, nor by more than noise of that size away from where it became still. It is still for long if it is so for many steps and for a share
+//! of the run: what is not seen of a creep stays below so many times round-off in the whole run, however short the steps are. What nothing
+//! presses on has no noise, and no velocity either. Bodies rest by islands: all that may touch one another in a step.
 //!
 //! What rests has d = 0 and keeps its velocities and its reactions, so that every term of its books is zero, and the contact forces and
 //! reactions of the state are complete. It does not rest any longer in the step in which a candidate of a contact with something else is
@@ -247,7 +246,7 @@ impl<const D: usize> Resting<D> {
             return;
         }
         let (now, place) = (&next.displacement[nodes.clone()], &mut place[nodes]);
-        let is_there = || now.iter().zip(&*place).all(|(u, at)| (u - at).norm() <= round_off);
+        let is_there = || now.iter().zip(&*place).all(|(u, at)| (u - at).norm() <= RESTING.way * round_off);
         if watch.steps > 0 && is_there() {
             watch.steps += 1;
         } else {

@@ -1,6 +1,6 @@
 //! What has come to rest takes no part in steps, and moves as it would have in the step in which something changes.
 
-use carom::{Checkpoint, Meshes, Simulation, State, Workspace, build, step};
+use carom::{Meshes, Simulation, State, Workspace, build, step};
 use serde_json::{Value, json};
 
 use crate::checkpoint::goes_on_identically;
@@ -8,10 +8,11 @@ use crate::common::{body, parse, plane, scenario};
 
 const DT: f64 = 1e-3;
 
-/// Two squares on one another and on a floor, and one that falls from so high that the others are long at rest when it comes.
+/// Two squares on one another and on a floor, and one that sinks through something thick, so slowly that the others are long at rest when it comes.
 fn scene(end_time: f64, fall: f64) -> Value {
     let square = |name: &str, corner: [f64; 2], cells: usize| {
-        let mesh = json!({"kind": "rectangle", "corner": corner, "size": [1.0, 1.0], "divisions": [cells, cells]});
+        let mesh =
+            json!({"kind": "rectangle", "corner": corner, "size": [1.0, 1.0], "divisions": [cells, cells]});
         body(name, mesh, [0.0, 0.0])
     };
     let bodies = [
@@ -23,8 +24,8 @@ fn scene(end_time: f64, fall: f64) -> Value {
     case["analysis"]["scheme"] = json!({"kind": "conserving"});
     case["analysis"]["gravity"] = json!([0.0, -9.81]);
     case["materials"]["elastic"] = json!({
-        "kind": "saint-venant-kirchhoff", "young": 1e6, "poisson": 0.3, "density": 1000.0,
-        "damping": {"mass": 60.0, "stiffness": 1e-3},
+        "kind": "saint-venant-kirchhoff", "young": 1e8, "poisson": 0.3, "density": 1000.0,
+        "damping": {"mass": 100.0, "stiffness": 1e-4},
     });
     case["contact"]["condition"] = json!("midpoint");
     case["contact"]["friction"] = json!(0.5);
@@ -68,9 +69,9 @@ fn apart(a: &State<2>, b: &State<2>) -> f64 {
 
 #[test]
 fn a_stack_at_rest_takes_no_iterations_and_its_state_and_books_are_complete() {
-    let case = two(3.0);
+    let case = two(1.5);
     let mut simulation = started(&case);
-    go_on(&mut simulation, 2.5);
+    go_on(&mut simulation, 0.9);
     assert_eq!(simulation.resting(), [true, true]);
     let before = (simulation.state().clone(), simulation.books().clone(), simulation.newton_iterations());
     go_on(&mut simulation, f64::INFINITY);
@@ -85,10 +86,10 @@ fn a_stack_at_rest_takes_no_iterations_and_its_state_and_books_are_complete() {
     assert!((normal - 1.5 * weight).abs() < 1e-6 * weight, "{normal} N on the floor and between the two");
     assert!(books.total.defect().abs() < 1e-12 * books.total.external.abs(), "{:e}", books.total.defect());
     let summary = simulation.summary();
-    assert!(summary.contacts.iter().all(|event| event.release.is_none_or(|t| t < 1.0)), "both still touch");
+    assert!(summary.contacts.iter().all(|event| event.release.is_none_or(|t| t < 0.9)), "both still touch");
     // What steps would have done instead is less than what their iterations leave.
     let mut end = None;
-    awake(&case, simulation.steps(), |k, state| end = (k == 3000).then(|| state.clone()));
+    awake(&case, simulation.steps(), |k, state| end = (k == 1500).then(|| state.clone()));
     let end = end.expect("the last step");
     assert!(apart(&end, simulation.state()) < 1e-13, "{:e} m", apart(&end, simulation.state()));
     let energies = [&end, simulation.state()].map(|state| state.energies.total());
@@ -97,20 +98,21 @@ fn a_stack_at_rest_takes_no_iterations_and_its_state_and_books_are_complete() {
 
 #[test]
 fn what_falls_on_a_stack_at_rest_finds_it_as_if_it_had_never_rested() {
-    let case = scene(2.2, 8.0);
+    let case = scene(1.3, 0.1);
     let mut simulation = started(&case);
-    go_on(&mut simulation, 1.2);
+    go_on(&mut simulation, 0.9);
     assert_eq!(simulation.resting(), [true, true, false]);
     let (mut states, mut worst, mut roused) = (Vec::new(), 0.0_f64, None);
     awake(&case, simulation.steps(), |_, state| states.push(state.clone()));
-    while simulation.step() < 1400 {
+    while simulation.step() < simulation.steps() {
         simulation.advance(f64::INFINITY, || true).expect("runs");
         worst = worst.max(apart(&states[simulation.step() as usize - 1], simulation.state()));
         if roused.is_none() && simulation.resting() == [false; 3] {
             roused = Some(simulation.step());
         }
     }
-    let landed = states.iter().position(|state| state.reactions.iter().any(|r| r.node() >= 25)).expect("it lands");
+    let landed =
+        states.iter().position(|state| state.reactions.iter().any(|r| r.node() >= 25)).expect("it lands");
     let roused = roused.expect("they move");
     assert!(roused <= landed as u64 + 1, "roused in step {roused}, and hit in step {}", landed + 1);
     assert!(roused + 20 > landed as u64, "{roused}, {landed}");
@@ -119,13 +121,14 @@ fn what_falls_on_a_stack_at_rest_finds_it_as_if_it_had_never_rested() {
 
 #[test]
 fn a_load_that_sets_in_and_a_floor_that_moves_off_are_felt_in_their_step() {
-    let mut pushed = two(1.6);
-    pushed["loads"] = json!([{"kind": "traction", "body": "upper", "on": "top", "traction": [0.0, "-1e3*step(t - 1.5)"]}]);
-    let mut carried = two(1.6);
-    carried["obstacles"][0]["motion"] = json!({"y": "0.05*step(t - 1.5)*(t - 1.5)"});
+    let mut pushed = two(1.0);
+    pushed["loads"] =
+        json!([{"kind": "traction", "body": "upper", "on": "top", "traction": [0.0, "-1e3*step(t - 0.9)"]}]);
+    let mut carried = two(1.0);
+    carried["obstacles"][0]["motion"] = json!({"y": "0.05*step(t - 0.9)*(t - 0.9)"});
     for case in [pushed, carried] {
         let mut simulation = started(&case);
-        go_on(&mut simulation, 1.5 - 0.5 * DT);
+        go_on(&mut simulation, 0.9 - 0.5 * DT);
         assert_eq!(simulation.resting(), [true, true], "{case}");
         let mut states = Vec::new();
         awake(&case, simulation.steps(), |_, state| states.push(state.clone()));
@@ -135,7 +138,7 @@ fn a_load_that_sets_in_and_a_floor_that_moves_off_are_felt_in_their_step() {
             let (now, other) = (simulation.state(), &states[simulation.step() as usize - 1]);
             assert!(apart(now, other) < 1e-10, "step {}: {:e} m", simulation.step(), apart(now, other));
         }
-        assert!(apart(&still, simulation.state()) > 1e-4, "it moves");
+        assert!(apart(&still, simulation.state()) > 1e-6, "it moves");
         assert_eq!(simulation.resting(), [false, false]);
     }
 }
@@ -154,7 +157,7 @@ fn ever_rests(case: &Value) -> bool {
 #[test]
 fn what_creeps_falls_rings_or_drifts_never_rests() {
     // A floor that carries its load along at a picometre per second.
-    let mut creeping = two(2.5);
+    let mut creeping = two(1.5);
     creeping["obstacles"][0]["velocity"] = json!([1e-12, 0.0]);
     assert!(!ever_rests(&creeping), "creeping");
     // Free fall and a drift in steps so short that no motion is above round-off.
@@ -174,7 +177,7 @@ fn what_creeps_falls_rings_or_drifts_never_rests() {
 
 #[test]
 fn bodies_at_rest_go_on_identically_with_any_number_of_threads() {
-    let case = scene(1.8, 8.0);
+    let case = scene(2.2, 0.1);
     let whole = goes_on_identically::<2>(&case, 8);
     assert!(!whole.summary().contacts.is_empty());
     let end = |threads| {
@@ -182,9 +185,9 @@ fn bodies_at_rest_go_on_identically_with_any_number_of_threads() {
         pool.install(|| {
             let mut simulation = started(&case);
             go_on(&mut simulation, f64::INFINITY);
-            let checkpoint: Checkpoint = simulation.checkpoint().expect("finite");
-            checkpoint
+            assert_eq!(simulation.resting(), [true; 3]);
+            (simulation.state().clone(), simulation.books().clone())
         })
     };
-    assert_eq!(end(1), end(3));
+    assert!(end(1) == end(3));
 }
