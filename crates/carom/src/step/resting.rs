@@ -5,8 +5,8 @@
 //! of the run: what is not seen of a creep stays below so many times round-off in the whole run, however short the steps are. What nothing
 //! presses on has no noise, and no velocity either. Bodies rest by islands: all that may touch one another in a step.
 //!
-//! What rests has d = 0 and keeps its velocities and its reactions, so that every term of its books is zero, and the contact forces and
-//! reactions of the state are complete. It does not rest any longer in the step in which a candidate of a contact with something else is
+//! What rests has d = 0 and keeps its reactions; its velocities, which are noise, are what the scheme makes of them without a motion. So the terms of its
+//! books are zero but for what a dissipative scheme takes of that, and the contact forces and reactions of the state are complete. It does not rest any longer in the step in which a candidate of a contact with something else is
 //! found, something that it touches moves, or what drives it changes. Then nor does anything of its island.
 
 use carom_contact::{Candidate, Pair, Solid, Target};
@@ -14,7 +14,7 @@ use carom_mesh::Vector;
 
 use super::control::RESTING;
 use crate::body::Body;
-use crate::ledger::BodyLedger;
+use crate::ledger::{BodyLedger, Energies};
 use crate::model::assembly::Assembly;
 use crate::model::at_rest::AtRest;
 use crate::model::given::Given;
@@ -161,19 +161,24 @@ impl<const D: usize> Resting<D> {
         next.reactions.sort_unstable_by_key(Reaction::key);
     }
 
-    /// Leaves what rests as it was.
+    /// Leaves what rests where it was.
     pub fn keep(&self, given: &Given<'_, D>, next: &mut State<D>, ledgers: &mut [BodyLedger]) {
         if self.awake.len() == self.who.bodies.len() {
             return;
         }
         let state = given.state;
+        let map = &given.interval.map;
         for i in self.resting() {
-            ledgers[i] = BodyLedger::default();
             let nodes = given.assembly.nodes(i);
-            next.velocity[nodes.clone()].copy_from_slice(&state.velocity[nodes.clone()]);
+            let velocities = next.velocity[nodes.clone()].iter_mut().zip(&state.velocity[nodes.clone()]);
+            velocities.for_each(|(end, v)| *end = map.end_velocity(v, &Vector::zeros()));
             next.internal_force[nodes.clone()].copy_from_slice(&state.internal_force[nodes]);
             next.history[i].clone_from(&state.history[i]);
-            next.body_energies[i] = state.body_energies[i];
+            let before = state.body_energies[i];
+            let kinetic = before.kinetic * map.velocity_of_velocity.powi(2);
+            next.body_energies[i] = Energies { kinetic, ..before };
+            let lost = before.kinetic - kinetic;
+            ledgers[i] = BodyLedger { kinetic: -lost, scheme: lost, ..BodyLedger::default() };
         }
     }
 
