@@ -40,8 +40,7 @@ impl<const D: usize> Finder<D> {
         given: &Given<'_, D>,
         at_rest: &AtRest,
         motion: &[Vector<D>],
-        margin: f64,
-        repetition: usize,
+        (margin, repetition): (f64, usize),
         active: &mut ActiveSet<D>,
     ) {
         let start = |n: u32| given.position(n);

@@ -151,7 +151,7 @@ impl<const D: usize> PlantedContact<D> {
     fn look(&mut self) {
         let Self { setting, finder, active, motion, margin, repetition, .. } = self;
         let given = setting.given();
-        finder.find(&given, &AtRest::default(), motion, *margin, *repetition, active);
+        finder.find(&given, &AtRest::default(), motion, (*margin, *repetition), active);
         active.select(&given, &finder.search);
         (self.evaluations, self.problem.q) = (0, Vec::new());
     }

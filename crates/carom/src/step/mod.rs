@@ -129,7 +129,7 @@ fn find<const D: usize>(
     work: &mut Workspace<D>,
 ) -> bool {
     let Workspace { contacts, motion, resting, .. } = work;
-    contacts.finder.find(given, &resting.who, motion, margin, repetition, &mut contacts.active);
+    contacts.finder.find(given, &resting.who, motion, (margin, repetition), &mut contacts.active);
     resting.rouse_found(given, &contacts.active.candidates)
 }
 
