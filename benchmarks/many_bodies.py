@@ -24,8 +24,13 @@ STEP = 5e-4
 STEPS = 40
 
 
-def pile(dimension: int, count: int) -> carom.Scenario:
-    """Return bodies in layers above a floor, each a little off its place, about to touch."""
+def pile(
+    dimension: int, count: int, *, steps: int = STEPS, damping: float = 20.0
+) -> carom.Scenario:
+    """Return bodies in layers above a floor, each a little off its place, about to touch.
+
+    The damping [1/s] is that of their mass.
+    """
     rng = np.random.default_rng(1)
     side = max(2, round(count ** (1 / dimension)))
     pitch = 2.0005 * RADIUS
@@ -56,17 +61,17 @@ def pile(dimension: int, count: int) -> carom.Scenario:
                 )
             )
     law = carom.SaintVenantKirchhoff(
-        young=5e6, poisson=0.3, density=1100.0, damping=carom.Damping(mass=20.0, stiffness=2e-4)
+        young=5e6, poisson=0.3, density=1100.0, damping=carom.Damping(mass=damping, stiffness=2e-4)
     )
     return carom.Scenario(
         dimension=dimension,
         analysis=carom.Dynamic(
             gravity=tuple(-9.81 * x for x in up),
-            end_time=STEPS * STEP,
+            end_time=steps * STEP,
             time_step=STEP,
             scheme=carom.Conserving(),
         ),
-        output=carom.Output(history_every=STEPS * STEP / 4, fields_every=STEPS * STEP),
+        output=carom.Output(history_every=steps * STEP / 4, fields_every=steps * STEP),
         materials={"rubber": law},
         bodies=bodies,
         obstacles=walls,

@@ -142,6 +142,15 @@ impl<const D: usize> Bvh<D> {
     }
 }
 
+/// Gives the `count` items of a tree their boxes.
+pub(crate) fn fit<const D: usize>(tree: &mut Bvh<D>, count: usize, bounds: impl Fn(u32) -> Aabb<D>) {
+    if tree.len() == count {
+        tree.refit(bounds);
+    } else {
+        *tree = Bvh::new((0..count as u32).map(bounds));
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

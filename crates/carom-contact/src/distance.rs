@@ -19,18 +19,8 @@ impl<const D: usize> ContactModel<D> {
     /// Where the source nodes of `pair` are closest to, or deepest inside, the target.
     #[must_use]
     pub fn proximity(&self, pair: &Pair, position: &impl Fn(u32) -> Vector<D>) -> Option<Proximity<D>> {
-        self.proximity_within(f64::INFINITY, pair, position)
-    }
-
-    /// The same if it is closer than `reach` [m].
-    pub(crate) fn proximity_within(
-        &self,
-        reach: f64,
-        pair: &Pair,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> Option<Proximity<D>> {
         let nodes = self.surfaces[pair.source].sources.iter().map(|&n| position(n));
-        self.closest_within(reach, nodes, pair.target, position)
+        self.closest(nodes, pair.target, position)
     }
 
     /// Which of these points [m] is closest to, or deepest inside, a target.
@@ -43,21 +33,10 @@ impl<const D: usize> ContactModel<D> {
         target: Target,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> Option<Proximity<D>> {
-        self.closest_within(f64::INFINITY, points, target, position)
-    }
-
-    /// The same if it is closer than `reach` [m].
-    fn closest_within(
-        &self,
-        reach: f64,
-        points: impl Iterator<Item = Vector<D>>,
-        target: Target,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> Option<Proximity<D>> {
         let mut closest: Option<Proximity<D>> = None;
         let mut keep = |gap: f64, at: Vector<D>| {
-            // Without a reach one is the closest even where it is infinitely far away.
-            if closest.map_or(gap < reach || reach == f64::INFINITY, |c| gap < c.gap) {
+            // One is the closest even where it is infinitely far away.
+            if closest.is_none_or(|c| gap < c.gap) {
                 closest = Some(Proximity { gap, at });
             }
         };
@@ -70,14 +49,10 @@ impl<const D: usize> ContactModel<D> {
                 let boxes = || (0..target.facets.len() as u32).map(|f| target.bounds(f, position));
                 let whole = boxes().fold(Aabb::of([]), |all, b| all.union(&b));
                 // The nearest to the target's box first, so that most points need no closer look.
-                let points = points.map(|x| (whole.distance(&x), x));
-                let mut points: Vec<(f64, Vector<D>)> = points.filter(|p| p.0 <= reach.max(0.0)).collect();
-                if points.is_empty() {
-                    return None;
-                }
+                let mut points: Vec<(f64, Vector<D>)> = points.map(|x| (whole.distance(&x), x)).collect();
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
                 let tree = Bvh::new(boxes());
-                let mut smallest = reach;
+                let mut smallest = f64::INFINITY;
                 for (distance, x) in points {
                     if distance > smallest.max(0.0) {
                         break;
@@ -148,7 +123,7 @@ fn signed_distance<const D: usize>(
 }
 
 /// The same where only distances up to `reach` [m] matter: a larger one may come out larger still, also infinite.
-fn signed_distance_within<const D: usize>(
+pub(crate) fn signed_distance_within<const D: usize>(
     reach: f64,
     x: &Vector<D>,
     surface: &ContactSurface,

@@ -78,54 +78,6 @@ impl<const D: usize> ContactModel<D> {
             },
         }
     }
-
-    /// The smallest gap of all pairs beyond the `least` that each may have, which is at most so much [m]; infinite without a pair.
-    #[must_use]
-    pub fn smallest_gap(
-        &self,
-        (least, most): (impl Fn(&Pair) -> f64, f64),
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> f64 {
-        let extents = self.extents(position);
-        let all = extents.surfaces.iter().fold(Aabb::of([]), |all, own| all.union(own));
-        // Neighbours are no farther apart than they are large, as a rule.
-        let mut reach = extents.surfaces.iter().map(Aabb::diameter).fold(f64::INFINITY, f64::min);
-        let mut pairs = Vec::new();
-        loop {
-            self.within(reach, &extents, &mut pairs);
-            let smallest = self.smallest_gap_among(&pairs, &extents, &least, position);
-            if !self.pairs.are_many() || smallest + most <= reach || reach > all.diameter() {
-                return smallest;
-            }
-            reach = if smallest.is_finite() { smallest + most } else { 2.0 * reach.max(most) };
-        }
-    }
-
-    /// The same of some `pairs`.
-    fn smallest_gap_among(
-        &self,
-        pairs: &[usize],
-        extents: &Extents<D>,
-        least: &impl Fn(&Pair) -> f64,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> f64 {
-        let bound = |pair: &Pair| self.at_least(pair, extents, position) - least(pair);
-        // Only a gap below the smallest so far is asked for.
-        let beyond = |pair: &Pair, smallest: f64| {
-            let near = self.proximity_within(smallest + least(pair), pair, position)?;
-            Some(near.gap - least(pair))
-        };
-        let pairs = || pairs.iter().map(|&p| self.pairs.get(p));
-        let nearest = pairs().map(|pair| (bound(&pair), pair)).min_by(|a, b| a.0.total_cmp(&b.0));
-        let mut smallest =
-            nearest.and_then(|(_, pair)| beyond(&pair, f64::INFINITY)).unwrap_or(f64::INFINITY);
-        for pair in pairs() {
-            if bound(&pair) < smallest {
-                smallest = beyond(&pair, smallest).map_or(smallest, |gap| gap.min(smallest));
-            }
-        }
-        smallest
-    }
 }
 
 #[cfg(test)]
@@ -135,7 +87,10 @@ mod tests {
     use carom_mesh::{Surface, generate};
 
     use super::*;
-    use crate::{Directions, Discretisation, Obstacle, PairRule, PairRules, Pairs, Path, Search, Side};
+    use crate::{
+        Directions, Discretisation, Gauge, KnownGaps, Obstacle, PairRule, PairRules, Pairs, Path, Search,
+        Side,
+    };
 
     /// Eight discs in a row that is bent, above a floor, and every pair of them: listed if they are no more than `many`.
     fn row(smooth: bool, many: usize) -> (ContactModel<2>, Vec<Vector<2>>) {
@@ -185,6 +140,7 @@ mod tests {
         for (smooth, many) in [(false, 100), (true, 100), (false, 0), (true, 0)] {
             let (model, x) = row(smooth, many);
             assert_eq!(model.pairs.are_many(), many == 0);
+            let mut gauge = Gauge::default();
             let pairs: Vec<Pair> = model.pairs.iter().map(|(_, pair)| pair).collect();
             for shift in [0.0, 0.05, -0.4] {
                 let at = moved(&model, &x, shift);
@@ -204,7 +160,14 @@ mod tests {
                     _ => 0.01,
                 };
                 let all = pairs.iter().map(|pair| gap(pair) - least(pair));
-                assert_eq!(model.smallest_gap((least, 6.0), &at), all.fold(f64::INFINITY, f64::min));
+                let smallest = all.fold(f64::INFINITY, f64::min);
+                let deepest = pairs.iter().map(|pair| -gap(pair)).fold(0.0, f64::max);
+                for known in [f64::INFINITY, smallest + 0.3, smallest] {
+                    for deepest in [f64::INFINITY, deepest] {
+                        let gaps = KnownGaps { least, most: 6.0, known, deepest };
+                        assert_eq!(gauge.smallest_gap(&model, &gaps, &at), smallest);
+                    }
+                }
             }
         }
     }

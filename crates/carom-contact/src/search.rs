@@ -2,7 +2,7 @@ use carom_mesh::Vector;
 use carom_mesh::parallel::{SURFACES, each_group};
 
 use crate::aabb::Aabb;
-use crate::bvh::Bvh;
+use crate::bvh::{Bvh, fit};
 use crate::facing::{Projected, faced};
 use crate::looking::{Looking, Scratch};
 use crate::project::Reach;
@@ -367,15 +367,6 @@ impl<const D: usize> Swept<D> {
             swept.inflated(path.margin + SEARCH.depth * swept.diameter())
         };
         fit(&mut self.edges, surface.edges.len(), room);
-    }
-}
-
-/// Gives the `count` items of a tree their boxes.
-fn fit<const D: usize>(tree: &mut Bvh<D>, count: usize, bounds: impl Fn(u32) -> Aabb<D>) {
-    if tree.len() == count {
-        tree.refit(bounds);
-    } else {
-        *tree = Bvh::new((0..count as u32).map(bounds));
     }
 }
 

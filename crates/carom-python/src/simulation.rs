@@ -304,6 +304,11 @@ impl Simulation {
         with!(&mut self.inner, run => run.finish());
     }
 
+    /// Which bodies rest.
+    fn resting(&self) -> Vec<bool> {
+        with!(&self.inner, run => run.resting().to_vec())
+    }
+
     fn progress<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         with!(&self.inner, run => to_python(py, &run.progress()))
     }

@@ -83,6 +83,12 @@ class Simulation(State):
         """Whether the end of the case is reached."""
         return self._native.step >= self._native.steps
 
+    @property
+    def resting(self) -> list[str]:
+        """Names of the bodies at rest, which take no part in steps until something changes."""
+        rests = zip(self.bodies, self._native.resting(), strict=True)
+        return [name for name, is_at_rest in rests if is_at_rest]
+
     def step(self) -> Step:
         """Go on by one time step.
 

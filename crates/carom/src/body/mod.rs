@@ -236,6 +236,11 @@ pub trait Body<const D: usize>: Send + Sync {
     /// Writes ∂E/∂u [N] at `state`, whose own forces and energies are not read, and returns its energies.
     fn measure(&self, state: &BodyState<'_, D>, internal_force: &mut [Vector<D>]) -> Energies;
 
+    /// Whether all that drives it is the same at two times [s], and has no rate: if so it may rest. A body that cannot say never rests.
+    fn is_driven_alike(&self, _times: [f64; 2]) -> bool {
+        false
+    }
+
     /// The velocity at which it moves as a whole [m/s].
     fn mean_velocity(&self, velocity: &[Vector<D>]) -> Vector<D>;
 

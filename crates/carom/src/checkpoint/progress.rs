@@ -14,6 +14,8 @@ use crate::run::impact::Impact;
 use crate::run::totals::{Totals, Worst};
 use crate::step::free_motion::FreeMotion;
 use crate::step::report::Inside;
+use crate::step::resting::Resting;
+use crate::step::workspace::Workspace;
 use crate::{Books, Simulation};
 
 type Done = Result<(), CheckpointError>;
@@ -25,6 +27,7 @@ pub(super) fn exchange<const D: usize>(archive: &mut Archive<'_>, run: &mut Simu
     archive.integers("run/halvings", [&mut run.halvings])?;
     archive.numbers("run/since_look", run.work.since_look.iter_mut().map(|l| &mut l.wandered))?;
     archive.flags("run/asleep", &mut run.work.contacts.finder.asleep)?;
+    resting(archive, &mut run.work)?;
     archive.optional("run/last_recorded", [&mut run.last_recorded])?;
     archive.numbers("run/initial_energies", run.initial_energies.iter_mut().flat_map(|e| e.terms_mut()))?;
     if run.grid.step > run.grid.steps || run.halvings > run.stage().method.max_halvings {
@@ -38,6 +41,17 @@ pub(super) fn exchange<const D: usize>(archive: &mut Archive<'_>, run: &mut Simu
     events(archive, &run.stages[run.current].model.assembly, &mut run.events)?;
     history(archive, &mut run.history)?;
     archive.pending("ledger/rows", &mut run.ledger_table.rows)
+}
+
+/// Which bodies rest, and how long the others have been still.
+fn resting<const D: usize>(archive: &mut Archive<'_>, work: &mut Workspace<D>) -> Done {
+    let Resting { who, watches, place, .. } = &mut work.resting;
+    archive.flags("run/resting/bodies", &mut who.bodies)?;
+    archive.integers("run/resting/steps", watches.iter_mut().map(|w| &mut w.steps))?;
+    archive.numbers("run/resting/since", watches.iter_mut().flat_map(|w| [&mut w.since, &mut w.depth]))?;
+    archive.vectors("run/resting/place", place)?;
+    work.resting.list();
+    Ok(())
 }
 
 /// Records or replays something of some pairs: tells of which it is.

@@ -261,6 +261,8 @@ impl<const D: usize> ActiveSet<D> {
     ) -> impl Iterator<Item = (usize, usize, &'a Reaction<D>)> {
         let mut reactions = reactions.iter().enumerate().peekable();
         self.candidates.iter().enumerate().filter_map(move |(i, candidate)| {
+            // Those of bodies that rest have no part in the step.
+            while reactions.next_if(|(_, r)| r.key() < candidate.key()).is_some() {}
             let (k, reaction) = reactions.next_if(|(_, r)| r.key() == candidate.key())?;
             Some((i, k, reaction))
         })

@@ -5,6 +5,7 @@ use carom_mesh::Vector;
 
 use super::active::ActiveSet;
 use super::control::CONTROL;
+use crate::model::at_rest::AtRest;
 use crate::model::given::Given;
 use crate::model::state::{Reaction, State};
 
@@ -15,7 +16,7 @@ pub(crate) struct Finder<const D: usize> {
     /// Bodies that are so far from touching themselves that they are not searched for it.
     pub asleep: Vec<bool>,
     /// All that the search found, ascending.
-    found: Vec<Candidate>,
+    pub found: Vec<Candidate>,
     /// Those of the step that say what no other does, as the measure has shown.
     needed: Vec<(u32, Site)>,
     missed: Vec<Candidate>,
@@ -37,9 +38,9 @@ impl<const D: usize> Finder<D> {
     pub fn find(
         &mut self,
         given: &Given<'_, D>,
+        at_rest: &AtRest,
         motion: &[Vector<D>],
-        margin: f64,
-        repetition: usize,
+        (margin, repetition): (f64, usize),
         active: &mut ActiveSet<D>,
     ) {
         let start = |n: u32| given.position(n);
@@ -47,8 +48,14 @@ impl<const D: usize> Finder<D> {
         let path = Path { start: &start, end: &end, margin };
         let (contact, candidates) = (&given.assembly.contact, &mut active.candidates);
         let Self { search, asleep, .. } = self;
-        contact.detect_node_by_node(|pair| !is_asleep(asleep, pair), &path, search, candidates);
-        let pressed = given.state.reactions.iter().map(Reaction::candidate);
+        let counts = |pair: &Pair| !is_asleep(asleep, pair) && !at_rest.are_still(pair);
+        if at_rest.is_everything() {
+            candidates.clear();
+        } else {
+            contact.detect_node_by_node(counts, &path, search, candidates);
+        }
+        let moves = |r: &&Reaction<D>| !at_rest.are_still(&contact.pairs.get(r.pair as usize));
+        let pressed = given.state.reactions.iter().filter(moves).map(Reaction::candidate);
         let stand_off = |c: &Candidate| given.interference(c.key())[0].abs();
         self.missed.clear();
         self.missed.extend(pressed.filter(|c| contact.still_touches(c, stand_off(c), &start)));
@@ -72,8 +79,8 @@ impl<const D: usize> Finder<D> {
     /// missed is searched from now on.
     ///
     /// Only where the condition is written there: the others choose their contacts at the start.
-    pub fn missed_one(&mut self, given: &Given<'_, D>, next: &State<D>) -> bool {
-        if !given.method.condition.rules_the_end() {
+    pub fn missed_one(&mut self, given: &Given<'_, D>, at_rest: &AtRest, next: &State<D>) -> bool {
+        if !given.method.condition.rules_the_end() || at_rest.is_everything() {
             return false;
         }
         let assembly = given.assembly;
@@ -83,7 +90,8 @@ impl<const D: usize> Finder<D> {
         let at_end = Path::resting(&end, assembly.reach(given.interval.end) + closed);
         let Self { search, asleep, found, needed, missed, missed_mortar, missed_contacts } = self;
         let contact = &assembly.contact;
-        contact.detect_node_by_node(|pair| !is_asleep(asleep, pair), &at_end, search, missed);
+        let counts = |pair: &Pair| !is_asleep(asleep, pair) && !at_rest.are_still(pair);
+        contact.detect_node_by_node(counts, &at_end, search, missed);
         assembly.contact.detect_mortar(&at_end, missed_mortar, missed);
         missed.retain(|m| found.binary_search_by_key(&m.key(), Candidate::key).is_err());
         assembly.contact.evaluate_all(missed, &end, missed_mortar, missed_contacts);

@@ -32,6 +32,12 @@ impl Interferences {
         self.own.get(between).unwrap_or(&self.default)
     }
 
+    /// Whether nothing pushes surfaces apart.
+    #[must_use]
+    pub fn are_none(&self) -> bool {
+        self.all().all(|interference| *interference == Interference::default())
+    }
+
     /// All that there are.
     pub fn all(&self) -> impl Iterator<Item = &Interference> {
         self.own.values().chain([&self.default])
@@ -85,6 +91,13 @@ impl Interference {
     #[must_use]
     pub fn least(&self, t: f64) -> f64 {
         self.common(t) - self.overlap.as_ref().map_or(0.0, |overlap| overlap.largest * overlap.left(t))
+    }
+
+    /// Whether it is the same at two times [s].
+    #[must_use]
+    pub fn is_alike(&self, [a, b]: [f64; 2]) -> bool {
+        self.common(a) == self.common(b)
+            && self.overlap.as_ref().is_none_or(|overlap| overlap.left(a) == overlap.left(b))
     }
 
     /// The part that all contacts have in common.

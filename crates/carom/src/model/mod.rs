@@ -1,6 +1,7 @@
 //! What does not change during a run: bodies in their places, and the method that takes them through time.
 
 pub(crate) mod assembly;
+pub(crate) mod at_rest;
 pub(crate) mod bearing;
 pub(crate) mod condition;
 pub(crate) mod each_body;

@@ -15,6 +15,7 @@ use crate::contact::delassus::support;
 use crate::error::StepError;
 use crate::ledger::{BodyLedger, ByPair, Energies, PairLedger};
 use crate::model::assembly::Assembly;
+use crate::model::at_rest::AtRest;
 use crate::model::given::Given;
 use crate::model::method::Method;
 use crate::model::state::State;
@@ -150,7 +151,7 @@ impl<const D: usize> PlantedContact<D> {
     fn look(&mut self) {
         let Self { setting, finder, active, motion, margin, repetition, .. } = self;
         let given = setting.given();
-        finder.find(&given, motion, *margin, *repetition, active);
+        finder.find(&given, &AtRest::default(), motion, (*margin, *repetition), active);
         active.select(&given, &finder.search);
         (self.evaluations, self.problem.q) = (0, Vec::new());
     }
@@ -237,7 +238,7 @@ impl<const D: usize> PlantedContact<D> {
         self.move_to(at);
         let Self { setting, finder, next, .. } = self;
         let given = setting.given();
-        if !finder.missed_one(&given, next) {
+        if !finder.missed_one(&given, &AtRest::default(), next) {
             return Ok(false);
         }
         self.repetition += 1;

@@ -1,4 +1,4 @@
-use carom_contact::Pair;
+use carom_contact::{Gauge, KnownGaps, Pair};
 use carom_fem::KineticParts;
 use carom_mesh::Vector;
 
@@ -9,6 +9,9 @@ use crate::{Ledger, Model, State};
 
 /// What kinetic energy is split into: see [`KineticParts`].
 const PARTS: [&str; 3] = ["translation", "rotation", "vibration"];
+
+/// What is added to the depth that a step has measured before nothing is thought to be deeper, in sizes of the largest body.
+const DEEPER: f64 = 0.01;
 
 /// A node whose motion is in the history.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,6 +43,7 @@ pub(crate) struct History<const D: usize> {
     pub since: Since,
     /// The kinetic energies of the bodies of the row that is being written, by [`PARTS`].
     parts: Vec<[f64; 3]>,
+    gauge: Gauge<D>,
 }
 
 /// What is gathered between two rows.
@@ -125,9 +129,9 @@ impl<const D: usize> History<D> {
             columns.extend(["length", "force"].map(|quantity| format!("{}.{quantity}", spring.name)));
         }
         let (trails, rows) = (Vec::new(), Vec::new());
-        let (parts, since) = (Vec::new(), Since::default());
+        let (parts, since, gauge) = (Vec::new(), Since::default(), Gauge::default());
         let mut history =
-            Self { trails, tracks, has_stages, has_laws, supports, columns, rows, since, parts };
+            Self { trails, tracks, has_stages, has_laws, supports, columns, rows, since, parts, gauge };
         history.restart(state);
         history
     }
@@ -221,9 +225,10 @@ impl<const D: usize> History<D> {
         let interferences = &model.assembly.interferences;
         let least = |p: &Pair| interferences.of(p.between()).least(state.time).min(most);
         let at_most = interferences.all().map(|i| i.least(state.time).min(most)).fold(0.0, f64::max);
-        let smallest = model.assembly.contact.smallest_gap((least, at_most), &at);
         // Nodes deep between others are closest to a side; the contacts know what they face.
-        let min_gap = if since.steps > 0 { since.min_gap.min(smallest) } else { smallest };
+        let known = if since.steps > 0 { since.min_gap } else { f64::INFINITY };
+        let gaps = KnownGaps { least, most: at_most, known, deepest: deepest(model, &since) };
+        let min_gap = self.gauge.smallest_gap(&model.assembly.contact, &gaps, &at);
         self.rows.extend([
             since.contacts as f64,
             min_gap,
@@ -254,6 +259,17 @@ impl<const D: usize> History<D> {
         }
         min_gap
     }
+}
+
+/// How deep a node may be inside anything at the end of the last step at most [m], as that has measured; infinite if it has not.
+fn deepest<const D: usize>(model: &Model<D>, since: &Since) -> f64 {
+    let assembly = &model.assembly;
+    if since.steps == 0 || !assembly.interferences.are_none() {
+        return f64::INFINITY;
+    }
+    // Arcs of targets are in front of the facets that depth is measured from, and further when these are bent; the rest is for round-off.
+    let arcs = (0..assembly.body_count()).map(|i| assembly.boundaries.largest_arc(i)).fold(0.0, f64::max);
+    since.penetration + 2.0 * arcs + DEEPER * assembly.size
 }
 
 /// The components of a rotational quantity that exist in D dimensions: z in 2D, all in 3D.

@@ -167,7 +167,7 @@ impl<const D: usize> Simulation<D> {
             last_step: None,
             nominal_step: NominalStep::default(),
             is_complete: true,
-            work: Workspace::new(model),
+            work: stages[0].workspace(),
             current: 0,
             stages,
             state,
@@ -306,6 +306,12 @@ impl<const D: usize> Simulation<D> {
         self.work.factor_bytes()
     }
 
+    /// Which bodies rest: they take no part in steps until something changes.
+    #[must_use]
+    pub fn resting(&self) -> &[bool] {
+        &self.work.resting.who.bodies
+    }
+
     /// Newton iterations made so far.
     #[must_use]
     pub fn newton_iterations(&self) -> u64 {
@@ -366,7 +372,7 @@ impl<const D: usize> Simulation<D> {
         self.grid = stage.grid;
         self.halvings = 0;
         self.events.go_on(&stage.merge);
-        self.work = Workspace::new(&stage.model).counting_on(&self.work);
+        self.work = stage.workspace().counting_on(&self.work);
     }
 
     /// Opens the books of a stage in which bodies begin with so much energy more [J]: the work of what gave them their velocity.

@@ -7,6 +7,7 @@ use crate::error::InputError;
 use crate::run::events::Merge;
 use crate::run::time_grid::TimeGrid;
 use crate::scenario::{Scenario, StageEntry};
+use crate::step::workspace::Workspace;
 use crate::{Method, Model, Scheme, State};
 
 /// The most steps a stage may have; more is a slip of units.
@@ -90,6 +91,12 @@ impl<const D: usize> Stage<D> {
             model,
             method,
         })
+    }
+
+    /// Scratch of its steps.
+    pub fn workspace(&self) -> Workspace<D> {
+        let Self { model, method, grid, .. } = self;
+        Workspace::new(model).resting(&model.assembly, method, grid.end_time - grid.start_time)
     }
 
     /// The state that a run starts from in which bodies are as they are drawn.

@@ -7,6 +7,7 @@ use carom_mesh::Vector;
 use super::landing::{Landing, restore};
 use super::repaying::repay;
 use super::report::{PairReport, StepReport};
+use super::resting::Resting;
 use super::settling::settle;
 use super::workspace::Workspace;
 use crate::body::{Body, BodyEnd};
@@ -90,10 +91,11 @@ fn keep_contacts<const D: usize>(
     work: &mut Workspace<D>,
     report: &mut StepReport,
 ) {
-    let Workspace { contacts: Contacts { active, reduced, at_end, .. }, motion, .. } = work;
+    let Workspace { contacts: Contacts { active, reduced, at_end, .. }, motion, resting, .. } = work;
     if active.contacts.is_empty() {
         next.reactions.clear();
         next.contact_force.fill(Vector::zeros());
+        carry(given, next, resting, report);
         remember(&given.state.sliding, std::iter::empty(), &mut next.sliding);
         return;
     }
@@ -106,15 +108,27 @@ fn keep_contacts<const D: usize>(
     report.friction_defect = kept.friction_defect;
     let of_step = active.sliders.iter().map(|slider| slider.after);
     remember(&given.state.sliding, of_step, &mut next.sliding);
-    report.contacts = next.reactions.len();
+    carry(given, next, resting, report);
     let reactions = active.reactions.iter().zip(&active.weights).zip(&reduced.problem.q);
     report.reaction_work = reactions.map(|((r, weight), q)| (r / *weight).dot(q).abs()).sum();
+}
+
+/// Puts the reactions of what rests among those of the step.
+fn carry<const D: usize>(
+    given: &Given<'_, D>,
+    next: &mut State<D>,
+    resting: &Resting<D>,
+    report: &mut StepReport,
+) {
+    resting.carry(given, next, |gap| report.min_gap = report.min_gap.min(gap));
+    report.contacts = next.reactions.len();
 }
 
 /// Completes the states of the bodies and closes their books.
 fn close_bodies<const D: usize>(given: &Given<'_, D>, next: &mut State<D>, work: &mut Workspace<D>) {
     let assembly = given.assembly;
-    let Workspace { bodies, contacts, blend, motion, body_ledgers, springs, .. } = work;
+    let Workspace { bodies, contacts, blend, motion, body_ledgers, springs, resting, .. } = work;
+    resting.keep(given, next, body_ledgers);
     let State { displacement, contact_force, velocity, internal_force, .. } = next;
     contacts.weigh(given, [&given.state.reactions, &next.reactions]);
     let Contacts { on_masses, active, mean_force, .. } = &mut *contacts;
@@ -147,9 +161,9 @@ fn close_bodies<const D: usize>(given: &Given<'_, D>, next: &mut State<D>, work:
     let written = (PerBody(&mut next.history), books);
     let all = (PerBody(bodies), (PerNode(velocity), PerNode(internal_force)), written);
     if next.support.is_empty() {
-        each_body(assembly, &assembly.everyone, all, &|i, own| close(i, own, &mut []));
+        each_body(assembly, &resting.awake, all, &|i, own| close(i, own, &mut []));
     } else {
-        each_body_in_turn(assembly, &assembly.everyone, all, |i, own| close(i, own, &mut next.support));
+        each_body_in_turn(assembly, &resting.awake, all, |i, own| close(i, own, &mut next.support));
     }
 }
 

@@ -51,6 +51,21 @@ pub(super) const IMPULSIVE: Impulsive = Impulsive {
     borne: 2.0,
 };
 
+/// When a body has come to rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Lying {
+    /// So many steps it is still before,
+    pub steps: u64,
+    /// and for this share of its run or stage,
+    pub share: f64,
+    /// within so many times round-off of where it became still: the root of `steps`, as iterations leave round-off in every one. What nobody sees of
+    /// a creep comes to no more than this over `share` in the whole run.
+    pub way: f64,
+}
+
+/// Those of every body.
+pub(super) const RESTING: Lying = Lying { steps: 100, share: 0.01, way: 10.0 };
+
 /// When a body is looked at for touching itself, in diameters of its smallest facet where nothing else is said.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Waking {

@@ -47,7 +47,7 @@ pub(super) fn iterate<const D: usize>(
     work.newton.in_contact = in_contact;
     let mut iterations = made?;
     for i in 0..work.bodies.len() {
-        if !work.contacts.active.touched[i] {
+        if !work.contacts.active.touched[i] && !work.resting.who.bodies[i] {
             iterations = iterations.max(solve(&[i], given, next, work)?);
         }
     }

@@ -4,6 +4,7 @@ use carom_contact::{Penetration, Solid};
 use carom_mesh::nodal;
 
 use super::report::{Inside, PenetrationReport};
+use super::resting::Resting;
 use super::waking::wander;
 use super::workspace::Workspace;
 use crate::error::StepError;
@@ -22,17 +23,21 @@ pub(super) fn measure<const D: usize>(
     let Given { assembly, method, state, interval } = *given;
     let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
     // Not where the state has them: outlines of reduced bodies may have been completed in between.
-    let Workspace { boundaries, motion, .. } = work;
+    let Workspace { boundaries, motion, resting, .. } = work;
+    if resting.who.is_everything() {
+        return Ok(PenetrationReport { depth: resting.depth(), worst: None });
+    }
     let start = |n: u32| end(n) - motion[n as usize];
     let counts = |between: [Solid; 2]| between[0] != between[1] && assembly.must_not_overlap(between);
+    let moves = |between: [Solid; 2]| counts(between) && !between.iter().all(|s| resting.who.is_still(*s));
     let obstacles = &assembly.contact.obstacles;
     let times = [state.time, interval.end];
-    let parts = boundaries.parts(nodal::largest(motion), obstacles, counts, &start, &end);
+    let parts = boundaries.parts(nodal::largest(motion), obstacles, moves, &start, &end);
     for part in 1..parts {
         let share = part as f64 / parts as f64;
         let between = |n: u32| start(n) * (1.0 - share) + end(n) * share;
         let mut in_the_way = None;
-        boundaries.measure(obstacles, counts, &between, |found| {
+        boundaries.measure(obstacles, moves, &between, |found| {
             let clearance =
                 times.map(|t| assembly.clearance(found.between, t)).into_iter().fold(0.0, f64::max);
             if found.depth - clearance > method.allowed_penetration(found.cell, found.arcs, 0.0) {
@@ -47,11 +52,13 @@ pub(super) fn measure<const D: usize>(
     let mut report = PenetrationReport::default();
     let mut largest = 0.0;
     wander(given, next, work);
-    let Workspace { boundaries, since_look, in_itself, .. } = work;
+    let Workspace { boundaries, since_look, in_itself, resting, .. } = work;
     in_itself.fill(false);
+    report.depth = resting.depth();
+    let Resting { who, watches, .. } = resting;
     let counts = |between: [Solid; 2]| match between {
         [Solid::Body(a), Solid::Body(b)] if a == b => since_look[a].is_due,
-        between => counts(between),
+        between => counts(between) && !between.iter().all(|s| who.is_still(*s)),
     };
     boundaries.measure(obstacles, counts, &end, |found| {
         let Penetration { depth, cell, arcs, between, at } = found;
@@ -60,6 +67,11 @@ pub(super) fn measure<const D: usize>(
             return;
         }
         report.depth = report.depth.max(depth);
+        for solid in between {
+            if let Solid::Body(i) = solid {
+                watches[i].depth = watches[i].depth.max(depth);
+            }
+        }
         if let [Solid::Body(a), Solid::Body(b)] = between {
             in_itself[a] |= a == b;
         }

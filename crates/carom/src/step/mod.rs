@@ -16,6 +16,7 @@ pub(crate) mod newton;
 mod outlines;
 mod repaying;
 pub(crate) mod report;
+pub(crate) mod resting;
 mod settling;
 mod since_look;
 mod springs;
@@ -38,7 +39,7 @@ use self::report::{PenetrationReport, StepReport};
 use self::stability::check_jump;
 use self::waking::wake;
 use self::workspace::Workspace;
-use crate::body::Interval;
+use crate::body::{Forecast, Interval};
 use crate::contact::cross_check::cross_check;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
@@ -78,8 +79,9 @@ pub(crate) fn step_over<const D: usize>(
     let mut iterations = 0;
     for repetition in 0..SEARCH.repetitions {
         let since = Instant::now();
-        let Workspace { contacts, motion, .. } = work;
-        contacts.finder.find(&given, motion, margin, repetition, &mut contacts.active);
+        while find(&given, margin, repetition, work) {
+            margin = margin.max(predict(&given, work)? + reach);
+        }
         work.detection_time += since.elapsed();
         let made = iterate(&given, next, work);
         if made.is_err() {
@@ -109,12 +111,26 @@ pub(crate) fn step_over<const D: usize>(
             if wake(&given, next, work) {
                 continue;
             }
+            let Workspace { bodies, contacts, resting, .. } = work;
+            resting.note(&given, next, bodies, &contacts.finder.found);
             let cross_check = cross_check(&given, &work.contacts);
             let travel = nodal::largest(&work.motion[..assembly.node_count()]);
             return Ok(StepReport { penetration, travel, cross_check, ..report });
         }
     }
     Err(StepError::MissedContact { margin })
+}
+
+/// Finds the contacts of a step. Returns whether there are some with bodies that were at rest and are no longer: they set out as the others did.
+fn find<const D: usize>(
+    given: &Given<'_, D>,
+    margin: f64,
+    repetition: usize,
+    work: &mut Workspace<D>,
+) -> bool {
+    let Workspace { contacts, motion, resting, .. } = work;
+    contacts.finder.find(given, &resting.who, motion, (margin, repetition), &mut contacts.active);
+    resting.rouse_found(given, &contacts.active.candidates)
 }
 
 /// Looks at where a step led to: what is inside what. None if a contact was missed, with which the step is to be repeated.
@@ -124,7 +140,7 @@ fn looked_at<const D: usize>(
     repetition: usize,
     work: &mut Workspace<D>,
 ) -> Result<Option<PenetrationReport>, StepError> {
-    if work.contacts.finder.missed_one(given, next) {
+    if work.contacts.finder.missed_one(given, &work.resting.who, next) {
         return Ok(None);
     }
     let penetration = measure(given, next, work)?;
@@ -138,15 +154,20 @@ fn looked_at<const D: usize>(
 fn predict<const D: usize>(given: &Given<'_, D>, work: &mut Workspace<D>) -> Result<f64, StepError> {
     let Given { assembly, state, interval, .. } = *given;
     let dt = interval.map.dt;
-    let Workspace { bodies, motion, forecasts, factorisations, .. } = work;
+    let Workspace { bodies, motion, forecasts, factorisations, resting, .. } = work;
     let flight = if interval.map.is_static() { 0.0 } else { dt };
     nodal::each(motion, [&state.velocity], |d, [v]| *d = v * flight);
     let mut driven = given.move_obstacles(motion)?;
     let obstacles = state.velocity[assembly.node_count()..].iter();
     let mut speed = obstacles.map(Vector::norm_squared).fold(0.0, f64::max).sqrt();
     let mut acceleration: f64 = 0.0;
+    resting.heed(given, motion, bodies);
+    for i in resting.resting() {
+        motion[assembly.nodes(i)].fill(Vector::zeros());
+        forecasts[i] = Forecast::default();
+    }
     let all = (PerBody(bodies), PerNode(motion), PerBody(forecasts));
-    try_each_body(assembly, &assembly.everyone, all, &|i, (body, motion, forecast)| {
+    try_each_body(assembly, &resting.awake, all, &|i, (body, motion, forecast)| {
         *forecast.own() = body.own().begin_step(interval, &given.start(i), motion.0)?;
         Ok::<_, StepError>(())
     })?;

@@ -10,9 +10,12 @@ use crate::model::state::State;
 
 /// Takes note of how far nodes of boundaries wander in the step, and which bodies may have gone through themselves since they were looked at.
 pub(super) fn wander<const D: usize>(given: &Given<'_, D>, next: &State<D>, work: &mut Workspace<D>) {
-    let Workspace { bodies, motion, since_look, boundaries, .. } = work;
+    let Workspace { bodies, motion, since_look, boundaries, resting, .. } = work;
+    for i in resting.resting() {
+        (since_look[i].in_step, since_look[i].is_due) = (0.0, false);
+    }
     let all = (PerBody(since_look), PerBody(bodies));
-    each_body(given.assembly, &given.assembly.everyone, all, &|i, (look, body)| {
+    each_body(given.assembly, &resting.awake, all, &|i, (look, body)| {
         let look = look.own();
         let moving = boundaries.nodes(i).map(|n| {
             let d = motion[n as usize];

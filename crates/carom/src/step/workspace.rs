@@ -7,6 +7,7 @@ use super::blend::Blend;
 use super::impulse::Impulses;
 use super::newton::Newton;
 use super::report::PairReport;
+use super::resting::Resting;
 use super::since_look::SinceLook;
 use super::springs::SpringBooks;
 use super::whereabouts::Whereabouts;
@@ -15,6 +16,7 @@ use crate::contact::{Contacts, PosedProblem};
 use crate::ledger::{BodyLedger, ByPair};
 use crate::model::Model;
 use crate::model::assembly::Assembly;
+use crate::model::method::Method;
 
 /// Scratch of a step: the bodies with their factors, contacts, iterations. It holds no result and may be dropped at any moment; a run that is
 /// to go on to the last bit keeps what its [`crate::Checkpoint`] has of it.
@@ -27,6 +29,7 @@ pub struct Workspace<const D: usize> {
     pub(crate) springs: SpringBooks<D>,
     pub(crate) boundaries: Boundaries<D>,
     pub(crate) whereabouts: Whereabouts<D>,
+    pub(crate) resting: Resting<D>,
     /// Since every body was looked at for going through itself.
     pub(crate) since_look: Vec<SinceLook>,
     /// Which bodies were found inside themselves in the last step.
@@ -65,6 +68,7 @@ impl<const D: usize> Workspace<D> {
             springs: SpringBooks::new(assembly),
             boundaries: assembly.boundaries.clone(),
             whereabouts: Whereabouts::new(bodies.len()),
+            resting: Resting::never(assembly),
             since_look: vec![SinceLook::default(); bodies.len()],
             in_itself: vec![false; bodies.len()],
             forecasts: vec![Forecast::default(); bodies.len()],
@@ -76,6 +80,12 @@ impl<const D: usize> Workspace<D> {
             detection_time: Duration::ZERO,
             bodies,
         }
+    }
+
+    /// The same for a run that takes so long [s], in which bodies may come to rest.
+    pub(crate) fn resting(mut self, assembly: &Assembly<D>, method: &Method<D>, duration: f64) -> Self {
+        self.resting.allow(assembly, method, duration);
+        self
     }
 
     /// The same with what `before` has counted.

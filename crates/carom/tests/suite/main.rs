@@ -31,6 +31,7 @@ mod press_fit;
 mod promises;
 mod reduced_bodies;
 mod rest;
+mod resting;
 mod rigid_bodies;
 mod scales;
 mod self_contact;

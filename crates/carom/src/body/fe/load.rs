@@ -67,6 +67,15 @@ impl<const D: usize> Load<D> {
         Self::Dead(DeadLoad { terms: terms.map(|(i, signal)| (signal, pattern(i))).collect() })
     }
 
+    /// Whether it is the same at two times [s].
+    pub(crate) fn is_alike(&self, [a, b]: [f64; 2]) -> bool {
+        let is_alike = |s: &Signal| s.at(a).value == s.at(b).value;
+        match self {
+            Self::Dead(load) => load.terms.iter().all(|(signal, _)| is_alike(signal)),
+            Self::Follower(load) => is_alike(&load.pressure),
+        }
+    }
+
     /// Adds the force [N] at a moment to `f`: `value` says what a signal is then, and `u` are the displacements [m].
     pub(crate) fn add(
         &self,

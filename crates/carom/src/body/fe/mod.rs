@@ -168,6 +168,10 @@ impl<const D: usize> Body<D> for FeBody<D> {
         self.part.body.mean(velocity)
     }
 
+    fn is_driven_alike(&self, [a, b]: [f64; 2]) -> bool {
+        self.part.is_loaded_alike([a, b]) && self.part.supports.driven(&self.part.body).next().is_none()
+    }
+
     fn begin_step(
         &mut self,
         interval: &Interval,

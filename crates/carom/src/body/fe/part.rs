@@ -56,6 +56,11 @@ impl<const D: usize> ModelBody<D> {
         Self { rigid: Some(RigidPart::new(&self.body, inertia)), ..self }
     }
 
+    /// Whether its loads are the same at two times [s], and how far it has grown.
+    pub(crate) fn is_loaded_alike(&self, [a, b]: [f64; 2]) -> bool {
+        self.loads.iter().all(|load| load.is_alike([a, b])) && self.growth_at(a) == self.growth_at(b)
+    }
+
     /// Whether it is rigid.
     #[must_use]
     pub fn is_rigid(&self) -> bool {

@@ -15,6 +15,7 @@ use std::sync::Arc;
 use carom_mesh::{Matrix, Vector, nodal};
 
 use self::equation::{Equation, Prescribed};
+use self::guide::Resultant;
 use self::part::RigidPart;
 use self::pose::{Displaced, Pose, Twist, lift, on};
 use self::shape::Wrench;
@@ -154,6 +155,12 @@ impl<const D: usize> Body<D> for RigidBody<D> {
 
     fn mean_velocity(&self, velocity: &[Vector<D>]) -> Vector<D> {
         self.body.body.mean(velocity)
+    }
+
+    fn is_driven_alike(&self, [a, b]: [f64; 2]) -> bool {
+        let RigidPart { guide, resultants, .. } = self.part();
+        let is_alike = |r: &Resultant| r.values(|s| s.at(a).value) == r.values(|s| s.at(b).value);
+        guide.is_none() && resultants.iter().all(is_alike) && self.body.is_loaded_alike([a, b])
     }
 
     fn begin_step(

@@ -1,0 +1,64 @@
+"""What a step of a pile at rest costs beside one of the same pile as it falls together.
+
+A pile falls, is damped until all of it rests, and waits. Processor time of one thread:
+
+    RAYON_NUM_THREADS=1 .venv/bin/python benchmarks/resting_piles.py 2 100 1000
+    RAYON_NUM_THREADS=1 .venv/bin/python benchmarks/resting_piles.py 3 64
+"""
+
+from __future__ import annotations
+
+import argparse
+from time import process_time
+
+from many_bodies import STEP, pile
+
+import carom
+
+MOVING = 200
+BLOCK = 50
+MOST = 4000
+WAIT = 400
+DAMPING = 60.0
+
+
+def measure(dimension: int, count: int) -> None:
+    """Print what a pile costs in motion and at rest."""
+    simulation = carom.Simulation(pile(dimension, count, steps=MOST + WAIT, damping=DAMPING))
+    # Factors are made in the first step.
+    simulation.step()
+    moving = time_of(simulation, MOVING) / MOVING
+    while len(simulation.resting) < count and simulation.steps < MOST:
+        time_of(simulation, BLOCK)
+    rested = len(simulation.resting), simulation.steps
+    iterations = simulation.step().iterations
+    waiting = time_of(simulation, WAIT - 1) / (WAIT - 1)
+    ledger, energy = simulation.ledger, simulation.energy
+    print(
+        f"{dimension}D {count:5d} bodies: {1e6 * moving / count:6.1f} us per body and step in "
+        f"motion, {1e6 * waiting / count:6.2f} where {rested[0]} rest after {rested[1]} steps, "
+        f"{100 * waiting / moving:5.2f} %, {iterations} iterations, "
+        f"defect {abs(ledger.defect) / max(energy.total, ledger.external):.1e}",
+        flush=True,
+    )
+
+
+def time_of(simulation: carom.Simulation, steps: int) -> float:
+    """Go on by so many steps; return the processor time that takes [s]."""
+    begun = process_time()
+    simulation.advance((simulation.steps + steps - 0.5) * STEP)
+    return process_time() - begun
+
+
+def main() -> None:
+    """Measure every pile."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("dimension", type=int, choices=(2, 3))
+    parser.add_argument("counts", type=int, nargs="+")
+    arguments = parser.parse_args()
+    for count in arguments.counts:
+        measure(arguments.dimension, count)
+
+
+if __name__ == "__main__":
+    main()
