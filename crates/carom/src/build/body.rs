@@ -11,7 +11,7 @@ use super::regions::{material, regions};
 use super::spare_mass::spares_mass;
 use super::values::number;
 use crate::error::InputError;
-use crate::scenario::{BodyEntry, BodyKind, BodyMass, InitialStress, PairEntry, Scenario};
+use crate::scenario::{BodyEntry, BodyMass, InitialStress, Scenario};
 
 /// Body number `index`; `given` is its mesh if that comes from a file.
 pub(super) fn body<const D: usize>(
@@ -87,23 +87,6 @@ fn mass_kind(key: &str, entry: &BodyEntry) -> Result<MassKind, InputError> {
             Err(InputError::new(format!("{key}.mass"), message))
         }
     }
-}
-
-/// Whether anything is there that a body may touch.
-pub(super) fn may_touch(scenario: &Scenario, name: &str) -> bool {
-    let enabled = |other: &str| {
-        let between = |p: &&PairEntry| {
-            let [a, b] = &p.between;
-            (a == name && b == other) || (a == other && b == name)
-        };
-        scenario.contact.pairs.iter().find(between).is_none_or(|p| p.enabled)
-    };
-    let others = scenario
-        .bodies
-        .iter()
-        .filter(|b| b.name != name || b.self_contact == Some(true) && b.kind == BodyKind::Deformable)
-        .map(|b| b.name.as_str());
-    others.chain(scenario.obstacles.iter().map(|o| o.name.as_str())).any(enabled)
 }
 
 /// The stress [Pa] under `key` in the case file; zero if there is none.

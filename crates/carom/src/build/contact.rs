@@ -6,11 +6,11 @@ use carom_contact::{
 use carom_fem::Hypothesis;
 use carom_mesh::Vector;
 
-use super::body::may_touch;
 use super::friction_law::at_rest;
 use super::mortar::{discretisation, has_mortar};
 use super::obstacle::{Surfaces, obstacle};
 use super::side::{NamedSide, facet_width};
+use super::spare_mass::may_touch;
 use super::values::{place, vector};
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;

@@ -3,7 +3,6 @@
 
 use carom_mesh::{Mesh, Surface, Vector};
 
-use super::body::may_touch;
 use super::places;
 use super::values::vector;
 use crate::scenario::{BodyEntry, BodyKind, PairEntry, Scenario};
@@ -23,6 +22,23 @@ pub(super) fn spares_mass<const D: usize>(
         && may_touch(scenario, &entry.name)
         && !has_friction_law(scenario, &entry.name)
         && !is_attached_to(scenario, entry, mesh, surface)
+}
+
+/// Whether anything is there that a body may touch.
+pub(super) fn may_touch(scenario: &Scenario, name: &str) -> bool {
+    let enabled = |other: &str| {
+        let between = |p: &&PairEntry| {
+            let [a, b] = &p.between;
+            (a == name && b == other) || (a == other && b == name)
+        };
+        scenario.contact.pairs.iter().find(between).is_none_or(|p| p.enabled)
+    };
+    let others = scenario
+        .bodies
+        .iter()
+        .filter(|b| b.name != name || b.self_contact == Some(true) && b.kind == BodyKind::Deformable)
+        .map(|b| b.name.as_str());
+    others.chain(scenario.obstacles.iter().map(|o| o.name.as_str())).any(enabled)
 }
 
 /// Whether a friction law belongs to a pair of the body.

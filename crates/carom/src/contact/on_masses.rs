@@ -2,7 +2,7 @@
 //!
 //! A node without mass is in static balance under the reaction r₁ at the end of the step. Its body moves under stresses of the whole step,
 //! and so its share of the contact is the mean r̄ = (1 − ξ) r₀ + ξ r₁ + α (r₁ − r₀), with r₀ at the start and α of the
-//! [blend](crate::step::blend). A body with mass, a rigid one say, takes this r̄ itself. In a blended step it takes the moments of r₀ where the
+//! blend. A body with mass, a rigid one say, takes this r̄ itself. In a blended step it takes the moments of r₀ where the
 //! step starts and of r₁ where it ends, as the other side does: its own arms are those half way, and a couple makes up for the difference.
 
 use carom_mesh::{Matrix, Vector, tensor};
@@ -10,7 +10,6 @@ use carom_mesh::{Matrix, Vector, tensor};
 use super::active::ActiveSet;
 use crate::body::{Balance, Masses};
 use crate::model::given::Given;
-use crate::step::blend::Blend;
 
 /// The forces of such contacts on the nodes of bodies with mass [N], which are of no use elsewhere.
 #[derive(Debug, Default)]
@@ -155,12 +154,13 @@ impl<const D: usize> OnMasses<D> {
         }
     }
 
-    /// Adds to the `residual` [N] of `bodies` what acts on them beside ξ r₁, which their contacts add as others do theirs.
+    /// Adds to the `residual` [N] of `bodies` what acts on them beside ξ r₁, which their contacts add as others do theirs; `weights` are α of all
+    /// bodies.
     pub fn add_known(
         &self,
         bodies: &[usize],
         given: &Given<'_, D>,
-        blend: &Blend,
+        weights: &[f64],
         residual: &mut [Vector<D>],
     ) {
         let xi = given.interval.map.xi;
@@ -169,7 +169,7 @@ impl<const D: usize> OnMasses<D> {
                 residual[n] += self.start[n] * (1.0 - xi);
             }
         }
-        self.add_blended(bodies, given, blend, residual);
+        self.add_blended(bodies, given, weights, residual);
     }
 
     /// Adds to `forces` [N] on `bodies` what they have more than (1 − ξ) r₀ + ξ r₁ in a blended step.
@@ -177,7 +177,7 @@ impl<const D: usize> OnMasses<D> {
         &self,
         bodies: &[usize],
         given: &Given<'_, D>,
-        blend: &Blend,
+        weights: &[f64],
         forces: &mut [Vector<D>],
     ) {
         if !given.interval.is_blended {
@@ -186,7 +186,7 @@ impl<const D: usize> OnMasses<D> {
         let [without, with] = &self.couples;
         for &i in bodies.iter().filter(|&&i| self.acts_on[i]) {
             for n in given.assembly.nodes(i) {
-                forces[n] += without[n] + (self.end[n] - self.start[n] + with[n]) * blend.weight[i];
+                forces[n] += without[n] + (self.end[n] - self.start[n] + with[n]) * weights[i];
             }
         }
     }

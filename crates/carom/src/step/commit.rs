@@ -136,7 +136,7 @@ fn close_bodies<const D: usize>(given: &Given<'_, D>, next: &mut State<D>, work:
     if given.interval.is_blended {
         on_masses.weigh(&assembly.everyone, given, motion, bodies.as_slice(), &mut blend.balances);
     }
-    on_masses.add_blended(&assembly.everyone, given, blend, mean_force);
+    on_masses.add_blended(&assembly.everyone, given, &blend.weight, mean_force);
     springs.join(given, &mut contacts.mean_force, contact_force);
     let springs = &*springs;
     let contact_force = springs.with_those_at_end(contact_force);

@@ -29,7 +29,7 @@ pub(super) fn residuals<const D: usize>(
         let guess = given.guess(i, motion, &next.displacement);
         body.own().residual(&guess, is_blended.then_some(blend.weight[i]), residual.0);
     });
-    contacts.on_masses.add_known(bodies, given, blend, &mut newton.residual);
+    contacts.on_masses.add_known(bodies, given, &blend.weight, &mut newton.residual);
 }
 
 /// The blend of start and end stresses at the present guess.
