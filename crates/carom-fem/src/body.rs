@@ -183,7 +183,7 @@ impl<const D: usize> Body<D> {
         &self.massless_stiffness
     }
 
-    /// For every massless node, the mass [kg] that it had before it moved inside, point masses not counted.
+    /// For every massless node, the mass [kg] that it had before it moved inside, point masses not counted: the sum of its row without signs.
     #[must_use]
     pub fn massless_mass(&self) -> &[f64] {
         &self.massless_mass
@@ -471,8 +471,9 @@ fn mass_matrix<const D: usize>(
     if !spec.massless_contact {
         return Ok((with_points(mass, &spec.points), Vec::new()));
     }
-    let sums = mass.row_sums();
-    let moved = surface.nodes().iter().map(|&n| sums[n as usize]).collect();
+    // Row sums of corners of second order are negative.
+    let size = |n: usize| graph.row(n).map(|(entry, _)| mass.values[entry].abs()).sum::<f64>();
+    let moved = surface.nodes().iter().map(|&n| size(n as usize)).collect();
     let followers = followers(mesh, &graph, surface)?;
     Ok((redistributed(&with_points(mass, &spec.points), surface.nodes(), &followers), moved))
 }

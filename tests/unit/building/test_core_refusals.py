@@ -168,7 +168,7 @@ BAD = [
     (
         {"contact.friction": {"formula": "0.1*t"}},
         "contact.friction.formula",
-        'unknown name "t"; known are v, s, pi, e at column 5 of "0.1*t"',
+        'unknown name "t"; known are v, s, p, pi, e at column 5 of "0.1*t"',
     ),
     (
         {"contact.friction": {"formula": "v - 0.1"}},
