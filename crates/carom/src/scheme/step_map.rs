@@ -26,7 +26,7 @@ pub struct StepMap {
     pub kinetic_dissipation: f64,
     /// The work of the weighted internal force and its trapezoidal mean differ by this times d·(f₊ − f).
     pub strain_dissipation: f64,
-    /// How much nodes without mass resist a change of their motion, in terms of the stiffness that holds them: see [`StepMap::part_of`].
+    /// How much nodes without mass resist a change of their motion, in terms of the stiffness that holds them; more in steps that were halved often.
     pub steadying: f64,
 }
 
