@@ -19,6 +19,8 @@ pub(crate) struct OnMasses<const D: usize> {
     end: Vec<Vector<D>>,
     /// Couples: those without α, and those that go with it.
     couples: [Vec<Vector<D>>; 2],
+    /// The mass of every node of a body [kg].
+    masses: Vec<f64>,
     /// Whether such contacts act on a body, and whether a body with mass is asked for.
     acts_on: Vec<bool>,
     is_asked: Vec<bool>,
@@ -108,6 +110,9 @@ impl<const D: usize> OnMasses<D> {
         if !given.assembly.turns(i) {
             return;
         }
+        // A rigid body works it out.
+        self.masses.clear();
+        self.masses.extend((0..nodes.len()).map(|own| masses.mass_of(i, own as u32)));
         let xi = given.interval.map.xi;
         let mut moments = [Vector::<3>::zeros(); 2];
         let (mut total, mut centre) = (0.0, Vector::<D>::zeros());
@@ -119,7 +124,7 @@ impl<const D: usize> OnMasses<D> {
             let with = tensor::cross(d, &((p0 + p1) * 0.5));
             moments[0] += Vector::from(without);
             moments[1] += Vector::from(with);
-            let mass = masses.mass_of(i, (n - nodes.start) as u32);
+            let mass = self.masses[n - nodes.start];
             total += mass;
             centre += middle(n) * mass;
         }
@@ -127,7 +132,7 @@ impl<const D: usize> OnMasses<D> {
         let mut inertia = Matrix::<3>::zeros();
         let lifted = |v: Vector<D>| Vector::<3>::from_fn(|k, _| if k < D { v[k] } else { 0.0 });
         for n in nodes.clone() {
-            let (arm, mass) = (lifted(middle(n) - centre), masses.mass_of(i, (n - nodes.start) as u32));
+            let (arm, mass) = (lifted(middle(n) - centre), self.masses[n - nodes.start]);
             inertia += (Matrix::identity() * arm.norm_squared() - arm * arm.transpose()) * mass;
         }
         let inverse = tensor::inverse(&inertia).0;
@@ -136,7 +141,7 @@ impl<const D: usize> OnMasses<D> {
             // What has no extent cannot turn.
             let spin = if spin.iter().all(|s| s.is_finite()) { spin } else { [0.0; 3] };
             for n in nodes.clone() {
-                let mass = masses.mass_of(i, (n - nodes.start) as u32);
+                let mass = self.masses[n - nodes.start];
                 couple[n] = tensor::rotation_velocity(&spin, &(middle(n) - centre)) * mass;
             }
         }
