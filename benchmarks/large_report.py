@@ -40,7 +40,7 @@ def scenario() -> carom.Scenario:
         obstacles=[
             carom.RigidBox(name="edge", corner=[0.0, -0.01, -0.02], size=[0.02, 0.12, 0.02])
         ],
-        contact=carom.Contact(friction=0.3),
+        contact=carom.Contact(condition="midpoint", friction=0.3),
     )
 
 

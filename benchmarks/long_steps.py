@@ -41,7 +41,7 @@ def landing(divisions: int, length: int) -> carom.Scenario:
             )
         ],
         obstacles=[carom.Plane(name="floor", point=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0))],
-        contact=carom.Contact(friction=0.2),
+        contact=carom.Contact(condition="midpoint", friction=0.2),
     )
 
 

@@ -75,7 +75,7 @@ def pile(
         materials={"rubber": law},
         bodies=bodies,
         obstacles=walls,
-        contact=carom.Contact(friction=0.3),
+        contact=carom.Contact(condition="midpoint", friction=0.3),
     )
 
 

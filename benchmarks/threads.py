@@ -51,7 +51,9 @@ def scenario(name: str) -> carom.Scenario:
             )
         ],
         obstacles=[carom.Plane(name="floor", point=[0.0, 0.0, 0.0], normal=[0.0, 0.0, 1.0])],
-        contact=carom.Contact(friction=0.2, sources="finer", targets="faceted"),
+        contact=carom.Contact(
+            condition="midpoint", friction=0.2, sources="finer", targets="faceted"
+        ),
     )
 
 

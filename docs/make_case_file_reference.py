@@ -71,9 +71,9 @@ In a dynamic analysis with the scheme `conserving`; a static one has `gap`.
 
 | `contact.condition` | energy | at the end of a step | contact force | costs |
 |---|---|---|---|---|
+| `massless`, the default | kept to round-off | nothing is inside | quiet | half as much again |
 | `midpoint` | kept to round-off | nodes on their targets | chatters | least |
 | `gap` | impacts take some, less on finer meshes | nothing is inside | chatters | as `midpoint` |
-| `massless` | kept to round-off | nothing is inside | quiet | half as much again |
 | `endpoint` | nodes that stop lose theirs | inside by a step's way | quiet | as `midpoint` |
 
 With `massless` a body keeps its mass where it touches if it is rigid or reduced, has no cells

@@ -79,9 +79,14 @@ def known(name: str, names: Iterable[str]) -> str:
     """Return the nearest of the valid names, if one is near, and all of them if they are few."""
     names = list(names)
     near = difflib.get_close_matches(name, names, n=1)
-    more = f" and {len(names) - _TOLD} more" if len(names) > _TOLD else ""
-    valid = f"known: {', '.join(names[:_TOLD]) or 'none'}{more}"
+    valid = f"known: {listed(names) or 'none'}"
     return f'did you mean "{near[0]}"? ({valid})' if near else valid
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return names as a message lists them: the first of many, and how many more there are."""
+    more = f" and {len(names) - _TOLD} more" if len(names) > _TOLD else ""
+    return f"{', '.join(names[:_TOLD])}{more}"
 
 
 def show(value: object) -> str:

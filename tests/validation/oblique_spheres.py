@@ -206,7 +206,9 @@ def throw(incidence: float, *, divisions: int, steps: int) -> Throw:
                 carom.Fixed(body="floor", on="rim", components=["x", "z"]),
             ],
             # Forces are large beside the energy of so slow a sphere.
-            contact=carom.Contact(friction=FRICTION, certificate_tolerance=1e-7),
+            contact=carom.Contact(
+                condition="midpoint", friction=FRICTION, certificate_tolerance=1e-7
+            ),
         )
         result = carom.run(case, out=Path(folder) / "results")
         history, energy = result.history, result.summary["energy"]

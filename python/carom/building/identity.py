@@ -49,7 +49,6 @@ def what_lasts(identity: Mapping[str, Any]) -> dict[str, Any]:
     """
     case = identity["case"]
     contact = case["contact"]
-    finer = contact["condition"] == "massless" and contact["sources"] is None
     return {
         "meshes": identity["meshes"],
         **{key: case[key] for key in ("dimension", "materials", "obstacles")},
@@ -58,8 +57,7 @@ def what_lasts(identity: Mapping[str, Any]) -> dict[str, Any]:
             for body in case["bodies"]
         ],
         "contact": {
-            "sources": "finer" if finer else contact["sources"],
-            **{key: contact[key] for key in ("targets", "discretisation")},
+            **{key: contact[key] for key in ("sources", "targets", "discretisation")},
             "pairs": [
                 {key: value for key, value in pair.items() if key not in _OF_FRICTION}
                 for pair in contact["pairs"]

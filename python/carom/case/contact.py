@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import Field, model_validator
 from typing_extensions import Self
@@ -115,13 +115,13 @@ class Contact(Description):
     Parameters
     ----------
     condition
-        Where in time the unilateral condition is written. ``gap`` writes it on the gap at the end
-        of the step, as in the paper and in every static analysis. ``midpoint`` writes it on the
-        increment over the step, ``endpoint`` on the velocity at its end. ``massless`` again uses
-        the gap at the end, but between nodes without mass. With the scheme ``conserving``,
-        ``midpoint`` keeps the energy, and nodes land on their targets. ``massless``
-        keeps the energy, is quiet and never penetrates, but takes more time. One of two sides must
-        have cells inside; pairs whose sides both keep their mass are ruled as with ``midpoint``.
+        Where in time the unilateral condition is written. ``massless`` writes it on the gap at the
+        end of the step, between nodes without mass. ``gap`` does so between nodes as they are, as
+        in the paper and in every static analysis. ``midpoint`` writes it on the increment over the
+        step, ``endpoint`` on the velocity at its end. With the scheme ``conserving``, ``massless``
+        and ``midpoint`` keep the energy. Only ``massless`` is quiet besides; it takes more time.
+        Bodies without cells inside, rigid and reduced ones keep their mass; pairs whose sides both
+        do are ruled as with ``midpoint``.
     friction
         Friction of every pair that does not state its own: Coulomb's coefficient, or a law by which
         it depends on the sliding, `StaticKinetic`, `RateAndState` or `FrictionFormula`, such as
@@ -168,7 +168,7 @@ class Contact(Description):
         What single pairs do differently.
     """
 
-    condition: Condition = "midpoint"
+    condition: Condition = "massless"
     friction: Friction = 0.0
     restitution: Restitution | None = None
     solver: FrictionSolver = FrictionSolver()
@@ -182,10 +182,13 @@ class Contact(Description):
     pairs: tuple[Pair, ...] = ()
 
 
-def for_load_steps(contact: object) -> object:
-    """Return the law of contact of a static analysis, whose condition is by default the gap."""
+_Given = TypeVar("_Given")
+
+
+def with_default(condition: Condition, contact: _Given) -> _Given | Any:  # noqa: ANN401 (as given)
+    """Return a law of contact in which this is the condition, unless it names one itself."""
     if isinstance(contact, Contact) and "condition" not in contact.model_fields_set:
-        return contact.model_copy(update={"condition": "gap"})
+        return contact.model_copy(update={"condition": condition})
     if isinstance(contact, Mapping) and "condition" not in contact:
-        return {**contact, "condition": "gap"}
+        return {**contact, "condition": condition}
     return contact

@@ -193,11 +193,7 @@ def _replaced(
 def _of_all_stages(scenario: Scenario) -> Contact:
     """Return the law of contact with what must be the same in all stages, whatever their kind."""
     contact, stages = scenario.contact, scenario.stages
-    conditions = {contact.condition, *(s.contact.condition for s in stages if s.contact)}
     changes: dict[str, Any] = {}
-    if "massless" in conditions and contact.sources is None:
-        # Else the static stages would check the nodes of both sides, the dynamic ones those of one.
-        changes["sources"] = "finer"
     resolves = contact.resolve_overlap or any(pair.resolve_overlap for pair in contact.pairs)
     if resolves and contact.overlap_resolved_at is None:
         changes["overlap_resolved_at"] = stages[0].analysis.end_time

@@ -20,7 +20,7 @@ from typing_extensions import Self
 from carom.case import case_file, overrides
 from carom.case.analysis import Analysis, with_kind
 from carom.case.body import AnyBody, Body, RigidBody, with_kinds
-from carom.case.contact import Contact, for_load_steps
+from carom.case.contact import Contact, with_default
 from carom.case.description import Description, Name
 from carom.case.full_stage import FullStage, full_stages
 from carom.case.initial import Initial
@@ -291,7 +291,7 @@ class Scenario(Description):
         kind = analysis["kind"] if isinstance(analysis, Mapping) else getattr(analysis, "kind", "")
         if kind != "static":
             return data
-        return {**data, "contact": for_load_steps(data.get("contact", {}))}
+        return {**data, "contact": with_default("gap", data.get("contact", {}))}
 
     @model_validator(mode="after")
     def _driven_bodies_exist(self) -> Self:

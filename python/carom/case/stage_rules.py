@@ -112,7 +112,7 @@ def _check_conditions(scenario: Scenario) -> None:
     """Refuse a condition that no stage has, and nodes without mass in some of them."""
     dynamic = [full for full in full_stages(scenario) if full.is_dynamic]
     condition = scenario.contact.condition
-    if scenario.stages and not dynamic and condition not in ("midpoint", "gap"):
+    if scenario.stages and not dynamic and condition not in ("massless", "gap"):
         raise problem(
             "is of dynamic stages, and there is none; static ones rule the gap at the end of the "
             "step; leave it out",

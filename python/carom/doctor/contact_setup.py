@@ -8,6 +8,7 @@ from carom.case.analysis import Dynamic
 from carom.case.full_stage import FullStage
 from carom.doctor.finding import Finding
 from carom.doctor.patient import Patient
+from carom.messages import listed
 
 
 def contact_setup(patient: Patient) -> Iterator[Finding]:
@@ -71,21 +72,14 @@ def _masses(patient: Patient, partners: set[str]) -> Iterator[Finding]:
         yield Finding(
             "ok",
             "contact.condition",
-            f"keeping their mass where they touch: {', '.join(keep)}; pairs of these, and of these "
+            f"keeping their mass where they touch: {listed(keep)}; pairs of these, and of these "
             "with obstacles, are ruled as with midpoint",
         )
 
 
 def _scheme(stage: FullStage, analysis: Dynamic) -> Iterator[Finding]:
     """Look at how the scheme and the contact condition go together."""
-    if stage.contact.condition == "massless":
-        yield Finding(
-            "advice",
-            "contact.condition",
-            "massless contact is quiet and exact, but takes half as long again",
-            'if steps fail, take condition = "midpoint"',
-        )
-    elif analysis.scheme.kind == "theta" and stage.contact.condition == "midpoint":
+    if analysis.scheme.kind == "theta" and stage.contact.condition in ("massless", "midpoint"):
         yield Finding(
             "advice",
             f"{stage.key}analysis.scheme",

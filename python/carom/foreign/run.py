@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from carom import _carom
 from carom.building.build import obstacle_surfaces
 from carom.case.analysis import Conserving, Newton, Theta
-from carom.case.contact import Contact
+from carom.case.contact import Contact, with_default
 from carom.case.obstacle import Obstacle
 from carom.contact.model import check_names
 from carom.errors import InputError
@@ -60,7 +60,8 @@ class ForeignRun:
     time_step
         Length of a step [s].
     contact
-        The law of contact, as of a case; not with ``massless``.
+        The law of contact, as of a case, but by default with the condition ``midpoint``; not with
+        ``massless``.
     scheme
         Time scheme.
     newton
@@ -84,7 +85,8 @@ class ForeignRun:
     ) -> None:
         if not (np.isfinite(time_step) and time_step > 0.0):
             raise InputError(f"time_step = {time_step:g}: must be greater than 0", "time_step")
-        contact, newton = contact or Contact(), newton or Newton()
+        # Their mass is theirs, on the surface too.
+        contact, newton = with_default("midpoint", contact or Contact()), newton or Newton()
         check_names([body.surface for body in bodies], obstacles, contact.pairs)
         dimensions = {body.points.shape[1] for body in bodies}
         if len(dimensions) > 1:

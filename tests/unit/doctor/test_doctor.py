@@ -401,13 +401,10 @@ def test_no_friction(case):
     assert grave(contact_setup, case)["contact.friction"].level == "advice"
 
 
-def test_massless_contact_takes_longer(case):
-    case["contact"]["condition"] = "massless"
-    assert grave(contact_setup, case)["contact.condition"].level == "advice"
-
-
-def test_theta_with_midpoint(case):
+@pytest.mark.parametrize("condition", ["massless", "midpoint"])
+def test_theta_with_a_condition_that_keeps_energy(case, condition):
     case["analysis"]["scheme"] = {"kind": "theta"}
+    case["contact"]["condition"] = condition
     assert grave(contact_setup, case)["analysis.scheme"].level == "advice"
 
 

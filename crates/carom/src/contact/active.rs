@@ -8,6 +8,7 @@ use super::pressing::Pressing;
 use super::slider::Slider;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
+use crate::model::at_rest::AtRest;
 use crate::model::condition::{ContactCondition, Opening, impact_offset};
 use crate::model::given::Given;
 use crate::model::state::{Reaction, State};
@@ -61,7 +62,7 @@ impl<const D: usize> ActiveSet<D> {
     /// of the other side saw. It is kept from going deeper, until the bodies part: to push it out at once, the faster the shorter the step,
     /// would create energy. In a static analysis it is pushed out: there bodies may be meant to be pressed into one another. So is in its first
     /// step whatever is inside: nothing has come there.
-    pub fn select(&mut self, given: &Given<'_, D>, search: &Search<D>) {
+    pub fn select(&mut self, given: &Given<'_, D>, search: &Search<D>, at_rest: &AtRest) {
         let Given { assembly, method, state, interval } = *given;
         let (contact, map) = (&assembly.contact, &interval.map);
         let start = |n: u32| given.position(n);
@@ -105,11 +106,11 @@ impl<const D: usize> ActiveSet<D> {
             }
             active
         });
-        self.recall(given);
+        self.recall(given, at_rest);
     }
 
     /// What is known of the contacts from the step before, and whom they touch.
-    fn recall(&mut self, given: &Given<'_, D>) {
+    fn recall(&mut self, given: &Given<'_, D>, at_rest: &AtRest) {
         let (pairs, reactions) = (&given.assembly.contact.pairs, &given.state.reactions);
         self.contacts.clear();
         self.at_kink.clear();
@@ -136,16 +137,20 @@ impl<const D: usize> ActiveSet<D> {
             touch(&mut self.touched, &pair);
         }
         self.recall_sliding(given);
-        // Contacts that the step starts with and that are out of reach by its end still share their bodies' balance.
+        // Contacts that the step starts with and that are out of reach by its end still share their bodies' balance. Those of what rests stay.
         self.lost.clear();
         if !given.method.condition.is_massless() {
             return;
         }
         for (k, reaction) in reactions.iter().enumerate() {
             let is_massless = given.condition_of(reaction.pair).is_massless();
-            if is_massless && self.candidates.binary_search_by_key(&reaction.key(), Candidate::key).is_err() {
+            let pair = pairs.get(reaction.pair as usize);
+            if is_massless
+                && !at_rest.are_still(&pair)
+                && self.candidates.binary_search_by_key(&reaction.key(), Candidate::key).is_err()
+            {
                 self.lost.push(k);
-                touch(&mut self.touched, &pairs.get(reaction.pair as usize));
+                touch(&mut self.touched, &pair);
             }
         }
     }

@@ -153,16 +153,16 @@ impl<const D: usize> Model<D> {
     /// The bodies as they step, each with scratch of its own.
     #[must_use]
     pub fn stepping_bodies(&self) -> Vec<Box<dyn Body<D>>> {
-        let stepping = |b: &Arc<ModelBody<D>>| -> Box<dyn Body<D>> {
+        let stepping = |(b, &connected): (&Arc<ModelBody<D>>, &bool)| -> Box<dyn Body<D>> {
             if b.is_rigid() {
                 Box::new(RigidBody::new(Arc::clone(b)))
             } else if b.is_reduced() {
                 Box::new(ReducedBody::new(Arc::clone(b)))
             } else {
-                Box::new(FeBody::new(Arc::clone(b)))
+                Box::new(FeBody::new(Arc::clone(b), connected))
             }
         };
-        self.bodies.iter().map(stepping).collect()
+        self.bodies.iter().zip(&self.assembly.is_connected).map(stepping).collect()
     }
 
     /// The state at t = 0 with these velocities of the nodes of all bodies: see [`State::initial`].

@@ -151,8 +151,9 @@ impl<const D: usize> PlantedContact<D> {
     fn look(&mut self) {
         let Self { setting, finder, active, motion, margin, repetition, .. } = self;
         let given = setting.given();
-        finder.find(&given, &AtRest::default(), motion, (*margin, *repetition), active);
-        active.select(&given, &finder.search);
+        let nothing = AtRest::default();
+        finder.find(&given, &nothing, motion, (*margin, *repetition), active);
+        active.select(&given, &finder.search, &nothing);
         (self.evaluations, self.problem.q) = (0, Vec::new());
     }
 

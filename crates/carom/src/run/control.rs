@@ -25,6 +25,10 @@ const EASY: usize = 12;
 /// may leave as much as a long one.
 const LARGEST_DEBT: f64 = 1e-3;
 
+/// The same of a step that is no shorter than a part of a whole one: its halves may leave nothing over.
+const DEBT_OF_LONG_STEP: f64 = 1e-10;
+const LONG: f64 = 0.3;
+
 impl<const D: usize> Stepper<'_, D> {
     /// Takes the state over a nominal step, in substeps where it must be; `observe` is told of each that succeeds, with the states at both ends.
     ///
@@ -88,22 +92,25 @@ impl<const D: usize> Stepper<'_, D> {
         interval.map = interval.map.part_of(whole);
         let report =
             among_threads(model.node_count(), || step_over(assembly, method, &interval, state, spare, work))?;
-        check_debt(state, spare, energy, &report)?;
+        let may_wait = length < LONG * whole;
+        let share = if may_wait { LARGEST_DEBT } else { DEBT_OF_LONG_STEP };
+        check_debt(state, spare, energy, share, &report)?;
         Ok(report)
     }
 }
 
-/// Refuses a step to `next` whose blends left more over than a share of the largest `energy` [J], be it too much or too little of a body. A run
+/// Refuses a step to `next` whose blends left more over than a `share` of the largest `energy` [J], be it too much or too little of a body. A run
 /// may start without any: what the step itself brings counts.
 fn check_debt<const D: usize>(
     state: &State<D>,
     next: &State<D>,
     energy: f64,
+    share: f64,
     report: &StepReport,
 ) -> Result<(), StepError> {
     let debt = |state: &State<D>| state.energy_debt.iter().map(|e| e.abs()).sum::<f64>();
     let missing = debt(next) - debt(state);
     let given = report.ledger.external.abs() + report.ledger.prescribed.abs();
-    let allowed = LARGEST_DEBT * energy.max(next.energies.total()).max(given);
+    let allowed = share * energy.max(next.energies.total()).max(given);
     if missing > allowed { Err(StepError::Unbalanced { missing, allowed }) } else { Ok(()) }
 }

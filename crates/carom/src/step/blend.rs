@@ -110,6 +110,16 @@ impl Blend {
         }
     }
 
+    /// Takes note that a body rests: it is a group of its own, and nothing of it is blended.
+    pub fn rest(&mut self, body: usize) {
+        (self.leader[body], self.weight[body]) = (body, 0.0);
+    }
+
+    /// Keeps the weights of `bodies`, as far as they are those of stresses of a time within the step. What they leave over waits, or vibration has it.
+    pub fn keep(&mut self, bodies: &[usize]) {
+        bodies.iter().for_each(|&i| self.weight[i] = self.weight[i].clamp(-WITHIN, WITHIN));
+    }
+
     /// Puts two bodies in one group.
     fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.leader_of(a), self.leader_of(b));

@@ -48,6 +48,7 @@ pub(super) fn commit<const D: usize>(
     }
     keep_contacts(given, next, work, &mut report);
     if interval.is_blended {
+        work.resting.resting().for_each(|i| work.blend.rest(i));
         report.blend = work.blend.largest_weight();
     }
     let obstacles = &mut next.velocity[assembly.node_count()..];
@@ -210,7 +211,8 @@ fn close_contacts<const D: usize>(
     report: &mut StepReport,
 ) {
     let Given { assembly, state, interval, .. } = *given;
-    let Workspace { contacts, blend, motion, pair_reports, body_ledgers, impulses, booked, .. } = work;
+    let Workspace { contacts, blend, motion, pair_reports, body_ledgers, impulses, booked, resting, .. } =
+        work;
     let pair_of = |reaction: &Reaction<D>| assembly.contact.pairs.get(reaction.pair as usize).between();
     for (k, reaction) in next.reactions.iter().enumerate() {
         if impulses.arriving.binary_search(&k).is_ok() {
@@ -252,10 +254,18 @@ fn close_contacts<const D: usize>(
     booked.clear();
     for_each_work(given, motion, [&state.reactions, &next.reactions], |reaction, work| {
         if interval.is_blended {
+            let pair = assembly.contact.pairs.get(reaction.pair as usize);
             if given.condition_of(reaction.pair).is_massless() {
+                if resting.who.are_still(&pair) {
+                    push(
+                        pair_reports.or_default(pair_of(reaction)),
+                        reaction.pair,
+                        &reaction.contact,
+                        &work.force,
+                    );
+                }
                 return;
             }
-            let pair = assembly.contact.pairs.get(reaction.pair as usize);
             booked.push((pair, work.dissipation - work.normal - work.prescribed));
         }
         let report = pair_reports.or_default(pair_of(reaction));

@@ -3,6 +3,7 @@
 use carom_mesh::nodal;
 
 use super::newton::Newton;
+use super::newton::control::CONTROL;
 use super::workspace::Workspace;
 use crate::contact::Contacts;
 use crate::error::StepError;
@@ -10,9 +11,10 @@ use crate::model::each_body::{PerBody, PerNode, each_body, try_each_body};
 use crate::model::given::Given;
 use crate::model::state::State;
 
-/// Residuals of the `bodies` without reactions.
+/// Residuals of the `bodies` without reactions, in this `iteration`.
 pub(super) fn residuals<const D: usize>(
     bodies: &[usize],
+    iteration: usize,
     given: &Given<'_, D>,
     next: &State<D>,
     work: &mut Workspace<D>,
@@ -21,7 +23,7 @@ pub(super) fn residuals<const D: usize>(
     let Contacts { on_masses, active, .. } = &mut work.contacts;
     on_masses.take(bodies, given, active);
     if is_blended {
-        weigh_blend(bodies, given, next, work);
+        weigh_blend(bodies, iteration, given, next, work);
     }
     let Workspace { bodies: all, newton, blend, motion, contacts, .. } = work;
     let all = (PerBody(all), PerNode(&mut newton.residual));
@@ -32,9 +34,11 @@ pub(super) fn residuals<const D: usize>(
     contacts.on_masses.add_known(bodies, given, &blend.weight, &mut newton.residual);
 }
 
-/// The blend of start and end stresses at the present guess.
+/// The blend of start and end stresses at the guess of this `iteration`: none at the first, which is far from any balance, and in late ones that of
+/// the last one before.
 fn weigh_blend<const D: usize>(
     bodies: &[usize],
+    iteration: usize,
     given: &Given<'_, D>,
     next: &State<D>,
     work: &mut Workspace<D>,
@@ -45,9 +49,15 @@ fn weigh_blend<const D: usize>(
         *balance.own() = body.own().balance(&given.guess(i, motion, &next.displacement));
     });
     contacts.on_masses.weigh(bodies, given, motion, all.as_slice(), &mut blend.balances);
+    if iteration > CONTROL.weighed {
+        return blend.keep(bodies);
+    }
     let touched = bodies.iter().any(|&i| contacts.active.touched[i]);
     let contact_work = if touched { contacts.measure_work(given, motion) } else { &[] };
     blend.weigh(bodies, contact_work, &given.state.energy_debt, given.state.energies.total());
+    if iteration == 1 {
+        bodies.iter().for_each(|&i| blend.weight[i] = 0.0);
+    }
 }
 
 /// Adds the reactions known so far, and what springs pull with, to the residuals of the `bodies`, and starts to solve for their corrections.

@@ -179,7 +179,7 @@ fn solve<const D: usize>(
     if touched {
         work.contacts.evaluate(given, &work.motion, late, &mut work.bodies);
     }
-    residuals(bodies, given, next, work);
+    residuals(bodies, 1, given, next, work);
     let reacts = touched && work.contacts.react(given.assembly);
     if bodies.iter().any(|&i| !nodal::is_finite(&work.newton.residual[given.assembly.nodes(i)])) {
         return Err(StepError::NotFinite("internal force"));

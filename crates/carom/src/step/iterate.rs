@@ -26,8 +26,8 @@ pub(super) fn iterate<const D: usize>(
     next: &mut State<D>,
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
-    let Workspace { contacts, newton, motion, .. } = work;
-    contacts.active.select(given, &contacts.finder.search);
+    let Workspace { contacts, newton, motion, resting, .. } = work;
+    contacts.active.select(given, &contacts.finder.search, &resting.who);
     contacts.on_masses.begin(given);
     if !given.interval.map.is_static() {
         // The guess that softened contacts would go back to may be of other contacts, where the step is repeated.
@@ -69,6 +69,8 @@ fn iterate_bodies<const D: usize>(
     let touched = bodies.iter().any(|&i| work.contacts.active.touched[i]);
     // What makes blended iterations slow is the blend, which no tangent knows of.
     let may_go_on = touched && !given.interval.is_blended;
+    // Blended iterations take more, and get by without the stiffness of reactions.
+    let enough = if given.interval.is_blended { CONTROL.blended_late } else { CONTROL.late };
     let (mut renewed, mut nearly_settled, mut may_stiffen) = (0, false, true);
     for iteration in 1.. {
         if touched {
@@ -77,7 +79,7 @@ fn iterate_bodies<const D: usize>(
                 (iteration > CONTROL.late).then(|| convergence.largest_correction(bodies, &newton.progress));
             contacts.evaluate(given, motion, late, all);
         }
-        residuals(bodies, given, next, work);
+        residuals(bodies, iteration, given, next, work);
         let reacts = touched && work.contacts.react(given.assembly);
         if reacts && (work.contacts.is_stiffened() || !given.assembly.springs.is_empty()) {
             let Workspace { contacts, motion, bodies, newton, .. } = work;
@@ -122,10 +124,7 @@ fn iterate_bodies<const D: usize>(
             nearly_settled = true;
         }
         accelerate(bodies, given, iteration == 1, next, work);
-        if may_stiffen
-            && reacts
-            && iteration > CONTROL.late
-            && convergence.is_linear(bodies, &work.newton.progress)
+        if may_stiffen && reacts && iteration > enough && convergence.is_linear(bodies, &work.newton.progress)
         {
             work.newton.keep_guess(bodies, given.assembly, &work.motion, &work.contacts.active);
             may_stiffen = work.contacts.take_stiffness_of_reactions();
@@ -170,7 +169,7 @@ fn accelerate<const D: usize>(
     acceleration.accelerate(bodies, touched, given, motion, next);
 }
 
-/// Renews K̄ of the `bodies`, at the present guess; once more if it has been `renewed` before.
+/// Renews K̄ of those of the `bodies` that converge slowly, at the present guess; once more if it has been `renewed` before.
 fn renew<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
@@ -180,8 +179,11 @@ fn renew<const D: usize>(
 ) -> Result<(), StepError> {
     let Workspace { bodies: all, newton, motion, factorisations, .. } = work;
     newton.acceleration.restart();
-    *factorisations += bodies.len() as u64;
-    try_each_body(given.assembly, bodies, PerBody(all), &|i, body| {
+    let Newton { slow, progress, .. } = newton;
+    slow.clear();
+    slow.extend(bodies.iter().filter(|&&i| progress[i].contraction > CONTROL.slow_contraction));
+    *factorisations += slow.len() as u64;
+    try_each_body(given.assembly, slow, PerBody(all), &|i, body| {
         body.own().renew(&given.guess(i, motion, &next.displacement), renewed)
     })
 }

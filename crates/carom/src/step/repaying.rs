@@ -26,14 +26,14 @@ pub(super) fn repay<const D: usize>(
     if !given.interval.is_blended {
         return;
     }
-    let Workspace { bodies, blend, body_ledgers, .. } = work;
+    let Workspace { bodies, blend, body_ledgers, resting, .. } = work;
     let least = NEGLIGIBLE * next.energies.total();
     blend.share.fill(0.0);
     blend.vibration.fill(0.0);
     blend.vibration_of_group.fill(0.0);
     for (i, body) in bodies.iter_mut().enumerate() {
         let leader = blend.leader_of(i);
-        if next.energy_debt[leader].abs() > least {
+        if next.energy_debt[leader].abs() > least && !resting.who.bodies[i] {
             blend.vibration[i] = body.vibration(&next.body(i, given.assembly.nodes(i)));
             blend.vibration_of_group[leader] += blend.vibration[i];
         }

@@ -60,11 +60,11 @@ impl<const D: usize> Resting<D> {
         }
     }
 
-    /// Lets bodies rest in a run that takes so long [s]: in steps in time. What is blended has debts to pay, and rows of mortar pairs and friction laws
-    /// belong to what moves.
+    /// Lets bodies rest in a run that takes so long [s]: in steps in time. Rows of mortar pairs and friction laws belong to what
+    /// moves. What blended steps have left over waits where a body rests.
     pub fn allow(&mut self, assembly: &Assembly<D>, method: &Method<D>, duration: f64) {
         let is_static = method.scheme == crate::Scheme::Static;
-        let may = !is_static && !method.condition.is_massless() && !assembly.contact.pairs.have_mortar();
+        let may = !is_static && !assembly.contact.pairs.have_mortar();
         self.window = if may { RESTING.share * duration } else { f64::INFINITY };
     }
 

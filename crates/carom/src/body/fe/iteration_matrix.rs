@@ -64,8 +64,42 @@ pub(crate) struct IterationMatrix<const D: usize> {
     pub generation: u64,
     held: Held,
     translation: Option<Translation<D>>,
+    light: Light,
     scratch: Vec<Vector<D>>,
     origin: Origin<D>,
+}
+
+/// The rows of nodes without mass. They are those of the end of the step and resist the rate d/Δt, others the mean velocity of the step: damping has
+/// another share in them. K̄ is symmetric, and where damping is that of the stiffness, these rows of the equation are a multiple of its own.
+#[derive(Debug)]
+struct Light {
+    /// Of every node, whether it has none; empty where all have mass.
+    nodes: Vec<bool>,
+    /// What forces on these nodes are multiplied with.
+    share: f64,
+}
+
+impl Light {
+    fn of<const D: usize>(body: &Body<D>) -> Self {
+        let mut nodes = Vec::new();
+        if !body.massless().is_empty() {
+            nodes.resize(body.node_count(), false);
+            body.massless().iter().for_each(|&n| nodes[n as usize] = true);
+        }
+        Self { nodes, share: 1.0 }
+    }
+
+    /// Fits K̄ of steps like `map`, in which a body has this stiffness damping [s].
+    fn fit(&mut self, map: &StepMap, damping: f64) {
+        let is_moving = !map.is_static();
+        let rows = |rate: f64| 1.0 + damping * rate;
+        self.share = if is_moving { rows(map.velocity_of_motion) / rows(1.0 / map.dt) } else { 1.0 };
+    }
+
+    /// What a force on a node is multiplied with.
+    fn share_of(&self, node: usize) -> f64 {
+        if self.nodes.get(node) == Some(&true) { self.share } else { 1.0 }
+    }
 }
 
 /// Where and for what steps a factor was made: all that it takes to make it again.
@@ -122,8 +156,11 @@ impl<const D: usize> Translation<D> {
 }
 
 impl<const D: usize> IterationMatrix<D> {
-    pub fn new(body: &Body<D>) -> Self {
+    /// Of a body, which may be `connected` to others by springs: as these act on nodes with and without mass, its rows must be symmetric as they are.
+    pub fn new(body: &Body<D>, connected: bool) -> Self {
+        let all_with_mass = Light { nodes: Vec::new(), share: 1.0 };
         Self {
+            light: if connected { all_with_mass } else { Light::of(body) },
             inverse: Inverse::new(body.mesh().ties()),
             coefficients: None,
             lowest_inertia: lowest_inertia(body),
@@ -335,6 +372,7 @@ impl<const D: usize> IterationMatrix<D> {
         self.round_off = nodal::largest(&self.scratch);
         self.factor_frame = Matrix::identity();
         self.turn = Matrix::identity();
+        self.light.share = 1.0;
         self.generation += 1;
         Ok(())
     }
@@ -356,6 +394,7 @@ impl<const D: usize> IterationMatrix<D> {
         self.coefficients = Some(coefficients);
         let mass_coefficient = m + c * with_history.body.damping().mass;
         self.translation.iter_mut().for_each(|t| t.coefficient = mass_coefficient);
+        self.light.fit(map, with_history.body.damping().stiffness);
         self.factor_frame = *frame;
         self.turn = Matrix::identity();
         self.generation += 1;
@@ -422,6 +461,10 @@ impl<const D: usize> IterationMatrix<D> {
     pub fn begin(&mut self, x: &[Vector<D>]) {
         let turn = &self.turn;
         nodal::each(&mut self.scratch, [x], |s, [x]| *s = turn.tr_mul(x));
+        if self.light.share != 1.0 {
+            let light = self.scratch.iter_mut().zip(&self.light.nodes).filter(|(_, is_light)| **is_light);
+            light.for_each(|(force, _)| *force *= self.light.share);
+        }
         self.held.clear(&mut self.scratch);
         if let Some(translation) = &mut self.translation {
             translation.resultant = nodal::total(&self.scratch);
@@ -457,9 +500,9 @@ impl<const D: usize> IterationMatrix<D> {
 
     /// Adds `forces`, each at a node of the reach, to `x`.
     pub fn add(&mut self, forces: impl Iterator<Item = (usize, Vector<D>)>) {
-        let Self { inverse, turn, held, translation, .. } = self;
+        let Self { inverse, turn, held, translation, light, .. } = self;
         inverse.add(forces.map(|(node, force)| {
-            let force = held.free_part(node, &turn.tr_mul(&force));
+            let force = held.free_part(node, &turn.tr_mul(&force)) * light.share_of(node);
             translation.iter_mut().for_each(|t| t.resultant += force);
             (node, force)
         }));
@@ -474,7 +517,7 @@ impl<const D: usize> IterationMatrix<D> {
     /// The block (K̄⁻¹)_ab in the frame of the factor for any node a of the reach and one of these nodes b, named by its number among them, too.
     /// Where displacements are held a force moves nothing.
     pub fn response(&self, a: usize, (number, b): (usize, usize)) -> Matrix<D> {
-        let mut block = self.inverse.response(number, a);
+        let mut block = self.inverse.response(number, a) * self.light.share_of(b);
         for component in (0..D).filter(|&component| self.held.holds(b, component)) {
             block.set_column(component, &Vector::zeros());
         }

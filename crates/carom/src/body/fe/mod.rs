@@ -67,12 +67,12 @@ pub(crate) struct FeBody<const D: usize> {
 }
 
 impl<const D: usize> FeBody<D> {
-    /// The body as it steps.
-    pub fn new(part: Arc<ModelBody<D>>) -> Self {
+    /// The body as it steps, which may be `connected` to others by springs.
+    pub fn new(part: Arc<ModelBody<D>>, connected: bool) -> Self {
         let zeros = vec![Vector::zeros(); part.body.node_count()];
         let held = if part.body.held().is_empty() { Vec::new() } else { zeros.clone() };
         Self {
-            matrix: IterationMatrix::new(&part.body),
+            matrix: IterationMatrix::new(&part.body, connected),
             pose: Pose::default(),
             drive: Drive::new(&part),
             scratch: ResidualScratch::new(part.body.node_count()),
@@ -89,15 +89,29 @@ impl<const D: usize> FeBody<D> {
         }
     }
 
-    /// How much farther the body moves in a step than at its velocity [m] under its weight, its loads and the contact forces of the last step.
+    /// How much farther the body moves in a step than at its velocity [m] under its weight, its loads, its damping and the contact forces of the last
+    /// step.
     /// Along what supports hold nothing is foretold.
     fn fall(&mut self, interval: &Interval, start: &BodyState<'_, D>) -> Vector<D> {
         let loads = self.drive.load_at_start(&self.part, interval, start);
         let ModelBody { body, gravity, .. } = &*self.part;
         let driven = body.resultant(start.contact_force.iter().sum::<Vector<D>>() + loads);
         let mut acceleration = gravity + driven / body.total_mass();
+        // Damping is that of the velocity in the mean of the step.
+        let (damping, faster) = (body.damping().mass, interval.map.velocity_of_motion);
+        acceleration = (acceleration - self.pose.drift * damping) / (1.0 + damping / faster);
         body.held().dofs().iter().for_each(|dof| acceleration[dof.component as usize] = 0.0);
-        acceleration * (interval.map.dt / interval.map.velocity_of_motion)
+        acceleration * (interval.map.dt / faster)
+    }
+
+    /// Makes free flight a `motion` [m] that nodes without mass do not resist.
+    fn go_on(&self, start: &BodyState<'_, D>, dt: f64, motion: &mut [Vector<D>]) {
+        let (body, Pose { turn, drift, fall, .. }) = (&self.part.body, &self.pose);
+        motion.iter_mut().for_each(|d| *d += fall);
+        for n in body.massless().iter().map(|&n| n as usize) {
+            let own = start.velocity[n] - drift;
+            motion[n] += body.held().free_part(n, &((turn * own - own) * dt));
+        }
     }
 
     /// Makes K̄ in the middle configuration.
@@ -196,6 +210,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
             self.pose.turn = tensor::rotation(&spin.map(|w| w * dt));
             self.pose.drift = body.mean(v);
             self.pose.fall = self.fall(interval, start);
+            self.go_on(start, dt, motion);
         }
         let speed = v.iter().map(Vector::norm_squared).fold(0.0, f64::max).sqrt();
         let is_factorised = !self.matrix.fits(&interval.map);

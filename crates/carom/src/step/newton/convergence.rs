@@ -60,7 +60,11 @@ impl Convergence {
         let is_changing = state.history.iter().any(|history| !history.is_empty());
         // What the blend adds to reactions on bodies with mass is that of the last guess: the end is slower than the beginning.
         let lags = interval.is_blended && assembly.is_mixed();
-        let safety = if map.stress == StressRule::Weighted { CONTROL.less_safety } else { CONTROL.safety };
+        let safety = match map.stress {
+            StressRule::Conserving if !interval.is_blended => CONTROL.safety,
+            // What iterations leave of the energy blended steps make good.
+            StressRule::Conserving | StressRule::Weighted => CONTROL.less_safety,
+        };
         Self {
             safety: if lags { f64::INFINITY } else { safety },
             is_changing,

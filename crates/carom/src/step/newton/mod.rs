@@ -43,6 +43,8 @@ pub(crate) struct Newton<const D: usize> {
     pub giving_way: Option<GivingWay<D>>,
     /// The bodies that contacts act on.
     pub in_contact: Vec<usize>,
+    /// Those of them whose K̄ is to be renewed.
+    pub slow: Vec<usize>,
 }
 
 impl<const D: usize> Newton<D> {
@@ -62,6 +64,7 @@ impl<const D: usize> Newton<D> {
             caught: None,
             giving_way: None,
             in_contact: Vec::with_capacity(assembly.body_count()),
+            slow: Vec::with_capacity(assembly.body_count()),
         }
     }
 
