@@ -8,6 +8,7 @@ from typing import Any
 from carom import __version__
 from carom.display.markup import Html, element, embedded, join
 from carom.report.assembly import asset, elements, policy
+from carom.report.attached import mass_table, spring_table
 from carom.report.case_text import coloured
 from carom.report.curves import curves
 from carom.report.fields import Bodies
@@ -36,6 +37,7 @@ SCRIPTS = (
     "save.js",
     "drawing.js",
     "shapes.js",
+    "connections.js",
     "scene.js",
     "colour_bar.js",
     "stage.js",
@@ -89,6 +91,8 @@ def page(source: Source) -> str:
         ),
         bodies=_section("Books of the bodies", "body-table", body_table(source.summary)),
         pairs=_section("Books of the pairs", "pair-table", pair_table(source.summary)),
+        springs=_section("Springs and dampers", "spring-table", spring_table(source)),
+        masses=_section("Point masses", "mass-table", mass_table(source)),
         case=_case(source),
         numbers=_folded("All numbers of summary.json", "numbers", all_numbers(source.summary))
         if source.summary
