@@ -14,6 +14,7 @@ from carom.report.curves import curves
 from carom.report.fields import Bodies
 from carom.report.figures import key_figures
 from carom.report.flow import energy_flow
+from carom.report.modal import ringing_table, spectrograms
 from carom.report.number_tables import (
     all_numbers,
     body_table,
@@ -43,6 +44,7 @@ SCRIPTS = (
     "stage.js",
     "charts.js",
     "timeline.js",
+    "modal.js",
     "explorer.js",
     "transport.js",
     "picture.js",
@@ -91,6 +93,12 @@ def page(source: Source) -> str:
         ),
         bodies=_section("Books of the bodies", "body-table", body_table(source.summary)),
         pairs=_section("Books of the pairs", "pair-table", pair_table(source.summary)),
+        modes=_section(
+            "Vibration by modes",
+            "modes-table",
+            ringing_table(source.modes, source.summary),
+            spectrograms(source.modes),
+        ),
         springs=_section("Springs and dampers", "spring-table", spring_table(source)),
         masses=_section("Point masses", "mass-table", mass_table(source)),
         case=_case(source),
