@@ -92,6 +92,15 @@ def point_at(page, x, y):
     return page.locator("#readout").inner_text()
 
 
+def test_the_force_over_time_can_be_shown(page):
+    page.select_option("#group", label="strut: length and force")
+    page.select_option("#column", label="force")
+    heading = page.locator("#panel-explored h2")
+    assert "strut: length and force, force [N]" in heading.inner_text()
+    page.select_option("#column", label="length")
+    heading.get_by_text("length [m]").wait_for()
+
+
 def test_the_pointer_tells_length_and_force(page):
     scrub_to(page, 0)
     told = point_at(page, 0.5, 0.9)
