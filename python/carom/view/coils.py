@@ -24,7 +24,7 @@ LEAD = 0.12
 TURNS = (4, 14)
 """Of a coil: fewest and most."""
 
-MOST_COILED = 200
+MOST_COILED = 60
 """More springs than these are straight lines: coils would take long to draw, and not be seen."""
 
 _AROUND = 10

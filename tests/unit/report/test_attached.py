@@ -136,5 +136,20 @@ def test_springs_of_space_are_drawn(space, opened):
     assert drawn(page) != shown
 
 
+def test_what_nothing_moves_is_drawn_all_the_same(tmp_path, opened):
+    """Symptom: the page of a run in which nothing moved never got ready."""
+    crate = SPACE["bodies"][1]
+    still = {**SPACE, "analysis": {"end_time": 0.02, "time_step": 4e-3}, "bodies": [crate]}
+    hook = {"name": "hook", "stiffness": 10.0}
+    hook["between"] = [{"body": "crate", "point": [0.7, 0.1, 0.3]}, {"point": [0.7, 0.1, 1.0]}]
+    result = reported({**still, "springs": [hook], "output": {}}, tmp_path)
+    page = opened(result.path / layout.REPORT)
+    assert page.locator("#field option").all_inner_texts() == ["displacement"]
+    assert page.locator("#readout").inner_text() == "displacement in this frame up to 0\u202fm"
+    shown = drawn(page)
+    page.locator("#attached").uncheck()
+    assert drawn(page) != shown
+
+
 def test_without_springs_there_is_nothing_to_choose(disc_page):
     assert not disc_page.locator("#attached-choice").is_visible()

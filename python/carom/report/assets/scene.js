@@ -257,7 +257,7 @@ carom.makeScene = (data, arrays, maps) => {
       }
     }
     drawArrows();
-    connections?.draw(camera);
+    if (state.attached) connections?.draw(camera);
     renderer.render(scene, camera);
   }
   const listeners = [];

@@ -70,8 +70,8 @@ carom.showScene = (() => {
         const place = found.at.toArray().slice(0, data.dimension).map((x) => carom.format.number(x, 4));
         at("readout").textContent = `${nameOf(found.body)}: ${value}at (${place.join(", ")}) m`;
       } else if (isScalar(field)) {
-        const { low, high } = carom.colours.range(scene.values(), false);
-        at("readout").textContent = `${field.title} in this frame up to ${quantity(high, field.unit, 4)}`
+        const { low, high } = carom.colours.extremes(scene.values());
+        at("readout").textContent = low > high ? "" : `${field.title} in this frame up to ${quantity(high, field.unit, 4)}`
           + (low < 0 ? `, down to ${quantity(low, field.unit, 4)}` : "");
       }
     }
