@@ -17,6 +17,9 @@ Indices = NDArray[np.int64]
 ON = 1e-6
 """How far a node may be from a side that it is on, relative to the size of the mesh."""
 
+MOVED = 1e-3
+"""How far a node may be from where the file has it, relative to the same."""
+
 
 def named_nodes(mesh: Mesh, name: str, points: Points) -> Indices:
     """Return the nodes of a set of a mesh, ascending.
@@ -53,7 +56,7 @@ def _of_file(mesh: MeshFile, name: str, points: Points) -> Indices:
     arrays = read_body_mesh(
         mesh.file, body=mesh.body, scale=mesh.scale, space=space, key="bodies.mesh"
     )
-    if len(arrays.points) != len(points):
+    if not _are_alike(arrays.points + np.array(mesh.move or 0.0), points):
         raise InputError(f"{mesh.file}: is another mesh than the one that was run")
     parts = [arrays.node_sets.get(name, np.empty(0, dtype=np.int64))]
     parts += [facets.ravel() for facets in arrays.facet_sets.get(name, ())]
@@ -63,6 +66,13 @@ def _of_file(mesh: MeshFile, name: str, points: Points) -> Indices:
     if not len(nodes):
         raise InputError(f"{mesh.file}: has no set {name!r}")
     return nodes
+
+
+def _are_alike(read: Points, points: Points) -> bool:
+    """Whether nodes are where they were, but for what `building.closing` may have moved them."""
+    if read.shape != points.shape:
+        return False
+    return bool(np.abs(read - points).max() <= MOVED * np.ptp(points, axis=0).max())
 
 
 def _nodes_of_cells(arrays: MeshArrays, cells: Indices) -> Indices:

@@ -136,8 +136,12 @@ def test_a_file_that_is_another_one_by_now_is_not_believed(tmp_path):
     mesh = carom.MeshFile(file=str(tmp_path / "part.inp"))
     with pytest.raises(InputError, match="another mesh than the one that was run"):
         named_nodes(mesh, "roof", np.zeros((7, 2)))
+    points = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [2, 0], [2, 1]], dtype=float)
+    assert named_nodes(mesh, "roof", points).tolist() == [2, 3, 5]
+    with pytest.raises(InputError, match="another mesh than the one that was run"):
+        named_nodes(mesh, "roof", points + np.array([0.0, 0.1]))
     with pytest.raises(InputError, match="has no set 'cellar'"):
-        named_nodes(mesh, "cellar", np.zeros((6, 2)))
+        named_nodes(mesh, "cellar", points)
     with pytest.raises(InputError, match="no node is on this set"):
         named_nodes(carom.Disc(centre=[0, 0], radius=1, divisions=2), "left", np.zeros((6, 2)))
 
