@@ -80,6 +80,11 @@ class Page:
         return "\n".join(" ".join(each.split()) for each in lines)
 
     @cached_property
+    def blocks(self) -> str:
+        """What the page shows as it is: code, and what it prints; `tests/test_pages.py` runs it."""
+        return "\n".join(found[0] for found in BLOCK.finditer(self.source))
+
+    @cached_property
     def numbers(self) -> list[tuple[int, int]]:
         """Where the numbers of the prose and the tables are in the text."""
         unseen = [each.span() for each in UNSEEN.finditer(self.text)]

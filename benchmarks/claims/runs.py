@@ -27,7 +27,8 @@ def measure(run: dict[str, Any]) -> Output:
     ----------
     run
         ``command`` with ``needs``, environment variables without which it cannot be run;
-        ``python``, a function of `measures`; or ``page``.
+        ``python``, a function of `measures`; ``page``, a page or a source; or ``blocks``, the code
+        on a page and what it prints.
 
     Raises
     ------
@@ -41,6 +42,8 @@ def measure(run: dict[str, Any]) -> Output:
             raise MissingError(f"the environment variable {name} is not set")
     if "page" in run:
         return Page.read(run["page"]).text
+    if "blocks" in run:
+        return Page.read(run["blocks"]).blocks
     if "python" in run:
         found: dict[str, float] = getattr(measures, run["python"])()
         return found

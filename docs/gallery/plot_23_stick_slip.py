@@ -10,6 +10,7 @@ from tempfile import mkdtemp
 
 import matplotlib.pyplot as plt
 import numpy as np
+from pictures import draw
 
 import carom
 
@@ -41,6 +42,7 @@ scenario = carom.Scenario(
 )
 result = carom.run(scenario, out=mkdtemp())
 history = result.history
+draw(result, [0.0, 0.5, 0.8], field="velocity", edges=False)
 
 # %%
 # In closed form: the block slips when k x = μ_s m g, then swings about μ_k m g / k with ω = √(k/m).

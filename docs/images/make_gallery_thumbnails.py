@@ -53,7 +53,7 @@ LOOKS: dict[str, dict[str, Any]] = {
     "20_cradle": {"times": 0.04, "field": "velocity"},
     "21_racket": {"times": 1.2, "field": "body"},
     "22_dominoes": {"times": 0.3, "field": "body"},
-    "23_stick_slip": {"strobe": (0.0, 0.25, 0.5)},
+    "23_stick_slip": {"times": 0.5, "field": "body", "edges": False},
     "24_two_drop": {"strobe": (0.0, 0.012, 0.03, 0.045)},
     "25_taylor": {},
     "26_scikit_fem": {},

@@ -91,7 +91,7 @@ from carom.foreign.run import ForeignStep as ForeignStep
 from carom.io.history import read_history as read_history
 from carom.io.summary_types import Summary as Summary
 from carom.ledger_terms import Ledger as Ledger
-from carom.modes.split import ModalEnergies as ModalEnergies
+from carom.modes.energies import ModalEnergies as ModalEnergies
 from carom.modes.split import modal_energies as modal_energies
 from carom.plot.flow_figure import energy_flow as energy_flow
 from carom.results.field import Field as Field

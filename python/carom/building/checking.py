@@ -10,6 +10,7 @@ from carom.building.build import build
 from carom.case.body import Body, materials_of
 from carom.case.mesh import MeshFile
 from carom.case.scenario import Scenario
+from carom.case.vibrating import MOST, without_modes
 from carom.mesh_file import Note
 from carom.results.doubts import Doubt, of_mesh
 
@@ -74,6 +75,7 @@ def first_doubts(
     """
     yield from map(of_mesh, notes)
     yield from _doubts_of_units(scenario, description)
+    yield from _bodies_without_modes(scenario)
     suggested = description["suggested_time_step"]
     for stage in scenario.full_stages():
         step, key = stage.analysis.time_step, f"{stage.key}analysis.time_step"
@@ -86,6 +88,28 @@ def first_doubts(
                 step,
                 COARSE_STEP * suggested,
             )
+
+
+def _bodies_without_modes(scenario: Scenario) -> Iterator[Doubt]:
+    """Yield that bodies vibrate whose energy will not be split over modes, though that is wanted.
+
+    Rigid ones do not vibrate, so that nothing of theirs is missing.
+    """
+    if scenario.output.modes is None:
+        return
+    told = [
+        f"{body.name} ({reason})"
+        for body in scenario.bodies
+        if body.kind != "rigid" and (reason := without_modes(body, scenario.materials))
+    ]
+    if told:
+        more = f" and {len(told) - MOST} more" if len(told) > MOST else ""
+        yield Doubt(
+            "body-without-modes",
+            f"vibration is not split over modes of {', '.join(told[:MOST])}{more}",
+            "output.modes",
+            scenario.output.modes,
+        )
 
 
 def _doubts_of_units(scenario: Scenario, description: Mapping[str, Any]) -> Iterator[Doubt]:

@@ -18,7 +18,8 @@ def identity(scenario: Scenario, simulation: Simulation) -> dict[str, Any]:
     """Return what two runs must have in common for one to go on where the other stopped.
 
     Meshes and surfaces out of files count by what is in them, not by where they are. How often
-    checkpoints are made and whether there is a report changes no number and does not count.
+    checkpoints are made, whether there is a report and over how many modes energy is split changes
+    no other number and does not count.
     """
     case = what_counts(scenario)
     for index, obstacle in enumerate(scenario.obstacles):
@@ -36,7 +37,7 @@ def identity(scenario: Scenario, simulation: Simulation) -> dict[str, Any]:
 def what_counts(scenario: Scenario) -> dict[str, Any]:
     """Return a scenario as plain data, without what changes no number of its results."""
     case: dict[str, Any] = json.loads(scenario.to_json())
-    for key in ("checkpoint_every", "report"):
+    for key in ("checkpoint_every", "modes", "report"):
         case["output"].pop(key, None)
     return case
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from carom.case.description import Description, Name, NonNegative, Positive, Vector
+from carom.case.description import Count, Description, Name, NonNegative, Positive, Vector
 
 
 class Track(Description):
@@ -48,6 +48,10 @@ class Output(Description):
     audit
         Whether the last step before each frame of fields is kept as its two states. The
         audit can then check every equation of the step and not only its outcome.
+    modes
+        Over how many modes of each body its vibration and strain are split when the run ends,
+        frame by frame of the fields, as `carom modes` does: into ``modes.csv``, and into the
+        report. None splits nothing. Of bodies that deform and are elastic.
     report
         Whether the run ends with ``report.html``, a page with the animated bodies, the energies
         and all numbers, as `carom report` writes it.
@@ -59,4 +63,5 @@ class Output(Description):
     merge_contacts: NonNegative | None = None
     track: tuple[Track, ...] = ()
     audit: Annotated[bool, Field(strict=True)] = False
+    modes: Count | None = None
     report: Annotated[bool, Field(strict=True)] = False

@@ -34,6 +34,7 @@ from carom.case.point_mass import PointMass
 from carom.case.spring import Spring
 from carom.case.stage import Stage, StageOutput
 from carom.case.stage_rules import check_stages
+from carom.case.vibrating import check_modes
 from carom.errors import naming
 from carom.messages import inside, known, problem
 
@@ -367,6 +368,11 @@ class Scenario(Description):
     @model_validator(mode="after")
     def _stages_go_together(self) -> Self:
         check_stages(self)
+        return self
+
+    @model_validator(mode="after")
+    def _energy_has_modes(self) -> Self:
+        check_modes(self)
         return self
 
     @model_validator(mode="after")

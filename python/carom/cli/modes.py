@@ -12,9 +12,9 @@ from carom.cli import complete
 from carom.cli.failures import failures
 from carom.display.sheet import Sheet, print_whole
 from carom.io.atomic import write_whole
-from carom.modes.basis import Array
+from carom.modes.energies import Array, ModalEnergies
 from carom.modes.figure import modes_figure
-from carom.modes.split import ModalEnergies, modal_energies
+from carom.modes.split import modal_energies
 from carom.modes.table import modes_csv
 from carom.plot.style import paper_file, write
 from carom.results.result import Result

@@ -15,6 +15,7 @@ LEDGER = "ledger.csv"
 AUDIT = "audit.h5"
 ENERGY_PLOT = "energy.png"
 REPORT = "report.html"
+MODES = "modes.csv"
 FAILED_PROBLEM = "failed_contact_problem.hdf5"
 PROGRESS = "progress.json"
 """There while the run goes on, and after it was killed."""
@@ -54,6 +55,7 @@ _NAMES = (
     END_STATE,
     ENERGY_PLOT,
     REPORT,
+    MODES,
     FAILED_PROBLEM,
 )
 
@@ -96,7 +98,7 @@ def clear(directory: Path) -> None:
 
 def forget_outcome(directory: Path) -> None:
     """Remove what is written at the end of a run, and what was being written when it stopped."""
-    for name in (SUMMARY, END_STATE, ENERGY_PLOT, REPORT, FAILED_PROBLEM):
+    for name in (SUMMARY, END_STATE, ENERGY_PLOT, REPORT, MODES, FAILED_PROBLEM):
         (directory / name).unlink(missing_ok=True)
     for name in (*_NAMES, PROGRESS):
         (directory / f"{name}{UNFINISHED}").unlink(missing_ok=True)

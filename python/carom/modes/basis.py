@@ -12,7 +12,7 @@ from scipy import sparse
 from scipy.linalg import eigh
 from scipy.sparse.linalg import eigsh
 
-Array = NDArray[np.float64]
+from carom.modes.energies import Array
 
 SHIFT = 1e-3
 """By how much the problem is shifted, in terms of (c/L)², c the speed of waves and L the size."""

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from carom.display.colours import SEQUENTIAL
 from carom.display.time_unit import time_unit
-from carom.modes.split import ModalEnergies
+from carom.modes.energies import ModalEnergies
 from carom.plot.style import figure
 
 ROW = 3.0

@@ -3,74 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from carom import _carom
 from carom.building.build import build
-from carom.case.body import AnyBody, Body, materials_of
-from carom.case.mesh import Rectangle
 from carom.case.scenario import Scenario
+from carom.case.vibrating import without_modes
 from carom.errors import InputError
 from carom.messages import known
-from carom.modes.basis import Array, Modes, modes
+from carom.modes.basis import Modes, modes
+from carom.modes.energies import Array, ModalEnergies
+from carom.results.fields import Fields
 from carom.results.result import Result
 
 
-@dataclass(frozen=True)
-class ModalEnergies:
-    """The energy of a body over time, by its modes.
-
-    ``rigid``, the modes and the two rests add up to its kinetic and strain energy. The rests are
-    what modes that were not asked for have, and what a strain that is not small has beside ½ ω² η².
-
-    Parameters
-    ----------
-    body
-        Its name.
-    times
-        Times of the frames [s], shape [frame_count].
-    frequencies
-        Of its modes [Hz], shape [count], the slowest first.
-    rigid
-        Kinetic energy of its translation and rotation [J], shape [frame_count]; of a body on
-        supports that of what these leave it to do without strain.
-    kinetic, strain
-        ½ η̇² and ½ ω² η² of its modes [J], shape [frame_count, count].
-    rest_kinetic, rest_strain
-        What is left of both [J], shape [frame_count].
-    """
-
-    body: str
-    times: Array
-    frequencies: Array
-    rigid: Array
-    kinetic: Array
-    strain: Array
-    rest_kinetic: Array
-    rest_strain: Array
-
-    @property
-    def energies(self) -> Array:
-        """Kinetic and strain energy of the modes [J], shape [frame_count, count]."""
-        return self.kinetic + self.strain
-
-    @property
-    def rest(self) -> Array:
-        """What neither a mode nor ``rigid`` has [J], shape [frame_count]."""
-        return self.rest_kinetic + self.rest_strain
-
-    @property
-    def total(self) -> Array:
-        """Kinetic and strain energy of the body [J], shape [frame_count]."""
-        total: Array = self.rigid + self.energies.sum(axis=1) + self.rest
-        return total
-
-
 def modal_energies(
-    results: Result | str | Path, *, count: int = 20, bodies: Sequence[str] | None = None
+    results: Result | str | Path,
+    *,
+    count: int = 20,
+    bodies: Sequence[str] | None = None,
 ) -> dict[str, ModalEnergies]:
     """Split the energy of bodies in the recorded frames of a run over their modes.
 
@@ -101,43 +54,50 @@ def modal_energies(
     for name in bodies or ():
         if name not in names:
             raise InputError(f"{name}: no such body; {known(name, names)}")
-        if reason := _without(scenario, scenario.bodies[names.index(name)]):
+        if reason := without_modes(scenario.bodies[names.index(name)], scenario.materials):
             raise InputError(
                 f"body {name} has no modes that its energy could be split over: {reason}"
             )
-    chosen = [
-        (index, body)
-        for index, body in enumerate(scenario.bodies)
-        if (body.name in bodies if bodies is not None else not _without(scenario, body))
-    ]
-    if not chosen:
+    if bodies is None and all(without_modes(one, scenario.materials) for one in scenario.bodies):
         raise InputError(
             "no body has modes: none deforms and is elastic, without a stress at first"
         )
-    simulation = build(scenario)
-    return {body.name: _split(result, simulation, index, count) for index, body in chosen}
+    return split(result.fields, scenario, build(scenario), count, bodies=bodies)
 
 
-def _without(scenario: Scenario, body: AnyBody) -> str:
-    """Return why the energy of a body cannot be split over modes; nothing if it can."""
-    if not isinstance(body, Body):
-        return f"it is {body.kind}"
-    if any(scenario.materials[name].kind == "j2-plasticity" for name in materials_of(body)):
-        return "its material flows"
-    if body.growth is not None:
-        return "it grows"
-    if body.initial_stress is not None:
-        return "it is under an initial stress"
-    if isinstance(body.mesh, Rectangle) and body.mesh.periodic:
-        return "it is periodic"
-    return ""
+def split(
+    fields: Fields,
+    scenario: Scenario,
+    simulation: _carom.Simulation,
+    count: int,
+    *,
+    bodies: Sequence[str] | None = None,
+) -> dict[str, ModalEnergies]:
+    """Split the energy of bodies that have modes, see `modal_energies`.
+
+    Parameters
+    ----------
+    fields
+        Of the run, frame by frame.
+    scenario, simulation
+        Its case, and what was built of it; at whatever time it is.
+    count
+        Modes of each body.
+    bodies
+        Names of the bodies; None for all that have modes.
+    """
+    return {
+        body.name: _split(fields, simulation, index, count)
+        for index, body in enumerate(scenario.bodies)
+        if not without_modes(body, scenario.materials) and (bodies is None or body.name in bodies)
+    }
 
 
-def _split(result: Result, simulation: _carom.Simulation, index: int, count: int) -> ModalEnergies:
+def _split(whole: Fields, simulation: _carom.Simulation, index: int, count: int) -> ModalEnergies:
     built = simulation.describe()["bodies"][index]
     matrices = simulation.matrices(index)
     own = modes(matrices, count, slow=built["wave_speed"] / built["diameter"])
-    fields = result.fields.body(built["name"])
+    fields = whole.body(built["name"])
     is_held = bool(matrices["held"].any())
     displacements, velocities = fields["displacement"], fields["velocity"]
     rows = []

@@ -28,7 +28,7 @@ _UNITS = {
     "certificate": "J",
     "momentum": "kg m/s",
     "angular_momentum": "kg m²/s",
-    **dict.fromkeys(("x", "y", "z", "u", "min_gap", "penetration"), "m"),
+    **dict.fromkeys(("x", "y", "z", "u", "min_gap", "penetration", "length"), "m"),
     **dict.fromkeys(("v", "vmid"), "m/s"),
     "spin": "rad/s",
     **dict.fromkeys(("translation", "rotation", "vibration"), "J"),

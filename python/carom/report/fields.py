@@ -172,6 +172,8 @@ def _assembled(
         _described(name, "points") for name in _VECTORS if name in packed and _varies(packed[name])
     ]
     fields += [c.field for c in channels if c.field is not None and _varies(packed[c.key])]
+    # Where nothing moves there is still a picture: of a displacement that is zero.
+    fields = fields or [_described("displacement", "points")]
     fields.sort(key=lambda field: _place_in_list(field["key"]))
     wanted = {*_VECTORS, *(field["key"] for field in fields)}
     data = {

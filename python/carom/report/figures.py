@@ -9,6 +9,9 @@ from carom.display.markup import Html, element, format_number, join, number
 
 Summary = Mapping[str, Any]
 
+MANIFOLD = 10.0
+"""Shares of the energy at the start from which on they are no percentages."""
+
 
 def key_figures(summary: Summary) -> Html:
     """Return the figures that a reader looks for first."""
@@ -98,6 +101,8 @@ def _share(energy: Summary, name: str) -> Html | None:
     if not initial or not energy.get(name):
         return None
     share = energy[name] / initial
+    if abs(share) >= MANIFOLD:
+        return join(f"{format_number(share, 3)} times the initial energy")
     text = f"{100 * share:.3g} %" if abs(share) >= 1e-4 else format_number(share, 2)
     return join(text, " of the initial energy")
 

@@ -27,6 +27,7 @@ SCRIPTS = (
     "format.js",
     "colours.js",
     "shapes.js",
+    "connections.js",
     "scene.js",
     "colour_bar.js",
     "stage.js",

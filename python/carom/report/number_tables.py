@@ -19,6 +19,9 @@ _ENERGY = (
     ("max_defect", "largest defect of the ledger"),
     ("max_step_defect", "largest defect of one step"),
 )
+SLIDES = 1e-6
+"""Of the speed of approach: what slid less is round-off, and a share of it says nothing."""
+
 _ALWAYS = frozenset({"initial", "kinetic", "strain", "friction", "max_defect"})
 
 _CONTACT = (("onset", "onset", "s"), ("release", "release", "s"))
@@ -128,9 +131,10 @@ def impact_table(summary: Summary) -> Html | None:
     names = ("impulse", "restitution", "tangential_restitution", *(name for name, _ in shown))
     rows = []
     for index, contact in impacts:
+        impact = {**contact["impact"], "tangential_restitution": _tangential(contact["impact"])}
         cells = [
-            number(contact["impact"][name], f"contacts.{index}.impact.{name}", digits=3)
-            if contact["impact"][name] is not None
+            number(impact[name], f"contacts.{index}.impact.{name}", digits=3)
+            if impact[name] is not None
             else "–"
             for name in names
         ]
@@ -147,6 +151,12 @@ def impact_table(summary: Summary) -> Html | None:
     return element("table", element("thead", head), element("tbody", *rows))
 
 
+def _tangential(impact: Summary) -> float | None:
+    """Return the tangential coefficient of restitution, unless next to nothing slid at first."""
+    sliding, approach = abs(impact["sliding"]), abs(impact["approach"])
+    return impact["tangential_restitution"] if sliding > SLIDES * approach else None
+
+
 def body_table(summary: Summary) -> Html | None:
     """Return the books of every body."""
     return _books(summary, "bodies", lambda entry: str(entry["name"]), skip=("name",))
@@ -158,7 +168,7 @@ def pair_table(summary: Summary) -> Html | None:
         summary,
         "pairs",
         lambda entry: " – ".join(map(str, entry["between"])),
-        skip=("between", "has_touched"),
+        skip=("between", "has_touched", "merge_contacts"),
     )
 
 

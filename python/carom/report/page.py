@@ -8,11 +8,13 @@ from typing import Any
 from carom import __version__
 from carom.display.markup import Html, element, embedded, join
 from carom.report.assembly import asset, elements, policy
+from carom.report.attached import mass_table, spring_table
 from carom.report.case_text import coloured
 from carom.report.curves import curves
 from carom.report.fields import Bodies
 from carom.report.figures import key_figures
 from carom.report.flow import energy_flow
+from carom.report.modal import ringing_table, spectrograms
 from carom.report.number_tables import (
     all_numbers,
     body_table,
@@ -36,11 +38,13 @@ SCRIPTS = (
     "save.js",
     "drawing.js",
     "shapes.js",
+    "connections.js",
     "scene.js",
     "colour_bar.js",
     "stage.js",
     "charts.js",
     "timeline.js",
+    "modal.js",
     "explorer.js",
     "transport.js",
     "picture.js",
@@ -89,6 +93,14 @@ def page(source: Source) -> str:
         ),
         bodies=_section("Books of the bodies", "body-table", body_table(source.summary)),
         pairs=_section("Books of the pairs", "pair-table", pair_table(source.summary)),
+        modes=_section(
+            "Vibration by modes",
+            "modes-table",
+            ringing_table(source.modes, source.summary),
+            spectrograms(source.modes),
+        ),
+        springs=_section("Springs and dampers", "spring-table", spring_table(source)),
+        masses=_section("Point masses", "mass-table", mass_table(source)),
         case=_case(source),
         numbers=_folded("All numbers of summary.json", "numbers", all_numbers(source.summary))
         if source.summary

@@ -11,6 +11,7 @@ import numpy as np
 from carom.display.colours import DIVERGING, SEQUENTIAL
 from carom.display.time_unit import TimeUnit, time_unit
 from carom.errors import InputError
+from carom.report.attached import attached, attached_data
 from carom.report.fields import BUDGET, Bodies, bodies
 from carom.report.obstacles import obstacles
 from carom.report.source import Source
@@ -73,10 +74,24 @@ def scene_data(source: Source, shown: Bodies | None, notes: list[str]) -> dict[s
         case = source.scenario
         for field in shown.data["fields"]:
             field["map"] = "diverging" if field["key"] in SIGNED else "sequential"
+        low, high, connections = shown.low, shown.high, None
+        if case is not None and (case.springs or case.masses):
+            found, moved = attached(case, source.frames, shown.frames, notes)
+            places = (found.drawn + moved).reshape(-1, found.dimension)
+            low = np.vstack([low, places]).min(axis=0)
+            high = np.vstack([high, places]).max(axis=0)
+            connections = attached_data(
+                found,
+                moved,
+                history=source.history,
+                taken=shown.frames,
+                size=float(np.linalg.norm(high - low)),
+            )
         data["scene"] = {
             **shown.data,
-            "low": shown.low.tolist(),
-            "high": shown.high.tolist(),
+            "connections": connections,
+            "low": low.tolist(),
+            "high": high.tolist(),
             "bodies": [body.name for body in case.bodies] if case else [],
             "obstacles": obstacles(case, times, notes) if case else [],
         }

@@ -18,6 +18,8 @@ from carom.io.frames import Frames
 from carom.io.history import read_history
 from carom.io.ledger import read_ledger
 from carom.io.summary import read_summary
+from carom.modes.energies import ModalEnergies
+from carom.modes.table import read_modes
 from carom.results.result import read_case
 
 Columns = dict[str, NDArray[np.float64]]
@@ -40,6 +42,8 @@ class Source:
         What ``summary.json`` says.
     history, ledger
         Columns by title; those of the ledger for every body and pair.
+    modes
+        Energies of the bodies by their modes.
     frames, surface
         Fields in the bodies and on their boundaries.
     case_text, scenario
@@ -52,6 +56,7 @@ class Source:
     summary: dict[str, Any] = field(default_factory=dict)
     history: Columns = field(default_factory=dict)
     ledger: dict[str, Columns] = field(default_factory=dict)
+    modes: dict[str, ModalEnergies] = field(default_factory=dict)
     frames: Frames | None = None
     surface: Frames | None = None
     case_text: str | None = None
@@ -102,6 +107,7 @@ def read_source(directory: Path) -> Source:
         summary=read(layout.SUMMARY, read_summary) or {},
         history=read(layout.HISTORY, read_history) or {},
         ledger=read(layout.LEDGER, read_ledger) or {},
+        modes=read(layout.MODES, read_modes) or {},
         frames=read(layout.FIELDS, Frames),
         surface=read(layout.SURFACE, Frames),
         case_text=read(layout.CASE, lambda path: path.read_text(encoding="utf-8")),

@@ -18,12 +18,14 @@ from carom.io.audit import AuditWriter
 from carom.io.checkpoint import Checkpoint, write_checkpoint, write_end_state
 from carom.io.digest import digest
 from carom.io.frame_queue import Frame, FrameQueue
+from carom.io.frames import Frames
 from carom.io.history import HistoryWriter
 from carom.io.ledger import LedgerWriter
 from carom.io.progress import ProgressFile
 from carom.io.summary import write_summary
 from carom.io.vtkhdf import SURFACE_CELL_FIELDS, SURFACE_POINT_FIELDS, FieldsWriter
 from carom.results.doubts import Doubt, doubts, written_doubts
+from carom.results.fields import Fields, parts
 from carom.results.result import Result
 from carom.system.existing import make
 from carom.system.interrupt import uninterrupted
@@ -78,7 +80,7 @@ class Recorder:
         make(directory)
         self._progress = ProgressFile(directory)
         self._directory = directory
-        self._title = scenario.title
+        self._scenario = scenario
         self._simulation = simulation
         self._case = case
         written: dict[str, Any] = {} if checkpoint is None else checkpoint.record
@@ -117,7 +119,6 @@ class Recorder:
         self._wall_before: float = written.get("wall", 0.0)
         self._doubts: list[Doubt] = []
         self._notify = notify
-        self._reports = scenario.output.report
         self._start = perf_counter()
 
     @property
@@ -231,7 +232,7 @@ class Recorder:
         from carom.friction import write  # noqa: PLC0415 (SciPy, which most runs do without)
 
         path = self._directory / layout.FAILED_PROBLEM
-        write(problem, path, guess=guess, title=self._title, description=reason)
+        write(problem, path, guess=guess, title=self._scenario.title, description=reason)
         return path
 
     @uninterrupted()
@@ -254,11 +255,13 @@ class Recorder:
         self._queue.flush()
         if status == "completed":
             self._end_state()
+        if self._scenario.output.modes is not None:
+            self._split_over_modes(self._scenario.output.modes)
         native = self._simulation.summary()
         summary = {
             "status": status,
             **({"reason": reason} if reason else {}),
-            "title": self._title,
+            "title": self._scenario.title,
             "version": _carom.__version__,
             **native,
             "files": {name: digest(self._directory / name) for name in layout.DIGESTED},
@@ -270,10 +273,29 @@ class Recorder:
         new = [doubt for doubt in dict.fromkeys(found) if doubt not in self._doubts]
         summary["warnings"] = [doubt.as_summary() for doubt in (*self._doubts, *new)]
         write_summary(self._directory / layout.SUMMARY, summary)
-        result = conclude(self._directory, reports=self._reports)
+        result = conclude(self._directory, reports=self._scenario.output.report)
         for doubt in new:
             self._notify(doubt)
         return result
+
+    def _split_over_modes(self, count: int) -> None:
+        """Write how much of the energy each mode has, frame by frame."""
+        from scipy.linalg import LinAlgError  # noqa: PLC0415 (which most runs do without)
+        from scipy.sparse.linalg import ArpackError  # noqa: PLC0415
+
+        from carom.modes.split import split  # noqa: PLC0415
+        from carom.modes.table import modes_csv  # noqa: PLC0415
+
+        frames, scenario = Frames(self._directory / layout.FIELDS), self._scenario
+        whose = parts(frames, [body.name for body in scenario.bodies])
+        fields = Fields(frames, whose, dimension=scenario.dimension)
+        try:
+            energies = split(fields, scenario, self._simulation, count)
+        except (ArpackError, LinAlgError, MemoryError, RuntimeError) as error:
+            what = f"modes were not found: {error}; ask for fewer, or mesh less finely"
+            self.doubt(Doubt("modes-not-found", what, "output.modes", count))
+            return
+        write_whole(self._directory / layout.MODES, modes_csv(energies.values()).encode())
 
     def _end_state(self) -> None:
         """Write the state from which other cases may go on."""

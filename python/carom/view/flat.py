@@ -8,22 +8,26 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection, PathCollection, PolyCollection
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Curve
-from matplotlib.transforms import Affine2D
+from matplotlib.transforms import Affine2D, IdentityTransform
 from numpy.typing import NDArray
 
 from carom.case.travel import travel
 from carom.display.colours import FORCE, INK, SOLID, SOLID_LINE
 from carom.view.arrows import LONGEST, arrows
 from carom.view.body_colours import body_colours
+from carom.view.coils import WIDTH, laid, shapes
 from carom.view.shading import Shading
 from carom.view.solids import solid
 from carom.view.subject import LEAST_FORCE, Subject
 
 CUTS = 2
 """How often the edges of triangles are halved where colours run on."""
+
+MARK = 3.2
+"""Radius of the mark of a point mass [pt]."""
 
 
 class Scene(Protocol):
@@ -79,13 +83,32 @@ class FlatScene:
         self._rim = _lines(axes, len(seen.rim), linewidth=0.6, capstyle="round", zorder=4)
         self._band = LineCollection([], linewidths=2.4, capstyle="butt", zorder=5)
         self._arrows = PolyCollection([], facecolors=FORCE, linewidths=0, zorder=6)
+        attached = subject.attached
+        self._shapes = shapes(attached, self._size)
+        pieces = sum(map(len, self._shapes))
+        # Dark lines with a pale edge are seen on all colours of bodies.
+        self._coils = [
+            _lines(axes, pieces, linewidth=2.4, edgecolor="white", capstyle="round", zorder=5.5),
+            _lines(axes, pieces, linewidth=0.9, capstyle="round", zorder=5.6),
+        ]
+        self._marks = PathCollection(
+            [Curve.unit_circle()],
+            sizes=[MARK**2],
+            offsets=np.zeros((len(attached.lumps), 2)),
+            offset_transform=axes.transData,
+            facecolors=INK,
+            edgecolors="white",
+            linewidths=0.8,
+            zorder=5.8,
+        )
+        self._marks.set_transform(IdentityTransform())
         self._on_rim = colouring is not None and colouring.place == "rim"
-        collections = [self._faces, self._band, self._arrows]
+        collections = [self._faces, self._band, self._marks, self._arrows]
         for collection in collections:
             axes.add_collection(collection, autolim=False)
         moving = [patch for patches, _, moves in self._obstacles if moves for patch in patches]
         self.artists: list[Artist] = [*moving, *([self._shading] if self._shading else [])]
-        self.artists += [*collections, self._edges, self._rim]
+        self.artists += [*collections, self._edges, self._rim, *self._coils]
 
     def update(self, frame: int) -> None:
         """Draw another frame."""
@@ -108,12 +131,24 @@ class FlatScene:
             self._band.set_segments([*where[seen.rim]])
             colours = self._mappable.to_rgba(self._values(frame))
             self._band.set_color(colours)
+        self._update_attached(frame)
         shown: Any = []
         if subject.reactions and self._largest_force > 0.0:
             force = subject.forces(frame) / self._largest_force
             acts = np.linalg.norm(force, axis=1) > LEAST_FORCE
             shown = arrows(where[acts], LONGEST * self._size * force[acts], size=self._size)
         self._arrows.set_verts(shown)
+
+    def _update_attached(self, frame: int) -> None:
+        """Lay springs between their ends, and put masses where they are."""
+        attached = self._subject.attached
+        if not attached:
+            return
+        places = self._subject.places(frame)
+        lines = laid(self._shapes, attached.ends(places), width=WIDTH * self._size)
+        for coil in self._coils:
+            _set(coil, lines)
+        self._marks.set_offsets(attached.marks(places))
 
     def _values(self, frame: int) -> NDArray[np.float64]:
         assert self._subject.colouring is not None
@@ -156,10 +191,18 @@ class FlatScene:
         return (line, area), moved, bool(np.ptp(moved, axis=0).any())
 
 
-def _lines(axes: Axes, count: int, **look: Any) -> PathPatch:  # noqa: ANN401 (as of patches)
+def _lines(
+    axes: Axes,
+    count: int,
+    *,
+    edgecolor: str = INK,
+    **look: Any,  # noqa: ANN401 (as of patches)
+) -> PathPatch:
     """Add so many lines of one look, as one curve: many artists would take long to draw."""
     codes = np.tile(np.array([Curve.MOVETO, Curve.LINETO], dtype=np.uint8), count)
-    patch = PathPatch(Curve(np.zeros((2 * count, 2)), codes), fill=False, edgecolor=INK, **look)
+    patch = PathPatch(
+        Curve(np.zeros((2 * count, 2)), codes), fill=False, edgecolor=edgecolor, **look
+    )
     axes.add_patch(patch)
     return patch
 

@@ -23,6 +23,9 @@ from carom.view.colouring import Colouring
 NO_VALUE = "#C9CFD8"
 """The colour of what has no value."""
 
+AT_END = 0.04
+"""Of the colours: a value that is no farther from an end of the bar stands at it."""
+
 NICE = (5.0, 2.0, 1.0)
 """What lengths and forces that are shown for comparison are, times a power of ten."""
 
@@ -86,6 +89,12 @@ def colour_bar(
     marks = MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]).tick_values(low / size, high / size)
     shown = [m for m in marks if low / size - 1e-9 <= m <= high / size + 1e-9]
     bar.set_ticks([m * size for m in shown], labels=[f"{m:.6g}".replace("-", "−") for m in shown])
+    # A value at an end of the bar stays beside it: the page may end there.
+    for mark, written in zip(shown, axes.get_xticklabels(), strict=True):
+        if abs(mark * size - low) < AT_END * (high - low):
+            written.set_horizontalalignment("left")
+        elif abs(mark * size - high) < AT_END * (high - low):
+            written.set_horizontalalignment("right")
     axes.tick_params(length=2.0, width=0.5, pad=1.5, color=FAINT, labelcolor=INK)
     title = f"{colouring.title} [{unit}]" if unit else colouring.title
     axes.set_title(title, loc="left", pad=2.5, color=INK, fontsize="medium")

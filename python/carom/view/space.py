@@ -19,6 +19,7 @@ from carom.errors import InputError
 from carom.view.arrows import LONGEST
 from carom.view.body_colours import body_colours
 from carom.view.camera import Sight, aim
+from carom.view.coils import WIDTH, laid, shapes
 from carom.view.subject import LEAST_FORCE, Subject
 from carom.view.walls import add_obstacles
 
@@ -33,6 +34,9 @@ _LIGHT = {"ambient": 0.5, "diffuse": 0.56, "specular": 0.06, "specular_power": 1
 
 _WIDTHS = (1.4e-3, 2.6e-3)
 """Of lines between cells, and of edges of shape, as a share of the picture's height."""
+
+_COIL, _MARK = 5.5e-3, 4.5e-2
+"""Width of the wire of springs, and size of the mark of a point mass, as a share of it."""
 
 _SHADOW = "#D5DBE4"
 
@@ -110,6 +114,7 @@ class SpaceModel:
         shape = seen.rim if flat else creases(seen.triangles, where)
         self._add_lines(shape, opacity=0.85, width=_WIDTHS[1] * plotter.window_size[1])
         self._shadows = [] if flat else list(self._cast_shadows(triangles))
+        self._attached = self._add_attached()
         self._arrow_actor: Any = None
         self.update(frames[0])
         # A small body in front of a large obstacle is nearer than VTK's own share of the farthest.
@@ -133,6 +138,7 @@ class SpaceModel:
             normal = np.array(plane.normal) / np.linalg.norm(plane.normal)
             height = (where - self._travels[index][frame] - np.array(plane.point)) @ normal
             mesh.points = where - np.outer(height - _ABOVE * self._size, normal)
+        self._update_attached(frame)
         self._draw_forces(frame, where)
 
     @property
@@ -175,6 +181,36 @@ class SpaceModel:
             )
             self._plotter.add_mesh(mesh, color=_SHADOW, lighting=False)
             yield index, mesh
+
+    def _add_attached(self) -> tuple[Any, Any]:
+        """Add springs and point masses, whose places `_update_attached` gives them."""
+        import pyvista  # noqa: PLC0415 (an extra)
+
+        attached, height = self._subject.attached, self._plotter.window_size[1]
+        self._shapes = shapes(attached, self._size)
+        coils = marks = None
+        if attached.links:
+            pieces = sum(map(len, self._shapes))
+            lines = np.insert(np.arange(2 * pieces).reshape(-1, 2), 0, 2, axis=1)
+            coils = pyvista.PolyData(np.zeros((2 * pieces, 3)), lines=lines.ravel())
+            self._plotter.add_mesh(coils, color=INK, line_width=_COIL * height, lighting=False)
+        if attached.lumps:
+            marks = pyvista.PolyData(np.zeros((len(attached.lumps), 3)))
+            self._plotter.add_mesh(
+                marks, color=INK, point_size=_MARK * height, render_points_as_spheres=True
+            )
+        return coils, marks
+
+    def _update_attached(self, frame: int) -> None:
+        """Lay springs between their ends, and put masses where they are."""
+        attached, (coils, marks) = self._subject.attached, self._attached
+        places = self._subject.places(frame)
+        if coils is not None:
+            ends = attached.ends(places)
+            lines = laid(self._shapes, ends, width=WIDTH * self._size)
+            coils.points = _spatial(lines.reshape(-1, attached.dimension))
+        if marks is not None:
+            marks.points = _spatial(attached.marks(places))
 
     def _draw_forces(self, frame: int, where: NDArray[np.float64]) -> None:
         import pyvista  # noqa: PLC0415 (an extra)
@@ -285,10 +321,10 @@ def creases(triangles: NDArray[np.int64], points: NDArray[np.float64]) -> NDArra
 def reached(subject: Subject, frames: Sequence[int]) -> NDArray[np.float64]:
     """Return what must be seen [m], shape [count, 3]: the points of few frames, boxes of many."""
     if len(frames) <= 4:
-        return np.concatenate([_spatial(subject.positions(frame)) for frame in frames])
+        return np.concatenate([_spatial(subject.everything(frame)) for frame in frames])
     corners = []
     for frame in frames:
-        where = _spatial(subject.positions(frame))
+        where = _spatial(subject.everything(frame))
         low, high = where.min(axis=0), where.max(axis=0)
         corners += [np.where(side, high, low) for side in np.ndindex(2, 2, 2)]
     return np.array(corners)

@@ -16,6 +16,7 @@ from carom.io import layout
 from carom.io.frames import Frames
 from carom.results.result import Result, read_case
 from carom.view.colouring import Colouring, chosen, colourings
+from carom.view.connections import Connections, connections
 from carom.view.outline import Outline, outline
 
 LEAST_FORCE = 2e-3
@@ -34,6 +35,8 @@ class Subject:
         What of them is seen.
     scenario
         The case, for its obstacles.
+    attached
+        Springs, dampers and point masses.
     colouring
         What gives the colours; None tells bodies apart.
     magnification
@@ -50,6 +53,7 @@ class Subject:
     frames: Frames
     seen: Outline
     scenario: Scenario
+    attached: Connections
     colouring: Colouring | None
     magnification: float = 1.0
     edges: bool = True
@@ -76,6 +80,12 @@ class Subject:
         where = self.frames.points + np.nan_to_num(moved)
         return np.asarray(where[self.seen.points, : self.scenario.dimension])
 
+    def places(self, frame: int) -> NDArray[np.float64]:
+        """Return where springs and point masses are drawn [m], as of `Connections.places`."""
+        if not self.attached:
+            return self.attached.drawn
+        return self.attached.drawn + self.magnification * self.attached.moved(frame)
+
     def forces(self, frame: int) -> NDArray[np.float64]:
         """Return the contact reactions at the points that are seen [N], shape [point_count, D]."""
         if "reaction" not in self.frames.names:
@@ -83,13 +93,17 @@ class Subject:
         taken = self.frames.field("reaction", frame)
         return np.asarray(taken[self.seen.points, : self.scenario.dimension])
 
+    def everything(self, frame: int) -> NDArray[np.float64]:
+        """Return where bodies, springs and point masses are drawn [m], shape [count, D]."""
+        return np.concatenate([self.positions(frame), self.places(frame)])
+
     def largest_force(self, frames: Iterable[int]) -> float:
         """Return the size of the largest contact reaction [N]."""
         return max((float(np.linalg.norm(self.forces(k), axis=1).max()) for k in frames), default=0)
 
     def box(self, frames: Iterable[int]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the corners of the box around the bodies in some frames [m], shape [D] each."""
-        ends = [(where.min(axis=0), where.max(axis=0)) for where in map(self.positions, frames)]
+        """Return the corners of the box around all that moves, in frames [m], shape [D] each."""
+        ends = [(where.min(axis=0), where.max(axis=0)) for where in map(self.everything, frames)]
         low = np.min([end[0] for end in ends], axis=0)
         high = np.max([end[1] for end in ends], axis=0)
         return low, high
@@ -148,10 +162,12 @@ def subject(
     surface = directory / layout.SURFACE
     boundaries = Frames(surface) if surface.exists() else None
     seen = outline(frames, boundaries)
+    scenario = read_case(directory)
     return Subject(
         frames,
         seen,
-        read_case(directory),
+        scenario,
+        connections(scenario, frames),
         chosen(colourings(frames, boundaries, seen), field),
         magnification=magnification,
         edges=edges,

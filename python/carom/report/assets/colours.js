@@ -13,14 +13,20 @@ carom.colours = (() => {
     return made;
   }
 
-  // Smallest and largest value; those with a sign keep zero in the middle.
-  function range(values, isSigned) {
+  // Smallest and largest value; where there is none the first is above the second.
+  function extremes(values) {
     let low = Infinity;
     let high = -Infinity;
     for (const value of values) {
       if (value < low) low = value;
       if (value > high) high = value;
     }
+    return { low, high };
+  }
+
+  // The values of the first and the last colour; those with a sign keep zero in the middle.
+  function range(values, isSigned) {
+    let { low, high } = extremes(values);
     if (low > high) return { low: 0, high: 1 };
     if (isSigned) {
       high = Math.max(Math.abs(low), Math.abs(high));
@@ -34,5 +40,5 @@ carom.colours = (() => {
     const share = (value - low) / (high - low);
     return (0.5 + 255 * Math.min(1, Math.max(0, Number.isNaN(share) ? 0 : share))) / 256;
   }
-  return { textures, range, place };
+  return { textures, extremes, range, place };
 })();

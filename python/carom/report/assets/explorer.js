@@ -6,10 +6,11 @@ carom.makeExplorer = (data, columns, charts) => {
   const column = document.getElementById("column");
   const PALETTE = ["blue", "orange", "green", "purple", "red", "sky", "yellow", "brown", "grey", "ink"];
   const words = (name) => name.replaceAll("_", " ");
+  const isOfSpring = (name) => /\.(length|force)$/.test(name);
   let chart = null;
 
   const books = data.groups.map(({ title, columns: names }) => ({
-    title: title === "whole run" ? title : `${title}: motion`,
+    title: title === "whole run" ? title : `${title}: ${names.every(isOfSpring) ? "length and force" : "motion"}`,
     choices: names.map((name) => ({
       title: words(name.slice(name.lastIndexOf(".") + 1)),
       load: async () => ({

@@ -33,6 +33,7 @@
       "+": () => scene?.zoom(1.2),
       "-": () => scene?.zoom(1 / 1.2),
     });
+    carom.makeSpectrograms(clock);
     for (const button of document.querySelectorAll(".go")) {
       button.addEventListener("click", () => {
         clock.pause();

@@ -17,7 +17,7 @@ carom.makeScene = (data, arrays, maps) => {
     controls.mouseButtons.LEFT = 2; // pan
     controls.touches.ONE = 1;
   }
-  const state = { frame: 0, magnification: 1, field: null, range: "run", edges: true, forces: true };
+  const state = { frame: 0, magnification: 1, field: null, range: "run", edges: true, forces: true, attached: true };
 
   function boxOf(low, high) {
     const extent = [0, 1, 2].map((k) => (high[k] ?? 0) - (low[k] ?? 0));
@@ -68,7 +68,8 @@ carom.makeScene = (data, arrays, maps) => {
   arrows.position.z = flat ? 2e-3 * box.size : 0;
   arrows.renderOrder = 2;
   const obstacles = data.obstacles.map((obstacle) => carom.shapes.make(obstacle, box, data.dimension, solid));
-  for (const mesh of [faces, edges, rim, ribbon, arrows, ...obstacles]) {
+  const connections = data.connections && carom.makeConnections(data.connections, arrays.connections, { size: box.size, flat });
+  for (const mesh of [faces, edges, rim, ribbon, arrows, ...obstacles, ...(connections?.objects ?? [])]) {
     mesh.frustumCulled = false;
     scene.add(mesh);
   }
@@ -256,6 +257,7 @@ carom.makeScene = (data, arrays, maps) => {
       }
     }
     drawArrows();
+    if (state.attached) connections?.draw(camera);
     renderer.render(scene, camera);
   }
   const listeners = [];
@@ -271,6 +273,8 @@ carom.makeScene = (data, arrays, maps) => {
       obstacle.position.set(x, y, z).multiplyScalar(state.magnification);
     });
     edges.visible = state.edges;
+    connections?.place(state.frame, state.magnification);
+    connections?.show(state.attached);
     for (const listener of listeners) listener();
     ask();
   }
@@ -327,16 +331,23 @@ carom.makeScene = (data, arrays, maps) => {
     arrowMaterial.color.set(of("mark"));
     for (const name of ["fill", "wall", "outside", "inside"]) solid[name].color.set(of("solid"));
     solid.line.color.set(of("solid-line"));
+    connections?.paint(of);
     if (state.field) colour();
     ask();
   }
 
-  // What is under the pointer: the body, and the value there.
+  // What is under the pointer: a spring or a mass, or else the body, and the value there.
   const caster = new THREE.Raycaster();
   function probe(event) {
     const area = renderer.domElement.getBoundingClientRect();
     const x = (2 * (event.clientX - area.left)) / area.width - 1;
     const y = 1 - (2 * (event.clientY - area.top)) / area.height;
+    const onScreen = (point) => {
+      const { x: across, y: up } = point.clone().project(camera);
+      return { x: (0.5 + across / 2) * area.width, y: (0.5 - up / 2) * area.height };
+    };
+    const attached = state.attached && connections?.at(event.clientX - area.left, event.clientY - area.top, onScreen);
+    if (attached) return { attached };
     caster.setFromCamera(new THREE.Vector2(x, y), camera);
     const [hit] = caster.intersectObject(faces);
     if (!hit) return null;

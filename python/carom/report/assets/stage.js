@@ -10,7 +10,8 @@ carom.unpackScene = async (scene) => {
     obstacle.triangles = await carom.codec.unpack(obstacle.triangles);
   }
   const { points, triangles, face, body, edges, rim, times } = scene;
-  return carom.unpackAll({ points, triangles, face, body, edges, rim, times, ...scene.arrays });
+  const arrays = await carom.unpackAll({ points, triangles, face, body, edges, rim, times, ...scene.arrays });
+  return { ...arrays, connections: scene.connections && (await carom.unpackAll(scene.connections.arrays)) };
 };
 
 // The time that is most worth seeing: the middle of the hardest contact.
@@ -45,12 +46,14 @@ carom.showScene = (() => {
     options(at("field"), fields.map(({ title }, index) => [index, title]));
     at("forces").disabled = !scene.hasForces;
     at("forces").checked = scene.hasForces;
+    at("attached-choice").hidden = !data.connections;
 
     const listen = (id, changes) => at(id).addEventListener("change", (event) => scene.set(changes(event.target)));
     listen("field", ({ value }) => ({ field: fields[value] }));
     listen("range", ({ value }) => ({ range: value }));
     listen("edges", ({ checked }) => ({ edges: checked }));
     listen("forces", ({ checked }) => ({ forces: checked }));
+    listen("attached", ({ checked }) => ({ attached: checked }));
     at("magnification").addEventListener("input", ({ target }) => {
       if (target.value !== "" && target.checkValidity()) scene.set({ magnification: Number(target.value) });
     });
@@ -60,13 +63,15 @@ carom.showScene = (() => {
     function read() {
       const { field } = scene.state;
       const found = pointer && scene.probe(pointer);
-      if (found) {
+      if (found?.attached) {
+        at("readout").textContent = found.attached;
+      } else if (found) {
         const value = found.value === null ? "" : `${field.title} ${quantity(found.value, field.unit, 4)}, `;
         const place = found.at.toArray().slice(0, data.dimension).map((x) => carom.format.number(x, 4));
         at("readout").textContent = `${nameOf(found.body)}: ${value}at (${place.join(", ")}) m`;
       } else if (isScalar(field)) {
-        const { low, high } = carom.colours.range(scene.values(), false);
-        at("readout").textContent = `${field.title} in this frame up to ${quantity(high, field.unit, 4)}`
+        const { low, high } = carom.colours.extremes(scene.values());
+        at("readout").textContent = low > high ? "" : `${field.title} in this frame up to ${quantity(high, field.unit, 4)}`
           + (low < 0 ? `, down to ${quantity(low, field.unit, 4)}` : "");
       }
     }

@@ -70,8 +70,8 @@ def test_runs_are_of_what_there_is():
     for name, run in MANIFEST.runs.items():
         if "python" in run:
             assert callable(getattr(measures, run["python"])), name
-        elif "page" in run:
-            assert (ROOT / run["page"]).exists(), name
+        elif "page" in run or "blocks" in run:
+            assert (ROOT / run.get("page", run.get("blocks"))).exists(), name
         else:
             scripts = re.findall(r"(?:examples|benchmarks)/\w+\.py", run["command"])
             assert all((ROOT / script).exists() for script in scripts), name
