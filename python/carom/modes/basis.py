@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.linalg import eigh
-from scipy.sparse.linalg import eigsh
+from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from carom.modes.energies import Array
 
@@ -79,17 +79,17 @@ def modes(matrices: Mapping[str, NDArray[Any]], count: int, *, slow: float) -> M
     every = sparse.csr_array(sparse.kron(mass, sparse.eye_array(dimension)))[free][:, free]
     shift = SHIFT * slow**2
     wanted = min(count + dimension * (dimension + 1) // 2, len(free))
+    # M φ = φ (K + s M)/(ω² + s): K + s M is positive definite where M is not.
+    shifted = stiffness + shift * every
+    shifted = 0.5 * (shifted + shifted.T)
     if len(free) <= DENSE or wanted >= len(free) - 1:
-        # M φ = φ (K + s M)/(ω² + s): K + s M is positive definite where M is not.
-        shifted = (stiffness + shift * every).toarray()
-        values, vectors = eigh(every.toarray(), 0.5 * (shifted + shifted.T))
-        has_mass = values > MASSLESS * values[-1]
-        values, vectors = 1.0 / values[has_mass] - shift, vectors[:, has_mass]
+        values, vectors = eigh(every.toarray(), shifted.toarray())
     else:
-        # The same one each time: the same digits each time. No motion without strain alone, which
-        # leads nowhere else where nodes without mass have no part in it.
-        start = np.random.default_rng(0).random(len(free))
-        values, vectors = eigsh(stiffness, wanted, M=every, sigma=-shift, which="LM", v0=start)
+        inverse = LinearOperator(shifted.shape, splu(shifted.tocsc()).solve, dtype=np.float64)
+        start = np.ones(len(free))  # The same one each time: the same digits each time.
+        values, vectors = eigsh(every, wanted, M=shifted, Minv=inverse, which="LA", v0=start)
+    has_mass = values > MASSLESS * values.max()
+    values, vectors = 1.0 / values[has_mass] - shift, vectors[:, has_mass]
     order = np.argsort(values)
     values, vectors = values[order], vectors[:, order]
     rigid = int((values < RIGID * shift).sum())

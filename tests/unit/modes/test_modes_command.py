@@ -28,6 +28,7 @@ def case(**given):
                 "metal": {**SOFT, "kind": "j2-plasticity", "yield_stress": 1e3},
             },
             "bodies": [body],
+            "contact": {"condition": "midpoint"},
             "obstacles": [
                 {"kind": "plane", "name": "floor", "point": [0.0, 0.0], "normal": [0.0, 1.0]}
             ],
@@ -91,11 +92,13 @@ def test_stages_may_hold_a_body_otherwise_and_have_no_modes(tmp_path):
         carom.modal_energies(result)
 
 
-def test_the_slowest_of_many_modes_are_those_of_all():
-    """Shift and inversion finds what the dense problem has."""
+@pytest.mark.parametrize("condition", ["midpoint", "massless"])
+def test_the_slowest_of_many_modes_are_those_of_all(condition):
+    """Shift and inversion finds what the dense problem has, where nodes have no mass too."""
     from carom.building.build import build
 
     fine = case(mesh={**BLOCK, "divisions": [30, 30]})
+    fine = fine.with_overrides([f"contact.condition={condition}"])
     simulation = build(fine)
     matrices = simulation.matrices(0)
     assert DENSE < 2 * 31 * 31

@@ -118,8 +118,8 @@ def test_a_ledger_that_does_not_close_is_warned_of_though_nothing_moved_at_the_s
 
 def test_much_that_vibrations_paid_for_folding_cells_is_warned_of(tmp_path):
     summary = ran(scenario(), tmp_path).summary
-    assert summary["repaid"] == 0.0
     energy = summary["energy"]["initial"]
+    assert summary["repaid"] < 1e-6 * energy
     little, much = ({**summary, "repaid": part * energy} for part in (0.019, 0.03))
     assert "much-repaid" not in {doubt.code for doubt in doubts.doubts(little)}
     (doubt,) = (doubt for doubt in doubts.doubts(much) if doubt.code == "much-repaid")

@@ -95,7 +95,7 @@ def test_condition_of_load_steps_is_the_gap_unless_it_is_given():
     with pytest.raises(InputError, match=r"contact.condition: a static analysis rules the gap"):
         check(given)
     dynamic = Scenario.from_dict(with_value("analysis.kind", "dynamic"))
-    assert dynamic.contact.condition == "midpoint"
+    assert dynamic.contact.condition == "massless"
 
 
 def test_static_run_keeps_forces_of_supports(tmp_path):

@@ -52,6 +52,7 @@ pub(super) fn repay<const D: usize>(
         body.vibrate(share, given.interval.map.dt, &mut velocity[given.assembly.nodes(i)], support);
         let given = -part * blend.vibration[i];
         body_ledgers[i].kinetic += given;
+        body_ledgers[i].contact += given;
         next.body_energies[i].kinetic += given;
         report.repaid += given.abs();
     }
