@@ -136,7 +136,7 @@ def _check_states(
                 checked = Step(model, step)
                 steps.step(checked)
                 ledger.step(checked)
-                surface.borne(checked.contacts, frame)
+                surface.borne(checked.touching.all, frame)
                 if row is not None:
                     at = rows.get(checked.start["time"])
                     steps.rows(checked, None if at is None else files.row(at), row)

@@ -174,7 +174,7 @@ class LedgerChecks:
             return
         before, after = (int(row[0]) for row in rows)
         scales, model = self._scales, self._model
-        reactions = sum(np.abs(work.found.reaction).sum() for work in step.contact_work)
+        reactions = sum(np.abs(work.found.reaction).sum() for work in step.work.all)
         work = float(reactions) * scales.geometry(step)
         for body, terms in zip(model.bodies, step.body_terms, strict=True):
             strain = sum(scales.strain(body, u[body.span]) for u in (step.u0, step.u1))
@@ -188,7 +188,7 @@ class LedgerChecks:
                 )
         terms_of = {name: dict.fromkeys(PAIR_COLUMNS, 0.0) for name in self._pairs}
         names = {between: name for name, between in self._pairs.items()}
-        for part in step.contact_work:
+        for part in step.work.all:
             for k, key in enumerate(zip(part.found.source, part.found.target, strict=True)):
                 pair = names.get(frozenset(model.name(int(index)) for index in key))
                 if pair is not None:
@@ -197,7 +197,7 @@ class LedgerChecks:
         for name, terms in terms_of.items():
             for column, term in terms.items():
                 values = self._padded(name, column)
-                off = 2 * ROUND_OFF * (scales.energy + abs(values[after])) + work + step.doubt
+                off = 2 * ROUND_OFF * (scales.energy + abs(values[after])) + work + step.work.doubt
                 change = values[after] - values[before]
                 self._check(
                     "books: steps", change - term, off, f"{name}, {column}, t = {step.time:g} s"

@@ -10,10 +10,11 @@ import numpy as np
 from carom.auditing.arrays import Array, Indices, cross
 from carom.auditing.body import AuditBody
 from carom.auditing.contacts import Contacts, all_forces
+from carom.auditing.forces import BodyForces
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
-from carom.auditing.step import BODY_ENERGIES, BodyForces, Step
+from carom.auditing.step import BODY_ENERGIES, Step
 from carom.ledger_terms import TERMS, names
 
 Row = Mapping[str, float]
@@ -60,7 +61,7 @@ class StepChecks:
         where = f"t = {step.time:g} s"
         self._check("time grid", step.off_grid, SAFETY * EPS * step.time, where)
         self._velocity(step, where)
-        parts = [step.pressed, *step.impulses]
+        parts = [step.touching.pressed, *step.touching.impulses]
         contact = all_forces(parts, len(self._model.points))
         for index, body in enumerate(self._model.bodies):
             at = f"{body.name}, {where}"
@@ -71,17 +72,17 @@ class StepChecks:
             else:
                 self._impulse(step, index, contact[body.span], at)
         self._ledger(step, where)
-        self._places(step.contacts, step.end, step, where)
+        self._places(step.touching.all, step.end, step, where)
         if self._model.condition in ("gap", "massless"):
             # Of the other conditions the contacts before are where no stored state is.
-            self._places(step.start_contacts, step.start, step, where)
+            self._places(step.touching.first, step.start, step, where)
         self._laws(step, where)
         self._note_forces(step)
 
     def rows(self, step: Step, before: Row | None, after: Row) -> None:
         """Check the history's row at the end of a step, and that at its start if there is one."""
         where = f"t = {step.time:g} s"
-        found = step.contacts
+        found = step.touching.all
         off = self._turn(step) * float(np.abs(found.reaction).sum())
         self._check("contact count", after["contacts"] - len(found), 0.0, where)
         self._check("normal force", after["normal_force"] - found.normal_force.sum(), off, where)
@@ -122,7 +123,7 @@ class StepChecks:
             )
 
     def _note_forces(self, step: Step) -> None:
-        found = step.contacts
+        found = step.touching.all
         forces = self.pressed.setdefault(step.time, {})
         for key in sorted(set(zip(found.source.tolist(), found.target.tolist(), strict=True))):
             mine = (found.source == key[0]) & (found.target == key[1])
@@ -147,7 +148,7 @@ class StepChecks:
                 # Its velocities are those of its momenta, its motion that of the iterations.
                 off[body.span] += self._scales.displacement(step) * rate
         change = step.v1 - step.v_scheme
-        total = step.dt * sum(float(np.abs(part.reaction).sum()) for part in step.impulses)
+        total = step.dt * sum(float(np.abs(part.reaction).sum()) for part in step.touching.impulses)
         if total == 0.0:
             self._check("velocity update", change, off, where)
             return
@@ -155,7 +156,7 @@ class StepChecks:
         turn = self._turn(step)
         for body in self._model.bodies:
             mass = body.mass
-            impulse = step.impulse(body)
+            impulse = step.touching.impulse(body)
             if body.rigid:
                 impulse = step.rigid(body).borne(impulse)
             error = body.folded(mass.times(change[body.span]) - impulse)
@@ -164,7 +165,7 @@ class StepChecks:
 
     def _motion(self, step: Step, index: int, at: str) -> None:
         body = self._model.bodies[index]
-        size = np.abs(step.residual(index)).max(axis=1)
+        size = np.abs(step.forces.residual(index)).max(axis=1)
         off = body.folded(self._scales.force(step, index))
         held = np.zeros(len(size), dtype=bool)
         held[body.massless] = True
@@ -188,7 +189,7 @@ class StepChecks:
         motion = step.rigid(body)
         off = self._scales.displacement(step)
         self._check("rigid motion", motion.bending(step.d[body.span]), off, at)
-        residual, forces = step.residual(index), self._scales.force(step, index)
+        residual, forces = step.forces.residual(index), self._scales.force(step, index)
         self._check("impulse", step.dt * residual.sum(axis=0), step.dt * forces.sum(), at)
         arms = motion.arms[1]
         moment = step.dt * float(cross(arms, residual).sum())
@@ -196,7 +197,7 @@ class StepChecks:
         self._check("angular impulse", moment, off, at)
 
     def _impulse(self, step: Step, index: int, contact: Array, at: str) -> None:
-        model, body, f = self._model, self._model.bodies[index], step.forces[index]
+        model, body, f = self._model, self._model.bodies[index], step.forces.of[index]
         middle = body.points + 0.5 * (step.u0 + step.u1)[body.span]
         arm = middle - body.mass.mean(middle)
         force, moment = self._outer(step, index, contact, arm)
@@ -232,14 +233,14 @@ class StepChecks:
         Reactions act where the scheme puts them: those of the step at its middle, those of a state
         in the balance of massless nodes at that state.
         """
-        model, body, f = self._model, self._model.bodies[index], step.forces[index]
+        model, body, f = self._model, self._model.bodies[index], step.forces.of[index]
         d, b = step.d[body.span], body.massless
         outer = f.gravity - f.viscous
         if model.blended:
             alpha = float(step.blend[index])
             start, end = (
                 found.nodal_forces(len(model.points))[body.span]
-                for found in (step.start_contacts, step.balanced)
+                for found in (step.touching.first, step.touching.balanced)
             )
             parts = [
                 ((0.5 - alpha) * start, arm - 0.5 * d),
@@ -251,7 +252,7 @@ class StepChecks:
             outer[b] *= model.xi
             held = np.zeros_like(contact)
             held[b] = (1 - model.xi) * f.start[b] - model.xi * f.steadying[b]
-            parts = [(step.contact_force(body), arm)] if not len(b) else []
+            parts = [(step.forces.contact(body), arm)] if not len(b) else []
             parts += [(model.xi * contact, arm), (held, arm)] if len(b) else []
         else:
             parts = [(contact, arm)]
@@ -266,11 +267,11 @@ class StepChecks:
         strain = sums + sum(
             scales.strain(b, u[b.span]) for b in model.bodies for u in (step.u0, step.u1)
         )
-        reactions = float(np.abs(step.contacts.reaction).sum())
+        reactions = float(np.abs(step.touching.all.reaction).sum())
         if model.massless:
-            reactions += float(np.abs(step.start_contacts.reaction).sum())
+            reactions += float(np.abs(step.touching.first.reaction).sum())
         work = sums + reactions * scales.geometry(step)
-        friction = work + step.doubt
+        friction = work + step.work.doubt
         off = {"strain": strain, "friction": friction, "normal_contact": work, "prescribed": work}
         for name in ENERGIES:
             error = step.ledger[name] - mine[name]
@@ -303,12 +304,12 @@ class StepChecks:
         where
             Where this is.
         """
-        missing, available = step.balance()
-        alpha, (least, largest) = step.blend, step.blend_range(LARGEST_BLEND)
-        leaders, books = np.unique(step.groups), np.unique(step.books)
+        missing, available = step.groups.balance()
+        alpha, (least, largest) = step.blend, step.groups.blend_range(LARGEST_BLEND)
+        leaders, books = np.unique(step.groups.blends), np.unique(step.groups.books)
         beyond = np.maximum(np.maximum(alpha - largest, least - alpha), 0.0)
         self._check("blend", beyond[leaders], ROUND_OFF * LARGEST_BLEND, where)
-        self._check("blend", alpha - alpha[step.groups], 0.0, where)
+        self._check("blend", alpha - alpha[step.groups.blends], 0.0, where)
         limits = np.sort([least * available, largest * available], axis=0)
         # Where there is next to nothing to move α stays within the step.
         within = 0.5 * np.maximum(available, 0.0) * [[-1.0], [1.0]]
@@ -321,7 +322,7 @@ class StepChecks:
         allowed = work + NEGLIGIBLE * self._scales.energy
         self._check("blend", error[leaders], allowed, where)
         self._repaid(step, books, allowed, where)
-        stored, left = step.end["energy_debt"], step.left_over()
+        stored, left = step.end["energy_debt"], step.left_over
         followers = np.setdiff1d(np.arange(len(alpha)), books)
         self._check("waiting energy", stored[followers], 0.0, where)
         self._check("waiting energy", (stored - left)[books], sums, where)
@@ -331,7 +332,7 @@ class StepChecks:
         self._check("waiting energy", error, sums, where)
         full = np.zeros(len(alpha), dtype=bool)
         beyond_limits = (missing < limits[0] + work) | (missing > limits[1] - work)
-        np.logical_or.at(full, step.books[leaders], beyond_limits[leaders])
+        np.logical_or.at(full, step.groups.books[leaders], beyond_limits[leaders])
         if full.any():
             self._findings.leave(
                 "energy that waits: a blend of stresses is at its limit, or has little to move"
@@ -353,14 +354,14 @@ class StepChecks:
             Where this is.
         """
         shares = step.shares
-        self._check("repaying", shares - shares[step.books], ROUND_OFF, where)
+        self._check("repaying", shares - shares[step.groups.books], ROUND_OFF, where)
         if not shares.any():
             return
         vibration, repaid = (
-            np.bincount(step.books, weights=energy, minlength=len(shares))[leaders]
+            np.bincount(step.groups.books, weights=energy, minlength=len(shares))[leaders]
             for energy in (step.vibration, step.repaid)
         )
-        debt = step.left_over()[leaders] - repaid
+        debt = step.left_over[leaders] - repaid
         most = LARGEST_PART * vibration
         error = np.where(shares[leaders] == 0.0, 0.0, repaid + np.clip(debt, -most, most))
         self._check("repaying", error, allowed, where)
@@ -377,7 +378,7 @@ class StepChecks:
         self._check("contact gaps", found.gap_error, self._scales.geometry(step), where)
         turn = self._turn(step)
         self._check("contact normals", found.normal_error, turn, where)
-        parts = [step.pressed, *step.impulses] if state is step.end else [found]
+        parts = [step.touching.pressed, *step.touching.impulses] if state is step.end else [found]
         error = state["contact_force"] - all_forces(parts, len(self._model.points))
         if self._model.mixed and state is not step.end:
             # Where nodes have mass the state has reactions of other pairs too.
@@ -389,13 +390,13 @@ class StepChecks:
         off = size * turn + self._scales.reaction(step, total)
         normal, across = found.normal_force, found.friction_force
         if state is step.end:
-            normal, across = step.whole_force
+            normal, across = step.touching.whole_force
         self._check("Signorini: compression", np.maximum(-normal, 0.0), off, where)
         excess = np.abs(across) - found.friction * normal
         self._check("Coulomb: cone", np.maximum(excess, 0.0), off * (1 + found.friction), where)
 
     def _laws(self, step: Step, where: str) -> None:
-        found = step.pressed
+        found = step.touching.pressed
         signorini, coulomb = self._bipotential(step)
         off = np.linalg.norm(found.reaction, axis=1) * self._scales.geometry(step)
         self._check("Signorini: complementarity", signorini, off, where)
@@ -408,10 +409,10 @@ class StepChecks:
 
     def _bipotential(self, step: Step) -> tuple[Array, Array]:
         """Return w_n r_n and μ r_n |w_t| + r_t w_t of the contacts [J], each of shape [count]."""
-        found, model = step.pressed, self._model
+        found, model = step.touching.pressed, self._model
         w_n, w_t = found.relative(step.d, step.dt)
         # What is open at the start may be closed, and what is as good as closed is.
-        landed = w_n + np.maximum(step.start_gaps, 0.0)
+        landed = w_n + np.maximum(step.touching.start_gaps, 0.0)
         ruled_by_motion = np.where(np.abs(landed) < np.abs(w_n), landed, w_n)
         if model.condition in ("gap", "massless"):
             # Pairs that are checked from both sides may keep a penetration.
