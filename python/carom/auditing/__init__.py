@@ -79,7 +79,7 @@ def _check(files: Files, findings: Findings) -> None:
     scales = Scales(model)
     frames = []
     for frame in files.frames():
-        scales.include(frame.displacement, frame.velocity)
+        scales.include(frame.displacement, frame.velocity, frame.time)
         frames.append(frame.time)
     check_files(files.path, files.summary, findings)
     check_mesh(model, findings)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,11 +10,13 @@ from numpy.typing import NDArray
 from carom.auditing.arrays import Array, Indices, cross, einsum, turned
 from carom.auditing.cells import Cells, boundary
 from carom.auditing.composition import Composition
-from carom.auditing.mass import Mass
+from carom.auditing.mass import AddedMass, Mass
+from carom.auditing.places import Attached, Place, nodes_of, on_side, place_on
 from carom.auditing.reduced import MeanAxes
 from carom.case.body import AnyBody, ReducedBody, RigidBody
 from carom.case.material import Material
 from carom.case.mesh import Rectangle
+from carom.case.point_mass import PointMass
 from carom.errors import InputError
 
 STEADYING = 0.1
@@ -45,6 +47,8 @@ class AuditBody:
         Number of its first node in the model.
     massless
         Whether the nodes that may touch others have no mass.
+    masses
+        Masses at points of it.
     """
 
     def __init__(
@@ -57,6 +61,7 @@ class AuditBody:
         points: Array,
         first_node: int,
         massless: bool,
+        masses: Sequence[PointMass] = (),
     ) -> None:
         forms = (
             entry.hypothesis,
@@ -66,6 +71,7 @@ class AuditBody:
             if what not in ("plane-strain", "standard"):
                 raise InputError(f"cannot audit a body in {what!r} yet")
         self.name = entry.name
+        self._entry = entry
         self.points = points
         self.span = slice(first_node, first_node + len(points))
         self.rigid = isinstance(entry, RigidBody)
@@ -98,6 +104,7 @@ class AuditBody:
             lumped=entry.mass == "lumped",
             massless=self.massless,
             facets=self.facets,
+            added=[one for given in masses for one in self._added(given)],
         )
         arms = points - self.mass.mean(points)
         self._solid_inertia = float((arms * self.mass.times(arms)).sum())
@@ -112,6 +119,18 @@ class AuditBody:
         rows: Array = np.abs(self._stiffness).sum(axis=(3, 4)).max(axis=2)
         self.row_stiffness = self._gathered(rows)
         """Largest force [N] on each node where every coordinate moves by 1 m, [node_count]."""
+
+    def places(self, at: Attached) -> list[Place]:
+        """Return the places that something is attached to: of a set every node of it."""
+        if at.on is None:
+            return [place_on(self._entry, self.points, np.array(at.point))]
+        nodes = nodes_of(self._entry, self.points, self.outline, at.on)
+        return [Place(np.array([node]), np.ones(1), self.points[node]) for node in nodes]
+
+    def _added(self, given: PointMass) -> list[AddedMass]:
+        places = self.places(given)
+        share = given.mass / len(places)
+        return [AddedMass(share, place.nodes, place.shares) for place in places]
 
     def folded(self, values: Array) -> Array:
         """Return numbers or vectors of nodes with those of images moved to their masters."""
@@ -278,15 +297,11 @@ def _on_sides(
 ) -> NDArray[np.bool_]:
     """Return whether facets of a rectangle lie on one of these sides."""
     assert isinstance(entry.mesh, Rectangle)
-    corner, size = entry.mesh.corner, entry.mesh.size
     keep = np.zeros(len(facets), dtype=bool)
     for side in sides:
         if side == "all":
             return np.ones_like(keep)
-        axis = 0 if side in ("left", "right") else 1
-        at = corner[axis] + (size[axis] if side in ("right", "top") else 0.0)
-        on = np.abs(points[:, axis] - at) <= 1e-9 * size[axis]
-        keep |= on[facets].all(axis=1)
+        keep |= on_side(entry.mesh, points, side)[facets].all(axis=1)
     return keep
 
 

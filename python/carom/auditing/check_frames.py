@@ -63,6 +63,7 @@ class FrameChecks:
             self._findings.leave("frames at whose times the history has no row")
             return
         self._energies(frame, row, where)
+        self._springs(frame, row, where)
         self._momenta(frame, row, where)
         for body in self._model.bodies:
             self._motion(body, frame, row, where)
@@ -126,7 +127,22 @@ class FrameChecks:
         strain_off = off + sum(scales.strain(b, frame.displacement[b.span]) for b in bodies)
         self._check("kinetic energy", row["kinetic"] - kinetic, off, where)
         self._check("strain energy", row["strain"] - strain, strain_off, where)
-        self._check("total energy", row["total"] - kinetic - strain, strain_off, where)
+        springs = sum(s.energy(frame.displacement, frame.time) for s in self._model.springs)
+        total = kinetic + strain + springs
+        self._check("total energy", row["total"] - total, strain_off, where)
+        if self._model.springs:
+            self._check("spring energy", row["springs"] - springs, strain_off, where)
+
+    def _springs(self, frame: Frame, row: Row, where: str) -> None:
+        """Check the lengths of springs, and the forces in them."""
+        for spring in self._model.springs:
+            moved = (frame.displacement, frame.velocity, frame.time)
+            length, force = spring.length_and_force(*moved)
+            at, place = f"{spring.name}, {where}", self._round_off_of_places()
+            self._check("spring lengths", row[f"{spring.name}.length"] - length, place, at)
+            off = spring.tension.steepest * place + ROUND_OFF * abs(force)
+            off += spring.damping * SAFETY * ROUND_OFF * self._scales.speed
+            self._check("spring forces", row[f"{spring.name}.force"] - force, off, at)
 
     def _momenta(self, frame: Frame, row: Row, where: str) -> None:
         momentum, moment = np.zeros(2), 0.0

@@ -103,7 +103,7 @@ class RowChecks:
     def _energies(self) -> None:
         h = self._history
         off = ROUND_OFF * self._scales.energy
-        self._check("row: total", h["total"] - h["kinetic"] - h["strain"], off)
+        self._check("row: total", h["total"] - h["kinetic"] - h["strain"] - h["springs"], off)
         self._parts(off)
         # Energies are those of the state, all others sums since the start.
         known = sum(
@@ -126,6 +126,7 @@ class RowChecks:
             self._check("row: friction", np.maximum(-np.diff(h["friction"]), 0.0), off)
         else:
             self._findings.leave("sign of friction: contacts took and gave")
+        self._check("row: dampers", np.maximum(-np.diff(h["dampers"]), 0.0), off)
         if self._model.theta == self._model.xi:
             self._check("row: viscous", np.maximum(-np.diff(h["viscous"]), 0.0), off)
 
@@ -149,7 +150,8 @@ class RowChecks:
         self._check("row: kinetic", np.maximum(least - h["kinetic"], 0.0), off)
         damped = any(body.law.mass_damping > 0 for body in model.bodies)
         lossy = model.massless and not model.conserving
-        if not (model.planes or model.gravity.any() or damped or lossy):
+        grounded = any(not model.joins_bodies(spring) for spring in model.springs)
+        if not (model.planes or model.gravity.any() or damped or lossy or grounded):
             newton = model.analysis.newton.tolerance
             off = SAFETY * ROUND_OFF * scales.mass * scales.speed
             off += SAFETY * steps * newton * scales.mass * scales.speed
@@ -218,7 +220,7 @@ class RowChecks:
         limit = LARGEST_BLEND if self._model.blended else 0.0
         self._check("row: signs", np.maximum(h["blend"] - limit, 0.0), 0.0)
         # Of a case that can be audited, no law flows.
-        for name in ("plastic", "springs", "dampers"):
+        for name in ("plastic", *(() if self._model.springs else ("springs", "dampers"))):
             self._check("row: signs", h[name], 0.0)
         most = sum(len(self._model.bodies[side.source].sources) for side in self._model.sides)
         self._check("row: signs", np.maximum(h["contacts"] - most, 0.0), 0.0)

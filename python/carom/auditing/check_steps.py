@@ -14,7 +14,7 @@ from carom.auditing.forces import BodyForces
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
-from carom.auditing.step import BODY_ENERGIES, Step
+from carom.auditing.step import BODY_ENERGIES, CONNECTION_ENERGIES, Step
 from carom.ledger_terms import TERMS, names
 
 Row = Mapping[str, float]
@@ -34,7 +34,7 @@ NEGLIGIBLE = 1e-14
 IMPULSE = 1e-11
 """How well impulses and the velocities that they make agree, relative to all of them."""
 
-ENERGIES = (*BODY_ENERGIES, *names("pair"))
+ENERGIES = (*BODY_ENERGIES, *CONNECTION_ENERGIES, *names("pair"))
 
 
 class StepChecks:
@@ -235,7 +235,7 @@ class StepChecks:
         """
         model, body, f = self._model, self._model.bodies[index], step.forces.of[index]
         d, b = step.d[body.span], body.massless
-        outer = f.gravity - f.viscous
+        outer = f.gravity + f.connections - f.viscous
         if model.blended:
             alpha = float(step.blend[index])
             start, end = (
@@ -288,7 +288,8 @@ class StepChecks:
         for body, terms in zip(model.bodies, step.body_terms, strict=True):
             change = terms["kinetic"] + terms["strain"] + terms["viscous"] - terms["external"]
             at = f"{body.name}, {where}"
-            self._check("energy of bodies", change - terms["contact"], work, at)
+            received = terms["contact"] + terms["connections"]
+            self._check("energy of bodies", change - received, work, at)
 
     def _blend(self, step: Step, work: float, sums: float, where: str) -> None:
         """Check that α is what the balance of its group asks for, and what is left for later.

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.auditing.arrays import Array, Indices, cross, einsum
-from carom.auditing.model import AuditModel, Side
+from carom.auditing.model import AuditModel
+from carom.auditing.pairs import Side
 
 SAME = 1e-7
 """Feet whose gap [model size] and normal differ by no more are equally good: at edges of facets."""
@@ -85,8 +86,13 @@ class Contacts:
 
     @property
     def friction(self) -> Array:
-        """Coulomb's coefficients, shape [count]."""
-        return np.array([0.0 if side is None else side.friction for side in self.side])
+        """Coulomb's coefficients, shape [count]; NaN where friction is a law."""
+        return np.array([0.0 if side is None else side.law.fixed for side in self.side])
+
+    @property
+    def most_friction(self) -> Array:
+        """The largest that μ can be, shape [count]."""
+        return np.array([0.0 if side is None else side.law.most for side in self.side])
 
     @property
     def normal_force(self) -> Array:

@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, cross, rotation, turned
 from carom.auditing.body import HEAVIEST, MUCH_SHORTER, STEADYING, AuditBody
+from carom.auditing.pulling import Pulling
 from carom.auditing.states import States
 from carom.auditing.touching import Touching
 
@@ -23,6 +24,8 @@ class BodyForces:
         M (v₁ − v₀)/Δt, before vibration takes or gives what the blend leaves over.
     gravity
         M g.
+    connections
+        Of springs and dampers, in the mean.
     viscous
         C v̄.
     internal
@@ -41,6 +44,7 @@ class BodyForces:
 
     inertia: Array
     gravity: Array
+    connections: Array
     viscous: Array
     internal: Array
     end: Array
@@ -61,6 +65,8 @@ class Forces:
 
     def __init__(self, states: States, touching: Touching) -> None:
         self._states, self._touching = states, touching
+        self.pulling = Pulling(states)
+        """What springs and dampers do."""
 
     @cached_property
     def of(self) -> list[BodyForces]:
@@ -99,6 +105,7 @@ class Forces:
         return BodyForces(
             inertia=body.mass.times(v1 - v0) / dt,
             gravity=body.mass.nodal[:, None] * model.gravity,
+            connections=self.pulling.force[span],
             viscous=viscous,
             internal=internal,
             end=end,
@@ -156,8 +163,8 @@ class Forces:
     def residual(self, index: int) -> Array:
         """Return what the equation of motion lacks, node by node [N], shape [node_count, 2].
 
-        M (v₁ − v₀)/Δt = M g − f̄ − C v̄ + contact forces. Nodes without mass are in static balance
-        at the end of the step, but for the force that steadies them.
+        M (v₁ − v₀)/Δt = M g − f̄ − C v̄ + forces of contacts and of springs. Nodes without mass are in
+        static balance at the end of the step, but for the force that steadies them.
         """
         body, f = self._states.model.bodies[index], self.of[index]
         contact = self.contact(body)
@@ -165,9 +172,9 @@ class Forces:
             s = self._states
             states = (s.u1[body.span], s.v0[body.span], s.v1[body.span])
             impulses = self._touching.impulse(body) / self._states.dt
-            forces = (contact - impulses + f.gravity, impulses)
+            forces = (contact - impulses + f.gravity + f.connections, impulses)
             return self._states.rigid(body).residual(states, forces, self._states.dt)
-        residual = f.inertia - f.gravity + f.internal + f.viscous - contact
+        residual = f.inertia - f.gravity - f.connections + f.internal + f.viscous - contact
         static = f.end + f.viscous + f.steadying - contact
         residual[body.massless] = static[body.massless]
         return body.folded(residual)

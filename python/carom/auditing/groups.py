@@ -95,7 +95,7 @@ class Groups:
         left = self._start_debt(self.books)
         for terms, leader in zip(body_terms, self.books, strict=True):
             left[leader] += terms["kinetic"] + terms["strain"] + terms["viscous"]
-            left[leader] -= terms["external"]
+            left[leader] -= terms["external"] + terms["connections"]
         for work in self._work.all:
             known = work.found.source < len(self.books)
             leader = self.books[work.found.source[known]]

@@ -51,6 +51,8 @@ class Pressing:
         self._pairs, self._stored = pairs, stored
         self.total: Array = rows.history["normal_force"]
         self._bodies = {body.name: body for body in model.bodies}
+        self._free = [body.name for body in model.bodies if not model.connected(body)]
+        """Bodies that no springs pull."""
         self._normals = {
             entry.name: plane.normal
             for entry, plane in zip(model.scenario.obstacles, model.planes, strict=True)
@@ -93,7 +95,7 @@ class Pressing:
         unknown = set(active)
         # Of whatever touches only one more, that one's force is what is left.
         while True:
-            for body in self._bodies:
+            for body in self._free:
                 left = [name for name in unknown if body in self._pairs[name]]
                 if len(left) == 1:
                     break
@@ -123,7 +125,7 @@ class Pressing:
             return max(normal - error, 0.0), max(normal, 0.0) + error
         friction = max(
             (
-                side.friction
+                side.law.most
                 for side in self._model.sides
                 if {self._model.name(side.source), self._model.name(side.target)}
                 == self._pairs[pair]

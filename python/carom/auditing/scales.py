@@ -54,9 +54,9 @@ class Scales:
         """How far places of obstacles may be off, which the run sums step by step [m]."""
         self.mass = sum(body.mass.total for body in model.bodies)
 
-    def include(self, displacement: Array, velocity: Array) -> None:
-        """Take a state into account."""
-        energy = 0.0
+    def include(self, displacement: Array, velocity: Array, time: float) -> None:
+        """Take a state at a time [s] into account."""
+        energy = sum(spring.energy(displacement, time) for spring in self._model.springs)
         for body in self._model.bodies:
             energy += body.kinetic_energy(displacement[body.span], velocity[body.span])
             energy += body.strain_energy(displacement[body.span])
@@ -121,4 +121,9 @@ class Scales:
         body, model = self._model.bodies[index], self._model
         rate = 1 / (model.theta * dt)
         resisted: Array = body.row_stiffness * (1.0 + body.law.stiffness_damping.max() * rate)
+        for spring in model.springs:
+            own = (spring.nodes >= body.span.start) & (spring.nodes < body.span.stop)
+            shares = np.abs(spring.shares)
+            held = spring.stiffness(dt) * float(shares.sum()) * shares[own]
+            np.add.at(resisted, spring.nodes[own] - body.span.start, held)
         return resisted + np.abs(body.mass.nodal) * (rate / dt + body.law.mass_damping * rate)

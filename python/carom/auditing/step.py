@@ -21,6 +21,9 @@ from carom.ledger_terms import names
 BODY_ENERGIES = ("kinetic", "strain", "external", "viscous", "scheme")
 """Terms of the ledger that are sums over the bodies."""
 
+CONNECTION_ENERGIES = ("springs", "dampers")
+"""Terms of the ledger that are sums over springs and dampers."""
+
 
 class Step(States):
     """A step as stored in ``audit.h5``, and what the auditor makes of it.
@@ -47,7 +50,9 @@ class Step(States):
     def energy_terms(self) -> dict[str, float]:
         """Return the terms of the ledger of the step, each from its own definition [J]."""
         terms = {name: sum(body[name] for body in self.body_terms) for name in BODY_ENERGIES}
-        terms.update(dict.fromkeys(names("pair"), 0.0))
+        terms.update(dict.fromkeys((*names("pair"), *CONNECTION_ENERGIES), 0.0))
+        for name, energy in self.forces.pulling.terms.items():
+            terms[name] += energy
         for work in self.work.all:
             for name, values in work.terms.items():
                 terms[name] += float(values.sum())
@@ -89,6 +94,7 @@ class Step(States):
             "viscous": float((f.viscous * d).sum()),
             "scheme": scheme,
             "contact": contact,
+            "connections": float((f.connections * d).sum()),
         }
 
     def _received(self, body: AuditBody, force: Array) -> float:

@@ -1,0 +1,107 @@
+"""Places that springs and masses are attached to: points that move as nodes do."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from carom.auditing.arrays import Array, Indices, Mask
+from carom.auditing.mass import affine_weights
+from carom.case.body import AnyBody, RigidBody
+from carom.case.mesh import Disc, Rectangle
+from carom.errors import InputError
+
+ON_SIDE = 1e-9
+"""Nodes this close to a side, relative to its length, are on it."""
+
+
+class Attached(Protocol):
+    """What is attached to a body, at a point or to a set of nodes."""
+
+    @property
+    def body(self) -> str | None:
+        """Name of the body."""
+
+    @property
+    def on(self) -> str | None:
+        """Name of the set."""
+
+    @property
+    def point(self) -> tuple[float, ...] | None:
+        """The point [m]."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """A point that moves as the mean of nodes.
+
+    Parameters
+    ----------
+    nodes, shares
+        Nodes, and shares of them that add up to one; none of a point that moves with no body.
+    at
+        Where it is in the reference configuration [m], shape [2].
+    """
+
+    nodes: Indices
+    shares: Array
+    at: Array
+
+
+def nodes_of(entry: AnyBody, points: Array, outline: Indices, name: str) -> Indices:
+    """Return the nodes of a named set of a body.
+
+    Parameters
+    ----------
+    entry
+        What the case says of the body.
+    points
+        Reference positions of its nodes [m], shape [node_count, 2].
+    outline
+        Facets of its boundary, shape [facet_count, 2].
+    name
+        Name of the set.
+    """
+    if name == "all":
+        return np.arange(len(points))
+    if isinstance(entry.mesh, Disc) and name == "surface":
+        return np.unique(outline)
+    if isinstance(entry.mesh, Rectangle) and name in ("left", "right", "bottom", "top"):
+        return np.flatnonzero(on_side(entry.mesh, points, name))
+    raise InputError(f"cannot audit the set {name!r} of body {entry.name!r} yet")
+
+
+def on_side(mesh: Rectangle, points: Array, name: str) -> Mask:
+    """Return whether points are on a side of a rectangle, shape [count]."""
+    axis = 0 if name in ("left", "right") else 1
+    at = mesh.corner[axis] + (mesh.size[axis] if name in ("right", "top") else 0.0)
+    on: Mask = np.abs(points[:, axis] - at) <= ON_SIDE * mesh.size[axis]
+    return on
+
+
+def place_on(entry: AnyBody, points: Array, point: Array) -> Place:
+    """Return the place of a point of a body: of one that deforms its nearest node.
+
+    Of a rigid body it is the mean of all nodes with the weights of least norm that have it there.
+    """
+    arms = points - point
+    nearest = np.array([np.linalg.norm(arms, axis=1).argmin()])
+    if not isinstance(entry, RigidBody):
+        return Place(nearest, np.ones(1), points[nearest[0]])
+    shares = affine_weights(arms)
+    if shares is None:
+        raise InputError(f"body {entry.name!r} has no weights for the point {point.tolist()}")
+    return Place(np.arange(len(points)), shares, point)
+
+
+def mean_of(places: Sequence[Place]) -> Place:
+    """Return the mean of places."""
+    share = 1.0 / len(places)
+    return Place(
+        nodes=np.concatenate([place.nodes for place in places]),
+        shares=np.concatenate([share * place.shares for place in places]),
+        at=np.mean([place.at for place in places], axis=0),
+    )
