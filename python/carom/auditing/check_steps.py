@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices, cross
 from carom.auditing.body import AuditBody
-from carom.auditing.contacts import Contacts, all_forces
+from carom.auditing.check_contacts import ContactChecks
+from carom.auditing.contacts import all_forces
 from carom.auditing.forces import BodyForces
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
@@ -53,8 +53,9 @@ class StepChecks:
         self._check = findings.check
         self.pressed: dict[float, dict[frozenset[str], float]] = {}
         """Sums of normal reactions [N] by names of the pair, at ends of steps [s]."""
-        edges = [np.linalg.norm(np.diff(b.points[b.facets], axis=1), axis=2) for b in model.bodies]
-        self._facet = float(min(edge.min() for edge in edges))
+        self._contacts = ContactChecks(model, scales, findings)
+        self._gap = (0.0, 0.0)
+        """The bi-potential gap of the last step, and how far it may be off [J]."""
 
     def step(self, step: Step) -> None:
         """Check a step by itself."""
@@ -72,22 +73,18 @@ class StepChecks:
             else:
                 self._impulse(step, index, contact[body.span], at)
         self._ledger(step, where)
-        self._places(step.touching.all, step.end, step, where)
-        if self._model.condition in ("gap", "massless"):
-            # Of the other conditions the contacts before are where no stored state is.
-            self._places(step.touching.first, step.start, step, where)
-        self._laws(step, where)
+        self._gap = self._contacts.step(step, where)
         self._note_forces(step)
 
     def rows(self, step: Step, before: Row | None, after: Row) -> None:
         """Check the history's row at the end of a step, and that at its start if there is one."""
         where = f"t = {step.time:g} s"
         found = step.touching.all
-        off = self._turn(step) * float(np.abs(found.reaction).sum())
+        off = self._contacts.turn(step) * float(np.abs(found.reaction).sum())
         self._check("contact count", after["contacts"] - len(found), 0.0, where)
         self._check("normal force", after["normal_force"] - found.normal_force.sum(), off, where)
-        gap = float(sum(np.abs(part).sum() for part in self._bipotential(step)))
-        off = float(np.abs(found.reaction).sum()) * self._scales.geometry(step)
+        gap, doubt = self._gap
+        off = float(np.abs(found.reaction).sum()) * self._scales.geometry(step) + doubt
         self._check("certificate", max(gap - after["certificate"], 0.0), off, where)
         for name, node in self._model.tracks():
             stored = [after[f"{name}.vmid_{axis}"] for axis in "xy"]
@@ -130,10 +127,6 @@ class StepChecks:
             names = frozenset(self._model.name(index) for index in key)
             forces[names] = forces.get(names, 0.0) + float(found.normal_force[mine].sum())
 
-    def _turn(self, step: Step) -> float:
-        """Return how far normals may be off: places over the length of a facet."""
-        return SAFETY * self._scales.geometry(step) / self._facet + ROUND_OFF
-
     def _velocity(self, step: Step, where: str) -> None:
         rate = 1 / (self._model.theta * step.dt)
         # d is known from displacements, with their round-off.
@@ -153,7 +146,7 @@ class StepChecks:
             self._check("velocity update", change, off, where)
             return
         # What impulses in contacts make of velocities: M Δv = p, whatever M⁻¹ is.
-        turn = self._turn(step)
+        turn = self._contacts.turn(step)
         for body in self._model.bodies:
             mass = body.mass
             impulse = step.touching.impulse(body)
@@ -373,68 +366,6 @@ class StepChecks:
             float(self._scales.force(step, i) @ np.abs(step.d[b.span]).max(axis=1))
             for i, b in enumerate(self._model.bodies)
         )
-
-    def _places(self, found: Contacts, state: Mapping[str, Any], step: Step, where: str) -> None:
-        self._check("pairs", [float(side is None) for side in found.side], 0.0, where)
-        self._check("contact gaps", found.gap_error, self._scales.geometry(step), where)
-        turn = self._turn(step)
-        self._check("contact normals", found.normal_error, turn, where)
-        parts = [step.touching.pressed, *step.touching.impulses] if state is step.end else [found]
-        error = state["contact_force"] - all_forces(parts, len(self._model.points))
-        if self._model.mixed and state is not step.end:
-            # Where nodes have mass the state has reactions of other pairs too.
-            for body in self._model.bodies:
-                error[body.span] *= len(body.massless) > 0
-        total = float(np.abs(found.reaction).sum())
-        self._check("nodal reactions", error, total * turn, where)
-        size = np.linalg.norm(found.reaction, axis=1)
-        off = size * turn + self._scales.reaction(step, total)
-        normal, across = found.normal_force, found.friction_force
-        if state is step.end:
-            normal, across = step.touching.whole_force
-        self._check("Signorini: compression", np.maximum(-normal, 0.0), off, where)
-        excess = np.abs(across) - found.friction * normal
-        self._check("Coulomb: cone", np.maximum(excess, 0.0), off * (1 + found.friction), where)
-
-    def _laws(self, step: Step, where: str) -> None:
-        found = step.touching.pressed
-        signorini, coulomb = self._bipotential(step)
-        off = np.linalg.norm(found.reaction, axis=1) * self._scales.geometry(step)
-        self._check("Signorini: complementarity", signorini, off, where)
-        # Where a reaction is small, the solver's tolerance of it counts for more.
-        slip = np.abs(found.relative(step.d, step.dt)[1])
-        off += slip * self._scales.reaction(step, float(np.abs(found.reaction).sum()))
-        self._check("Coulomb: slip", coulomb, off * (1 + found.friction), where)
-        total = float(np.abs(signorini).sum() + np.abs(coulomb).sum())
-        self._findings.report("largest bi-potential gap of a step", total, "J")
-
-    def _bipotential(self, step: Step) -> tuple[Array, Array]:
-        """Return w_n r_n and μ r_n |w_t| + r_t w_t of the contacts [J], each of shape [count]."""
-        found, model = step.touching.pressed, self._model
-        w_n, w_t = found.relative(step.d, step.dt)
-        # What is open at the start may be closed, and what is as good as closed is.
-        landed = w_n + np.maximum(step.touching.start_gaps, 0.0)
-        ruled_by_motion = np.where(np.abs(landed) < np.abs(w_n), landed, w_n)
-        if model.condition in ("gap", "massless"):
-            # Pairs that are checked from both sides may keep a penetration.
-            kept = np.array(
-                [side is not None and side.two_sided for side in found.side], dtype=bool
-            )
-            w_n = np.where(kept, np.maximum(found.gap, 0.0), found.gap)
-            if model.mixed:
-                w_n = np.where(found.massless, w_n, ruled_by_motion)
-        elif model.condition == "midpoint":
-            w_n = ruled_by_motion
-        elif model.condition == "endpoint":
-            before, across = found.relative(step.met, 1.0)
-            w_n = w_n + (model.theta - 1) * step.dt * before
-            given = [None if side is None else side.restitution for side in found.side]
-            bounce = np.array([0.0 if e is None else e for e in given])
-            w_n = w_n + model.theta * step.dt * bounce * before
-            ruled = np.array([e is not None for e in given], dtype=bool)
-            w_t = np.where(ruled, w_t + (model.theta - 1) * step.dt * across, w_t)
-        slip = found.friction * found.normal_force * np.abs(w_t) + found.friction_force * w_t
-        return w_n * found.normal_force, slip
 
 
 def _defect(terms: Mapping[str, float]) -> float:

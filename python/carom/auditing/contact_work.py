@@ -75,13 +75,17 @@ class Works:
         return [*work, *self._impulse_work()]
 
     def _impulse_work(self) -> list[ContactWork]:
-        """Return the work of impulses at the end of the step, by the mean of v before and after."""
+        """Return the work of impulses at the end of the step, by the mean of v before and after.
+
+        Those of landing act first.
+        """
         landing, settling = self._touching.impulses
-        mean = 0.5 * (self._states.v_scheme + self._states.v1)
+        before, after = self._states.v_scheme, self._states.v1
+        landed = self._landed(landing, settling)
         works = []
-        for found, normal, across in (
-            (landing, "normal_contact", "friction"),
-            (settling, "settling", "settling"),
+        for found, mean, normal, across in (
+            (landing, 0.5 * (before + landed), "normal_contact", "friction"),
+            (settling, 0.5 * (landed + after), "settling", "settling"),
         ):
             v_n, v_t = found.relative(mean, 1.0)
             terms = dict.fromkeys(names("pair"), np.zeros(len(found)))
@@ -91,6 +95,21 @@ class Works:
             nothing = np.zeros(len(found))
             works.append(ContactWork(found=found, terms=terms, whole=nothing, doubt=nothing))
         return works
+
+    def _landed(self, landing: Contacts, settling: Contacts) -> Array:
+        """Return the velocities between the impulses of landing and those of settling [m/s]."""
+        states = self._states
+        if not landing.reaction.any():
+            return states.v_scheme
+        if not settling.reaction.any():
+            return states.v1
+        landed = states.v_scheme.copy()
+        forces = landing.nodal_forces(len(states.model.points))
+        for body in states.model.bodies:
+            impulse = states.dt * forces[body.span]
+            how = states.rigid(body) if body.rigid else body
+            landed[body.span] += how.accelerated(impulse)
+        return landed
 
     @property
     def doubt(self) -> float:
@@ -117,7 +136,7 @@ class Works:
         ended = {key: k for k, key in enumerate(keys(self._touching.balanced))}
         d, dt = self._states.d, self._states.dt
         end_slip = np.abs(self._touching.balanced.relative(d, dt)[1])
-        late = self._touching.find(self._states.start, 1.0)
+        late = self._touching.find(self._states.start, 1.0, like=self._touching.at_start)
         late = late.only(late.massless) if self._states.model.mixed else late
         frames = (late, self._touching.first)
         moved, left = (np.abs(found.relative(d, dt)[1]) for found in frames)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from carom.auditing.arrays import Array, Indices, cross, einsum
 from carom.auditing.model import AuditModel
 from carom.auditing.pairs import Side
+from carom.auditing.target import CORNER, Feet
 
 SAME = 1e-7
 """Feet whose gap [model size] and normal differ by no more are equally good: at edges of facets."""
@@ -138,8 +139,19 @@ def all_forces(parts: Sequence[Contacts], node_count: int) -> Array:
     return force
 
 
-def find(model: AuditModel, state: Mapping[str, Any], position: Array, time: float) -> Contacts:
-    """Find the contacts of a state with nodes at `position` [m] and obstacles as at `time` [s]."""
+def find(
+    model: AuditModel,
+    state: Mapping[str, Any],
+    position: Array,
+    time: float,
+    *,
+    like: Contacts | None = None,
+) -> Contacts:
+    """Find the contacts of a state with nodes at `position` [m] and obstacles as at `time` [s].
+
+    Feet are those that come closest to the stored gaps and normals. What is stored is not of all
+    times of a step: feet at others are near those of the contacts `like` them.
+    """
     stored, target = state["contact_node"], state["contact_target"]
     count = len(stored)
     node = np.clip(stored, 0, len(model.points) - 1)
@@ -169,6 +181,9 @@ def find(model: AuditModel, state: Mapping[str, Any], position: Array, time: flo
                 continue
             good = mine[misfit[mine] <= misfit[mine].min() + SAME]
             best = good[feet.beyond[good].argmin()]
+            if like is not None:
+                near = (like.followed[contact] - span.start, like.normal[contact])
+                best = _nearest(feet, mine, near, smooth=model.smooth, otherwise=int(best))
             gap[contact], normal[contact] = feet.gap[best], feet.normal[best]
             followed[contact] = feet.nodes[best] + span.start
             weights[contact] = feet.weights[best]
@@ -187,6 +202,40 @@ def find(model: AuditModel, state: Mapping[str, Any], position: Array, time: flo
         normal_error=np.linalg.norm(stored_normal - normal, axis=1),
         side=tuple(sides.get((int(s), int(t))) for s, t in zip(source, target, strict=True)),
     )
+
+
+def _nearest(
+    feet: Feet, mine: Indices, known: tuple[Indices, Array], *, smooth: bool, otherwise: int
+) -> int:
+    """Return which of the feet `mine` of a point goes on from a known one.
+
+    It stays on its facet. On a smooth target it goes on to the next one where the foot is on that;
+    beyond an edge, beside both, it stays.
+
+    Parameters
+    ----------
+    feet
+        Feet of points.
+    mine
+        Those of the point.
+    known
+        Nodes that the known foot follows, in the numbering of the body, and its normal.
+    smooth
+        Whether the target is smooth.
+    otherwise
+        What to return where none goes on from it.
+    """
+    nodes, normal = known
+    own = (feet.nodes[mine] == nodes).all(axis=1)
+    on = feet.beyond[mine] == 0.0
+    choices = [own & on] if smooth else [own]
+    if smooth:
+        # The first two nodes are those of the facet; sides beyond a corner are not beside it.
+        beside = np.isin(feet.nodes[mine, :2], nodes[:2]).any(axis=1)
+        beside &= feet.normal[mine] @ normal > CORNER
+        choices += [beside & on, own]
+    found = next((chosen for chosen in choices if chosen.any()), None)
+    return otherwise if found is None else int(mine[found.argmax()])
 
 
 def smallest_gaps(model: AuditModel, position: Array, time: float) -> list[float]:

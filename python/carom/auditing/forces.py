@@ -163,7 +163,7 @@ class Forces:
     def residual(self, index: int) -> Array:
         """Return what the equation of motion lacks, node by node [N], shape [node_count, 2].
 
-        M (v₁ − v₀)/Δt = M g − f̄ − C v̄ + forces of contacts and of springs. Nodes without mass are in
+        M (v₁ − v₀)/Δt = M g − f̄ − C v̄ + forces of contacts and springs. Nodes without mass are in
         static balance at the end of the step, but for the force that steadies them.
         """
         body, f = self._states.model.bodies[index], self.of[index]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -67,6 +67,8 @@ class Law:
         """Whether it knows how old a contact is."""
         self.remembers = "s" in names or by_distance or self.ages
         """Whether it depends on what happened before a step."""
+        self.bounded = self._formula is None
+        """Whether the law is between what it says of the least and the most of distance and age."""
         self.presses = "p" in names
         """Whether it depends on the pressure."""
 
@@ -118,6 +120,18 @@ class Law:
         assert self._formula is not None
         found = self._formula(v=v, s=slide.distance, p=slide.pressure)
         return np.broadcast_to(found, v.shape)
+
+    def extremes(self, slide: Slide, time: float) -> list[Slide]:
+        """Return between what contacts slide of which nothing is known, at a time [s] of the run.
+
+        All laws but formulas change one way with distance and age.
+        """
+        nothing = np.zeros(len(slide.speed))
+        oldest = np.full(len(nothing), self.new_age + time)
+        return [
+            replace(slide, distance=nothing, age=oldest),
+            replace(slide, distance=nothing + np.inf, age=nothing),
+        ]
 
     @property
     def fixed(self) -> float:

@@ -86,8 +86,9 @@ class AuditModel:
         # What has mass on both sides is ruled by its motion.
         self.condition = "midpoint" if condition == "massless" and not self.massless else condition
         self.blended = self.conserving and self.massless
-        smooth = scenario.contact.targets == "smooth"
-        self.targets = [Target(b.facets, b.points, smooth=smooth) for b in self.bodies]
+        self.smooth = scenario.contact.targets == "smooth"
+        """Whether targets are smooth curves."""
+        self.targets = [Target(b.facets, b.points, smooth=self.smooth) for b in self.bodies]
         self.planes = [plane_of(obstacle) for obstacle in scenario.obstacles]
         impacts = self.condition == "endpoint"
         self.sides = list(build_sides(self._pairs, self.bodies, impacts=impacts))
@@ -122,6 +123,11 @@ class AuditModel:
         """Return whether springs are attached to a body."""
         first, last = body.span.start, body.span.stop
         return any(bool(np.any((s.nodes >= first) & (s.nodes < last))) for s in self.springs)
+
+    @property
+    def rubs_by_law(self) -> bool:
+        """Whether friction of some pair remembers what happened before a step."""
+        return any(side.law.remembers for side in self.sides)
 
     def obstacle(self, name: str) -> AuditPlane:
         """Return an obstacle by name."""

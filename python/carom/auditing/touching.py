@@ -43,7 +43,7 @@ class Touching:
 
         Their reactions are the parts that are impulses there: those of landing, and of settling.
         """
-        at_end = self.find(self._states.end, 1.0)
+        at_end = self.find(self._states.end, 1.0, like=self.all)
         impulses = (self._states.landing, self._states.settling)
         return [replace(at_end, reaction=reaction) for reaction in impulses]
 
@@ -65,7 +65,7 @@ class Touching:
     @cached_property
     def start_gaps(self) -> Array:
         """Gaps of the contacts of the step at its start [m], shape [count]."""
-        return self.find(self._states.end, 0.0).gap
+        return self.find(self._states.end, 0.0, like=self.all).gap
 
     def impulse(self, body: AuditBody) -> Array:
         """Return the impulses on the nodes of a body at the end of the step [N s]."""
@@ -79,8 +79,13 @@ class Touching:
 
         Only those of pairs without mass have a part in the step, if there are others.
         """
-        found = self.find(self._states.start, 0.0)
+        found = self.at_start
         return found.only(found.massless) if self._states.model.mixed else found
+
+    @cached_property
+    def at_start(self) -> Contacts:
+        """The contacts of the state at the start of the step, where that is."""
+        return self.find(self._states.start, 0.0)
 
     @cached_property
     def balanced(self) -> Contacts:
@@ -92,7 +97,10 @@ class Touching:
         """The others, whose pairs are ruled by the motion."""
         return self.pressed.only(~self.pressed.massless)
 
-    def find(self, state: Mapping[str, Any], weight: float) -> Contacts:
+    def find(
+        self, state: Mapping[str, Any], weight: float, *, like: Contacts | None = None
+    ) -> Contacts:
         """Return the contacts of a state as they are at this part of the step."""
         time = float(self._states.start["time"]) + weight * self._states.dt
-        return contacts.find(self._states.model, state, self._states.position(weight), time)
+        position = self._states.position(weight)
+        return contacts.find(self._states.model, state, position, time, like=like)

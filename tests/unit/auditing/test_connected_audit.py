@@ -1,4 +1,4 @@
-"""Springs, dampers and masses at points are audited: runs are confirmed, what is changed is found."""
+"""Springs, dampers and masses at points are audited, and what is changed is found."""
 
 import shutil
 
