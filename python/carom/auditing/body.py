@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.auditing.arrays import Array, Indices, cross, einsum, turned
+from carom.auditing.arrays import Array, Indices, Mask, cross, einsum, turned
 from carom.auditing.cells import Cells, boundary
 from carom.auditing.composition import Composition
+from carom.auditing.drawn import drawn, nodes_of
 from carom.auditing.mass import AddedMass, Mass
-from carom.auditing.places import Attached, Place, nodes_of, on_side, place_on
+from carom.auditing.places import Attached, Place, place_on
 from carom.auditing.reduced import MeanAxes
 from carom.case.body import AnyBody, ReducedBody, RigidBody
 from carom.case.material import Material
@@ -66,13 +66,7 @@ class AuditBody:
         massless: bool,
         masses: Sequence[PointMass] = (),
     ) -> None:
-        forms = (
-            entry.hypothesis,
-            "standard" if isinstance(entry, RigidBody) else entry.formulation,
-        )
-        for what in forms:
-            if what not in ("plane-strain", "standard"):
-                raise InputError(f"cannot audit a body in {what!r} yet")
+        _refuse_forms(entry)
         self.name = entry.name
         self._entry = entry
         self.points = points
@@ -81,7 +75,9 @@ class AuditBody:
         """Whether its nodes move as one."""
         self.modes = entry.modes if isinstance(entry, ReducedBody) else None
         """Modes of a reduced body beside the shapes of its contact surface."""
-        self.law = Composition(entry, materials, points[nodes].mean(axis=1))
+        self.drawn = drawn(entry)
+        """Its mesh as the case draws it."""
+        self.law = Composition(entry, materials, points[nodes].mean(axis=1), self.drawn)
         """Its materials, cell by cell."""
         self.masters = _masters(entry, points)
         """For every node the one that it moves with, itself as a rule, [node_count]."""
@@ -90,17 +86,15 @@ class AuditBody:
         self.turns = self.law.objective and not self.images.size
         """Whether it can turn without storing energy."""
         self.cells = Cells(vtk_type, nodes, points, entry.thickness)
-        outer = boundary(nodes)
+        self._boundary = boundary(nodes)
+        outer = self._boundary
         if self.images.size:
-            outer = outer[~_on_sides(entry, outer, points, ("left", "right"))]
+            outer = outer[~self._named(outer, ("left", "right"))]
         self.outline: Indices = outer
         """All facets of its boundary, whatever of it may touch others."""
-        self.facets = _contact_facets(entry, outer, points)
+        sets = entry.contact_sets
+        self.facets = outer if sets is None else outer[self._named(outer, sets)]
         self.surface: Indices = np.unique(self.facets)
-        ends = points[self.facets]
-        lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-        self.facet_areas: Array = entry.thickness * lengths
-        """Areas of the facets that may touch others [m²], shape [facet_count]."""
         self.sources = np.setdiff1d(self.surface, self.images)
         """Nodes that may touch others; an image would do so twice."""
         self.massless = self.surface if massless else np.zeros(0, dtype=np.int64)
@@ -127,12 +121,31 @@ class AuditBody:
         self.row_stiffness = self._gathered(rows)
         """Largest force [N] on each node where every coordinate moves by 1 m, [node_count]."""
 
+    @property
+    def facet_areas(self) -> Array:
+        """Areas of the facets that may touch others [m²], shape [facet_count]."""
+        ends = self.points[self.facets]
+        areas: Array = self._entry.thickness * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        return areas
+
     def places(self, at: Attached) -> list[Place]:
         """Return the places that something is attached to: of a set every node of it."""
         if at.on is None:
             return [place_on(self._entry, self.points, np.array(at.point))]
-        nodes = nodes_of(self._entry, self.points, self.outline, at.on)
+        nodes = nodes_of(self.drawn, at.on, self.points, self._boundary, self.cells.nodes)
         return [Place(np.array([node]), np.ones(1), self.points[node]) for node in nodes]
+
+    def _named(self, facets: Indices, names: Iterable[str]) -> Mask:
+        """Return which facets of a boundary are of one of these sets."""
+        chosen = np.zeros(len(facets), dtype=bool)
+        for name in names:
+            if name == "all":
+                return np.ones(len(facets), dtype=bool)
+            own = self.drawn.facets(name, self.points, facets)
+            if own is None:
+                raise InputError(f"cannot audit the set {name!r} of body {self.name!r}")
+            chosen |= own
+        return chosen
 
     def _added(self, given: PointMass) -> list[AddedMass]:
         places = self.places(given)
@@ -306,6 +319,13 @@ class AuditBody:
         return stiffness
 
 
+def _refuse_forms(entry: AnyBody) -> None:
+    forms = (entry.hypothesis, "standard" if isinstance(entry, RigidBody) else entry.formulation)
+    for what in forms:
+        if what not in ("plane-strain", "standard"):
+            raise InputError(f"cannot audit a body in {what!r} yet")
+
+
 def _density(entry: AnyBody, law: Composition, cells: Cells) -> Array:
     """Return the density of each cell [kg/m³]; the mass of a rigid body may be given."""
     if not isinstance(entry, RigidBody):
@@ -314,26 +334,6 @@ def _density(entry: AnyBody, law: Composition, cells: Cells) -> Array:
         return np.full(len(cells.nodes), entry.density)
     assert entry.mass is not None
     return np.full(len(cells.nodes), entry.mass / float(cells.shared_volumes.sum()))
-
-
-def _contact_facets(entry: AnyBody, facets: Indices, points: Array) -> Indices:
-    """Return the facets of a boundary that may touch others."""
-    if entry.contact_sets is None or not isinstance(entry.mesh, Rectangle):
-        return facets
-    return facets[_on_sides(entry, facets, points, entry.contact_sets)]
-
-
-def _on_sides(
-    entry: AnyBody, facets: Indices, points: Array, sides: Iterable[str]
-) -> NDArray[np.bool_]:
-    """Return whether facets of a rectangle lie on one of these sides."""
-    assert isinstance(entry.mesh, Rectangle)
-    keep = np.zeros(len(facets), dtype=bool)
-    for side in sides:
-        if side == "all":
-            return np.ones_like(keep)
-        keep |= on_side(entry.mesh, points, side)[facets].all(axis=1)
-    return keep
 
 
 def _masters(entry: AnyBody, points: Array) -> Indices:

@@ -67,7 +67,7 @@ class FrameChecks:
         self._momenta(frame, row, where)
         for body in self._model.bodies:
             self._motion(body, frame, row, where)
-        if smallest is not None:
+        if smallest is not None and np.isfinite(smallest):
             above = max(row["min_gap"] - smallest, 0.0)
             off = self._round_off_of_places() + self._scales.travel
             self._check("smallest gap", above, off, where)

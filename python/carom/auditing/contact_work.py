@@ -103,12 +103,14 @@ class Works:
             return states.v_scheme
         if not settling.reaction.any():
             return states.v1
-        landed = states.v_scheme.copy()
+        landed: Array = states.v_scheme.copy()
         forces = landing.nodal_forces(len(states.model.points))
         for body in states.model.bodies:
             impulse = states.dt * forces[body.span]
-            how = states.rigid(body) if body.rigid else body
-            landed[body.span] += how.accelerated(impulse)
+            if body.rigid:
+                landed[body.span] += states.rigid(body).accelerated(impulse)
+            else:
+                landed[body.span] += body.accelerated(impulse)
         return landed
 
     @property

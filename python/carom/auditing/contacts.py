@@ -254,5 +254,9 @@ def _smallest_gap(model: AuditModel, side: Side, position: Array, time: float) -
     # nodes, and no closer than these by more than its own length or so.
     near = np.linalg.norm(x[:, None] - nodes[target.surface][None], axis=2).min(axis=1)
     longest = np.linalg.norm(np.diff(nodes[target.facets], axis=1), axis=2).max()
-    x = x[near <= near.min() + 2 * longest]
+    close = x[near <= near.min() + 2 * longest]
+    smallest = float(model.targets[side.target].signed_distance(close, nodes).min())
+    if np.isfinite(smallest):
+        return smallest
+    # All of these are beyond the rim of an open surface.
     return float(model.targets[side.target].signed_distance(x, nodes).min())

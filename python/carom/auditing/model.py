@@ -17,7 +17,6 @@ from carom.auditing.springs import AuditSpring, build_spring
 from carom.auditing.target import Target
 from carom.case.analysis import Conserving, Static, Theta
 from carom.case.body import AnyBody, Body, ReducedBody, RigidBody
-from carom.case.mesh import Disc, Rectangle
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 
@@ -49,9 +48,6 @@ class AuditModel:
     ) -> None:
         if scenario.dimension != 2:
             raise InputError("cannot audit a case in 3D yet")
-        for entry in scenario.bodies:
-            if not isinstance(entry.mesh, Disc | Rectangle):
-                raise InputError(f"cannot audit a mesh of the kind {entry.mesh.kind!r} yet")
         _refuse_what_is_driven(scenario)
         if scenario.analysis is None:
             raise InputError("cannot audit a case with stages yet")

@@ -8,14 +8,10 @@ from typing import Protocol
 
 import numpy as np
 
-from carom.auditing.arrays import Array, Indices, Mask
+from carom.auditing.arrays import Array, Indices
 from carom.auditing.mass import affine_weights
 from carom.case.body import AnyBody, RigidBody
-from carom.case.mesh import Disc, Rectangle
 from carom.errors import InputError
-
-ON_SIDE = 1e-9
-"""Nodes this close to a side, relative to its length, are on it."""
 
 
 class Attached(Protocol):
@@ -49,37 +45,6 @@ class Place:
     nodes: Indices
     shares: Array
     at: Array
-
-
-def nodes_of(entry: AnyBody, points: Array, outline: Indices, name: str) -> Indices:
-    """Return the nodes of a named set of a body.
-
-    Parameters
-    ----------
-    entry
-        What the case says of the body.
-    points
-        Reference positions of its nodes [m], shape [node_count, 2].
-    outline
-        Facets of its boundary, shape [facet_count, 2].
-    name
-        Name of the set.
-    """
-    if name == "all":
-        return np.arange(len(points))
-    if isinstance(entry.mesh, Disc) and name == "surface":
-        return np.unique(outline)
-    if isinstance(entry.mesh, Rectangle) and name in ("left", "right", "bottom", "top"):
-        return np.flatnonzero(on_side(entry.mesh, points, name))
-    raise InputError(f"cannot audit the set {name!r} of body {entry.name!r} yet")
-
-
-def on_side(mesh: Rectangle, points: Array, name: str) -> Mask:
-    """Return whether points are on a side of a rectangle, shape [count]."""
-    axis = 0 if name in ("left", "right") else 1
-    at = mesh.corner[axis] + (mesh.size[axis] if name in ("right", "top") else 0.0)
-    on: Mask = np.abs(points[:, axis] - at) <= ON_SIDE * mesh.size[axis]
-    return on
 
 
 def place_on(entry: AnyBody, points: Array, point: Array) -> Place:
