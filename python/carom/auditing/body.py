@@ -86,14 +86,17 @@ class AuditBody:
         self.turns = self.law.objective and not self.images.size
         """Whether it can turn without storing energy."""
         self.cells = Cells(vtk_type, nodes, points, entry.thickness)
-        self._boundary = boundary(nodes)
-        outer = self._boundary
+        self.boundary: Indices = boundary(nodes)
+        """All facets of its boundary, the sides where it repeats itself too."""
+        self.thickness = entry.thickness
+        """Thickness [m]."""
+        outer = self.boundary
         if self.images.size:
-            outer = outer[~self._named(outer, ("left", "right"))]
+            outer = outer[~self.named(outer, ("left", "right"))]
         self.outline: Indices = outer
         """All facets of its boundary, whatever of it may touch others."""
         sets = entry.contact_sets
-        self.facets = outer if sets is None else outer[self._named(outer, sets)]
+        self.facets = outer if sets is None else outer[self.named(outer, sets)]
         self.surface: Indices = np.unique(self.facets)
         self.sources = np.setdiff1d(self.surface, self.images)
         """Nodes that may touch others; an image would do so twice."""
@@ -125,17 +128,17 @@ class AuditBody:
     def facet_areas(self) -> Array:
         """Areas of the facets that may touch others [m²], shape [facet_count]."""
         ends = self.points[self.facets]
-        areas: Array = self._entry.thickness * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        areas: Array = self.thickness * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
         return areas
 
     def places(self, at: Attached) -> list[Place]:
         """Return the places that something is attached to: of a set every node of it."""
         if at.on is None:
             return [place_on(self._entry, self.points, np.array(at.point))]
-        nodes = nodes_of(self.drawn, at.on, self.points, self._boundary, self.cells.nodes)
+        nodes = nodes_of(self.drawn, at.on, self.points, self.boundary, self.cells.nodes)
         return [Place(np.array([node]), np.ones(1), self.points[node]) for node in nodes]
 
-    def _named(self, facets: Indices, names: Iterable[str]) -> Mask:
+    def named(self, facets: Indices, names: Iterable[str]) -> Mask:
         """Return which facets of a boundary are of one of these sets."""
         chosen = np.zeros(len(facets), dtype=bool)
         for name in names:

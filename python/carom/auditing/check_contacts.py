@@ -100,7 +100,7 @@ class ContactChecks:
         off = np.linalg.norm(found.reaction, axis=1) * self._scales.geometry(step)
         self._check("Signorini: complementarity", signorini, off, where)
         # Where a reaction is small, the solver's tolerance of it counts for more.
-        slip = np.abs(found.relative(step.d, step.dt)[1])
+        slip = np.abs(found.relative(step.d, found.shift)[1])
         off += slip * self._scales.reaction(step, float(np.abs(found.reaction).sum()))
         work = found.friction_force * ruled.across
         coulomb = friction.least * found.normal_force * np.abs(ruled.across) + work

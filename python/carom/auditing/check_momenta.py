@@ -68,8 +68,8 @@ class MomentumChecks:
         free = ~self._touches({name}) & self._known
         free[:1] = False
         body = next(body for body in model.bodies if body.name == name)
-        if (model.massless and not model.conserving) or model.connected(body):
-            # Boundaries without mass may leave momentum behind, and springs pull as they like.
+        if (model.massless and not model.conserving) or model.driven(body):
+            # Boundaries without mass may leave momentum behind; springs and loads do as they like.
             return
         damping = body.law.mass_damping
         x, v = rows.centre(name), rows.drift(name)
@@ -110,6 +110,7 @@ class MomentumChecks:
             # Reactions may act where nodes and feet are not at the same place.
             free &= ~self._touches({body.name for body in model.bodies})
         grounded = not all(model.joins_bodies(spring) for spring in model.springs)
+        grounded = grounded or any(len(loads) for loads in model.loads)
         if not (model.conserving and turning) or damped or grounded:
             free[:] = False
         stored = rows.history["angular_momentum"]

@@ -228,7 +228,7 @@ class StepChecks:
         """
         model, body, f = self._model, self._model.bodies[index], step.forces.of[index]
         d, b = step.d[body.span], body.massless
-        outer = f.gravity + f.connections - f.viscous
+        outer = f.gravity + f.loads + f.connections - f.viscous
         if model.blended:
             alpha = float(step.blend[index])
             start, end = (
@@ -242,7 +242,7 @@ class StepChecks:
             ]
         elif model.massless:
             # The end is balanced by reactions; the start is balanced by what it was balanced with.
-            outer[b] *= model.xi
+            outer[b] = model.xi * (f.end_loads - f.viscous)[b]
             held = np.zeros_like(contact)
             held[b] = (1 - model.xi) * f.start[b] - model.xi * f.steadying[b]
             parts = [(step.forces.contact(body), arm)] if not len(b) else []

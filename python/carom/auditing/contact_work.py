@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from carom.auditing.arrays import Array
+from carom.auditing.arrays import Array, einsum
 from carom.auditing.contacts import Contacts
 from carom.auditing.states import States
 from carom.auditing.touching import Touching
@@ -57,14 +57,14 @@ class Works:
         """
         work = list(self.rubbing) if self._states.model.blended else []
         for found, share in self.booked():
-            w_n, w_t = found.relative(self._states.d, self._states.dt)
+            w_n, w_t = found.relative(self._states.d, found.shift)
             work.append(
                 ContactWork(
                     found=found,
                     terms={
                         "friction": -share * found.friction_force * w_t,
                         "normal_contact": -share * found.normal_force * w_n,
-                        "prescribed": share * found.prescribed_work(self._states.dt),
+                        "prescribed": share * found.prescribed_work,
                     },
                     whole=np.zeros(len(found)),
                     doubt=np.zeros(len(found)),
@@ -87,11 +87,12 @@ class Works:
             (landing, 0.5 * (before + landed), "normal_contact", "friction"),
             (settling, 0.5 * (landed + after), "settling", "settling"),
         ):
-            v_n, v_t = found.relative(mean, 1.0)
+            v_n, v_t = found.relative(mean, found.velocity)
             terms = dict.fromkeys(names("pair"), np.zeros(len(found)))
             terms[normal] = terms[normal] - self._states.dt * found.normal_force * v_n
             terms[across] = terms[across] - self._states.dt * found.friction_force * v_t
-            terms["prescribed"] = found.prescribed_work(self._states.dt)
+            driven = einsum("ki,ki->k", found.reaction, found.velocity)
+            terms["prescribed"] = self._states.dt * driven
             nothing = np.zeros(len(found))
             works.append(ContactWork(found=found, terms=terms, whole=nothing, doubt=nothing))
         return works
@@ -136,12 +137,12 @@ class Works:
         stored whether the run measured it there or, with the contact out of reach, at the start.
         """
         ended = {key: k for k, key in enumerate(keys(self._touching.balanced))}
-        d, dt = self._states.d, self._states.dt
-        end_slip = np.abs(self._touching.balanced.relative(d, dt)[1])
+        d, balanced = self._states.d, self._touching.balanced
+        end_slip = np.abs(balanced.relative(d, balanced.shift)[1])
         late = self._touching.find(self._states.start, 1.0, like=self._touching.at_start)
         late = late.only(late.massless) if self._states.model.mixed else late
         frames = (late, self._touching.first)
-        moved, left = (np.abs(found.relative(d, dt)[1]) for found in frames)
+        moved, left = (np.abs(found.relative(d, found.shift)[1]) for found in frames)
         for k, key in enumerate(keys(self._touching.first)):
             if key in ended:
                 moved[k] = left[k] = end_slip[ended[key]]
@@ -152,7 +153,7 @@ class Works:
             (-1.0, self._touching.first, moved, np.abs(moved - left)),
         ):
             share = 0.5 + sign * blend[found.source]
-            force, driven = found.friction * found.normal_force, found.prescribed_work(dt)
+            force, driven = found.friction * found.normal_force, found.prescribed_work
             work.append(
                 ContactWork(
                     found=found,

@@ -34,8 +34,9 @@ class Contacts:
         By the auditor's closest point [m], shape [count] and [count, 2].
     followed, weights
         Nodes that the foot follows, and how much, shape [count, 4]; none for obstacles.
-    velocity
-        That of the obstacle [m/s], shape [count, 2]; zero for bodies.
+    shift, velocity
+        How far the obstacle moves in the step [m], and its velocity at the end [m/s], shape
+        [count, 2]; zero for bodies.
     gap_error, normal_error
         What was stored less that, shape [count].
     side
@@ -50,6 +51,7 @@ class Contacts:
     normal: Array
     followed: Indices
     weights: Array
+    shift: Array
     velocity: Array
     gap_error: Array
     normal_error: Array
@@ -105,23 +107,24 @@ class Contacts:
         """r_t [N], shape [count]."""
         return cross(self.normal, self.reaction)
 
-    def relative(self, motion: Array, dt: float) -> tuple[Array, Array]:
+    def relative(self, motion: Array, of_obstacles: Array) -> tuple[Array, Array]:
         """Return normal and tangential parts of the motion of nodes relative to their feet.
 
         Parameters
         ----------
         motion
             Of all nodes of the model, shape [node_count, 2].
-        dt
-            The time that it takes [s], 1 for velocities: obstacles move too.
+        of_obstacles
+            That of the obstacles: their shift, or their velocity where `motion` is one.
         """
-        feet = einsum("kj,kji->ki", self.weights, motion[self.followed]) + dt * self.velocity
+        feet = einsum("kj,kji->ki", self.weights, motion[self.followed]) + of_obstacles
         relative = motion[self.node] - feet
         return einsum("ki,ki->k", relative, self.normal), cross(self.normal, relative)
 
-    def prescribed_work(self, dt: float) -> Array:
-        """Return the work of obstacles that move with the reactions in a time [J], [count]."""
-        return dt * einsum("ki,ki->k", self.reaction, self.velocity)
+    @property
+    def prescribed_work(self) -> Array:
+        """The work of obstacles that move against the reactions in the step [J], [count]."""
+        return einsum("ki,ki->k", self.reaction, self.shift)
 
     def nodal_forces(self, node_count: int) -> Array:
         """Return the reactions spread over nodes and feet [N], shape [node_count, 2]."""
@@ -145,9 +148,12 @@ def find(
     position: Array,
     time: float,
     *,
+    step: tuple[float, float],
     like: Contacts | None = None,
 ) -> Contacts:
     """Find the contacts of a state with nodes at `position` [m] and obstacles as at `time` [s].
+
+    The `step` has start and end [s].
 
     Feet are those that come closest to the stored gaps and normals. What is stored is not of all
     times of a step: feet at others are near those of the contacts `like` them.
@@ -158,7 +164,7 @@ def find(
     source = np.array([model.body_of(int(n)) for n in stored], dtype=np.int64)
     gap, normal = np.full(count, np.nan), np.full((count, 2), np.nan)
     followed, weights = np.zeros((count, 4), dtype=np.int64), np.zeros((count, 4))
-    velocity = np.zeros((count, 2))
+    shift, velocity = np.zeros((count, 2)), np.zeros((count, 2))
     stored_gap, stored_normal = state["contact_gap"], state["contact_normal"]
     for t in np.unique(target):
         at = np.flatnonzero(target == t)
@@ -167,7 +173,8 @@ def find(
             if -1 - t < len(model.planes):
                 plane = model.planes[-1 - t]
                 gap[at], normal[at] = plane.distance(x, time), plane.normal
-                velocity[at] = plane.velocity
+                before, after = (plane.travel.displacement(end) for end in step)
+                shift[at], velocity[at] = after - before, plane.travel.velocity(step[1])
             continue
         if t >= len(model.bodies):
             continue
@@ -197,6 +204,7 @@ def find(
         normal=normal,
         followed=followed,
         weights=weights,
+        shift=shift,
         velocity=velocity,
         gap_error=stored_gap - gap,
         normal_error=np.linalg.norm(stored_normal - normal, axis=1),

@@ -24,6 +24,8 @@ class BodyForces:
         M (v₁ − v₀)/Δt, before vibration takes or gives what the blend leaves over.
     gravity
         M g.
+    loads, end_loads
+        As the scheme weighs them, and at the end of the step.
     connections
         Of springs and dampers, in the mean.
     viscous
@@ -44,6 +46,8 @@ class BodyForces:
 
     inertia: Array
     gravity: Array
+    loads: Array
+    end_loads: Array
     connections: Array
     viscous: Array
     internal: Array
@@ -85,15 +89,20 @@ class Forces:
         # A body that moves rigidly, or falls as it does, is not resisted.
         turn = rotation(dt * body.spin(u0, v0) if body.turns else 0.0)
         drift = body.mass.mean(v0)
-        pressed = self._states.start["contact_force"][span].sum(axis=0)
+        times = (float(s.start["time"]), s.time)
+        given = model.loads[index]
+        loads = given.mean(times, model.xi, u0 + model.xi * d)
+        end_loads = given.at(s.time, u1)
+        pressed = s.start["contact_force"][span].sum(axis=0) + given.at(times[0], u0).sum(axis=0)
         fall = dt * dt * model.theta * (model.gravity + pressed / body.mass.total)
         resisted = (d - fall - dt * (drift + (v0 - drift) @ turn.T))[body.massless]
         share = STEADYING * max(self._states.parts / MUCH_SHORTER, 1.0) ** 2
         resistance = np.minimum(share * body.holding, HEAVIEST * body.mass.moved / dt**2)
         steadying[body.massless] = resistance[:, None] * resisted
         if model.blended and not body.rigid:
-            held = end + viscous + steadying
-            internal, missing, available = self._blended(index, body, viscous, held)
+            held = end + viscous + steadying - end_loads
+            opposed = viscous - loads
+            internal, missing, available = self._blended(index, body, opposed, held)
         elif model.conserving:
             internal = body.conserving_force(u0, u1)
         else:
@@ -105,6 +114,8 @@ class Forces:
         return BodyForces(
             inertia=body.mass.times(v1 - v0) / dt,
             gravity=body.mass.nodal[:, None] * model.gravity,
+            loads=loads,
+            end_loads=end_loads,
             connections=self.pulling.force[span],
             viscous=viscous,
             internal=internal,
@@ -163,8 +174,8 @@ class Forces:
     def residual(self, index: int) -> Array:
         """Return what the equation of motion lacks, node by node [N], shape [node_count, 2].
 
-        M (v₁ − v₀)/Δt = M g − f̄ − C v̄ + forces of contacts and springs. Nodes without mass are in
-        static balance at the end of the step, but for the force that steadies them.
+        M (v₁ − v₀)/Δt = M g + F̄ − f̄ − C v̄ + forces of contacts and springs. Nodes without mass are
+        in static balance at the end of the step, but for the force that steadies them.
         """
         body, f = self._states.model.bodies[index], self.of[index]
         contact = self.contact(body)
@@ -174,8 +185,9 @@ class Forces:
             impulses = self._touching.impulse(body) / self._states.dt
             forces = (contact - impulses + f.gravity + f.connections, impulses)
             return self._states.rigid(body).residual(states, forces, self._states.dt)
-        residual = f.inertia - f.gravity - f.connections + f.internal + f.viscous - contact
-        static = f.end + f.viscous + f.steadying - contact
+        given = f.gravity + f.loads + f.connections + contact
+        residual = f.inertia + f.internal + f.viscous - given
+        static = f.end + f.viscous + f.steadying - f.end_loads - contact
         residual[body.massless] = static[body.massless]
         return body.folded(residual)
 

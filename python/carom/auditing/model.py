@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
+from carom.auditing.loads import Loads
 from carom.auditing.mass import NoMassInsideError
 from carom.auditing.obstacles import AuditPlane, plane_of
 from carom.auditing.pairs import ALIKE, Pairs, build_sides
@@ -88,13 +89,22 @@ class AuditModel:
         self.planes = [plane_of(obstacle) for obstacle in scenario.obstacles]
         impacts = self.condition == "endpoint"
         self.sides = list(build_sides(self._pairs, self.bodies, impacts=impacts))
+        self.loads = [Loads(body, scenario.loads) for body in self.bodies]
+        """Those of every body."""
         self.springs = [build_spring(spring, self) for spring in scenario.springs]
         self.size = max(_diameter(b.points) for b in self.bodies)
 
-    @property
+    @cached_property
     def fastest_plane(self) -> float:
         """Largest speed of an obstacle [m/s]."""
-        return max((float(np.linalg.norm(plane.velocity)) for plane in self.planes), default=0.0)
+        steps = int(np.ceil(self.analysis.end_time / self.analysis.time_step - 1e-6))
+        times = np.arange(steps + 1) * self.analysis.time_step
+        speeds = [
+            float(np.linalg.norm(velocity))
+            for plane in self.planes
+            for velocity in map(plane.travel.velocity, times if plane.travel.varies else times[:1])
+        ]
+        return max(speeds, default=0.0)
 
     def body_of(self, node: int) -> int:
         """Return the index of the body of a node; the number of bodies if it is of none."""
@@ -119,6 +129,14 @@ class AuditModel:
         """Return whether springs are attached to a body."""
         first, last = body.span.start, body.span.stop
         return any(bool(np.any((s.nodes >= first) & (s.nodes < last))) for s in self.springs)
+
+    def loaded(self, body: AuditBody) -> bool:
+        """Return whether there are loads on a body."""
+        return len(self.loads[self.bodies.index(body)]) > 0
+
+    def driven(self, body: AuditBody) -> bool:
+        """Return whether anything acts on a body but gravity, damping and contact."""
+        return self.connected(body) or self.loaded(body)
 
     @property
     def rubs_by_law(self) -> bool:
@@ -203,12 +221,11 @@ def _diameter(points: Array) -> float:
 
 def _refuse_what_is_driven(scenario: Scenario) -> None:
     """Refuse what the auditor has no second implementation of."""
-    moving = any(obstacle.motion is not None for obstacle in scenario.obstacles)
-    for given, what in ((scenario.loads, "loads"), (scenario.motions, "motions")):
-        if given:
-            raise InputError(f"cannot audit a case with {what} yet")
-    if moving:
-        raise InputError("cannot audit an obstacle with a motion yet")
+    if scenario.motions:
+        raise InputError("cannot audit a case with motions yet")
+    deform = {body.name for body in scenario.bodies if isinstance(body, Body)}
+    if any(load.body not in deform for load in scenario.loads):
+        raise InputError("cannot audit loads on a body that does not deform freely yet")
     if any(pair.interference is not None for pair in scenario.contact.pairs):
         raise InputError("cannot audit a pair with an interference yet")
     if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):

@@ -51,8 +51,8 @@ class Pressing:
         self._pairs, self._stored = pairs, stored
         self.total: Array = rows.history["normal_force"]
         self._bodies = {body.name: body for body in model.bodies}
-        self._free = [body.name for body in model.bodies if not model.connected(body)]
-        """Bodies that no springs pull."""
+        self._free = [body.name for body in model.bodies if not model.driven(body)]
+        """Bodies that neither springs nor loads act on."""
         self._normals = {
             entry.name: plane.normal
             for entry, plane in zip(model.scenario.obstacles, model.planes, strict=True)

@@ -36,7 +36,14 @@ class Pulling:
         s, xi = self._states, self._states.model.xi
         start = float(s.start["time"])
         ends = [spring.span(s.u0, start)]
-        ends.append(ends[0] + spring.shares @ s.d[spring.nodes] + s.dt * spring.drift)
+        driven = sum(
+            (
+                sign * (travel.displacement(s.time) - travel.displacement(start))
+                for sign, travel in spring.carried
+            ),
+            np.zeros(2),
+        )
+        ends.append(ends[0] + spring.shares @ s.d[spring.nodes] + driven)
         lengths = [float(np.linalg.norm(r)) for r in ends]
         longer = lengths[1] - lengths[0]
         elongations = [length - spring.free_length for length in lengths]
@@ -54,4 +61,4 @@ class Pulling:
         self.terms["springs"] += spring.tension.work(*elongations)
         self.terms["dampers"] += resisted * longer
         self.terms["scheme"] += float(beside @ (ends[1] - ends[0]))
-        self.terms["prescribed"] += s.dt * float(pull @ spring.drift)
+        self.terms["prescribed"] += float(pull @ driven)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.auditing.arrays import Array
+from carom.auditing.contacts import Contacts
 from carom.auditing.step import Step
 
 
@@ -35,7 +36,7 @@ class Ruled:
     def of(cls, step: Step) -> Ruled:
         """Return the motions of the contacts of a step with the reactions that bore its motion."""
         found, model = step.touching.pressed, step.model
-        w_n, w_t = found.relative(step.d, step.dt)
+        w_n, w_t = found.relative(step.d, found.shift)
         slip, rate = w_t, np.full(len(found), 1.0 / step.dt)
         # What is open at the start may be closed, and what is as good as closed is.
         landed = w_n + np.maximum(step.touching.start_gaps, 0.0)
@@ -51,7 +52,7 @@ class Ruled:
         elif model.condition == "midpoint":
             w_n = ruled_by_motion
         elif model.condition == "endpoint":
-            before, across = found.relative(step.met, 1.0)
+            before, across = found.relative(step.met, _driven(step, found))
             w_n = w_n + (model.theta - 1) * step.dt * before
             given = [None if side is None else side.restitution for side in found.side]
             bounce = np.array([0.0 if e is None else e for e in given])
@@ -60,3 +61,12 @@ class Ruled:
             w_t = np.where(ruled, w_t + (model.theta - 1) * step.dt * across, w_t)
             rate = np.where(ruled, rate / model.theta, rate)
         return cls(normal=w_n, across=w_t, slip=slip, rate=rate)
+
+
+def _driven(step: Step, found: Contacts) -> Array:
+    """Return the velocities of the obstacles of contacts at the start of a step [m/s]."""
+    velocity, start = np.zeros_like(found.shift), float(step.start["time"])
+    for k, target in enumerate(found.target):
+        if target < 0 and -1 - target < len(step.model.planes):
+            velocity[k] = step.model.planes[-1 - target].travel.velocity(start)
+    return velocity

@@ -12,6 +12,7 @@ from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
 from carom.auditing.obstacles import AuditPlane
 from carom.auditing.places import mean_of
+from carom.auditing.signals import Travel
 from carom.case import spring as case
 
 
@@ -67,7 +68,7 @@ class Tension:
 
 @dataclass(frozen=True)
 class AuditSpring:
-    """A spring and a damper on the line between two places, r = r₀ + Σ w u + t v.
+    """A spring and a damper on the line between two places, r = r₀ + Σ w u.
 
     Parameters
     ----------
@@ -77,8 +78,8 @@ class AuditSpring:
         Nodes of the model, and what of their displacements r has.
     reference
         r where nothing has moved [m], shape [2].
-    drift
-        What obstacles that move change of r in time [m/s], shape [2].
+    carried
+        Obstacles that carry one of the places, with the sign of what their motion adds to r.
     free_length
         The length without tension [m].
     tension
@@ -91,14 +92,16 @@ class AuditSpring:
     nodes: Indices
     shares: Array
     reference: Array
-    drift: Array
+    carried: tuple[tuple[float, Travel], ...]
     free_length: float
     tension: Tension
     damping: float
 
     def span(self, displacement: Array, time: float) -> Array:
         """Return r [m], shape [2]."""
-        r: Array = self.reference + self.shares @ displacement[self.nodes] + time * self.drift
+        r: Array = self.reference + self.shares @ displacement[self.nodes]
+        for sign, travel in self.carried:
+            r = r + sign * travel.displacement(time)
         return r
 
     def energy(self, displacement: Array, time: float) -> float:
@@ -112,7 +115,9 @@ class AuditSpring:
         """Return its length [m] and the force in it, that of the damper included [N]."""
         r = self.span(displacement, time)
         length = float(np.linalg.norm(r))
-        rate = self.shares @ velocity[self.nodes] + self.drift
+        rate = self.shares @ velocity[self.nodes]
+        for sign, travel in self.carried:
+            rate = rate + sign * travel.velocity(time)
         speed = float(rate @ r) / length if length > 0 else 0.0
         force = float(self.tension.at(np.array([length - self.free_length]))[0])
         return length, force + self.damping * speed
@@ -149,12 +154,13 @@ class Solids(Protocol):
 def build_spring(given: case.Spring, model: Solids) -> AuditSpring:
     """Return a spring of the case between the bodies and obstacles of a model."""
     nodes, shares = [], []
-    reference, drift = np.zeros(2), np.zeros(2)
+    reference = np.zeros(2)
+    carried: list[tuple[float, Travel]] = []
     for sign, end in zip((-1.0, 1.0), given.between, strict=True):
         if end.body is None:
             reference += sign * np.array(end.point)
             if end.obstacle is not None:
-                drift += sign * model.obstacle(end.obstacle).velocity
+                carried.append((sign, model.obstacle(end.obstacle).travel))
             continue
         body = next(body for body in model.bodies if body.name == end.body)
         place = mean_of(body.places(end))
@@ -167,7 +173,7 @@ def build_spring(given: case.Spring, model: Solids) -> AuditSpring:
         nodes=np.concatenate(nodes),
         shares=np.concatenate(shares),
         reference=reference,
-        drift=drift,
+        carried=tuple(carried),
         free_length=length if given.free_length is None else given.free_length,
         tension=Tension.of(given),
         damping=given.damping,

@@ -86,11 +86,11 @@ class Step(States):
             contact = self._received(body, received)
             # What rows that are static at the end of a step leave of its mean forces.
             b = body.massless
-            scheme += float(((received - f.viscous - f.internal)[b] * d[b]).sum())
+            scheme += float(((received + f.loads - f.viscous - f.internal)[b] * d[b]).sum())
         return {
             "kinetic": body.kinetic_energy(u1, end) - body.kinetic_energy(u0, v0),
             "strain": body.strain_energy(u1) - body.strain_energy(u0),
-            "external": float((f.gravity * d).sum()),
+            "external": float(((f.gravity + f.loads) * d).sum()),
             "viscous": float((f.viscous * d).sum()),
             "scheme": scheme,
             "contact": contact,

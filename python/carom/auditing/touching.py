@@ -103,4 +103,5 @@ class Touching:
         """Return the contacts of a state as they are at this part of the step."""
         time = float(self._states.start["time"]) + weight * self._states.dt
         position = self._states.position(weight)
-        return contacts.find(self._states.model, state, position, time, like=like)
+        step = (float(self._states.start["time"]), self._states.time)
+        return contacts.find(self._states.model, state, position, time, step=step, like=like)
