@@ -9,7 +9,7 @@ import numpy as np
 from carom.auditing.arrays import Array, Indices, Mask, cross, einsum, turned
 from carom.auditing.cells import Cells, boundary
 from carom.auditing.composition import Composition
-from carom.auditing.drawn import drawn, nodes_of
+from carom.auditing.drawn import drawn, nodes_of, unknown
 from carom.auditing.mass import AddedMass, Mass
 from carom.auditing.places import Attached, Place, place_on
 from carom.auditing.reduced import MeanAxes
@@ -146,7 +146,7 @@ class AuditBody:
                 return np.ones(len(facets), dtype=bool)
             own = self.drawn.facets(name, self.points, facets)
             if own is None:
-                raise InputError(f"cannot audit the set {name!r} of body {self.name!r}")
+                raise unknown(name)
             chosen |= own
         return chosen
 
@@ -155,23 +155,24 @@ class AuditBody:
         share = given.mass / len(places)
         return [AddedMass(share, place.nodes, place.shares) for place in places]
 
-    def accelerated(self, impulse: Array) -> Array:
+    def accelerated(self, impulse: Array, held: Mask) -> Array:
         """Return M⁻¹ p of impulses on nodes [N s] as velocities [m/s], by conjugate gradients.
 
-        Images move as their masters do, and nodes without mass not at all.
+        Images move as their masters do, and nodes without mass and what is held not at all.
         """
-        moves = np.zeros(len(self.points), dtype=bool)
+        moves = np.zeros(held.shape, dtype=bool)
         moves[self.masters] = True
         moves[self.massless] = False
-        scale = np.where(moves, np.abs(self.folded(self.mass.nodal)), 1.0)[:, None]
-        rest = self.folded(impulse) * moves[:, None]
+        moves &= ~held
+        scale = np.where(moves, np.abs(self.folded(self.mass.nodal))[:, None], 1.0)
+        rest = self.folded(impulse) * moves
         velocity, ready = np.zeros_like(rest), rest / scale
         along, power = ready, float((rest * ready).sum())
         least = np.finfo(np.float64).eps ** 2 * power
         for _ in range(ITERATIONS):
             if power <= least:
                 break
-            resisted = self.folded(self.mass.times(along[self.masters])) * moves[:, None]
+            resisted = self.folded(self.mass.times(along[self.masters])) * moves
             step = power / float((along * resisted).sum())
             velocity, rest = velocity + step * along, rest - step * resisted
             ready = rest / scale

@@ -95,6 +95,8 @@ CHECKS: dict[str, tuple[str, str]] = {
         "M (v₊ − v)/Δt = M g − f̄ − C v̄ + forces of contacts and springs",
         "N",
     ),
+    "supports": ("what is held moves as its function of time says", "m"),
+    "support forces": ("history: what the equation of motion leaves to supports", "N"),
     "massless nodes": ("f(u₊) + C v̄ + steadying force = contact forces, by node", "N"),
     "impulse": (
         "momentum changes by gravity, damping, springs and reactions",

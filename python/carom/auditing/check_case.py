@@ -49,11 +49,13 @@ def check_materials(model: AuditModel, stored: Indices | None, findings: Finding
 def check_start(model: AuditModel, frame: Frame, scales: Scales, findings: Findings) -> None:
     """Check the state at t = 0."""
     findings.check("initial velocity", frame.displacement, 0.0, "displacement at t = 0")
-    for entry, body in zip(model.scenario.bodies, model.bodies, strict=True):
+    members = zip(model.scenario.bodies, model.bodies, model.supports, strict=True)
+    for entry, body, supports in members:
         arms = body.points - body.mass.mean(body.points)
         spin = entry.spin or 0.0
         assert not isinstance(spin, tuple)
         wanted = np.array(entry.velocity or (0.0, 0.0)) + turned(arms, spin)
+        wanted = np.where(supports.held, supports.velocity(0.0), wanted)
         error = frame.velocity[body.span] - wanted
         findings.check("initial velocity", error, ROUND_OFF * scales.speed, f"{entry.name}, t = 0")
 

@@ -96,7 +96,10 @@ class LedgerChecks:
         for name in PAIR_COLUMNS:
             if name == "prescribed" and pulled:
                 continue  # Obstacles pull at springs too.
-            self._sum(name, [self._padded(pair, name) for pair in self._pairs], h[name])
+            parts = [self._padded(pair, name) for pair in self._pairs]
+            if name == "prescribed":
+                parts += [entry[name] for entry in self._bodies.values()]
+            self._sum(name, parts, h[name])
         if not self._model.blended:
             # All that reactions do, they do to bodies.
             parts = [entry["contact"] for entry in self._bodies.values()]
@@ -130,7 +133,9 @@ class LedgerChecks:
             reach = float(np.linalg.norm(weight)) * (self._scales.reach + model.size)
             steps = max(float(self._summary["steps"]), 1.0)
             off = ROUND_OFF * (self._scales.energy + (1 + steps / 1e3) * reach)
-            self._check("books: external", entry["prescribed"], 0.0, f"{body.name}, no supports")
+            if not model.supported(body):
+                nothing = entry["prescribed"]
+                self._check("books: external", nothing, 0.0, f"{body.name}, no supports")
             if not model.connected(body):
                 nothing = entry["connections"]
                 self._check("books: external", nothing, 0.0, f"{body.name}, no springs")
@@ -190,9 +195,11 @@ class LedgerChecks:
         scales, model = self._scales, self._model
         reactions = sum(np.abs(work.found.reaction).sum() for work in step.work.all)
         work = float(reactions) * scales.geometry(step)
-        for body, terms in zip(model.bodies, step.body_terms, strict=True):
+        for index, (body, terms) in enumerate(zip(model.bodies, step.body_terms, strict=True)):
             strain = sum(scales.strain(body, u[body.span]) for u in (step.u0, step.u1))
+            resisted = scales.resisted(step, index)
             more = {"strain": strain, "contact": strain + work}
+            more |= {"viscous": resisted, "prescribed": resisted}
             entry = self._bodies[body.name]
             for name, term in terms.items():
                 change = entry[name][after] - entry[name][before]

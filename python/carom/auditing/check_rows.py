@@ -143,6 +143,7 @@ class RowChecks:
         weight = scales.mass * float(np.linalg.norm(model.gravity)) * (scales.reach + model.size)
         off = ROUND_OFF * (scales.energy + weight) + SAFETY * EPS * steps * weight
         loaded = any(len(loads) for loads in model.loads)
+        supported = any(len(supports) for supports in model.supports)
         if not loaded:
             self._check("row: external", h["external"] - external, off)
         stored = np.stack([h["momentum_x"], h["momentum_y"]], axis=1)
@@ -153,7 +154,8 @@ class RowChecks:
         damped = any(body.law.mass_damping > 0 for body in model.bodies)
         lossy = model.massless and not model.conserving
         grounded = any(not model.joins_bodies(spring) for spring in model.springs)
-        if not (model.planes or model.gravity.any() or damped or lossy or grounded or loaded):
+        outside = bool(model.planes) or bool(model.gravity.any()) or loaded or supported
+        if not (outside or damped or lossy or grounded):
             newton = model.analysis.newton.tolerance
             off = SAFETY * ROUND_OFF * scales.mass * scales.speed
             off += SAFETY * steps * newton * scales.mass * scales.speed
@@ -165,6 +167,8 @@ class RowChecks:
         dt = np.diff(self._times)
         off = ROUND_OFF * (self._scales.reach + model.size)
         for body in model.bodies:
+            if model.supported(body):
+                continue  # What is held has the velocity that is given.
             x, v = self._rows.centre(body.name), self._rows.drift(body.name)
             mean = (1 - model.theta) * v[:-1] + model.theta * v[1:]
             error = np.abs(np.diff(x, axis=0) - dt[:, None] * mean).max(axis=1)
@@ -206,6 +210,8 @@ class RowChecks:
                 else:
                     scheme = (1 - 1 / model.theta) * v[:-1] + mean[1:] / model.theta
                 known = single if light else free
+                held = model.supports[model.bodies.index(body)].held[node - body.span.start]
+                known = known & (not held["xy".index(axis)])
                 off = SAFETY * off / dt + SAFETY * EPS * np.abs(v[:-1])
                 self._check("row: tracks", np.where(known, v[1:] - scheme, 0.0) * dt, off * dt)
 

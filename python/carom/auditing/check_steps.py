@@ -67,6 +67,7 @@ class StepChecks:
         for index, body in enumerate(self._model.bodies):
             at = f"{body.name}, {where}"
             self._motion(step, index, at)
+            self._supports(step, index, at)
             if body.rigid:
                 # Its equation of motion is that of its momenta.
                 self._rigid(step, index, at)
@@ -92,6 +93,7 @@ class StepChecks:
             off = SAFETY * (rate + EPS * step.time / step.dt * self._scales.speed)
             error = step.d[node] / step.dt - stored
             self._check("tracked points", error, off, f"{name}, {where}")
+        self._support_forces(step, after, where)
         self._extremes(step, after, alone=before is not None, where=where)
         if before is not None:
             for name in ENERGIES:
@@ -100,6 +102,17 @@ class StepChecks:
                 self._check(
                     "ledger in history", change - step.ledger[name], off, f"{name}, {where}"
                 )
+
+    def _support_forces(self, step: Step, after: Row, where: str) -> None:
+        """Check the forces of supports in the history."""
+        for index, supports in enumerate(self._model.supports):
+            force, allowed = step.forces.support(index), self._scales.force(step, index)
+            for number, name in enumerate(supports.names):
+                mine = supports.by == number
+                total = np.where(mine, force, 0.0).sum(axis=0)
+                stored = np.array([after[f"{name}.force_{axis}"] for axis in "xy"])
+                off = (allowed[:, None] * mine).sum(axis=0) + ROUND_OFF * np.abs(force).sum()
+                self._check("support forces", stored - total, off, f"{name}, {where}")
 
     def _extremes(self, step: Step, after: Row, *, alone: bool, where: str) -> None:
         """Check what the row says of the steps since the one before, of which this may be alone."""
@@ -153,6 +166,8 @@ class StepChecks:
             if body.rigid:
                 impulse = step.rigid(body).borne(impulse)
             error = body.folded(mass.times(change[body.span]) - impulse)
+            # What is held keeps its velocity, and supports see to it.
+            error[self._model.supports[self._model.bodies.index(body)].held] = 0.0
             allowed = mass.nodal[:, None] * off[body.span].max() + total * (turn + IMPULSE)
             self._check("velocity update", error, allowed, f"{body.name}, {where}")
 
@@ -175,6 +190,19 @@ class StepChecks:
             )
         if held.any():
             self._check("massless nodes", size[held], off[held], at)
+
+    def _supports(self, step: Step, index: int, at: str) -> None:
+        """Check that what is held is where it is to be, at the velocity that it is to have."""
+        supports, span = self._model.supports[index], self._model.bodies[index].span
+        if not len(supports):
+            return
+        held = supports.held
+        place = step.u1[span] - supports.displacement(step.time)
+        off = SAFETY * EPS * (self._model.size + self._scales.reach)
+        self._check("supports", place[held], off, at)
+        speed = step.end["velocity"][span] - supports.velocity(step.time)
+        off = ROUND_OFF * self._scales.speed
+        self._check("supports", step.dt * speed[held], step.dt * off, f"{at}, velocity")
 
     def _rigid(self, step: Step, index: int, at: str) -> None:
         """Check that nodes move as one, and both momenta change by what acts."""
@@ -228,7 +256,7 @@ class StepChecks:
         """
         model, body, f = self._model, self._model.bodies[index], step.forces.of[index]
         d, b = step.d[body.span], body.massless
-        outer = f.gravity + f.loads + f.connections - f.viscous
+        outer = f.gravity + f.loads + f.connections - f.viscous + step.forces.support(index)
         if model.blended:
             alpha = float(step.blend[index])
             start, end = (
@@ -265,7 +293,9 @@ class StepChecks:
             reactions += float(np.abs(step.touching.first.reaction).sum())
         work = sums + reactions * scales.geometry(step)
         friction = work + step.work.doubt
-        off = {"strain": strain, "friction": friction, "normal_contact": work, "prescribed": work}
+        resisted = sum(scales.resisted(step, index) for index in range(len(model.bodies)))
+        off = {"strain": strain, "friction": friction, "normal_contact": work}
+        off |= {"viscous": sums + resisted, "prescribed": work + resisted}
         for name in ENERGIES:
             error = step.ledger[name] - mine[name]
             self._check(f"ledger: {name.replace('_', ' ')}", error, off.get(name, sums), where)
@@ -281,7 +311,7 @@ class StepChecks:
         for body, terms in zip(model.bodies, step.body_terms, strict=True):
             change = terms["kinetic"] + terms["strain"] + terms["viscous"] - terms["external"]
             at = f"{body.name}, {where}"
-            received = terms["contact"] + terms["connections"]
+            received = terms["contact"] + terms["connections"] + terms["prescribed"]
             self._check("energy of bodies", change - received, work, at)
 
     def _blend(self, step: Step, work: float, sums: float, where: str) -> None:

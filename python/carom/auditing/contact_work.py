@@ -106,12 +106,13 @@ class Works:
             return states.v1
         landed: Array = states.v_scheme.copy()
         forces = landing.nodal_forces(len(states.model.points))
-        for body in states.model.bodies:
+        for index, body in enumerate(states.model.bodies):
             impulse = states.dt * forces[body.span]
             if body.rigid:
                 landed[body.span] += states.rigid(body).accelerated(impulse)
             else:
-                landed[body.span] += body.accelerated(impulse)
+                held = states.model.supports[index].held
+                landed[body.span] += body.accelerated(impulse, held)
         return landed
 
     @property

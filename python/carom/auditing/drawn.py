@@ -45,7 +45,7 @@ def drawn(entry: AnyBody) -> Drawn:
     Raises
     ------
     InputError
-        The auditor does not know meshes of this kind, or a file cannot be read.
+        A file cannot be read.
     """
     mesh = entry.mesh
     if isinstance(mesh, Disc):
@@ -55,9 +55,8 @@ def drawn(entry: AnyBody) -> Drawn:
         return _Round(mesh, radii, mesh.divisions[0] * mesh.divisions[1])
     if isinstance(mesh, Rectangle):
         return _Upright(mesh)
-    if isinstance(mesh, MeshFile):
-        return _Read.of(entry.name, mesh)
-    raise InputError(f"cannot audit a mesh of the kind {mesh.kind!r} yet")
+    assert isinstance(mesh, MeshFile), "all others are in space"
+    return _Read.of(entry.name, mesh)
 
 
 def nodes_of(mesh: Drawn, name: str, points: Array, outline: Indices, cells: Indices) -> Indices:
@@ -73,8 +72,13 @@ def nodes_of(mesh: Drawn, name: str, points: Array, outline: Indices, cells: Ind
         parts.append(cells[mesh.named_cells.get(name, _NONE)].ravel())
     nodes: Indices = np.unique(np.concatenate([_NONE, *parts]))
     if len(nodes) == 0:
-        raise InputError(f"cannot audit the set {name!r}, which the auditor does not find")
+        raise unknown(name)
     return nodes
+
+
+def unknown(name: str) -> InputError:
+    """Return the error of a set that a mesh does not have."""
+    return InputError(f"cannot audit the set {name!r}: the mesh that the case names has none")
 
 
 _NONE: Indices = np.zeros(0, dtype=np.int64)
@@ -113,7 +117,7 @@ class _Round:
         return np.asarray(off <= ON_SIDE * self.radii[name])
 
     def cells(self, name: str) -> Indices:
-        raise InputError(f"there is no set of cells {name!r}")
+        raise unknown(name)
 
 
 @dataclass(frozen=True)
@@ -142,7 +146,7 @@ class _Upright:
         return np.asarray(off <= ON_SIDE * length)
 
     def cells(self, name: str) -> Indices:
-        raise InputError(f"there is no set of cells {name!r}")
+        raise unknown(name)
 
 
 @dataclass(frozen=True)
@@ -187,5 +191,5 @@ class _Read:
 
     def cells(self, name: str) -> Indices:
         if name not in self.named_cells:
-            raise InputError(f"cannot audit the set {name!r}, which the auditor does not find")
+            raise unknown(name)
         return self.named_cells[name]

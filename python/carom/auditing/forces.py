@@ -82,8 +82,10 @@ class Forces:
         model, dt = s.model, s.dt
         u0, u1, v0, v1, d = (a[span] for a in (s.u0, s.u1, s.v0, s.v1, s.d))
         mean = (1 - model.xi) * v0 + model.xi * self._states.v_scheme[span]
+        held = model.supports[index].held
         mean[body.massless] = d[body.massless] / dt
-        viscous = body.damping_force(u0 + 0.5 * dt * v0, mean)
+        mean[held] = d[held] / dt
+        viscous = body.damping_force(u0 + 0.5 * np.where(held, d, dt * v0), mean)
         start, end = body.internal_force(u0), body.internal_force(u1)
         steadying, missing, available = np.zeros_like(d), 0.0, 0.0
         # A body that moves rigidly, or falls as it does, is not resisted.
@@ -95,14 +97,16 @@ class Forces:
         end_loads = given.at(s.time, u1)
         pressed = s.start["contact_force"][span].sum(axis=0) + given.at(times[0], u0).sum(axis=0)
         fall = dt * dt * model.theta * (model.gravity + pressed / body.mass.total)
+        # Along what is held nothing is foretold.
+        fall = np.where(held.any(axis=0), 0.0, fall)
         resisted = (d - fall - dt * (drift + (v0 - drift) @ turn.T))[body.massless]
         share = STEADYING * max(self._states.parts / MUCH_SHORTER, 1.0) ** 2
         resistance = np.minimum(share * body.holding, HEAVIEST * body.mass.moved / dt**2)
         steadying[body.massless] = resistance[:, None] * resisted
         if model.blended and not body.rigid:
-            held = end + viscous + steadying - end_loads
+            at_end = end + viscous + steadying - end_loads
             opposed = viscous - loads
-            internal, missing, available = self._blended(index, body, opposed, held)
+            internal, missing, available = self._blended(index, body, opposed, at_end)
         elif model.conserving:
             internal = body.conserving_force(u0, u1)
         else:
@@ -173,6 +177,19 @@ class Forces:
 
     def residual(self, index: int) -> Array:
         """Return what the equation of motion lacks, node by node [N], shape [node_count, 2].
+
+        What is held has the forces of supports.
+        """
+        held = self._states.model.supports[index].held
+        return np.where(held, 0.0, self._unbalanced(index))
+
+    def support(self, index: int) -> Array:
+        """Return the forces of supports on the nodes of a body [N], shape [node_count, 2]."""
+        held = self._states.model.supports[index].held
+        return np.where(held, self._unbalanced(index), 0.0)
+
+    def _unbalanced(self, index: int) -> Array:
+        """Return what the nodes lack of balance [N], shape [node_count, 2].
 
         M (v₁ − v₀)/Δt = M g + F̄ − f̄ − C v̄ + forces of contacts and springs. Nodes without mass are
         in static balance at the end of the step, but for the force that steadies them.

@@ -119,7 +119,7 @@ class Formula:
                 return np.asarray(_OPERATORS[type(op)](at(left), at(right)), dtype=np.float64)
             case ast.Call(func=ast.Name(id=name), args=args, keywords=[]) if name in _FUNCTIONS:
                 return _FUNCTIONS[name](*(at(argument) for argument in args))
-        raise InputError(f"cannot audit the formula {self.text!r}")
+        raise AssertionError(f"{self.text!r} is a formula to the solver")
 
     def with_rate(self, variable: str, at: float) -> Dual:
         """Return its value and its rate to the right where a variable has this value."""

@@ -15,7 +15,6 @@ from carom.case.friction import (
     RateAndState,
     StaticKinetic,
 )
-from carom.errors import InputError
 
 
 @dataclass(frozen=True)
@@ -47,16 +46,10 @@ class Law:
     ----------
     given
         What the case says.
-
-    Raises
-    ------
-    InputError
-        The auditor does not know it.
     """
 
     def __init__(self, given: Friction) -> None:
-        if isinstance(given, OrthotropicFriction):
-            raise InputError("cannot audit friction that depends on the direction yet")
+        assert not isinstance(given, OrthotropicFriction), "in the plane there is one direction"
         self._given = given
         self._formula = Formula(given.formula) if isinstance(given, FrictionFormula) else None
         names = self._formula.names() if self._formula else set()

@@ -96,6 +96,7 @@ class Groups:
         for terms, leader in zip(body_terms, self.books, strict=True):
             left[leader] += terms["kinetic"] + terms["strain"] + terms["viscous"]
             left[leader] -= terms["external"] + terms["connections"]
+            left[leader] -= terms["prescribed"]
         for work in self._work.all:
             known = work.found.source < len(self.books)
             leader = self.books[work.found.source[known]]

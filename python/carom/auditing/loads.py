@@ -11,7 +11,6 @@ from carom.auditing.body import AuditBody
 from carom.auditing.drawn import nodes_of
 from carom.auditing.signals import AuditSignal
 from carom.case.load import Force, Load, Pressure, Traction
-from carom.errors import InputError
 
 Value = Callable[[AuditSignal], float]
 """What counts of a signal."""
@@ -26,11 +25,6 @@ class Loads:
         The body.
     given
         What the case says, of all bodies.
-
-    Raises
-    ------
-    InputError
-        The auditor does not know one of the loads.
     """
 
     def __init__(self, body: AuditBody, given: Sequence[Load]) -> None:
@@ -72,13 +66,12 @@ class _Load:
         if isinstance(given, Force):
             self._nodes = nodes_of(mesh, given.on, body.points, outline, body.cells.nodes)
             self._vector = [AuditSignal(signal) for signal in given.force]
-        elif isinstance(given, Traction | Pressure):
+        else:
+            assert isinstance(given, Traction | Pressure), "resultants are of rigid bodies"
             self._facets = outline[body.named(outline, (given.on,))]
             signals = given.traction if isinstance(given, Traction) else (given.pressure,)
             self._vector = [AuditSignal(signal) for signal in signals]
             self._follows = isinstance(given, Pressure) and given.follower
-        else:
-            raise InputError(f"cannot audit a load of the kind {given.kind!r} yet")
 
     def add(self, value: Value, u: Array, force: Array) -> None:
         """Add its forces to those on the nodes [N]."""

@@ -15,6 +15,7 @@ from carom.auditing.obstacles import AuditPlane, plane_of
 from carom.auditing.pairs import ALIKE, Pairs, build_sides
 from carom.auditing.places import Attached
 from carom.auditing.springs import AuditSpring, build_spring
+from carom.auditing.supports import Supports
 from carom.auditing.target import Target
 from carom.case.analysis import Conserving, Static, Theta
 from carom.case.body import AnyBody, Body, ReducedBody, RigidBody
@@ -89,6 +90,11 @@ class AuditModel:
         self.planes = [plane_of(obstacle) for obstacle in scenario.obstacles]
         impacts = self.condition == "endpoint"
         self.sides = list(build_sides(self._pairs, self.bodies, impacts=impacts))
+        self.supports = [Supports(body, scenario.motions) for body in self.bodies]
+        """Those of every body."""
+        for body, supports in zip(self.bodies, self.supports, strict=True):
+            if supports.held[body.massless].any():
+                raise InputError("cannot audit supports at nodes without mass yet")
         self.loads = [Loads(body, scenario.loads) for body in self.bodies]
         """Those of every body."""
         self.springs = [build_spring(spring, self) for spring in scenario.springs]
@@ -134,9 +140,13 @@ class AuditModel:
         """Return whether there are loads on a body."""
         return len(self.loads[self.bodies.index(body)]) > 0
 
+    def supported(self, body: AuditBody) -> bool:
+        """Return whether a body is held."""
+        return len(self.supports[self.bodies.index(body)]) > 0
+
     def driven(self, body: AuditBody) -> bool:
         """Return whether anything acts on a body but gravity, damping and contact."""
-        return self.connected(body) or self.loaded(body)
+        return self.connected(body) or self.loaded(body) or self.supported(body)
 
     @property
     def rubs_by_law(self) -> bool:
@@ -221,8 +231,6 @@ def _diameter(points: Array) -> float:
 
 def _refuse_what_is_driven(scenario: Scenario) -> None:
     """Refuse what the auditor has no second implementation of."""
-    if scenario.motions:
-        raise InputError("cannot audit a case with motions yet")
     deform = {body.name for body in scenario.bodies if isinstance(body, Body)}
     if any(load.body not in deform for load in scenario.loads):
         raise InputError("cannot audit loads on a body that does not deform freely yet")

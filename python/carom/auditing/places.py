@@ -11,7 +11,6 @@ import numpy as np
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.mass import affine_weights
 from carom.case.body import AnyBody, RigidBody
-from carom.errors import InputError
 
 
 class Attached(Protocol):
@@ -57,8 +56,7 @@ def place_on(entry: AnyBody, points: Array, point: Array) -> Place:
     if not isinstance(entry, RigidBody):
         return Place(nearest, np.ones(1), points[nearest[0]])
     shares = affine_weights(arms)
-    if shares is None:
-        raise InputError(f"body {entry.name!r} has no weights for the point {point.tolist()}")
+    assert shares is not None, "the nodes of a body are not on one line"
     return Place(np.arange(len(points)), shares, point)
 
 

@@ -105,6 +105,17 @@ class Scales:
         """Return how far the equation of motion of nodes of a body may be off [N], [node_count]."""
         return self.iteration(step.dt, index) * self.displacement(step)
 
+    def resisted(self, step: Step, index: int) -> float:
+        """Return how far the work of what resists a body, and of what holds it, may be off [J].
+
+        Displacements have round-off of the size of the model, over which these forces do work.
+        """
+        f, held = step.forces.of[index], self._model.supports[index].held
+        parts = (f.inertia, f.internal, f.gravity, f.loads, f.connections)
+        size = float(np.abs(f.viscous).sum())
+        size += sum(float(np.abs(part[held]).sum()) for part in parts)
+        return SAFETY * EPS * (self._model.size + self.reach) * size
+
     def reaction(self, step: Step, total: float) -> float:
         """Return how far reactions whose sizes sum to `total` [N] may be from Coulomb's cone [N].
 

@@ -96,7 +96,7 @@ class States:
         """Return the velocities that the scheme makes of the motion, before impulses [m/s]."""
         theta = self.model.theta
         velocity: Array = (1 - 1 / theta) * self.v0 + self.d / (theta * self.dt)
-        for body in self.model.bodies:
+        for body, supports in zip(self.model.bodies, self.model.supports, strict=True):
             if len(body.massless):
                 mean = self.d[body.span] / self.dt
                 faster = body.mass.mean(velocity[body.span] - mean)
@@ -104,6 +104,9 @@ class States:
             if body.rigid:
                 u0, v0 = self.u0[body.span], self.v0[body.span]
                 velocity[body.span] = self.rigid(body).scheme(u0, v0, theta, self.dt)[0]
+            if len(supports):
+                given = supports.velocity(self.time)
+                velocity[body.span][supports.held] = given[supports.held]
         return velocity
 
     @cached_property

@@ -53,6 +53,7 @@ class Step(States):
         terms.update(dict.fromkeys((*names("pair"), *CONNECTION_ENERGIES), 0.0))
         for name, energy in self.forces.pulling.terms.items():
             terms[name] += energy
+        terms["prescribed"] += sum(body["prescribed"] for body in self.body_terms)
         for work in self.work.all:
             for name, values in work.terms.items():
                 terms[name] += float(values.sum())
@@ -66,11 +67,16 @@ class Step(States):
     def _body_terms(self, index: int, body: AuditBody) -> dict[str, float]:
         model, f = self.model, self.forces.of[index]
         u0, u1, v0, d = (a[body.span] for a in (self.u0, self.u1, self.v0, self.d))
+        held = model.supports[index].held
         end = self.end["velocity"][body.span]
         jump = self.v_scheme[body.span] - v0
         if body.rigid:
             jump = self.rigid(body).scheme(u0, v0, model.theta, self.dt)[1]
         scheme = (model.theta - 0.5) * 2 * body.kinetic_energy(u0, jump)
+        if held.any():
+            # What is held moves as it is given, not as the scheme would have it.
+            free = np.where(held, 0.0, jump)
+            scheme = (model.theta - 0.5) * float((free * body.mass.times(jump)).sum())
         scheme += (model.xi - 0.5) * float(((f.end - f.start) * d).sum())
         if model.blended:
             contact = f.missing - float(self.blend[index]) * f.available
@@ -95,12 +101,35 @@ class Step(States):
             "scheme": scheme,
             "contact": contact,
             "connections": float((f.connections * d).sum()),
+            "prescribed": self._supported(index, body),
         }
 
+    def _supported(self, index: int, body: AuditBody) -> float:
+        """Return the work of what holds a body in the step [J].
+
+        Supports bear what the equation of motion leaves to them besides contact, which moves what
+        is free alone. Where v₊ is not what the scheme makes of the motion, they give the rest.
+        """
+        f, held = self.forces.of[index], self.model.supports[index].held
+        if not held.any():
+            return 0.0
+        v0, v1, v2, d = (a[body.span] for a in (self.v0, self.v_scheme, self.v1, self.d))
+        gained = body.mass.times(v1 - v0)
+        borne = f.internal + f.viscous - f.gravity - f.loads - f.connections
+        # Of impulses at the end they bear what bodies cannot take there.
+        kept = body.mass.times(v2 - v1) - self.touching.impulse(body)
+        work = 0.5 * gained * (v0 + v1) + borne * d + 0.5 * kept * (v1 + v2)
+        return float(work[held].sum())
+
     def _received(self, body: AuditBody, force: Array) -> float:
-        """Return the work of a force over the step, and of impulses at its end, on a body [J]."""
+        """Return the work of a force over the step, and of impulses at its end [J].
+
+        It is that on what of a body is free.
+        """
+        free = ~self.model.supports[self.model.bodies.index(body)].held
         mean = 0.5 * (self.v_scheme + self.v1)[body.span]
-        return float((force * self.d[body.span]).sum() + (self.touching.impulse(body) * mean).sum())
+        work = force * self.d[body.span] + self.touching.impulse(body) * mean
+        return float(work[free].sum())
 
     @property
     def left_over(self) -> Array:

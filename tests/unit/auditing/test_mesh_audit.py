@@ -94,5 +94,8 @@ def test_a_file_that_is_no_longer_that_of_the_run_is_found(tmp_path):
     deck(tmp_path / "block.inp", shift=1e-6)
     assert {check.name for check in carom.audit(tmp_path / "run").refuted} == {"mesh"}
     text = (tmp_path / "block.inp").read_text()
+    (tmp_path / "block.inp").write_text(text.replace("NAME=sole", "NAME=base"))
+    with pytest.raises(carom.InputError, match="cannot audit the set 'sole': the mesh that the"):
+        carom.audit(tmp_path / "run")
     (tmp_path / "block.inp").write_text(text.replace("ELSET=stiff\n4, ", "ELSET=stiff\n3, 4, "))
     assert "materials" in {check.name for check in carom.audit(tmp_path / "run").refuted}

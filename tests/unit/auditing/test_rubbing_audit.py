@@ -77,6 +77,15 @@ def test_what_a_law_remembers_is_said_not_to_be_known_where_steps_are_not_stored
     assert any("laws remember" in left.what for left in audit.unchecked)
 
 
+def test_a_formula_that_python_does_not_read_is_named(tmp_path, results):
+    directory = tmp_path / "changed"
+    shutil.copytree(results("pressure"), directory)
+    text = (directory / "case.toml").read_text()
+    (directory / "case.toml").write_text(text.replace("60/p", "060/p"))
+    with pytest.raises(carom.InputError, match=r"cannot audit the formula 'min\(0.4, 060/p\)': "):
+        carom.audit(directory)
+
+
 def test_a_reaction_beyond_what_the_law_allows_is_found(tmp_path, results):
     """A tangential reaction of one contact is 0.1 % more than it was."""
     directory = tmp_path / "changed"

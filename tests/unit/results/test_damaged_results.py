@@ -178,15 +178,6 @@ CANNOT = [
         'obstacles=[{name="floor",kind="sphere",centre=[0,-9],radius=1}]',
         "cannot audit obstacles of kind 'sphere' yet",
     ),
-    ("obstacles.0.motion={y='-t'}", "cannot audit an obstacle with a motion yet"),
-    (
-        'motions=[{kind="fixed",body="left",on="boundary"}]',
-        "cannot audit a case with motions yet",
-    ),
-    (
-        'bodies.0.mesh={kind="ring",centre=[0,1],inner_radius=0.5,outer_radius=1,divisions=[8,2]}',
-        "cannot audit a mesh of the kind 'ring' yet",
-    ),
     (
         'contact.pairs=[{between=["left","right"],interference="1e-3*t"}]',
         "cannot audit a pair with an interference yet",
