@@ -55,7 +55,7 @@ class FrameChecks:
                     "rigid motion", bending, self._round_off_of_places(), f"{body.name}, {where}"
                 )
         self._check("free nodes", frame.reaction[self._free], 0.0, where)
-        if not self._model.planes:
+        if not self._model.obstacles:
             total = np.abs(frame.reaction).sum()
             self._check("action and reaction", frame.reaction.sum(axis=0), ROUND_OFF * total, where)
         smallest = self._gaps(frame, where)

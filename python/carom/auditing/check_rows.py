@@ -154,7 +154,7 @@ class RowChecks:
         damped = any(body.law.mass_damping > 0 for body in model.bodies)
         lossy = model.massless and not model.conserving
         grounded = any(not model.joins_bodies(spring) for spring in model.springs)
-        outside = bool(model.planes) or bool(model.gravity.any()) or loaded or supported
+        outside = bool(model.obstacles) or bool(model.gravity.any()) or loaded or supported
         if not (outside or damped or lossy or grounded):
             newton = model.analysis.newton.tolerance
             off = SAFETY * ROUND_OFF * scales.mass * scales.speed

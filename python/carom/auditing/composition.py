@@ -89,7 +89,7 @@ class Composition:
     @property
     def subtracts(self) -> bool:
         """Whether ψ of some material is a small difference of terms of the size of its moduli."""
-        return any(law.kind == "neo-hookean" for law in self._laws)
+        return any(law.kind == "neo-hookean" or law.rubber is not None for law in self._laws)
 
     @property
     def damped(self) -> bool:

@@ -144,17 +144,26 @@ class Works:
         late = late.only(late.massless) if self._states.model.mixed else late
         frames = (late, self._touching.first)
         moved, left = (np.abs(found.relative(d, found.shift)[1]) for found in frames)
+        # In the frame of the end obstacles do their work too, where they are round.
+        normals = late.normal.copy()
         for k, key in enumerate(keys(self._touching.first)):
             if key in ended:
                 moved[k] = left[k] = end_slip[ended[key]]
+                normals[k] = balanced.normal[ended[key]]
         blend = np.append(self._states.blend, 0.0)  # the last is of nodes of no body
         work = []
-        for sign, found, slip, off in (
-            (1.0, self._touching.balanced, end_slip, np.zeros(len(end_slip))),
-            (-1.0, self._touching.first, moved, np.abs(moved - left)),
+        for sign, found, slip, off, driven in (
+            (1.0, balanced, end_slip, np.zeros(len(end_slip)), balanced.prescribed_work),
+            (
+                -1.0,
+                self._touching.first,
+                moved,
+                np.abs(moved - left),
+                _driven_in(self._touching.first, normals),
+            ),
         ):
             share = 0.5 + sign * blend[found.source]
-            force, driven = found.friction * found.normal_force, found.prescribed_work
+            force = found.friction * found.normal_force
             work.append(
                 ContactWork(
                     found=found,
@@ -168,6 +177,13 @@ class Works:
                 )
             )
         return work
+
+
+def _driven_in(found: Contacts, normals: Array) -> Array:
+    """Return the work of obstacles with reactions that have turned to these normals [J]."""
+    tangents = np.stack([-normals[:, 1], normals[:, 0]], axis=1)
+    reaction = found.normal_force[:, None] * normals + found.friction_force[:, None] * tangents
+    return einsum("ki,ki->k", reaction, found.shift)
 
 
 def keys(found: Contacts) -> list[tuple[int, int]]:

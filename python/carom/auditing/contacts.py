@@ -170,11 +170,11 @@ def find(
         at = np.flatnonzero(target == t)
         x = position[node[at]]
         if t < 0:
-            if -1 - t < len(model.planes):
-                plane = model.planes[-1 - t]
-                gap[at], normal[at] = plane.distance(x, time), plane.normal
-                before, after = (plane.travel.displacement(end) for end in step)
-                shift[at], velocity[at] = after - before, plane.travel.velocity(step[1])
+            if -1 - t < len(model.obstacles):
+                obstacle = model.obstacles[-1 - t]
+                gap[at], normal[at] = obstacle.nearest(x, time)
+                before, after = (obstacle.travel.displacement(end) for end in step)
+                shift[at], velocity[at] = after - before, obstacle.travel.velocity(step[1])
             continue
         if t >= len(model.bodies):
             continue
@@ -255,7 +255,7 @@ def _smallest_gap(model: AuditModel, side: Side, position: Array, time: float) -
     body = model.bodies[side.source]
     x = position[body.span][body.sources]
     if side.target < 0:
-        return float(model.planes[-1 - side.target].distance(x, time).min())
+        return float(model.obstacles[-1 - side.target].distance(x, time).min())
     target = model.bodies[side.target]
     nodes = position[target.span]
     # Only nodes that may be the closest are looked at closely: a facet is no farther than its

@@ -11,7 +11,7 @@ from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
 from carom.auditing.loads import Loads
 from carom.auditing.mass import NoMassInsideError
-from carom.auditing.obstacles import AuditPlane, plane_of
+from carom.auditing.obstacles import AuditObstacle, obstacle_of
 from carom.auditing.pairs import ALIKE, Pairs, build_sides
 from carom.auditing.places import Attached
 from carom.auditing.springs import AuditSpring, build_spring
@@ -87,7 +87,7 @@ class AuditModel:
         self.smooth = scenario.contact.targets == "smooth"
         """Whether targets are smooth curves."""
         self.targets = [Target(b.facets, b.points, smooth=self.smooth) for b in self.bodies]
-        self.planes = [plane_of(obstacle) for obstacle in scenario.obstacles]
+        self.obstacles = [obstacle_of(obstacle) for obstacle in scenario.obstacles]
         impacts = self.condition == "endpoint"
         self.sides = list(build_sides(self._pairs, self.bodies, impacts=impacts))
         self.supports = [Supports(body, scenario.motions) for body in self.bodies]
@@ -101,14 +101,14 @@ class AuditModel:
         self.size = max(_diameter(b.points) for b in self.bodies)
 
     @cached_property
-    def fastest_plane(self) -> float:
+    def fastest_obstacle(self) -> float:
         """Largest speed of an obstacle [m/s]."""
         steps = int(np.ceil(self.analysis.end_time / self.analysis.time_step - 1e-6))
         times = np.arange(steps + 1) * self.analysis.time_step
         speeds = [
             float(np.linalg.norm(velocity))
-            for plane in self.planes
-            for velocity in map(plane.travel.velocity, times if plane.travel.varies else times[:1])
+            for travel in (obstacle.travel for obstacle in self.obstacles)
+            for velocity in map(travel.velocity, times if travel.varies else times[:1])
         ]
         return max(speeds, default=0.0)
 
@@ -153,9 +153,9 @@ class AuditModel:
         """Whether friction of some pair remembers what happened before a step."""
         return any(side.law.remembers for side in self.sides)
 
-    def obstacle(self, name: str) -> AuditPlane:
+    def obstacle(self, name: str) -> AuditObstacle:
         """Return an obstacle by name."""
-        return self.planes[self._pairs.obstacle(name)]
+        return self.obstacles[self._pairs.obstacle(name)]
 
     def tracks(self) -> list[tuple[str, int]]:
         """Return the names of tracked points and the nodes nearest to them."""

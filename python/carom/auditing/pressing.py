@@ -14,6 +14,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array
 from carom.auditing.model import AuditModel
+from carom.auditing.obstacles import HalfSpace
 from carom.auditing.rows import Rows
 from carom.auditing.scales import ROUND_OFF, SAFETY, Scales
 
@@ -54,8 +55,9 @@ class Pressing:
         self._free = [body.name for body in model.bodies if not model.driven(body)]
         """Bodies that neither springs nor loads act on."""
         self._normals = {
-            entry.name: plane.normal
-            for entry, plane in zip(model.scenario.obstacles, model.planes, strict=True)
+            entry.name: obstacle.shape.normal
+            for entry, obstacle in zip(model.scenario.obstacles, model.obstacles, strict=True)
+            if isinstance(obstacle.shape, HalfSpace)
         }
         self._forces = {name: self._resultants(name) for name in self._bodies}
 

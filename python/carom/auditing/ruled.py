@@ -67,6 +67,6 @@ def _driven(step: Step, found: Contacts) -> Array:
     """Return the velocities of the obstacles of contacts at the start of a step [m/s]."""
     velocity, start = np.zeros_like(found.shift), float(step.start["time"])
     for k, target in enumerate(found.target):
-        if target < 0 and -1 - target < len(step.model.planes):
-            velocity[k] = step.model.planes[-1 - target].travel.velocity(start)
+        if target < 0 and -1 - target < len(step.model.obstacles):
+            velocity[k] = step.model.obstacles[-1 - target].travel.velocity(start)
     return velocity

@@ -44,12 +44,12 @@ class Scales:
         self._model = model
         self.energy = 0.0
         """Largest energy of a state [J]."""
-        self.speed = model.fastest_plane
+        self.speed = model.fastest_obstacle
         """Largest speed of a node, or of an obstacle [m/s]."""
-        self.reach = model.fastest_plane * model.analysis.end_time
+        self.reach = model.fastest_obstacle * model.analysis.end_time
         """Largest distance of a node from the origin, or of an obstacle from its start [m]."""
         analysis = model.analysis
-        travel = model.fastest_plane * analysis.end_time
+        travel = model.fastest_obstacle * analysis.end_time
         self.travel = EPS * travel * analysis.end_time / analysis.time_step
         """How far places of obstacles may be off, which the run sums step by step [m]."""
         self.mass = sum(body.mass.total for body in model.bodies)

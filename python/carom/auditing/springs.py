@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
-from carom.auditing.obstacles import AuditPlane
+from carom.auditing.obstacles import AuditObstacle
 from carom.auditing.places import mean_of
 from carom.auditing.signals import Travel
 from carom.case import spring as case
@@ -144,10 +144,10 @@ class Solids(Protocol):
         """The bodies."""
 
     @property
-    def planes(self) -> Sequence[AuditPlane]:
+    def obstacles(self) -> Sequence[AuditObstacle]:
         """The obstacles."""
 
-    def obstacle(self, name: str) -> AuditPlane:
+    def obstacle(self, name: str) -> AuditObstacle:
         """Return an obstacle by name."""
 
 

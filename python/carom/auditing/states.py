@@ -88,7 +88,7 @@ class States:
 
     def _motion(self) -> float:
         """Return the largest motion of a node in the step, or that of free flight if larger [m]."""
-        speed = max(np.linalg.norm(self.v0, axis=1).max(), self.model.fastest_plane)
+        speed = max(np.linalg.norm(self.v0, axis=1).max(), self.model.fastest_obstacle)
         predicted = (speed + np.linalg.norm(self.model.gravity) * self.dt) * self.dt
         return float(max(np.abs(self.d).max(), predicted))
 
