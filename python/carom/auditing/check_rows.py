@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from carom.auditing.arrays import Array
 from carom.auditing.body import KINETIC_PARTS
-from carom.auditing.check_steps import LARGEST_BLEND
+from carom.auditing.check_blend import LARGEST_BLEND
 from carom.auditing.check_summary import SUMMED
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings

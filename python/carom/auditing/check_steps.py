@@ -6,30 +6,19 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from carom.auditing.arrays import Array, Indices, cross
+from carom.auditing.arrays import Array, cross
 from carom.auditing.body import AuditBody
+from carom.auditing.check_blend import BlendChecks
 from carom.auditing.check_contacts import ContactChecks
 from carom.auditing.contacts import all_forces
 from carom.auditing.forces import BodyForces
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
-from carom.auditing.step import BODY_ENERGIES, CONNECTION_ENERGIES, Step
-from carom.ledger_terms import TERMS, names
+from carom.auditing.step import BODY_ENERGIES, CONNECTION_ENERGIES, Step, defect
+from carom.ledger_terms import names
 
 Row = Mapping[str, float]
-
-LARGEST_BLEND = 2.0
-"""Limit of |α|."""
-
-LARGEST_PART = 0.5
-"""The largest part of the energy of vibration that a step may take or give."""
-
-UNCLEAR = 1e-8
-"""What a blend can move below this share of the energy is not sure to be clear of round-off."""
-
-NEGLIGIBLE = 1e-14
-"""What is missing below this part of the energy may wait."""
 
 IMPULSE = 1e-11
 """How well impulses and the velocities that they make agree, relative to all of them."""
@@ -54,6 +43,7 @@ class StepChecks:
         self.pressed: dict[float, dict[frozenset[str], float]] = {}
         """Sums of normal reactions [N] by names of the pair, at ends of steps [s]."""
         self._contacts = ContactChecks(model, scales, findings)
+        self._blends = BlendChecks(scales, findings)
         self._gap = (0.0, 0.0)
         """The bi-potential gap of the last step, and how far it may be off [J]."""
 
@@ -121,7 +111,7 @@ class StepChecks:
         off = ROUND_OFF * sum(abs(energy) for energy in ledger.values())
         for name, figure, allowed in (
             ("blend", blend, 0.0),
-            ("step_defect", abs(_defect(ledger)), off),
+            ("step_defect", abs(defect(ledger)), off),
         ):
             excess = figure - after[name]
             self._check("step extremes", excess if alone else max(excess, 0.0), allowed, where)
@@ -299,96 +289,20 @@ class StepChecks:
         for name in ENERGIES:
             error = step.ledger[name] - mine[name]
             self._check(f"ledger: {name.replace('_', ' ')}", error, off.get(name, sums), where)
-        defect = _defect(mine)
+        missed = defect(mine)
         if not model.conserving:
-            self._findings.report("largest defect of a step", defect, "J")
+            self._findings.report("largest defect of a step", missed, "J")
             return
         work = strain + friction + self._newton_work(step)
         if model.blended:
-            self._blend(step, work, strain + friction, where)
+            self._blends.step(step, work, strain + friction, where)
         else:
-            self._check("energy of the step", defect, work, where)
+            self._check("energy of the step", missed, work, where)
         for body, terms in zip(model.bodies, step.body_terms, strict=True):
             change = terms["kinetic"] + terms["strain"] + terms["viscous"] - terms["external"]
             at = f"{body.name}, {where}"
             received = terms["contact"] + terms["connections"] + terms["prescribed"]
             self._check("energy of bodies", change - received, work, at)
-
-    def _blend(self, step: Step, work: float, sums: float, where: str) -> None:
-        """Check that α is what the balance of its group asks for, and what is left for later.
-
-        Parameters
-        ----------
-        step
-            The step.
-        work
-            How far its energies may be off balance [J].
-        sums
-            How far sums of energies may be off [J].
-        where
-            Where this is.
-        """
-        missing, available = step.groups.balance()
-        alpha, (least, largest) = step.blend, step.groups.blend_range(LARGEST_BLEND)
-        leaders, books = np.unique(step.groups.blends), np.unique(step.groups.books)
-        beyond = np.maximum(np.maximum(alpha - largest, least - alpha), 0.0)
-        self._check("blend", beyond[leaders], ROUND_OFF * LARGEST_BLEND, where)
-        self._check("blend", alpha - alpha[step.groups.blends], 0.0, where)
-        limits = np.sort([least * available, largest * available], axis=0)
-        # Where there is next to nothing to move α stays within the step.
-        within = 0.5 * np.maximum(available, 0.0) * [[-1.0], [1.0]]
-        unclear = np.abs(available) < UNCLEAR * self._scales.energy
-        moved = alpha * available
-        error = moved - np.clip(missing, *limits)
-        other = moved - np.clip(missing, *within)
-        error = np.where(unclear & (np.abs(other) < np.abs(error)), other, error)
-        limits = np.where(unclear, within, limits)
-        allowed = work + NEGLIGIBLE * self._scales.energy
-        self._check("blend", error[leaders], allowed, where)
-        self._repaid(step, books, allowed, where)
-        stored, left = step.end["energy_debt"], step.left_over
-        followers = np.setdiff1d(np.arange(len(alpha)), books)
-        self._check("waiting energy", stored[followers], 0.0, where)
-        self._check("waiting energy", (stored - left)[books], sums, where)
-        # Its own books have no more than round-off.
-        error = (stored - step.start["energy_debt"]).sum() - _defect(step.ledger)
-        sums = ROUND_OFF * (self._scales.energy + sum(abs(e) for e in step.ledger.values()))
-        self._check("waiting energy", error, sums, where)
-        full = np.zeros(len(alpha), dtype=bool)
-        beyond_limits = (missing < limits[0] + work) | (missing > limits[1] - work)
-        np.logical_or.at(full, step.groups.books[leaders], beyond_limits[leaders])
-        if full.any():
-            self._findings.leave(
-                "energy that waits: a blend of stresses is at its limit, or has little to move"
-            )
-        self._check("energy of the step", stored[books][~full[books]], allowed, where)
-
-    def _repaid(self, step: Step, leaders: Indices, allowed: float, where: str) -> None:
-        """Check that vibration pays what the blend leaves over, as far as it may.
-
-        Parameters
-        ----------
-        step
-            The step.
-        leaders
-            The bodies that stand for their groups.
-        allowed
-            How far what is left over may be off [J].
-        where
-            Where this is.
-        """
-        shares = step.shares
-        self._check("repaying", shares - shares[step.groups.books], ROUND_OFF, where)
-        if not shares.any():
-            return
-        vibration, repaid = (
-            np.bincount(step.groups.books, weights=energy, minlength=len(shares))[leaders]
-            for energy in (step.vibration, step.repaid)
-        )
-        debt = step.left_over[leaders] - repaid
-        most = LARGEST_PART * vibration
-        error = np.where(shares[leaders] == 0.0, 0.0, repaid + np.clip(debt, -most, most))
-        self._check("repaying", error, allowed, where)
 
     def _newton_work(self, step: Step) -> float:
         """Return the work that the error of the equation of motion may do in a step [J]."""
@@ -396,8 +310,3 @@ class StepChecks:
             float(self._scales.force(step, i) @ np.abs(step.d[b.span]).max(axis=1))
             for i, b in enumerate(self._model.bodies)
         )
-
-
-def _defect(terms: Mapping[str, float]) -> float:
-    """Return the change of energy that the other terms of a step do not explain [J]."""
-    return sum(term.sign * terms[term.name] for term in TERMS if term.name in terms)

@@ -16,7 +16,7 @@ from carom.auditing.groups import Groups
 from carom.auditing.model import AuditModel
 from carom.auditing.states import States
 from carom.auditing.touching import Touching
-from carom.ledger_terms import names
+from carom.ledger_terms import TERMS, names
 
 BODY_ENERGIES = ("kinetic", "strain", "external", "viscous", "scheme")
 """Terms of the ledger that are sums over the bodies."""
@@ -135,3 +135,8 @@ class Step(States):
     def left_over(self) -> Array:
         """What the groups have yet to give back after the step, [body_count] [J]."""
         return self.groups.left_over(self.body_terms)
+
+
+def defect(terms: Mapping[str, float]) -> float:
+    """Return the change of energy that the other terms of a step do not explain [J]."""
+    return sum(term.sign * terms[term.name] for term in TERMS if term.name in terms)
