@@ -79,7 +79,7 @@ def _check(files: Files, findings: Findings) -> None:
     scales = Scales(model)
     frames = []
     for frame in files.frames():
-        scales.include(frame.displacement, frame.velocity)
+        scales.include(frame.displacement, frame.velocity, frame.time)
         frames.append(frame.time)
     check_files(files.path, files.summary, findings)
     check_mesh(model, findings)
@@ -136,7 +136,7 @@ def _check_states(
                 checked = Step(model, step)
                 steps.step(checked)
                 ledger.step(checked)
-                surface.borne(checked.contacts, frame)
+                surface.borne(checked.touching.all, frame)
                 if row is not None:
                     at = rows.get(checked.start["time"])
                     steps.rows(checked, None if at is None else files.row(at), row)

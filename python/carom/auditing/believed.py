@@ -93,6 +93,7 @@ def leave_rows(
         "certificates and residuals of rows, round-off that those of the summary bound",
         "certificate",
         "residual",
+        *(("friction_defect",) if "friction_defect" in rows.history else ()),
         store="",
     )
     if model.blended:

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from carom.auditing.arrays import Array, Indices, cross, einsum, turned
+from carom.auditing.arrays import Array, Indices, Mask, cross, einsum, turned
 from carom.auditing.cells import Cells, boundary
 from carom.auditing.composition import Composition
-from carom.auditing.mass import Mass
+from carom.auditing.drawn import drawn, nodes_of, unknown
+from carom.auditing.mass import AddedMass, Mass
+from carom.auditing.places import Attached, Place, place_on
 from carom.auditing.reduced import MeanAxes
 from carom.case.body import AnyBody, ReducedBody, RigidBody
 from carom.case.material import Material
 from carom.case.mesh import Rectangle
+from carom.case.point_mass import PointMass
 from carom.errors import InputError
 
 STEADYING = 0.1
@@ -25,6 +27,9 @@ HEAVIEST = 0.25
 
 MUCH_SHORTER = 8.0
 """From so many parts of a nominal step on the resistance grows with their square."""
+
+ITERATIONS = 500
+"""Most iterations for the velocities that impulses give; mass matrices need some dozens."""
 
 KINETIC_PARTS = ("translation", "rotation", "vibration")
 """What kinetic energy is split into, as `AuditBody.kinetic_parts` returns it."""
@@ -45,6 +50,8 @@ class AuditBody:
         Number of its first node in the model.
     massless
         Whether the nodes that may touch others have no mass.
+    masses
+        Masses at points of it.
     """
 
     def __init__(
@@ -57,22 +64,20 @@ class AuditBody:
         points: Array,
         first_node: int,
         massless: bool,
+        masses: Sequence[PointMass] = (),
     ) -> None:
-        forms = (
-            entry.hypothesis,
-            "standard" if isinstance(entry, RigidBody) else entry.formulation,
-        )
-        for what in forms:
-            if what not in ("plane-strain", "standard"):
-                raise InputError(f"cannot audit a body in {what!r} yet")
+        _refuse_forms(entry)
         self.name = entry.name
+        self._entry = entry
         self.points = points
         self.span = slice(first_node, first_node + len(points))
         self.rigid = isinstance(entry, RigidBody)
         """Whether its nodes move as one."""
         self.modes = entry.modes if isinstance(entry, ReducedBody) else None
         """Modes of a reduced body beside the shapes of its contact surface."""
-        self.law = Composition(entry, materials, points[nodes].mean(axis=1))
+        self.drawn = drawn(entry)
+        """Its mesh as the case draws it."""
+        self.law = Composition(entry, materials, points[nodes].mean(axis=1), self.drawn)
         """Its materials, cell by cell."""
         self.masters = _masters(entry, points)
         """For every node the one that it moves with, itself as a rule, [node_count]."""
@@ -81,12 +86,17 @@ class AuditBody:
         self.turns = self.law.objective and not self.images.size
         """Whether it can turn without storing energy."""
         self.cells = Cells(vtk_type, nodes, points, entry.thickness)
-        outer = boundary(nodes)
+        self.boundary: Indices = boundary(nodes)
+        """All facets of its boundary, the sides where it repeats itself too."""
+        self.thickness = entry.thickness
+        """Thickness [m]."""
+        outer = self.boundary
         if self.images.size:
-            outer = outer[~_on_sides(entry, outer, points, ("left", "right"))]
+            outer = outer[~self.named(outer, ("left", "right"))]
         self.outline: Indices = outer
         """All facets of its boundary, whatever of it may touch others."""
-        self.facets = _contact_facets(entry, outer, points)
+        sets = entry.contact_sets
+        self.facets = outer if sets is None else outer[self.named(outer, sets)]
         self.surface: Indices = np.unique(self.facets)
         self.sources = np.setdiff1d(self.surface, self.images)
         """Nodes that may touch others; an image would do so twice."""
@@ -98,6 +108,7 @@ class AuditBody:
             lumped=entry.mass == "lumped",
             massless=self.massless,
             facets=self.facets,
+            added=[one for given in masses for one in self._added(given)],
         )
         arms = points - self.mass.mean(points)
         self._solid_inertia = float((arms * self.mass.times(arms)).sum())
@@ -112,6 +123,62 @@ class AuditBody:
         rows: Array = np.abs(self._stiffness).sum(axis=(3, 4)).max(axis=2)
         self.row_stiffness = self._gathered(rows)
         """Largest force [N] on each node where every coordinate moves by 1 m, [node_count]."""
+
+    @property
+    def facet_areas(self) -> Array:
+        """Areas of the facets that may touch others [m²], shape [facet_count]."""
+        ends = self.points[self.facets]
+        areas: Array = self.thickness * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        return areas
+
+    def places(self, at: Attached) -> list[Place]:
+        """Return the places that something is attached to: of a set every node of it."""
+        if at.on is None:
+            return [place_on(self._entry, self.points, np.array(at.point))]
+        nodes = nodes_of(self.drawn, at.on, self.points, self.boundary, self.cells.nodes)
+        return [Place(np.array([node]), np.ones(1), self.points[node]) for node in nodes]
+
+    def named(self, facets: Indices, names: Iterable[str]) -> Mask:
+        """Return which facets of a boundary are of one of these sets."""
+        chosen = np.zeros(len(facets), dtype=bool)
+        for name in names:
+            if name == "all":
+                return np.ones(len(facets), dtype=bool)
+            own = self.drawn.facets(name, self.points, facets)
+            if own is None:
+                raise unknown(name)
+            chosen |= own
+        return chosen
+
+    def _added(self, given: PointMass) -> list[AddedMass]:
+        places = self.places(given)
+        share = given.mass / len(places)
+        return [AddedMass(share, place.nodes, place.shares) for place in places]
+
+    def accelerated(self, impulse: Array, held: Mask) -> Array:
+        """Return M⁻¹ p of impulses on nodes [N s] as velocities [m/s], by conjugate gradients.
+
+        Images move as their masters do, and nodes without mass and what is held not at all.
+        """
+        moves = np.zeros(held.shape, dtype=bool)
+        moves[self.masters] = True
+        moves[self.massless] = False
+        moves &= ~held
+        scale = np.where(moves, np.abs(self.folded(self.mass.nodal))[:, None], 1.0)
+        rest = self.folded(impulse) * moves
+        velocity, ready = np.zeros_like(rest), rest / scale
+        along, power = ready, float((rest * ready).sum())
+        least = np.finfo(np.float64).eps ** 2 * power
+        for _ in range(ITERATIONS):
+            if power <= least:
+                break
+            resisted = self.folded(self.mass.times(along[self.masters])) * moves
+            step = power / float((along * resisted).sum())
+            velocity, rest = velocity + step * along, rest - step * resisted
+            ready = rest / scale
+            before, power = power, float((rest * ready).sum())
+            along = ready + power / before * along
+        return velocity[self.masters]
 
     def folded(self, values: Array) -> Array:
         """Return numbers or vectors of nodes with those of images moved to their masters."""
@@ -256,6 +323,13 @@ class AuditBody:
         return stiffness
 
 
+def _refuse_forms(entry: AnyBody) -> None:
+    forms = (entry.hypothesis, "standard" if isinstance(entry, RigidBody) else entry.formulation)
+    for what in forms:
+        if what not in ("plane-strain", "standard"):
+            raise InputError(f"cannot audit a body in {what!r} yet")
+
+
 def _density(entry: AnyBody, law: Composition, cells: Cells) -> Array:
     """Return the density of each cell [kg/m³]; the mass of a rigid body may be given."""
     if not isinstance(entry, RigidBody):
@@ -264,30 +338,6 @@ def _density(entry: AnyBody, law: Composition, cells: Cells) -> Array:
         return np.full(len(cells.nodes), entry.density)
     assert entry.mass is not None
     return np.full(len(cells.nodes), entry.mass / float(cells.shared_volumes.sum()))
-
-
-def _contact_facets(entry: AnyBody, facets: Indices, points: Array) -> Indices:
-    """Return the facets of a boundary that may touch others."""
-    if entry.contact_sets is None or not isinstance(entry.mesh, Rectangle):
-        return facets
-    return facets[_on_sides(entry, facets, points, entry.contact_sets)]
-
-
-def _on_sides(
-    entry: AnyBody, facets: Indices, points: Array, sides: Iterable[str]
-) -> NDArray[np.bool_]:
-    """Return whether facets of a rectangle lie on one of these sides."""
-    assert isinstance(entry.mesh, Rectangle)
-    corner, size = entry.mesh.corner, entry.mesh.size
-    keep = np.zeros(len(facets), dtype=bool)
-    for side in sides:
-        if side == "all":
-            return np.ones_like(keep)
-        axis = 0 if side in ("left", "right") else 1
-        at = corner[axis] + (size[axis] if side in ("right", "top") else 0.0)
-        on = np.abs(points[:, axis] - at) <= 1e-9 * size[axis]
-        keep |= on[facets].all(axis=1)
-    return keep
 
 
 def _masters(entry: AnyBody, points: Array) -> Indices:

@@ -9,13 +9,10 @@ from typing import Any
 import numpy as np
 
 from carom.auditing.arrays import Indices, turned
-from carom.auditing.body import AuditBody
 from carom.auditing.files import Frame
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.scales import ROUND_OFF, Scales
-from carom.case.body import AnyBody
-from carom.case.mesh import Disc, Rectangle
 from carom.io import layout
 from carom.io.digest import digest
 
@@ -32,11 +29,11 @@ def check_files(path: Path, summary: Mapping[str, Any], findings: Findings) -> N
 
 def check_mesh(model: AuditModel, findings: Findings) -> None:
     """Check sizes and numbers of cells of the bodies."""
-    for entry, body in zip(model.scenario.bodies, model.bodies, strict=True):
+    for body in model.bodies:
         tolerance = ROUND_OFF * (model.size + float(np.abs(body.points).max()))
-        findings.check("mesh", _misfit(entry, body), tolerance, entry.name)
-        cells = _cell_count(entry) - len(body.cells.nodes)
-        findings.check("mesh", float(cells), 0.0, f"{entry.name}, number of cells")
+        findings.check("mesh", body.drawn.misfit(body.points, body.outline), tolerance, body.name)
+        cells = body.drawn.cell_count - len(body.cells.nodes)
+        findings.check("mesh", float(cells), 0.0, f"{body.name}, number of cells")
 
 
 def check_materials(model: AuditModel, stored: Indices | None, findings: Findings) -> None:
@@ -49,37 +46,16 @@ def check_materials(model: AuditModel, stored: Indices | None, findings: Finding
     findings.check("materials", float(any(several)), 0.0, "fields have no materials")
 
 
-def _misfit(entry: AnyBody, body: AuditBody) -> float:
-    """Return how far the boundary is from that of the case [m]."""
-    mesh = entry.mesh
-    if isinstance(mesh, Disc):
-        rim = body.points[body.surface] - np.array(mesh.centre)
-        return float(np.abs(np.linalg.norm(rim, axis=1) - mesh.radius).max())
-    assert isinstance(mesh, Rectangle)
-    low, high = body.points.min(axis=0), body.points.max(axis=0)
-    corner = np.array(mesh.corner)
-    return float(np.abs([low - corner, high - corner - np.array(mesh.size)]).max())
-
-
-def _cell_count(entry: AnyBody) -> int:
-    mesh = entry.mesh
-    if isinstance(mesh, Disc):
-        n, rings = mesh.divisions, mesh.rings or mesh.divisions // 2
-        count = n * n + 4 * n * rings
-    else:
-        assert isinstance(mesh, Rectangle)
-        count = mesh.divisions[0] * mesh.divisions[1]
-    return count * (2 if mesh.cell == "tri3" else 1)
-
-
 def check_start(model: AuditModel, frame: Frame, scales: Scales, findings: Findings) -> None:
     """Check the state at t = 0."""
     findings.check("initial velocity", frame.displacement, 0.0, "displacement at t = 0")
-    for entry, body in zip(model.scenario.bodies, model.bodies, strict=True):
+    members = zip(model.scenario.bodies, model.bodies, model.supports, strict=True)
+    for entry, body, supports in members:
         arms = body.points - body.mass.mean(body.points)
         spin = entry.spin or 0.0
         assert not isinstance(spin, tuple)
         wanted = np.array(entry.velocity or (0.0, 0.0)) + turned(arms, spin)
+        wanted = np.where(supports.held, supports.velocity(0.0), wanted)
         error = frame.velocity[body.span] - wanted
         findings.check("initial velocity", error, ROUND_OFF * scales.speed, f"{entry.name}, t = 0")
 

@@ -55,7 +55,7 @@ class FrameChecks:
                     "rigid motion", bending, self._round_off_of_places(), f"{body.name}, {where}"
                 )
         self._check("free nodes", frame.reaction[self._free], 0.0, where)
-        if not self._model.planes:
+        if not self._model.obstacles:
             total = np.abs(frame.reaction).sum()
             self._check("action and reaction", frame.reaction.sum(axis=0), ROUND_OFF * total, where)
         smallest = self._gaps(frame, where)
@@ -63,10 +63,11 @@ class FrameChecks:
             self._findings.leave("frames at whose times the history has no row")
             return
         self._energies(frame, row, where)
+        self._springs(frame, row, where)
         self._momenta(frame, row, where)
         for body in self._model.bodies:
             self._motion(body, frame, row, where)
-        if smallest is not None:
+        if smallest is not None and np.isfinite(smallest):
             above = max(row["min_gap"] - smallest, 0.0)
             off = self._round_off_of_places() + self._scales.travel
             self._check("smallest gap", above, off, where)
@@ -126,7 +127,22 @@ class FrameChecks:
         strain_off = off + sum(scales.strain(b, frame.displacement[b.span]) for b in bodies)
         self._check("kinetic energy", row["kinetic"] - kinetic, off, where)
         self._check("strain energy", row["strain"] - strain, strain_off, where)
-        self._check("total energy", row["total"] - kinetic - strain, strain_off, where)
+        springs = sum(s.energy(frame.displacement, frame.time) for s in self._model.springs)
+        total = kinetic + strain + springs
+        self._check("total energy", row["total"] - total, strain_off, where)
+        if self._model.springs:
+            self._check("spring energy", row["springs"] - springs, strain_off, where)
+
+    def _springs(self, frame: Frame, row: Row, where: str) -> None:
+        """Check the lengths of springs, and the forces in them."""
+        for spring in self._model.springs:
+            moved = (frame.displacement, frame.velocity, frame.time)
+            length, force = spring.length_and_force(*moved)
+            at, place = f"{spring.name}, {where}", self._round_off_of_places()
+            self._check("spring lengths", row[f"{spring.name}.length"] - length, place, at)
+            off = spring.tension.steepest * place + ROUND_OFF * abs(force)
+            off += spring.damping * SAFETY * ROUND_OFF * self._scales.speed
+            self._check("spring forces", row[f"{spring.name}.force"] - force, off, at)
 
     def _momenta(self, frame: Frame, row: Row, where: str) -> None:
         momentum, moment = np.zeros(2), 0.0

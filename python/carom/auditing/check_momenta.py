@@ -67,10 +67,11 @@ class MomentumChecks:
         model, rows, scales = self._model, self._rows, self._scales
         free = ~self._touches({name}) & self._known
         free[:1] = False
-        if model.massless and not model.conserving:
-            # Boundaries without mass may leave momentum behind.
+        body = next(body for body in model.bodies if body.name == name)
+        if (model.massless and not model.conserving) or model.driven(body):
+            # Boundaries without mass may leave momentum behind; springs and loads do as they like.
             return
-        damping = next(body.law.mass_damping for body in model.bodies if body.name == name)
+        damping = body.law.mass_damping
         x, v = rows.centre(name), rows.drift(name)
         for row in np.flatnonzero(free):
             count = int(rows.steps[row])
@@ -108,7 +109,9 @@ class MomentumChecks:
         if model.mixed or not model.massless:
             # Reactions may act where nodes and feet are not at the same place.
             free &= ~self._touches({body.name for body in model.bodies})
-        if not (model.conserving and turning) or damped:
+        grounded = not all(model.joins_bodies(spring) for spring in model.springs)
+        grounded = grounded or any(model.loaded(b) or model.supported(b) for b in model.bodies)
+        if not (model.conserving and turning) or damped or grounded:
             free[:] = False
         stored = rows.history["angular_momentum"]
         step = np.zeros(len(rows))

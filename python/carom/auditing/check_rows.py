@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from carom.auditing.arrays import Array
 from carom.auditing.body import KINETIC_PARTS
-from carom.auditing.check_steps import LARGEST_BLEND
+from carom.auditing.check_blend import LARGEST_BLEND
 from carom.auditing.check_summary import SUMMED
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
@@ -103,7 +103,7 @@ class RowChecks:
     def _energies(self) -> None:
         h = self._history
         off = ROUND_OFF * self._scales.energy
-        self._check("row: total", h["total"] - h["kinetic"] - h["strain"], off)
+        self._check("row: total", h["total"] - h["kinetic"] - h["strain"] - h["springs"], off)
         self._parts(off)
         # Energies are those of the state, all others sums since the start.
         known = sum(
@@ -126,6 +126,7 @@ class RowChecks:
             self._check("row: friction", np.maximum(-np.diff(h["friction"]), 0.0), off)
         else:
             self._findings.leave("sign of friction: contacts took and gave")
+        self._check("row: dampers", np.maximum(-np.diff(h["dampers"]), 0.0), off)
         if self._model.theta == self._model.xi:
             self._check("row: viscous", np.maximum(-np.diff(h["viscous"]), 0.0), off)
 
@@ -141,7 +142,10 @@ class RowChecks:
         steps = max(float(self._summary["steps"]), 1.0)
         weight = scales.mass * float(np.linalg.norm(model.gravity)) * (scales.reach + model.size)
         off = ROUND_OFF * (scales.energy + weight) + SAFETY * EPS * steps * weight
-        self._check("row: external", h["external"] - external, off)
+        loaded = any(len(loads) for loads in model.loads)
+        supported = any(len(supports) for supports in model.supports)
+        if not loaded:
+            self._check("row: external", h["external"] - external, off)
         stored = np.stack([h["momentum_x"], h["momentum_y"]], axis=1)
         off = SAFETY * ROUND_OFF * scales.mass * scales.speed
         self._check("row: momentum", np.abs(stored - momentum).max(axis=1), off)
@@ -149,7 +153,9 @@ class RowChecks:
         self._check("row: kinetic", np.maximum(least - h["kinetic"], 0.0), off)
         damped = any(body.law.mass_damping > 0 for body in model.bodies)
         lossy = model.massless and not model.conserving
-        if not (model.planes or model.gravity.any() or damped or lossy):
+        grounded = any(not model.joins_bodies(spring) for spring in model.springs)
+        outside = bool(model.obstacles) or bool(model.gravity.any()) or loaded or supported
+        if not (outside or damped or lossy or grounded):
             newton = model.analysis.newton.tolerance
             off = SAFETY * ROUND_OFF * scales.mass * scales.speed
             off += SAFETY * steps * newton * scales.mass * scales.speed
@@ -161,6 +167,8 @@ class RowChecks:
         dt = np.diff(self._times)
         off = ROUND_OFF * (self._scales.reach + model.size)
         for body in model.bodies:
+            if model.supported(body):
+                continue  # What is held has the velocity that is given.
             x, v = self._rows.centre(body.name), self._rows.drift(body.name)
             mean = (1 - model.theta) * v[:-1] + model.theta * v[1:]
             error = np.abs(np.diff(x, axis=0) - dt[:, None] * mean).max(axis=1)
@@ -202,6 +210,8 @@ class RowChecks:
                 else:
                     scheme = (1 - 1 / model.theta) * v[:-1] + mean[1:] / model.theta
                 known = single if light else free
+                held = model.supports[model.bodies.index(body)].held[node - body.span.start]
+                known = known & (not held["xy".index(axis)])
                 off = SAFETY * off / dt + SAFETY * EPS * np.abs(v[:-1])
                 self._check("row: tracks", np.where(known, v[1:] - scheme, 0.0) * dt, off * dt)
 
@@ -218,7 +228,7 @@ class RowChecks:
         limit = LARGEST_BLEND if self._model.blended else 0.0
         self._check("row: signs", np.maximum(h["blend"] - limit, 0.0), 0.0)
         # Of a case that can be audited, no law flows.
-        for name in ("plastic", "springs", "dampers"):
+        for name in ("plastic", *(() if self._model.springs else ("springs", "dampers"))):
             self._check("row: signs", h[name], 0.0)
         most = sum(len(self._model.bodies[side.source].sources) for side in self._model.sides)
         self._check("row: signs", np.maximum(h["contacts"] - most, 0.0), 0.0)

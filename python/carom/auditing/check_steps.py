@@ -3,37 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
-from carom.auditing.arrays import Array, Indices, cross
+from carom.auditing.arrays import Array, cross
 from carom.auditing.body import AuditBody
-from carom.auditing.contacts import Contacts, all_forces
+from carom.auditing.check_blend import BlendChecks
+from carom.auditing.check_contacts import ContactChecks
+from carom.auditing.contacts import all_forces
+from carom.auditing.forces import BodyForces
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
-from carom.auditing.step import BODY_ENERGIES, BodyForces, Step
-from carom.ledger_terms import TERMS, names
+from carom.auditing.step import BODY_ENERGIES, CONNECTION_ENERGIES, Step, defect
+from carom.ledger_terms import names
 
 Row = Mapping[str, float]
-
-LARGEST_BLEND = 2.0
-"""Limit of |α|."""
-
-LARGEST_PART = 0.5
-"""The largest part of the energy of vibration that a step may take or give."""
-
-UNCLEAR = 1e-8
-"""What a blend can move below this share of the energy is not sure to be clear of round-off."""
-
-NEGLIGIBLE = 1e-14
-"""What is missing below this part of the energy may wait."""
 
 IMPULSE = 1e-11
 """How well impulses and the velocities that they make agree, relative to all of them."""
 
-ENERGIES = (*BODY_ENERGIES, *names("pair"))
+ENERGIES = (*BODY_ENERGIES, *CONNECTION_ENERGIES, *names("pair"))
 
 
 class StepChecks:
@@ -52,41 +42,40 @@ class StepChecks:
         self._check = findings.check
         self.pressed: dict[float, dict[frozenset[str], float]] = {}
         """Sums of normal reactions [N] by names of the pair, at ends of steps [s]."""
-        edges = [np.linalg.norm(np.diff(b.points[b.facets], axis=1), axis=2) for b in model.bodies]
-        self._facet = float(min(edge.min() for edge in edges))
+        self._contacts = ContactChecks(model, scales, findings)
+        self._blends = BlendChecks(scales, findings)
+        self._gap = (0.0, 0.0)
+        """The bi-potential gap of the last step, and how far it may be off [J]."""
 
     def step(self, step: Step) -> None:
         """Check a step by itself."""
         where = f"t = {step.time:g} s"
         self._check("time grid", step.off_grid, SAFETY * EPS * step.time, where)
         self._velocity(step, where)
-        parts = [step.pressed, *step.impulses]
+        parts = [step.touching.pressed, *step.touching.impulses]
         contact = all_forces(parts, len(self._model.points))
         for index, body in enumerate(self._model.bodies):
             at = f"{body.name}, {where}"
             self._motion(step, index, at)
+            self._supports(step, index, at)
             if body.rigid:
                 # Its equation of motion is that of its momenta.
                 self._rigid(step, index, at)
             else:
                 self._impulse(step, index, contact[body.span], at)
         self._ledger(step, where)
-        self._places(step.contacts, step.end, step, where)
-        if self._model.condition in ("gap", "massless"):
-            # Of the other conditions the contacts before are where no stored state is.
-            self._places(step.start_contacts, step.start, step, where)
-        self._laws(step, where)
+        self._gap = self._contacts.step(step, where)
         self._note_forces(step)
 
     def rows(self, step: Step, before: Row | None, after: Row) -> None:
         """Check the history's row at the end of a step, and that at its start if there is one."""
         where = f"t = {step.time:g} s"
-        found = step.contacts
-        off = self._turn(step) * float(np.abs(found.reaction).sum())
+        found = step.touching.all
+        off = self._contacts.turn(step) * float(np.abs(found.reaction).sum())
         self._check("contact count", after["contacts"] - len(found), 0.0, where)
         self._check("normal force", after["normal_force"] - found.normal_force.sum(), off, where)
-        gap = float(sum(np.abs(part).sum() for part in self._bipotential(step)))
-        off = float(np.abs(found.reaction).sum()) * self._scales.geometry(step)
+        gap, doubt = self._gap
+        off = float(np.abs(found.reaction).sum()) * self._scales.geometry(step) + doubt
         self._check("certificate", max(gap - after["certificate"], 0.0), off, where)
         for name, node in self._model.tracks():
             stored = [after[f"{name}.vmid_{axis}"] for axis in "xy"]
@@ -94,6 +83,7 @@ class StepChecks:
             off = SAFETY * (rate + EPS * step.time / step.dt * self._scales.speed)
             error = step.d[node] / step.dt - stored
             self._check("tracked points", error, off, f"{name}, {where}")
+        self._support_forces(step, after, where)
         self._extremes(step, after, alone=before is not None, where=where)
         if before is not None:
             for name in ENERGIES:
@@ -103,6 +93,17 @@ class StepChecks:
                     "ledger in history", change - step.ledger[name], off, f"{name}, {where}"
                 )
 
+    def _support_forces(self, step: Step, after: Row, where: str) -> None:
+        """Check the forces of supports in the history."""
+        for index, supports in enumerate(self._model.supports):
+            force, allowed = step.forces.support(index), self._scales.force(step, index)
+            for number, name in enumerate(supports.names):
+                mine = supports.by == number
+                total = np.where(mine, force, 0.0).sum(axis=0)
+                stored = np.array([after[f"{name}.force_{axis}"] for axis in "xy"])
+                off = (allowed[:, None] * mine).sum(axis=0) + ROUND_OFF * np.abs(force).sum()
+                self._check("support forces", stored - total, off, f"{name}, {where}")
+
     def _extremes(self, step: Step, after: Row, *, alone: bool, where: str) -> None:
         """Check what the row says of the steps since the one before, of which this may be alone."""
         model, ledger = self._model, step.ledger
@@ -110,7 +111,7 @@ class StepChecks:
         off = ROUND_OFF * sum(abs(energy) for energy in ledger.values())
         for name, figure, allowed in (
             ("blend", blend, 0.0),
-            ("step_defect", abs(_defect(ledger)), off),
+            ("step_defect", abs(defect(ledger)), off),
         ):
             excess = figure - after[name]
             self._check("step extremes", excess if alone else max(excess, 0.0), allowed, where)
@@ -122,16 +123,12 @@ class StepChecks:
             )
 
     def _note_forces(self, step: Step) -> None:
-        found = step.contacts
+        found = step.touching.all
         forces = self.pressed.setdefault(step.time, {})
         for key in sorted(set(zip(found.source.tolist(), found.target.tolist(), strict=True))):
             mine = (found.source == key[0]) & (found.target == key[1])
             names = frozenset(self._model.name(index) for index in key)
             forces[names] = forces.get(names, 0.0) + float(found.normal_force[mine].sum())
-
-    def _turn(self, step: Step) -> float:
-        """Return how far normals may be off: places over the length of a facet."""
-        return SAFETY * self._scales.geometry(step) / self._facet + ROUND_OFF
 
     def _velocity(self, step: Step, where: str) -> None:
         rate = 1 / (self._model.theta * step.dt)
@@ -147,24 +144,26 @@ class StepChecks:
                 # Its velocities are those of its momenta, its motion that of the iterations.
                 off[body.span] += self._scales.displacement(step) * rate
         change = step.v1 - step.v_scheme
-        total = step.dt * sum(float(np.abs(part.reaction).sum()) for part in step.impulses)
+        total = step.dt * sum(float(np.abs(part.reaction).sum()) for part in step.touching.impulses)
         if total == 0.0:
             self._check("velocity update", change, off, where)
             return
         # What impulses in contacts make of velocities: M Δv = p, whatever M⁻¹ is.
-        turn = self._turn(step)
+        turn = self._contacts.turn(step)
         for body in self._model.bodies:
             mass = body.mass
-            impulse = step.impulse(body)
+            impulse = step.touching.impulse(body)
             if body.rigid:
                 impulse = step.rigid(body).borne(impulse)
             error = body.folded(mass.times(change[body.span]) - impulse)
+            # What is held keeps its velocity, and supports see to it.
+            error[self._model.supports[self._model.bodies.index(body)].held] = 0.0
             allowed = mass.nodal[:, None] * off[body.span].max() + total * (turn + IMPULSE)
             self._check("velocity update", error, allowed, f"{body.name}, {where}")
 
     def _motion(self, step: Step, index: int, at: str) -> None:
         body = self._model.bodies[index]
-        size = np.abs(step.residual(index)).max(axis=1)
+        size = np.abs(step.forces.residual(index)).max(axis=1)
         off = body.folded(self._scales.force(step, index))
         held = np.zeros(len(size), dtype=bool)
         held[body.massless] = True
@@ -182,13 +181,26 @@ class StepChecks:
         if held.any():
             self._check("massless nodes", size[held], off[held], at)
 
+    def _supports(self, step: Step, index: int, at: str) -> None:
+        """Check that what is held is where it is to be, at the velocity that it is to have."""
+        supports, span = self._model.supports[index], self._model.bodies[index].span
+        if not len(supports):
+            return
+        held = supports.held
+        place = step.u1[span] - supports.displacement(step.time)
+        off = SAFETY * EPS * (self._model.size + self._scales.reach)
+        self._check("supports", place[held], off, at)
+        speed = step.end["velocity"][span] - supports.velocity(step.time)
+        off = ROUND_OFF * self._scales.speed
+        self._check("supports", step.dt * speed[held], step.dt * off, f"{at}, velocity")
+
     def _rigid(self, step: Step, index: int, at: str) -> None:
         """Check that nodes move as one, and both momenta change by what acts."""
         body = self._model.bodies[index]
         motion = step.rigid(body)
         off = self._scales.displacement(step)
         self._check("rigid motion", motion.bending(step.d[body.span]), off, at)
-        residual, forces = step.residual(index), self._scales.force(step, index)
+        residual, forces = step.forces.residual(index), self._scales.force(step, index)
         self._check("impulse", step.dt * residual.sum(axis=0), step.dt * forces.sum(), at)
         arms = motion.arms[1]
         moment = step.dt * float(cross(arms, residual).sum())
@@ -196,7 +208,7 @@ class StepChecks:
         self._check("angular impulse", moment, off, at)
 
     def _impulse(self, step: Step, index: int, contact: Array, at: str) -> None:
-        model, body, f = self._model, self._model.bodies[index], step.forces[index]
+        model, body, f = self._model, self._model.bodies[index], step.forces.of[index]
         middle = body.points + 0.5 * (step.u0 + step.u1)[body.span]
         arm = middle - body.mass.mean(middle)
         force, moment = self._outer(step, index, contact, arm)
@@ -232,14 +244,14 @@ class StepChecks:
         Reactions act where the scheme puts them: those of the step at its middle, those of a state
         in the balance of massless nodes at that state.
         """
-        model, body, f = self._model, self._model.bodies[index], step.forces[index]
+        model, body, f = self._model, self._model.bodies[index], step.forces.of[index]
         d, b = step.d[body.span], body.massless
-        outer = f.gravity - f.viscous
+        outer = f.gravity + f.loads + f.connections - f.viscous + step.forces.support(index)
         if model.blended:
             alpha = float(step.blend[index])
             start, end = (
                 found.nodal_forces(len(model.points))[body.span]
-                for found in (step.start_contacts, step.balanced)
+                for found in (step.touching.first, step.touching.balanced)
             )
             parts = [
                 ((0.5 - alpha) * start, arm - 0.5 * d),
@@ -248,10 +260,10 @@ class StepChecks:
             ]
         elif model.massless:
             # The end is balanced by reactions; the start is balanced by what it was balanced with.
-            outer[b] *= model.xi
+            outer[b] = model.xi * (f.end_loads - f.viscous)[b]
             held = np.zeros_like(contact)
             held[b] = (1 - model.xi) * f.start[b] - model.xi * f.steadying[b]
-            parts = [(step.contact_force(body), arm)] if not len(b) else []
+            parts = [(step.forces.contact(body), arm)] if not len(b) else []
             parts += [(model.xi * contact, arm), (held, arm)] if len(b) else []
         else:
             parts = [(contact, arm)]
@@ -266,104 +278,31 @@ class StepChecks:
         strain = sums + sum(
             scales.strain(b, u[b.span]) for b in model.bodies for u in (step.u0, step.u1)
         )
-        reactions = float(np.abs(step.contacts.reaction).sum())
+        reactions = float(np.abs(step.touching.all.reaction).sum())
         if model.massless:
-            reactions += float(np.abs(step.start_contacts.reaction).sum())
+            reactions += float(np.abs(step.touching.first.reaction).sum())
         work = sums + reactions * scales.geometry(step)
-        friction = work + step.doubt
-        off = {"strain": strain, "friction": friction, "normal_contact": work, "prescribed": work}
+        friction = work + step.work.doubt
+        resisted = sum(scales.resisted(step, index) for index in range(len(model.bodies)))
+        off = {"strain": strain, "friction": friction, "normal_contact": work}
+        off |= {"viscous": sums + resisted, "prescribed": work + resisted}
         for name in ENERGIES:
             error = step.ledger[name] - mine[name]
             self._check(f"ledger: {name.replace('_', ' ')}", error, off.get(name, sums), where)
-        defect = _defect(mine)
+        missed = defect(mine)
         if not model.conserving:
-            self._findings.report("largest defect of a step", defect, "J")
+            self._findings.report("largest defect of a step", missed, "J")
             return
         work = strain + friction + self._newton_work(step)
         if model.blended:
-            self._blend(step, work, strain + friction, where)
+            self._blends.step(step, work, strain + friction, where)
         else:
-            self._check("energy of the step", defect, work, where)
+            self._check("energy of the step", missed, work, where)
         for body, terms in zip(model.bodies, step.body_terms, strict=True):
             change = terms["kinetic"] + terms["strain"] + terms["viscous"] - terms["external"]
             at = f"{body.name}, {where}"
-            self._check("energy of bodies", change - terms["contact"], work, at)
-
-    def _blend(self, step: Step, work: float, sums: float, where: str) -> None:
-        """Check that α is what the balance of its group asks for, and what is left for later.
-
-        Parameters
-        ----------
-        step
-            The step.
-        work
-            How far its energies may be off balance [J].
-        sums
-            How far sums of energies may be off [J].
-        where
-            Where this is.
-        """
-        missing, available = step.balance()
-        alpha, (least, largest) = step.blend, step.blend_range(LARGEST_BLEND)
-        leaders, books = np.unique(step.groups), np.unique(step.books)
-        beyond = np.maximum(np.maximum(alpha - largest, least - alpha), 0.0)
-        self._check("blend", beyond[leaders], ROUND_OFF * LARGEST_BLEND, where)
-        self._check("blend", alpha - alpha[step.groups], 0.0, where)
-        limits = np.sort([least * available, largest * available], axis=0)
-        # Where there is next to nothing to move α stays within the step.
-        within = 0.5 * np.maximum(available, 0.0) * [[-1.0], [1.0]]
-        unclear = np.abs(available) < UNCLEAR * self._scales.energy
-        moved = alpha * available
-        error = moved - np.clip(missing, *limits)
-        other = moved - np.clip(missing, *within)
-        error = np.where(unclear & (np.abs(other) < np.abs(error)), other, error)
-        limits = np.where(unclear, within, limits)
-        allowed = work + NEGLIGIBLE * self._scales.energy
-        self._check("blend", error[leaders], allowed, where)
-        self._repaid(step, books, allowed, where)
-        stored, left = step.end["energy_debt"], step.left_over()
-        followers = np.setdiff1d(np.arange(len(alpha)), books)
-        self._check("waiting energy", stored[followers], 0.0, where)
-        self._check("waiting energy", (stored - left)[books], sums, where)
-        # Its own books have no more than round-off.
-        error = (stored - step.start["energy_debt"]).sum() - _defect(step.ledger)
-        sums = ROUND_OFF * (self._scales.energy + sum(abs(e) for e in step.ledger.values()))
-        self._check("waiting energy", error, sums, where)
-        full = np.zeros(len(alpha), dtype=bool)
-        beyond_limits = (missing < limits[0] + work) | (missing > limits[1] - work)
-        np.logical_or.at(full, step.books[leaders], beyond_limits[leaders])
-        if full.any():
-            self._findings.leave(
-                "energy that waits: a blend of stresses is at its limit, or has little to move"
-            )
-        self._check("energy of the step", stored[books][~full[books]], allowed, where)
-
-    def _repaid(self, step: Step, leaders: Indices, allowed: float, where: str) -> None:
-        """Check that vibration pays what the blend leaves over, as far as it may.
-
-        Parameters
-        ----------
-        step
-            The step.
-        leaders
-            The bodies that stand for their groups.
-        allowed
-            How far what is left over may be off [J].
-        where
-            Where this is.
-        """
-        shares = step.shares
-        self._check("repaying", shares - shares[step.books], ROUND_OFF, where)
-        if not shares.any():
-            return
-        vibration, repaid = (
-            np.bincount(step.books, weights=energy, minlength=len(shares))[leaders]
-            for energy in (step.vibration, step.repaid)
-        )
-        debt = step.left_over()[leaders] - repaid
-        most = LARGEST_PART * vibration
-        error = np.where(shares[leaders] == 0.0, 0.0, repaid + np.clip(debt, -most, most))
-        self._check("repaying", error, allowed, where)
+            received = terms["contact"] + terms["connections"] + terms["prescribed"]
+            self._check("energy of bodies", change - received, work, at)
 
     def _newton_work(self, step: Step) -> float:
         """Return the work that the error of the equation of motion may do in a step [J]."""
@@ -371,70 +310,3 @@ class StepChecks:
             float(self._scales.force(step, i) @ np.abs(step.d[b.span]).max(axis=1))
             for i, b in enumerate(self._model.bodies)
         )
-
-    def _places(self, found: Contacts, state: Mapping[str, Any], step: Step, where: str) -> None:
-        self._check("pairs", [float(side is None) for side in found.side], 0.0, where)
-        self._check("contact gaps", found.gap_error, self._scales.geometry(step), where)
-        turn = self._turn(step)
-        self._check("contact normals", found.normal_error, turn, where)
-        parts = [step.pressed, *step.impulses] if state is step.end else [found]
-        error = state["contact_force"] - all_forces(parts, len(self._model.points))
-        if self._model.mixed and state is not step.end:
-            # Where nodes have mass the state has reactions of other pairs too.
-            for body in self._model.bodies:
-                error[body.span] *= len(body.massless) > 0
-        total = float(np.abs(found.reaction).sum())
-        self._check("nodal reactions", error, total * turn, where)
-        size = np.linalg.norm(found.reaction, axis=1)
-        off = size * turn + self._scales.reaction(step, total)
-        normal, across = found.normal_force, found.friction_force
-        if state is step.end:
-            normal, across = step.whole_force
-        self._check("Signorini: compression", np.maximum(-normal, 0.0), off, where)
-        excess = np.abs(across) - found.friction * normal
-        self._check("Coulomb: cone", np.maximum(excess, 0.0), off * (1 + found.friction), where)
-
-    def _laws(self, step: Step, where: str) -> None:
-        found = step.pressed
-        signorini, coulomb = self._bipotential(step)
-        off = np.linalg.norm(found.reaction, axis=1) * self._scales.geometry(step)
-        self._check("Signorini: complementarity", signorini, off, where)
-        # Where a reaction is small, the solver's tolerance of it counts for more.
-        slip = np.abs(found.relative(step.d, step.dt)[1])
-        off += slip * self._scales.reaction(step, float(np.abs(found.reaction).sum()))
-        self._check("Coulomb: slip", coulomb, off * (1 + found.friction), where)
-        total = float(np.abs(signorini).sum() + np.abs(coulomb).sum())
-        self._findings.report("largest bi-potential gap of a step", total, "J")
-
-    def _bipotential(self, step: Step) -> tuple[Array, Array]:
-        """Return w_n r_n and μ r_n |w_t| + r_t w_t of the contacts [J], each of shape [count]."""
-        found, model = step.pressed, self._model
-        w_n, w_t = found.relative(step.d, step.dt)
-        # What is open at the start may be closed, and what is as good as closed is.
-        landed = w_n + np.maximum(step.start_gaps, 0.0)
-        ruled_by_motion = np.where(np.abs(landed) < np.abs(w_n), landed, w_n)
-        if model.condition in ("gap", "massless"):
-            # Pairs that are checked from both sides may keep a penetration.
-            kept = np.array(
-                [side is not None and side.two_sided for side in found.side], dtype=bool
-            )
-            w_n = np.where(kept, np.maximum(found.gap, 0.0), found.gap)
-            if model.mixed:
-                w_n = np.where(found.massless, w_n, ruled_by_motion)
-        elif model.condition == "midpoint":
-            w_n = ruled_by_motion
-        elif model.condition == "endpoint":
-            before, across = found.relative(step.met, 1.0)
-            w_n = w_n + (model.theta - 1) * step.dt * before
-            given = [None if side is None else side.restitution for side in found.side]
-            bounce = np.array([0.0 if e is None else e for e in given])
-            w_n = w_n + model.theta * step.dt * bounce * before
-            ruled = np.array([e is not None for e in given], dtype=bool)
-            w_t = np.where(ruled, w_t + (model.theta - 1) * step.dt * across, w_t)
-        slip = found.friction * found.normal_force * np.abs(w_t) + found.friction_force * w_t
-        return w_n * found.normal_force, slip
-
-
-def _defect(terms: Mapping[str, float]) -> float:
-    """Return the change of energy that the other terms of a step do not explain [J]."""
-    return sum(term.sign * terms[term.name] for term in TERMS if term.name in terms)

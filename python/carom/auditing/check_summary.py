@@ -175,6 +175,10 @@ class SummaryChecks:
         if summary["status"] == "failed":
             steps = min(steps, summary["steps"])
         dofs = sum(_unknowns(body) for body in self._model.bodies)
+        dofs -= sum(
+            int(supports.held[body.masters == np.arange(len(body.points))].sum())
+            for body, supports in zip(self._model.bodies, self._model.supports, strict=True)
+        )
         for name, figure in (
             ("steps", summary["steps"] - steps),
             ("end_time", summary["end_time"] - end),

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices
+from carom.auditing.drawn import Drawn
 from carom.auditing.laws import Law
 from carom.case.body import AnyBody, Body, Region, RigidBody, materials_of
 from carom.case.material import Damping, Material
@@ -25,6 +26,8 @@ class Composition:
         The materials of the case.
     middles
         Means of the nodes of each cell [m], shape [cell_count, 2].
+    mesh
+        The mesh as the case draws it, which has the sets of cells.
 
     Raises
     ------
@@ -32,13 +35,15 @@ class Composition:
         The auditor does not know one of the laws.
     """
 
-    def __init__(self, entry: AnyBody, known: Mapping[str, Material], middles: Array) -> None:
+    def __init__(
+        self, entry: AnyBody, known: Mapping[str, Material], middles: Array, mesh: Drawn
+    ) -> None:
         materials = [known[name] for name in materials_of(entry)]
         stress = entry.initial_stress if isinstance(entry, Body) else None
         self._laws = [Law.of(material, stress) for material in materials] or [Law.none()]
         self._densities = [material.density for material in materials]
         regions = () if isinstance(entry, RigidBody) else entry.regions
-        self._of_cell = _regions(regions, middles)
+        self._of_cell = _regions(regions, middles, mesh)
         numbers = np.array([list(known).index(name) for name in materials_of(entry)] or [-1])
         self.material: Indices = numbers[self._of_cell]
         """Number of the material of each cell among those of the case, -1 if rigid."""
@@ -84,7 +89,7 @@ class Composition:
     @property
     def subtracts(self) -> bool:
         """Whether ψ of some material is a small difference of terms of the size of its moduli."""
-        return any(law.kind == "neo-hookean" for law in self._laws)
+        return any(law.kind == "neo-hookean" or law.rubber is not None for law in self._laws)
 
     @property
     def damped(self) -> bool:
@@ -123,11 +128,13 @@ class Composition:
         return out
 
 
-def _regions(regions: Sequence[Region], middles: Array) -> Indices:
+def _regions(regions: Sequence[Region], middles: Array, mesh: Drawn) -> Indices:
     """Return the number of the region of each cell, 0 of what is in none, shape [cell_count]."""
     of_cell = np.zeros(len(middles), dtype=np.int64)
     for number, region in enumerate(regions, start=1):
-        # The meshes that carom makes have no sets of cells, and others are refused.
+        if region.on is not None:
+            of_cell[mesh.cells(region.on)] = number
+            continue
         assert region.corner is not None and region.size is not None
         low = np.array(region.corner)
         high = low + np.array(region.size)

@@ -14,7 +14,8 @@ def deepest_node(model: AuditModel, position: Array, time: float) -> float:
     Edges may be deeper between their ends.
     """
     bodies = {body.name: body for body in model.bodies}
-    planes = dict(zip((o.name for o in model.scenario.obstacles), model.planes, strict=True))
+    names = (obstacle.name for obstacle in model.scenario.obstacles)
+    obstacles = dict(zip(names, model.obstacles, strict=True))
     deepest = 0.0
     for a, b in model.pairs():
         for mine, other in ((a, b), (b, a)):
@@ -22,8 +23,8 @@ def deepest_node(model: AuditModel, position: Array, time: float) -> float:
                 continue
             body, depth = bodies[mine], np.zeros(1)
             nodes = position[body.span][np.unique(body.outline)]
-            if other in planes:
-                depth = -planes[other].distance(nodes, time)
+            if other in obstacles:
+                depth = -obstacles[other].distance(nodes, time)
             elif not bodies[other].images.size:  # Others are not closed.
                 target = bodies[other]
                 depth = _depths(nodes, position[target.span][target.outline])

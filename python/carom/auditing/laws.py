@@ -10,13 +10,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.auditing.arrays import Array, einsum
+from carom.auditing.rubber import Rubber
 from carom.case.body import InitialStress
 from carom.case.material import (
     LinearElastic,
     Material,
+    MooneyRivlin,
     NeoHookean,
     SaintVenantKirchhoff,
     Viscosity,
+    Yeoh,
 )
 from carom.errors import InputError
 
@@ -49,12 +52,15 @@ class Law:
         Lamé's λ and μ [Pa].
     initial
         Stress where nothing has moved [Pa], shape [3, 3].
+    rubber
+        The law by invariants, if it is one.
     """
 
     kind: str
     first: float
     second: float
     initial: Array
+    rubber: Rubber | None = None
 
     @classmethod
     def of(cls, material: Material, stress: InitialStress | None = None) -> Law:
@@ -65,14 +71,18 @@ class Law:
         InputError
             The auditor does not know the law.
         """
-        if not isinstance(material, SaintVenantKirchhoff | LinearElastic | NeoHookean):
-            raise InputError(f"cannot audit the law {material.kind!r} yet")
-        if material.viscosity != Viscosity():
-            raise InputError("cannot audit a material with viscosity yet")
-        young, poisson = material.young, material.poisson
-        first = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
         s = stress or InitialStress()
         initial = np.array([[s.xx, s.xy, s.xz], [s.xy, s.yy, s.yz], [s.xz, s.yz, s.zz]])
+        if material.viscosity != Viscosity():
+            raise InputError("cannot audit a material with viscosity yet")
+        if isinstance(material, MooneyRivlin | Yeoh):
+            rubber = Rubber.of(material)
+            first = rubber.bulk - 2.0 / 3.0 * rubber.shear
+            return cls(material.kind, first, rubber.shear, initial, rubber)
+        if not isinstance(material, SaintVenantKirchhoff | LinearElastic | NeoHookean):
+            raise InputError(f"cannot audit the law {material.kind!r} yet")
+        young, poisson = material.young, material.poisson
+        first = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
         second = young / (2 * (1 + poisson))
         return cls(kind=material.kind, first=first, second=second, initial=initial)
 
@@ -131,7 +141,9 @@ class Law:
         full = np.zeros((*f.shape[:-2], 3, 3))
         j = np.linalg.det(f)
         full[..., :2, :2] = self.stress(f) @ transposed(f) / j[..., None, None]
-        if self.kind == "neo-hookean":
+        if self.rubber is not None:
+            full[..., 2, 2] = self.rubber.second_piola(transposed(f) @ f)[1] / j
+        elif self.kind == "neo-hookean":
             full[..., 2, 2] = self.first * np.log(j) / j
         else:
             full[..., 2, 2] = self.first * np.trace(self._strain(f), axis1=-2, axis2=-1) / j
@@ -147,6 +159,8 @@ class Law:
         return self._discrete_stress(f0, f1) + self._initial_piola(0.5 * (f0 + f1))
 
     def _energy(self, f: Array) -> Array:
+        if self.rubber is not None:
+            return self.rubber.energy(transposed(f) @ f)
         if self.kind == "neo-hookean":
             log_j = np.log(np.linalg.det(f))
             # |F|² − 3 with F₃₃ = 1.
@@ -170,7 +184,7 @@ class Law:
         if self.kind == "saint-venant-kirchhoff":
             return mean @ self._hooke(0.5 * (self._strain(f0) + self._strain(f1)))
         c0, c1 = transposed(f0) @ f0, transposed(f1) @ f1
-        stress = self._neo_hookean(0.5 * (c0 + c1))
+        stress = self._of_c(0.5 * (c0 + c1))
         change = 0.5 * (c1 - c0)
         size = contracted(change, change)
         missing = self._energy(f1) - self._energy(f0) - contracted(stress, change)
@@ -201,6 +215,10 @@ class Law:
         return self.second * IDENTITY + pressure
 
     def _second_piola(self, f: Array) -> Array:
-        if self.kind == "neo-hookean":
-            return self._neo_hookean(transposed(f) @ f)
+        if self.rubber is not None or self.kind == "neo-hookean":
+            return self._of_c(transposed(f) @ f)
         return self._hooke(self._strain(f))
+
+    def _of_c(self, c: Array) -> Array:
+        """Return S of a law that is a function of C."""
+        return self._neo_hookean(c) if self.rubber is None else self.rubber.second_piola(c)[0]

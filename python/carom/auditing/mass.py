@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,6 +25,23 @@ REPRODUCED = 1e-9
 
 TIE = 1e-9
 """Nodes are as far aside as one another up to this part of how far away they are."""
+
+
+@dataclass(frozen=True)
+class AddedMass:
+    """A mass at a point that moves as the mean of nodes.
+
+    Parameters
+    ----------
+    mass
+        Mass [kg].
+    nodes, shares
+        Nodes of the body, and shares of them that add up to one.
+    """
+
+    mass: float
+    nodes: Indices
+    shares: Array
 
 
 class NoMassInsideError(Exception):
@@ -49,6 +69,8 @@ class Mass:
         Nodes without mass, ascending.
     facets
         Facets between them, the body on their left, shape [facet_count, 2].
+    added
+        Masses at points, beside that of the volume.
     """
 
     def __init__(
@@ -60,13 +82,16 @@ class Mass:
         lumped: bool,
         massless: Indices,
         facets: Indices,
+        added: Sequence[AddedMass] = (),
     ) -> None:
         self._cells = cells
+        self._added: Sequence[AddedMass] = ()
         self._local = density[:, None, None] * cells.shared_volumes
         self._lumped: Array | None = None
         if lumped:
             ones = np.ones((cells.node_count, 2))
             self._lumped = self._all_nodes(ones)[:, :1]
+        self._added = added
         self._massless = massless
         self.moved: Array = self._all_nodes(np.ones((cells.node_count, 2)))[massless, 0]
         """What nodes without mass had before it moved inside [kg]."""
@@ -85,6 +110,12 @@ class Mass:
         return self.nodal @ v / self.total
 
     def _all_nodes(self, v: Array) -> Array:
+        product = self._of_volume(v)
+        for one in self._added:
+            product[one.nodes] += one.mass * np.outer(one.shares, one.shares @ v[one.nodes])
+        return product
+
+    def _of_volume(self, v: Array) -> Array:
         if self._lumped is not None:
             return self._lumped * v
         return self._cells.assembled(einsum("cab,cbi->cai", self._local, v[self._cells.nodes]))

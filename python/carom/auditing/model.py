@@ -3,80 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
+from carom.auditing.loads import Loads
 from carom.auditing.mass import NoMassInsideError
+from carom.auditing.obstacles import AuditObstacle, obstacle_of
+from carom.auditing.pairs import ALIKE, Pairs, build_sides
+from carom.auditing.places import Attached
+from carom.auditing.springs import AuditSpring, build_spring
+from carom.auditing.supports import Supports
 from carom.auditing.target import Target
 from carom.case.analysis import Conserving, Static, Theta
-from carom.case.body import Body, ReducedBody, RigidBody
-from carom.case.contact import Pair
-from carom.case.friction import FrictionLaw
-from carom.case.mesh import Disc, Rectangle
-from carom.case.obstacle import Obstacle, Plane
+from carom.case.body import AnyBody, Body, ReducedBody, RigidBody
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 
 CONDITIONS = ("gap", "midpoint", "endpoint", "massless")
-
-ALIKE = 1e-6
-"""Facets and masses apart by no more than this part are alike."""
-
-
-@dataclass(frozen=True)
-class Side:
-    """Nodes of a body against a body, or against an obstacle.
-
-    Parameters
-    ----------
-    source
-        Index of the body whose nodes are checked.
-    target
-        Index of a body, or −1 − that of an obstacle.
-    friction
-        Coulomb's coefficient.
-    two_sided
-        Whether the pair is checked from the other side too.
-    restitution
-        Coefficient of restitution of what is rigid where velocities are ruled; None elsewhere.
-    massless
-        Whether nodes of either body are without mass.
-    """
-
-    source: int
-    target: int
-    friction: float
-    two_sided: bool
-    restitution: float | None = None
-    massless: bool = False
-
-
-@dataclass(frozen=True)
-class AuditPlane:
-    """A plane that moves as prescribed.
-
-    Parameters
-    ----------
-    point
-        A point of it at t = 0 [m], shape [2].
-    normal
-        Unit normal, shape [2].
-    velocity
-        Velocity [m/s], shape [2].
-    """
-
-    point: Array
-    normal: Array
-    velocity: Array
-
-    def distance(self, x: Array, time: float) -> Array:
-        """Return the signed distance of points at a time [s], negative behind it [m]."""
-        distance: Array = (x - (self.point + time * self.velocity)) @ self.normal
-        return distance
 
 
 class AuditModel:
@@ -104,15 +50,13 @@ class AuditModel:
     ) -> None:
         if scenario.dimension != 2:
             raise InputError("cannot audit a case in 3D yet")
-        for entry in scenario.bodies:
-            if not isinstance(entry.mesh, Disc | Rectangle):
-                raise InputError(f"cannot audit a mesh of the kind {entry.mesh.kind!r} yet")
         _refuse_what_is_driven(scenario)
         if scenario.analysis is None:
             raise InputError("cannot audit a case with stages yet")
         if scenario.initial is not None:
             raise InputError("cannot audit a case that does not start from bodies as drawn yet")
         self.scenario = scenario
+        self._pairs = Pairs(scenario)
         self.analysis = scenario.analysis
         self.points = points
         condition = scenario.contact.condition
@@ -140,16 +84,33 @@ class AuditModel:
         # What has mass on both sides is ruled by its motion.
         self.condition = "midpoint" if condition == "massless" and not self.massless else condition
         self.blended = self.conserving and self.massless
-        smooth = scenario.contact.targets == "smooth"
-        self.targets = [Target(b.facets, b.points, smooth=smooth) for b in self.bodies]
-        self.planes = [_plane(obstacle) for obstacle in scenario.obstacles]
-        self.sides = list(self._build_sides())
+        self.smooth = scenario.contact.targets == "smooth"
+        """Whether targets are smooth curves."""
+        self.targets = [Target(b.facets, b.points, smooth=self.smooth) for b in self.bodies]
+        self.obstacles = [obstacle_of(obstacle) for obstacle in scenario.obstacles]
+        impacts = self.condition == "endpoint"
+        self.sides = list(build_sides(self._pairs, self.bodies, impacts=impacts))
+        self.supports = [Supports(body, scenario.motions) for body in self.bodies]
+        """Those of every body."""
+        for body, supports in zip(self.bodies, self.supports, strict=True):
+            if supports.held[body.massless].any():
+                raise InputError("cannot audit supports at nodes without mass yet")
+        self.loads = [Loads(body, scenario.loads) for body in self.bodies]
+        """Those of every body."""
+        self.springs = [build_spring(spring, self) for spring in scenario.springs]
         self.size = max(_diameter(b.points) for b in self.bodies)
 
-    @property
-    def fastest_plane(self) -> float:
+    @cached_property
+    def fastest_obstacle(self) -> float:
         """Largest speed of an obstacle [m/s]."""
-        return max((float(np.linalg.norm(plane.velocity)) for plane in self.planes), default=0.0)
+        steps = int(np.ceil(self.analysis.end_time / self.analysis.time_step - 1e-6))
+        times = np.arange(steps + 1) * self.analysis.time_step
+        speeds = [
+            float(np.linalg.norm(velocity))
+            for travel in (obstacle.travel for obstacle in self.obstacles)
+            for velocity in map(travel.velocity, times if travel.varies else times[:1])
+        ]
+        return max(speeds, default=0.0)
 
     def body_of(self, node: int) -> int:
         """Return the index of the body of a node; the number of bodies if it is of none."""
@@ -164,14 +125,37 @@ class AuditModel:
 
     def pairs(self) -> list[tuple[str, str]]:
         """Return the names of all that may touch, two and two, in the order of the case."""
-        names = [body.name for body in self.scenario.bodies]
-        planes = [obstacle.name for obstacle in self.scenario.obstacles]
-        return [
-            (first, second)
-            for a, first in enumerate(names)
-            for second in (*names[a + 1 :], *planes)
-            if self._enabled(first, second)
-        ]
+        return self._pairs.names
+
+    def joins_bodies(self, spring: AuditSpring) -> bool:
+        """Return whether a spring is between two bodies, and has no resultant."""
+        return abs(float(spring.shares.sum())) < ALIKE
+
+    def connected(self, body: AuditBody) -> bool:
+        """Return whether springs are attached to a body."""
+        first, last = body.span.start, body.span.stop
+        return any(bool(np.any((s.nodes >= first) & (s.nodes < last))) for s in self.springs)
+
+    def loaded(self, body: AuditBody) -> bool:
+        """Return whether there are loads on a body."""
+        return len(self.loads[self.bodies.index(body)]) > 0
+
+    def supported(self, body: AuditBody) -> bool:
+        """Return whether a body is held."""
+        return len(self.supports[self.bodies.index(body)]) > 0
+
+    def driven(self, body: AuditBody) -> bool:
+        """Return whether anything acts on a body but gravity, damping and contact."""
+        return self.connected(body) or self.loaded(body) or self.supported(body)
+
+    @property
+    def rubs_by_law(self) -> bool:
+        """Whether friction of some pair remembers what happened before a step."""
+        return any(side.law.remembers for side in self.sides)
+
+    def obstacle(self, name: str) -> AuditObstacle:
+        """Return an obstacle by name."""
+        return self.obstacles[self._pairs.obstacle(name)]
 
     def tracks(self) -> list[tuple[str, int]]:
         """Return the names of tracked points and the nodes nearest to them."""
@@ -196,20 +180,34 @@ class AuditModel:
                 nodes=nodes - first,
                 points=self.points[first:last],
                 first_node=first,
+                masses=[one for one in self.scenario.masses if one.body == entry.name],
             )
-            spares = not isinstance(entry, RigidBody | ReducedBody) and self._may_touch(entry.name)
-            try:
-                yield make(massless=self.massless and spares)
-            except NoMassInsideError:
-                yield make(massless=False)
+            whole = make(massless=False)
+            if not (self.massless and self._spares_mass(entry, whole)):
+                yield whole
+            else:
+                try:
+                    yield make(massless=True)
+                except NoMassInsideError:
+                    yield whole
             first = last
         if first != len(self.points):
             raise InputError(f"the mesh has {len(self.points)} nodes, its bodies have {first}")
 
-    def _pair(self, a: str, b: str) -> Pair | None:
-        """Return what the case says of a pair by name."""
-        entries = self.scenario.contact.pairs
-        return next((entry for entry in entries if {a, b} == set(entry.between)), None)
+    def _spares_mass(self, entry: AnyBody, body: AuditBody) -> bool:
+        """Return whether a body may have no mass where it touches others.
+
+        What is rigid or reduced may not, nor what rubs by a law, nor where springs or masses are
+        attached to what may touch.
+        """
+        if isinstance(entry, RigidBody | ReducedBody) or self._pairs.rubs_by_law(entry.name):
+            return False
+        attached: list[Attached] = [*self.scenario.masses]
+        attached += [end for spring in self.scenario.springs for end in spring.between]
+        places = [body.places(at) for at in attached if at.body == entry.name]
+        nodes = [place.nodes for several in places for place in several]
+        touched = np.isin(np.concatenate([[-1], *nodes]), body.surface)
+        return self._pairs.may_touch(entry.name) and not touched.any()
 
     @property
     def impacts(self) -> bool:
@@ -219,84 +217,11 @@ class AuditModel:
         """
         return any(side.restitution is not None for side in self.sides)
 
-    def _restitution(self, a: str, b: str) -> float | None:
-        """Return that of two by name, if both are rigid and velocities are ruled."""
-        soft = {body.name for body in self.bodies if not body.rigid}
-        if self.condition != "endpoint" or {a, b} & soft:
-            return None
-        entry = self._pair(a, b)
-        own = None if entry is None else entry.restitution
-        return self.scenario.contact.restitution or 0.0 if own is None else own
-
     @property
     def jolts(self) -> bool:
         """Whether impulses change velocities: of landing, or settling of bodies that are damped."""
         damped = any(body.law.damped for body in self.bodies)
         return self.condition == "midpoint" or self.mixed or (damped and not self.massless)
-
-    def _enabled(self, a: str, b: str) -> bool:
-        entry = self._pair(a, b)
-        return entry is None or entry.enabled
-
-    def _may_touch(self, name: str) -> bool:
-        others = [body.name for body in self.scenario.bodies if body.name != name]
-        others += [obstacle.name for obstacle in self.scenario.obstacles]
-        return any(self._enabled(name, other) for other in others)
-
-    def _build_sides(self) -> Iterator[Side]:
-        contact = self.scenario.contact
-        usual = _coefficient(contact.friction)
-        names = [body.name for body in self.bodies]
-        for a, first in enumerate(names):
-            others = [(b, names[b]) for b in range(a + 1, len(names))]
-            others += [(-1 - o, plane.name) for o, plane in enumerate(self.scenario.obstacles)]
-            for b, second in others:
-                entry = self._pair(first, second)
-                sources, swapped = contact.sources, False
-                coefficient = usual
-                if entry is not None:
-                    if not entry.enabled:
-                        continue
-                    if entry.friction is not None:
-                        coefficient = _coefficient(entry.friction)
-                    if entry.sources is not None:
-                        sources, swapped = entry.sources, entry.between[0] == second
-                bounce = self._restitution(first, second)
-                met = [self.bodies[index] for index in (a, b) if index >= 0]
-                make = partial(
-                    Side,
-                    friction=coefficient,
-                    restitution=bounce,
-                    massless=any(len(body.massless) > 0 for body in met),
-                )
-                if b < 0:
-                    yield make(a, b, two_sided=False)
-                    continue
-                # The auditor has no mortar rows, of which one side has the multipliers.
-                sources = sources or "both"
-                if sources == "finer":
-                    sources = "second" if self._is_finer(b, a) else "first"
-                    swapped = False
-                forward, backward = sources in ("first", "both"), sources in ("second", "both")
-                if swapped:
-                    forward, backward = backward, forward
-                both = forward and backward
-                if forward:
-                    yield make(a, b, two_sided=both)
-                if backward:
-                    yield make(b, a, two_sided=both)
-
-    def _is_finer(self, body: int, other: int) -> bool:
-        wide, wide_other = self._mean_facet(body), self._mean_facet(other)
-        if abs(wide - wide_other) > ALIKE * max(wide, wide_other):
-            return wide < wide_other
-        mass, mass_other = (self.bodies[b].mass.total for b in (body, other))
-        return bool(mass < (1 - ALIKE) * mass_other)
-
-    def _mean_facet(self, body: int) -> float:
-        points, facets = self.bodies[body].points, self.bodies[body].facets
-        lengths = np.linalg.norm(points[facets[:, 1]] - points[facets[:, 0]], axis=1)
-        return float(lengths.mean())
 
 
 def _diameter(points: Array) -> float:
@@ -304,35 +229,11 @@ def _diameter(points: Array) -> float:
     return 2.0 * float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())
 
 
-def _plane(entry: Obstacle) -> AuditPlane:
-    if not isinstance(entry, Plane):
-        raise InputError(f"cannot audit obstacles of kind {entry.kind!r} yet")
-    normal = np.array(entry.normal)
-    return AuditPlane(
-        point=np.array(entry.point),
-        normal=normal / np.linalg.norm(normal),
-        velocity=np.array(entry.velocity or (0.0, 0.0)),
-    )
-
-
-def _coefficient(friction: float | FrictionLaw) -> float:
-    if isinstance(friction, FrictionLaw):
-        raise InputError("cannot audit friction that depends on the motion yet")
-    return friction
-
-
 def _refuse_what_is_driven(scenario: Scenario) -> None:
     """Refuse what the auditor has no second implementation of."""
-    moving = any(obstacle.motion is not None for obstacle in scenario.obstacles)
-    for given, what in ((scenario.loads, "loads"), (scenario.motions, "motions")):
-        if given:
-            raise InputError(f"cannot audit a case with {what} yet")
-    if scenario.masses:
-        raise InputError("cannot audit a case with masses at points yet")
-    if scenario.springs:
-        raise InputError("cannot audit a case with springs yet")
-    if moving:
-        raise InputError("cannot audit an obstacle with a motion yet")
+    deform = {body.name for body in scenario.bodies if isinstance(body, Body)}
+    if any(load.body not in deform for load in scenario.loads):
+        raise InputError("cannot audit loads on a body that does not deform freely yet")
     if any(pair.interference is not None for pair in scenario.contact.pairs):
         raise InputError("cannot audit a pair with an interference yet")
     if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):

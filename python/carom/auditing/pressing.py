@@ -14,6 +14,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array
 from carom.auditing.model import AuditModel
+from carom.auditing.obstacles import HalfSpace
 from carom.auditing.rows import Rows
 from carom.auditing.scales import ROUND_OFF, SAFETY, Scales
 
@@ -51,9 +52,12 @@ class Pressing:
         self._pairs, self._stored = pairs, stored
         self.total: Array = rows.history["normal_force"]
         self._bodies = {body.name: body for body in model.bodies}
+        self._free = [body.name for body in model.bodies if not model.driven(body)]
+        """Bodies that neither springs nor loads act on."""
         self._normals = {
-            entry.name: plane.normal
-            for entry, plane in zip(model.scenario.obstacles, model.planes, strict=True)
+            entry.name: obstacle.shape.normal
+            for entry, obstacle in zip(model.scenario.obstacles, model.obstacles, strict=True)
+            if isinstance(obstacle.shape, HalfSpace)
         }
         self._forces = {name: self._resultants(name) for name in self._bodies}
 
@@ -93,7 +97,7 @@ class Pressing:
         unknown = set(active)
         # Of whatever touches only one more, that one's force is what is left.
         while True:
-            for body in self._bodies:
+            for body in self._free:
                 left = [name for name in unknown if body in self._pairs[name]]
                 if len(left) == 1:
                     break
@@ -123,7 +127,7 @@ class Pressing:
             return max(normal - error, 0.0), max(normal, 0.0) + error
         friction = max(
             (
-                side.friction
+                side.law.most
                 for side in self._model.sides
                 if {self._model.name(side.source), self._model.name(side.target)}
                 == self._pairs[pair]

@@ -67,10 +67,15 @@ class RigidStep:
 
         They are M Δv of the velocities that the resultant and the moment of the impulses give.
         """
+        return self.body.mass.times(self.accelerated(impulse))
+
+    def accelerated(self, impulse: Array) -> Array:
+        """Return the velocities that impulses at the end give the nodes [m/s]."""
         body = self.body
         given = impulse.sum(axis=0) / body.mass.total
         spun = float(cross(self.arms[2], impulse).sum()) / body.inertia
-        return body.mass.times(given + turned(self.arms[2], spun))
+        velocity: Array = given + turned(self.arms[2], spun)
+        return velocity
 
     def residual(
         self, states: tuple[Array, Array, Array], forces: tuple[Array, Array], dt: float

@@ -44,19 +44,19 @@ class Scales:
         self._model = model
         self.energy = 0.0
         """Largest energy of a state [J]."""
-        self.speed = model.fastest_plane
+        self.speed = model.fastest_obstacle
         """Largest speed of a node, or of an obstacle [m/s]."""
-        self.reach = model.fastest_plane * model.analysis.end_time
+        self.reach = model.fastest_obstacle * model.analysis.end_time
         """Largest distance of a node from the origin, or of an obstacle from its start [m]."""
         analysis = model.analysis
-        travel = model.fastest_plane * analysis.end_time
+        travel = model.fastest_obstacle * analysis.end_time
         self.travel = EPS * travel * analysis.end_time / analysis.time_step
         """How far places of obstacles may be off, which the run sums step by step [m]."""
         self.mass = sum(body.mass.total for body in model.bodies)
 
-    def include(self, displacement: Array, velocity: Array) -> None:
-        """Take a state into account."""
-        energy = 0.0
+    def include(self, displacement: Array, velocity: Array, time: float) -> None:
+        """Take a state at a time [s] into account."""
+        energy = sum(spring.energy(displacement, time) for spring in self._model.springs)
         for body in self._model.bodies:
             energy += body.kinetic_energy(displacement[body.span], velocity[body.span])
             energy += body.strain_energy(displacement[body.span])
@@ -105,6 +105,17 @@ class Scales:
         """Return how far the equation of motion of nodes of a body may be off [N], [node_count]."""
         return self.iteration(step.dt, index) * self.displacement(step)
 
+    def resisted(self, step: Step, index: int) -> float:
+        """Return how far the work of what resists a body, and of what holds it, may be off [J].
+
+        Displacements have round-off of the size of the model, over which these forces do work.
+        """
+        f, held = step.forces.of[index], self._model.supports[index].held
+        parts = (f.inertia, f.internal, f.gravity, f.loads, f.connections)
+        size = float(np.abs(f.viscous).sum())
+        size += sum(float(np.abs(part[held]).sum()) for part in parts)
+        return SAFETY * EPS * (self._model.size + self.reach) * size
+
     def reaction(self, step: Step, total: float) -> float:
         """Return how far reactions whose sizes sum to `total` [N] may be from Coulomb's cone [N].
 
@@ -121,4 +132,9 @@ class Scales:
         body, model = self._model.bodies[index], self._model
         rate = 1 / (model.theta * dt)
         resisted: Array = body.row_stiffness * (1.0 + body.law.stiffness_damping.max() * rate)
+        for spring in model.springs:
+            own = (spring.nodes >= body.span.start) & (spring.nodes < body.span.stop)
+            shares = np.abs(spring.shares)
+            held = spring.stiffness(dt) * float(shares.sum()) * shares[own]
+            np.add.at(resisted, spring.nodes[own] - body.span.start, held)
         return resisted + np.abs(body.mass.nodal) * (rate / dt + body.law.mass_damping * rate)

@@ -74,6 +74,9 @@ class Target:
         tangents = np.zeros((len(facets), 2, 4))
         tangents[:, :, :2] = [-1.0, 1.0]
         self._joined = np.zeros((len(facets), 2), dtype=bool)
+        around = np.bincount(facets.ravel(), minlength=len(points))
+        self._rim = around[facets] == 1
+        """Ends of facets where an open surface ends, shape [facet_count, 2]."""
         if smooth:
             self._join(facets, points, tangents)
         start, end = np.eye(4)[:2]
@@ -156,7 +159,8 @@ class Target:
         """Return the distances of points from the target, negative inside [m], shape [point_count].
 
         Of facets that share the closest point, a corner, the one seen most squarely says which
-        side the point is on.
+        side the point is on. What is beyond the rim of an open surface is on neither side of it:
+        its distance is infinite.
         """
         offset = self._offsets(x, position)
         shape = offset.shape[:2]
@@ -179,8 +183,12 @@ class Target:
         closest = distance.min(axis=1, keepdims=True)
         tied = distance <= closest + TIE * size.reshape(shape)
         squarely = np.where(tied, np.abs(front), -1.0).argmax(axis=1)
-        signed: Array = np.copysign(closest[:, 0], front[np.arange(len(x)), squarely])
-        return signed
+        every = np.arange(len(x))
+        signed: Array = np.copysign(closest[:, 0], front[every, squarely])
+        beyond = np.stack([start > 0, end < 0], axis=-1).reshape(*shape, 2)
+        at = np.stack([xi == 0.0, xi == 1.0], axis=-1).reshape(*shape, 2)
+        off = (self._rim & beyond & at)[every, squarely].any(axis=1)
+        return np.where(off, np.inf, signed)
 
     def _offsets(self, x: Array, position: Array) -> Array:
         """Return coefficients of segments minus points [m], shape [point, facet, 4, 2].

@@ -15,6 +15,8 @@ from carom.auditing.catalogue import CHECKS
 from carom.auditing.check_ledger import BODY_COLUMNS, PAIR_COLUMNS
 from carom.errors import InputError
 
+RUBBER = {"c10": 400.0, "bulk": 3000.0, "density": 1.0}
+
 METHODS = [
     (condition, scheme)
     for condition in ("gap", "midpoint", "endpoint", "massless")
@@ -72,6 +74,8 @@ def test_every_method_is_confirmed(results, method):
         {"contact.targets": "faceted", "contact.sources": "both", "bodies.0.mass": "lumped"},
         {"materials.m.kind": "neo-hookean", "analysis.gravity": [1.0, -9.0]},
         {"materials.m.kind": "linear-elastic", "obstacles.0.velocity": [0.0, 0.0]},
+        {"materials.m": {**RUBBER, "kind": "mooney-rivlin", "c01": 150.0}},
+        {"materials.m": {**RUBBER, "kind": "yeoh", "c20": -80.0, "c30": 200.0}},
         {"bodies.1": LAYER, "bodies.0.mesh.centre": [0.3, 1.23], "analysis.end_time": 0.1},
         {"materials.m.damping": {"mass": 0.1, "stiffness": 1e-3}, "bodies.1.mesh.cell": "tri3"},
         {"analysis.scheme": {"kind": "theta", "theta": 0.6, "xi": 0.7}},

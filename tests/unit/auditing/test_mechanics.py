@@ -9,7 +9,14 @@ from carom.auditing.cells import VTK_QUAD, VTK_TRIANGLE, boundary
 from carom.auditing.mass import affine_weights
 
 STRESSES = (None, carom.InitialStress(xx=0.4, yy=-0.2, zz=0.1, xy=0.3))
-LAWS = ("saint-venant-kirchhoff", "linear-elastic", "neo-hookean")
+MATERIALS = {
+    "saint-venant-kirchhoff": carom.SaintVenantKirchhoff(young=3.0, poisson=0.3, density=2.0),
+    "linear-elastic": carom.LinearElastic(young=3.0, poisson=0.3, density=2.0),
+    "neo-hookean": carom.NeoHookean(young=3.0, poisson=0.3, density=2.0),
+    "mooney-rivlin": carom.MooneyRivlin(c10=0.4, c01=0.2, bulk=3.0, density=2.0),
+    "yeoh": carom.Yeoh(c10=0.6, c20=-0.3, c30=2.0, bulk=3.0, density=2.0),
+}
+LAWS = tuple(MATERIALS)
 
 # Skewed quadrilaterals, 4 by 3: the six nodes inside can carry the mass of the others.
 POINTS = np.array(
@@ -43,13 +50,9 @@ def body(
         initial_stress=initial_stress,
         mesh=carom.Rectangle(corner=[0, 0], size=[1, 1], divisions=[1, 1]),
     )
-    classes = (carom.SaintVenantKirchhoff, carom.LinearElastic, carom.NeoHookean)
-    material = next(c for c in classes if c.model_fields["kind"].default == law)(
-        young=3.0, poisson=0.3, density=2.0
-    )
     return AuditBody(
         entry,
-        {"m": material},
+        {"m": MATERIALS[law]},
         vtk_type=VTK_TRIANGLE if triangles else VTK_QUAD,
         nodes=TRIANGLES if triangles else QUADS,
         points=POINTS,

@@ -80,11 +80,6 @@ def test_a_stopped_run_with_springs_goes_on_to_the_last_bit(tmp_path, scheme):
     restarting.assert_same_results(tmp_path / "parts", tmp_path / "whole")
 
 
-def test_the_audit_says_that_it_knows_no_springs(tmp_path):
-    case = swinging("conserving")
-    carom.run(case, out=tmp_path / "run")
-    with pytest.raises(carom.InputError, match="cannot audit a case with masses at points yet"):
-        carom.audit(tmp_path / "run")
-    carom.run(case.model_copy(update={"masses": ()}), out=tmp_path / "other")
-    with pytest.raises(carom.InputError, match="cannot audit a case with springs yet"):
-        carom.audit(tmp_path / "other")
+def test_springs_without_stored_steps_are_audited(tmp_path):
+    carom.run(swinging("conserving"), out=tmp_path / "run")
+    assert carom.audit(tmp_path / "run").refuted == ()

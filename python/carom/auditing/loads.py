@@ -1,0 +1,88 @@
+"""Loads as the auditor sees them: forces on nodes as functions of time, and of place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from carom.auditing.arrays import Array, Indices
+from carom.auditing.body import AuditBody
+from carom.auditing.drawn import nodes_of
+from carom.auditing.signals import AuditSignal
+from carom.case.load import Force, Load, Pressure, Traction
+
+Value = Callable[[AuditSignal], float]
+"""What counts of a signal."""
+
+
+class Loads:
+    """The loads of a body.
+
+    Parameters
+    ----------
+    body
+        The body.
+    given
+        What the case says, of all bodies.
+    """
+
+    def __init__(self, body: AuditBody, given: Sequence[Load]) -> None:
+        self._body = body
+        self._loads = [_Load(body, load) for load in given if load.body == body.name]
+
+    def __len__(self) -> int:
+        return len(self._loads)
+
+    def at(self, time: float, u: Array) -> Array:
+        """Return the forces on nodes [N] at a time [s] and displacements [m], [node_count, 2]."""
+        return self._sum(lambda signal: signal.at(time)[0], u)
+
+    def mean(self, times: tuple[float, float], share: float, u: Array) -> Array:
+        """Return the same with values between those at two times, by the share of the second."""
+
+        def weighted(signal: AuditSignal) -> float:
+            start, end = (signal.at(time)[0] for time in times)
+            return (1.0 - share) * start + share * end
+
+        return self._sum(weighted, u)
+
+    def _sum(self, value: Value, u: Array) -> Array:
+        force = np.zeros((len(self._body.points), 2))
+        for load in self._loads:
+            load.add(value, u, force)
+        return force
+
+
+class _Load:
+    """One load: the same vector on nodes, or along the facets of a set."""
+
+    def __init__(self, body: AuditBody, given: Load) -> None:
+        self._body = body
+        mesh, outline = body.drawn, body.boundary
+        self._facets: Indices = np.zeros((0, 2), dtype=np.int64)
+        self._nodes: Indices = np.zeros(0, dtype=np.int64)
+        self._follows = False
+        if isinstance(given, Force):
+            self._nodes = nodes_of(mesh, given.on, body.points, outline, body.cells.nodes)
+            self._vector = [AuditSignal(signal) for signal in given.force]
+        else:
+            assert isinstance(given, Traction | Pressure), "resultants are of rigid bodies"
+            self._facets = outline[body.named(outline, (given.on,))]
+            signals = given.traction if isinstance(given, Traction) else (given.pressure,)
+            self._vector = [AuditSignal(signal) for signal in signals]
+            self._follows = isinstance(given, Pressure) and given.follower
+
+    def add(self, value: Value, u: Array, force: Array) -> None:
+        """Add its forces to those on the nodes [N]."""
+        size = np.array([value(signal) for signal in self._vector])
+        np.add.at(force, self._nodes, size)
+        ends = (self._body.points + u if self._follows else self._body.points)[self._facets]
+        chord = self._body.thickness * (ends[:, 1] - ends[:, 0])
+        if len(size) == 1:
+            # Against the outward normal; the body is on the left of its facets.
+            of_facets = -size * np.stack([chord[:, 1], -chord[:, 0]], axis=1)
+        else:
+            of_facets = np.linalg.norm(chord, axis=1)[:, None] * size
+        for end in range(2):
+            np.add.at(force, self._facets[:, end], 0.5 * of_facets)

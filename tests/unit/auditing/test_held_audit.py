@@ -1,0 +1,123 @@
+"""Supports are audited: where they hold, with which force, and what they do."""
+
+import shutil
+
+import pytest
+from held import SQUARE, held
+
+import carom
+
+UNEVEN = {"kind": "theta", "theta": 0.7, "xi": 0.6}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def without_pictures():
+    """Drawing takes longer than these runs."""
+    patch = pytest.MonkeyPatch()
+    patch.setattr("carom.plot.draw", lambda _: [])
+    yield
+    patch.undo()
+
+
+@pytest.mark.parametrize(
+    "method", [("gap", "theta"), ("midpoint", "conserving"), ("endpoint", UNEVEN)]
+)
+def test_supports_are_confirmed(tmp_path, method):
+    result = carom.run(held(*method), out=tmp_path)
+    assert abs(result.summary["energy"]["prescribed"]) > 0.01
+    audit = carom.audit(tmp_path)
+    assert audit.refuted == ()
+    checks = {check.name: check for check in audit.checks}
+    assert checks["support forces"].count == 60  # two supports, two axes, fifteen steps
+    assert checks["supports"].figure < 1e-15
+    assert checks["ledger: prescribed"].figure < 1e-11
+
+
+def test_a_body_without_mass_on_the_sides_that_nothing_holds_is_confirmed(tmp_path):
+    mesh = {**SQUARE, "corner": [0.0, 0.0], "divisions": [6, 6]}
+    beam = {"name": "beam", "material": "m", "mesh": mesh, "contact_sets": ["top"]}
+    falls = {"name": "ball", "kind": "rigid", "density": 20.0, "velocity": [0.3, -1.0]}
+    disc = {"kind": "disc", "centre": [0.6, 0.72], "radius": 0.2, "divisions": 4}
+    motions = [{"kind": "prescribed", "body": "beam", "on": "bottom", "x": "0.01*sin(9*t)", "y": 0}]
+    changes = {"bodies": [beam, {**falls, "mesh": disc}], "motions": motions, "springs": []}
+    carom.run(held("massless", "conserving", **changes), out=tmp_path)
+    audit = carom.audit(tmp_path)
+    assert audit.refuted == ()
+    checks = {check.name: check for check in audit.checks}
+    assert checks["blend"].count > 20
+    assert checks["support forces"].count == 30
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    out = tmp_path_factory.mktemp("held")
+    carom.run(held("midpoint", "conserving"), out=out)
+    return out
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "found"),
+    [
+        ("0.02*sin", "0.02000001*sin", {"supports"}),
+        ("[0.0, 0.03, -0.03]", "[0.0, 0.03000001, -0.03]", {"supports"}),
+        ('on = "right"', 'on = "top"', {"supports", "equation of motion"}),
+    ],
+)
+def test_a_support_that_is_not_that_of_the_run_is_found(tmp_path, run, old, new, found):
+    directory = tmp_path / "changed"
+    shutil.copytree(run, directory)
+    text = (directory / "case.toml").read_text()
+    assert old in text
+    (directory / "case.toml").write_text(text.replace(old, new, 1))
+    history = directory / "history.csv"
+    history.write_text(history.read_text().replace("beam.right.", "beam.top."))
+    if "top" not in new:
+        shutil.copy(run / "history.csv", history)
+    assert found <= {check.name for check in carom.audit(directory).refuted}
+
+
+@pytest.mark.parametrize("column", ["beam.left.force_x", "beam.right.force_y", "prescribed"])
+def test_a_force_or_work_that_was_changed_is_found(tmp_path, run, column):
+    directory = tmp_path / "changed"
+    shutil.copytree(run, directory)
+    lines = [line.split(",") for line in (directory / "history.csv").read_text().splitlines()]
+    at = lines[0].index(column)
+    lines[51][at] = repr(float(lines[51][at]) * (1 + 1e-5))
+    (directory / "history.csv").write_text("\n".join(",".join(line) for line in lines) + "\n")
+    assert {check.name for check in carom.audit(directory).refuted} - {"files"}
+
+
+def test_supports_at_nodes_without_mass_cannot_be_audited(tmp_path):
+    mesh = {**SQUARE, "corner": [0.0, 0.0], "divisions": [8, 8]}
+    beam = {"name": "beam", "material": "m", "mesh": mesh}
+    floor = {"kind": "plane", "name": "floor", "point": [0, 0], "normal": [0, 1]}
+    changes = {"bodies": [beam], "springs": [], "obstacles": [floor]}
+    analysis = {"end_time": 0.01, "time_step": 2e-3}
+    carom.run(held("massless", "theta", analysis=analysis, **changes), out=tmp_path)
+    with pytest.raises(carom.InputError, match="cannot audit supports at nodes without mass yet"):
+        carom.audit(tmp_path)
+
+
+RIGID = {
+    "name": "ball",
+    "kind": "rigid",
+    "density": 10.0,
+    "mesh": {"kind": "disc", "centre": [0.0, 2.0], "radius": 0.2, "divisions": 2},
+}
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (
+            {"motions": [{"kind": "guided", "body": "ball", "x": "0.1*t"}]},
+            "cannot audit the motion",
+        ),
+        ({"loads": [{"kind": "resultant", "body": "ball", "force": [1, 0]}]}, "cannot audit loads"),
+    ],
+)
+def test_what_drives_rigid_bodies_cannot_be_audited(tmp_path, given, said):
+    changes = {"bodies": [RIGID], "motions": [], "springs": [], **given}
+    carom.run(held("midpoint", "conserving", **changes), out=tmp_path)
+    with pytest.raises(carom.InputError, match=said):
+        carom.audit(tmp_path)
