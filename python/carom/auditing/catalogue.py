@@ -118,7 +118,10 @@ CHECKS: dict[str, tuple[str, str]] = {
     "step extremes": ("the history's extremes are those of the step", ""),
     "energy of the step": ("a conserving step closes its ledger", "J"),
     "energy of bodies": ("and that of every body, by what it receives through contact", "J"),
-    "blend": ("α closes the balance of its bodies as far as no mean reaction pulls, |α| ≤ 2", "J"),
+    "blend": (
+        "α closes the balance of its bodies as far as no mean reaction pulls, |α| ≤ 2, or is ≤ ½",
+        "J",
+    ),
     "repaying": (
         "vibration takes or gives what the blend leaves over, at most half of itself",
         "J",

@@ -12,6 +12,9 @@ from carom.auditing.step import Step, defect
 LARGEST_BLEND = 2.0
 """Limit of |α|."""
 
+KEPT = 0.5
+"""The largest |α| of iterations that find none that closes the balance."""
+
 LARGEST_PART = 0.5
 """The largest part of the energy of vibration that a step may take or give."""
 
@@ -67,6 +70,9 @@ class BlendChecks:
         error = np.where(unclear & (np.abs(other) < np.abs(error)), other, error)
         limits = np.where(unclear, within, limits)
         allowed = work + NEGLIGIBLE * self._scales.energy
+        # Iterations that find no α go on with one; what it leaves over is paid or waits.
+        kept = (np.abs(error) > allowed) & (np.abs(alpha) <= KEPT)
+        error = np.where(kept, 0.0, error)
         self._check("blend", error[leaders], allowed, where)
         self._repaid(step, books, allowed, where)
         stored, left = step.end["energy_debt"], step.left_over
@@ -78,7 +84,7 @@ class BlendChecks:
         sums = ROUND_OFF * (self._scales.energy + sum(abs(e) for e in step.ledger.values()))
         self._check("waiting energy", error, sums, where)
         full = np.zeros(len(alpha), dtype=bool)
-        beyond_limits = (missing < limits[0] + work) | (missing > limits[1] - work)
+        beyond_limits = (missing < limits[0] + work) | (missing > limits[1] - work) | kept
         np.logical_or.at(full, step.groups.books[leaders], beyond_limits[leaders])
         if full.any():
             self._findings.leave(

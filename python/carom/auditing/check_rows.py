@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.auditing.arrays import Array
-from carom.auditing.body import KINETIC_PARTS
+from carom.auditing.body import KINETIC_PARTS, AuditBody
 from carom.auditing.check_blend import LARGEST_BLEND
 from carom.auditing.check_summary import SUMMED
 from carom.auditing.model import AuditModel
@@ -213,7 +213,21 @@ class RowChecks:
                 held = model.supports[model.bodies.index(body)].held[node - body.span.start]
                 known = known & (not held["xy".index(axis)])
                 off = SAFETY * off / dt + SAFETY * EPS * np.abs(v[:-1])
+                if model.blended and not light:
+                    off += self._repaid(body, node - body.span.start)
                 self._check("row: tracks", np.where(known, v[1:] - scheme, 0.0) * dt, off * dt)
+
+    def _repaid(self, body: AuditBody, node: int) -> Array:
+        """Return how far velocities of a node may change as vibration pays for a blend [m/s].
+
+        A share s of the velocities w of vibration, whose energy changes by s w·M w.
+        """
+        paid = float(self._summary["repaid"])
+        squares = 2.0 * self._history[f"{body.name}.vibration"][1:] * body.mass.nodal[node]
+        speeds: Array = np.sqrt(np.maximum(squares, 0.0))
+        if paid == 0.0:
+            return np.zeros_like(speeds)
+        return np.divide(2.0 * paid, speeds, out=np.full_like(speeds, np.inf), where=speeds > 0.0)
 
     def _signs(self) -> None:
         h = self._history

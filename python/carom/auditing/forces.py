@@ -96,7 +96,9 @@ class Forces:
         loads = given.mean(times, model.xi, u0 + model.xi * d)
         end_loads = given.at(s.time, u1)
         pressed = s.start["contact_force"][span].sum(axis=0) + given.at(times[0], u0).sum(axis=0)
-        fall = dt * dt * model.theta * (model.gravity + pressed / body.mass.total)
+        slowed = body.law.mass_damping
+        driven = model.gravity + pressed / body.mass.total - slowed * drift
+        fall = dt * dt * model.theta * driven / (1.0 + slowed * model.theta * dt)
         # Along what is held nothing is foretold.
         fall = np.where(held.any(axis=0), 0.0, fall)
         resisted = (d - fall - dt * (drift + (v0 - drift) @ turn.T))[body.massless]
