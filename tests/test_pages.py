@@ -54,7 +54,9 @@ def test_the_tutorial_shows_the_case_and_the_table_of_its_run(desk, monkeypatch)
     Console(file=screen, width=80).print(carom.Result.open("results/two-bodies"))
     (table,) = blocks("docs/tutorial.md", "text")
     # The largest defect and the certificate are round-off, which differs between processors.
-    firm = [line for line in table.splitlines() if not re.match("│ (largest defect|certificate)", line)]
+    firm = [
+        line for line in table.splitlines() if not re.match("│ (largest defect|certificate)", line)
+    ]
     assert len(firm) > 6
     assert [line for line in firm if line not in screen.getvalue()] == []
 

@@ -13,7 +13,7 @@ from carom.io import layout
 from carom.sweep import axis, sweep
 from carom.sweep.page import write_study_page
 from carom.sweep.worker import work
-from conftest import DISC
+from reported import DISC
 
 
 @pytest.fixture(scope="module")
