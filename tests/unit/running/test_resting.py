@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import pytest
+
 import carom
 
 
-def stack() -> carom.Scenario:
+def stack(divisions: int) -> carom.Scenario:
     """Return two squares that come to rest on a floor."""
     law = carom.SaintVenantKirchhoff(
         young=1e8, poisson=0.3, density=1e3, damping=carom.Damping(mass=100.0, stiffness=1e-4)
@@ -14,7 +16,7 @@ def stack() -> carom.Scenario:
         carom.Body(
             name=name,
             material="rubber",
-            mesh=carom.Rectangle(corner=corner, size=[1.0, 1.0], divisions=[2, 2]),
+            mesh=carom.Rectangle(corner=corner, size=[1.0, 1.0], divisions=[divisions, divisions]),
         )
         for name, corner in [("lower", [0.0, 0.0]), ("upper", [0.1, 1.0])]
     ]
@@ -27,8 +29,9 @@ def stack() -> carom.Scenario:
     )
 
 
-def test_bodies_that_rest_are_named_and_take_no_iterations() -> None:
-    simulation = carom.Simulation(stack())
+@pytest.mark.parametrize("divisions", [2, 5], ids=["with mass", "massless"])
+def test_bodies_that_rest_are_named_and_take_no_iterations(divisions: int) -> None:
+    simulation = carom.Simulation(stack(divisions))
     assert simulation.resting == []
     simulation.advance(0.9)
     assert simulation.resting == ["lower", "upper"]
