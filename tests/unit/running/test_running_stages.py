@@ -57,7 +57,7 @@ def test_the_history_says_which_stage_a_row_is_of(joint):
     assert np.count_nonzero(stage == 2) == 80
 
 
-STILL = {condition: (5e-5, 2e-5, 1e-11, 2e-9) for condition in ("massless", "mortar")}
+STILL = {"massless": (5e-5, 2e-5, 1e-11, 2e-9)}
 """How fast, and how far off in reactions, displacements and friction, a joint at rest may be."""
 
 
