@@ -1,22 +1,15 @@
 """Springs, dampers and masses at points are audited, and what is changed is found."""
 
-import shutil
-
 import pytest
 from connected import SQUARE, connected
 
 import carom
+from tampered import with_another_case, with_another_number
 
 UNEVEN = {"kind": "theta", "theta": 0.7, "xi": 0.6}
 
 
-@pytest.fixture(scope="module", autouse=True)
-def without_pictures():
-    """Drawing takes longer than these runs."""
-    patch = pytest.MonkeyPatch()
-    patch.setattr("carom.plot.draw", lambda _: [])
-    yield
-    patch.undo()
+pytestmark = pytest.mark.usefixtures("without_pictures")
 
 
 def by_name(audit):
@@ -83,20 +76,11 @@ def run(tmp_path_factory):
     ],
 )
 def test_a_part_that_is_not_that_of_the_run_is_found(tmp_path, run, old, new, found):
-    directory = tmp_path / "changed"
-    shutil.copytree(run, directory)
-    text = (directory / "case.toml").read_text()
-    assert old in text
-    (directory / "case.toml").write_text(text.replace(old, new, 1))
+    directory = with_another_case(run, tmp_path / "changed", old, new)
     assert found <= {check.name for check in carom.audit(directory).refuted}
 
 
 @pytest.mark.parametrize("column", ["rope.length", "strut.force", "springs", "dampers"])
 def test_a_number_of_the_history_that_was_changed_is_found(tmp_path, run, column):
-    directory = tmp_path / "changed"
-    shutil.copytree(run, directory)
-    lines = [line.split(",") for line in (directory / "history.csv").read_text().splitlines()]
-    at = lines[0].index(column)
-    lines[51][at] = repr(float(lines[51][at]) * (1 + 1e-6))
-    (directory / "history.csv").write_text("\n".join(",".join(line) for line in lines) + "\n")
+    directory = with_another_number(run, tmp_path / "changed", column, 1 + 1e-6)
     assert {check.name for check in carom.audit(directory).refuted} - {"files"}

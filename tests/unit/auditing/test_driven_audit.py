@@ -1,11 +1,10 @@
 """Loads, and obstacles that move by functions of time, are audited."""
 
-import shutil
-
 import pytest
 from two_discs import FLOOR, scenario
 
 import carom
+from tampered import with_another_case
 
 SHAKEN = {
     **{key: value for key, value in FLOOR.items() if key != "velocity"},
@@ -32,13 +31,7 @@ GENTLE = {"analysis.gravity": [0, -5.0], "analysis.end_time": 0.1, "analysis.tim
 """So that no corner folds where nodes have no mass."""
 
 
-@pytest.fixture(scope="module", autouse=True)
-def without_pictures():
-    """Drawing takes longer than these runs."""
-    patch = pytest.MonkeyPatch()
-    patch.setattr("carom.plot.draw", lambda _: [])
-    yield
-    patch.undo()
+pytestmark = pytest.mark.usefixtures("without_pictures")
 
 
 def driven(condition, scheme, **changes):
@@ -86,9 +79,5 @@ def run(tmp_path_factory):
     ],
 )
 def test_a_drive_that_is_not_that_of_the_run_is_found(tmp_path, run, old, new, found):
-    directory = tmp_path / "changed"
-    shutil.copytree(run, directory)
-    text = (directory / "case.toml").read_text()
-    assert old in text
-    (directory / "case.toml").write_text(text.replace(old, new, 1))
+    directory = with_another_case(run, tmp_path / "changed", old, new)
     assert found <= {check.name for check in carom.audit(directory).refuted}

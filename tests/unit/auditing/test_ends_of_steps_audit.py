@@ -4,14 +4,7 @@ import pytest
 
 import carom
 
-
-@pytest.fixture(scope="module", autouse=True)
-def without_pictures():
-    """Drawing takes longer than these runs."""
-    patch = pytest.MonkeyPatch()
-    patch.setattr("carom.plot.draw", lambda _: [])
-    yield
-    patch.undo()
+pytestmark = pytest.mark.usefixtures("without_pictures")
 
 
 def scene(bodies, *, material=None, step=1e-3, end=0.1, condition="midpoint", **contact):

@@ -6,17 +6,12 @@ import pytest
 from held import SQUARE, held
 
 import carom
+from tampered import with_another_case, with_another_number
 
 UNEVEN = {"kind": "theta", "theta": 0.7, "xi": 0.6}
 
 
-@pytest.fixture(scope="module", autouse=True)
-def without_pictures():
-    """Drawing takes longer than these runs."""
-    patch = pytest.MonkeyPatch()
-    patch.setattr("carom.plot.draw", lambda _: [])
-    yield
-    patch.undo()
+pytestmark = pytest.mark.usefixtures("without_pictures")
 
 
 @pytest.mark.parametrize(
@@ -64,11 +59,7 @@ def run(tmp_path_factory):
     ],
 )
 def test_a_support_that_is_not_that_of_the_run_is_found(tmp_path, run, old, new, found):
-    directory = tmp_path / "changed"
-    shutil.copytree(run, directory)
-    text = (directory / "case.toml").read_text()
-    assert old in text
-    (directory / "case.toml").write_text(text.replace(old, new, 1))
+    directory = with_another_case(run, tmp_path / "changed", old, new)
     history = directory / "history.csv"
     history.write_text(history.read_text().replace("beam.right.", "beam.top."))
     if "top" not in new:
@@ -78,12 +69,7 @@ def test_a_support_that_is_not_that_of_the_run_is_found(tmp_path, run, old, new,
 
 @pytest.mark.parametrize("column", ["beam.left.force_x", "beam.right.force_y", "prescribed"])
 def test_a_force_or_work_that_was_changed_is_found(tmp_path, run, column):
-    directory = tmp_path / "changed"
-    shutil.copytree(run, directory)
-    lines = [line.split(",") for line in (directory / "history.csv").read_text().splitlines()]
-    at = lines[0].index(column)
-    lines[51][at] = repr(float(lines[51][at]) * (1 + 1e-5))
-    (directory / "history.csv").write_text("\n".join(",".join(line) for line in lines) + "\n")
+    directory = with_another_number(run, tmp_path / "changed", column, 1 + 1e-5)
     assert {check.name for check in carom.audit(directory).refuted} - {"files"}
 
 

@@ -7,13 +7,7 @@ import carom
 WIDE, HIGH = 6, 4
 
 
-@pytest.fixture(scope="module", autouse=True)
-def without_pictures():
-    """Drawing takes longer than these runs."""
-    patch = pytest.MonkeyPatch()
-    patch.setattr("carom.plot.draw", lambda _: [])
-    yield
-    patch.undo()
+pytestmark = pytest.mark.usefixtures("without_pictures")
 
 
 def deck(path, *, shift=0.0):

@@ -6,14 +6,7 @@ import pytest
 
 import carom
 
-
-@pytest.fixture(scope="module", autouse=True)
-def without_pictures():
-    """Drawing takes longer than these runs."""
-    patch = pytest.MonkeyPatch()
-    patch.setattr("carom.plot.draw", lambda _: [])
-    yield
-    patch.undo()
+pytestmark = pytest.mark.usefixtures("without_pictures")
 
 
 SHAPES = {
