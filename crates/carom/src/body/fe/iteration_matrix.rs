@@ -6,6 +6,7 @@ use carom_fem::{Body, BodyWithHistory, Held};
 use carom_mesh::{Matrix, Vector, nodal};
 
 use super::equation::steadied;
+use super::light::Light;
 use crate::archive::{Archive, CheckpointError};
 use crate::body::Tangent;
 use crate::error::StepError;
@@ -69,39 +70,6 @@ pub(crate) struct IterationMatrix<const D: usize> {
     origin: Origin<D>,
 }
 
-/// The rows of nodes without mass. They are those of the end of the step and resist the rate d/Δt, others the mean velocity of the step: damping has
-/// another share in them. K̄ is symmetric, and where damping is that of the stiffness, these rows of the equation are a multiple of its own.
-#[derive(Debug)]
-struct Light {
-    /// Of every node, whether it has none; empty where all have mass.
-    nodes: Vec<bool>,
-    /// What forces on these nodes are multiplied with.
-    share: f64,
-}
-
-impl Light {
-    fn of<const D: usize>(body: &Body<D>) -> Self {
-        let mut nodes = Vec::new();
-        if !body.massless().is_empty() {
-            nodes.resize(body.node_count(), false);
-            body.massless().iter().for_each(|&n| nodes[n as usize] = true);
-        }
-        Self { nodes, share: 1.0 }
-    }
-
-    /// Fits K̄ of steps like `map`, in which a body has this stiffness damping [s].
-    fn fit(&mut self, map: &StepMap, damping: f64) {
-        let is_moving = !map.is_static();
-        let rows = |rate: f64| 1.0 + damping * rate;
-        self.share = if is_moving { rows(map.velocity_of_motion) / rows(1.0 / map.dt) } else { 1.0 };
-    }
-
-    /// What a force on a node is multiplied with.
-    fn share_of(&self, node: usize) -> f64 {
-        if self.nodes.get(node) == Some(&true) { self.share } else { 1.0 }
-    }
-}
-
 /// Where and for what steps a factor was made: all that it takes to make it again.
 #[derive(Debug, Clone)]
 struct Origin<const D: usize> {
@@ -158,9 +126,8 @@ impl<const D: usize> Translation<D> {
 impl<const D: usize> IterationMatrix<D> {
     /// Of a body, which may be `connected` to others by springs: as these act on nodes with and without mass, its rows must be symmetric as they are.
     pub fn new(body: &Body<D>, connected: bool) -> Self {
-        let all_with_mass = Light { nodes: Vec::new(), share: 1.0 };
         Self {
-            light: if connected { all_with_mass } else { Light::of(body) },
+            light: if connected { Light::default() } else { Light::of(body) },
             inverse: Inverse::new(body.mesh().ties()),
             coefficients: None,
             lowest_inertia: lowest_inertia(body),
@@ -372,7 +339,7 @@ impl<const D: usize> IterationMatrix<D> {
         self.round_off = nodal::largest(&self.scratch);
         self.factor_frame = Matrix::identity();
         self.turn = Matrix::identity();
-        self.light.share = 1.0;
+        self.light.leave();
         self.generation += 1;
         Ok(())
     }
@@ -461,10 +428,7 @@ impl<const D: usize> IterationMatrix<D> {
     pub fn begin(&mut self, x: &[Vector<D>]) {
         let turn = &self.turn;
         nodal::each(&mut self.scratch, [x], |s, [x]| *s = turn.tr_mul(x));
-        if self.light.share != 1.0 {
-            let light = self.scratch.iter_mut().zip(&self.light.nodes).filter(|(_, is_light)| **is_light);
-            light.for_each(|(force, _)| *force *= self.light.share);
-        }
+        self.light.scale(&mut self.scratch);
         self.held.clear(&mut self.scratch);
         if let Some(translation) = &mut self.translation {
             translation.resultant = nodal::total(&self.scratch);

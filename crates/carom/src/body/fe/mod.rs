@@ -5,6 +5,7 @@ pub(crate) mod drive;
 mod equation;
 mod growing;
 mod iteration_matrix;
+mod light;
 pub(crate) mod load;
 mod load_step;
 pub(crate) mod part;
