@@ -71,6 +71,11 @@ impl<const D: usize> Bvh<D> {
         self.branches[place].next = self.branches.len() as u32;
     }
 
+    /// The box around all items.
+    pub fn bounds(&self) -> Aabb<D> {
+        self.branches.first().map_or_else(|| Aabb::of([]), |root| root.bounds)
+    }
+
     /// Gives every item its present box.
     pub fn refit(&mut self, bounds: impl Fn(u32) -> Aabb<D>) {
         for (item, own) in &mut self.items {

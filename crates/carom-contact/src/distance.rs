@@ -131,25 +131,29 @@ pub(crate) fn signed_distance_within<const D: usize>(
     position: &impl Fn(u32) -> Vector<D>,
 ) -> f64 {
     let (mut distance, mut side) = (f64::INFINITY, 0.0);
-    tree.nearest_within(reach, x, |f, facet_box| {
+    // Whatever is as near as a facet within reach, and may tell its side, is looked at.
+    let looked_at = reach + 2.0 * MEASURE.same * tree.bounds().diameter();
+    tree.nearest_within(looked_at, x, |f, facet_box| {
         let tie = MEASURE.same * facet_box.diameter();
         let p = surface.project(f, x, Reach::Facet, position);
         let d = (x - p.point).norm();
         let front = p.normal.dot(&(x - p.point));
-        if d < distance - tie {
+        if d > reach + tie {
+            // Its box is within reach and it is not, nor need what would tell its side be.
+        } else if d < distance - tie {
             (distance, side) = (d, front);
         } else if d <= distance + tie && front.abs() > side.abs() {
             // At a shared corner the facet seen most squarely decides the side.
             (distance, side) = (distance.min(d), front);
         }
-        reach.min(distance + tie)
+        looked_at.min(distance + tie)
     });
     distance.copysign(side)
 }
 
 #[cfg(test)]
 mod tests {
-    use carom_mesh::{Surface, generate};
+    use carom_mesh::{CellKind, Surface, generate};
 
     use super::*;
     use crate::{Discretisation, Obstacle, Path, Search};
@@ -261,6 +265,44 @@ mod tests {
                     assert!((contact.frame[(0, 0)] + 1.0).abs() < 1e-12);
                     assert!((contact.gap - (1e-9 - shift)).abs() < 1e-12);
                 }
+            }
+        }
+    }
+
+    /// Symptom guarded against: boxes of second-order cells, one above the other, were told that they overlap.
+    #[test]
+    fn boxes_are_as_far_apart_as_drawn_whatever_their_cells() {
+        for kind in [
+            CellKind::Tet4,
+            CellKind::Hex8,
+            CellKind::Tet10,
+            CellKind::Hex20,
+            CellKind::Hex27,
+            CellKind::Wedge15,
+        ] {
+            for (divisions, distance) in [(1, 0.01), (1, 1.0), (2, 0.3), (2, 1.0), (3, 0.01), (3, 0.3)] {
+                let boxed = |z: f64| {
+                    let grid =
+                        generate::Grid { corner: [0.0, 0.0, z], size: [1.0; 3], divisions: [divisions; 3] };
+                    grid.mesh(kind).expect("valid")
+                };
+                let (below, above) = (boxed(0.0), boxed(1.0 + distance));
+                let at = |n: u32| above.nodes()[n as usize];
+                let model = ContactModel::<3> {
+                    surfaces: vec![ContactSurface::new(&Surface::of(&above), 0, &at)],
+                    obstacles: vec![],
+                    pairs: vec![].into(),
+                };
+                let centres = below.blocks().iter().flat_map(|block| block.cells()).map(|cell| {
+                    cell.iter().map(|&n| below.nodes()[n as usize]).sum::<Vector<3>>() / cell.len() as f64
+                });
+                let points = below.nodes().iter().copied().chain(centres);
+                let closest = model.closest(points, Target::Surface(0), &at).expect("points");
+                assert!(
+                    (closest.gap - distance).abs() < 1e-12,
+                    "{kind:?} {divisions}: {} for {distance}",
+                    closest.gap
+                );
             }
         }
     }

@@ -122,6 +122,12 @@ impl<const D: usize> Body<D> {
         Ok(body)
     }
 
+    /// The body for analyses without inertia: its nodes all resist alike, and its weight is where it was, inside.
+    #[must_use]
+    pub fn without_inertia(self) -> Self {
+        Self { massless_contact: false, massless_stiffness: Vec::new(), massless_mass: Vec::new(), ..self }
+    }
+
     /// The mesh in the reference configuration.
     #[must_use]
     pub fn mesh(&self) -> &Mesh<D> {

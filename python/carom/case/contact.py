@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Annotated, Any, Literal, TypeVar
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 from typing_extensions import Self
@@ -120,6 +119,7 @@ class Contact(Description):
         in the paper and in every static analysis. ``midpoint`` writes it on the increment over the
         step, ``endpoint`` on the velocity at its end. With the scheme ``conserving``, ``massless``
         and ``midpoint`` keep the energy. Only ``massless`` is quiet besides; it takes more time.
+        With ``theta`` it takes energy, and ``midpoint`` is the default.
         Bodies without cells inside, rigid and reduced ones keep their mass; pairs whose sides both
         do are ruled as with ``midpoint``.
     friction
@@ -180,15 +180,3 @@ class Contact(Description):
     resolve_overlap: Annotated[bool, Field(strict=True)] = False
     overlap_resolved_at: Positive | None = None
     pairs: tuple[Pair, ...] = ()
-
-
-_Given = TypeVar("_Given")
-
-
-def with_default(condition: Condition, contact: _Given) -> _Given | Any:  # noqa: ANN401 (as given)
-    """Return a law of contact in which this is the condition, unless it names one itself."""
-    if isinstance(contact, Contact) and "condition" not in contact.model_fields_set:
-        return contact.model_copy(update={"condition": condition})
-    if isinstance(contact, Mapping) and "condition" not in contact:
-        return {**contact, "condition": condition}
-    return contact

@@ -20,7 +20,8 @@ from typing_extensions import Self
 from carom.case import case_file, overrides
 from carom.case.analysis import Analysis, with_kind
 from carom.case.body import AnyBody, Body, RigidBody, with_kinds
-from carom.case.contact import Contact, with_default
+from carom.case.contact import Contact
+from carom.case.default_condition import with_condition
 from carom.case.description import Description, Name
 from carom.case.full_stage import FullStage, full_stages
 from carom.case.initial import Initial
@@ -284,15 +285,8 @@ class Scenario(Description):
     @model_validator(mode="before")
     @classmethod
     def _kind_of_analysis(cls, data: object) -> object:
-        """Take an analysis that names no kind for dynamic; load steps rule the gap."""
-        data = with_kinds(with_kind(data))
-        if not isinstance(data, Mapping):
-            return data
-        analysis = data.get("analysis")
-        kind = analysis["kind"] if isinstance(analysis, Mapping) else getattr(analysis, "kind", "")
-        if kind != "static":
-            return data
-        return {**data, "contact": with_default("gap", data.get("contact", {}))}
+        """Take an analysis that names no kind for dynamic, and a condition that suits it."""
+        return with_condition(with_kinds(with_kind(data)))
 
     @model_validator(mode="after")
     def _driven_bodies_exist(self) -> Self:

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from carom import _carom
 from carom.building.build import obstacle_surfaces
 from carom.case.analysis import Conserving, Newton, Theta
-from carom.case.contact import Contact, with_default
+from carom.case.contact import Contact
+from carom.case.default_condition import with_default
 from carom.case.obstacle import Obstacle
 from carom.contact.model import check_names
 from carom.errors import InputError

@@ -150,3 +150,24 @@ def test_a_periodic_body_cannot_spin(box):
     box["bodies"][0]["spin"] = 0.1
     with pytest.raises(carom.InputError, match=r"bodies\.0\.spin.*periodic"):
         Scenario.from_dict(box)
+
+
+@pytest.mark.parametrize(
+    ("scheme", "condition"), [(carom.Conserving(), "massless"), (carom.Theta(), "midpoint")]
+)
+def test_the_condition_suits_the_scheme(scheme, condition):
+    """Symptom guarded against: massless contact took a third of the energy of a case with theta."""
+    analysis = carom.Dynamic(end_time=1.0, time_step=0.1, scheme=scheme)
+    given = {
+        "materials": {"m": carom.LinearElastic(young=1.0, poisson=0.3, density=1.0)},
+        "bodies": [
+            carom.Body(
+                name="b", material="m", mesh=carom.Disc(centre=(0.0, 0.0), radius=1.0, divisions=2)
+            )
+        ],
+    }
+    assert carom.Scenario(analysis=analysis, **given).contact.condition == condition
+    of_a_stage = carom.Scenario(stages=[carom.Stage(name="s", analysis=analysis)], **given)
+    assert of_a_stage.full_stages()[0].contact.condition == condition
+    named = carom.Scenario(analysis=analysis, contact=carom.Contact(condition="gap"), **given)
+    assert named.contact.condition == "gap"

@@ -173,3 +173,21 @@ def test_a_vector_with_tables_of_the_wrong_length_is_shown_in_a_line():
             Scenario.from_dict(case)
         expected = f"loads.1.force = {said}: must have 2 components, not {len(mixed)}"
         assert str(caught.value) == expected
+
+
+def test_an_obstacle_meets_a_body_at_rest_at_the_very_end_of_a_step():
+    """Symptom guarded against: round-off of the first touch was a step without balance."""
+    mesh = carom.Rectangle(corner=(0, 0), size=(0.5, 1.0), divisions=(4, 8))
+    wall = carom.Plane(name="wall", point=(-0.1, 0), normal=(1, 0), velocity=(1.0, 0.0))
+    scenario = carom.Scenario(
+        analysis=carom.Dynamic(end_time=0.2, time_step=1e-3),
+        materials={"m": carom.SaintVenantKirchhoff(young=1e6, poisson=0.3, density=1000.0)},
+        bodies=[carom.Body(name="block", material="m", mesh=mesh)],
+        obstacles=[wall],
+    )
+    simulation = carom.Simulation(scenario)
+    while not simulation.has_ended:
+        simulation.step()
+    # A block of 500 kg that leaves faster than the wall, by what waves in it take.
+    assert simulation.ledger.prescribed > 500.0
+    assert np.abs(simulation.history["defect"]).max() < 1e-12 * simulation.ledger.prescribed

@@ -11,7 +11,7 @@ use super::regions::{material, regions};
 use super::spare_mass::spares_mass;
 use super::values::number;
 use crate::error::InputError;
-use crate::scenario::{BodyEntry, BodyMass, InitialStress, Scenario};
+use crate::scenario::{AnalysisKind, BodyEntry, BodyMass, InitialStress, Scenario};
 
 /// Body number `index`; `given` is its mesh if that comes from a file.
 pub(super) fn body<const D: usize>(
@@ -51,6 +51,7 @@ pub(super) fn body<const D: usize>(
         match Body::with_contact_surface(mesh.clone(), surface.clone(), &spec) {
             // One cell across it has none to spare.
             Err(FemError::NoMassInside { .. }) => spec.massless_contact = false,
+            Ok(made) if scenario.analysis.kind == AnalysisKind::Static => return Ok(made.without_inertia()),
             made => return made.map_err(|e| refused(&key, name, &e)),
         }
     }

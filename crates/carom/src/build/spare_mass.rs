@@ -5,19 +5,20 @@ use carom_mesh::{Mesh, Surface, Vector};
 
 use super::places;
 use super::values::vector;
-use crate::scenario::{BodyEntry, BodyKind, PairEntry, Scenario};
+use crate::scenario::{AnalysisKind, BodyEntry, BodyKind, PairEntry, Scenario};
 
 /// Whether a body with this `mesh`, whose `surface` may touch, can do without the mass of that.
 ///
 /// It cannot if it is no body of finite elements, if springs or masses are attached there, or if its friction depends on the motion, which
-/// nodes in static balance do not have.
+/// nodes in static balance do not have. A static stage before or after one with massless contact has the weight where that has it.
 pub(super) fn spares_mass<const D: usize>(
     scenario: &Scenario,
     entry: &BodyEntry,
     mesh: &Mesh<D>,
     surface: &Surface,
 ) -> bool {
-    scenario.contact.condition.is_massless()
+    let is_static = scenario.analysis.kind == AnalysisKind::Static;
+    (scenario.contact.condition.is_massless() || is_static && scenario.has_massless_stage)
         && entry.kind == BodyKind::Deformable
         && may_touch(scenario, &entry.name)
         && !has_friction_law(scenario, &entry.name)

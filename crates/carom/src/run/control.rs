@@ -3,12 +3,14 @@
 //! In time the next step is a new chance, and the whole one is tried as soon as the grid allows. Load steps that are hard stay so:
 //! a static analysis goes on with the length that it came down to, and doubles it after a step that was easy.
 
+use carom_mesh::Vector;
 use carom_mesh::parallel::among_threads;
 
 use super::bridge;
 use super::error::RunError;
 use super::stepper::{Nominal, Stepper};
 use crate::error::StepError;
+use crate::model::Model;
 use crate::step::report::StepReport;
 use crate::step::step_over;
 use crate::step::workspace::Workspace;
@@ -94,9 +96,24 @@ impl<const D: usize> Stepper<'_, D> {
             among_threads(model.node_count(), || step_over(assembly, method, &interval, state, spare, work))?;
         let may_wait = length < LONG * whole;
         let share = if may_wait { LARGEST_DEBT } else { DEBT_OF_LONG_STEP };
+        let energy = energy.max(met(model, spare));
         check_debt(state, spare, energy, share, &report)?;
         Ok(report)
     }
+}
+
+/// The energy [J] that bodies would have if they moved as fast as the obstacles which touch them: what an obstacle brings to a body at rest, of which
+/// its first touch has only round-off.
+fn met<const D: usize>(model: &Model<D>, state: &State<D>) -> f64 {
+    let assembly = &model.assembly;
+    let energies = state.reactions.iter().map(|reaction| {
+        let of_obstacle =
+            |n: usize| if assembly.place_of(n).is_none() { state.velocity[n] } else { Vector::zeros() };
+        let source = assembly.contact.pairs.get(reaction.pair as usize).source;
+        let mass = model.bodies.get(source).map_or(0.0, |b| b.body.total_mass());
+        0.5 * mass * reaction.contact.relative(of_obstacle).norm_squared()
+    });
+    energies.fold(0.0, f64::max)
 }
 
 /// Refuses a step to `next` whose blends left more over than a `share` of the largest `energy` [J], be it too much or too little of a body. A run

@@ -65,6 +65,9 @@ pub struct Scenario {
     /// Analyses in sequence. Where there are any, analysis, loads, motions and contact are theirs, and those above are not used.
     #[serde(default)]
     pub stages: Vec<StageEntry>,
+    /// Whether it is a stage of a case in which contact is massless in some: bodies then weigh the same in all, and what rested goes on resting.
+    #[serde(skip)]
+    pub(crate) has_massless_stage: bool,
 }
 
 /// A stage of a case, complete: what it does not change is written out.
@@ -111,6 +114,7 @@ impl Scenario {
             loads: stage.loads.clone(),
             motions: stage.motions.clone(),
             contact: stage.contact.clone(),
+            has_massless_stage: self.stages.iter().any(|stage| stage.contact.condition.is_massless()),
             stages: Vec::new(),
             ..self.clone()
         };

@@ -103,7 +103,7 @@ impl Blend {
             self.weight[i] = if matters && available.abs() > CLEAR * energy {
                 (missing / available).clamp(least, largest)
             } else if matters && available > 0.0 {
-                (missing / available).clamp(-WITHIN, WITHIN)
+                Some(missing / available).filter(|weight| weight.abs() <= WITHIN).unwrap_or(0.0)
             } else {
                 0.0
             };

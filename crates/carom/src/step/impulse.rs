@@ -40,7 +40,7 @@ pub(crate) struct Done<const D: usize> {
 }
 
 /// What impulses mean for bodies that are connected by them.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Group {
     /// Σ λ·H v, along the normals and across them [J].
     pub work: [f64; 2],
@@ -50,6 +50,8 @@ pub(super) struct Group {
     pub power: f64,
     /// Σ of the energies that they are to give [J].
     pub energy: f64,
+    /// How many times they could be taken from the normal reactions of the step before one of these pulls.
+    pub pressed: f64,
 }
 
 /// Impulses in contacts change the velocities at the end of a step, Δv = M⁻¹ Hᵀλ, and neither positions nor the momentum of the whole. They are
@@ -78,6 +80,12 @@ pub(crate) struct Impulses<const D: usize> {
     pub(crate) scales: Vec<f64>,
 }
 
+impl Group {
+    /// Of no impulse.
+    const NONE: Self =
+        Self { work: [0.0; 2], square: [0.0; 2], power: 0.0, energy: 0.0, pressed: f64::INFINITY };
+}
+
 impl<const D: usize> Impulses<D> {
     /// Of so many nodes, obstacles among them, and bodies.
     pub fn new(nodes: usize, bodies: usize) -> Self {
@@ -92,7 +100,7 @@ impl<const D: usize> Impulses<D> {
             borne: vec![0.0; bodies],
             supports: Vec::new(),
             next: vec![0; bodies],
-            groups: vec![Group::default(); bodies],
+            groups: vec![Group::NONE; bodies],
             scales: vec![0.0; bodies],
         }
     }
@@ -200,7 +208,7 @@ impl<const D: usize> Impulses<D> {
         self.force.fill(Vector::zeros());
         self.change.fill(Vector::zeros());
         self.next.iter_mut().enumerate().for_each(|(i, next)| *next = i);
-        self.groups.fill(Group::default());
+        self.groups.fill(Group::NONE);
         for Impulse { reaction, contact, impulse, .. } in wanted {
             let Reaction { pair, .. } = new.reactions[*reaction];
             let pair = given.assembly.contact.pairs.get(pair as usize);
@@ -227,6 +235,9 @@ impl<const D: usize> Impulses<D> {
             let group = self.group_of(given, new, reaction);
             let group = &mut self.groups[group];
             group.energy += energy;
+            group.pressed = group
+                .pressed
+                .min(new.reactions[reaction].force[0] * given.interval.map.dt / impulse[0].abs());
             for i in 0..2 {
                 group.work[i] += work[i];
                 group.square[i] += square[i];

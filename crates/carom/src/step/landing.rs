@@ -74,7 +74,8 @@ pub(crate) fn restore<const D: usize, M: Masses<D> + ?Sized>(
 /// turns round what still approaches; it would be 1 for a node alone.
 ///
 /// What parted faster at the start than it could close its gap was pushed there and approaches at the end by far more than λ makes good. There
-/// was no landing, and as gaps get smaller, E vanishes and the positive solution does not: such a group takes the negative one, which does.
+/// was no landing, and as gaps get smaller, E vanishes and the positive solution does not: such a group takes the negative one, which does, as
+/// far as its reactions press.
 fn restoring(group: &Group) -> f64 {
     let ([work, _], [square, _], energy) = (group.work, group.square, group.energy);
     if square <= 0.0 || energy <= 0.0 {
@@ -84,14 +85,17 @@ fn restoring(group: &Group) -> f64 {
     if work > 0.0 {
         2.0 * energy / (root + work)
     } else if -work > IMPULSIVE.pushed * square {
-        -2.0 * energy / (root - work)
+        (-2.0 * energy / (root - work)).max(-group.pressed)
     } else {
         (root - work) / square
     }
 }
 
-/// Gives the impulses Coulomb's friction against the velocity that they meet, where the contact does not stick. As in a step with θ = ½ it may turn
-/// a velocity round, but not make it larger: friction takes energy at every contact, or there is none.
+/// Gives the impulses Coulomb's friction.
+///
+/// Along the normal they push: where the contact does not stick, friction is against the velocity that they meet. As in a step with θ = ½ it may turn
+/// a velocity round, but not make it larger: friction takes energy at every contact, or there is none. Where they take from the reactions, they
+/// take as much of their friction.
 fn rub<const D: usize, M: Masses<D> + ?Sized>(
     given: &Given<'_, D>,
     new: &State<D>,
@@ -100,35 +104,52 @@ fn rub<const D: usize, M: Masses<D> + ?Sized>(
     masses: &mut M,
     impulses: &mut Impulses<D>,
 ) {
-    let mut rubs = false;
     let dt = given.interval.map.dt;
-    for Impulse { reaction, contact, impulse, .. } in &mut impulses.wanted {
-        let v = at_end[*contact].relative(|n| new.velocity[n]);
+    let mut wanted = std::mem::take(&mut impulses.wanted);
+    let mut rubs = false;
+    for impulse in &mut wanted {
+        let takes = impulses.scale(given, new, impulse, restoring) < 0.0;
+        let Impulse { reaction, contact, ref mut impulse, .. } = *impulse;
+        let (friction, force) = (active.friction[contact], &new.reactions[reaction].force);
+        if takes {
+            rubs |= share(impulse, force);
+            continue;
+        }
+        let v = at_end[contact].relative(|n| new.velocity[n]);
         let speed = tangential(&v);
-        let friction = active.friction[*contact];
-        let force = &new.reactions[*reaction].force;
         let is_known = force[0] * dt > IMPULSIVE.is_known * impulse[0];
         if friction > 0.0 && speed > 0.0 && !(is_known && sticks(force, friction)) {
-            let turns = 2.0 * mass(&at_end[*contact], given.assembly, masses);
+            let turns = 2.0 * mass(&at_end[contact], given.assembly, masses);
             let most = friction * impulse[0] / speed;
             (1..D).for_each(|t| impulse[t] = -v[t] * turns.min(most));
             rubs = true;
         }
     }
     for round in 1..=IMPULSIVE.rounds {
+        impulses.wanted = wanted;
         if !rubs {
             return;
         }
         impulses.weigh(given, at_end, masses, new);
-        let mut wanted = std::mem::take(&mut impulses.wanted);
+        wanted = std::mem::take(&mut impulses.wanted);
         rubs = false;
         for impulse in &mut wanted {
             let [_, across] = impulses.taken(given, at_end, new, impulse, restoring);
-            if across < 0.0 || round == IMPULSIVE.rounds - 1 {
+            if impulses.scale(given, new, impulse, restoring) < 0.0 {
+                rubs |= share(&mut impulse.impulse, &new.reactions[impulse.reaction].force);
+            } else if across < 0.0 || round == IMPULSIVE.rounds - 1 {
                 (1..D).for_each(|t| impulse.impulse[t] = 0.0);
                 rubs = true;
             }
         }
-        impulses.wanted = wanted;
     }
+    impulses.wanted = wanted;
+}
+
+/// Gives an impulse along the normal the share of friction that the reaction `force` has, and says whether it had another.
+fn share<const D: usize>(impulse: &mut Vector<D>, force: &Vector<D>) -> bool {
+    let share = impulse[0] / force[0];
+    (1..D).fold(false, |changes, t| {
+        std::mem::replace(&mut impulse[t], share * force[t]) != impulse[t] || changes
+    })
 }
