@@ -77,8 +77,9 @@ In a dynamic analysis with the scheme `conserving`; a static one has `gap`.
 | `endpoint` | nodes that stop lose theirs | inside by a step's way | quiet | as `midpoint` |
 
 With `massless` a body keeps its mass where it touches if it is rigid or reduced, has no cells
-inside, has a friction law, or carries springs or masses there. Where both sides of a pair keep
-theirs, or one that meets an obstacle, the pair is ruled as with `midpoint`.
+inside, yields plastically, grows, has a friction law, or carries springs or masses there. Where
+both sides of a pair keep theirs, or one that meets an obstacle, the pair is ruled as with
+`midpoint`.
 """
 
 RULES = """\

@@ -16,7 +16,6 @@ import random_scenes
 
 ELASTIC = {"kind": "neo-hookean", "young": 1e4, "poisson": 0.3, "density": 1.0}
 PLASTIC = {**ELASTIC, "kind": "j2-plasticity", "yield_stress": 200.0, "hardening": 500.0}
-GROWN = {"growth": "0.1*sin(40*t)^2"}
 
 
 def thrown(material=ELASTIC, *, gravity=None, discretisation="node-to-segment", **body):
@@ -58,13 +57,11 @@ def thrown(material=ELASTIC, *, gravity=None, discretisation="node-to-segment", 
 
 KINDS = {
     "elastic": {},
-    "plastic": {"material": PLASTIC},
-    "plastic, mean dilatation": {"material": PLASTIC, "formulation": "mean-dilatation"},
+    "mean dilatation": {"formulation": "mean-dilatation"},
     "second order": {"cell": "quad8"},
     "mortar rows": {"discretisation": "mortar"},
-    "growing": GROWN,
     "damped": {"material": {**ELASTIC, "damping": {"stiffness": 2e-4}}},
-    "heavy": {"material": PLASTIC, "gravity": [0.0, -50.0]},
+    "heavy": {"gravity": [0.0, -50.0]},
 }
 
 
@@ -75,12 +72,68 @@ def test_the_books_of_an_impact_close(kind):
         simulation.step()
     history = simulation.history
     start = history["total"][0]
-    # Growth shakes a body that nothing vibrates in yet: what that leaves waits for three steps.
-    waits = 4 if kind == "growing" else 0
-    assert np.max(np.abs(history["defect"][:waits]), initial=0.0) < 5e-6 * start
-    assert np.max(np.abs(history["defect"][waits:])) < 1e-13 * start
+    assert np.max(np.abs(history["defect"])) < 1e-13 * start
     assert history["friction"][-1] > 0.01 * start
     assert np.max(history["contacts"]) > 4
+
+
+def foot(condition, sets=None):
+    """Return the radius [mm] of the foot of a copper rod that strikes a wall at 100 m/s."""
+    flow = carom.J2Plasticity(
+        young=117e9, poisson=0.35, density=8930.0, yield_stress=400e6, hardening=100e6
+    )
+    rod = carom.Body(
+        name="rod",
+        material="copper",
+        mesh=carom.Rectangle(corner=(0, 0), size=(0.0032, 0.0324), divisions=(4, 24)),
+        hypothesis="axisymmetric",
+        formulation="mean-dilatation",
+        velocity=(0, -100.0),
+        contact_sets=sets,
+    )
+    simulation = carom.Simulation(
+        carom.Scenario(
+            analysis=carom.Dynamic(end_time=4e-5, time_step=2e-7),
+            materials={"copper": flow},
+            bodies=[rod],
+            obstacles=[carom.Plane(name="wall", point=(0, 0), normal=(0, 1))],
+            contact=carom.Contact(condition=condition),
+        )
+    )
+    while not simulation.has_ended:
+        simulation.step()
+    return 1e3 * simulation.bodies["rod"].positions[:, 0].max()
+
+
+@pytest.mark.parametrize("sets", [None, ["bottom"]])
+def test_what_yields_keeps_its_mass(sets):
+    """Symptom guarded against: the foot of a Taylor bar without mass was a fifth too wide.
+
+    In static balance nothing held back the flow of the cells at its rim.
+    """
+    assert foot("massless", sets) == foot("midpoint", sets)
+
+
+def test_what_grows_keeps_its_mass():
+    """Symptom guarded against: a disc that starts to grow in a hole left its first step open."""
+    scenario = carom.Scenario(
+        analysis=carom.Dynamic(end_time=0.5, time_step=1e-3),
+        materials={"own": carom.SaintVenantKirchhoff(young=1e6, poisson=0.3, density=1000.0)},
+        bodies=[
+            carom.Body(
+                name="disc",
+                material="own",
+                growth="0.1*t",
+                mesh=carom.Disc(centre=(0, 0), radius=0.5, divisions=6),
+            )
+        ],
+        obstacles=[carom.RigidSphere(name="hole", centre=(0, 0), radius=0.51, cavity=True)],
+    )
+    simulation = carom.Simulation(scenario)
+    while not simulation.has_ended:
+        simulation.step()
+    assert np.max(simulation.history["contacts"]) > 10
+    assert np.max(np.abs(simulation.history["defect"])) < 1e-9 * simulation.energy.strain
 
 
 def test_what_folding_corners_set_free_goes_into_vibration(tmp_path):

@@ -119,9 +119,10 @@ class Contact(Description):
         in the paper and in every static analysis. ``midpoint`` writes it on the increment over the
         step, ``endpoint`` on the velocity at its end. With the scheme ``conserving``, ``massless``
         and ``midpoint`` keep the energy. Only ``massless`` is quiet besides; it takes more time.
-        With ``theta`` it takes energy, and ``midpoint`` is the default.
-        Bodies without cells inside, rigid and reduced ones keep their mass; pairs whose sides both
-        do are ruled as with ``midpoint``.
+        With ``theta`` it takes energy: there ``midpoint`` is the default, and where a case starts
+        from the result of another.
+        Bodies without cells inside, plastic, growing, rigid and reduced ones keep their mass; pairs
+        whose sides both do are ruled as with ``midpoint``.
     friction
         Friction of every pair that does not state its own: Coulomb's coefficient, or a law by which
         it depends on the sliding, `StaticKinetic`, `RateAndState` or `FrictionFormula`, such as

@@ -14,7 +14,8 @@ def with_condition(data: object) -> object:
     """Return a table of the case file with the condition that suits its analyses, if it names none.
 
     Load steps rule the gap. With `Theta` massless contact would take energy, which the conserving
-    scheme alone gives back: there the motion is ruled.
+    scheme alone gives back: there the motion is ruled. So it is where another run led, whose load
+    steps had weight at nodes that would have none: what rested there goes on resting.
     """
     if not isinstance(data, Mapping):
         return data
@@ -24,7 +25,8 @@ def with_condition(data: object) -> object:
     analyses.append(data.get("analysis"))
     if _of(analyses[-1], "kind") == "static":
         return {**data, "contact": with_default("gap", data.get("contact", {}))}
-    if any(_of(_of(analysis, "scheme"), "kind") == "theta" for analysis in analyses):
+    has_theta = any(_of(_of(analysis, "scheme"), "kind") == "theta" for analysis in analyses)
+    if has_theta or _of(data.get("initial"), "result") is not None:
         return {**data, "contact": with_default("midpoint", data.get("contact", {}))}
     return data
 

@@ -53,6 +53,10 @@ def contact_setup(patient: Patient) -> Iterator[Finding]:
         )
 
 
+MUCH_MOVED = 0.2
+"""Share of its mass that a body may move inside before the doctor tells of it."""
+
+
 def _rubs_later(patient: Patient) -> bool:
     """Return whether there is friction from a later stage on."""
     contacts = [stage.contact for stage in patient.stages]
@@ -75,11 +79,30 @@ def _masses(patient: Patient, partners: set[str]) -> Iterator[Finding]:
             f"keeping their mass where they touch: {listed(keep)}; pairs of these, and of these "
             "with obstacles, are ruled as with midpoint",
         )
+    moved = [
+        f"{100 * body['moved_mass'] / body['mass']:.0f} % of {body['name']}"
+        for body in patient.description["bodies"]
+        if body["name"] in partners and body["moved_mass"] > MUCH_MOVED * body["mass"]
+    ]
+    if moved:
+        yield Finding(
+            "ok",
+            "contact.condition",
+            f"mass moves inside from where bodies touch: {listed(moved)}; where waves matter, name "
+            "the sides that meet in bodies.contact_sets, or mesh more finely",
+        )
 
 
 def _scheme(stage: FullStage, analysis: Dynamic) -> Iterator[Finding]:
     """Look at how the scheme and the contact condition go together."""
-    if analysis.scheme.kind == "theta" and stage.contact.condition in ("massless", "midpoint"):
+    if analysis.scheme.kind == "theta" and stage.contact.condition == "massless":
+        yield Finding(
+            "warning",
+            f"{stage.key}contact.condition",
+            "massless contact takes energy with the scheme theta, which gives none of it back",
+            "take the default scheme, conserving, or the condition midpoint",
+        )
+    elif analysis.scheme.kind == "theta" and stage.contact.condition == "midpoint":
         yield Finding(
             "advice",
             f"{stage.key}analysis.scheme",

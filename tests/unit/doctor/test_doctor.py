@@ -401,11 +401,22 @@ def test_no_friction(case):
     assert grave(contact_setup, case)["contact.friction"].level == "advice"
 
 
-@pytest.mark.parametrize("condition", ["massless", "midpoint"])
-def test_theta_with_a_condition_that_keeps_energy(case, condition):
+@pytest.mark.parametrize(
+    ("condition", "key", "level"),
+    [("massless", "contact.condition", "warning"), ("midpoint", "analysis.scheme", "advice")],
+)
+def test_theta_with_a_condition_that_keeps_energy(case, condition, key, level):
     case["analysis"]["scheme"] = {"kind": "theta"}
     case["contact"]["condition"] = condition
-    assert grave(contact_setup, case)["analysis.scheme"].level == "advice"
+    assert grave(contact_setup, case)[key].level == level
+
+
+def test_a_body_whose_mass_is_on_its_sides(case):
+    # Of four cells each way, half of one is along every side: 1 − (3/4)².
+    said = [f.what for f in contact_setup(patient(case)) if "moves inside" in f.what]
+    assert "44 % of block" in said[0]
+    case["bodies"][0]["contact_sets"] = ["bottom"]
+    assert not [f for f in contact_setup(patient(case)) if "moves inside" in f.what]
 
 
 def test_nothing_moves(case):

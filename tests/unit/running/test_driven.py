@@ -2,8 +2,10 @@
 
 import itertools
 
+import numpy as np
 import pytest
 
+import carom
 from carom import (
     Contact,
     Fixed,

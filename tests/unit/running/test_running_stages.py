@@ -127,6 +127,32 @@ def test_what_gravity_has_pressed_down_goes_on_resting(cell, slope):
     assert iterations < 400
 
 
+def test_what_another_run_has_pressed_down_goes_on_resting(tmp_path):
+    """Symptom guarded against: with massless contact a block slid down a slope that holds it."""
+    gravity = (9.81 * np.sin(0.5), -9.81 * np.cos(0.5))
+    case = {
+        "materials": {"m": carom.SaintVenantKirchhoff(young=1e7, poisson=0.3, density=1000.0)},
+        "bodies": [
+            carom.Body(
+                name="block",
+                material="m",
+                mesh=carom.Rectangle(corner=(0, 0), size=(1.0, 0.3), divisions=(8, 4)),
+            )
+        ],
+        "obstacles": [carom.Plane(name="floor", point=(0, 0), normal=(0, 1))],
+        "contact": carom.Contact(friction=0.6),
+    }
+    pressed = carom.Static(end_time=1.0, time_step=0.25, gravity=gravity)
+    carom.run(carom.Scenario(analysis=pressed, **case), out=tmp_path / "pressed")
+    goes_on = carom.Dynamic(end_time=1.1, time_step=1e-3, gravity=gravity)
+    start = carom.Initial(result=tmp_path / "pressed", time=1.0)
+    run = carom.run(
+        carom.Scenario(analysis=goes_on, initial=start, **case), out=tmp_path / "goes on"
+    )
+    assert np.ptp(run.history["block.x"]) < 1e-14
+    assert run.history["kinetic"].max() < 1e-20
+
+
 def test_nothing_happens_at_the_border_of_stages():
     """The first step of the hit starts from the very state that the preload ended in."""
     simulation = carom.Simulation(staging.scenario())

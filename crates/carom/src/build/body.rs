@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use carom_fem::material::Mat3;
+use carom_fem::material::{LawSpec, Mat3};
 use carom_fem::{Body, BodySpec, FemError, MassKind};
 use carom_mesh::sets::facet_key;
 use carom_mesh::{Mesh, Surface};
@@ -26,7 +26,9 @@ pub(super) fn body<const D: usize>(
     let mesh = mesh(&format!("{key}.mesh"), &entry.mesh, given)?;
     let regions = regions(scenario, &key, entry, &mesh)?;
     let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
-    let massless_contact = spares_mass(scenario, entry, &mesh, &surface);
+    let mut laws = std::iter::once(&material.law).chain(regions.iter().map(|region| &region.law));
+    let flows = laws.any(|law| matches!(law, LawSpec::J2Plasticity(_)));
+    let massless_contact = !flows && spares_mass(scenario, entry, &mesh, &surface);
     let mut spec = BodySpec {
         law: material.law.clone(),
         density: material.density,

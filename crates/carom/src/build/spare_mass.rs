@@ -9,8 +9,8 @@ use crate::scenario::{AnalysisKind, BodyEntry, BodyKind, PairEntry, Scenario};
 
 /// Whether a body with this `mesh`, whose `surface` may touch, can do without the mass of that.
 ///
-/// It cannot if it is no body of finite elements, if springs or masses are attached there, or if its friction depends on the motion, which
-/// nodes in static balance do not have. A static stage before or after one with massless contact has the weight where that has it.
+/// It cannot if it is no body of finite elements, if it grows, if springs or masses are attached there, or if its friction depends on the motion,
+/// which nodes in static balance do not have. A static stage before or after one with massless contact has the weight where that has it.
 pub(super) fn spares_mass<const D: usize>(
     scenario: &Scenario,
     entry: &BodyEntry,
@@ -20,6 +20,7 @@ pub(super) fn spares_mass<const D: usize>(
     let is_static = scenario.analysis.kind == AnalysisKind::Static;
     (scenario.contact.condition.is_massless() || is_static && scenario.has_massless_stage)
         && entry.kind == BodyKind::Deformable
+        && entry.growth.is_none()
         && may_touch(scenario, &entry.name)
         && !has_friction_law(scenario, &entry.name)
         && !is_attached_to(scenario, entry, mesh, surface)

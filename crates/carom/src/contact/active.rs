@@ -133,7 +133,7 @@ impl<const D: usize> ActiveSet<D> {
             self.reactions.push(force * weight);
             self.start_forces.push(force);
             let pair = pairs.get(candidate.pair as usize);
-            self.friction.push(pair.friction);
+            self.friction.push(if given.assembly.can_slide(candidate) { pair.friction } else { 0.0 });
             touch(&mut self.touched, &pair);
         }
         self.recall_sliding(given);

@@ -25,7 +25,9 @@ impl<const D: usize> ActiveSet<D> {
         }
         for (i, candidate) in self.candidates.iter().enumerate() {
             let pair = assembly.contact.pairs.get(candidate.pair as usize);
-            let Some(law) = assembly.friction_laws.of(&pair) else { continue };
+            let Some(law) = assembly.friction_laws.of(&pair).filter(|_| assembly.can_slide(candidate)) else {
+                continue;
+            };
             let found = state.sliding.binary_search_by_key(&candidate.key(), SlidingRecord::key);
             let new = || SlidingRecord::new(candidate.key(), law.initial_state());
             let known = found.map_or_else(|_| new(), |k| state.sliding[k]);

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use carom_contact::{Boundaries, ContactModel, Pair, Solid, Target};
+use carom_contact::{Boundaries, Candidate, ContactModel, Pair, Site, Solid, Target};
 use carom_mesh::{Surface, Vector};
 
 use crate::model::bearing::Bearing;
@@ -40,6 +40,8 @@ pub struct Member<const D: usize> {
     pub is_massless: bool,
     /// Whether it can turn, which a body of revolution cannot.
     pub turns: bool,
+    /// Its nodes on an axis of revolution.
+    pub axis: Vec<u32>,
 }
 
 /// Bodies in their places and what may touch what: all that a step needs to know beside the bodies themselves.
@@ -84,6 +86,8 @@ pub struct Assembly<const D: usize> {
     /// The numbers of the nodes of every body.
     nodes: Vec<Range<usize>>,
     body_of_node: Vec<u32>,
+    /// The nodes on an axis of revolution, ascending.
+    on_axis: Vec<u32>,
     /// Which components of every node and obstacle are prescribed.
     held: Vec<[bool; D]>,
     diameters: Vec<f64>,
@@ -123,6 +127,7 @@ impl<const D: usize> Assembly<D> {
             names: Vec::with_capacity(members.len()),
             nodes: Vec::with_capacity(members.len()),
             body_of_node: Vec::with_capacity(count),
+            on_axis: Vec::new(),
             held: Vec::with_capacity(count + obstacles),
             diameters: members.iter().map(|m| m.diameter).collect(),
             reference: Vec::with_capacity(count + obstacles),
@@ -132,6 +137,7 @@ impl<const D: usize> Assembly<D> {
         };
         for (i, member) in members.into_iter().enumerate() {
             let first = assembly.reference.len();
+            assembly.on_axis.extend(member.axis.iter().map(|&n| first as u32 + n));
             assembly.reference.extend(member.reference);
             let end = assembly.reference.len();
             assembly.nodes.push(first..end);
@@ -292,6 +298,14 @@ impl<const D: usize> Assembly<D> {
     #[must_use]
     pub fn body_of(&self, node: usize) -> Option<usize> {
         self.body_of_node.get(node).map(|&b| b as usize)
+    }
+
+    /// Whether what meets at a candidate can slide. A node on an axis of revolution cannot: it moves along that alone, as does what it meets. With
+    /// the axis a little off the normal there would be no telling friction from pressure.
+    #[inline]
+    #[must_use]
+    pub fn can_slide(&self, candidate: &Candidate) -> bool {
+        !matches!(candidate.site, Site::Node(node) if self.on_axis.binary_search(&node).is_ok())
     }
 
     /// The body of a node and its number in that; none if it is the position of an obstacle.

@@ -65,6 +65,7 @@ impl<const D: usize> Model<D> {
             held: b.held(),
             is_massless: !b.body.massless().is_empty(),
             turns: b.body.turns(),
+            axis: b.body.axis_nodes(),
         };
         let assembly = Assembly::new(bodies.iter().map(member).collect(), contact, obstacle_names);
         let surroundings = stiffness_of_deformable(&bodies);

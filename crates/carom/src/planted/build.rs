@@ -95,6 +95,7 @@ impl<const D: usize> PlantedContact<D> {
                 held: nodes.iter().filter_map(|&n| held.get(n as usize).copied()).collect(),
                 is_massless: false,
                 turns: true,
+                axis: Vec::new(),
             });
         }
         let method = method(spec)?;

@@ -98,6 +98,7 @@ impl<const D: usize> ForeignRun<D> {
                 held,
                 is_massless: false,
                 turns: true,
+                axis: Vec::new(),
             });
             bodies.push(Box::new(body));
         }

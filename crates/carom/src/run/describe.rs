@@ -35,6 +35,8 @@ pub struct BodyDescription {
     pub is_rigid: bool,
     /// Whether its nodes that may touch have no mass.
     pub is_massless: bool,
+    /// What these had of its mass, which is inside now [kg].
+    pub moved_mass: f64,
     /// The vibrations of a reduced body.
     pub vibrations: Option<Vibrations>,
     /// Nodes.
@@ -112,6 +114,7 @@ pub(crate) fn describe<const D: usize>(
                 cells: b.body.mesh().cell_count(),
                 is_rigid: b.is_rigid(),
                 is_massless: !b.body.massless().is_empty(),
+                moved_mass: b.body.massless_mass().iter().sum(),
                 vibrations: b.reduced.as_ref().map(|reduced| vibrations(&reduced.reduction)),
                 dofs: b.dofs(),
                 mass: b.body.total_mass(),
