@@ -4,7 +4,6 @@ The bounds are of the penetration that runs tell of, within ten times of what is
 """
 
 import sys
-from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -112,14 +111,13 @@ def test_corners_stay_outside_of_coarse_bodies_without_mass(seed, deepest):
     assert np.max(simulation.history["penetration"]) < deepest
 
 
-@pytest.mark.parametrize(("seed", "reason"), [(224, "Newton's iterations"), (197, None)])
-def test_a_step_that_is_repeated_with_more_contacts_goes_back_to_no_guess_of_fewer(seed, reason):
+def test_a_step_that_is_repeated_with_more_contacts_goes_back_to_no_guess_of_fewer():
     """Symptom guarded against: a panic where contacts with the stiffness of their reactions failed.
 
-    Of 500 random scenes these two did. One crushes a body, and ends with a reason.
+    It crushes a body, and ends with a reason.
     """
-    scenario = wild_scenes.scene(seed)
+    scenario = wild_scenes.scene(224)
     simulation = carom.Simulation(scenario)
-    with pytest.raises(carom.ConvergenceError, match=reason) if reason else nullcontext():
+    with pytest.raises(carom.ConvergenceError, match="Newton's iterations"):
         while simulation.time < scenario.analysis.end_time * (1 - 1e-9):
             simulation.step()

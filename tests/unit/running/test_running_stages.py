@@ -145,7 +145,7 @@ def test_what_another_run_has_pressed_down_goes_on_resting(tmp_path):
     pressed = carom.Static(end_time=1.0, time_step=0.25, gravity=gravity)
     carom.run(carom.Scenario(analysis=pressed, **case), out=tmp_path / "pressed")
     goes_on = carom.Dynamic(end_time=1.1, time_step=1e-3, gravity=gravity)
-    start = carom.Initial(result=tmp_path / "pressed", time=1.0)
+    start = carom.Initial(result=str(tmp_path / "pressed"), time=1.0)
     run = carom.run(
         carom.Scenario(analysis=goes_on, initial=start, **case), out=tmp_path / "goes on"
     )

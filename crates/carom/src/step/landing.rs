@@ -9,7 +9,7 @@ use crate::body::Masses;
 use crate::contact::active::ActiveSet;
 use crate::ledger::BodyLedger;
 use crate::model::given::Given;
-use crate::model::state::State;
+use crate::model::state::{Reaction, State};
 
 /// The contacts of a step that is at its end, and the bodies that meet there.
 pub(crate) struct Landing<'a, const D: usize, M: ?Sized> {
@@ -65,7 +65,7 @@ pub(crate) fn restore<const D: usize, M: Masses<D> + ?Sized>(
         return;
     }
     impulses.weigh(given, at_end, masses, new);
-    rub(given, new, active, at_end, masses, impulses);
+    rub(given, new, active, at_end, motion, masses, impulses);
     impulses.give(given, at_end, new, ledgers, restoring);
     impulses.landings = impulses.done.len();
 }
@@ -95,12 +95,13 @@ fn restoring(group: &Group) -> f64 {
 ///
 /// Along the normal they push: where the contact does not stick, friction is against the velocity that they meet. As in a step with θ = ½ it may turn
 /// a velocity round, but not make it larger: friction takes energy at every contact, or there is none. Where they take from the reactions, they
-/// take as much of their friction.
+/// take as much of their friction; and nothing where this would give more back than it took in the step.
 fn rub<const D: usize, M: Masses<D> + ?Sized>(
     given: &Given<'_, D>,
     new: &State<D>,
     active: &ActiveSet<D>,
     at_end: &[Contact<D>],
+    motion: &[Vector<D>],
     masses: &mut M,
     impulses: &mut Impulses<D>,
 ) {
@@ -135,9 +136,14 @@ fn rub<const D: usize, M: Masses<D> + ?Sized>(
         rubs = false;
         for impulse in &mut wanted {
             let [_, across] = impulses.taken(given, at_end, new, impulse, restoring);
-            if impulses.scale(given, new, impulse, restoring) < 0.0 {
-                rubs |= share(&mut impulse.impulse, &new.reactions[impulse.reaction].force);
-            } else if across < 0.0 || round == IMPULSIVE.rounds - 1 {
+            let takes = impulses.scale(given, new, impulse, restoring) < 0.0;
+            let reaction = &new.reactions[impulse.reaction];
+            if takes && share(&mut impulse.impulse, &reaction.force) {
+                rubs = true;
+            } else if takes && rubbed(reaction, motion) + across < 0.0 {
+                (impulse.impulse, impulse.energy) = (Vector::zeros(), 0.0);
+                rubs = true;
+            } else if !takes && (across < 0.0 || round == IMPULSIVE.rounds - 1) {
                 (1..D).for_each(|t| impulse.impulse[t] = 0.0);
                 rubs = true;
             }
@@ -152,4 +158,10 @@ fn share<const D: usize>(impulse: &mut Vector<D>, force: &Vector<D>) -> bool {
     (1..D).fold(false, |changes, t| {
         std::mem::replace(&mut impulse[t], share * force[t]) != impulse[t] || changes
     })
+}
+
+/// What friction took with a reaction in the step [J].
+fn rubbed<const D: usize>(reaction: &Reaction<D>, motion: &[Vector<D>]) -> f64 {
+    let w = reaction.contact.relative(|n| motion[n]);
+    -(1..D).map(|t| reaction.force[t] * w[t]).sum::<f64>()
 }
