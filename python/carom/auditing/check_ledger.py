@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.auditing.arrays import Array
+from carom.auditing.arrays import AXES, Array
 from carom.auditing.files import Frame
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
@@ -128,7 +128,9 @@ class LedgerChecks:
             size = sum(np.abs(entry[name]) for name in BODY_COLUMNS)
             off = ROUND_OFF * (self._scales.energy + size)
             self._check("books: defect", entry["defect"] - known, off, body.name)
-            centre = np.stack([h[f"{body.name}.x"], h[f"{body.name}.y"]], axis=1)
+            centre = np.stack(
+                [h[f"{body.name}.{axis}"] for axis in AXES[: model.dimension]], axis=1
+            )
             weight = body.mass.total * model.gravity
             reach = float(np.linalg.norm(weight)) * (self._scales.reach + model.size)
             steps = max(float(self._summary["steps"]), 1.0)

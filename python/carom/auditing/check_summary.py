@@ -7,6 +7,7 @@ from typing import Any, get_args
 
 import numpy as np
 
+from carom.auditing.arrays import turning_axes
 from carom.auditing.body import AuditBody
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
@@ -268,8 +269,10 @@ class SummaryChecks:
 
 def _unknowns(body: AuditBody) -> int:
     if body.modes is not None:
-        return 2 * len(body.surface) + body.modes
-    return 3 if body.rigid else 2 * (len(body.points) - len(body.images))
+        return body.dimension * len(body.surface) + body.modes
+    if body.rigid:
+        return body.dimension + turning_axes(body.dimension)
+    return body.dimension * (len(body.points) - len(body.images))
 
 
 def _number(value: object) -> float:

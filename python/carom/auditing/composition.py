@@ -25,7 +25,7 @@ class Composition:
     known
         The materials of the case.
     middles
-        Means of the nodes of each cell [m], shape [cell_count, 2].
+        Means of the nodes of each cell [m], shape [cell_count, D].
     mesh
         The mesh as the case draws it, which has the sets of cells.
 
@@ -40,7 +40,8 @@ class Composition:
     ) -> None:
         materials = [known[name] for name in materials_of(entry)]
         stress = entry.initial_stress if isinstance(entry, Body) else None
-        self._laws = [Law.of(material, stress) for material in materials] or [Law.none()]
+        free = middles.shape[1]
+        self._laws = [Law.of(material, free, stress) for material in materials] or [Law.none()]
         self._densities = [material.density for material in materials]
         regions = () if isinstance(entry, RigidBody) else entry.regions
         self._of_cell = _regions(regions, middles, mesh)
@@ -97,15 +98,15 @@ class Composition:
         return self.mass_damping > 0 or bool((self.stiffness_damping > 0).any())
 
     def energy(self, f: Array) -> Array:
-        """Return ψ [J/m³] of F, shape [cell_count, q, 2, 2], shape [cell_count, q]."""
+        """Return ψ [J/m³] of F, shape [cell_count, q, 3, 3], shape [cell_count, q]."""
         return self._by_material([law.energy for law in self._laws], f)
 
     def stress(self, f: Array) -> Array:
-        """Return P [Pa] of F, shape [cell_count, q, 2, 2]."""
+        """Return P [Pa] of F, shape [cell_count, q, 3, 3]."""
         return self._by_material([law.stress for law in self._laws], f)
 
     def cauchy_stress(self, f: Array) -> Array:
-        """Return P Fᵀ/J [Pa] in space, shape [cell_count, q, 3, 3]."""
+        """Return P Fᵀ/J [Pa], shape [cell_count, q, 3, 3]."""
         return self._by_material([law.cauchy_stress for law in self._laws], f)
 
     def discrete_stress(self, f0: Array, f1: Array) -> Array:

@@ -1,7 +1,4 @@
-"""Rubber-like laws in plane strain, by invariants of C, over arrays of points.
-
-Everything is written for the 2 × 2 part of C; C₃₃ = 1, and C₁₃ = C₂₃ = 0.
-"""
+"""Rubber-like laws by invariants of C, over arrays of points."""
 
 from __future__ import annotations
 
@@ -12,7 +9,7 @@ import numpy as np
 from carom.auditing.arrays import Array, einsum
 from carom.case.material import MooneyRivlin, Yeoh
 
-_IDENTITY = np.eye(2)
+_IDENTITY = np.eye(3)
 
 
 @dataclass(frozen=True)
@@ -56,8 +53,8 @@ class Rubber:
         energy: Array = x * (a + x * (b + x * d)) + self.second * (two * j2 ** (-2 / 3) - 3.0)
         return energy + volume
 
-    def second_piola(self, c: Array) -> tuple[Array, Array]:
-        """Return S = 2 ∂ψ/∂C in the plane, and S₃₃ [Pa], shapes [..., 2, 2] and [...]."""
+    def second_piola(self, c: Array) -> Array:
+        """Return S = 2 ∂ψ/∂C [Pa], shape [..., 3, 3]."""
         j2, one, two = _invariants(c)
         x = one * j2 ** (-1 / 3) - 3.0
         a, b, d = self.first
@@ -65,14 +62,12 @@ class Rubber:
         by_second = 2.0 * self.second * j2 ** (-2 / 3)
         # ∂I₁/∂C = 1 and ∂I₂/∂C = I₁ 1 − C; a change of volume takes along C⁻¹.
         along = -by_first * one / 3 - by_second * two * 2 / 3 + 0.5 * self.bulk * (j2 - 1.0)
-        plane: Array = (by_first + by_second * one)[..., None, None] * _IDENTITY
-        plane = plane - by_second[..., None, None] * c + along[..., None, None] * np.linalg.inv(c)
-        out: Array = by_first + by_second * (one - 1.0) + along
-        return plane, out
+        stress: Array = (by_first + by_second * one)[..., None, None] * _IDENTITY
+        stress = stress - by_second[..., None, None] * c
+        return stress + along[..., None, None] * np.linalg.inv(c)
 
 
 def _invariants(c: Array) -> tuple[Array, Array, Array]:
     """Return J², I₁ and I₂ of C, each of shape [...]."""
-    j2 = np.linalg.det(c)
     trace = einsum("...ii->...", c)
-    return j2, trace + 1.0, j2 + trace
+    return np.linalg.det(c), trace, 0.5 * (trace**2 - einsum("...ij,...ij->...", c, c))
