@@ -8,11 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.auditing.arrays import Array, Indices, einsum
-from carom.auditing.feet import BEYOND, CORNER, TIE, Feet
-
-FLAT = np.cos(np.radians(1))
-"""Cosine of the angle up to which it is straight there, and where its facets are."""
+from carom.auditing.arrays import Array, Indices, Mask, einsum
+from carom.auditing.feet import BEYOND, CORNER, FLAT, TIE, Feet
 
 _BISECTIONS = 64
 _POWERS = np.arange(4)
@@ -32,7 +29,8 @@ class Curve:
     """
 
     def __init__(self, facets: Indices, points: Array, *, smooth: bool) -> None:
-        self.facets, self.width, self.smooth = facets, 4, smooth
+        self.facets, self.width = facets, 4
+        self.smooth: Mask = np.full(len(facets), smooth)
         self._nodes = np.concatenate([facets, facets], axis=1)
         tangents = np.zeros((len(facets), 2, 4))
         tangents[:, :, :2] = [-1.0, 1.0]

@@ -7,10 +7,13 @@ from typing import Protocol
 
 import numpy as np
 
-from carom.auditing.arrays import Array, Indices
+from carom.auditing.arrays import Array, Indices, Mask
 
 BEYOND = 0.5
 """How far a facet, or the end of a smooth part, reaches beyond its edge, in facets."""
+
+FLAT = np.cos(np.radians(1))
+"""Cosine of the angle up to which a smooth target is straight, and stays where its facets are."""
 
 CORNER = np.cos(np.radians(40)) - 1e-9
 """Cosine of the angle from which on a smooth target keeps its corner; the slack is for polygons
@@ -61,8 +64,8 @@ class Target(Protocol):
         """Nodes of its facets in the body's numbering, shape [facet_count, a]."""
 
     @property
-    def smooth(self) -> bool:
-        """Whether it goes on from facet to facet without a kink."""
+    def smooth(self) -> Mask:
+        """Over which facets it goes on to the next without a kink, shape [facet_count]."""
 
     def feet(self, x: Array, position: Array) -> Feet:
         """Return all places where distances are smallest on a facet or beyond a free end.

@@ -18,6 +18,9 @@ from carom.auditing.rounding import nearest_places
 SAME = 1e-7
 """Feet whose gap [model size] and normal differ by no more are equally good: at edges of facets."""
 
+BALANCED = 1e-9
+"""What is left of forces on nodes below this part of all reactions needs no other feet."""
+
 NOT_AT_NODE = 1e-5
 """Contacts whose node has no foot as near to what is stored as this are not at a node."""
 
@@ -88,6 +91,9 @@ class _Finder:
             for node in self._node
         ]
 
+        self._alike: dict[int, list[Place]] = {}
+        """Feet of a contact that are as good as one another."""
+
     def found(self, step: tuple[float, float]) -> Contacts:
         """Return the contacts, of which a step has start and end [s]."""
         for t in np.unique(self._target):
@@ -96,6 +102,8 @@ class _Finder:
                 self._before_body(int(t), at)
             elif t < 0 and -1 - t < len(self._model.obstacles):
                 self._before_obstacle(int(-1 - t), at)
+        if self._like is None:
+            self._settle()
         return self._gathered(step)
 
     def _misfit(self, contact: int, gap: Array, normal: Array) -> Array:
@@ -145,35 +153,82 @@ class _Finder:
         for k, contact in enumerate(at):
             mine = np.flatnonzero(feet.point == k)
             if len(mine):
-                self._places[contact] = self._at_node(feet, mine, int(contact), number)
+                self._at_node(feet, mine, int(contact), number)
             if model.dimension == 3 and self._may_be(AT_EDGES, contact):
-                self._at_edges(number, int(contact))
+                crossed = self._at_edges(number, int(contact))
+                if crossed:
+                    self._places[contact], self._alike[int(contact)] = crossed[0], crossed
 
-    def _at_node(self, feet: Feet, mine: Indices, contact: int, number: int) -> Place:
+    def _at_node(self, feet: Feet, mine: Indices, contact: int, number: int) -> None:
         misfit = self._misfit(contact, feet.gap[mine], feet.normal[mine])
         good = mine[misfit <= misfit.min() + SAME]
-        best = int(good[feet.beyond[good].argmin()])
+        good = good[np.argsort(feet.beyond[good], kind="stable")]
         if self._like is not None:
             near = (int(self._like.facet[contact]), self._like.normal[contact])
-            best = _next(feet, mine, near, self._model.targets[number], otherwise=best)
+            target = self._model.targets[number]
+            good = np.array([_next(feet, mine, near, target, otherwise=int(good[0]))])
         first = self._model.bodies[number].span.start
-        return Place(
-            gap=float(feet.gap[best]),
-            normal=feet.normal[best],
-            misfit=float(misfit.min()),
-            facet=int(feet.facet[best]),
-            sources=self._places[contact].sources,
-            followed=[
-                (int(node) + first, float(weight))
-                for node, weight in zip(feet.nodes[best], feet.weights[best], strict=True)
-            ],
-        )
+        alike = [
+            Place(
+                gap=float(feet.gap[foot]),
+                normal=feet.normal[foot],
+                misfit=float(misfit.min()),
+                facet=int(feet.facet[foot]),
+                sources=self._places[contact].sources,
+                followed=[
+                    (int(node) + first, float(weight))
+                    for node, weight in zip(feet.nodes[foot], feet.weights[foot], strict=True)
+                ],
+            )
+            for foot in good
+        ]
+        self._places[contact] = alike[0]
+        if len(alike) > 1:
+            self._alike[contact] = alike
 
-    def _at_edges(self, number: int, contact: int) -> None:
-        """Look for edges around the node that cross edges of the target."""
+    def _settle(self) -> None:
+        """Choose among places that are alike, as on flat sides, by the stored forces on nodes."""
+        left = self._state["contact_force"].copy()
+        for contact, place in enumerate(self._places):
+            self._press(contact, place, left, -1.0)
+        total = float(np.abs(self._state["contact_reaction"]).sum())
+        # Faces that lie on one another touch with edges where nodes would do as well.
+        for with_edges in (False, True):
+            if not np.abs(left).max(initial=0.0) > BALANCED * total:
+                return
+            for contact in range(len(self._places)):
+                if with_edges and self._model.dimension == 3 and self._target[contact] >= 0:
+                    found = self._at_edges(int(self._target[contact]), contact)
+                    self._alike.setdefault(contact, [self._places[contact]]).extend(found)
+                if contact in self._alike:
+                    self._choose(contact, left)
+
+    def _choose(self, contact: int, left: Array) -> None:
+        """Choose the place of a contact that leaves least of the forces [N] on its nodes."""
+        alike = self._alike[contact]
+        self._press(contact, self._places[contact], left, 1.0)
+        nodes = {node for place in alike for node, _ in (*place.sources, *place.followed)}
+        errors = []
+        for place in alike:
+            self._press(contact, place, left, -1.0)
+            errors.append(float((left[sorted(nodes)] ** 2).sum()))
+            self._press(contact, place, left, 1.0)
+        self._places[contact] = alike[int(np.argmin(errors))]
+        self._press(contact, self._places[contact], left, -1.0)
+
+    def _press(self, contact: int, place: Place, force: Array, sign: float) -> None:
+        """Add the reaction of a contact at a place to forces on nodes [N], or take it off."""
+        reaction = sign * self._state["contact_reaction"][contact]
+        for node, weight in place.sources:
+            force[node] += weight * reaction
+        for node, weight in place.followed:
+            force[node] -= weight * reaction
+
+    def _at_edges(self, number: int, contact: int) -> list[Place]:
+        """Return where edges around the node cross edges of the target, all that fit best."""
         model, source = self._model, self._source[contact]
-        if source >= len(model.bodies):
-            return
+        if source >= len(model.bodies) or number >= len(model.bodies):
+            return []
         if self._like is None:
             mine = edges(model.bodies[source])
             mine = mine[(mine == self._node[contact]).any(axis=1)]
@@ -184,22 +239,23 @@ class _Finder:
         found = crossings(self._position, mine, theirs, self._normal[contact])
         misfit = self._misfit(contact, found.gap, found.normal)
         if not len(misfit) or not misfit.min() < np.inf:
-            return
+            return []
+        if self._like is None and not misfit.min() < self._places[contact].misfit + SAME:
+            return []
         # Edges that go on in one line cross at the same place.
         good = np.flatnonzero(misfit <= misfit.min() + SAME)
-        best = int(good[found.beyond[good].argmin()])
-        if self._like is None and not misfit[best] < self._places[contact].misfit:
-            return
-        s, t = found.along[best]
-        (a, b), (c, d) = found.source[best].tolist(), found.target[best].tolist()
-        self._places[contact] = Place(
-            gap=float(found.gap[best]),
-            normal=found.normal[best],
-            misfit=float(misfit[best]),
-            site=AT_EDGES,
-            sources=[(a, 1.0 - s), (b, s)],
-            followed=[(c, 1.0 - t), (d, t)],
-        )
+        good = good[np.argsort(found.beyond[good], kind="stable")]
+        return [
+            Place(
+                gap=float(found.gap[k]),
+                normal=found.normal[k],
+                misfit=float(misfit[k]),
+                site=AT_EDGES,
+                sources=_weighted(found.source[k], found.along[k, 0]),
+                followed=_weighted(found.target[k], found.along[k, 1]),
+            )
+            for k in good
+        ]
 
     def _gathered(self, step: tuple[float, float]) -> Contacts:
         model, count = self._model, len(self._places)
@@ -237,6 +293,11 @@ class _Finder:
         )
 
 
+def _weighted(ends: Indices, along: float) -> list[tuple[int, float]]:
+    """Return the ends of an edge with their weights at a part of the way along it."""
+    return [(int(ends[0]), 1.0 - along), (int(ends[1]), along)]
+
+
 def _padded(stencils: list[list[tuple[int, float]]]) -> tuple[Indices, Array]:
     """Return nodes and weights as arrays, shape [count, n], with zero weights at the end."""
     width = max((len(stencil) for stencil in stencils), default=1)
@@ -272,11 +333,13 @@ def _next(
     facet, normal = known
     own = feet.facet[mine] == facet
     on = feet.beyond[mine] == 0.0
-    choices = [own & on] if target.smooth else [own]
-    if target.smooth and facet >= 0:
+    walks = facet >= 0 and bool(target.smooth[facet])
+    choices = [own & on] if walks else [own]
+    if walks:
         # Sides beyond a corner are not beside it.
         beside = np.isin(target.facets[feet.facet[mine]], target.facets[facet]).any(axis=1)
         beside &= feet.normal[mine] @ normal > CORNER
+        beside &= target.smooth[feet.facet[mine]]
         choices += [beside & on, own]
     found = next((chosen for chosen in choices if chosen.any()), None)
     return otherwise if found is None else int(mine[found.argmax()])

@@ -11,6 +11,7 @@ from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
 from carom.auditing.curve import Curve
 from carom.auditing.feet import Target
+from carom.auditing.gregory import GregoryPatches
 from carom.auditing.loads import Loads
 from carom.auditing.mass import NoMassInsideError
 from carom.auditing.obstacles import AuditObstacle, obstacle_of
@@ -230,9 +231,12 @@ class AuditModel:
 def _target(body: AuditBody, *, smooth: bool) -> Target:
     if body.dimension == 2:
         return Curve(body.facets, body.points, smooth=smooth)
-    if smooth:
-        raise InputError("cannot audit smooth targets in space yet")
-    return Sheet(body.facets, FlatPatches(body.cells.kind.facet, body.facets))
+    kind = body.cells.kind.facet
+    if not smooth:
+        return Sheet(body.facets, FlatPatches(kind, body.facets))
+    if kind.degree > 1:
+        raise InputError("cannot audit smooth targets over facets of second order in space yet")
+    return Sheet(body.facets, GregoryPatches(kind, body.facets, body.points))
 
 
 def _diameter(points: Array) -> float:
@@ -249,5 +253,7 @@ def _refuse_what_is_driven(scenario: Scenario) -> None:
         raise InputError("cannot audit a pair with an interference yet")
     if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):
         raise InputError("cannot audit the steps of a reduced body yet, as with output.audit")
+    if any(isinstance(body, RigidBody) and body.round for body in scenario.bodies):
+        raise InputError("cannot audit a rigid body that is round yet")
     if any(isinstance(body, Body) and body.growth is not None for body in scenario.bodies):
         raise InputError("cannot audit a body that grows yet")

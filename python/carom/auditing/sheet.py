@@ -32,6 +32,10 @@ class Patches(Protocol):
     def domain(self) -> Domain:
         """Where ξ is."""
 
+    @property
+    def curved(self) -> Mask:
+        """Which of them go on into others without a kink, shape [patch_count]."""
+
     def values(self, patch: Indices, xi: Array) -> Array:
         """Return the weights of the nodes at ξ, shape [count, n]."""
 
@@ -53,6 +57,7 @@ class FlatPatches:
     def __init__(self, kind: Kind, nodes: Indices) -> None:
         self.nodes, self._kind = nodes, kind
         self.domain = Domain.of(kind)
+        self.curved: Mask = np.zeros(len(nodes), dtype=bool)
 
     def values(self, patch: Indices, xi: Array) -> Array:
         """Return N_a at ξ, shape [count, a]."""
@@ -77,7 +82,8 @@ class Sheet:
     """
 
     def __init__(self, facets: Indices, patches: Patches) -> None:
-        self.facets, self._patches, self.smooth = facets, patches, False
+        self.facets, self._patches = facets, patches
+        self.smooth = patches.curved
         self.width = patches.nodes.shape[1]
         self._rim = _rims(facets[:, : len(patches.domain.corners)])
 

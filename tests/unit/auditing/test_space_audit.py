@@ -114,7 +114,7 @@ PIPE = {
             }
         },
         {"materials.m.damping": {"mass": 0.1, "stiffness": 1e-3}, "obstacles.0": CUP},
-        {"bodies.0.initial_stress": {"xx": 50.0, "yz": 20.0, "xz": -10.0}, "obstacles.0": PIPE},
+        {"bodies.0.initial_stress": {"xx": 5.0, "yz": 2.0, "xz": -1.0}},
         {"contact.friction": {"static": 0.4, "kinetic": 0.2, "speed": 0.5}},
     ],
 )
@@ -123,6 +123,52 @@ def test_what_a_case_can_vary_is_confirmed_in_space(tmp_path, method, changes):
     refuted, checks = audited(balls(*method, **changes), tmp_path)
     assert refuted == []
     assert checks["Coulomb: cone"].count > 10
+
+
+def test_edges_before_a_cylinder_that_is_smaller_than_cells_are_confirmed(tmp_path):
+    refuted, checks = audited(balls("gap", "theta", **{"obstacles.0": PIPE}), tmp_path)
+    assert refuted == []
+    assert checks["contact gaps"].count > 10
+
+
+CAN = {
+    "name": "a",
+    "material": "m",
+    "mesh": {
+        "kind": "cylinder",
+        "base": [-0.6, -0.3, 0.7],
+        "axis": [1, 0.5, 0.3],
+        "radius": 0.6,
+        "height": 1.3,
+        "divisions": 2,
+        "rings": 2,
+        "layers": 4,
+    },
+    "velocity": [3, 0, -1],
+}
+
+
+@pytest.mark.parametrize(
+    ("method", "changes"),
+    [
+        (("gap", "theta"), {}),
+        (("massless", "conserving"), {}),
+        (("massless", "conserving"), {"bodies.0.mesh.cell": "tet4", "bodies.1.mesh.cell": "tet4"}),
+        (("midpoint", "conserving"), {"bodies.0": CAN, "output.track": []}),
+    ],
+)
+def test_smooth_targets_are_confirmed_in_space(tmp_path, method, changes):
+    smooth = {"contact.targets": "smooth", **changes}
+    refuted, checks = audited(balls(*method, **smooth), tmp_path)
+    assert refuted == []
+    assert checks["contact normals"].count > 10
+
+
+def test_a_run_with_facets_has_no_smooth_targets(results, tmp_path):
+    directory = tmp_path / "results"
+    shutil.copytree(results, directory)
+    told('targets = "faceted"', 'targets = "smooth"')(directory)
+    assert "contact normals" in {check.name for check in carom.audit(directory).refuted}
 
 
 def driven():
@@ -266,3 +312,26 @@ def test_a_changed_number_is_found_in_space(results, tmp_path, what):
     shutil.copytree(results, directory)
     FALSE[what](directory)
     assert {check.name for check in carom.audit(directory).refuted} - {"files"}
+
+
+def test_cells_of_second_order_are_confirmed_but_smooth_targets_over_them_are_not(tmp_path):
+    small = {"kind": "ball", "centre": [0, 0, 1.0], "radius": 1, "divisions": 1, "rings": 1}
+    case = balls("gap", "conserving", **{"analysis.end_time": 0.02, "output.fields_every": 0.01})
+    case = case.model_dump(mode="json", exclude_none=True)
+    for body, shift in zip(case["bodies"], (0.0, 2.01), strict=True):
+        body["mesh"] = {**small, "cell": "tet10", "centre": [shift, 0, 1.0]}
+    refuted, checks = audited(carom.Scenario.from_dict(case), tmp_path)
+    assert refuted == []
+    assert checks["Coulomb: cone"].count > 0
+    told('targets = "faceted"', 'targets = "smooth"')(tmp_path)
+    with pytest.raises(carom.InputError, match="smooth targets over facets of second order in sp"):
+        carom.audit(tmp_path)
+
+
+def test_friction_that_depends_on_the_direction_is_not_audited(results, tmp_path):
+    directory = tmp_path / "results"
+    shutil.copytree(results, directory)
+    law = '{ along = 0.1, across = 0.3, direction = [1, 0, 0], of = "floor" }'
+    told("friction = 0.2", f"friction = {law}")(directory)
+    with pytest.raises(carom.InputError, match="cannot audit friction that depends on the direc"):
+        carom.audit(directory)

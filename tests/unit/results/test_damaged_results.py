@@ -182,6 +182,11 @@ CANNOT = [
         'contact.pairs=[{between=["left","right"],interference="1e-3*t"}]',
         "cannot audit a pair with an interference yet",
     ),
+    (
+        'bodies.0={name="left",kind="rigid",density=1.0,round=true,'
+        'mesh={kind="disc",centre=[0,0],radius=1.0,divisions=2}}',
+        "cannot audit a rigid body that is round yet",
+    ),
     ("bodies.0.growth='1e-3*t'", "cannot audit a body that grows yet"),
     ("contact.discretisation=mortar", "cannot audit mortar contact yet"),
     (
