@@ -10,21 +10,19 @@ from carom.auditing.arrays import (
     Array,
     Indices,
     Mask,
-    cross,
     einsum,
     inertia,
-    nearest_rotation,
-    solved,
-    turned,
 )
 from carom.auditing.cells import Cells, boundary
 from carom.auditing.composition import Composition
+from carom.auditing.dilatation import MeanDilatation, Response
 from carom.auditing.drawn import drawn, nodes_of, unknown
 from carom.auditing.facets import Facets
 from carom.auditing.kinds import kind_of
 from carom.auditing.mass import AddedMass, Mass
+from carom.auditing.moving import MovingBody
 from carom.auditing.places import Attached, Place, place_on
-from carom.auditing.reduced import MeanAxes
+from carom.auditing.stiffness import reference_stiffness
 from carom.case.body import AnyBody, ReducedBody, RigidBody
 from carom.case.material import Material
 from carom.case.mesh import Rectangle
@@ -43,11 +41,8 @@ MUCH_SHORTER = 8.0
 ITERATIONS = 500
 """Most iterations for the velocities that impulses give; mass matrices need some dozens."""
 
-KINETIC_PARTS = ("translation", "rotation", "vibration")
-"""What kinetic energy is split into, as `AuditBody.kinetic_parts` returns it."""
 
-
-class AuditBody:
+class AuditBody(MovingBody):
     """One body of a case. All arrays are in its own numbering of nodes.
 
     Parameters
@@ -91,6 +86,7 @@ class AuditBody:
         """Its mesh as the case draws it."""
         self.law = Composition(entry, materials, points[nodes].mean(axis=1), self.drawn)
         """Its materials, cell by cell."""
+        dilates = not isinstance(entry, RigidBody) and entry.formulation != "standard"
         self.masters = _masters(entry, points)
         """For every node the one that it moves with, itself as a rule, [node_count]."""
         self.images: Indices = np.flatnonzero(self.masters != np.arange(len(points)))
@@ -101,6 +97,10 @@ class AuditBody:
         self.thickness = entry.thickness if self.dimension == 2 else 1.0
         """Thickness [m]; 1 in space."""
         self.cells = Cells(kind, nodes, points, self.thickness)
+        self.response: Response = self.law
+        """What stresses its deformation has."""
+        if dilates:
+            self.response = MeanDilatation(self.law, self.cells.weights)
         self.boundary: Indices = boundary(kind, nodes)
         """All facets of its boundary, the sides where it repeats itself too."""
         outer = self.boundary
@@ -123,13 +123,15 @@ class AuditBody:
             facets=self.faces(self.facets),
             added=[one for given in masses for one in self._added(given)],
         )
-        arms = points - self.mass.mean(points)
-        own = inertia(arms, self.mass.times)
-        given = entry.inertia if isinstance(entry, RigidBody) else None
-        wanted = own if given is None else _tensor(given)
-        self._more: Array = wanted - own
-        """What a rigid body has more of inertia than its cells have, as drawn [kg m²]."""
-        self._stiffness = self._reference_stiffness()
+        self.more = np.zeros((1, 1))
+        if isinstance(entry, RigidBody) and entry.inertia is not None:
+            self.more = _tensor(entry.inertia) - inertia(self.arms(0.0 * points), self.mass.times)
+        self._stiffen(dilates=dilates)
+
+    def _stiffen(self, *, dilates: bool) -> None:
+        """Find what resists where nothing has moved."""
+        lame, shear = self.law.first, self.law.second
+        self._stiffness = reference_stiffness(self.cells, lame, shear, dilates=dilates)
         diagonal = einsum("caiai->ca", self._stiffness)
         self.holding = self._gathered(diagonal)[self.massless] / self.dimension
         """tr K_bb/D of each massless node in the reference configuration [N/m]."""
@@ -206,22 +208,22 @@ class AuditBody:
         if self.modes is not None:
             local = self._axes(u).own[self.cells.nodes]
             return 0.5 * float(einsum("cai,caibk,cbk->", local, self._stiffness, local))
-        density = self.law.energy(self.cells.deformation_gradient(u))
+        density = self.response.energy(self.cells.deformation_gradient(u))
         return float((self.cells.weights * density).sum())
 
     def internal_force(self, u: Array) -> Array:
         """Return ∂E/∂u [N], shape [node_count, D]."""
-        return self.cells.divergence(self.law.stress(self.cells.deformation_gradient(u)))
+        return self.cells.divergence(self.response.stress(self.cells.deformation_gradient(u)))
 
     def conserving_force(self, u0: Array, u1: Array) -> Array:
         """Return the force [N] whose work from u₀ to u₁ is the change of the strain energy."""
         f0, f1 = (self.cells.deformation_gradient(u) for u in (u0, u1))
-        return self.cells.divergence(self.law.discrete_stress(f0, f1))
+        return self.cells.divergence(self.response.discrete_stress(f0, f1))
 
     def difference_force(self, u0: Array, u1: Array) -> Array:
         """Return the force [N] of the difference of the stresses at u₁ and u₀."""
         f0, f1 = (self.cells.deformation_gradient(u) for u in (u0, u1))
-        return self.cells.divergence(self.law.stress_difference(f0, f1))
+        return self.cells.divergence(self.response.stress_difference(f0, f1))
 
     def damping_force(self, u: Array, v: Array) -> Array:
         """Return C v [N] with C = α M + β R K₀ Rᵀ and R the mean rotation at u."""
@@ -233,127 +235,26 @@ class AuditBody:
             force += self.cells.assembled(share[:, None, None] * local) @ rotation.T
         return force
 
-    def rotation(self, u: Array) -> Array:
-        """Return the mean rotation of the body: the polar factor of Σ m (x − c) ⊗ (X − C)."""
-        return self._turned_to(u) if self.turns else np.eye(self.dimension)
-
-    def _turned_to(self, u: Array) -> Array:
-        x, reference = self.points + u, self.points
-        weight = self.mass.nodal[:, None]
-        arms = reference - self.mass.mean(reference)
-        moment = (weight * (x - self.mass.mean(x))).T @ arms
-        return nearest_rotation(moment @ np.linalg.inv((weight * arms).T @ arms))
-
-    def inertia(self, u: Array) -> Array:
-        """Return its inertia about its centre [kg m²], shape [1, 1] or [3, 3].
-
-        That of a rigid body may be another than that of its cells, and turns with it.
-        """
-        if self.modes is not None:
-            return self._axes(u).inertia
-        whole = inertia(self._arms(u), self.mass.times)
-        if self._more.any():
-            turn = self._turned_to(u) if self.dimension == 3 else np.eye(1)
-            whole = whole + turn @ self._more @ turn.T
-        return whole
-
-    def _arms(self, u: Array) -> Array:
-        x = self.points + u
-        return x - self.mass.mean(x)
-
-    def _more_at(self, u: Array, v: Array) -> Array:
-        """Return the angular momentum that the cells of a rigid body do not have [kg m²/s]."""
-        if not self._more.any():
-            return np.zeros(len(self._more))
-        more = self.inertia(u) - inertia(self._arms(u), self.mass.times)
-        return more @ self.spin(u, v)
-
-    def kinetic_energy(self, u: Array, v: Array) -> float:
-        """Return ½ vᵀMv [J]; a rigid body may have another inertia than its cells."""
-        if self.modes is not None:
-            return self._axes(u).kinetic_energy(v)
-        energy = 0.5 * float((v * self.mass.times(v)).sum())
-        return energy + 0.5 * float(self.spin(u, v) @ self._more_at(u, v))
-
-    def angular_momentum(self, u: Array, v: Array) -> Array:
-        """Return that about the origin [kg m²/s]."""
-        if self.modes is not None:
-            return self._axes(u).angular_momentum(self.mass.mean(self.points + u), v)
-        own: Array = cross(self.points + u, self.mass.times(v)).sum(axis=0)
-        return own + self._more_at(u, v)
-
-    def kinetic_parts(self, u: Array, v: Array) -> tuple[float, float, float]:
-        """Return that of the centre, of the turn as a rigid body, and the rest [J].
-
-        A body that repeats itself does not turn.
-        """
-        momentum = self.mass.times(v).sum(axis=0)
-        translation = 0.5 * float(momentum @ momentum) / float(self.mass.nodal.sum())
-        rotation = 0.0
-        if not self.images.size:
-            centre = self.mass.mean(self.points + u)
-            moment = self.angular_momentum(u, v) - cross(centre, momentum)
-            rotation = 0.5 * float(moment @ solved(self.inertia(u), moment))
-        return translation, rotation, self.kinetic_energy(u, v) - translation - rotation
-
-    def vibration(self, u: Array, v: Array) -> Array:
-        """Return v less a rigid motion of the same momenta [m/s]; zero at nodes without mass."""
-        arms, momenta = self._arms(u), self.mass.times(v)
-        field: Array = v - momenta.sum(axis=0) / self.mass.total
-        if not self.images.size:
-            moment = cross(arms, momenta).sum(axis=0)
-            field -= turned(arms, solved(inertia(arms, self.mass.times), moment))
-        field[self.massless] = 0.0
-        return field
-
-    def nodal_inertia(self, arms: Array) -> Array:
-        """Return the inertia of nodes with the row sums of the mass [kg m²]."""
-        return inertia(arms, lambda field: self.mass.nodal[:, None] * field)
-
-    def spin(self, u: Array, v: Array) -> Array:
-        """Return the mean spin about the centre [rad/s], by row sums of the mass; of mean axes."""
-        if self.modes is not None:
-            return self._axes(u).rates(v)[1]
-        arms = self._arms(u)
-        moment = self.mass.nodal @ cross(arms, v - self.mass.mean(v))
-        return solved(self.nodal_inertia(arms), moment)
-
     def cell_states(self, u: Array) -> tuple[Array, Array]:
         """Return mean Cauchy stress xx yy zz xy yz xz [Pa] and energy density [J/m³] of cells."""
         f = self.cells.deformation_gradient(u if self.modes is None else self._axes(u).own)
-        stress = self.cells.mean(self.law.cauchy_stress(f))
+        stress = self.cells.mean(self.response.cauchy_stress(f))
         if self.modes is not None:
             rotation = np.eye(3)
             rotation[: self.dimension, : self.dimension] = self._axes(u).rotation
             stress = rotation @ stress @ rotation.T
         components = stress[:, [0, 1, 2, 0, 1, 0], [0, 1, 2, 1, 2, 2]]
-        return components, self.cells.mean(self.law.energy(f))
-
-    def _axes(self, u: Array) -> MeanAxes:
-        return MeanAxes.of(self.mass, self.points, u)
+        return components, self.cells.mean(self.response.energy(f))
 
     def _gathered(self, local: Array) -> Array:
         """Sum numbers of the nodes of cells, shape [cell_count, a], over the cells."""
         sums = np.bincount(self.cells.nodes.ravel(), local.ravel(), len(self.points))
         return sums.astype(np.float64)
 
-    def _reference_stiffness(self) -> Array:
-        """Return K₀ of the cells [N/m], shape [cell_count, a, D, b, D]; all laws have Hooke's."""
-        g, w = self.cells.gradients, self.cells.weights
-        shear = einsum("cq,cqaj,cqbj->cab", w, g, g)
-        outer = einsum("cq,cqai,cqbk->caibk", w, g, g)
-        crossed = outer.transpose(0, 1, 4, 3, 2)
-        isotropic = einsum("cab,ik->caibk", shear, np.eye(self.dimension))
-        first, second = (m[:, None, None, None, None] for m in (self.law.first, self.law.second))
-        stiffness: Array = first * outer + second * (isotropic + crossed)
-        return stiffness
-
 
 def _refuse_forms(entry: AnyBody) -> None:
-    forms = (entry.hypothesis, "standard" if isinstance(entry, RigidBody) else entry.formulation)
-    for what in forms:
-        if what not in ("plane-strain", "standard"):
-            raise InputError(f"cannot audit a body in {what!r} yet")
+    if entry.hypothesis == "axisymmetric":
+        raise InputError("cannot audit an axisymmetric body yet")
 
 
 def _tensor(given: float | tuple[float, ...] | tuple[tuple[float, ...], ...]) -> Array:

@@ -7,11 +7,12 @@ from collections.abc import Mapping
 import numpy as np
 
 from carom.auditing.arrays import AXES, Array, components, turning_axes, turning_components
-from carom.auditing.body import KINETIC_PARTS, AuditBody
+from carom.auditing.body import AuditBody
 from carom.auditing.contacts import smallest_gaps
 from carom.auditing.files import Frame
 from carom.auditing.inside import deepest_node
 from carom.auditing.model import AuditModel
+from carom.auditing.moving import KINETIC_PARTS
 from carom.auditing.report import Findings
 from carom.auditing.rigid import bent
 from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.auditing.arrays import AXES, Array
-from carom.auditing.body import KINETIC_PARTS, AuditBody
+from carom.auditing.body import AuditBody
 from carom.auditing.check_blend import LARGEST_BLEND
 from carom.auditing.check_summary import SUMMED
 from carom.auditing.model import AuditModel
+from carom.auditing.moving import KINETIC_PARTS
 from carom.auditing.report import Findings
 from carom.auditing.rows import GRID, Rows
 from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales

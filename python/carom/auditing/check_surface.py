@@ -45,12 +45,12 @@ class SurfaceChecks:
         self._growing = growing
         self._facets, self._body = facets.nodes, facets.body
         mine = [
-            (index, *sorted(facet))
+            (index, *sorted(set(facet)))
             for index, body in enumerate(model.bodies)
             for facet in (body.facets + body.span.start).tolist()
         ]
         theirs = [
-            (int(index), *sorted(facet))
+            (int(index), *sorted(set(facet)))
             for index, facet in zip(self._body, self._facets.tolist(), strict=True)
         ]
         self._known = sorted(mine) == sorted(theirs)
@@ -59,15 +59,13 @@ class SurfaceChecks:
         if self._known:
             # Ours are outward; those of the file may have another order.
             ours = {
-                tuple(sorted(facet)): (index, own)
+                frozenset(facet): (index, own)
                 for index, body in enumerate(model.bodies)
                 for own, facet in enumerate((body.facets + body.span.start).tolist())
             }
-            self._own = [ours[tuple(sorted(facet))] for facet in self._facets.tolist()]
+            self._own = [ours[frozenset(facet)] for facet in self._facets.tolist()]
             areas = [body.facet_areas for body in model.bodies]
             self._area = np.array([areas[index][own] for index, own in self._own])
-            self._around = np.zeros(len(model.points))
-            np.add.at(self._around, self._facets, self._area[:, None])
         self._last: Array | None = None
         self._pressure = np.zeros(len(self._facets))
 

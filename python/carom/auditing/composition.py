@@ -9,6 +9,7 @@ import numpy as np
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.drawn import Drawn
 from carom.auditing.laws import Law
+from carom.auditing.plane_stress import PlaneStress
 from carom.case.body import AnyBody, Body, Region, RigidBody, materials_of
 from carom.case.material import Damping, Material
 
@@ -41,7 +42,10 @@ class Composition:
         materials = [known[name] for name in materials_of(entry)]
         stress = entry.initial_stress if isinstance(entry, Body) else None
         free = middles.shape[1]
-        self._laws = [Law.of(material, free, stress) for material in materials] or [Law.none()]
+        of_solid = [Law.of(material, free, stress) for material in materials] or [Law.none()]
+        self._laws: list[Law | PlaneStress] = [*of_solid]
+        if entry.hypothesis == "plane-stress":
+            self._laws = [PlaneStress(law) for law in of_solid]
         self._densities = [material.density for material in materials]
         regions = () if isinstance(entry, RigidBody) else entry.regions
         self._of_cell = _regions(regions, middles, mesh)
@@ -90,7 +94,7 @@ class Composition:
     @property
     def subtracts(self) -> bool:
         """Whether ψ of some material is a small difference of terms of the size of its moduli."""
-        return any(law.kind == "neo-hookean" or law.rubber is not None for law in self._laws)
+        return any(law.subtracts for law in self._laws)
 
     @property
     def damped(self) -> bool:

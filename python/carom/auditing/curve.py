@@ -21,22 +21,29 @@ class Curve:
     Parameters
     ----------
     facets
-        Facets in the body's numbering, the body on their left, shape [facet_count, 2].
+        Facets in the body's numbering, the body on their left, shape [facet_count, 2 or 3]: their
+        ends and, of cells of second order, what is between.
     points
         Reference positions of the body's nodes [m], shape [node_count, 2].
     smooth
-        Whether it is the curve through its nodes.
+        Whether it is the curve through its nodes; facets of second order stay as they are.
     """
 
     def __init__(self, facets: Indices, points: Array, *, smooth: bool) -> None:
         self.facets, self.width = facets, 4
+        ends, curved = facets[:, :2], facets.shape[1] == 3
+        smooth = smooth and not curved
         self.smooth: Mask = np.full(len(facets), smooth)
-        self._nodes = np.concatenate([facets, facets], axis=1)
+        self._nodes = np.concatenate([ends, ends], axis=1)
         tangents = np.zeros((len(facets), 2, 4))
         tangents[:, :, :2] = [-1.0, 1.0]
+        if curved:
+            # The parabola through three nodes.
+            self._nodes[:, 2] = facets[:, 2]
+            tangents[:, :] = [[-3.0, -1.0, 4.0, 0.0], [1.0, 3.0, -4.0, 0.0]]
         self._joined = np.zeros((len(facets), 2), dtype=bool)
-        around = np.bincount(facets.ravel(), minlength=len(points))
-        self._rim = around[facets] == 1
+        around = np.bincount(ends.ravel(), minlength=len(points))
+        self._rim = around[ends] == 1
         """Ends of facets where an open surface ends, shape [facet_count, 2]."""
         if smooth:
             self._join(facets, points, tangents)

@@ -100,7 +100,7 @@ class Facets:
     Parameters
     ----------
     nodes
-        Nodes of each facet, shape [facet_count, a].
+        Nodes of each facet, shape [facet_count, a]; of those that have fewer the first again.
     body
         Index of its body, shape [facet_count].
     points
@@ -172,7 +172,7 @@ class Files:
         """Return the mesh of the boundaries."""
         with _Fields(self.path / layout.SURFACE) as root:
             return Facets(
-                nodes=root["Connectivity"][:].reshape(len(root["Types"]), -1),
+                nodes=_even(root["Connectivity"][:], root["Offsets"][:]),
                 body=root["CellData/body"][:],
                 points=root["Points"][:, : self.scenario.dimension],
             )
@@ -211,6 +211,15 @@ class Files:
         """Yield the stored steps, of which there are none without ``output.audit``."""
         if self.has_steps:
             yield from read_steps(self.path / layout.AUDIT)
+
+
+def _even(connectivity: Indices, offsets: Indices) -> Indices:
+    """Return the nodes of cells as rows; shorter ones end with their first node."""
+    sizes = np.diff(offsets)
+    column = np.arange(int(sizes.max(initial=0)))
+    within = np.where(column < sizes[:, None], column, 0)
+    nodes: Indices = connectivity[offsets[:-1, None] + within]
+    return nodes
 
 
 class _Fields:

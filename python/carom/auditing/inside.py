@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.auditing.arrays import Array, cross, einsum
+from carom.auditing.arrays import Array, Indices, cross, einsum
 from carom.auditing.body import AuditBody
 from carom.auditing.model import AuditModel
 from carom.auditing.sheet import FlatPatches, Sheet
@@ -39,7 +39,7 @@ def deepest_node(model: AuditModel, position: Array, time: float) -> float:
 
 def _depths(points: Array, position: Array, body: AuditBody) -> Array:
     """Return how deep points are inside a body with nodes at `position` [m], shape [count]."""
-    outline = position[body.outline]
+    outline = position[_straight(body)]
     low, high = outline.min(axis=(0, 1)), outline.max(axis=(0, 1))
     near = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))
     depths = np.zeros(len(points))
@@ -51,6 +51,14 @@ def _depths(points: Array, position: Array, body: AuditBody) -> Array:
         inside = _windings(points[near], outline[:, : body.cells.kind.facet.corner_count]) > HALF
         depths[near] = np.where(inside, behind, 0.0)
     return depths
+
+
+def _straight(body: AuditBody) -> Indices:
+    """Return the outline of a body: in the plane from node to node, in space its facets."""
+    facets = body.outline
+    if body.dimension == 3 or facets.shape[1] == 2:
+        return facets
+    return np.concatenate([facets[:, [0, 2]], facets[:, [2, 1]]])
 
 
 def _windings(points: Array, corners: Array) -> Array:

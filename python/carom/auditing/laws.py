@@ -10,16 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.auditing.arrays import Array, einsum
-from carom.auditing.rubber import Rubber
+from carom.auditing.rubber import LawOfC, law_of_c
 from carom.case.body import InitialStress
 from carom.case.material import (
     LinearElastic,
     Material,
-    MooneyRivlin,
-    NeoHookean,
     SaintVenantKirchhoff,
     Viscosity,
-    Yeoh,
 )
 from carom.errors import InputError
 
@@ -40,6 +37,11 @@ def contracted(a: Array, b: Array) -> Array:
     return einsum("...ij,...ij", a, b)
 
 
+def deformation(c: Array) -> Array:
+    """Return an F with FᵀF = C, the upper triangular one, shape [..., 3, 3]."""
+    return transposed(np.linalg.cholesky(c).astype(np.float64))
+
+
 @dataclass(frozen=True)
 class Law:
     """A hyperelastic law.
@@ -52,8 +54,8 @@ class Law:
         Lamé's λ and μ [Pa].
     initial
         Stress where nothing has moved [Pa], shape [3, 3].
-    rubber
-        The law by invariants, if it is one.
+    of_c
+        The law as a function of C, if it is one.
     free
         Along how many axes there is strain: 2 in plane strain.
     """
@@ -62,7 +64,7 @@ class Law:
     first: float
     second: float
     initial: Array
-    rubber: Rubber | None = None
+    of_c: LawOfC | None = None
     free: int = 3
 
     @classmethod
@@ -78,11 +80,10 @@ class Law:
         initial = np.array([[s.xx, s.xy, s.xz], [s.xy, s.yy, s.yz], [s.xz, s.yz, s.zz]])
         if material.viscosity != Viscosity():
             raise InputError("cannot audit a material with viscosity yet")
-        if isinstance(material, MooneyRivlin | Yeoh):
-            rubber = Rubber.of(material)
-            first = rubber.bulk - 2.0 / 3.0 * rubber.shear
-            return cls(material.kind, first, rubber.shear, initial, rubber, free)
-        if not isinstance(material, SaintVenantKirchhoff | LinearElastic | NeoHookean):
+        of_c = law_of_c(material)
+        if of_c is not None:
+            return cls(material.kind, *of_c.moduli, initial, of_c, free)
+        if not isinstance(material, SaintVenantKirchhoff | LinearElastic):
             raise InputError(f"cannot audit the law {material.kind!r} yet")
         young, poisson = material.young, material.poisson
         first = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
@@ -98,6 +99,11 @@ class Law:
     def objective(self) -> bool:
         """Whether a rotation strains nothing."""
         return self.kind != "linear-elastic"
+
+    @property
+    def subtracts(self) -> bool:
+        """Whether ψ is a small difference of terms of the size of its moduli."""
+        return self.of_c is not None
 
     def wave_speed(self, density: float) -> float:
         """Return the speed of pressure waves [m/s] at a density [kg/m³]."""
@@ -150,13 +156,8 @@ class Law:
         return self._discrete_stress(f0, f1) + self._initial_piola(0.5 * (f0 + f1))
 
     def _energy(self, f: Array) -> Array:
-        if self.rubber is not None:
-            return self.rubber.energy(transposed(f) @ f)
-        if self.kind == "neo-hookean":
-            log_j = np.log(np.linalg.det(f))
-            shear = 0.5 * self.second * (contracted(f, f) - 3)
-            volume: Array = 0.5 * self.first * log_j**2 - self.second * log_j
-            return shear + volume
+        if self.of_c is not None:
+            return self.of_c.energy(transposed(f) @ f)
         strain = self._strain(f)
         trace = np.trace(strain, axis1=-2, axis2=-1)
         energy: Array = 0.5 * self.first * trace**2 + self.second * contracted(strain, strain)
@@ -171,10 +172,10 @@ class Law:
         mean = 0.5 * (f0 + f1)
         if self.kind == "linear-elastic":
             return self._hooke(self._strain(mean))
-        if self.kind == "saint-venant-kirchhoff":
+        if self.of_c is None:
             return mean @ self._hooke(0.5 * (self._strain(f0) + self._strain(f1)))
         c0, c1 = transposed(f0) @ f0, transposed(f1) @ f1
-        stress = self._of_c(0.5 * (c0 + c1))
+        stress = self.of_c.second_piola(0.5 * (c0 + c1))
         change = 0.5 * (c1 - c0)
         size = contracted(change, change)
         missing = self._energy(f1) - self._energy(f0) - contracted(stress, change)
@@ -198,17 +199,7 @@ class Law:
         stress: Array = self.first * trace * IDENTITY + 2 * self.second * strain
         return stress
 
-    def _neo_hookean(self, c: Array) -> Array:
-        """Return S = μ(I − C⁻¹) + λ ln J C⁻¹ with J = √det C."""
-        log_j = 0.5 * np.log(np.linalg.det(c))[..., None, None]
-        pressure: Array = (self.first * log_j - self.second) * np.linalg.inv(c)
-        return self.second * IDENTITY + pressure
-
     def _second_piola(self, f: Array) -> Array:
-        if self.rubber is not None or self.kind == "neo-hookean":
-            return self._of_c(transposed(f) @ f)
+        if self.of_c is not None:
+            return self.of_c.second_piola(transposed(f) @ f)
         return self._hooke(self._strain(f))
-
-    def _of_c(self, c: Array) -> Array:
-        """Return S of a law that is a function of C."""
-        return self._neo_hookean(c) if self.rubber is None else self.rubber.second_piola(c)

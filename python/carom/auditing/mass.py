@@ -93,15 +93,23 @@ class Mass:
             self._lumped = _lumped(cells, self._local)
         self._added = added
         self._massless = massless
-        self.moved: Array = self._all_nodes(np.ones((cells.node_count, cells.dimension)))[
-            massless, 0
-        ]
-        """What nodes without mass had before it moved inside [kg]."""
+        self.moved: Array = self._row_sizes()[massless]
+        """What nodes without mass had before it moved inside: row sums without signs [kg]."""
         self._follow = _Follow(cells.nodes, points, massless, facets)
         self.nodal: Array = self.times(np.ones((cells.node_count, cells.dimension)))[:, 0]
         """Row sums [kg], shape [node_count]."""
         self.total = float(self.nodal.sum())
         """Mass of the body [kg]."""
+
+    def _row_sizes(self) -> Array:
+        """Return the sums of the rows of the mass of the volume without signs, [node_count]."""
+        if self._lumped is not None:
+            return np.abs(self._lumped[:, 0])
+        nodes, count = self._cells.nodes, self._cells.node_count
+        row = np.repeat(nodes[:, :, None], nodes.shape[1], axis=2)
+        entries, number = np.unique(row * count + nodes[:, None], return_inverse=True)
+        values = np.abs(np.bincount(number.ravel(), self._local.ravel()))
+        return np.bincount(entries // count, values, count).astype(np.float64)
 
     def times(self, v: Array) -> Array:
         """Return M v of nodal vectors, shape [node_count, D]."""
