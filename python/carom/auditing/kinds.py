@@ -133,7 +133,10 @@ def kind_of(vtk_type: int) -> Kind:
 
 
 def _monomials(at: Array, powers: Indices) -> Array:
-    table: Array = np.prod(np.asarray(at)[..., None, :] ** powers, axis=-1)
+    """Return products of powers of coordinates, none above the second, shape [..., monomial]."""
+    table: Array = np.ones((*np.shape(at)[:-1], len(powers)))
+    for x, power in zip(np.moveaxis(at, -1, 0), powers.T, strict=True):
+        table *= np.stack([np.ones_like(x), x, x * x], axis=-1)[..., power]
     return table
 
 

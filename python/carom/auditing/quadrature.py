@@ -5,21 +5,20 @@ from __future__ import annotations
 import numpy as np
 
 from carom.auditing.arrays import Array
-from carom.auditing.kinds import KINDS, Kind
+from carom.auditing.kinds import Kind
 
 Rule = tuple[Array, Array]
 """Points, shape [q, d], and their weights, shape [q]."""
 
 
-def rule_of_stresses(kind: Kind, *, of_revolution: bool = False) -> Rule:
+def rule_of_stresses(kind: Kind) -> Rule:
     """Return the rule that is exact for products of slopes in cells that are not distorted."""
-    degree = 2 * kind.degree if of_revolution else 2 * (kind.degree - 1)
-    return _rule(kind, degree)
+    return _rule(kind, 2 * (kind.degree - 1))
 
 
-def rule_of_masses(kind: Kind, *, of_revolution: bool = False) -> Rule:
+def rule_of_masses(kind: Kind) -> Rule:
     """Return the rule that is exact for products of values in cells that are not distorted."""
-    return _rule(kind, 2 * kind.degree + of_revolution)
+    return _rule(kind, 2 * kind.degree)
 
 
 def _rule(kind: Kind, degree: int) -> Rule:
@@ -84,11 +83,3 @@ def _tetrahedron(degree: int) -> Rule:
         (_orbit(3, 0.092_735_250_310_891_23), 0.073_493_043_116_361_95 / 6.0),
         (edges, 0.042_546_020_777_081_47 / 6.0),
     )
-
-
-def rule_of_facets(kind: Kind) -> Rule:
-    """Return the rule that areas and pressures of facets are integrated with."""
-    return rule_of_masses(kind)
-
-
-__all__ = ["KINDS", "rule_of_facets", "rule_of_masses", "rule_of_stresses"]
