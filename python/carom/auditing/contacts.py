@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,9 +93,9 @@ class Contacts:
             *("site", "gap", "normal", "sources", "shares", "followed", "weights", "facet"),
             *("gap_error", "normal_error"),
         )
-        found = {}
+        found: dict[str, Any] = {}
         for name in geometry:
-            mine, theirs = getattr(self, name), getattr(others, name)
+            mine, theirs = _alike(getattr(self, name), getattr(others, name))
             found[name] = np.where(chosen[:, None] if mine.ndim > 1 else chosen, mine, theirs)
         return replace(self, **found)
 
@@ -176,6 +177,15 @@ class Contacts:
         np.add.at(force, self.sources, self.shares[:, :, None] * self.reaction[:, None])
         np.add.at(force, self.followed, -self.weights[:, :, None] * self.reaction[:, None])
         return force
+
+
+def _alike(a: Array, b: Array) -> tuple[Array, Array]:
+    """Return arrays whose rows are as long as those of the other: nodes without a weight follow."""
+    if a.ndim == 1:
+        return a, b
+    width = max(a.shape[1], b.shape[1])
+    longer = [np.pad(rows, ((0, 0), (0, width - rows.shape[1]))) for rows in (a, b)]
+    return longer[0], longer[1]
 
 
 def _shared(nodes: Indices, weights: Array) -> list[tuple[int, float]]:

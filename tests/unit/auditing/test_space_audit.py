@@ -239,7 +239,9 @@ def test_loads_supports_and_springs_are_confirmed_in_space(tmp_path):
         {"mass": 5.0, "inertia": [2.0, 1.0, 1.5]},
     ],
 )
-@pytest.mark.parametrize("method", [("midpoint", "conserving"), ("gap", "theta")])
+@pytest.mark.parametrize(
+    "method", [("midpoint", "conserving"), ("gap", "theta"), ("massless", "conserving")]
+)
 def test_rigid_bodies_are_confirmed_in_space(tmp_path, method, body):
     case = balls(*method).model_dump(mode="json", exclude_none=True)
     mesh = {"kind": "box", "corner": [-1, -0.5, 0.1], "size": [2, 1.2, 1.4], "divisions": [3, 2, 2]}
@@ -249,6 +251,49 @@ def test_rigid_bodies_are_confirmed_in_space(tmp_path, method, body):
     assert refuted == []
     assert checks["rigid motion"].count > 100
     assert checks["rigid motion"].figure < 1e-12
+
+
+@pytest.mark.parametrize(
+    "friction",
+    [
+        {"formula": "min(0.3, 40/(p+1))"},
+        {"static": 0.4, "kinetic": 0.1, "distance": 0.05},
+    ],
+)
+def test_friction_laws_are_confirmed_in_space(tmp_path, friction):
+    refuted, checks = audited(balls("gap", "theta", **{"contact.friction": friction}), tmp_path)
+    assert refuted == []
+    assert checks["Coulomb: slip"].count > 10
+
+
+def test_rigid_bodies_that_part_as_restitution_says_are_confirmed_in_space(tmp_path):
+    case = balls("endpoint", "theta", **{"output.fields_every": 0.002})
+    case = case.model_dump(mode="json", exclude_none=True)
+    case["contact"]["restitution"] = 0.5
+    places = [
+        ([-1, -0.5, 0.1], [2, 1.2, 1.4], [3, 0, -1]),
+        ([1.2, -0.4, 0.3], [1, 1, 1.1], [-3, 0, -2]),
+    ]
+    for body, (corner, size, velocity) in zip(case["bodies"], places, strict=True):
+        mesh = {"kind": "box", "corner": corner, "size": size, "divisions": [2, 2, 2]}
+        turning = {"spin": [0.5, 1.0, 2.0], "velocity": velocity}
+        given = {"name": body["name"], "kind": "rigid", "density": 2.0, "mesh": mesh}
+        body.clear()
+        body.update({**given, **turning})
+    refuted, checks = audited(carom.Scenario.from_dict(case), tmp_path)
+    assert refuted == []
+    assert checks["Coulomb: cone"].count > 0
+
+
+def test_states_of_reduced_bodies_are_confirmed_in_space(tmp_path):
+    case = balls("midpoint", "conserving", **{"output.audit": False})
+    case = case.model_dump(mode="json", exclude_none=True)
+    mesh = {"kind": "box", "corner": [-1, -0.5, 0.1], "size": [2, 1.2, 1.4], "divisions": [3, 2, 2]}
+    reduced = {"name": "a", "kind": "reduced", "material": "m", "modes": 4, "mesh": mesh}
+    case["bodies"][0] = {**reduced, "velocity": [3, 0, -1], "spin": [0.2, 0.3, -0.1]}
+    refuted, checks = audited(carom.Scenario.from_dict(case), tmp_path)
+    assert refuted == []
+    assert checks["kinetic parts"].count > 0
 
 
 def falsified(name, change):
