@@ -144,7 +144,7 @@ class LedgerChecks:
             work = (centre - centre[0]) @ weight
             if not model.loaded(body):
                 self._check("books: external", entry["external"] - work, off, body.name)
-        rubs = not (model.massless or model.impacts) or self._summary["least_friction"] >= 0
+        rubs = not model.gives_back or self._summary["least_friction"] >= 0
         for name, entry in self._touched.items():
             if rubs:
                 fall = np.maximum(-np.diff(entry["friction"], prepend=0.0), 0.0)

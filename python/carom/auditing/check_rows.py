@@ -121,8 +121,8 @@ class RowChecks:
         off_sums = SAFETY * ROUND_OFF * (self._scales.energy + scale[1:])
         self._check("row: step defect", np.where(np.isnan(steps), 0.0, error), off_sums)
         # A massless contact may have turned since it was last pressed, and the blend may weigh the
-        # reactions of the start negatively: then the run says so.
-        one_way = not (self._model.massless or self._model.impacts)
+        # reactions of the start negatively, and landing take friction back: then the run says so.
+        one_way = not self._model.gives_back
         if one_way or self._summary["least_friction"] >= 0:
             self._check("row: friction", np.maximum(-np.diff(h["friction"]), 0.0), off)
         else:

@@ -117,7 +117,7 @@ class SummaryChecks:
         """Check that the run's least friction says whether friction of any step gave energy."""
         least, h = _number(self._summary["least_friction"]), self._history
         self._findings.check("summary: extremes", max(least, 0.0), 0.0, "least_friction")
-        if self._model.massless or self._model.impacts:
+        if self._model.gives_back:
             self._findings.leave("the least friction of a step", "summary.json: least_friction")
             return
         # No step may give back more than this, and none can have taken less than nothing.

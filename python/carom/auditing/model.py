@@ -222,6 +222,15 @@ class AuditModel:
         return any(side.restitution is not None for side in self.sides)
 
     @property
+    def gives_back(self) -> bool:
+        """Whether friction of a step may give energy back.
+
+        So it may without mass, against velocities at the end of a step, and where landing takes of
+        a reaction and of its friction.
+        """
+        return self.massless or self.impacts or self.condition == "midpoint"
+
+    @property
     def jolts(self) -> bool:
         """Whether impulses change velocities: of landing, or settling of bodies that are damped."""
         damped = any(body.law.damped for body in self.bodies)
