@@ -116,7 +116,7 @@ def _check_states(
     """Check the frames, and with each the stored step that ended there; return forces of pairs."""
     frames = FrameChecks(model, scales, findings)
     steps = StepChecks(model, scales, findings)
-    growing = not (model.massless or model.impacts) or files.summary["least_friction"] >= 0
+    growing = not model.gives_back or files.summary["least_friction"] >= 0
     surface = SurfaceChecks(model, scales, findings, files.facets(), growing=growing)
     surfaces = files.surface_frames()
     rows = {float(time): index for index, time in enumerate(files.history["time"])}

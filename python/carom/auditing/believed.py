@@ -6,7 +6,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from carom.auditing.arrays import Mask
+from carom.auditing.arrays import AXES, Mask, turning_components
 from carom.auditing.check_events import PINNED
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
@@ -58,14 +58,18 @@ def leave_rows(
     leave(
         unseen,
         "spins of rows between output times",
-        *(f"{name}.spin" for name in bodies),
+        *(
+            column
+            for name in bodies
+            for column in turning_components(f"{name}.spin", model.dimension)
+        ),
         store=EVERY_FRAME,
     )
     leave(
         unseen & ~turning,
         "angular momentum of rows between output times that the scheme does not keep, or that "
         "obstacles change",
-        "angular_momentum",
+        *turning_components("angular_momentum", model.dimension),
         store=EVERY_FRAME,
     )
     touching = rows.history["contacts"] > 0
@@ -101,12 +105,12 @@ def leave_rows(
     leave(
         several,
         "motion in rows of several steps, where steps were halved or have no row",
-        *(f"{name}.{axis}" for name in bodies for axis in "xy"),
+        *(f"{name}.{axis}" for name in bodies for axis in AXES[: model.dimension]),
         *(
             f"{name}.{quantity}_{axis}"
             for name, _ in model.tracks()
             for quantity in ("u", "v", "vmid")
-            for axis in "xy"
+            for axis in AXES[: model.dimension]
         ),
         store=EVERY_ROW,
     )

@@ -6,13 +6,23 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
-from carom.auditing.arrays import Array, Indices, Mask, cross, einsum, turned
+from carom.auditing.arrays import (
+    Array,
+    Indices,
+    Mask,
+    einsum,
+    inertia,
+)
 from carom.auditing.cells import Cells, boundary
 from carom.auditing.composition import Composition
+from carom.auditing.dilatation import MeanDilatation, Response
 from carom.auditing.drawn import drawn, nodes_of, unknown
+from carom.auditing.facets import Facets
+from carom.auditing.kinds import kind_of
 from carom.auditing.mass import AddedMass, Mass
+from carom.auditing.moving import MovingBody
 from carom.auditing.places import Attached, Place, place_on
-from carom.auditing.reduced import MeanAxes
+from carom.auditing.stiffness import reference_stiffness
 from carom.case.body import AnyBody, ReducedBody, RigidBody
 from carom.case.material import Material
 from carom.case.mesh import Rectangle
@@ -31,11 +41,8 @@ MUCH_SHORTER = 8.0
 ITERATIONS = 500
 """Most iterations for the velocities that impulses give; mass matrices need some dozens."""
 
-KINETIC_PARTS = ("translation", "rotation", "vibration")
-"""What kinetic energy is split into, as `AuditBody.kinetic_parts` returns it."""
 
-
-class AuditBody:
+class AuditBody(MovingBody):
     """One body of a case. All arrays are in its own numbering of nodes.
 
     Parameters
@@ -75,21 +82,27 @@ class AuditBody:
         """Whether its nodes move as one."""
         self.modes = entry.modes if isinstance(entry, ReducedBody) else None
         """Modes of a reduced body beside the shapes of its contact surface."""
-        self.drawn = drawn(entry)
+        self.drawn = drawn(entry, points.shape[1])
         """Its mesh as the case draws it."""
         self.law = Composition(entry, materials, points[nodes].mean(axis=1), self.drawn)
         """Its materials, cell by cell."""
+        dilates = not isinstance(entry, RigidBody) and entry.formulation != "standard"
         self.masters = _masters(entry, points)
         """For every node the one that it moves with, itself as a rule, [node_count]."""
         self.images: Indices = np.flatnonzero(self.masters != np.arange(len(points)))
         """Nodes that move with another: of a body that repeats itself."""
         self.turns = self.law.objective and not self.images.size
         """Whether it can turn without storing energy."""
-        self.cells = Cells(vtk_type, nodes, points, entry.thickness)
-        self.boundary: Indices = boundary(nodes)
+        kind, self.dimension = kind_of(vtk_type), int(points.shape[1])
+        self.thickness = entry.thickness if self.dimension == 2 else 1.0
+        """Thickness [m]; 1 in space."""
+        self.cells = Cells(kind, nodes, points, self.thickness)
+        self.response: Response = self.law
+        """What stresses its deformation has."""
+        if dilates:
+            self.response = MeanDilatation(self.law, self.cells.weights)
+        self.boundary: Indices = boundary(kind, nodes)
         """All facets of its boundary, the sides where it repeats itself too."""
-        self.thickness = entry.thickness
-        """Thickness [m]."""
         outer = self.boundary
         if self.images.size:
             outer = outer[~self.named(outer, ("left", "right"))]
@@ -107,29 +120,33 @@ class AuditBody:
             _density(entry, self.law, self.cells),
             lumped=entry.mass == "lumped",
             massless=self.massless,
-            facets=self.facets,
+            facets=self.faces(self.facets),
             added=[one for given in masses for one in self._added(given)],
         )
-        arms = points - self.mass.mean(points)
-        self._solid_inertia = float((arms * self.mass.times(arms)).sum())
-        given = entry.inertia if isinstance(entry, RigidBody) else None
-        self.inertia = float(given) if isinstance(given, float | int) else self._solid_inertia
-        """Inertia about the centre of the undeformed body, or that of a rigid one [kg m²]."""
-        self._size = float(self.mass.nodal @ (arms**2).sum(axis=1))
-        self._stiffness = self._reference_stiffness()
+        self.more = np.zeros((1, 1))
+        if isinstance(entry, RigidBody) and entry.inertia is not None:
+            self.more = _tensor(entry.inertia) - inertia(self.arms(0.0 * points), self.mass.times)
+        self._stiffen(dilates=dilates)
+
+    def _stiffen(self, *, dilates: bool) -> None:
+        """Find what resists where nothing has moved."""
+        lame, shear = self.law.first, self.law.second
+        self._stiffness = reference_stiffness(self.cells, lame, shear, dilates=dilates)
         diagonal = einsum("caiai->ca", self._stiffness)
-        self.holding = 0.5 * self._gathered(diagonal)[self.massless]
-        """tr K_bb/2 of each massless node in the reference configuration [N/m]."""
+        self.holding = self._gathered(diagonal)[self.massless] / self.dimension
+        """tr K_bb/D of each massless node in the reference configuration [N/m]."""
         rows: Array = np.abs(self._stiffness).sum(axis=(3, 4)).max(axis=2)
         self.row_stiffness = self._gathered(rows)
         """Largest force [N] on each node where every coordinate moves by 1 m, [node_count]."""
 
+    def faces(self, nodes: Indices) -> Facets:
+        """Return facets of its boundary by their nodes."""
+        return Facets(self.cells.kind.facet, nodes, self.thickness)
+
     @property
     def facet_areas(self) -> Array:
         """Areas of the facets that may touch others [m²], shape [facet_count]."""
-        ends = self.points[self.facets]
-        areas: Array = self.thickness * np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-        return areas
+        return self.faces(self.facets).areas(self.points)
 
     def places(self, at: Attached) -> list[Place]:
         """Return the places that something is attached to: of a set every node of it."""
@@ -191,22 +208,22 @@ class AuditBody:
         if self.modes is not None:
             local = self._axes(u).own[self.cells.nodes]
             return 0.5 * float(einsum("cai,caibk,cbk->", local, self._stiffness, local))
-        density = self.law.energy(self.cells.deformation_gradient(u))
+        density = self.response.energy(self.cells.deformation_gradient(u))
         return float((self.cells.weights * density).sum())
 
     def internal_force(self, u: Array) -> Array:
-        """Return ∂E/∂u [N], shape [node_count, 2]."""
-        return self.cells.divergence(self.law.stress(self.cells.deformation_gradient(u)))
+        """Return ∂E/∂u [N], shape [node_count, D]."""
+        return self.cells.divergence(self.response.stress(self.cells.deformation_gradient(u)))
 
     def conserving_force(self, u0: Array, u1: Array) -> Array:
         """Return the force [N] whose work from u₀ to u₁ is the change of the strain energy."""
         f0, f1 = (self.cells.deformation_gradient(u) for u in (u0, u1))
-        return self.cells.divergence(self.law.discrete_stress(f0, f1))
+        return self.cells.divergence(self.response.discrete_stress(f0, f1))
 
     def difference_force(self, u0: Array, u1: Array) -> Array:
         """Return the force [N] of the difference of the stresses at u₁ and u₀."""
         f0, f1 = (self.cells.deformation_gradient(u) for u in (u0, u1))
-        return self.cells.divergence(self.law.stress_difference(f0, f1))
+        return self.cells.divergence(self.response.stress_difference(f0, f1))
 
     def damping_force(self, u: Array, v: Array) -> Array:
         """Return C v [N] with C = α M + β R K₀ Rᵀ and R the mean rotation at u."""
@@ -218,116 +235,34 @@ class AuditBody:
             force += self.cells.assembled(share[:, None, None] * local) @ rotation.T
         return force
 
-    def rotation(self, u: Array) -> Array:
-        """Return the mean rotation of the body: the polar factor of Σ m (x − c) ⊗ (X − C)."""
-        if not self.turns:
-            return np.eye(2)
-        x, reference = self.points + u, self.points
-        weight = self.mass.nodal[:, None]
-        arms = reference - self.mass.mean(reference)
-        moment = (weight * (x - self.mass.mean(x))).T @ arms
-        a = moment @ np.linalg.inv((weight * arms).T @ arms)
-        # In the plane the closest rotation to A is that by the angle of (tr A, A₂₁ − A₁₂).
-        cosine, sine = a[0, 0] + a[1, 1], a[1, 0] - a[0, 1]
-        size = np.hypot(cosine, sine)
-        rotation: Array = np.array([[cosine, -sine], [sine, cosine]]) / size
-        return rotation
-
-    def kinetic_energy(self, u: Array, v: Array) -> float:
-        """Return ½ vᵀMv [J]; a rigid body may have another inertia than its cells."""
-        if self.modes is not None:
-            return self._axes(u).kinetic_energy(v)
-        energy = 0.5 * float((v * self.mass.times(v)).sum())
-        more = self.inertia - self._solid_inertia
-        if more == 0.0:
-            return energy
-        # Σ m |v − v̄|² = ω² Σ m |y|², wherever it has turned to.
-        beside = self.mass.nodal @ ((v - self.mass.mean(v)) ** 2).sum(axis=1)
-        return energy + 0.5 * more * float(beside) / self._size
-
-    def angular_momentum(self, u: Array, v: Array) -> float:
-        """Return that about the origin [kg m²/s]."""
-        if self.modes is not None:
-            return self._axes(u).angular_momentum(self.mass.mean(self.points + u), v)
-        own = float(cross(self.points + u, self.mass.times(v)).sum())
-        more = self.inertia - self._solid_inertia
-        return own + (more * self.spin(u, v) if more else 0.0)
-
-    def kinetic_parts(self, u: Array, v: Array) -> tuple[float, float, float]:
-        """Return that of the centre, of the turn as a rigid body, and the rest [J].
-
-        A body that repeats itself does not turn.
-        """
-        momentum = self.mass.times(v).sum(axis=0)
-        translation = 0.5 * float(momentum @ momentum) / float(self.mass.nodal.sum())
-        rotation = 0.0
-        if not self.images.size:
-            centre = self.mass.mean(self.points + u)
-            arms = self.points + u - centre
-            if self.modes is None:
-                inertia = float((arms * self.mass.times(arms)).sum())
-                inertia += self.inertia - self._solid_inertia
-            else:
-                inertia = self._axes(u).inertia
-            moment = self.angular_momentum(u, v) - float(cross(centre, momentum))
-            rotation = 0.5 * moment**2 / inertia
-        return translation, rotation, self.kinetic_energy(u, v) - translation - rotation
-
-    def vibration(self, u: Array, v: Array) -> Array:
-        """Return v less a rigid motion of the same momenta [m/s]; zero at nodes without mass."""
-        arms = self.points + u - self.mass.mean(self.points + u)
-        field: Array = v - self.mass.times(v).sum(axis=0) / self.mass.total
-        if not self.images.size:
-            inertia = float((arms * self.mass.times(arms)).sum())
-            moment = float(cross(arms, self.mass.times(v)).sum())
-            field -= turned(arms, moment / inertia)
-        field[self.massless] = 0.0
-        return field
-
-    def spin(self, u: Array, v: Array) -> float:
-        """Return Σ m y × (v − v̄) / Σ m |y|² about the centre [rad/s]; that of mean axes."""
-        if self.modes is not None:
-            return self._axes(u).rates(v)[1]
-        arms = self.points + u - self.mass.mean(self.points + u)
-        moment = self.mass.nodal @ cross(arms, v - self.mass.mean(v))
-        return float(moment / (self.mass.nodal @ (arms**2).sum(axis=1)))
-
     def cell_states(self, u: Array) -> tuple[Array, Array]:
         """Return mean Cauchy stress xx yy zz xy yz xz [Pa] and energy density [J/m³] of cells."""
         f = self.cells.deformation_gradient(u if self.modes is None else self._axes(u).own)
-        stress = self.cells.mean(self.law.cauchy_stress(f))
+        stress = self.cells.mean(self.response.cauchy_stress(f))
         if self.modes is not None:
             rotation = np.eye(3)
-            rotation[:2, :2] = self._axes(u).rotation
+            rotation[: self.dimension, : self.dimension] = self._axes(u).rotation
             stress = rotation @ stress @ rotation.T
         components = stress[:, [0, 1, 2, 0, 1, 0], [0, 1, 2, 1, 2, 2]]
-        return components, self.cells.mean(self.law.energy(f))
-
-    def _axes(self, u: Array) -> MeanAxes:
-        return MeanAxes.of(self.mass, self.points, u)
+        return components, self.cells.mean(self.response.energy(f))
 
     def _gathered(self, local: Array) -> Array:
         """Sum numbers of the nodes of cells, shape [cell_count, a], over the cells."""
         sums = np.bincount(self.cells.nodes.ravel(), local.ravel(), len(self.points))
         return sums.astype(np.float64)
 
-    def _reference_stiffness(self) -> Array:
-        """Return K₀ of the cells [N/m], shape [cell_count, a, 2, b, 2]; all laws have Hooke's."""
-        g, w = self.cells.gradients, self.cells.weights
-        shear = einsum("cq,cqaj,cqbj->cab", w, g, g)
-        outer = einsum("cq,cqai,cqbk->caibk", w, g, g)
-        crossed = outer.transpose(0, 1, 4, 3, 2)
-        isotropic = einsum("cab,ik->caibk", shear, np.eye(2))
-        first, second = (m[:, None, None, None, None] for m in (self.law.first, self.law.second))
-        stiffness: Array = first * outer + second * (isotropic + crossed)
-        return stiffness
-
 
 def _refuse_forms(entry: AnyBody) -> None:
-    forms = (entry.hypothesis, "standard" if isinstance(entry, RigidBody) else entry.formulation)
-    for what in forms:
-        if what not in ("plane-strain", "standard"):
-            raise InputError(f"cannot audit a body in {what!r} yet")
+    if entry.hypothesis == "axisymmetric":
+        raise InputError("cannot audit an axisymmetric body yet")
+
+
+def _tensor(given: float | tuple[float, ...] | tuple[tuple[float, ...], ...]) -> Array:
+    """Return an inertia as a matrix, shape [1, 1] or [3, 3]; three numbers are its principal."""
+    table = np.asarray(given, dtype=np.float64)
+    if table.ndim == 1:
+        return np.diag(table)
+    return table.reshape(1, 1) if table.ndim == 0 else table
 
 
 def _density(entry: AnyBody, law: Composition, cells: Cells) -> Array:

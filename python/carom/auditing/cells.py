@@ -1,115 +1,94 @@
-"""Cells of one kind: shape functions, quadrature, and sums over cells as sums over nodes."""
+"""Cells of one kind: shape functions at points of quadrature, and sums over cells and nodes."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from itertools import combinations
 
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices, einsum
-from carom.errors import InputError
-
-VTK_TRIANGLE, VTK_QUAD = 5, 9
-
-_GAUSS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]) / np.sqrt(3)
-_CENTRE = np.array([[1.0, 1.0]]) / 3
-_MIDDLES = np.array([[0.5, 0.0], [0.5, 0.5], [0.0, 0.5]])
-"""Midpoints of the sides of the reference triangle, whose mean integrates quadratics exactly."""
+from carom.auditing.kinds import Kind
+from carom.auditing.quadrature import Rule, rule_of_masses, rule_of_stresses
 
 
 class Cells:
-    """Triangles or quadrilaterals of a body, in its own numbering of nodes.
+    """The cells of a body, in its own numbering of nodes.
 
     Parameters
     ----------
-    vtk_type
-        Kind of the cells, in VTK's numbers.
+    kind
+        Their kind.
     nodes
-        Nodes of the cells, counter-clockwise, shape [cell_count, 3 or 4].
+        Nodes of the cells, in the order of their kind, shape [cell_count, a].
     points
-        Reference positions of the body's nodes [m], shape [node_count, 2].
+        Reference positions of the body's nodes [m], shape [node_count, D].
     thickness
-        Thickness [m].
+        Thickness [m]; 1 in space.
 
     Attributes
     ----------
     gradients
-        ∂N_a/∂X at the points where stresses are [1/m], shape [cell_count, q, a, 2].
+        ∂N_a/∂X at the points where stresses are [1/m], shape [cell_count, q, a, D].
     weights
         Volumes of these points [m³], shape [cell_count, q].
     """
 
-    def __init__(self, vtk_type: int, nodes: Indices, points: Array, thickness: float) -> None:
-        if vtk_type not in (VTK_TRIANGLE, VTK_QUAD):
-            raise InputError(f"cannot audit cells of VTK type {vtk_type}")
-        self._triangles = vtk_type == VTK_TRIANGLE
+    def __init__(self, kind: Kind, nodes: Indices, points: Array, thickness: float) -> None:
+        self.kind = kind
         self.nodes = nodes
-        self.node_count = len(points)
+        self.node_count, self.dimension = points.shape
         self._corners = points[nodes]
-        sides = self._corners - np.roll(self._corners, 1, axis=1)
-        self.shortest_edge = float(np.linalg.norm(sides, axis=2).min())
-        """Shortest edge in the reference configuration [m]."""
-        at = _CENTRE if self._triangles else _GAUSS
-        self.gradients, areas = self._mapped(at)
-        self.weights = areas * thickness
-        at = _MIDDLES if self._triangles else _GAUSS
-        _, areas = self._mapped(at)
-        values = self._values(at)
-        self.shared_volumes = einsum("cq,qa,qb->cab", areas * thickness, values, values)
+        apart = [self._corners[:, a] - self._corners[:, b] for a, b in _pairs(nodes.shape[1])]
+        self.shortest_edge = float(min(np.linalg.norm(d, axis=1).min() for d in apart))
+        """Shortest distance between nodes of a cell in the reference configuration [m]."""
+        self.gradients, volumes = self._mapped(rule_of_stresses(kind))
+        self.weights = volumes * thickness
+        rule = rule_of_masses(kind)
+        _, volumes = self._mapped(rule)
+        values = kind.values(rule[0])
+        self.shared_volumes = einsum("cq,qa,qb->cab", volumes * thickness, values, values)
         """∫N_a N_b dV of the cells [m³], shape [cell_count, a, b]."""
 
     def deformation_gradient(self, u: Array) -> Array:
-        """Return F = I + Σ u_a ⊗ ∇N_a, shape [cell_count, q, 2, 2]."""
-        return np.eye(2) + einsum("cai,cqaj->cqij", u[self.nodes], self.gradients)
+        """Return F = I + Σ u_a ⊗ ∇N_a, shape [cell_count, q, 3, 3]."""
+        gradient = einsum("cai,cqaj->cqij", u[self.nodes], self.gradients)
+        f: Array = np.broadcast_to(np.eye(3), (*gradient.shape[:2], 3, 3)).copy()
+        f[..., : self.dimension, : self.dimension] += gradient
+        return f
 
     def divergence(self, stress: Array) -> Array:
-        """Return the nodal forces Σ_q w P·∇N_a [N] of stresses [Pa], shape [node_count, 2]."""
-        return self.assembled(einsum("cq,cqij,cqaj->cai", self.weights, stress, self.gradients))
+        """Return the nodal forces Σ_q w P·∇N_a [N] of stresses [Pa], shape [node_count, D]."""
+        free = stress[..., : self.dimension, : self.dimension]
+        return self.assembled(einsum("cq,cqij,cqaj->cai", self.weights, free, self.gradients))
 
     def assembled(self, local: Array) -> Array:
-        """Sum vectors of the nodes of cells, shape [cell_count, a, 2], over the cells."""
+        """Sum vectors of the nodes of cells, shape [cell_count, a, D], over the cells."""
         index, size = self.nodes.ravel(), self.node_count
-        flat = local.reshape(-1, 2)
-        return np.stack([np.bincount(index, flat[:, i], size) for i in range(2)], axis=1)
+        flat = local.reshape(-1, self.dimension)
+        return np.stack([np.bincount(index, part, size) for part in flat.T], axis=1)
 
     def mean(self, values: Array) -> Array:
         """Return means over each cell of values at its points, shape [cell_count, q, ...]."""
         share = self.weights / self.weights.sum(axis=1, keepdims=True)
         return einsum("cq,cq...->c...", share, values)
 
-    def _values(self, at: Array) -> Array:
-        """Return N_a at reference points, shape [q, a]."""
-        x, y = at.T
-        if self._triangles:
-            return np.stack([1 - x - y, x, y], axis=1)
-        return np.stack([(1 + sx * x) * (1 + sy * y) / 4 for sx, sy in _signs()], axis=1)
-
-    def _slopes(self, at: Array) -> Array:
-        """Return ∂N_a/∂ξ at reference points, shape [q, a, 2]."""
-        if self._triangles:
-            return np.broadcast_to([[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]], (len(at), 3, 2))
-        x, y = at.T
-        slopes = [(sx * (1 + sy * y) / 4, sy * (1 + sx * x) / 4) for sx, sy in _signs()]
-        table: Array = np.array(slopes).transpose(2, 0, 1)
-        return table
-
-    def _mapped(self, at: Array) -> tuple[Array, Array]:
-        """Return gradients in X, shape [cell_count, q, a, 2], and areas of reference points."""
-        slopes = self._slopes(at)
+    def _mapped(self, rule: Rule) -> tuple[Array, Array]:
+        """Return gradients in X, shape [cell_count, q, a, D], and volumes of points of a rule."""
+        places, weights = rule
+        slopes = self.kind.slopes(places)
         jacobian = einsum("cai,qak->cqik", self._corners, slopes)
         inverse = np.linalg.inv(jacobian).astype(np.float64)
         gradients = einsum("qak,cqkj->cqaj", slopes, inverse)
-        share = (0.5 if self._triangles else 4.0) / len(at)
-        return gradients, np.linalg.det(jacobian) * share
+        return gradients, np.linalg.det(jacobian) * weights
 
 
-def _signs() -> Sequence[tuple[float, float]]:
-    return ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+def _pairs(count: int) -> list[tuple[int, int]]:
+    return list(combinations(range(count), 2))
 
 
-def boundary(nodes: Indices) -> Indices:
-    """Return the sides that belong to one cell only, the body on their left, shape [count, 2]."""
-    sides = np.stack([nodes, np.roll(nodes, -1, axis=1)], axis=2).reshape(-1, 2)
+def boundary(kind: Kind, nodes: Indices) -> Indices:
+    """Return the sides that belong to one cell only, outward as their kind has it, [count, a]."""
+    sides = nodes[:, kind.facets].reshape(-1, kind.facets.shape[1])
     _, index, count = np.unique(
         np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True
     )

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.auditing.arrays import Indices, turned
+from carom.auditing.arrays import Indices, turned, turning_axes
 from carom.auditing.files import Frame
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
@@ -52,9 +52,10 @@ def check_start(model: AuditModel, frame: Frame, scales: Scales, findings: Findi
     members = zip(model.scenario.bodies, model.bodies, model.supports, strict=True)
     for entry, body, supports in members:
         arms = body.points - body.mass.mean(body.points)
-        spin = entry.spin or 0.0
-        assert not isinstance(spin, tuple)
-        wanted = np.array(entry.velocity or (0.0, 0.0)) + turned(arms, spin)
+        spin = np.zeros(turning_axes(model.dimension)) if entry.spin is None else entry.spin
+        wanted = turned(arms, np.atleast_1d(spin))
+        if entry.velocity is not None:
+            wanted = wanted + np.array(entry.velocity)
         wanted = np.where(supports.held, supports.velocity(0.0), wanted)
         error = frame.velocity[body.span] - wanted
         findings.check("initial velocity", error, ROUND_OFF * scales.speed, f"{entry.name}, t = 0")

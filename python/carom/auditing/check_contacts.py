@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from carom.auditing.arrays import Array
+from carom.auditing.arrays import Array, einsum
+from carom.auditing.body import AuditBody
 from carom.auditing.contacts import Contacts, all_forces
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
@@ -32,8 +33,7 @@ class ContactChecks:
         self._model, self._scales, self._findings = model, scales, findings
         self._check = findings.check
         self._sliding = Sliding(model, scales)
-        edges = [np.linalg.norm(np.diff(b.points[b.facets], axis=1), axis=2) for b in model.bodies]
-        self._facet = float(min(edge.min() for edge in edges))
+        self._facet = min(_shortest(body) for body in model.bodies)
 
     def step(self, step: Step, where: str) -> tuple[float, float]:
         """Check a step; return its bi-potential gap, and how far that may be off [J]."""
@@ -51,7 +51,7 @@ class ContactChecks:
             # Of the other conditions the contacts before are where no stored state is.
             first = touching.first
             self._places(first, step.start, step, where)
-            force = (first.normal_force, first.friction_force)
+            force = (first.normal_force, _sizes(first.friction_force))
             self._cone(first, step, force, first.most_friction, where)
         return self._laws(step, ruled, friction, where)
 
@@ -88,7 +88,7 @@ class ContactChecks:
         normal, across = force
         self._check("Signorini: compression", np.maximum(-normal, 0.0), off, where)
         bounded = np.isfinite(friction)
-        excess = np.abs(across) - np.where(bounded, friction, 0.0) * normal
+        excess = across - np.where(bounded, friction, 0.0) * normal
         excess = np.where(bounded, np.maximum(excess, 0.0), 0.0)
         self._check("Coulomb: cone", excess, off * (1 + np.where(bounded, friction, 0.0)), where)
 
@@ -100,20 +100,37 @@ class ContactChecks:
         off = np.linalg.norm(found.reaction, axis=1) * self._scales.geometry(step)
         self._check("Signorini: complementarity", signorini, off, where)
         # Where a reaction is small, the solver's tolerance of it counts for more.
-        slip = np.abs(found.relative(step.d, found.shift)[1])
+        slip = _sizes(found.relative(step.d, found.shift)[1])
         off += slip * self._scales.reaction(step, float(np.abs(found.reaction).sum()))
-        work = found.friction_force * ruled.across
-        coulomb = friction.least * found.normal_force * np.abs(ruled.across) + work
+        work = einsum("ki,ki->k", found.friction_force, ruled.across)
+        across = _sizes(ruled.across)
+        coulomb = friction.least * found.normal_force * across + work
         # Where μ is only bounded, friction takes no less than the least of it, and the cone says
         # that it takes no more.
         coulomb = np.where(friction.fixed, coulomb, np.maximum(coulomb, 0.0))
-        doubt = friction.doubt * np.maximum(found.normal_force, 0.0) * np.abs(ruled.across)
+        doubt = friction.doubt * np.maximum(found.normal_force, 0.0) * across
         self._check("Coulomb: slip", coulomb, off * (1 + friction.least) + doubt, where)
         by_law = ~friction.fixed
         if by_law.any():
-            force = (found.normal_force, found.friction_force)
+            force = (found.normal_force, _sizes(found.friction_force))
             most = np.where(by_law, friction.most + friction.doubt, np.inf)
             self._cone(found, step, force, most, where)
         total = float(np.abs(signorini).sum() + np.abs(coulomb).sum())
         self._findings.report("largest bi-potential gap of a step", total, "J")
         return total, float(doubt.sum())
+
+
+def _sizes(vectors: Array) -> Array:
+    """Return the lengths of vectors, shape [count, D], shape [count]."""
+    lengths: Array = np.linalg.norm(vectors, axis=1)
+    return lengths
+
+
+def _shortest(body: AuditBody) -> float:
+    """Return the shortest distance between nodes of a facet that may touch [m]."""
+    if not len(body.facets):
+        return np.inf
+    nodes = body.points[body.facets]
+    count = nodes.shape[1]
+    pairs = [(a, b) for a in range(count) for b in range(a)]
+    return float(min(np.linalg.norm(nodes[:, a] - nodes[:, b], axis=1).min() for a, b in pairs))

@@ -6,12 +6,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from carom.auditing.arrays import Array
-from carom.auditing.body import KINETIC_PARTS, AuditBody
+from carom.auditing.arrays import AXES, Array, components, turning_axes, turning_components
+from carom.auditing.body import AuditBody
 from carom.auditing.contacts import smallest_gaps
 from carom.auditing.files import Frame
 from carom.auditing.inside import deepest_node
 from carom.auditing.model import AuditModel
+from carom.auditing.moving import KINETIC_PARTS
 from carom.auditing.report import Findings
 from carom.auditing.rigid import bent
 from carom.auditing.scales import EPS, ROUND_OFF, SAFETY, Scales
@@ -145,17 +146,18 @@ class FrameChecks:
             self._check("spring forces", row[f"{spring.name}.force"] - force, off, at)
 
     def _momenta(self, frame: Frame, row: Row, where: str) -> None:
-        momentum, moment = np.zeros(2), 0.0
+        dimension = self._model.dimension
+        momentum, moment = np.zeros(dimension), np.zeros(turning_axes(dimension))
         for body in self._model.bodies:
             u, v = frame.displacement[body.span], frame.velocity[body.span]
             momentum += body.mass.times(v).sum(axis=0)
             moment += body.angular_momentum(u, v)
-        stored = np.array([row["momentum_x"], row["momentum_y"]])
+        stored = np.array([row[name] for name in components("momentum", dimension)])
         off = ROUND_OFF * self._scales.mass * self._scales.speed
         self._check("momentum", stored - momentum, off, where)
-        self._check(
-            "angular momentum", row["angular_momentum"] - moment, off * self._scales.reach, where
-        )
+        turning = turning_components("angular_momentum", dimension)
+        stored = np.array([row[name] for name in turning])
+        self._check("angular momentum", stored - moment, off * self._scales.reach, where)
 
     def _motion(self, body: AuditBody, frame: Frame, row: Row, where: str) -> None:
         u, v = frame.displacement[body.span], frame.velocity[body.span]
@@ -165,9 +167,16 @@ class FrameChecks:
             return np.array([row[f"{body.name}.{column}"] for column in columns])
 
         centre = body.mass.mean(body.points + u)
-        self._check("centres", stored("x", "y") - centre, self._round_off_of_places(), at)
+        self._check(
+            "centres", stored(*AXES[: body.dimension]) - centre, self._round_off_of_places(), at
+        )
         drift = body.mass.mean(v)
-        self._check("drifts", stored("v_x", "v_y") - drift, SAFETY * ROUND_OFF * speed, at)
+        self._check(
+            "drifts",
+            stored(*components("v", body.dimension)) - drift,
+            SAFETY * ROUND_OFF * speed,
+            at,
+        )
         parts = np.array(body.kinetic_parts(u, v))
         off = SAFETY * ROUND_OFF * self._scales.energy
         self._check("kinetic parts", stored(*KINETIC_PARTS) - parts, off, at)
@@ -175,10 +184,14 @@ class FrameChecks:
         self._check("body strain", stored("strain")[0] - body.strain_energy(u), off, at)
         radius = float(np.ptp(body.points, axis=0).max())
         off = SAFETY * ROUND_OFF * speed * (1 + self._scales.reach / radius) / radius
-        self._check("spins", stored("spin") - body.spin(u, v), off, at)
+        self._check(
+            "spins", stored(*turning_components("spin", body.dimension)) - body.spin(u, v), off, at
+        )
 
     def _tracks(self, frame: Frame, row: Row, where: str) -> None:
         for name, node in self._model.tracks():
             for quantity, values in (("u", frame.displacement), ("v", frame.velocity)):
-                stored = [row[f"{name}.{quantity}_{axis}"] for axis in "xy"]
+                stored = [
+                    row[f"{name}.{quantity}_{axis}"] for axis in AXES[: self._model.dimension]
+                ]
                 self._check("tracked points", values[node] - stored, 0.0, f"{name}, {where}")

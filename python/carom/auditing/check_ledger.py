@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.auditing.arrays import Array
+from carom.auditing.arrays import AXES, Array
 from carom.auditing.files import Frame
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
@@ -128,7 +128,9 @@ class LedgerChecks:
             size = sum(np.abs(entry[name]) for name in BODY_COLUMNS)
             off = ROUND_OFF * (self._scales.energy + size)
             self._check("books: defect", entry["defect"] - known, off, body.name)
-            centre = np.stack([h[f"{body.name}.x"], h[f"{body.name}.y"]], axis=1)
+            centre = np.stack(
+                [h[f"{body.name}.{axis}"] for axis in AXES[: model.dimension]], axis=1
+            )
             weight = body.mass.total * model.gravity
             reach = float(np.linalg.norm(weight)) * (self._scales.reach + model.size)
             steps = max(float(self._summary["steps"]), 1.0)
@@ -142,7 +144,7 @@ class LedgerChecks:
             work = (centre - centre[0]) @ weight
             if not model.loaded(body):
                 self._check("books: external", entry["external"] - work, off, body.name)
-        rubs = not (model.massless or model.impacts) or self._summary["least_friction"] >= 0
+        rubs = not model.gives_back or self._summary["least_friction"] >= 0
         for name, entry in self._touched.items():
             if rubs:
                 fall = np.maximum(-np.diff(entry["friction"], prepend=0.0), 0.0)

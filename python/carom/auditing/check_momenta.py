@@ -113,19 +113,19 @@ class MomentumChecks:
         grounded = grounded or any(model.loaded(b) or model.supported(b) for b in model.bodies)
         if not (model.conserving and turning) or damped or grounded:
             free[:] = False
-        stored = rows.history["angular_momentum"]
-        step = np.zeros(len(rows))
+        stored = rows.angular_momentum
+        step = np.zeros_like(stored)
         for body in model.bodies:
             x, mass = rows.centre(body.name), body.mass.total
             middle = 0.5 * (x[1:] + x[:-1])
             step[1:] += mass * cross(middle, np.broadcast_to(model.gravity, middle.shape))
-        step[1:] *= np.diff(rows.times)
+        step[1:] *= np.diff(rows.times)[:, None]
         h = np.diff(rows.times, prepend=rows.times[0] - rows.dt)
         iteration = sum(scales.iteration(rows.dt, i).sum() for i in range(len(model.bodies)))
         off = h * iteration * scales.displacement_in(h) * (scales.reach + model.size)
         off = off + SAFETY * ROUND_OFF * scales.mass * scales.speed * scales.reach
-        off = off + SAFETY * EPS * np.abs(step)
-        error = np.where(free, np.diff(stored, prepend=stored[0]) - step, 0.0)
+        off = off + SAFETY * EPS * np.abs(step).max(axis=1)
+        error = np.diff(stored, axis=0, prepend=stored[:1]) - step
         for row in np.flatnonzero(free):
             where = f"t = {rows.times[row]:g} s"
             self._findings.check("row: angular", error[row], off[row], where)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from carom.auditing.arrays import Array, cross
+from carom.auditing.arrays import AXES, Array, cross
 from carom.auditing.body import AuditBody
 from carom.auditing.check_blend import BlendChecks
 from carom.auditing.check_contacts import ContactChecks
@@ -78,7 +78,7 @@ class StepChecks:
         off = float(np.abs(found.reaction).sum()) * self._scales.geometry(step) + doubt
         self._check("certificate", max(gap - after["certificate"], 0.0), off, where)
         for name, node in self._model.tracks():
-            stored = [after[f"{name}.vmid_{axis}"] for axis in "xy"]
+            stored = [after[f"{name}.vmid_{axis}"] for axis in AXES[: self._model.dimension]]
             rate = EPS * (self._scales.reach + self._model.size) / step.dt
             off = SAFETY * (rate + EPS * step.time / step.dt * self._scales.speed)
             error = step.d[node] / step.dt - stored
@@ -100,7 +100,9 @@ class StepChecks:
             for number, name in enumerate(supports.names):
                 mine = supports.by == number
                 total = np.where(mine, force, 0.0).sum(axis=0)
-                stored = np.array([after[f"{name}.force_{axis}"] for axis in "xy"])
+                stored = np.array(
+                    [after[f"{name}.force_{axis}"] for axis in AXES[: self._model.dimension]]
+                )
                 off = (allowed[:, None] * mine).sum(axis=0) + ROUND_OFF * np.abs(force).sum()
                 self._check("support forces", stored - total, off, f"{name}, {where}")
 
@@ -203,7 +205,7 @@ class StepChecks:
         residual, forces = step.forces.residual(index), self._scales.force(step, index)
         self._check("impulse", step.dt * residual.sum(axis=0), step.dt * forces.sum(), at)
         arms = motion.arms[1]
-        moment = step.dt * float(cross(arms, residual).sum())
+        moment = step.dt * cross(arms, residual).sum(axis=0)
         off = step.dt * float(forces.sum()) * float(np.abs(arms).max())
         self._check("angular impulse", moment, off, at)
 
@@ -222,12 +224,15 @@ class StepChecks:
             self._findings.leave(f"angular momentum of {body.name!r}: its law has none to keep")
             return
         if not (model.conserving and body.turns):
-            torque = float(cross(arm, self._inner(body, f)).sum())
-            self._findings.report("largest moment of inner forces in a step", torque, "N m")
+            torque = cross(arm, self._inner(body, f)).sum(axis=0)
+            largest = float(np.abs(torque).max())
+            self._findings.report("largest moment of inner forces in a step", largest, "N m")
             moment -= torque
         rough = float(np.abs(contact).sum()) * self._scales.geometry(step)
         off = step.dt * (off.sum() * np.abs(arm).max() + rough)
-        self._check("angular impulse", step.dt * (cross(arm, f.inertia).sum() - moment), off, at)
+        self._check(
+            "angular impulse", step.dt * (cross(arm, f.inertia).sum(axis=0) - moment), off, at
+        )
 
     def _inner(self, body: AuditBody, f: BodyForces) -> Array:
         """Return the inner forces of the step as the mass feels them."""
@@ -238,7 +243,7 @@ class StepChecks:
         inner[b] = (1 - self._model.xi) * f.start[b] + self._model.xi * f.end[b]
         return inner
 
-    def _outer(self, step: Step, index: int, contact: Array, arm: Array) -> tuple[Array, float]:
+    def _outer(self, step: Step, index: int, contact: Array, arm: Array) -> tuple[Array, Array]:
         """Return resultant and moment of what acts on a body in the step [N], [N m].
 
         Reactions act where the scheme puts them: those of the step at its middle, those of a state
@@ -268,8 +273,9 @@ class StepChecks:
         else:
             parts = [(contact, arm)]
         parts.append((outer, arm))
-        force = sum((part.sum(axis=0) for part, _ in parts), np.zeros(2))
-        return force, float(sum(cross(at, part).sum() for part, at in parts))
+        force: Array = np.sum([part.sum(axis=0) for part, _ in parts], axis=0)
+        moment: Array = np.sum([cross(at, part).sum(axis=0) for part, at in parts], axis=0)
+        return force, moment
 
     def _ledger(self, step: Step, where: str) -> None:
         model, scales = self._model, self._scales

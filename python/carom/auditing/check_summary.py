@@ -7,6 +7,7 @@ from typing import Any, get_args
 
 import numpy as np
 
+from carom.auditing.arrays import turning_axes
 from carom.auditing.body import AuditBody
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
@@ -116,7 +117,7 @@ class SummaryChecks:
         """Check that the run's least friction says whether friction of any step gave energy."""
         least, h = _number(self._summary["least_friction"]), self._history
         self._findings.check("summary: extremes", max(least, 0.0), 0.0, "least_friction")
-        if self._model.massless or self._model.impacts:
+        if self._model.gives_back:
             self._findings.leave("the least friction of a step", "summary.json: least_friction")
             return
         # No step may give back more than this, and none can have taken less than nothing.
@@ -268,8 +269,10 @@ class SummaryChecks:
 
 def _unknowns(body: AuditBody) -> int:
     if body.modes is not None:
-        return 2 * len(body.surface) + body.modes
-    return 3 if body.rigid else 2 * (len(body.points) - len(body.images))
+        return body.dimension * len(body.surface) + body.modes
+    if body.rigid:
+        return body.dimension + turning_axes(body.dimension)
+    return body.dimension * (len(body.points) - len(body.images))
 
 
 def _number(value: object) -> float:

@@ -45,40 +45,34 @@ class SurfaceChecks:
         self._growing = growing
         self._facets, self._body = facets.nodes, facets.body
         mine = [
-            (index, *sorted(facet))
+            (index, *sorted(set(facet)))
             for index, body in enumerate(model.bodies)
             for facet in (body.facets + body.span.start).tolist()
         ]
         theirs = [
-            (int(index), *sorted(facet))
+            (int(index), *sorted(set(facet)))
             for index, facet in zip(self._body, self._facets.tolist(), strict=True)
         ]
         self._known = sorted(mine) == sorted(theirs)
         self._check("surface: facets", float(not self._known), 0.0, "facets that may touch")
         self._check("surface: facets", facets.points - model.points, 0.0, "points")
         if self._known:
-            thickness = np.array([entry.thickness for entry in model.scenario.bodies])
-            chord = self._chords(model.points)
-            self._area = np.linalg.norm(chord, axis=1) * thickness[self._body]
-            # The body is on the left of a facet of ours.
-            left = {(a, b) for _, a, b in self._directed()}
-            turned = [(int(a), int(b)) not in left for a, b in self._facets]
-            self._sign = np.where(turned, -1.0, 1.0)[:, None]
-            self._around = np.zeros(len(model.points))
-            np.add.at(self._around, self._facets, self._area[:, None])
+            # Ours are outward; those of the file may have another order.
+            ours = {
+                frozenset(facet): (index, own)
+                for index, body in enumerate(model.bodies)
+                for own, facet in enumerate((body.facets + body.span.start).tolist())
+            }
+            self._own = [ours[frozenset(facet)] for facet in self._facets.tolist()]
+            areas = [body.facet_areas for body in model.bodies]
+            self._area = np.array([areas[index][own] for index, own in self._own])
         self._last: Array | None = None
         self._pressure = np.zeros(len(self._facets))
 
-    def _directed(self) -> list[tuple[int, int, int]]:
-        return [
-            (index, a + body.span.start, b + body.span.start)
-            for index, body in enumerate(self._model.bodies)
-            for a, b in body.facets.tolist()
-        ]
-
-    def _chords(self, position: Array) -> Array:
-        chords: Array = position[self._facets[:, 1]] - position[self._facets[:, 0]]
-        return chords
+    def _normals(self, position: Array) -> Array:
+        """Return outward normals of the facets of the file, shape [facet_count, D]."""
+        normals = [b.faces(b.facets).normals(position[b.span]) for b in self._model.bodies]
+        return np.array([normals[index][own] for index, own in self._own])
 
     def frame(
         self,
@@ -157,19 +151,16 @@ class SurfaceChecks:
         """
         if not self._known:
             return
-        chord = self._sign * self._chords(self._model.points + frame.displacement)
-        length = np.linalg.norm(chord, axis=1, keepdims=True)
-        normals = np.stack([chord[:, 1], -chord[:, 0]], axis=1) / length
+        position = self._model.points + frame.displacement
+        normals = self._normals(position)
+        edges = position[self._facets[:, 1]] - position[self._facets[:, 0]]
+        length = np.linalg.norm(edges, axis=1)
         mine, off = np.zeros(len(self._area)), np.zeros(len(self._area))
         turn = SAFETY * EPS * (self._model.size + self._scales.reach) / float(length.min())
         for k in range(len(contacts)):
             force, normal = float(contacts.normal_force[k]), contacts.normal[k]
-            loads = [(int(contacts.node[k]), 1.0, normal)]
-            if contacts.target[k] >= 0:
-                weights = np.abs(contacts.weights[k])
-                shares = weights / weights.sum()
-                feet = zip(contacts.followed[k].tolist(), shares.tolist(), strict=True)
-                loads += [(node, share, -normal) for node, share in feet if share > 0.0]
+            loads = [(node, share, normal) for node, share in contacts.borne(k)]
+            loads += [(node, share, -normal) for node, share in contacts.passed_on(k)]
             for node, share, towards in loads:
                 # The run's normal is that of its last guess.
                 slack = SAFETY * np.linalg.norm(contacts.reaction[k]) * contacts.normal_error[k]

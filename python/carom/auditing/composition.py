@@ -9,6 +9,7 @@ import numpy as np
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.drawn import Drawn
 from carom.auditing.laws import Law
+from carom.auditing.plane_stress import PlaneStress
 from carom.case.body import AnyBody, Body, Region, RigidBody, materials_of
 from carom.case.material import Damping, Material
 
@@ -25,7 +26,7 @@ class Composition:
     known
         The materials of the case.
     middles
-        Means of the nodes of each cell [m], shape [cell_count, 2].
+        Means of the nodes of each cell [m], shape [cell_count, D].
     mesh
         The mesh as the case draws it, which has the sets of cells.
 
@@ -40,7 +41,11 @@ class Composition:
     ) -> None:
         materials = [known[name] for name in materials_of(entry)]
         stress = entry.initial_stress if isinstance(entry, Body) else None
-        self._laws = [Law.of(material, stress) for material in materials] or [Law.none()]
+        free = middles.shape[1]
+        of_solid = [Law.of(material, free, stress) for material in materials] or [Law.none()]
+        self._laws: list[Law | PlaneStress] = [*of_solid]
+        if entry.hypothesis == "plane-stress":
+            self._laws = [PlaneStress(law) for law in of_solid]
         self._densities = [material.density for material in materials]
         regions = () if isinstance(entry, RigidBody) else entry.regions
         self._of_cell = _regions(regions, middles, mesh)
@@ -89,7 +94,7 @@ class Composition:
     @property
     def subtracts(self) -> bool:
         """Whether ψ of some material is a small difference of terms of the size of its moduli."""
-        return any(law.kind == "neo-hookean" or law.rubber is not None for law in self._laws)
+        return any(law.subtracts for law in self._laws)
 
     @property
     def damped(self) -> bool:
@@ -97,15 +102,15 @@ class Composition:
         return self.mass_damping > 0 or bool((self.stiffness_damping > 0).any())
 
     def energy(self, f: Array) -> Array:
-        """Return ψ [J/m³] of F, shape [cell_count, q, 2, 2], shape [cell_count, q]."""
+        """Return ψ [J/m³] of F, shape [cell_count, q, 3, 3], shape [cell_count, q]."""
         return self._by_material([law.energy for law in self._laws], f)
 
     def stress(self, f: Array) -> Array:
-        """Return P [Pa] of F, shape [cell_count, q, 2, 2]."""
+        """Return P [Pa] of F, shape [cell_count, q, 3, 3]."""
         return self._by_material([law.stress for law in self._laws], f)
 
     def cauchy_stress(self, f: Array) -> Array:
-        """Return P Fᵀ/J [Pa] in space, shape [cell_count, q, 3, 3]."""
+        """Return P Fᵀ/J [Pa], shape [cell_count, q, 3, 3]."""
         return self._by_material([law.cauchy_stress for law in self._laws], f)
 
     def discrete_stress(self, f0: Array, f1: Array) -> Array:

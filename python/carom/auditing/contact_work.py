@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from carom.auditing.arrays import Array, einsum
+from carom.auditing.arrays import Array, einsum, turned_with
 from carom.auditing.contacts import Contacts
 from carom.auditing.states import States
 from carom.auditing.touching import Touching
@@ -62,9 +62,9 @@ class Works:
                 ContactWork(
                     found=found,
                     terms={
-                        "friction": -share * found.friction_force * w_t,
+                        "friction": -share * einsum("ki,ki->k", found.friction_force, w_t),
                         "normal_contact": -share * found.normal_force * w_n,
-                        "prescribed": share * found.prescribed_work,
+                        "prescribed": share * found.driven(self._states.held_d, found.shift),
                     },
                     whole=np.zeros(len(found)),
                     doubt=np.zeros(len(found)),
@@ -90,8 +90,9 @@ class Works:
             v_n, v_t = found.relative(mean, found.velocity)
             terms = dict.fromkeys(names("pair"), np.zeros(len(found)))
             terms[normal] = terms[normal] - self._states.dt * found.normal_force * v_n
-            terms[across] = terms[across] - self._states.dt * found.friction_force * v_t
-            driven = einsum("ki,ki->k", found.reaction, found.velocity)
+            rubbed = einsum("ki,ki->k", found.friction_force, v_t)
+            terms[across] = terms[across] - self._states.dt * rubbed
+            driven = found.driven(self._states.held_v, found.velocity)
             terms["prescribed"] = self._states.dt * driven
             nothing = np.zeros(len(found))
             works.append(ContactWork(found=found, terms=terms, whole=nothing, doubt=nothing))
@@ -137,29 +138,31 @@ class Works:
         Slip is measured in the frame of the end. Where a contact has no reaction there, it is not
         stored whether the run measured it there or, with the contact out of reach, at the start.
         """
-        ended = {key: k for k, key in enumerate(keys(self._touching.balanced))}
+        ended = {key: k for k, key in enumerate(self._touching.balanced.keys)}
         d, balanced = self._states.d, self._touching.balanced
-        end_slip = np.abs(balanced.relative(d, balanced.shift)[1])
+        end_slip = _slip(balanced, d)
         late = self._touching.find(self._states.start, 1.0, like=self._touching.at_start)
         late = late.only(late.massless) if self._states.model.mixed else late
         frames = (late, self._touching.first)
-        moved, left = (np.abs(found.relative(d, found.shift)[1]) for found in frames)
+        moved, left = (_slip(found, d) for found in frames)
         # In the frame of the end obstacles do their work too, where they are round.
         normals = late.normal.copy()
-        for k, key in enumerate(keys(self._touching.first)):
+        for k, key in enumerate(self._touching.first.keys):
             if key in ended:
                 moved[k] = left[k] = end_slip[ended[key]]
                 normals[k] = balanced.normal[ended[key]]
+        held = self._states.held_d
+        by_end = balanced.driven(held, balanced.shift)
         blend = np.append(self._states.blend, 0.0)  # the last is of nodes of no body
         work = []
         for sign, found, slip, off, driven in (
-            (1.0, balanced, end_slip, np.zeros(len(end_slip)), balanced.prescribed_work),
+            (1.0, balanced, end_slip, np.zeros(len(end_slip)), by_end),
             (
                 -1.0,
                 self._touching.first,
                 moved,
                 np.abs(moved - left),
-                _driven_in(self._touching.first, normals),
+                _turned_to(self._touching.first, normals).driven(held, self._touching.first.shift),
             ),
         ):
             share = 0.5 + sign * blend[found.source]
@@ -179,13 +182,13 @@ class Works:
         return work
 
 
-def _driven_in(found: Contacts, normals: Array) -> Array:
-    """Return the work of obstacles with reactions that have turned to these normals [J]."""
-    tangents = np.stack([-normals[:, 1], normals[:, 0]], axis=1)
-    reaction = found.normal_force[:, None] * normals + found.friction_force[:, None] * tangents
-    return einsum("ki,ki->k", reaction, found.shift)
+def _turned_to(found: Contacts, normals: Array) -> Contacts:
+    """Return contacts whose reactions have turned to these normals."""
+    reaction = turned_with(found.reaction, found.normal, normals)
+    return replace(found, reaction=reaction, normal=normals)
 
 
-def keys(found: Contacts) -> list[tuple[int, int]]:
-    """Return what identifies each contact: its node, and what that is against."""
-    return list(zip(found.node.tolist(), found.target.tolist(), strict=True))
+def _slip(found: Contacts, motion: Array) -> Array:
+    """Return how far contacts slide in a motion [m], shape [count]."""
+    slip: Array = np.linalg.norm(found.relative(motion, found.shift)[1], axis=1)
+    return slip

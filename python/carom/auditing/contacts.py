@@ -1,21 +1,20 @@
-"""The stored contacts of a state, found again by the auditor's own closest points."""
+"""The contacts of a state, and how far nodes are from what they may touch."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carom.auditing.arrays import Array, Indices, cross, einsum
+from carom.auditing.arrays import Array, Indices, einsum
 from carom.auditing.model import AuditModel
 from carom.auditing.pairs import Side
-from carom.auditing.target import CORNER, Feet
 
-SAME = 1e-7
-"""Feet whose gap [model size] and normal differ by no more are equally good: at edges of facets."""
+AT_NODE, AT_EDGES, BEFORE_ROUND = range(3)
+"""Where contacts are: at a node, where edges cross, or on a facet or edge before what is round."""
 
 
 @dataclass(frozen=True)
@@ -25,18 +24,24 @@ class Contacts:
     Parameters
     ----------
     node
-        Source nodes, shape [count].
+        Source nodes, of edges and facets the one that takes most, shape [count].
+    site
+        Where they are, shape [count].
     source, target
         Body of the node; index of a body, or −1 − that of an obstacle; shape [count].
     reaction
-        Force on the node [N], shape [count, 2].
+        Force on the source [N], shape [count, D].
     gap, normal
-        By the auditor's closest point [m], shape [count] and [count, 2].
+        By the auditor's closest point [m], shape [count] and [count, D].
+    sources, shares
+        Nodes of the source, and how much of it each is, shape [count, m].
     followed, weights
-        Nodes that the foot follows, and how much, shape [count, 4]; none for obstacles.
+        Nodes that the foot follows, and how much, shape [count, n]; none for obstacles.
+    facet
+        Facet of the foot, shape [count]; −1 for obstacles.
     shift, velocity
         How far the obstacle moves in the step [m], and its velocity at the end [m/s], shape
-        [count, 2]; zero for bodies.
+        [count, D]; zero for bodies.
     gap_error, normal_error
         What was stored less that, shape [count].
     side
@@ -44,13 +49,17 @@ class Contacts:
     """
 
     node: Indices
+    site: Indices
     source: Indices
     target: Indices
     reaction: Array
     gap: Array
     normal: Array
+    sources: Indices
+    shares: Array
     followed: Indices
     weights: Array
+    facet: Indices
     shift: Array
     velocity: Array
     gap_error: Array
@@ -80,10 +89,13 @@ class Contacts:
 
     def placed(self, chosen: NDArray[np.bool_], others: Contacts) -> Contacts:
         """Return the same contacts where they are if chosen, and else where `others` are."""
-        geometry = ("gap", "normal", "followed", "weights", "gap_error", "normal_error")
-        found = {}
+        geometry = (
+            *("site", "gap", "normal", "sources", "shares", "followed", "weights", "facet"),
+            *("gap_error", "normal_error"),
+        )
+        found: dict[str, Any] = {}
         for name in geometry:
-            mine, theirs = getattr(self, name), getattr(others, name)
+            mine, theirs = _alike(getattr(self, name), getattr(others, name))
             found[name] = np.where(chosen[:, None] if mine.ndim > 1 else chosen, mine, theirs)
         return replace(self, **found)
 
@@ -104,146 +116,88 @@ class Contacts:
 
     @property
     def friction_force(self) -> Array:
-        """r_t [N], shape [count]."""
-        return cross(self.normal, self.reaction)
+        """r_t [N], shape [count, D]."""
+        force: Array = self.reaction - self.normal_force[:, None] * self.normal
+        return force
 
     def relative(self, motion: Array, of_obstacles: Array) -> tuple[Array, Array]:
         """Return normal and tangential parts of the motion of nodes relative to their feet.
 
+        They are of the shapes [count] and [count, D].
+
         Parameters
         ----------
         motion
-            Of all nodes of the model, shape [node_count, 2].
+            Of all nodes of the model, shape [node_count, D].
         of_obstacles
             That of the obstacles: their shift, or their velocity where `motion` is one.
         """
         feet = einsum("kj,kji->ki", self.weights, motion[self.followed]) + of_obstacles
-        relative = motion[self.node] - feet
-        return einsum("ki,ki->k", relative, self.normal), cross(self.normal, relative)
+        relative = einsum("kj,kji->ki", self.shares, motion[self.sources]) - feet
+        along = einsum("ki,ki->k", relative, self.normal)
+        return along, relative - along[:, None] * self.normal
+
+    def driven(self, held: Array, of_obstacles: Array) -> Array:
+        """Return what prescribed motion does against the reactions [J] or [W], shape [count].
+
+        Parameters
+        ----------
+        held
+            The motion of what supports hold, zero elsewhere, shape [node_count, D].
+        of_obstacles
+            That of the obstacles.
+        """
+        along, across = self.relative(held, of_obstacles)
+        relative = along[:, None] * self.normal + across
+        return -einsum("ki,ki->k", self.reaction, relative)
 
     @property
-    def prescribed_work(self) -> Array:
-        """The work of obstacles that move against the reactions in the step [J], [count]."""
-        return einsum("ki,ki->k", self.reaction, self.shift)
+    def keys(self) -> list[tuple[int, ...]]:
+        """What tells each contact from the others: its nodes, and what they are against."""
+        keys: list[tuple[int, ...]] = []
+        for k, site in enumerate(self.site):
+            nodes = (
+                [int(self.node[k])] if site == AT_NODE else sorted(set(self.sources[k].tolist()))
+            )
+            others = sorted(set(self.followed[k, :2].tolist())) if site == AT_EDGES else []
+            keys.append((int(self.target[k]), int(site), *nodes, *others))
+        return keys
+
+    def borne(self, k: int) -> list[tuple[int, float]]:
+        """Return the nodes of the source of a contact, with what each has of what presses on it."""
+        return _shared(self.sources[k], self.shares[k])
+
+    def passed_on(self, k: int) -> list[tuple[int, float]]:
+        """Return the same of its foot; none of obstacles."""
+        return _shared(self.followed[k], self.weights[k]) if self.target[k] >= 0 else []
 
     def nodal_forces(self, node_count: int) -> Array:
-        """Return the reactions spread over nodes and feet [N], shape [node_count, 2]."""
-        force = np.zeros((node_count, 2))
-        np.add.at(force, self.node, self.reaction)
+        """Return the reactions spread over nodes and feet [N], shape [node_count, D]."""
+        force = np.zeros((node_count, self.normal.shape[1]))
+        np.add.at(force, self.sources, self.shares[:, :, None] * self.reaction[:, None])
         np.add.at(force, self.followed, -self.weights[:, :, None] * self.reaction[:, None])
         return force
 
 
+def _alike(a: Array, b: Array) -> tuple[Array, Array]:
+    """Return arrays whose rows are as long as those of the other: nodes without a weight follow."""
+    if a.ndim == 1:
+        return a, b
+    width = max(a.shape[1], b.shape[1])
+    longer = [np.pad(rows, ((0, 0), (0, width - rows.shape[1]))) for rows in (a, b)]
+    return longer[0], longer[1]
+
+
+def _shared(nodes: Indices, weights: Array) -> list[tuple[int, float]]:
+    sizes = np.abs(weights)
+    pairs = zip(nodes.tolist(), (sizes / sizes.sum()).tolist(), strict=True)
+    return [(node, share) for node, share in pairs if share > 0.0]
+
+
 def all_forces(parts: Sequence[Contacts], node_count: int) -> Array:
-    """Return the reactions of several on the nodes [N], shape [node_count, 2]."""
-    force = np.zeros((node_count, 2))
-    for part in parts:
-        force += part.nodal_forces(node_count)
+    """Return the reactions of several on the nodes [N], shape [node_count, D]."""
+    force: Array = np.sum([part.nodal_forces(node_count) for part in parts], axis=0)
     return force
-
-
-def find(
-    model: AuditModel,
-    state: Mapping[str, Any],
-    position: Array,
-    time: float,
-    *,
-    step: tuple[float, float],
-    like: Contacts | None = None,
-) -> Contacts:
-    """Find the contacts of a state with nodes at `position` [m] and obstacles as at `time` [s].
-
-    The `step` has start and end [s].
-
-    Feet are those that come closest to the stored gaps and normals. What is stored is not of all
-    times of a step: feet at others are near those of the contacts `like` them.
-    """
-    stored, target = state["contact_node"], state["contact_target"]
-    count = len(stored)
-    node = np.clip(stored, 0, len(model.points) - 1)
-    source = np.array([model.body_of(int(n)) for n in stored], dtype=np.int64)
-    gap, normal = np.full(count, np.nan), np.full((count, 2), np.nan)
-    followed, weights = np.zeros((count, 4), dtype=np.int64), np.zeros((count, 4))
-    shift, velocity = np.zeros((count, 2)), np.zeros((count, 2))
-    stored_gap, stored_normal = state["contact_gap"], state["contact_normal"]
-    for t in np.unique(target):
-        at = np.flatnonzero(target == t)
-        x = position[node[at]]
-        if t < 0:
-            if -1 - t < len(model.obstacles):
-                obstacle = model.obstacles[-1 - t]
-                gap[at], normal[at] = obstacle.nearest(x, time)
-                before, after = (obstacle.travel.displacement(end) for end in step)
-                shift[at], velocity[at] = after - before, obstacle.travel.velocity(step[1])
-            continue
-        if t >= len(model.bodies):
-            continue
-        span = model.bodies[t].span
-        feet = model.targets[t].feet(x, position[span])
-        misfit = np.abs(feet.gap - stored_gap[at][feet.point]) / model.size
-        misfit += np.linalg.norm(feet.normal - stored_normal[at][feet.point], axis=1)
-        for k, contact in enumerate(at):
-            mine = np.flatnonzero(feet.point == k)
-            if len(mine) == 0:
-                continue
-            good = mine[misfit[mine] <= misfit[mine].min() + SAME]
-            best = good[feet.beyond[good].argmin()]
-            if like is not None:
-                near = (like.followed[contact] - span.start, like.normal[contact])
-                best = _nearest(feet, mine, near, smooth=model.smooth, otherwise=int(best))
-            gap[contact], normal[contact] = feet.gap[best], feet.normal[best]
-            followed[contact] = feet.nodes[best] + span.start
-            weights[contact] = feet.weights[best]
-    sides = {(side.source, side.target): side for side in model.sides}
-    return Contacts(
-        node=node,
-        source=source,
-        target=target,
-        reaction=state["contact_reaction"],
-        gap=gap,
-        normal=normal,
-        followed=followed,
-        weights=weights,
-        shift=shift,
-        velocity=velocity,
-        gap_error=stored_gap - gap,
-        normal_error=np.linalg.norm(stored_normal - normal, axis=1),
-        side=tuple(sides.get((int(s), int(t))) for s, t in zip(source, target, strict=True)),
-    )
-
-
-def _nearest(
-    feet: Feet, mine: Indices, known: tuple[Indices, Array], *, smooth: bool, otherwise: int
-) -> int:
-    """Return which of the feet `mine` of a point goes on from a known one.
-
-    It stays on its facet. On a smooth target it goes on to the next one where the foot is on that;
-    beyond an edge, beside both, it stays.
-
-    Parameters
-    ----------
-    feet
-        Feet of points.
-    mine
-        Those of the point.
-    known
-        Nodes that the known foot follows, in the numbering of the body, and its normal.
-    smooth
-        Whether the target is smooth.
-    otherwise
-        What to return where none goes on from it.
-    """
-    nodes, normal = known
-    own = (feet.nodes[mine] == nodes).all(axis=1)
-    on = feet.beyond[mine] == 0.0
-    choices = [own & on] if smooth else [own]
-    if smooth:
-        # The first two nodes are those of the facet; sides beyond a corner are not beside it.
-        beside = np.isin(feet.nodes[mine, :2], nodes[:2]).any(axis=1)
-        beside &= feet.normal[mine] @ normal > CORNER
-        choices += [beside & on, own]
-    found = next((chosen for chosen in choices if chosen.any()), None)
-    return otherwise if found is None else int(mine[found.argmax()])
 
 
 def smallest_gaps(model: AuditModel, position: Array, time: float) -> list[float]:
@@ -261,7 +215,8 @@ def _smallest_gap(model: AuditModel, side: Side, position: Array, time: float) -
     # Only nodes that may be the closest are looked at closely: a facet is no farther than its
     # nodes, and no closer than these by more than its own length or so.
     near = np.linalg.norm(x[:, None] - nodes[target.surface][None], axis=2).min(axis=1)
-    longest = np.linalg.norm(np.diff(nodes[target.facets], axis=1), axis=2).max()
+    across = nodes[target.facets] - nodes[target.facets[:, :1]]
+    longest = np.linalg.norm(across, axis=2).max()
     close = x[near <= near.min() + 2 * longest]
     smallest = float(model.targets[side.target].signed_distance(close, nodes).min())
     if np.isfinite(smallest):

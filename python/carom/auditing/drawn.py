@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Indices, Mask
 from carom.case.body import AnyBody
-from carom.case.mesh import Disc, MeshFile, Rectangle, Ring
+from carom.case.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring
 from carom.errors import InputError
 from carom.mesh_file import read_body_mesh
 
@@ -21,8 +21,8 @@ ON_SIDE = 1e-9
 class Drawn(Protocol):
     """A mesh as the case draws it.
 
-    Points are reference positions of all nodes [m], shape [node_count, 2], and outlines the facets
-    of the boundary, shape [facet_count, 2].
+    Points are reference positions of all nodes [m], shape [node_count, D], and outlines the facets
+    of the boundary, shape [facet_count, a].
     """
 
     @property
@@ -39,7 +39,7 @@ class Drawn(Protocol):
         """Return the cells of a set."""
 
 
-def drawn(entry: AnyBody) -> Drawn:
+def drawn(entry: AnyBody, dimension: int) -> Drawn:
     """Return the mesh of a body as the case draws it.
 
     Raises
@@ -48,15 +48,23 @@ def drawn(entry: AnyBody) -> Drawn:
         A file cannot be read.
     """
     mesh = entry.mesh
-    if isinstance(mesh, Disc):
-        return _Round(mesh, {"surface": mesh.radius}, _cells_of_disc(mesh))
+    if isinstance(mesh, MeshFile):
+        return _Read.of(entry.name, mesh, dimension)
+    if isinstance(mesh, Rectangle | Box):
+        return _Upright(mesh)
+    if isinstance(mesh, Disc | Ball):
+        return _Round(mesh.centre, None, {"surface": mesh.radius}, {}, _cells_within(mesh))
     if isinstance(mesh, Ring):
         radii = {"inner": mesh.inner_radius, "outer": mesh.outer_radius}
-        return _Round(mesh, radii, mesh.divisions[0] * mesh.divisions[1])
-    if isinstance(mesh, Rectangle):
-        return _Upright(mesh)
-    assert isinstance(mesh, MeshFile), "all others are in space"
-    return _Read.of(entry.name, mesh)
+        count = mesh.divisions[0] * mesh.divisions[1] * _PARTS[mesh.cell]
+        return _Round(mesh.centre, None, radii, {}, count)
+    if isinstance(mesh, Cylinder):
+        radii, layers = {"side": mesh.radius}, mesh.layers * _in_disc(mesh.divisions, mesh.rings)
+    else:
+        radii = {"inner": mesh.inner_radius, "outer": mesh.outer_radius}
+        layers = mesh.divisions[0] * mesh.divisions[1] * mesh.divisions[2]
+    ends = {"bottom": 0.0, "top": mesh.height}
+    return _Round(mesh.base, mesh.axis, radii, ends, layers * _PARTS[mesh.cell])
 
 
 def nodes_of(mesh: Drawn, name: str, points: Array, outline: Indices, cells: Indices) -> Indices:
@@ -84,51 +92,107 @@ def unknown(name: str) -> InputError:
 _NONE: Indices = np.zeros(0, dtype=np.int64)
 
 
-def _cells_of_disc(mesh: Disc) -> int:
-    n, rings = mesh.divisions, mesh.rings or mesh.divisions // 2
-    return n * n + 4 * n * rings
+_PARTS = {
+    **dict.fromkeys(("quad4", "quad8", "quad9", "hex8", "hex20", "hex27"), 1),
+    **dict.fromkeys(("tri3", "tri6", "wedge6", "wedge15"), 2),
+    **dict.fromkeys(("tet4", "tet10"), 6),
+}
+"""Into how many cells a quadrilateral or a hexahedron is cut."""
 
 
-def _with(cell: str, quadrilaterals: int) -> int:
-    return quadrilaterals * (2 if cell == "tri3" else 1)
+def _in_disc(divisions: int, rings: int | None) -> int:
+    """Return the quadrilaterals of a disc: of its core, and of the rings around it."""
+    return divisions * (divisions + 4 * (divisions // 2 if rings is None else rings))
+
+
+def _cells_within(mesh: Disc | Ball) -> int:
+    n = mesh.divisions
+    if isinstance(mesh, Disc):
+        return _in_disc(n, mesh.rings) * _PARTS[mesh.cell]
+    shells = n // 2 if mesh.rings is None else mesh.rings
+    return (n**3 + 6 * n * n * shells) * _PARTS[mesh.cell]
 
 
 @dataclass(frozen=True)
 class _Round:
-    """A disc or a ring, with the radii of its circles by their names [m]."""
+    """A disc, a ring or a ball; with an axis a cylinder or a tube.
 
-    mesh: Disc | Ring
+    Parameters
+    ----------
+    centre
+        A point of the axis, or the centre [m], shape [D].
+    axis
+        Direction of the axis; None of what has none.
+    radii
+        Radii of its circles, or of its spheres or cylinders, by their names [m].
+    ends
+        Heights of its ends along the axis by their names [m].
+    cell_count
+        Number of cells.
+    """
+
+    centre: tuple[float, ...]
+    axis: tuple[float, ...] | None
     radii: Mapping[str, float]
-    quadrilaterals: int
-
-    @property
-    def cell_count(self) -> int:
-        return _with(self.mesh.cell, self.quadrilaterals)
+    ends: Mapping[str, float]
+    cell_count: int
 
     def misfit(self, points: Array, outline: Indices) -> float:
-        rim = np.linalg.norm(points[np.unique(outline)] - np.array(self.mesh.centre), axis=1)
-        return float(np.abs(rim[:, None] - list(self.radii.values())).min(axis=1).max())
+        # Nodes within curved or straight sides are between others.
+        corners = np.unique(_corners(outline, points.shape[1]))
+        off = [
+            np.abs(self._measured(points[corners], name) - figure)
+            for name, figure in (*self.radii.items(), *self.ends.items())
+        ]
+        return float(np.min(off, axis=0).max())
 
     def facets(self, name: str, points: Array, outline: Indices) -> Mask | None:
-        if name not in self.radii:
+        figure = self.radii.get(name, self.ends.get(name))
+        if figure is None:
             return None
-        rim = np.linalg.norm(points - np.array(self.mesh.centre), axis=1)
-        off = np.abs(rim - self.radii[name])[outline].max(axis=1)
-        return np.asarray(off <= ON_SIDE * self.radii[name])
+        size = max(*self.radii.values(), *self.ends.values(), 0.0)
+        corners = _corners(outline, points.shape[1])
+        off = np.abs(self._measured(points, name) - figure)[corners].max(axis=1)
+        return np.asarray(off <= ON_SIDE * size)
+
+    def _measured(self, points: Array, name: str) -> Array:
+        """Return heights of points above the base, or distances from axis or centre [m]."""
+        arms = points - np.array(self.centre)
+        if self.axis is not None:
+            axis = np.array(self.axis) / np.linalg.norm(self.axis)
+            heights: Array = arms @ axis
+            if name in self.ends:
+                return heights
+            arms = arms - heights[:, None] * axis
+        distances: Array = np.linalg.norm(arms, axis=1)
+        return distances
 
     def cells(self, name: str) -> Indices:
         raise unknown(name)
 
 
+def _corners(facets: Indices, dimension: int) -> Indices:
+    """Return the corners of facets, which are the first of their nodes."""
+    count = 2 if dimension == 2 else 3 if facets.shape[1] in (3, 6) else 4
+    return facets[:, :count]
+
+
+_SIDES = {
+    2: (("left", "right"), ("bottom", "top")),
+    3: (("left", "right"), ("front", "back"), ("bottom", "top")),
+}
+"""Names of the lower and the upper side along each axis, by dimension."""
+
+
 @dataclass(frozen=True)
 class _Upright:
-    """A rectangle."""
+    """A rectangle or a box."""
 
-    mesh: Rectangle
+    mesh: Rectangle | Box
 
     @property
     def cell_count(self) -> int:
-        return _with(self.mesh.cell, self.mesh.divisions[0] * self.mesh.divisions[1])
+        return int(np.prod(self.mesh.divisions)) * _PARTS[self.mesh.cell]
 
     def misfit(self, points: Array, outline: Indices) -> float:
         del outline
@@ -137,13 +201,13 @@ class _Upright:
         return float(np.abs([low - corner, high - corner - np.array(self.mesh.size)]).max())
 
     def facets(self, name: str, points: Array, outline: Indices) -> Mask | None:
-        if name not in ("left", "right", "bottom", "top"):
-            return None
-        axis = 0 if name in ("left", "right") else 1
-        length = self.mesh.size[axis]
-        at = self.mesh.corner[axis] + (length if name in ("right", "top") else 0.0)
-        off = np.abs(points[:, axis] - at)[outline].max(axis=1)
-        return np.asarray(off <= ON_SIDE * length)
+        for axis, sides in enumerate(_SIDES[len(self.mesh.size)]):
+            if name in sides:
+                length = self.mesh.size[axis]
+                at = self.mesh.corner[axis] + length * sides.index(name)
+                off = np.abs(points[:, axis] - at)[outline].max(axis=1)
+                return np.asarray(off <= ON_SIDE * length)
+        return None
 
     def cells(self, name: str) -> Indices:
         raise unknown(name)
@@ -160,17 +224,21 @@ class _Read:
     named_cells: Mapping[str, Indices] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, name: str, mesh: MeshFile) -> _Read:
+    def of(cls, name: str, mesh: MeshFile, dimension: int) -> _Read:
         arrays = read_body_mesh(
-            mesh.file, body=mesh.body, scale=mesh.scale, space=2, key=f"the mesh of body {name!r}"
+            mesh.file,
+            body=mesh.body,
+            scale=mesh.scale,
+            space=dimension,
+            key=f"the mesh of body {name!r}",
         )
-        move = np.zeros(2) if mesh.move is None else np.array(mesh.move)
+        move = np.zeros(dimension) if mesh.move is None else np.array(mesh.move)
         return cls(
             points=arrays.points + move,
             cell_count=sum(len(nodes) for _, nodes in arrays.blocks),
             nodes=arrays.node_sets,
             named_facets={
-                key: np.concatenate([facets[:, :2] for facets in several])
+                key: np.concatenate([_corners(facets, dimension) for facets in several])
                 for key, several in arrays.facet_sets.items()
             },
             named_cells=arrays.cell_sets,
@@ -183,11 +251,11 @@ class _Read:
         return float(np.abs(points - self.points).max())
 
     def facets(self, name: str, points: Array, outline: Indices) -> Mask | None:
-        del points
         if name not in self.named_facets:
             return None
         known = {tuple(sorted(facet)) for facet in self.named_facets[name].tolist()}
-        return np.array([tuple(sorted(facet)) in known for facet in outline.tolist()], dtype=bool)
+        mine = _corners(outline, points.shape[1]).tolist()
+        return np.array([tuple(sorted(facet)) in known for facet in mine], dtype=bool)
 
     def cells(self, name: str) -> Indices:
         if name not in self.named_cells:

@@ -46,7 +46,7 @@ class Frame:
     time
         Time [s].
     displacement, velocity, reaction
-        Nodal vectors [m], [m/s], [N], shape [node_count, 2].
+        Nodal vectors [m], [m/s], [N], shape [node_count, D].
     stress, energy_density
         Cauchy stress xx yy zz xy yz xz [Pa] and stored energy [J/m³] of the cells.
     strain
@@ -77,7 +77,7 @@ class SurfaceFrame:
     time
         Time [s].
     displacement
-        Of all nodes [m], shape [node_count, 2].
+        Of all nodes [m], shape [node_count, D].
     friction_energy, slip, pressure, area
         Of the facets, see `carom.io.vtkhdf`, shape [facet_count].
     flat
@@ -100,11 +100,11 @@ class Facets:
     Parameters
     ----------
     nodes
-        Nodes of each facet, shape [facet_count, 2].
+        Nodes of each facet, shape [facet_count, a]; of those that have fewer the first again.
     body
         Index of its body, shape [facet_count].
     points
-        Reference positions of all nodes [m], shape [node_count, 2].
+        Reference positions of all nodes [m], shape [node_count, D].
     """
 
     nodes: Indices
@@ -144,7 +144,7 @@ class Files:
     def model(self) -> AuditModel:
         """Build the model of the case on the mesh of the fields."""
         with _Fields(self.path / layout.FIELDS) as root:
-            points = root["Points"][:, :2]
+            points = root["Points"][:, : self.scenario.dimension]
             connectivity, offsets = root["Connectivity"][:], root["Offsets"][:]
             types, body = root["Types"][:], root["CellData/body"][:]
         cells, kinds = [], []
@@ -172,9 +172,9 @@ class Files:
         """Return the mesh of the boundaries."""
         with _Fields(self.path / layout.SURFACE) as root:
             return Facets(
-                nodes=root["Connectivity"][:].reshape(len(root["Types"]), -1),
+                nodes=_even(root["Connectivity"][:], root["Offsets"][:]),
                 body=root["CellData/body"][:],
-                points=root["Points"][:, :2],
+                points=root["Points"][:, : self.scenario.dimension],
             )
 
     def frames(self) -> Iterator[Frame]:
@@ -191,15 +191,16 @@ class Files:
         self, name: str, point_fields: Sequence[str], cell_fields: Mapping[str, int]
     ) -> Iterator[dict[str, Any]]:
         with _Fields(self.path / name) as root:
-            steps = root["Steps"]
+            steps, dimension = root["Steps"], self.scenario.dimension
             points, cells = len(root["Points"]), len(root["Types"])
             for index in range(int(steps.attrs["NSteps"])):
                 fields: dict[str, Any] = {"time": float(steps["Values"][index]), "flat": 0.0}
                 for field in point_fields:
                     at = int(steps[f"PointDataOffsets/{field}"][index])
                     vectors = root[f"PointData/{field}"][at : at + points]
-                    fields["flat"] = max(fields["flat"], float(np.abs(vectors[:, 2]).max()))
-                    fields[field] = vectors[:, :2]
+                    out = float(np.abs(vectors[:, dimension:]).max(initial=0.0))
+                    fields["flat"] = max(fields["flat"], out)
+                    fields[field] = vectors[:, :dimension]
                 for field in cell_fields:
                     at = int(steps[f"CellDataOffsets/{field}"][index])
                     rows = root[f"CellData/{field}"][at : at + cells]
@@ -210,6 +211,15 @@ class Files:
         """Yield the stored steps, of which there are none without ``output.audit``."""
         if self.has_steps:
             yield from read_steps(self.path / layout.AUDIT)
+
+
+def _even(connectivity: Indices, offsets: Indices) -> Indices:
+    """Return the nodes of cells as rows; shorter ones end with their first node."""
+    sizes = np.diff(offsets)
+    column = np.arange(int(sizes.max(initial=0)))
+    within = np.where(column < sizes[:, None], column, 0)
+    nodes: Indices = connectivity[offsets[:-1, None] + within]
+    return nodes
 
 
 class _Fields:

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from carom.auditing.arrays import Array, cross, rotation, turned
+from carom.auditing.arrays import Array, cross, inertia, rotation, solved, turned
 from carom.auditing.body import HEAVIEST, MUCH_SHORTER, STEADYING, AuditBody
 from carom.auditing.pulling import Pulling
 from carom.auditing.states import States
@@ -16,7 +16,7 @@ from carom.auditing.touching import Touching
 
 @dataclass(frozen=True)
 class BodyForces:
-    """Forces on the nodes of a body in a step [N], each of shape [node_count, 2].
+    """Forces on the nodes of a body in a step [N], each of shape [node_count, D].
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ class Forces:
         start, end = body.internal_force(u0), body.internal_force(u1)
         steadying, missing, available = np.zeros_like(d), 0.0, 0.0
         # A body that moves rigidly, or falls as it does, is not resisted.
-        turn = rotation(dt * body.spin(u0, v0) if body.turns else 0.0)
+        turn = rotation(dt * body.spin(u0, v0)) if body.turns else np.eye(body.dimension)
         drift = body.mass.mean(v0)
         times = (float(s.start["time"]), s.time)
         given = model.loads[index]
@@ -146,7 +146,7 @@ class Forces:
         b = body.massless
         p0, p1 = self._states.start["contact_force"][body.span][b], held[b]
         arms = body.mass.times(middle - centre)
-        inertia = float(((middle - centre) * arms).sum())
+        resists = inertia(middle - centre, body.mass.times)
         parts = []
         for inner, shares in (
             (body.conserving_force(u0, u1), (0.5, 0.5)),
@@ -155,9 +155,9 @@ class Forces:
             # What the forces of the boundary have more than the reactions of start and end.
             lacking = inner[b] + (viscous[b] if shares[0] > 0 else 0.0)
             excess = (lacking - shares[0] * p0 - shares[1] * p1).sum(axis=0)
-            moment = cross((middle - centre)[b], lacking).sum()
-            moment -= (shares[0] * cross(x0[b], p0) + shares[1] * cross(x1[b], p1)).sum()
-            spin = float(moment / inertia) if body.turns else 0.0
+            moment = cross((middle - centre)[b], lacking)
+            moment = moment - shares[0] * cross(x0[b], p0) - shares[1] * cross(x1[b], p1)
+            spin = solved(resists, moment.sum(axis=0) * body.turns)
             rigid = body.mass.nodal[:, None] * excess / body.mass.total + turned(arms, spin)
             parts.append((inner, rigid))
         (mean, given), (difference, moved) = parts
@@ -178,7 +178,7 @@ class Forces:
         return force
 
     def residual(self, index: int) -> Array:
-        """Return what the equation of motion lacks, node by node [N], shape [node_count, 2].
+        """Return what the equation of motion lacks, node by node [N], shape [node_count, D].
 
         What is held has the forces of supports.
         """
@@ -186,12 +186,12 @@ class Forces:
         return np.where(held, 0.0, self._unbalanced(index))
 
     def support(self, index: int) -> Array:
-        """Return the forces of supports on the nodes of a body [N], shape [node_count, 2]."""
+        """Return the forces of supports on the nodes of a body [N], shape [node_count, D]."""
         held = self._states.model.supports[index].held
         return np.where(held, self._unbalanced(index), 0.0)
 
     def _unbalanced(self, index: int) -> Array:
-        """Return what the nodes lack of balance [N], shape [node_count, 2].
+        """Return what the nodes lack of balance [N], shape [node_count, D].
 
         M (v₁ − v₀)/Δt = M g + F̄ − f̄ − C v̄ + forces of contacts and springs. Nodes without mass are
         in static balance at the end of the step, but for the force that steadies them.
@@ -229,8 +229,9 @@ class Forces:
             middle = body.points + 0.5 * (self._states.u0 + self._states.u1)[span]
             weight = body.mass.nodal[:, None]
             arms = middle - (weight * middle).sum(axis=0) / weight.sum()
-            inertia = float((weight * arms**2).sum())
+            resists = body.nodal_inertia(arms)
             leads = (0.5 * (xi * end - (1 - xi) * start), 0.5 * (start + end))
             for k, lead in enumerate(leads):
-                parts[k] += weight * turned(arms, float(cross(d, lead).sum()) / inertia)
+                couple = solved(resists, cross(d, lead).sum(axis=0))
+                parts[k] += weight * turned(arms, couple)
         return parts[0], parts[1]

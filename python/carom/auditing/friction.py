@@ -15,6 +15,7 @@ from carom.case.friction import (
     RateAndState,
     StaticKinetic,
 )
+from carom.errors import InputError
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,8 @@ class Law:
     """
 
     def __init__(self, given: Friction) -> None:
-        assert not isinstance(given, OrthotropicFriction), "in the plane there is one direction"
+        if isinstance(given, OrthotropicFriction):
+            raise InputError("cannot audit friction that depends on the direction yet")
         self._given = given
         self._formula = Formula(given.formula) if isinstance(given, FrictionFormula) else None
         names = self._formula.names() if self._formula else set()

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices
-from carom.auditing.contact_work import Works, keys
+from carom.auditing.contact_work import Works
 from carom.auditing.contacts import Contacts
 from carom.auditing.forces import Forces
 from carom.auditing.states import States
@@ -71,10 +71,10 @@ class Groups:
 
         Up to `largest`, no mean normal reaction ½ (r₀ + r₁) + α (r₁ − r₀) pulls.
         """
-        ends: dict[tuple[int, int], list[float]] = {}
+        ends: dict[tuple[int, ...], list[float]] = {}
         source = {}
         for end, found in enumerate((self._touching.first, self._touching.balanced)):
-            for k, key in enumerate(keys(found)):
+            for k, key in enumerate(found.keys):
                 ends.setdefault(key, [0.0, 0.0])[end] = max(float(found.normal_force[k]), 0.0)
                 source[key] = int(found.source[k])
         lower = np.full(len(self.blends), -largest)

@@ -1,6 +1,6 @@
-"""Stored energies and stresses of the materials in plane strain, over arrays of points.
+"""Stored energies and stresses of the materials, over arrays of points.
 
-Everything is written for the 2 × 2 part of F; F₃₃ = 1, and F₁₃ = F₂₃ = 0.
+Everything is written for F in space: in plane strain F₃₃ = 1, and F₁₃ = F₂₃ = 0.
 """
 
 from __future__ import annotations
@@ -10,20 +10,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.auditing.arrays import Array, einsum
-from carom.auditing.rubber import Rubber
+from carom.auditing.rubber import LawOfC, law_of_c
 from carom.case.body import InitialStress
 from carom.case.material import (
     LinearElastic,
     Material,
-    MooneyRivlin,
-    NeoHookean,
     SaintVenantKirchhoff,
     Viscosity,
-    Yeoh,
 )
 from carom.errors import InputError
 
-IDENTITY = np.eye(2)
+IDENTITY = np.eye(3)
 
 SMALL_STRAIN = 1e-6
 """Changes of strain below this are worked on by the mean stress: the discrete gradient divides by
@@ -31,13 +28,18 @@ their square, and its correction, of third order, is below round-off."""
 
 
 def transposed(tensor: Array) -> Array:
-    """Return tensors of shape [..., 2, 2] transposed."""
+    """Return tensors of shape [..., 3, 3] transposed."""
     return np.swapaxes(tensor, -1, -2)
 
 
 def contracted(a: Array, b: Array) -> Array:
-    """Return a : b of tensors of shape [..., 2, 2], shape [...]."""
+    """Return a : b of tensors of shape [..., 3, 3], shape [...]."""
     return einsum("...ij,...ij", a, b)
+
+
+def deformation(c: Array) -> Array:
+    """Return an F with FᵀF = C, the upper triangular one, shape [..., 3, 3]."""
+    return transposed(np.linalg.cholesky(c).astype(np.float64))
 
 
 @dataclass(frozen=True)
@@ -52,19 +54,22 @@ class Law:
         Lamé's λ and μ [Pa].
     initial
         Stress where nothing has moved [Pa], shape [3, 3].
-    rubber
-        The law by invariants, if it is one.
+    of_c
+        The law as a function of C, if it is one.
+    free
+        Along how many axes there is strain: 2 in plane strain.
     """
 
     kind: str
     first: float
     second: float
     initial: Array
-    rubber: Rubber | None = None
+    of_c: LawOfC | None = None
+    free: int = 3
 
     @classmethod
-    def of(cls, material: Material, stress: InitialStress | None = None) -> Law:
-        """Return the law of a material under an initial stress.
+    def of(cls, material: Material, free: int, stress: InitialStress | None = None) -> Law:
+        """Return the law of a material under an initial stress, in plane strain if `free` is 2.
 
         Raises
         ------
@@ -75,16 +80,15 @@ class Law:
         initial = np.array([[s.xx, s.xy, s.xz], [s.xy, s.yy, s.yz], [s.xz, s.yz, s.zz]])
         if material.viscosity != Viscosity():
             raise InputError("cannot audit a material with viscosity yet")
-        if isinstance(material, MooneyRivlin | Yeoh):
-            rubber = Rubber.of(material)
-            first = rubber.bulk - 2.0 / 3.0 * rubber.shear
-            return cls(material.kind, first, rubber.shear, initial, rubber)
-        if not isinstance(material, SaintVenantKirchhoff | LinearElastic | NeoHookean):
+        of_c = law_of_c(material)
+        if of_c is not None:
+            return cls(material.kind, *of_c.moduli, initial, of_c, free)
+        if not isinstance(material, SaintVenantKirchhoff | LinearElastic):
             raise InputError(f"cannot audit the law {material.kind!r} yet")
         young, poisson = material.young, material.poisson
         first = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
         second = young / (2 * (1 + poisson))
-        return cls(kind=material.kind, first=first, second=second, initial=initial)
+        return cls(material.kind, first, second, initial, free=free)
 
     @classmethod
     def none(cls) -> Law:
@@ -96,6 +100,11 @@ class Law:
         """Whether a rotation strains nothing."""
         return self.kind != "linear-elastic"
 
+    @property
+    def subtracts(self) -> bool:
+        """Whether ψ is a small difference of terms of the size of its moduli."""
+        return self.of_c is not None
+
     def wave_speed(self, density: float) -> float:
         """Return the speed of pressure waves [m/s] at a density [kg/m³]."""
         return float(np.sqrt(self.modulus / density))
@@ -106,52 +115,40 @@ class Law:
         return self.first + 2 * self.second
 
     @property
-    def _held(self) -> Array:
-        """The initial stress in the plane [Pa], shape [2, 2]."""
-        return self.initial[:2, :2]
-
-    @property
     def _stored(self) -> float:
-        """½ S₀:E₀ [J/m³] where E₀ is the strain that S₀ takes, in plane strain."""
-        stress = self._held
+        """½ S₀:E₀ [J/m³] where E₀ is the strain that S₀ takes along the axes that are free."""
+        stress = self.initial[: self.free, : self.free]
         if not stress.any():
             return 0.0
-        pressure = self.first / (2 * (self.first + self.second)) * np.trace(stress)
-        return 0.25 / self.second * float(np.sum(stress * (stress - pressure * IDENTITY)))
+        pressure = self.first / (self.free * self.first + 2 * self.second) * np.trace(stress)
+        strained = stress - pressure * np.eye(self.free)
+        return 0.25 / self.second * float(np.sum(stress * strained))
 
     def _initial_piola(self, f: Array) -> Array:
-        """Return what the initial stress is at F, or at the mean F of a step, [..., 2, 2]."""
-        return f @ self._held if self.objective else np.broadcast_to(self._held, f.shape)
+        """Return what the initial stress is at F, or at the mean F of a step, [..., 3, 3]."""
+        return f @ self.initial if self.objective else np.broadcast_to(self.initial, f.shape)
 
     def energy(self, f: Array) -> Array:
-        """Return ψ [J/m³] of F, shape [..., 2, 2], shape [...].
+        """Return ψ [J/m³] of F, shape [..., 3, 3], shape [...].
 
         An initial stress adds its work S₀:E and what it has stored at F = 1.
         """
         strain = self._strain(f)
-        energy: Array = self._energy(f) + contracted(self._held, strain) + self._stored
+        energy: Array = self._energy(f) + contracted(self.initial, strain) + self._stored
         return energy
 
     def stress(self, f: Array) -> Array:
-        """Return the first Piola–Kirchhoff stress P = ∂ψ/∂F [Pa], shape [..., 2, 2]."""
+        """Return the first Piola–Kirchhoff stress P = ∂ψ/∂F [Pa], shape [..., 3, 3]."""
         return self._stress(f) + self._initial_piola(f)
 
     def cauchy_stress(self, f: Array) -> Array:
-        """Return P Fᵀ/J [Pa] in space, shape [..., 3, 3]."""
-        full = np.zeros((*f.shape[:-2], 3, 3))
-        j = np.linalg.det(f)
-        full[..., :2, :2] = self.stress(f) @ transposed(f) / j[..., None, None]
-        if self.rubber is not None:
-            full[..., 2, 2] = self.rubber.second_piola(transposed(f) @ f)[1] / j
-        elif self.kind == "neo-hookean":
-            full[..., 2, 2] = self.first * np.log(j) / j
-        else:
-            full[..., 2, 2] = self.first * np.trace(self._strain(f), axis1=-2, axis2=-1) / j
-        full[..., 2, 2] += self.initial[2, 2] / j
-        return full
+        """Return P Fᵀ/J [Pa], shape [..., 3, 3]."""
+        j = np.linalg.det(f)[..., None, None]
+        stress: Array = self.stress(f) @ transposed(f) / j
+        return stress
 
     def discrete_stress(self, f0: Array, f1: Array) -> Array:
-        """Return the stress P̄ [Pa] with P̄ : (F₁ − F₀) = ψ(F₁) − ψ(F₀), shape [..., 2, 2].
+        """Return the stress P̄ [Pa] with P̄ : (F₁ − F₀) = ψ(F₁) − ψ(F₀), shape [..., 3, 3].
 
         P̄ = ½(F₀ + F₁) S̄. A law that is quadratic in its strain has the mean of both stresses for
         S̄ (Simo & Tarnow 1992), another the discrete gradient in the strain (Gonzalez 2000).
@@ -159,14 +156,8 @@ class Law:
         return self._discrete_stress(f0, f1) + self._initial_piola(0.5 * (f0 + f1))
 
     def _energy(self, f: Array) -> Array:
-        if self.rubber is not None:
-            return self.rubber.energy(transposed(f) @ f)
-        if self.kind == "neo-hookean":
-            log_j = np.log(np.linalg.det(f))
-            # |F|² − 3 with F₃₃ = 1.
-            shear = 0.5 * self.second * (contracted(f, f) - 2)
-            volume: Array = 0.5 * self.first * log_j**2 - self.second * log_j
-            return shear + volume
+        if self.of_c is not None:
+            return self.of_c.energy(transposed(f) @ f)
         strain = self._strain(f)
         trace = np.trace(strain, axis1=-2, axis2=-1)
         energy: Array = 0.5 * self.first * trace**2 + self.second * contracted(strain, strain)
@@ -181,10 +172,10 @@ class Law:
         mean = 0.5 * (f0 + f1)
         if self.kind == "linear-elastic":
             return self._hooke(self._strain(mean))
-        if self.kind == "saint-venant-kirchhoff":
+        if self.of_c is None:
             return mean @ self._hooke(0.5 * (self._strain(f0) + self._strain(f1)))
         c0, c1 = transposed(f0) @ f0, transposed(f1) @ f1
-        stress = self._of_c(0.5 * (c0 + c1))
+        stress = self.of_c.second_piola(0.5 * (c0 + c1))
         change = 0.5 * (c1 - c0)
         size = contracted(change, change)
         missing = self._energy(f1) - self._energy(f0) - contracted(stress, change)
@@ -193,7 +184,7 @@ class Law:
         return mean @ (stress + change * factor[..., None, None])
 
     def stress_difference(self, f0: Array, f1: Array) -> Array:
-        """Return ½(F₀ + F₁)(S₁ − S₀) [Pa], which has no moment, shape [..., 2, 2]."""
+        """Return ½(F₀ + F₁)(S₁ − S₀) [Pa], which has no moment, shape [..., 3, 3]."""
         if self.kind == "linear-elastic":
             return self._stress(f1) - self._stress(f0)
         return 0.5 * (f0 + f1) @ (self._second_piola(f1) - self._second_piola(f0))
@@ -208,17 +199,7 @@ class Law:
         stress: Array = self.first * trace * IDENTITY + 2 * self.second * strain
         return stress
 
-    def _neo_hookean(self, c: Array) -> Array:
-        """Return S = μ(I − C⁻¹) + λ ln J C⁻¹ with J = √det C."""
-        log_j = 0.5 * np.log(np.linalg.det(c))[..., None, None]
-        pressure: Array = (self.first * log_j - self.second) * np.linalg.inv(c)
-        return self.second * IDENTITY + pressure
-
     def _second_piola(self, f: Array) -> Array:
-        if self.rubber is not None or self.kind == "neo-hookean":
-            return self._of_c(transposed(f) @ f)
+        if self.of_c is not None:
+            return self.of_c.second_piola(transposed(f) @ f)
         return self._hooke(self._strain(f))
-
-    def _of_c(self, c: Array) -> Array:
-        """Return S of a law that is a function of C."""
-        return self._neo_hookean(c) if self.rubber is None else self.rubber.second_piola(c)[0]

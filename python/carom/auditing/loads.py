@@ -35,7 +35,7 @@ class Loads:
         return len(self._loads)
 
     def at(self, time: float, u: Array) -> Array:
-        """Return the forces on nodes [N] at a time [s] and displacements [m], [node_count, 2]."""
+        """Return the forces on nodes [N] at a time [s] and displacements [m], [node_count, D]."""
         return self._sum(lambda signal: signal.at(time)[0], u)
 
     def mean(self, times: tuple[float, float], share: float, u: Array) -> Array:
@@ -48,7 +48,7 @@ class Loads:
         return self._sum(weighted, u)
 
     def _sum(self, value: Value, u: Array) -> Array:
-        force = np.zeros((len(self._body.points), 2))
+        force = np.zeros_like(self._body.points)
         for load in self._loads:
             load.add(value, u, force)
         return force
@@ -60,7 +60,7 @@ class _Load:
     def __init__(self, body: AuditBody, given: Load) -> None:
         self._body = body
         mesh, outline = body.drawn, body.boundary
-        self._facets: Indices = np.zeros((0, 2), dtype=np.int64)
+        self._facets: Indices = outline[:0]
         self._nodes: Indices = np.zeros(0, dtype=np.int64)
         self._follows = False
         if isinstance(given, Force):
@@ -77,12 +77,12 @@ class _Load:
         """Add its forces to those on the nodes [N]."""
         size = np.array([value(signal) for signal in self._vector])
         np.add.at(force, self._nodes, size)
-        ends = (self._body.points + u if self._follows else self._body.points)[self._facets]
-        chord = self._body.thickness * (ends[:, 1] - ends[:, 0])
+        if not len(self._facets):
+            return
+        faces = self._body.faces(self._facets)
+        position = self._body.points + u if self._follows else self._body.points
         if len(size) == 1:
-            # Against the outward normal; the body is on the left of its facets.
-            of_facets = -size * np.stack([chord[:, 1], -chord[:, 0]], axis=1)
+            of_facets = faces.pushed(position, float(size[0]))
         else:
-            of_facets = np.linalg.norm(chord, axis=1)[:, None] * size
-        for end in range(2):
-            np.add.at(force, self._facets[:, end], 0.5 * of_facets)
+            of_facets = faces.spread(position, size)
+        np.add.at(force, self._facets, of_facets)

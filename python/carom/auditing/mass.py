@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from carom.auditing.arrays import Array, Indices, einsum
 from carom.auditing.cells import Cells
+from carom.auditing.facets import Facets
 
 LAYERS = 5
 """Layers of massive nodes that share what a node without mass carried."""
@@ -60,15 +61,15 @@ class Mass:
     cells
         The cells of the body.
     points
-        Reference positions [m], shape [node_count, 2].
+        Reference positions [m], shape [node_count, D].
     density
         Density of each cell [kg/m³], shape [cell_count].
     lumped
-        Whether M is replaced by its row sums.
+        Whether M is replaced by its row sums, or its scaled diagonal in cells of second degree.
     massless
         Nodes without mass, ascending.
     facets
-        Facets between them, the body on their left, shape [facet_count, 2].
+        Facets between them.
     added
         Masses at points, beside that of the volume.
     """
@@ -81,7 +82,7 @@ class Mass:
         *,
         lumped: bool,
         massless: Indices,
-        facets: Indices,
+        facets: Facets,
         added: Sequence[AddedMass] = (),
     ) -> None:
         self._cells = cells
@@ -89,24 +90,33 @@ class Mass:
         self._local = density[:, None, None] * cells.shared_volumes
         self._lumped: Array | None = None
         if lumped:
-            ones = np.ones((cells.node_count, 2))
-            self._lumped = self._all_nodes(ones)[:, :1]
+            self._lumped = _lumped(cells, self._local)
         self._added = added
         self._massless = massless
-        self.moved: Array = self._all_nodes(np.ones((cells.node_count, 2)))[massless, 0]
-        """What nodes without mass had before it moved inside [kg]."""
+        self.moved: Array = self._row_sizes()[massless]
+        """What nodes without mass had before it moved inside: row sums without signs [kg]."""
         self._follow = _Follow(cells.nodes, points, massless, facets)
-        self.nodal: Array = self.times(np.ones((cells.node_count, 2)))[:, 0]
+        self.nodal: Array = self.times(np.ones((cells.node_count, cells.dimension)))[:, 0]
         """Row sums [kg], shape [node_count]."""
         self.total = float(self.nodal.sum())
         """Mass of the body [kg]."""
 
+    def _row_sizes(self) -> Array:
+        """Return the sums of the rows of the mass of the volume without signs, [node_count]."""
+        if self._lumped is not None:
+            return np.abs(self._lumped[:, 0])
+        nodes, count = self._cells.nodes, self._cells.node_count
+        row = np.repeat(nodes[:, :, None], nodes.shape[1], axis=2)
+        entries, number = np.unique(row * count + nodes[:, None], return_inverse=True)
+        values = np.abs(np.bincount(number.ravel(), self._local.ravel()))
+        return np.bincount(entries // count, values, count).astype(np.float64)
+
     def times(self, v: Array) -> Array:
-        """Return M v of nodal vectors, shape [node_count, 2]."""
+        """Return M v of nodal vectors, shape [node_count, D]."""
         return self._follow.transposed(self._all_nodes(self._follow.extended(v)))
 
     def mean(self, v: Array) -> Array:
-        """Return the mean of nodal vectors by mass, shape [2]."""
+        """Return the mean of nodal vectors by mass, shape [D]."""
         return self.nodal @ v / self.total
 
     def _all_nodes(self, v: Array) -> Array:
@@ -121,10 +131,24 @@ class Mass:
         return self._cells.assembled(einsum("cab,cbi->cai", self._local, v[self._cells.nodes]))
 
 
+def _lumped(cells: Cells, local: Array) -> Array:
+    """Return a mass of nodes [kg] in place of consistent ones of cells, shape [node_count, 1].
+
+    Row sums of cells of second degree may be negative: these have their diagonals, scaled to the
+    mass of the cell (Hinton, Rock & Zienkiewicz 1976).
+    """
+    of_nodes = local.sum(axis=2)
+    if cells.kind.degree > 1:
+        diagonal = einsum("caa->ca", local)
+        whole = of_nodes.sum(axis=1, keepdims=True)
+        of_nodes = diagonal * whole / diagonal.sum(axis=1, keepdims=True)
+    return cells.assembled(np.repeat(of_nodes[:, :, None], cells.dimension, axis=2))[:, :1]
+
+
 class _Follow:
     """The map P from massive to all nodes, as triplets."""
 
-    def __init__(self, cells: Indices, points: Array, massless: Indices, facets: Indices) -> None:
+    def __init__(self, cells: Indices, points: Array, massless: Indices, facets: Facets) -> None:
         rows, columns, weights = [], [], []
         without = np.zeros(len(points), dtype=bool)
         without[massless] = True
@@ -153,12 +177,12 @@ class _Follow:
         return full
 
 
-def _inward(points: Array, facets: Indices) -> Array:
-    """Return inward unit normals of the nodes of facets, shape [node_count, 2]; else zero."""
-    chord = points[facets[:, 1]] - points[facets[:, 0]]
-    left = np.stack([-chord[:, 1], chord[:, 0]], axis=1)
+def _inward(points: Array, facets: Facets) -> Array:
+    """Return inward unit normals of the nodes of facets, shape [node_count, D]; else zero."""
     normal = np.zeros_like(points)
-    np.add.at(normal, facets.ravel(), np.repeat(left, 2, axis=0))
+    vectors = facets.vectors(points)
+    for nodes in facets.nodes.T:
+        np.add.at(normal, nodes, -vectors)
     size = np.linalg.norm(normal, axis=1, keepdims=True)
     return normal / np.where(size > 0, size, 1.0)
 
@@ -227,7 +251,7 @@ def affine_weights(arms: Array) -> Array | None:
     Parameters
     ----------
     arms
-        Positions x relative to the node that follows [m], shape [count, 2].
+        Positions x relative to the node that follows [m], shape [count, D].
     """
     if len(arms) == 0:
         return None
@@ -236,6 +260,6 @@ def affine_weights(arms: Array) -> Array | None:
     conditions = np.column_stack([np.ones(len(scaled)), scaled]).T
     multipliers = np.linalg.pinv(conditions @ conditions.T, rcond=1e-10, hermitian=True)[:, 0]
     weights: Array = multipliers @ conditions
-    wanted = np.array([1.0, 0.0, 0.0])
+    wanted = np.eye(len(conditions))[0]
     reproduced = np.allclose(conditions @ weights, wanted, rtol=0, atol=REPRODUCED)
     return weights if reproduced else None

@@ -9,14 +9,17 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.body import AuditBody
+from carom.auditing.curve import Curve
+from carom.auditing.feet import Target
+from carom.auditing.gregory import GregoryPatches
 from carom.auditing.loads import Loads
 from carom.auditing.mass import NoMassInsideError
 from carom.auditing.obstacles import AuditObstacle, obstacle_of
 from carom.auditing.pairs import ALIKE, Pairs, build_sides
 from carom.auditing.places import Attached
+from carom.auditing.sheet import FlatPatches, Sheet
 from carom.auditing.springs import AuditSpring, build_spring
 from carom.auditing.supports import Supports
-from carom.auditing.target import Target
 from carom.case.analysis import Conserving, Static, Theta
 from carom.case.body import AnyBody, Body, ReducedBody, RigidBody
 from carom.case.scenario import Scenario
@@ -33,7 +36,7 @@ class AuditModel:
     scenario
         The case as it was run.
     points
-        Reference positions of all nodes [m], shape [node_count, 2].
+        Reference positions of all nodes [m], shape [node_count, D].
     cells
         Nodes of each cell, by body.
     types
@@ -48,14 +51,14 @@ class AuditModel:
     def __init__(
         self, scenario: Scenario, points: Array, cells: list[Indices], types: list[int]
     ) -> None:
-        if scenario.dimension != 2:
-            raise InputError("cannot audit a case in 3D yet")
         _refuse_what_is_driven(scenario)
         if scenario.analysis is None:
             raise InputError("cannot audit a case with stages yet")
         if scenario.initial is not None:
             raise InputError("cannot audit a case that does not start from bodies as drawn yet")
         self.scenario = scenario
+        self.dimension = scenario.dimension
+        """2 in the plane, 3 in space."""
         self._pairs = Pairs(scenario)
         self.analysis = scenario.analysis
         self.points = points
@@ -74,7 +77,8 @@ class AuditModel:
             raise InputError(f"cannot audit the scheme {scheme.kind!r} yet")
         self.conserving = isinstance(scheme, Conserving)
         self.theta, self.xi = (scheme.theta, scheme.xi) if isinstance(scheme, Theta) else (0.5, 0.5)
-        self.gravity = np.array(self.analysis.gravity or (0.0, 0.0))
+        given = self.analysis.gravity
+        self.gravity = np.zeros(self.dimension) if given is None else np.array(given)
         self.bodies = list(self._build_bodies(cells, types))
         light = [len(body.massless) > 0 for body in self.bodies]
         self.massless = any(light)
@@ -86,8 +90,8 @@ class AuditModel:
         self.blended = self.conserving and self.massless
         self.smooth = scenario.contact.targets == "smooth"
         """Whether targets are smooth curves."""
-        self.targets = [Target(b.facets, b.points, smooth=self.smooth) for b in self.bodies]
-        self.obstacles = [obstacle_of(obstacle) for obstacle in scenario.obstacles]
+        self.targets = [_target(b, smooth=self.smooth) for b in self.bodies]
+        self.obstacles = [obstacle_of(one, self.dimension) for one in scenario.obstacles]
         impacts = self.condition == "endpoint"
         self.sides = list(build_sides(self._pairs, self.bodies, impacts=impacts))
         self.supports = [Supports(body, scenario.motions) for body in self.bodies]
@@ -218,10 +222,30 @@ class AuditModel:
         return any(side.restitution is not None for side in self.sides)
 
     @property
+    def gives_back(self) -> bool:
+        """Whether friction of a step may give energy back.
+
+        So it may without mass, against velocities at the end of a step, and where landing takes of
+        a reaction and of its friction.
+        """
+        return self.massless or self.impacts or self.condition == "midpoint"
+
+    @property
     def jolts(self) -> bool:
         """Whether impulses change velocities: of landing, or settling of bodies that are damped."""
         damped = any(body.law.damped for body in self.bodies)
         return self.condition == "midpoint" or self.mixed or (damped and not self.massless)
+
+
+def _target(body: AuditBody, *, smooth: bool) -> Target:
+    if body.dimension == 2:
+        return Curve(body.facets, body.points, smooth=smooth)
+    kind = body.cells.kind.facet
+    if not smooth:
+        return Sheet(body.facets, FlatPatches(kind, body.facets))
+    if kind.degree > 1:
+        raise InputError("cannot audit smooth targets over facets of second order in space yet")
+    return Sheet(body.facets, GregoryPatches(kind, body.facets, body.points))
 
 
 def _diameter(points: Array) -> float:
@@ -238,5 +262,7 @@ def _refuse_what_is_driven(scenario: Scenario) -> None:
         raise InputError("cannot audit a pair with an interference yet")
     if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):
         raise InputError("cannot audit the steps of a reduced body yet, as with output.audit")
+    if any(isinstance(body, RigidBody) and body.round for body in scenario.bodies):
+        raise InputError("cannot audit a rigid body that is round yet")
     if any(isinstance(body, Body) and body.growth is not None for body in scenario.bodies):
         raise InputError("cannot audit a body that grows yet")

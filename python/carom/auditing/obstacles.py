@@ -7,9 +7,9 @@ from typing import Protocol
 
 import numpy as np
 
-from carom.auditing.arrays import Array
+from carom.auditing.arrays import AXES, Array
 from carom.auditing.signals import Travel, Uniform
-from carom.case.obstacle import Obstacle, Plane, RigidSphere
+from carom.case.obstacle import Obstacle, Plane, RigidCylinder, RigidSphere
 from carom.errors import InputError
 
 
@@ -17,7 +17,7 @@ class Shape(Protocol):
     """The surface of an obstacle where it is drawn."""
 
     def nearest(self, x: Array) -> tuple[Array, Array]:
-        """Return signed distances of points [m] and unit normals, shapes [count], [count, 2]."""
+        """Return signed distances of points [m] and unit normals, shapes [count], [count, D]."""
 
 
 @dataclass(frozen=True)
@@ -44,20 +44,27 @@ class AuditObstacle:
         return self.nearest(x, time)[0]
 
 
-def obstacle_of(entry: Obstacle) -> AuditObstacle:
-    """Return an obstacle of the case."""
+def obstacle_of(entry: Obstacle, dimension: int) -> AuditObstacle:
+    """Return an obstacle of the case, in the plane or in space."""
     motion = entry.motion
-    moves = Uniform(np.array(entry.velocity or (0.0, 0.0)))
-    travel = moves if motion is None else Travel((motion.x, motion.y))
-    return AuditObstacle(_shape(entry), travel)
+    moves = Uniform(np.zeros(dimension) if entry.velocity is None else np.array(entry.velocity))
+    travel = (
+        moves if motion is None else Travel([getattr(motion, axis) for axis in AXES[:dimension]])
+    )
+    return AuditObstacle(_shape(entry, dimension), travel)
 
 
-def _shape(entry: Obstacle) -> Shape:
+def _shape(entry: Obstacle, dimension: int) -> Shape:
     if isinstance(entry, Plane):
         normal = np.array(entry.normal)
         return HalfSpace(np.array(entry.point), normal / np.linalg.norm(normal))
     if isinstance(entry, RigidSphere):
-        return Circle(np.array(entry.centre), entry.radius, -1.0 if entry.cavity else 1.0)
+        centre, across = np.array(entry.centre), np.eye(dimension)
+        return Round(centre, across, entry.radius, -1.0 if entry.cavity else 1.0)
+    if isinstance(entry, RigidCylinder):
+        axis = np.array(entry.axis) / np.linalg.norm(entry.axis)
+        point, across = np.array(entry.point), np.eye(dimension) - np.outer(axis, axis)
+        return Round(point, across, entry.radius, -1.0 if entry.cavity else 1.0)
     # Their corners are checked against the facets of bodies too.
     raise InputError(f"cannot audit obstacles of kind {entry.kind!r} yet")
 
@@ -69,27 +76,29 @@ class HalfSpace:
     Parameters
     ----------
     point
-        A point of it [m], shape [2].
+        A point of it [m], shape [D].
     normal
-        Unit normal, shape [2].
+        Unit normal, shape [D].
     """
 
     point: Array
     normal: Array
 
     def nearest(self, x: Array) -> tuple[Array, Array]:
-        """Return signed distances of points [m] and unit normals, shapes [count], [count, 2]."""
+        """Return signed distances of points [m] and unit normals, shapes [count], [count, D]."""
         return (x - self.point) @ self.normal, np.broadcast_to(self.normal, x.shape)
 
 
 @dataclass(frozen=True)
-class Circle:
-    """A disc, or what is around a hole of that shape.
+class Round:
+    """A disc, a ball or a cylinder, or what is around a hole of that shape.
 
     Parameters
     ----------
     centre
-        Centre [m], shape [2].
+        Centre, or a point of the axis [m], shape [D].
+    across
+        What is left of arms at right angles to the axis, shape [D, D]; all of a disc and a ball.
     radius
         Radius [m].
     sign
@@ -97,12 +106,23 @@ class Circle:
     """
 
     centre: Array
+    across: Array
     radius: float
     sign: float
 
+    @property
+    def has_axis(self) -> bool:
+        """Whether it is a cylinder."""
+        return bool(np.trace(self.across) < len(self.centre) - 0.5)
+
+    def offsets(self, x: Array) -> Array:
+        """Return points from the centre, or from the axis at right angles [m], [count, D]."""
+        offsets: Array = (x - self.centre) @ self.across
+        return offsets
+
     def nearest(self, x: Array) -> tuple[Array, Array]:
-        """Return signed distances of points [m] and unit normals, shapes [count], [count, 2]."""
-        arms = x - self.centre
+        """Return signed distances of points [m] and unit normals, shapes [count], [count, D]."""
+        arms = self.offsets(x)
         far = np.linalg.norm(arms, axis=1)
         towards = arms / np.where(far > 0, far, 1.0)[:, None]
         return self.sign * (far - self.radius), self.sign * towards

@@ -152,5 +152,5 @@ def _is_finer(body: AuditBody, other: AuditBody) -> bool:
 
 
 def _mean_facet(body: AuditBody) -> float:
-    ends = body.points[body.facets]
-    return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).mean())
+    sizes = np.linalg.norm(body.faces(body.facets).vectors(body.points), axis=1) / body.thickness
+    return float((sizes ** (1 / (body.dimension - 1))).mean())

@@ -38,7 +38,7 @@ class Place:
     nodes, shares
         Nodes, and shares of them that add up to one; none of a point that moves with no body.
     at
-        Where it is in the reference configuration [m], shape [2].
+        Where it is in the reference configuration [m], shape [D].
     """
 
     nodes: Indices

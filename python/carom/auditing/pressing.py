@@ -22,7 +22,7 @@ PRESSED = 1e-6
 """Normal forces of pairs depend on normals, which are where the run's last correction was."""
 
 Force = tuple[Array, float]
-"""A force [N], shape [2], and how far it may be off [N]."""
+"""A force [N], shape [D], and how far it may be off [N]."""
 
 
 class Pressing:

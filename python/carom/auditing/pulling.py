@@ -23,7 +23,7 @@ class Pulling:
         self.terms = dict.fromkeys(("springs", "dampers", "scheme", "prescribed"), 0.0)
         """Terms of the ledger that are of no body [J]."""
         self.force: Array = np.zeros_like(states.u0)
-        """Their mean force on every node of the model [N], shape [node_count, 2]."""
+        """Their mean force on every node of the model [N], shape [node_count, D]."""
         for spring in states.model.springs:
             self._pull(spring)
 
@@ -41,7 +41,7 @@ class Pulling:
                 sign * (travel.displacement(s.time) - travel.displacement(start))
                 for sign, travel in spring.carried
             ),
-            np.zeros(2),
+            np.zeros_like(ends[0]),
         )
         ends.append(ends[0] + spring.shares @ s.d[spring.nodes] + driven)
         lengths = [float(np.linalg.norm(r)) for r in ends]

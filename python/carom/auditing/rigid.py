@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.auditing.arrays import Array, cross, rotation, turned
+from carom.auditing.arrays import Array, cross, nearest_rotation, solved, turned, turning_axes
 from carom.auditing.body import AuditBody
 
 
@@ -19,17 +19,17 @@ class RigidStep:
     body
         The body.
     shift
-        How far its centre moves [m], shape [2].
+        How far its centre moves [m], shape [D].
     turn
-        θ: nodes move by the shift and θ × the mean of their arms; it turns by 2 arctan(θ/2).
+        ϑ: nodes move by the shift and ϑ × the mean of their arms; it turns by 2 arctan(|ϑ|/2).
     arms
         Arms of its nodes at the start, in the mean of the step and at its end [m], shape
-        [3, node_count, 2].
+        [3, node_count, D].
     """
 
     body: AuditBody
     shift: Array
-    turn: float
+    turn: Array
     arms: Array
 
     @classmethod
@@ -40,9 +40,8 @@ class RigidStep:
         shift = body.mass.mean(d)
         beside = d - shift
         mean = start + 0.5 * beside
-        weight = body.mass.nodal
-        moment = float(weight @ cross(mean, beside))
-        turn = moment / float(weight @ (mean**2).sum(axis=1))
+        moment = body.mass.nodal @ cross(mean, beside)
+        turn = solved(body.nodal_inertia(mean), moment)
         return cls(body, shift, turn, np.stack([start, mean, start + beside]))
 
     def bending(self, d: Array) -> Array:
@@ -55,12 +54,22 @@ class RigidStep:
 
         The change has the spin of a body that turns as it did: |Δv|² of it is of Δv and Δω alone.
         """
-        drift, spin = self.body.mass.mean(v0), self.body.spin(u0, v0)
+        drift, kept = self.body.mass.mean(v0), self._carried(self.body.spin(u0, v0))
         later = (1 - 1 / theta) * drift + self.shift / (theta * dt)
-        rate = (1 - 1 / theta) * spin + self.turn / (theta * dt)
+        rate = (1 - 1 / theta) * kept + self.turn / (theta * dt)
         velocity = later + turned(self.arms[2], rate)
-        change = later - drift + turned(self.arms[2], rate - spin)
+        change = later - drift + turned(self.arms[2], rate - kept)
         return velocity, change
+
+    def _carried(self, spin: Array) -> Array:
+        """Return a spin that has turned with the body [rad/s]: by Cayley's map of ϑ."""
+        half = 0.5 * self.turn
+        if len(half) == 1:
+            return spin
+        axes = np.eye(turning_axes(len(self.shift)))
+        matrix = turned(axes, half).T
+        carried: Array = np.linalg.solve(axes - matrix, (axes + matrix) @ spin)
+        return carried
 
     def borne(self, impulse: Array) -> Array:
         """Return the momenta of nodes that impulses at the end make of a rigid body [N s].
@@ -73,16 +82,17 @@ class RigidStep:
         """Return the velocities that impulses at the end give the nodes [m/s]."""
         body = self.body
         given = impulse.sum(axis=0) / body.mass.total
-        spun = float(cross(self.arms[2], impulse).sum()) / body.inertia
+        end = self.arms[2] - body.points + body.mass.mean(body.points)
+        spun = solved(body.inertia(end), cross(self.arms[2], impulse).sum(axis=0))
         velocity: Array = given + turned(self.arms[2], spun)
         return velocity
 
     def residual(
         self, states: tuple[Array, Array, Array], forces: tuple[Array, Array], dt: float
     ) -> Array:
-        """Return what momenta lack, as forces on nodes [N], shape [node_count, 2].
+        """Return what momenta lack, as forces on nodes [N], shape [node_count, D].
 
-        m (v₁ − v₀)/Δt and J (ω₁ − ω₀)/Δt are the resultant and the moment of all forces: of those
+        m (v₁ − v₀)/Δt and (J₁ω₁ − J₀ω₀)/Δt are the resultant and the moment of all forces: of those
         of the step by mean arms, of impulses by the arms at its end.
 
         Parameters
@@ -98,13 +108,13 @@ class RigidStep:
         u1, v0, v1 = states
         u0 = u1 - self.shift - turned(self.arms[1], self.turn)
         gained = body.mass.mean(v1) - body.mass.mean(v0)
-        spun = body.spin(u1, v1) - body.spin(u0, v0)
+        spun = body.inertia(u1) @ body.spin(u1, v1) - body.inertia(u0) @ body.spin(u0, v0)
         force = body.mass.total * gained / dt - (during + impulses).sum(axis=0)
-        moment = body.inertia * spun / dt
-        moment -= float(cross(self.arms[1], during).sum() + cross(self.arms[2], impulses).sum())
+        moment = spun / dt - cross(self.arms[1], during).sum(axis=0)
+        moment -= cross(self.arms[2], impulses).sum(axis=0)
         weight = body.mass.nodal[:, None]
-        size = float((weight * self.arms[1] ** 2).sum())
-        nodal: Array = weight * (force / body.mass.total + turned(self.arms[1], moment / size))
+        turn = solved(body.nodal_inertia(self.arms[1]), moment)
+        nodal: Array = weight * (force / body.mass.total + turned(self.arms[1], turn))
         return nodal
 
 
@@ -113,7 +123,6 @@ def bent(body: AuditBody, u: Array) -> Array:
     x = body.points + u
     arms = body.points - body.mass.mean(body.points)
     now = x - body.mass.mean(x)
-    weight = body.mass.nodal
-    angle = np.arctan2(weight @ cross(arms, now), weight @ (arms * now).sum(axis=1))
-    off: Array = now - arms @ rotation(float(angle)).T
+    moment = (body.mass.nodal[:, None] * now).T @ arms
+    off: Array = now - arms @ nearest_rotation(moment).T
     return off

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.auditing.arrays import Array
+from carom.auditing.arrays import AXES, Array, components, turning_components
 from carom.auditing.model import AuditModel
 
 GRID = 1e-6
@@ -29,6 +29,7 @@ class Rows:
         self, model: AuditModel, history: Mapping[str, Array], summary: Mapping[str, Any]
     ) -> None:
         self.history = history
+        self._axes = AXES[: model.dimension]
         self.times: Array = history["time"]
         self.dt = model.analysis.time_step
         self.nominal = np.zeros(len(self.times))
@@ -54,9 +55,22 @@ class Rows:
         return int(found[0]) if len(found) else None
 
     def drift(self, name: str) -> Array:
-        """Return the velocities of the centre of a body [m/s], shape [row_count, 2]."""
-        return np.stack([self.history[f"{name}.{column}"] for column in ("v_x", "v_y")], axis=1)
+        """Return the velocities of the centre of a body [m/s], shape [row_count, D]."""
+        return self._vectors(*(f"{name}.v_{axis}" for axis in self._axes))
 
     def centre(self, name: str) -> Array:
-        """Return the places of the centre of a body [m], shape [row_count, 2]."""
-        return np.stack([self.history[f"{name}.{column}"] for column in ("x", "y")], axis=1)
+        """Return the places of the centre of a body [m], shape [row_count, D]."""
+        return self._vectors(*(f"{name}.{axis}" for axis in self._axes))
+
+    @property
+    def momentum(self) -> Array:
+        """Momentum [kg m/s], shape [row_count, D]."""
+        return self._vectors(*components("momentum", len(self._axes)))
+
+    @property
+    def angular_momentum(self) -> Array:
+        """That about the origin [kg m²/s], shape [row_count, 1] or [row_count, 3]."""
+        return self._vectors(*turning_components("angular_momentum", len(self._axes)))
+
+    def _vectors(self, *columns: str) -> Array:
+        return np.stack([self.history[column] for column in columns], axis=1)

@@ -13,7 +13,7 @@ from carom.auditing.step import Step
 
 @dataclass(frozen=True)
 class Ruled:
-    """How contacts move in a step in the variables of their laws, each of shape [count].
+    """How contacts move in a step in the variables of their laws, as numbers and vectors.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ class Ruled:
     across
         w_t of Coulomb's law [m].
     slip
-        How far they slide in the step [m], with its sign.
+        How they slide in the step [m].
     rate
         What makes the speed of slip of w_t [1/s].
     """
@@ -58,7 +58,7 @@ class Ruled:
             bounce = np.array([0.0 if e is None else e for e in given])
             w_n = w_n + model.theta * step.dt * bounce * before
             ruled = np.array([e is not None for e in given], dtype=bool)
-            w_t = np.where(ruled, w_t + (model.theta - 1) * step.dt * across, w_t)
+            w_t = np.where(ruled[:, None], w_t + (model.theta - 1) * step.dt * across, w_t)
             rate = np.where(ruled, rate / model.theta, rate)
         return cls(normal=w_n, across=w_t, slip=slip, rate=rate)
 

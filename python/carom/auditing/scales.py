@@ -83,8 +83,8 @@ class Scales:
         stiffness = float(body.row_stiffness.sum())
         energy = body.strain_energy(u)
         # E ≈ ½ k e², so that an error of e changes it by √(2 E k) δ + ½ k δ².
-        slope = float(np.sqrt(2 * energy * stiffness)) + stiffness * error
-        return ROUND_OFF * energy + SAFETY * slope * error
+        slope = float(np.sqrt(2 * max(energy, 0.0) * stiffness)) + stiffness * error
+        return ROUND_OFF * abs(energy) + SAFETY * slope * error
 
     def displacement(self, step: Step) -> float:
         """Return how far the displacements of a step may be off [m]."""

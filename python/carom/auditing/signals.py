@@ -45,7 +45,7 @@ def _in_table(times: Array, values: Array, time: float) -> tuple[float, float]:
 
 
 class Travel:
-    """A displacement over time in the plane.
+    """A displacement over time.
 
     Parameters
     ----------
@@ -60,11 +60,11 @@ class Travel:
     """Whether its rate does."""
 
     def displacement(self, time: float) -> Array:
-        """Return it [m] at a time [s], shape [2]."""
+        """Return it [m] at a time [s], shape [D]."""
         return np.array([signal.at(time)[0] for signal in self._signals])
 
     def velocity(self, time: float) -> Array:
-        """Return its rate [m/s], shape [2]."""
+        """Return its rate [m/s], shape [D]."""
         return np.array([signal.at(time)[1] for signal in self._signals])
 
 
@@ -74,21 +74,21 @@ class Uniform(Travel):
     Parameters
     ----------
     velocity
-        The velocity [m/s], shape [2].
+        The velocity [m/s], shape [D].
     """
 
     varies = False
 
     def __init__(self, velocity: Array) -> None:
-        super().__init__((None, None))
+        super().__init__([None] * len(velocity))
         self._velocity = velocity
 
     def displacement(self, time: float) -> Array:
-        """Return it [m] at a time [s], shape [2]."""
+        """Return it [m] at a time [s], shape [D]."""
         moved: Array = time * self._velocity
         return moved
 
     def velocity(self, time: float) -> Array:
-        """Return its rate [m/s], shape [2]."""
+        """Return its rate [m/s], shape [D]."""
         del time
         return self._velocity

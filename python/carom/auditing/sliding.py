@@ -18,8 +18,8 @@ from carom.auditing.step import Step
 BEARS = 0.5
 """Facets bear a contact at their node that face it at least this well, relative to the best."""
 
-Key = tuple[int, int, int]
-"""Source, target and node of a contact."""
+Key = tuple[int, ...]
+"""What tells a contact from others."""
 
 
 @dataclass(frozen=True)
@@ -104,9 +104,9 @@ class Sliding:
         """Return least, most, whole and doubt of the contacts of a law."""
         off = self._scales.geometry(step)
         found = step.touching.pressed
-        slip, rate = np.abs(ruled.slip[mine]), ruled.rate[mine]
-        speed = np.abs(ruled.across[mine]) * rate
-        known = [self._records.get(key) for key in _keys(found.only(mine))]
+        slip, rate = _sizes(ruled.slip[mine]), ruled.rate[mine]
+        speed = _sizes(ruled.across[mine]) * rate
+        known = [self._records.get(key) for key in found.only(mine).keys]
         before = [Record(0.0, law.new_age) if record is None else record for record in known]
         slide = Slide(
             speed=speed,
@@ -154,14 +154,20 @@ class Sliding:
         """Take note of what a step leaves."""
         found = step.touching.pressed
         self._time, self._off = step.time, self._off + self._scales.geometry(step)
-        for k, key in enumerate(_keys(found)):
+        for k, key in enumerate(found.keys):
             side = found.side[k]
             if side is None or not side.law.remembers:
                 continue
             before = self._records.get(key, Record(0.0, side.law.new_age))
-            speed = np.abs(ruled.across[k : k + 1]) * ruled.rate[k]
+            speed = _sizes(ruled.across[k : k + 1]) * ruled.rate[k]
             age = float(side.law.aged(np.array([before.age]), speed, step.dt)[0])
-            self._records[key] = Record(before.distance + float(np.abs(ruled.slip[k])), age)
+            self._records[key] = Record(before.distance + float(_sizes(ruled.slip[k])), age)
+
+
+def _sizes(vectors: Array) -> Array:
+    """Return the lengths of vectors, shape [..., D], shape [...]."""
+    lengths: Array = np.linalg.norm(vectors, axis=-1)
+    return lengths
 
 
 def pressures(step: Step) -> Array:
@@ -175,12 +181,7 @@ def pressures(step: Step) -> Array:
     for k in range(len(found)):
         force = max(float(found.normal_force[k]), 0.0)
         between = frozenset((int(found.source[k]), int(found.target[k])))
-        shares = [(int(found.node[k]), 1.0)]
-        if found.target[k] >= 0:
-            weights = np.abs(found.weights[k])
-            feet = zip(found.followed[k].tolist(), (weights / weights.sum()).tolist(), strict=True)
-            shares += [(node, share) for node, share in feet if share > 0.0]
-        for node, share in shares:
+        for node, share in (*found.borne(k), *found.passed_on(k)):
             loads[node, between] = loads.get((node, between), 0.0) + share * force
     position = step.position(0.0)
     out = np.zeros(len(found))
@@ -195,13 +196,10 @@ def _bearing(model: AuditModel, source: int, node: int, pushes: Array, position:
     """Return the area around a node that bears what pushes it along this direction [m²]."""
     body = model.bodies[source]
     around = np.flatnonzero((body.facets == node - body.span.start).any(axis=1))
-    ends = position[body.span][body.facets[around]]
-    chord = ends[:, 1] - ends[:, 0]
-    facing = -(chord[:, 1] * pushes[0] - chord[:, 0] * pushes[1])
-    facing /= np.linalg.norm(chord, axis=1)
+    facing = -body.faces(body.facets[around]).normals(position[body.span]) @ pushes
     best = facing.max()
     bears = (facing >= BEARS * best) | (best <= 0.0)
-    return float(0.5 * body.facet_areas[around][bears].sum())
+    return float(body.facet_areas[around][bears].sum() / body.facets.shape[1])
 
 
 def _by_law(found: Contacts) -> Iterator[tuple[Law, Mask]]:
@@ -209,7 +207,3 @@ def _by_law(found: Contacts) -> Iterator[tuple[Law, Mask]]:
     laws = {id(side): side.law for side in found.side if side is not None}
     for number, law in laws.items():
         yield law, np.array([id(side) == number for side in found.side], dtype=bool)
-
-
-def _keys(found: Contacts) -> list[Key]:
-    return list(zip(found.source.tolist(), found.target.tolist(), found.node.tolist(), strict=True))

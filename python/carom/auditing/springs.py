@@ -77,7 +77,7 @@ class AuditSpring:
     nodes, shares
         Nodes of the model, and what of their displacements r has.
     reference
-        r where nothing has moved [m], shape [2].
+        r where nothing has moved [m], shape [D].
     carried
         Obstacles that carry one of the places, with the sign of what their motion adds to r.
     free_length
@@ -98,7 +98,7 @@ class AuditSpring:
     damping: float
 
     def span(self, displacement: Array, time: float) -> Array:
-        """Return r [m], shape [2]."""
+        """Return r [m], shape [D]."""
         r: Array = self.reference + self.shares @ displacement[self.nodes]
         for sign, travel in self.carried:
             r = r + sign * travel.displacement(time)
@@ -140,6 +140,10 @@ class Solids(Protocol):
     """What springs may be attached to."""
 
     @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+
+    @property
     def bodies(self) -> Sequence[AuditBody]:
         """The bodies."""
 
@@ -154,7 +158,7 @@ class Solids(Protocol):
 def build_spring(given: case.Spring, model: Solids) -> AuditSpring:
     """Return a spring of the case between the bodies and obstacles of a model."""
     nodes, shares = [], []
-    reference = np.zeros(2)
+    reference = np.zeros(model.dimension)
     carried: list[tuple[float, Travel]] = []
     for sign, end in zip((-1.0, 1.0), given.between, strict=True):
         if end.body is None:

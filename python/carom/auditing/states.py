@@ -120,6 +120,22 @@ class States:
                 met[body.span] = body.mass.mean(v0) + turned(arms, body.spin(u0, v0))
         return met
 
+    @property
+    def held_d(self) -> Array:
+        """The motion of what supports hold, zero elsewhere [m], shape [node_count, D]."""
+        return self._held(self.d)
+
+    @property
+    def held_v(self) -> Array:
+        """The same of velocities at the end [m/s]."""
+        return self._held(self.end["velocity"])
+
+    def _held(self, motion: Array) -> Array:
+        held = np.zeros_like(motion)
+        for body, supports in zip(self.model.bodies, self.model.supports, strict=True):
+            held[body.span] = np.where(supports.held, motion[body.span], 0.0)
+        return held
+
     def rigid(self, body: AuditBody) -> RigidStep:
         """Return the motion of a rigid body."""
         return RigidStep.of(body, self.u0[body.span], self.d[body.span])

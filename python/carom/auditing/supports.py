@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from carom.auditing.arrays import Array, Indices, Mask
+from carom.auditing.arrays import AXES, Array, Indices, Mask
 from carom.auditing.body import AuditBody
 from carom.auditing.drawn import nodes_of
 from carom.auditing.signals import AuditSignal
@@ -31,13 +31,13 @@ class Supports:
     """
 
     def __init__(self, body: AuditBody, given: Sequence[Motion]) -> None:
-        self.held: Mask = np.zeros((len(body.points), 2), dtype=bool)
-        """Which components of the displacement of nodes are given, shape [node_count, 2]."""
-        self.by: Indices = np.full((len(body.points), 2), -1)
-        """By which support, shape [node_count, 2]; −1 where by none."""
+        self.held: Mask = np.zeros(body.points.shape, dtype=bool)
+        """Which components of the displacement of nodes are given, shape [node_count, D]."""
+        self.by: Indices = np.full(body.points.shape, -1)
+        """By which support, shape [node_count, D]; −1 where by none."""
         self.names: list[str] = []
         """Names of the supports, as columns of the history have them."""
-        self._signals: list[tuple[AuditSignal, AuditSignal]] = []
+        self._signals: list[list[AuditSignal]] = []
         for motion in given:
             if motion.body == body.name:
                 self._hold(body, motion)
@@ -50,13 +50,14 @@ class Supports:
             raise InputError("cannot audit the motion of a rigid or reduced body yet")
         on = nodes_of(body.drawn, motion.on, body.points, body.boundary, body.cells.nodes)
         alike = np.isin(body.masters, body.masters[on])
+        axes = AXES[: body.dimension]
         if isinstance(motion, Fixed):
-            components = motion.components or ("x", "y")
-            chosen = [axis in components for axis in "xy"]
-            signals = (AuditSignal(0.0), AuditSignal(0.0))
+            chosen = [motion.components is None or axis in motion.components for axis in axes]
+            signals = [AuditSignal(0.0) for _ in axes]
         else:
-            chosen = [signal is not None for signal in (motion.x, motion.y)]
-            signals = (AuditSignal(motion.x), AuditSignal(motion.y))
+            given = [getattr(motion, axis) for axis in axes]
+            chosen = [signal is not None for signal in given]
+            signals = [AuditSignal(signal) for signal in given]
         # Of two that hold the same the first has it.
         mine = alike[:, None] & np.array(chosen) & ~self.held
         self.by[mine] = len(self.names)
@@ -65,11 +66,11 @@ class Supports:
         self._signals.append(signals)
 
     def displacement(self, time: float) -> Array:
-        """Return what is given at a time [s], zero elsewhere [m], shape [node_count, 2]."""
+        """Return what is given at a time [s], zero elsewhere [m], shape [node_count, D]."""
         return self._given(time, 0)
 
     def velocity(self, time: float) -> Array:
-        """Return its rate [m/s], shape [node_count, 2]."""
+        """Return its rate [m/s], shape [node_count, D]."""
         return self._given(time, 1)
 
     def _given(self, time: float, order: int) -> Array:

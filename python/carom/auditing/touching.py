@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 
 from carom.auditing import contacts
-from carom.auditing.arrays import Array
+from carom.auditing.arrays import Array, turned_with
 from carom.auditing.body import AuditBody
 from carom.auditing.contacts import Contacts
+from carom.auditing.finding import find
 from carom.auditing.states import States
 
 
@@ -54,13 +55,16 @@ class Touching:
 
     @property
     def whole_force(self) -> tuple[Array, Array]:
-        """r_n and r_t with impulses, each part in the frame in which it acts [N], [count]."""
-        parts = [self.pressed, *self.impulses]
-        normal, across = np.zeros(len(self.all)), np.zeros(len(self.all))
-        for part in parts:
-            normal += part.normal_force
-            across += part.friction_force
-        return normal, across
+        """r_n and |r_t| with impulses, each part in the frame in which it acts [N], [count].
+
+        What impulses have of r_t is turned into the frame of the step.
+        """
+        pressed = self.pressed
+        normal, across = pressed.normal_force, pressed.friction_force
+        for part in self.impulses:
+            normal = normal + part.normal_force
+            across = across + turned_with(part.friction_force, part.normal, pressed.normal)
+        return normal, np.linalg.norm(across, axis=1)
 
     @cached_property
     def start_gaps(self) -> Array:
@@ -104,4 +108,4 @@ class Touching:
         time = float(self._states.start["time"]) + weight * self._states.dt
         position = self._states.position(weight)
         step = (float(self._states.start["time"]), self._states.time)
-        return contacts.find(self._states.model, state, position, time, step=step, like=like)
+        return find(self._states.model, state, position, time, step=step, like=like)

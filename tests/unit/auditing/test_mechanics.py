@@ -5,7 +5,8 @@ import pytest
 
 import carom
 from carom.auditing.body import AuditBody
-from carom.auditing.cells import VTK_QUAD, VTK_TRIANGLE, boundary
+from carom.auditing.cells import boundary
+from carom.auditing.kinds import KINDS
 from carom.auditing.mass import affine_weights
 
 STRESSES = (None, carom.InitialStress(xx=0.4, yy=-0.2, zz=0.1, xy=0.3))
@@ -53,7 +54,7 @@ def body(
     return AuditBody(
         entry,
         {"m": MATERIALS[law]},
-        vtk_type=VTK_TRIANGLE if triangles else VTK_QUAD,
+        vtk_type=KINDS["tri3" if triangles else "quad4"].vtk_type,
         nodes=TRIANGLES if triangles else QUADS,
         points=POINTS,
         first_node=0,
@@ -124,7 +125,7 @@ def test_the_mean_rotation_of_a_turned_body_is_its_rotation():
 
 
 def test_boundary_has_the_body_on_its_left():
-    facets = boundary(QUADS)
+    facets = boundary(KINDS["quad4"], QUADS)
     assert len(facets) == 14
     (ax, ay), (bx, by) = POINTS[facets].transpose(1, 2, 0)
     assert 0.5 * (ax * by - ay * bx).sum() == pytest.approx(body().cells.weights.sum() / 0.3)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from carom.auditing.target import Target
+from carom.auditing.curve import Curve
 
 COUNT = 24
 
@@ -23,7 +23,7 @@ SQUARE = np.array([[0.0, 0], [1, 0], [2, 0], [2, 1], [2, 2], [1, 2], [0, 2], [0,
 def test_a_smooth_ring_is_round_to_fourth_order():
     errors = []
     for count in (COUNT, 2 * COUNT):
-        target = Target(facets(count), ring(count), smooth=True)
+        target = Curve(facets(count), ring(count), smooth=True)
         x = 1.2 * ring(7)
         errors.append(np.abs(target.signed_distance(x, ring(count)) - 0.2).max())
     assert errors[0] < 2e-4
@@ -34,7 +34,7 @@ def test_a_smooth_ring_is_round_to_fourth_order():
 def test_feet_are_where_the_distance_is_smallest(smooth):
     rng = np.random.default_rng(3)
     nodes = ring(COUNT) + rng.normal(scale=0.02, size=(COUNT, 2))
-    target = Target(facets(COUNT), ring(COUNT), smooth=smooth)
+    target = Curve(facets(COUNT), ring(COUNT), smooth=smooth)
     x = 1.1 * ring(11) + rng.normal(scale=0.05, size=(11, 2))
     feet = target.feet(x, nodes)
     points = np.einsum("kj,kji->ki", feet.weights, nodes[feet.nodes])
@@ -54,7 +54,7 @@ def test_feet_are_where_the_distance_is_smallest(smooth):
 
 @pytest.mark.parametrize("smooth", [True, False])
 def test_a_square_keeps_its_corners_and_its_sides(smooth):
-    target = Target(facets(8), SQUARE, smooth=smooth)
+    target = Curve(facets(8), SQUARE, smooth=smooth)
     x = np.array([[0.4, -0.3], [2.3, 2.4], [1.0, 0.2], [-0.5, 1.0]])
     np.testing.assert_allclose(target.signed_distance(x, SQUARE), [0.3, 0.5, -0.2, 0.5], atol=1e-15)
     feet = target.feet(np.array([[-0.1, -0.2]]), SQUARE)

@@ -1,4 +1,4 @@
-"""Where points are closest to a target: to its facets, or to the smooth curve through its nodes.
+"""Where points are closest to a target of the plane: to its facets, or to the smooth curve.
 
 Both are handled as segments of cubics in ξ from 0 to 1 whose coefficients are fixed combinations
 of up to four nodes. A facet is one whose quadratic and cubic parts are zero.
@@ -6,76 +6,44 @@ of up to four nodes. A facet is one whose quadratic and cubic parts are zero.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from carom.auditing.arrays import Array, Indices, einsum
-
-CORNER = np.cos(np.radians(40)) - 1e-9
-"""Cosine of the angle from which on a smooth target keeps its corner; the slack is for polygons
-whose angles are 40° up to round-off."""
-
-FLAT = np.cos(np.radians(1))
-"""Cosine of the angle up to which it is straight there, and where its facets are."""
-
-BEYOND = 0.5
-"""How far a facet, or the end of a smooth part, reaches beyond its edge, in facets."""
-
-TIE = 1e-9
-"""Distances closer than this part of a facet are the same: a corner."""
+from carom.auditing.arrays import Array, Indices, Mask, einsum
+from carom.auditing.feet import BEYOND, CORNER, FLAT, TIE, Feet
 
 _BISECTIONS = 64
 _POWERS = np.arange(4)
 
 
-@dataclass(frozen=True)
-class Feet:
-    """Points of a target where the distance from given points is stationary.
-
-    Parameters
-    ----------
-    point
-        Index of the given point, shape [count].
-    gap
-        Distance along the normal, negative behind the target [m], shape [count].
-    normal
-        Outward normal, shape [count, 2].
-    nodes, weights
-        The nodes that the foot follows, in the body's numbering, and how much, shape [count, 4].
-    beyond
-        How far the foot is beyond the edge of its segment, in facets, shape [count].
-    """
-
-    point: Indices
-    gap: Array
-    normal: Array
-    nodes: Indices
-    weights: Array
-    beyond: Array
-
-
-class Target:
-    """The boundary of a body that nodes of others are checked against.
+class Curve:
+    """The boundary of a body of the plane that nodes of others are checked against.
 
     Parameters
     ----------
     facets
-        Facets in the body's numbering, the body on their left, shape [facet_count, 2].
+        Facets in the body's numbering, the body on their left, shape [facet_count, 2 or 3]: their
+        ends and, of cells of second order, what is between.
     points
         Reference positions of the body's nodes [m], shape [node_count, 2].
     smooth
-        Whether it is the curve through its nodes.
+        Whether it is the curve through its nodes; facets of second order stay as they are.
     """
 
     def __init__(self, facets: Indices, points: Array, *, smooth: bool) -> None:
-        self._smooth = smooth
-        self._nodes = np.concatenate([facets, facets], axis=1)
+        self.facets, self.width = facets, 4
+        ends, curved = facets[:, :2], facets.shape[1] == 3
+        smooth = smooth and not curved
+        self.smooth: Mask = np.full(len(facets), smooth)
+        self._nodes = np.concatenate([ends, ends], axis=1)
         tangents = np.zeros((len(facets), 2, 4))
         tangents[:, :, :2] = [-1.0, 1.0]
+        if curved:
+            # The parabola through three nodes.
+            self._nodes[:, 2] = facets[:, 2]
+            tangents[:, :] = [[-3.0, -1.0, 4.0, 0.0], [1.0, 3.0, -4.0, 0.0]]
         self._joined = np.zeros((len(facets), 2), dtype=bool)
-        around = np.bincount(facets.ravel(), minlength=len(points))
-        self._rim = around[facets] == 1
+        around = np.bincount(ends.ravel(), minlength=len(points))
+        self._rim = around[ends] == 1
         """Ends of facets where an open surface ends, shape [facet_count, 2]."""
         if smooth:
             self._join(facets, points, tangents)
@@ -118,15 +86,7 @@ class Target:
                 self._joined[f, end] = True
 
     def feet(self, x: Array, position: Array) -> Feet:
-        """Return all places where distances are smallest on a segment or beyond a free end.
-
-        Parameters
-        ----------
-        x
-            Points [m], shape [point_count, 2].
-        position
-            Positions of the body's nodes [m], shape [node_count, 2].
-        """
+        """Return all feet, see `Target`."""
         offset = self._offsets(x, position)
         at_start, at_end = (self._slope(offset, np.full(offset.shape[:2], xi)) for xi in (0.0, 1.0))
         # Round-off must not lose a foot at the joint of two segments.
@@ -148,6 +108,7 @@ class Target:
         normal /= np.linalg.norm(normal, axis=1, keepdims=True)
         return Feet(
             point=point,
+            facet=segment,
             gap=-einsum("pi,pi->p", normal, _combined(local, basis)),
             normal=normal,
             nodes=self._nodes[segment],
@@ -156,12 +117,7 @@ class Target:
         )
 
     def signed_distance(self, x: Array, position: Array) -> Array:
-        """Return the distances of points from the target, negative inside [m], shape [point_count].
-
-        Of facets that share the closest point, a corner, the one seen most squarely says which
-        side the point is on. What is beyond the rim of an open surface is on neither side of it:
-        its distance is infinite.
-        """
+        """Return the distances of points from it [m], see `Target`."""
         offset = self._offsets(x, position)
         shape = offset.shape[:2]
         flat = offset.reshape(-1, 4, 2)
