@@ -47,6 +47,7 @@ pub use model::Model;
 pub use model::assembly::{Assembly, Member, NamedPair};
 pub use model::bearing::Bearing;
 pub use model::condition::ContactCondition;
+pub use model::cohesion::{Cohesion, Cohesions, Strength};
 pub use model::friction_laws::FrictionLaws;
 pub use model::interference::{Interference, Overlap};
 pub use model::method::{Method, NewtonRule};

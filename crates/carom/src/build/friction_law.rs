@@ -4,12 +4,14 @@ use std::sync::Arc;
 
 use carom_friction::{FrictionLaw, Sliding};
 
+use super::cohesion::first_cohesion;
 use super::values::number;
 use crate::Formula;
 use crate::error::InputError;
 use crate::model::Model;
 use crate::model::assembly::Assembly;
 use crate::model::bearing::Bearing;
+use crate::model::cohesion::Strength;
 use crate::model::friction_laws::{FrictionLaws, MAX_FRICTION};
 use crate::scenario::{
     ContactSpec, FrictionSpec, OrthotropicSpec, RateAndStateSpec, Scenario, StaticKineticSpec,
@@ -156,15 +158,20 @@ pub(crate) fn friction_laws<const D: usize>(
     Ok(laws)
 }
 
-/// The areas by which laws have their pressure; none where no law depends on it.
+/// The areas by which laws have their pressure, and cohesion its force; none where nothing asks for them.
 ///
 /// # Errors
 /// If one does, and a body has no pressure at its nodes.
 pub(super) fn bearing<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Result<Bearing, InputError> {
-    if !model.assembly.friction_laws.depend_on_pressure() {
+    let by_stress = model.assembly.cohesions.all().any(|c| matches!(c.strength, Strength::Stress(_)));
+    let (key, wanted, cure) = if model.assembly.friction_laws.depend_on_pressure() {
+        (first_law(&scenario.contact), "friction that depends on the pressure", "leave p out")
+    } else if by_stress {
+        (first_cohesion(&scenario.contact), "cohesion as a stress", "give the force of a contact")
+    } else {
         return Ok(Bearing::default());
-    }
-    let key = first_law(&scenario.contact).unwrap_or_default();
+    };
+    let key = key.unwrap_or_default();
     for (b, entry) in model.bodies.iter().zip(&scenario.bodies) {
         let quadratic = b.body.surface().facets().iter().any(|facet| facet.kind.is_quadratic());
         let why = if entry.round {
@@ -174,8 +181,7 @@ pub(super) fn bearing<const D: usize>(scenario: &Scenario, model: &Model<D>) -> 
         } else {
             continue;
         };
-        let message =
-            format!("friction that depends on the pressure: body {:?} {why}, or leave p out", b.name);
+        let message = format!("{wanted}: body {:?} {why}, or {cure}", b.name);
         return Err(InputError::new(key, message));
     }
     Ok(Bearing::of(model.bodies.iter().map(|b| &**b)))

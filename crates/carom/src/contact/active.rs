@@ -3,12 +3,14 @@
 use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Target};
 use carom_mesh::{Matrix, Vector};
 
+use super::cohering;
 use super::control::CONTROL;
 use super::pressing::Pressing;
 use super::slider::Slider;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
 use crate::model::at_rest::AtRest;
+use crate::model::cohesion::OF_BONDS;
 use crate::model::condition::{ContactCondition, Opening, impact_offset};
 use crate::model::given::Given;
 use crate::model::state::{Reaction, State};
@@ -35,6 +37,8 @@ pub(crate) struct ActiveSet<const D: usize> {
     pub start_gaps: Vec<f64>,
     /// The interference [m] of every contact at the start and the end of the step.
     pub interferences: Vec<[f64; 2]>,
+    /// What holds every contact together [N] beside its reaction; none where nothing does.
+    pub adhesions: Vec<Option<f64>>,
     /// Reactions [N] that the step starts with, in the frame of the last step.
     pub start_forces: Vec<Vector<D>>,
     /// The velocities [m/s] at which contacts of rigid pairs meet, in their frames; zeros of others: see [`Self::meet`].
@@ -42,7 +46,7 @@ pub(crate) struct ActiveSet<const D: usize> {
     /// The contacts as they were evaluated before, and those that stand at a kink: see [`Self::evaluate_late`].
     before: Vec<Contact<D>>,
     pub at_kink: Vec<bool>,
-    /// Reactions as the reduced problem has them: see `ContactCondition::reaction_weight`.
+    /// Reactions as the reduced problem has them, in their cones: see `ContactCondition::reaction_weight`, and [`Self::acting`].
     pub reactions: Vec<Vector<D>>,
     /// Reactions of the state whose contacts have no part in the step.
     pub lost: Vec<usize>,
@@ -68,6 +72,7 @@ impl<const D: usize> ActiveSet<D> {
         let start = |n: u32| given.position(n);
         self.start_gaps.clear();
         self.interferences.clear();
+        self.adhesions.clear();
         contact.evaluate_all(&self.candidates, &start, &mut self.mortar, &mut self.contacts);
         let round_off = assembly.round_off();
         let inside = |c: &Candidate| CONTROL.inside * assembly.pair_size(&contact.pairs.get(c.pair as usize));
@@ -102,6 +107,7 @@ impl<const D: usize> ActiveSet<D> {
                     && (contact.is_two_sided(c.pair as usize)
                         || !map.is_static() && is_stuck(c, at_start, gap));
                 self.interferences.push(interference);
+                self.adhesions.push(cohering::adhesion(given, c, at_start, gap <= closed));
                 self.start_gaps.push(given.condition_of(c.pair).start_gap(gap, closed, stays));
             }
             active
@@ -122,7 +128,7 @@ impl<const D: usize> ActiveSet<D> {
         self.touched.copy_from_slice(&given.assembly.is_connected);
         self.conditions.clear();
         self.weights.clear();
-        for candidate in &self.candidates {
+        for (candidate, adhesion) in self.candidates.iter().zip(&self.adhesions) {
             let known = given.state.reaction(candidate.key());
             let force = known.map_or_else(Vector::zeros, |r| r.force);
             let condition = given.condition_of(candidate.pair);
@@ -131,9 +137,14 @@ impl<const D: usize> ActiveSet<D> {
             self.weights.push(weight);
             self.frames.push(known.map_or_else(Matrix::zeros, |r| r.contact.frame));
             self.reactions.push(force * weight);
+            if let (Some(r), Some(adhesion)) = (self.reactions.last_mut(), adhesion) {
+                r[0] += adhesion * weight;
+            }
             self.start_forces.push(force);
             let pair = pairs.get(candidate.pair as usize);
-            self.friction.push(if given.assembly.can_slide(candidate) { pair.friction } else { 0.0 });
+            let is_bond = adhesion.is_some() && given.assembly.is_unbreakable(candidate.pair);
+            let own = if given.assembly.can_slide(candidate) { pair.friction } else { 0.0 };
+            self.friction.push(if is_bond { OF_BONDS } else { own });
             touch(&mut self.touched, &pair);
         }
         self.recall_sliding(given);
@@ -291,8 +302,8 @@ impl<const D: usize> ActiveSet<D> {
 
     /// Adds the reactions known so far to `forces` [N].
     pub fn add_reactions(&self, forces: &mut [Vector<D>]) {
-        for (contact, r) in self.contacts.iter().zip(&self.reactions) {
-            contact.add_force(r, forces);
+        for (contact, r) in self.contacts.iter().zip(self.all_acting()) {
+            contact.add_force(&r, forces);
         }
     }
 }

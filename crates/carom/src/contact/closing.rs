@@ -56,10 +56,12 @@ pub(crate) fn keep<const D: usize>(
             // What a coefficient that is not that of the law does to the energy.
             kept.certificate += off * r[0].max(0.0) * cone::tangential_norm(&w);
         }
-        contact.add_force(&r, &mut next.contact_force);
-        if r[0] > 0.0 {
+        let (presses, adhesion) = (r[0] > 0.0, active.adhesions[i]);
+        let force = active.acting(i) / active.weights[i];
+        contact.add_force(&force, &mut next.contact_force);
+        if presses {
             let Candidate { pair, site, facet, .. } = *candidate;
-            next.reactions.push(Reaction { pair, site, facet, contact: contact.clone(), force: r });
+            next.reactions.push(Reaction { pair, site, facet, contact: contact.clone(), force, adhesion });
         }
     }
     kept

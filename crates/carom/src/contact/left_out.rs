@@ -129,8 +129,8 @@ impl<const D: usize> LeftOut<D> {
                     if let Some((_, part)) = self.parts[k].last_mut() {
                         part[component] += ruled(moved) * share;
                     }
-                    let r = &active.reactions[k];
-                    if *r == Vector::<D>::zeros() {
+                    let r = active.acting(k);
+                    if r == Vector::<D>::zeros() {
                         continue;
                     }
                     moved.carry_frame(&active.contacts[k].frame);

@@ -5,6 +5,7 @@ pub(crate) mod candidates;
 pub(crate) mod closing;
 pub(crate) mod compliance;
 pub(crate) mod contact_work;
+pub(crate) mod cohering;
 mod control;
 mod coupling;
 pub(crate) mod cross_check;
@@ -157,6 +158,11 @@ impl<const D: usize> Contacts<D> {
         bodies: &mut [Box<dyn Body<D>>],
     ) -> Result<f64, StepError> {
         self.reduced.solve(given, &mut self.active, motion, error, bodies)
+    }
+
+    /// Whether contacts have lost what held them, or hold by more, where iterations have led: see [`ActiveSet::let_go`].
+    pub fn let_go(&mut self, given: &Given<'_, D>) -> bool {
+        self.active.let_go(given, &self.reduced.problem)
     }
 
     /// What massless contacts mean for the balance of blended steps, at a guess.

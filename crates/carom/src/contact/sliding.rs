@@ -25,6 +25,9 @@ impl<const D: usize> ActiveSet<D> {
         }
         for (i, candidate) in self.candidates.iter().enumerate() {
             let pair = assembly.contact.pairs.get(candidate.pair as usize);
+            if self.is_unbreakable(given, i) {
+                continue;
+            }
             let Some(law) = assembly.friction_laws.of(&pair).filter(|_| assembly.can_slide(candidate)) else {
                 continue;
             };
@@ -64,7 +67,7 @@ impl<const D: usize> ActiveSet<D> {
             slips,
             dt: interval.map.dt,
             speed: if presses { cone::tangential_norm(w) * per_motion } else { 0.0 },
-            pressure: self.pressing.at(i, &self.reactions) / self.weights[i],
+            pressure: self.pressing.at(i, |j| self.acting(j)[0]) / self.weights[i],
             distance: if slips { cone::tangential_norm(&(w - offset)) } else { 0.0 },
             direction: direction.try_normalize(0.0).unwrap_or_else(Vector::zeros),
         }

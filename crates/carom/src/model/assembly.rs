@@ -4,12 +4,14 @@ use carom_contact::{Boundaries, Candidate, ContactModel, Pair, Site, Solid, Targ
 use carom_mesh::{Surface, Vector};
 
 use crate::model::bearing::Bearing;
+use crate::model::cohesion::{Cohesions, OF_BONDS};
 use crate::model::friction_laws::FrictionLaws;
 use crate::model::interference::{Interference, Interferences};
 use crate::model::obstacle_motion::ObstacleMotion;
 use crate::model::orthotropy::Orthotropies;
 use crate::model::restitution::Restitutions;
 use crate::model::springs::Spring;
+use crate::model::state::Reaction;
 
 /// More pairs than these are not listed: where hundreds of bodies may touch, most never come near one another, and no one reads of all.
 pub(crate) const MANY_PAIRS: usize = 1000;
@@ -55,7 +57,9 @@ pub struct Assembly<const D: usize> {
     pub restitutions: Restitutions,
     /// The friction laws of pairs whose coefficient depends on the motion.
     pub friction_laws: FrictionLaws,
-    /// The areas by which laws that depend on the pressure have it; empty where none does.
+    /// How pairs hold together.
+    pub cohesions: Cohesions,
+    /// The areas by which laws that depend on the pressure have it, and cohesion its force; empty where none is needed.
     pub bearing: Bearing,
     /// The pairs whose friction depends on the direction.
     pub orthotropies: Orthotropies<D>,
@@ -112,6 +116,7 @@ impl<const D: usize> Assembly<D> {
             interferences: Interferences::default(),
             restitutions: Restitutions::default(),
             friction_laws: FrictionLaws::default(),
+            cohesions: Cohesions::default(),
             bearing: Bearing::default(),
             orthotropies: Orthotropies::default(),
             springs: Vec::new(),
@@ -271,6 +276,14 @@ impl<const D: usize> Assembly<D> {
     pub(crate) fn named_pair(&self, between: [Solid; 2]) -> NamedPair {
         let friction = self.contact.pairs.of(between).next().map(|p| self.contact.pairs.get(p).friction);
         NamedPair { between: self.names(between), friction: friction.unwrap_or_default() }
+    }
+
+    /// The friction coefficient of a contact that pressed; of a law that of contacts that have never slid.
+    pub(crate) fn friction_of(&self, reaction: &Reaction<D>) -> f64 {
+        if reaction.adhesion.is_some() && self.is_unbreakable(reaction.pair) {
+            return OF_BONDS;
+        }
+        self.contact.pairs.get(reaction.pair as usize).friction
     }
 
     /// Whether the nodes of body `index` that may touch have no mass.

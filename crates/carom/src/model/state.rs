@@ -22,6 +22,8 @@ pub struct Reaction<const D: usize> {
     pub contact: Contact<D>,
     /// The reaction r [N] in that frame.
     pub force: Vector<D>,
+    /// The adhesion [N] that it is less by than what is in Coulomb's cone; none where nothing holds.
+    pub adhesion: Option<f64>,
 }
 
 impl<const D: usize> Reaction<D> {
@@ -29,6 +31,14 @@ impl<const D: usize> Reaction<D> {
     #[must_use]
     pub fn key(&self) -> (u32, Site) {
         (self.pair, self.site)
+    }
+
+    /// What is in Coulomb's cone [N]: the reaction and the adhesion.
+    #[must_use]
+    pub fn in_cone(&self) -> Vector<D> {
+        let mut r = self.force;
+        r[0] += self.adhesion.unwrap_or(0.0);
+        r
     }
 
     /// The candidate that it was.

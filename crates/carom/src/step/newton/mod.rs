@@ -68,6 +68,15 @@ impl<const D: usize> Newton<D> {
         }
     }
 
+    /// Begins the iterations of a step from this `motion` [m].
+    pub fn begin(&mut self, assembly: &Assembly<D>, motion: &[Vector<D>]) {
+        for (i, progress) in self.progress.iter_mut().enumerate() {
+            *progress = BodyProgress::new(nodal::largest(&motion[assembly.nodes(i)]));
+        }
+        self.acceleration.restart();
+        self.free_motion = None;
+    }
+
     /// Keeps a guess of a load step of the `bodies`, to return to if it leads nowhere.
     pub fn keep_guess(
         &mut self,

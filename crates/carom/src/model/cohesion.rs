@@ -1,0 +1,98 @@
+use carom_contact::{Contact, Pair, Site, Target};
+use carom_mesh::Vector;
+
+use crate::ledger::ByPair;
+use crate::model::assembly::Assembly;
+
+/// The friction coefficient of contacts that nothing breaks: any will do, as what holds them grows with what pulls.
+pub(crate) const OF_BONDS: f64 = 1.0;
+
+/// How two surfaces hold together: their reactions obey Coulomb's law once the adhesion A [N] is added to their normal part, r_n ≥ −A and
+/// |r_t| ≤ μ (r_n + A).
+///
+/// A contact that opens has lost its adhesion at once, in the step in which it opens. So adhesion does no work.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cohesion {
+    /// How much holds a contact.
+    pub strength: Strength,
+    /// Whether a contact that closes holds too; else those that were closed from the start on alone.
+    pub lasting: bool,
+}
+
+/// How much holds a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Strength {
+    /// As much on every area of the source [Pa].
+    Stress(f64),
+    /// As much in every contact [N].
+    Force(f64),
+    /// Whatever it takes: the contact never parts nor slides.
+    Unbreakable,
+}
+
+/// The cohesion of all pairs. No body holds on to itself.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Cohesions {
+    /// That of pairs of which nothing else is said.
+    pub default: Option<Cohesion>,
+    /// That of other pairs.
+    pub own: ByPair<Option<Cohesion>>,
+}
+
+impl Cohesions {
+    /// Whether no pair has any.
+    #[must_use]
+    pub fn are_none(&self) -> bool {
+        self.all().next().is_none()
+    }
+
+    /// All that there is.
+    pub fn all(&self) -> impl Iterator<Item = &Cohesion> {
+        self.default.iter().chain(self.own.values().flatten())
+    }
+
+    /// That of a pair.
+    #[must_use]
+    pub fn of(&self, pair: &Pair) -> Option<Cohesion> {
+        if pair.target == Target::Surface(pair.source) {
+            return None;
+        }
+        *self.own.get(pair.between()).unwrap_or(&self.default)
+    }
+}
+
+impl<const D: usize> Assembly<D> {
+    /// What holds a contact of a pair together as long as it is closed [N], where nodes are at `position`; none where nothing does. What nothing
+    /// breaks begins with 0.
+    pub(crate) fn adhesion(
+        &self,
+        (pair, site): (u32, Site),
+        contact: &Contact<D>,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Option<f64> {
+        let pair = self.contact.pairs.get(pair as usize);
+        let adhesion = match self.cohesions.of(&pair)?.strength {
+            Strength::Unbreakable => return Some(0.0),
+            Strength::Force(force) => force,
+            Strength::Stress(stress) => {
+                stress
+                    * match site {
+                        Site::Node(node) => {
+                            let pushes = contact.frame.row(0).transpose();
+                            self.bearing.area(node as usize, &pushes, position)
+                        }
+                        Site::Multiplier(..) => contact.area * self.bearing.depth(pair.source),
+                        // What no node stands for has no area of its own.
+                        _ => 0.0,
+                    }
+            }
+        };
+        (adhesion > 0.0).then_some(adhesion)
+    }
+
+    /// Whether nothing breaks the contacts of a pair, given by its number, that hold.
+    pub(crate) fn is_unbreakable(&self, pair: u32) -> bool {
+        let cohesion = || self.cohesions.of(&self.contact.pairs.get(pair as usize));
+        !self.cohesions.are_none() && cohesion().is_some_and(|c| c.strength == Strength::Unbreakable)
+    }
+}
