@@ -4,6 +4,7 @@
 //! motion that the contact problem has with this μ.
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 /// How a contact slides.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -25,6 +26,11 @@ pub trait FrictionLaw: Debug + Send + Sync {
 
     /// μ up to which a contact holds that sticks, where it jumps to [`Self::coefficient`] as soon as the contact slides.
     fn holding(&self) -> Option<f64> {
+        None
+    }
+
+    /// μ along and across the direction of friction, where they differ; [`Self::coefficient`] is the larger one.
+    fn by_direction(&self, _sliding: &Sliding) -> Option<[f64; 2]> {
         None
     }
 
@@ -98,6 +104,33 @@ impl FrictionLaw for StaticKinetic {
 
     fn depends_on_speed(&self) -> bool {
         matches!(self.weakening, Weakening::OverSpeed(_)) || self.viscous != 0.0
+    }
+}
+
+/// Friction of which each of two directions has its own law. None of these jumps, and none has a state variable.
+#[derive(Debug, Clone)]
+pub struct Directional {
+    /// The laws along and across.
+    pub laws: [Arc<dyn FrictionLaw>; 2],
+}
+
+impl FrictionLaw for Directional {
+    fn coefficient(&self, sliding: &Sliding) -> f64 {
+        // What is no number is no coefficient, whichever of both it is.
+        let [along, across] = self.laws.each_ref().map(|law| law.coefficient(sliding));
+        if across.is_nan() { across } else { along.max(across) }
+    }
+
+    fn by_direction(&self, sliding: &Sliding) -> Option<[f64; 2]> {
+        Some(self.laws.each_ref().map(|law| law.coefficient(sliding)))
+    }
+
+    fn depends_on_speed(&self) -> bool {
+        self.laws.iter().any(|law| law.depends_on_speed())
+    }
+
+    fn depends_on_pressure(&self) -> bool {
+        self.laws.iter().any(|law| law.depends_on_pressure())
     }
 }
 

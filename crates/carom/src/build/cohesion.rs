@@ -20,7 +20,8 @@ pub(super) fn of_pair<'a>(
     spec: &'a ContactSpec,
     found: Option<(usize, &'a PairEntry)>,
 ) -> Option<(String, &'a CohesionSpec)> {
-    let own = found.and_then(|(k, entry)| Some((format!("contact.pairs.{k}.cohesion"), entry.cohesion.as_ref()?)));
+    let own =
+        found.and_then(|(k, entry)| Some((format!("contact.pairs.{k}.cohesion"), entry.cohesion.as_ref()?)));
     let usual = || spec.cohesion.as_ref().map(|cohesion| ("contact.cohesion".to_string(), cohesion));
     own.or_else(usual).filter(|(_, cohesion)| {
         let full = cohesion.full();
@@ -47,7 +48,8 @@ fn cohesion(key: &str, spec: &CohesionSpec) -> Result<Option<Cohesion>, InputErr
     let given = [("stress", full.stress), ("force", full.force)];
     for (name, value) in given {
         let Some(value) = value else { continue };
-        let key = if matches!(spec, CohesionSpec::Stress(_)) { key.to_string() } else { format!("{key}.{name}") };
+        let key =
+            if matches!(spec, CohesionSpec::Stress(_)) { key.to_string() } else { format!("{key}.{name}") };
         number(&key, value, value >= 0.0, "must not be negative")?;
     }
     let strength = match (full.stress, full.force, full.unbreakable) {

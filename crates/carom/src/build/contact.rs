@@ -143,7 +143,8 @@ fn rule(
     let sources = entry.and_then(|entry| entry.sources).or(spec.sources);
     let holding = cohesion::of_pair(spec, found);
     if let (Some((key, _)), Some(Sources::Both), Some(_)) = (&holding, sources, sides) {
-        let message = "what holds is on one side of a pair; choose \"finer\", \"first\" or \"second\" for sources";
+        let message =
+            "what holds is on one side of a pair; choose \"finer\", \"first\" or \"second\" for sources";
         return Err(InputError::new(key.as_str(), message));
     }
     let discretisation = match sides {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use carom_friction::{FrictionLaw, Sliding};
+use carom_friction::{Directional, FrictionLaw, Sliding};
 
 use super::cohesion::first_cohesion;
 use super::values::number;
@@ -43,14 +43,21 @@ fn in_range(key: &str, value: f64) -> Result<f64, InputError> {
     Ok(value)
 }
 
-/// The larger of both coefficients, which are in range.
-pub(super) fn largest(key: &str, spec: &OrthotropicSpec) -> Result<f64, InputError> {
-    for (name, value) in [("along", spec.along), ("across", spec.across)] {
+/// Both coefficients of contacts that have never slid, which are in range.
+pub(super) fn by_direction(key: &str, spec: &OrthotropicSpec) -> Result<[f64; 2], InputError> {
+    let mut both = [0.0; 2];
+    for (found, (name, friction)) in both.iter_mut().zip([("along", &spec.along), ("across", &spec.across)]) {
         let key = format!("{key}.{name}");
-        in_range(&key, value)?;
-        number(&key, value, value > 0.0, "must be greater than 0")?;
+        let law = law(&key, friction)?;
+        let has_memory = matches!(**friction, FrictionSpec::RateAndState(_) | FrictionSpec::Orthotropic(_));
+        if has_memory || law.is_some_and(|law| law.holding().is_some()) {
+            let message = "each direction has a coefficient, a formula, or static and kinetic friction that falls over a speed or a distance";
+            return Err(InputError::new(key, message));
+        }
+        *found = at_rest(&key, friction)?;
+        number(&key, *found, *found > 0.0, "must be greater than 0")?;
     }
-    Ok(spec.along.max(spec.across))
+    Ok(both)
 }
 
 /// The coefficient of contacts that have never slid.
@@ -59,7 +66,9 @@ pub(super) fn at_rest(key: &str, friction: &FrictionSpec) -> Result<f64, InputEr
         Some(law) => in_range(key, law.at_rest()),
         None => match friction {
             FrictionSpec::Coefficient(value) => in_range(key, *value),
-            FrictionSpec::Orthotropic(spec) => largest(key, spec),
+            FrictionSpec::Orthotropic(spec) => {
+                by_direction(key, spec).map(|[along, across]| along.max(across))
+            }
             _ => Ok(0.0),
         },
     }
@@ -68,6 +77,15 @@ pub(super) fn at_rest(key: &str, friction: &FrictionSpec) -> Result<f64, InputEr
 /// The law, if the coefficient is not constant.
 fn law(key: &str, friction: &FrictionSpec) -> Result<Option<Arc<dyn FrictionLaw>>, InputError> {
     Ok(Some(match friction {
+        FrictionSpec::Orthotropic(spec) if friction.is_law() => {
+            by_direction(key, spec)?;
+            let own = |name: &str, friction: &FrictionSpec| -> Result<Arc<dyn FrictionLaw>, InputError> {
+                let law = law(&format!("{key}.{name}"), friction)?;
+                let constant = StaticKineticSpec::constant(at_rest(key, friction)?).law();
+                Ok(law.unwrap_or_else(|| Arc::new(constant)))
+            };
+            Arc::new(Directional { laws: [own("along", &spec.along)?, own("across", &spec.across)?] })
+        }
         FrictionSpec::Coefficient(_) | FrictionSpec::Orthotropic(_) => return Ok(None),
         FrictionSpec::Formula(spec) => {
             let formula = Formula::new(&spec.formula, ["v", "s", "p"]);

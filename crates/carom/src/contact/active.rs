@@ -6,7 +6,7 @@ use carom_mesh::{Matrix, Vector};
 use super::cohering;
 use super::control::CONTROL;
 use super::pressing::Pressing;
-use super::slider::Slider;
+use super::slider::{Slider, slider_of};
 use crate::body::Body;
 use crate::model::assembly::Assembly;
 use crate::model::at_rest::AtRest;
@@ -25,7 +25,7 @@ pub(crate) struct ActiveSet<const D: usize> {
     pub conditions: Vec<ContactCondition>,
     pub weights: Vec<f64>,
     /// The frame that every contact had when it was last evaluated, in this step or as a reaction of the last one; zeros where there is none.
-    frames: Vec<Matrix<D>>,
+    pub(super) frames: Vec<Matrix<D>>,
     pub friction: Vec<f64>,
     /// The contacts of pairs with a friction law, how far their coefficients are from it where none was found that is, and the coefficients to
     /// be tried next.
@@ -219,11 +219,14 @@ impl<const D: usize> ActiveSet<D> {
     /// Turns the frames to where those before were, or to where friction has its directions.
     fn follow_frames(&mut self, given: &Given<'_, D>, motion: &[Vector<D>]) {
         let assembly = given.assembly;
-        let contacts = self.contacts.iter_mut().zip(&mut self.frames);
+        let contacts = self.contacts.iter_mut().zip(&mut self.frames).enumerate();
         let ruled = self.candidates.iter().zip(&self.conditions);
-        for ((contact, frame), (candidate, condition)) in contacts.zip(ruled) {
+        for ((i, (contact, frame)), (candidate, condition)) in contacts.zip(ruled) {
             match assembly.orthotropies.of(candidate.pair, &assembly.contact) {
-                Some(orthotropy) => orthotropy.orient(contact, &evaluated_at(given, motion, *condition)),
+                Some(orthotropy) => {
+                    let by_law = slider_of(&self.sliders, i).and_then(|slider| slider.lengths);
+                    orthotropy.orient(contact, by_law, &evaluated_at(given, motion, *condition));
+                }
                 None => contact.carry_frame(frame),
             }
             *frame = contact.frame;

@@ -56,7 +56,8 @@ pub(crate) fn keep<const D: usize>(
             // What a coefficient that is not that of the law does to the energy.
             kept.certificate += off * r[0].max(0.0) * cone::tangential_norm(&w);
         }
-        let (presses, adhesion) = (r[0] > 0.0, active.adhesions[i]);
+        let adhesion = active.adhesions[i];
+        let presses = r[0] > 0.0 || adhesion.is_some();
         let force = active.acting(i) / active.weights[i];
         contact.add_force(&force, &mut next.contact_force);
         if presses {

@@ -50,20 +50,22 @@ impl<const D: usize> ActiveSet<D> {
         self.adhesions[i].is_some() && given.assembly.is_unbreakable(self.candidates[i].pair)
     }
 
-    /// Looks at where iterations have led, with their last `problem`: a contact that has opened has lost its adhesion, and one that nothing breaks gets so
-    /// much of it that its reaction is inside the cone. Returns whether that changes anything.
-    pub fn let_go(&mut self, given: &Given<'_, D>, problem: &ContactProblem<D>) -> bool {
+    /// Looks at where iterations have led, with their last `problem`, whose motions are of this `size` [m]: a contact that has opened has lost its
+    /// adhesion, and one that nothing breaks gets so much of it that its reaction is inside the cone. Returns whether that changes anything.
+    ///
+    /// At the tip of the cone a contact need not open: where many hold a rigid body, some bear all they can.
+    pub fn let_go(&mut self, given: &Given<'_, D>, problem: &ContactProblem<D>, size: f64) -> bool {
         let mut has_changed = false;
         for i in 0..self.adhesions.len() {
             let (Some(adhesion), r) = (self.adhesions[i], self.reactions[i]) else { continue };
+            let w = problem.motion(i, &self.reactions);
             if !self.is_unbreakable(given, i) {
-                if r[0] <= 0.0 {
+                if r[0] <= 0.0 && w[0] > CONTROL.opens * size {
                     self.adhesions[i] = None;
                     has_changed = true;
                 }
                 continue;
             }
-            let w = problem.motion(i, &self.reactions);
             let across = Vector::<D>::from_fn(|k, _| if k == 0 { 0.0 } else { r[k] }).norm();
             let is_inside = across < self.friction[i] * r[0] * (1.0 - CONTROL.sliding);
             let pull = r.norm() + adhesion + w.norm() * problem.step_length(i);

@@ -3,9 +3,9 @@
 pub(crate) mod active;
 pub(crate) mod candidates;
 pub(crate) mod closing;
+pub(crate) mod cohering;
 pub(crate) mod compliance;
 pub(crate) mod contact_work;
-pub(crate) mod cohering;
 mod control;
 mod coupling;
 pub(crate) mod cross_check;
@@ -162,7 +162,10 @@ impl<const D: usize> Contacts<D> {
 
     /// Whether contacts have lost what held them, or hold by more, where iterations have led: see [`ActiveSet::let_go`].
     pub fn let_go(&mut self, given: &Given<'_, D>) -> bool {
-        self.active.let_go(given, &self.reduced.problem)
+        !self.active.adhesions.iter().all(Option::is_none) && {
+            let size = self.reduced.size(&self.active);
+            self.active.let_go(given, &self.reduced.problem, size)
+        }
     }
 
     /// What massless contacts mean for the balance of blended steps, at a guess.

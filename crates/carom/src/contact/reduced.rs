@@ -9,6 +9,7 @@ use carom_mesh::Vector;
 use super::active::ActiveSet;
 use super::control::CONTROL;
 use super::delassus::Delassus;
+use super::sliding::Posed;
 use crate::body::Body;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
@@ -66,6 +67,11 @@ impl<const D: usize> Reduced<D> {
             known_motion: zeros.clone(),
             change: zeros,
         }
+    }
+
+    /// What residuals of the last problem are relative to [m].
+    pub fn size(&self, active: &ActiveSet<D>) -> f64 {
+        size(&self.problem, &active.reactions)
     }
 
     /// Lists the nodes of every body that these contacts, springs of the model, and springs in K̄, act on.
@@ -175,8 +181,9 @@ impl<const D: usize> Reduced<D> {
         let report = if active.sliders.is_empty() {
             solve(&self.problem, &mut active.reactions)
         } else {
-            let stand_ins = &self.delassus.stand_ins;
-            active.solve_with_laws(given, &self.offsets, stand_ins, &mut self.problem, solve)?
+            let Self { delassus, problem, offsets, guess, .. } = self;
+            let mut posed = Posed { problem, guess, offsets, stand_ins: &mut delassus.stand_ins };
+            active.solve_with_laws(given, &mut posed, solve)?
         };
         self.solved_by = report.solver;
         self.friction_time += time;

@@ -94,6 +94,11 @@ pub struct State<const D: usize> {
 }
 
 impl<const D: usize> State<D> {
+    /// The contacts that hold together.
+    pub fn holding(&self) -> impl Iterator<Item = &Reaction<D>> {
+        self.reactions.iter().filter(|reaction| reaction.adhesion.is_some())
+    }
+
     /// The reaction of the last step with a pair and a site.
     pub(crate) fn reaction(&self, key: (u32, Site)) -> Option<&Reaction<D>> {
         self.reactions.binary_search_by_key(&key, Reaction::key).ok().map(|k| &self.reactions[k])

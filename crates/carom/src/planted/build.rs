@@ -9,9 +9,9 @@ use serde::Deserialize;
 use super::contact::PlantedContact;
 use super::numbering::Numbering;
 use crate::build::Surfaces;
+use crate::build::cohesion::first_cohesion;
 use crate::build::contact::{check_manifold, pairs};
 use crate::build::drive::obstacle_motion;
-use crate::build::cohesion::first_cohesion;
 use crate::build::friction_law::{first_law, first_orthotropic, friction_laws};
 use crate::build::method::{check_solver, stopping};
 use crate::build::mortar::has_mortar;
@@ -65,7 +65,8 @@ impl<const D: usize> PlantedContact<D> {
             return Err(InputError::new(key, message));
         }
         if let Some(key) = first_cohesion(&spec.contact) {
-            let message = "surfaces hold together in the steps of carom alone, which see them let go; leave it out";
+            let message =
+                "surfaces hold together in the steps of carom alone, which see them let go; leave it out";
             return Err(InputError::new(key, message));
         }
         let mut numbering = Numbering::default();

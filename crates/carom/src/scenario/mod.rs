@@ -17,8 +17,8 @@ use serde::{Deserialize, Serialize};
 
 pub use drive::{Axis, Displacement, LoadEntry, LoadSpec, MomentSpec, MotionEntry, MotionSpec};
 
-pub use self::contact::{ContactSpec, PairEntry, SolverSpec, Sources, Targets};
 pub use self::cohesion::CohesionSpec;
+pub use self::contact::{ContactSpec, PairEntry, SolverSpec, Sources, Targets};
 pub use self::friction::{
     FrictionFormulaSpec, FrictionSpec, OrthotropicSpec, RateAndStateSpec, StaticKineticSpec,
 };

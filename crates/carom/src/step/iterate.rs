@@ -39,7 +39,8 @@ pub(super) fn iterate<const D: usize>(
     let mut in_contact = std::mem::take(&mut newton.in_contact);
     in_contact.clear();
     in_contact.extend((0..work.bodies.len()).filter(|&i| contacts.active.touched[i]));
-    let made = if in_contact.is_empty() { Ok(0) } else { iterate_touching(&in_contact, solve, given, next, work) };
+    let made =
+        if in_contact.is_empty() { Ok(0) } else { iterate_touching(&in_contact, solve, given, next, work) };
     work.newton.in_contact = in_contact;
     let mut iterations = made?;
     for i in 0..work.bodies.len() {

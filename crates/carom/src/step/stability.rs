@@ -236,7 +236,8 @@ pub(super) fn about_to_give_way<const D: usize>(
     let state = given.state;
     let in_cones: Vec<_> = state.reactions.iter().map(Reaction::in_cone).collect();
     let reactions = state.reactions.iter().zip(&in_cones);
-    let pressed: Vec<_> = reactions.map(|(r, force)| (&r.contact, force, given.assembly.friction_of(r))).collect();
+    let pressed: Vec<_> =
+        reactions.map(|(r, force)| (&r.contact, force, given.assembly.friction_of(r))).collect();
     for &i in bodies {
         let is_sprung = work.contacts.reduced.delassus.stiffened.is_sprung[i];
         if !is_in_question(i, work) && !is_sprung {

@@ -1,0 +1,101 @@
+"""Surfaces that hold together: Coulomb's cone is shifted by an adhesion until they open."""
+
+import numpy as np
+import pytest
+from cohesive import (
+    GRAVITY,
+    NEAR,
+    area,
+    bouncing,
+    hanging,
+    on_an_incline,
+    pulled_off,
+    sheared,
+)
+from rigid_bodies import run
+
+import carom
+
+STRESS = 1e3
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_block_is_pulled_off_at_its_tensile_strength(tmp_path, dimension):
+    """At c A, to a millionth from both sides, and with nothing left."""
+    limit = STRESS * area(dimension)
+    result = run(tmp_path, pulled_off(dimension, STRESS, limit, condition="gap"))
+    pull = np.abs(result.history["block.top.force_" + "xyz"[dimension - 1]])
+    assert result.summary["status"] == "completed"
+    assert pull[1] == pytest.approx((1 - NEAR) * limit, rel=1e-9)
+    assert pull[2] < 1e-12 * limit
+    assert list(result.history["holding"] > 0) == [True, True, False]
+    assert result.history["normal_force"][1] == pytest.approx(-(1 - NEAR) * limit, rel=1e-9)
+
+
+@pytest.mark.parametrize("condition", ["midpoint", "gap", "endpoint", "massless"])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_block_hangs_until_it_weighs_more_than_its_adhesion(tmp_path, dimension, condition):
+    stress = GRAVITY / area(dimension)
+    held = run(tmp_path, hanging(dimension, stress * (1 + 1e-9), condition))
+    falls = run(tmp_path, hanging(dimension, stress * (1 - 1e-9), condition))
+    height = "block." + "xyz"[dimension - 1]
+    assert np.abs(np.diff(held.history[height])).max() < 1e-14
+    way = falls.history[height] - falls.history[height][0]
+    assert way == pytest.approx(0.5 * GRAVITY * falls.history["time"] ** 2, abs=1e-12)
+    for result in (held, falls):
+        assert result.summary["status"] == "completed"
+        assert result.summary["energy"]["max_defect"] < 1e-13
+        assert np.abs(result.history["normal_contact"]).max() < 1e-13
+
+
+@pytest.mark.parametrize(("strength", "holds"), [(1 + 1e-9, True), (1 - 1e-9, False)])
+def test_a_force_holds_every_contact(tmp_path, strength, holds):
+    cohesion = carom.Cohesion(force=strength * GRAVITY / 5)
+    history = run(tmp_path, hanging(2, cohesion, "midpoint")).history
+    assert bool(np.abs(np.diff(history["block.y"])).max() < 1e-14) is holds
+    assert set(history["holding"][1:]) == ({5.0} if holds else {0.0})
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_cohesion_holds_a_block_beyond_the_angle_of_friction(tmp_path, dimension):
+    """To m g sin α = μ (m g cos α + c A); with less it slides, and friction takes as much."""
+    angle, friction = np.radians(40.0), 0.3
+    wanted = GRAVITY * (np.sin(angle) / friction - np.cos(angle)) / area(dimension)
+    held = run(tmp_path, on_an_incline(dimension, angle, friction, wanted * (1 + 1e-9)))
+    assert np.abs(np.diff(held.history["block.x"])).max() < 1e-13
+    weak = 0.6 * wanted
+    slides = run(tmp_path, on_an_incline(dimension, angle, friction, weak))
+    resists = friction * (GRAVITY * np.cos(angle) + weak * area(dimension))
+    time, x = slides.history["time"], slides.history["block.x"] - slides.history["block.x"][0]
+    assert x == pytest.approx(0.5 * (GRAVITY * np.sin(angle) - resists) * time**2, abs=1e-12)
+    assert slides.history["friction"] == pytest.approx(resists * x, abs=1e-12)
+    assert slides.history["holding"].min() > 0
+    for result in (held, slides):
+        assert result.summary["status"] == "completed"
+        assert result.summary["energy"]["max_defect"] < 1e-13
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_block_is_sheared_off_at_friction_of_pressure_and_cohesion(tmp_path, dimension):
+    """μ (N + c A), whatever its distribution."""
+    friction = 0.4
+    result = run(tmp_path, sheared(dimension, friction, STRESS, condition="gap"))
+    along = np.abs(result.history["block.top.force_x"])[-3:]
+    pressed = np.abs(result.history["normal_force"])[-3:]
+    assert result.summary["status"] == "completed"
+    wanted = friction * (pressed + STRESS * area(dimension))
+    assert along == pytest.approx(wanted, rel=1e-9)
+
+
+@pytest.mark.parametrize("condition", ["midpoint", "gap", "endpoint", "massless"])
+@pytest.mark.parametrize("lasting", [False, True])
+def test_adhesion_does_no_work(tmp_path, condition, lasting):
+    cohesion = carom.Cohesion(stress=2e3, lasting=lasting)
+    result = run(tmp_path, bouncing(2, condition, cohesion))
+    assert result.summary["status"] == "completed"
+    energy = result.summary["energy"]
+    assert energy["max_defect"] < 1e-11 * energy["initial"]
+    assert result.history["friction"][-1] > 0.0
+    assert bool(result.history["holding"].max() > 0) is lasting
+    if condition in {"midpoint", "massless"}:
+        assert np.abs(result.history["normal_contact"]).max() < 1e-11 * energy["initial"]
