@@ -55,9 +55,7 @@ def pulled_off(dimension, cohesion, limit, **contact):
         dimension=dimension,
         analysis=carom.Static(end_time=2.0, time_step=1.0),
         materials={"soft": carom.LinearElastic(young=YOUNG, poisson=0.0, density=1000.0)},
-        bodies=[
-            carom.Body(name="block", material="soft", mesh=rectangle(dimension, [4, 2, 3]))
-        ],
+        bodies=[carom.Body(name="block", material="soft", mesh=rectangle(dimension, [4, 2, 3]))],
         obstacles=[floor(dimension)],
         motions=[carom.Prescribed(body="block", on="top", **held)],
         contact=carom.Contact(cohesion=cohesion, **contact),
@@ -150,4 +148,145 @@ def bouncing(dimension, condition, cohesion, **given):
         obstacles=[floor(dimension)],
         contact=carom.Contact(condition=condition, friction=0.3, cohesion=cohesion),
         output=carom.Output(history_every=5e-4, fields_every=0.1, checkpoint_every=0.01),
+    )
+
+
+GLUED = carom.Cohesion(unbreakable=True)
+
+
+def glued(dimension, divisions, *, analysis, material, velocity=None, **other):
+    """Two blocks of half the height, one on the other, glued; of these cells in either."""
+    bodies = [
+        carom.Body(
+            name=name,
+            material="soft",
+            mesh=rectangle(dimension, own, lift=lift, height=HEIGHT / 2),
+            **({} if velocity is None else velocity(lift)),
+        )
+        for name, own, lift in zip(("lower", "upper"), divisions, (0.0, HEIGHT / 2), strict=True)
+    ]
+    return carom.Scenario(
+        dimension=dimension,
+        analysis=analysis,
+        materials={"soft": material},
+        bodies=bodies,
+        **other,
+    )
+
+
+UNLIKE = {2: ([5, 2], [4, 3]), 3: ([4, 3, 2], [3, 2, 2])}
+"""Cells of two blocks that do not match."""
+
+
+def patch(dimension, kind, discretisation="mortar"):
+    """Glued blocks under uniform tension or shear of 1 Pa, and the largest error of a stress."""
+    up_axis = "xyz"[dimension - 1]
+    sides = "xy"[: dimension - 1]
+    motions, loads = [], []
+    if kind == "tension":
+        motions.append(carom.Fixed(body="lower", on="bottom", components=[up_axis]))
+        for body in ("lower", "upper"):
+            for axis, side in zip(sides, ("left", "front"), strict=False):
+                motions.append(carom.Fixed(body=body, on=side, components=[axis]))
+        loads.append(carom.Traction(body="upper", on="top", traction=up(dimension, 1.0)))
+    else:
+        along = [1.0, *([0.0] * (dimension - 1))]
+        motions.append(carom.Fixed(body="lower", on="bottom"))
+        loads.append(carom.Traction(body="upper", on="top", traction=along))
+        for body in ("lower", "upper"):
+            for side, sign in (("left", -1.0), ("right", 1.0)):
+                traction = up(dimension, sign)
+                loads.append(carom.Traction(body=body, on=side, traction=traction))
+    return glued(
+        dimension,
+        UNLIKE[dimension],
+        analysis=carom.Static(end_time=1.0, time_step=1.0, newton=carom.Newton(tolerance=1e-13)),
+        material=carom.LinearElastic(young=YOUNG, poisson=0.3, density=1000.0),
+        motions=motions,
+        loads=loads,
+        contact=carom.Contact(
+            condition="gap", cohesion=GLUED, discretisation=discretisation, targets="faceted"
+        ),
+        output=carom.Output(fields_every=1.0),
+    )
+
+
+def tumbling(dimension, divisions, condition="midpoint", **contact):
+    """Glued blocks that fly, turn and vibrate: the upper half sets out faster."""
+
+    def velocity(lift):
+        speed = [0.5, *([0.2] * (dimension - 1))]
+        speed[0] += 2.0 * (lift > 0.0)
+        spin = 4.0 if dimension == 2 else [1.0, 3.0, -2.0]
+        return {"velocity": speed, "spin": spin}
+
+    return glued(
+        dimension,
+        divisions,
+        analysis=carom.Dynamic(
+            end_time=0.1,
+            time_step=1e-3,
+            scheme=carom.Conserving(),
+            newton=carom.Newton(tolerance=1e-12),
+        ),
+        material=carom.SaintVenantKirchhoff(young=YOUNG, poisson=0.3, density=1000.0),
+        velocity=velocity,
+        contact=carom.Contact(condition=condition, cohesion=GLUED, **contact),
+        output=carom.Output(history_every=1e-3, fields_every=0.1, checkpoint_every=0.01),
+    )
+
+
+def patch_error(result, dimension, kind):
+    """The largest error of a component of the stress in a cell, relative to the 1 Pa applied."""
+    last = dimension - 1
+    exact = np.zeros((3, 3))
+    if kind == "tension":
+        exact[last, last] = 1.0
+    else:
+        exact[0, last] = exact[last, 0] = 1.0
+    stress = np.asarray(result.fields["stress"][-1])
+    order = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)]
+    wanted = np.array([exact[pair] for pair in order])
+    if dimension == 2:
+        # Plane strain holds the third direction.
+        wanted[2] = 0.3 * (wanted[0] + wanted[1])
+    return np.abs(stress - wanted[: stress.shape[1]]).max()
+
+
+def thrown(dimension, *, is_glued, condition="midpoint"):
+    """A block that is thrown on a floor, as one or as two halves that are glued at their nodes."""
+    half = [4, 2] if dimension == 2 else [3, 2, 2]
+    material = carom.SaintVenantKirchhoff(young=YOUNG, poisson=0.3, density=1000.0)
+    velocity = up(dimension, -1.0)
+    velocity[0] = 0.7
+    if is_glued:
+        parts = [("lower", half, 0.01, HEIGHT / 2), ("upper", half, 0.01 + HEIGHT / 2, HEIGHT / 2)]
+    else:
+        whole = [*half[:-1], 2 * half[-1]]
+        parts = [("whole", whole, 0.01, HEIGHT)]
+    return carom.Scenario(
+        dimension=dimension,
+        analysis=carom.Dynamic(
+            end_time=0.04,
+            time_step=5e-4,
+            scheme=carom.Conserving(),
+            newton=carom.Newton(tolerance=1e-13),
+        ),
+        materials={"soft": material},
+        bodies=[
+            carom.Body(
+                name=name,
+                material="soft",
+                mesh=rectangle(dimension, cells, lift=lift, height=height),
+                velocity=velocity,
+            )
+            for name, cells, lift, height in parts
+        ],
+        obstacles=[floor(dimension)],
+        contact=carom.Contact(
+            condition=condition,
+            friction=0.3,
+            pairs=[carom.Pair(between=["lower", "upper"], cohesion=GLUED)] if is_glued else [],
+        ),
+        output=carom.Output(history_every=5e-4, fields_every=0.04),
     )

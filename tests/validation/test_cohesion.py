@@ -5,12 +5,17 @@ import pytest
 from cohesive import (
     GRAVITY,
     NEAR,
+    UNLIKE,
     area,
     bouncing,
     hanging,
     on_an_incline,
+    patch,
+    patch_error,
     pulled_off,
     sheared,
+    thrown,
+    tumbling,
 )
 from rigid_bodies import run
 
@@ -36,8 +41,8 @@ def test_a_block_is_pulled_off_at_its_tensile_strength(tmp_path, dimension):
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_a_block_hangs_until_it_weighs_more_than_its_adhesion(tmp_path, dimension, condition):
     stress = GRAVITY / area(dimension)
-    held = run(tmp_path, hanging(dimension, stress * (1 + 1e-9), condition))
-    falls = run(tmp_path, hanging(dimension, stress * (1 - 1e-9), condition))
+    held = run(tmp_path, hanging(dimension, stress * (1 + 1e-6), condition))
+    falls = run(tmp_path, hanging(dimension, stress * (1 - 1e-6), condition))
     height = "block." + "xyz"[dimension - 1]
     assert np.abs(np.diff(held.history[height])).max() < 1e-14
     way = falls.history[height] - falls.history[height][0]
@@ -48,7 +53,7 @@ def test_a_block_hangs_until_it_weighs_more_than_its_adhesion(tmp_path, dimensio
         assert np.abs(result.history["normal_contact"]).max() < 1e-13
 
 
-@pytest.mark.parametrize(("strength", "holds"), [(1 + 1e-9, True), (1 - 1e-9, False)])
+@pytest.mark.parametrize(("strength", "holds"), [(1 + 1e-6, True), (1 - 1e-6, False)])
 def test_a_force_holds_every_contact(tmp_path, strength, holds):
     cohesion = carom.Cohesion(force=strength * GRAVITY / 5)
     history = run(tmp_path, hanging(2, cohesion, "midpoint")).history
@@ -61,7 +66,7 @@ def test_cohesion_holds_a_block_beyond_the_angle_of_friction(tmp_path, dimension
     """To m g sin α = μ (m g cos α + c A); with less it slides, and friction takes as much."""
     angle, friction = np.radians(40.0), 0.3
     wanted = GRAVITY * (np.sin(angle) / friction - np.cos(angle)) / area(dimension)
-    held = run(tmp_path, on_an_incline(dimension, angle, friction, wanted * (1 + 1e-9)))
+    held = run(tmp_path, on_an_incline(dimension, angle, friction, wanted * (1 + 1e-6)))
     assert np.abs(np.diff(held.history["block.x"])).max() < 1e-13
     weak = 0.6 * wanted
     slides = run(tmp_path, on_an_incline(dimension, angle, friction, weak))
@@ -84,7 +89,7 @@ def test_a_block_is_sheared_off_at_friction_of_pressure_and_cohesion(tmp_path, d
     pressed = np.abs(result.history["normal_force"])[-3:]
     assert result.summary["status"] == "completed"
     wanted = friction * (pressed + STRESS * area(dimension))
-    assert along == pytest.approx(wanted, rel=1e-9)
+    assert along == pytest.approx(wanted, rel=1e-8)
 
 
 @pytest.mark.parametrize("condition", ["midpoint", "gap", "endpoint", "massless"])
@@ -99,3 +104,38 @@ def test_adhesion_does_no_work(tmp_path, condition, lasting):
     assert bool(result.history["holding"].max() > 0) is lasting
     if condition in {"midpoint", "massless"}:
         assert np.abs(result.history["normal_contact"]).max() < 1e-11 * energy["initial"]
+
+
+@pytest.mark.parametrize("kind", ["tension", "shear"])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_bond_of_unlike_meshes_passes_the_patch_test(tmp_path, dimension, kind):
+    """Uniform tension and shear of 1 Pa pass through mortar rows that nothing breaks."""
+    result = run(tmp_path, patch(dimension, kind))
+    assert result.summary["status"] == "completed"
+    assert patch_error(result, dimension, kind) < 1e-10
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_blocks_that_are_glued_keep_momenta_and_energy(tmp_path, dimension):
+    result = run(tmp_path, tumbling(dimension, UNLIKE[dimension], discretisation="mortar"))
+    history = result.history
+    assert result.summary["status"] == "completed"
+    energy = result.summary["energy"]
+    assert np.ptp(history["total"]) < 1e-10 * energy["initial"]
+    assert energy["max_defect"] < 1e-10 * energy["initial"]
+    for name in [name for name in history if name.startswith(("momentum", "angular"))]:
+        size = max(np.abs(history[name]).max(), 1.0)
+        assert np.ptp(history[name]) < 1e-9 * size, name
+    assert history["holding"].min() == history["holding"].max() > 0
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_halves_that_are_glued_at_their_nodes_move_as_one(tmp_path, dimension):
+    """Thrown on a floor, beside the same mesh in one piece."""
+    halves, whole = (
+        run(tmp_path, thrown(dimension, is_glued=is_glued)).history for is_glued in (True, False)
+    )
+    initial = whole["total"][0]
+    assert np.ptp(whole["strain"]) > 0.05 * initial
+    for name in ("kinetic", "strain", "friction"):
+        assert halves[name] == pytest.approx(whole[name], abs=1e-8 * initial), name

@@ -49,7 +49,7 @@ class Cohesion(Description):
             )
         if self.unbreakable and self.lasting:
             raise problem(
-                "what nothing breaks holds from the start on; leave one of \"lasting\" and "
+                'what nothing breaks holds from the start on; leave one of "lasting" and '
                 '"unbreakable" out',
                 key="lasting",
                 value=self.lasting,

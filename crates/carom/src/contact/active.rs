@@ -39,6 +39,9 @@ pub(crate) struct ActiveSet<const D: usize> {
     pub interferences: Vec<[f64; 2]>,
     /// What holds every contact together [N] beside its reaction; none where nothing does.
     pub adhesions: Vec<Option<f64>>,
+    /// Those that nothing breaks, as they were made, with their places; and by how much more some have to hold [N].
+    pub(super) bonds: Vec<(usize, Contact<D>)>,
+    pub(super) more: Vec<(usize, f64)>,
     /// Reactions [N] that the step starts with, in the frame of the last step.
     pub start_forces: Vec<Vector<D>>,
     /// The velocities [m/s] at which contacts of rigid pairs meet, in their frames; zeros of others: see [`Self::meet`].
@@ -97,10 +100,8 @@ impl<const D: usize> ActiveSet<D> {
                 at_start.gap < -inside && contact.is_beyond(c, at_start, inside, &start, search)
             };
             let closed = closed(c);
-            let active = !c.redundant
-                && method.condition.is_active(gap, closed)
-                && answers(assembly, at_start)
-                && !is_beyond();
+            let takes_part = || !c.redundant && method.condition.is_active(gap, closed) && !is_beyond();
+            let active = answers(assembly, at_start) && (state.is_bond(c.key(), assembly) || takes_part());
             if active {
                 let stays = gap < 0.0
                     && !starts_from_nothing
@@ -108,7 +109,10 @@ impl<const D: usize> ActiveSet<D> {
                         || !map.is_static() && is_stuck(c, at_start, gap));
                 self.interferences.push(interference);
                 self.adhesions.push(cohering::adhesion(given, c, at_start, gap <= closed));
-                self.start_gaps.push(given.condition_of(c.pair).start_gap(gap, closed, stays));
+                let condition = given.condition_of(c.pair);
+                // What holds neither closes nor opens.
+                let holds = self.adhesions.last().is_some_and(Option::is_some) && !condition.rules_gaps();
+                self.start_gaps.push(if holds { 0.0 } else { condition.start_gap(gap, closed, stays) });
             }
             active
         });
@@ -128,6 +132,7 @@ impl<const D: usize> ActiveSet<D> {
         self.touched.copy_from_slice(&given.assembly.is_connected);
         self.conditions.clear();
         self.weights.clear();
+        self.bonds.clear();
         for (candidate, adhesion) in self.candidates.iter().zip(&self.adhesions) {
             let known = given.state.reaction(candidate.key());
             let force = known.map_or_else(Vector::zeros, |r| r.force);
@@ -145,6 +150,9 @@ impl<const D: usize> ActiveSet<D> {
             let is_bond = adhesion.is_some() && given.assembly.is_unbreakable(candidate.pair);
             let own = if given.assembly.can_slide(candidate) { pair.friction } else { 0.0 };
             self.friction.push(if is_bond { OF_BONDS } else { own });
+            if let (true, Some(known)) = (is_bond, known) {
+                self.bonds.push((self.reactions.len() - 1, known.contact.clone()));
+            }
             touch(&mut self.touched, &pair);
         }
         self.recall_sliding(given);
@@ -176,12 +184,15 @@ impl<const D: usize> ActiveSet<D> {
 
     /// Evaluates the contacts at the configurations of their conditions.
     fn place(&mut self, given: &Given<'_, D>, motion: &[Vector<D>]) {
-        let Self { candidates, conditions, mortar, contacts, .. } = self;
+        let Self { candidates, conditions, mortar, contacts, bonds, .. } = self;
         contacts.clear();
         for alike in conditions.chunk_by(|a, b| a == b) {
             let candidates = &candidates[contacts.len()..][..alike.len()];
             let position = evaluated_at(given, motion, alike[0]);
             given.assembly.contact.evaluate_more(candidates, &position, mortar, contacts);
+        }
+        for (i, bond) in bonds {
+            contacts[*i] = bond.moved(&evaluated_at(given, motion, conditions[*i]));
         }
     }
 

@@ -36,6 +36,7 @@ pub(crate) fn keep<const D: usize>(
     let assembly = given.assembly;
     let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
     assembly.contact.evaluate_all(&active.candidates, &end, &mut active.mortar, at_end);
+    active.tie(at_end, &end);
     for ((contact, before), [_, h1]) in at_end.iter_mut().zip(&active.contacts).zip(&active.interferences) {
         contact.gap -= h1;
         contact.carry_frame(&before.frame);

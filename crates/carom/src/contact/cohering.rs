@@ -46,33 +46,58 @@ impl<const D: usize> ActiveSet<D> {
     }
 
     /// Whether contact `i` holds, and nothing breaks it.
-    pub fn is_unbreakable(&self, given: &Given<'_, D>, i: usize) -> bool {
-        self.adhesions[i].is_some() && given.assembly.is_unbreakable(self.candidates[i].pair)
+    pub fn is_bond(&self, i: usize) -> bool {
+        self.bonds.binary_search_by_key(&i, |(k, _)| *k).is_ok()
+    }
+
+    /// Puts contacts that nothing breaks among `contacts` as they were made, where nodes are at `position`: their stencils do not change, so that what they
+    /// tie stays where it was, and no momentum is lost.
+    pub fn tie(&self, contacts: &mut [Contact<D>], position: &impl Fn(u32) -> Vector<D>) {
+        for (i, bond) in &self.bonds {
+            contacts[*i] = bond.moved(position);
+        }
+    }
+
+    /// Gives contacts that nothing breaks so much adhesion that their reactions are inside the cone, after a solution of the `problem`; `guess` is what
+    /// bodies know of the reactions. Returns whether that changes anything.
+    pub fn hold_on(&mut self, problem: &mut ContactProblem<D>, guess: &mut [Vector<D>]) -> bool {
+        self.more.clear();
+        for (i, _) in &self.bonds {
+            let (r, w) = (self.reactions[*i], problem.motion(*i, &self.reactions));
+            let across = Vector::<D>::from_fn(|k, _| if k == 0 { 0.0 } else { r[k] }).norm();
+            let is_inside = across < self.friction[*i] * r[0] * (1.0 - CONTROL.sliding);
+            let pull = r.norm() + w.norm() * problem.step_length(*i);
+            if !is_inside && pull > 0.0 {
+                self.more.push((*i, CONTROL.grip * pull));
+            }
+        }
+        for &(i, more) in &self.more {
+            self.adhesions[i] = self.adhesions[i].map(|adhesion| adhesion + more / self.weights[i]);
+            self.reactions[i][0] += more;
+            guess[i][0] += more;
+            for (j, q) in problem.q.iter_mut().enumerate() {
+                if let Some(block) = problem.w.block(j, i) {
+                    *q -= block.column(0) * more;
+                }
+            }
+        }
+        !self.more.is_empty()
     }
 
     /// Looks at where iterations have led, with their last `problem`, whose motions are of this `size` [m]: a contact that has opened has lost its
-    /// adhesion, and one that nothing breaks gets so much of it that its reaction is inside the cone. Returns whether that changes anything.
+    /// adhesion. Returns whether there are such.
     ///
     /// At the tip of the cone a contact need not open: where many hold a rigid body, some bear all they can.
-    pub fn let_go(&mut self, given: &Given<'_, D>, problem: &ContactProblem<D>, size: f64) -> bool {
+    pub fn let_go(&mut self, problem: &ContactProblem<D>, size: f64) -> bool {
         let mut has_changed = false;
         for i in 0..self.adhesions.len() {
-            let (Some(adhesion), r) = (self.adhesions[i], self.reactions[i]) else { continue };
-            let w = problem.motion(i, &self.reactions);
-            if !self.is_unbreakable(given, i) {
-                if r[0] <= 0.0 && w[0] > CONTROL.opens * size {
+            let holds = self.adhesions[i].is_some() && !self.is_bond(i);
+            if holds && self.reactions[i][0] <= 0.0 {
+                let opens = problem.motion(i, &self.reactions)[0] > CONTROL.opens * size;
+                has_changed |= opens;
+                if opens {
                     self.adhesions[i] = None;
-                    has_changed = true;
                 }
-                continue;
-            }
-            let across = Vector::<D>::from_fn(|k, _| if k == 0 { 0.0 } else { r[k] }).norm();
-            let is_inside = across < self.friction[i] * r[0] * (1.0 - CONTROL.sliding);
-            let pull = r.norm() + adhesion + w.norm() * problem.step_length(i);
-            if !is_inside && pull > 0.0 {
-                self.adhesions[i] = Some(adhesion + CONTROL.grip * pull);
-                self.reactions[i][0] += CONTROL.grip * pull * self.weights[i];
-                has_changed = true;
             }
         }
         has_changed

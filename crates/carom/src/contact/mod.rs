@@ -160,11 +160,11 @@ impl<const D: usize> Contacts<D> {
         self.reduced.solve(given, &mut self.active, motion, error, bodies)
     }
 
-    /// Whether contacts have lost what held them, or hold by more, where iterations have led: see [`ActiveSet::let_go`].
-    pub fn let_go(&mut self, given: &Given<'_, D>) -> bool {
+    /// Whether contacts have lost what held them where iterations have led: see [`ActiveSet::let_go`].
+    pub fn let_go(&mut self) -> bool {
         !self.active.adhesions.iter().all(Option::is_none) && {
             let size = self.reduced.size(&self.active);
-            self.active.let_go(given, &self.reduced.problem, size)
+            self.active.let_go(&self.reduced.problem, size)
         }
     }
 

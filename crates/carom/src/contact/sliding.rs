@@ -35,7 +35,7 @@ impl<const D: usize> ActiveSet<D> {
         }
         for (i, candidate) in self.candidates.iter().enumerate() {
             let pair = assembly.contact.pairs.get(candidate.pair as usize);
-            if self.is_unbreakable(given, i) {
+            if self.is_bond(i) {
                 continue;
             }
             let Some(law) = assembly.friction_laws.of(&pair).filter(|_| assembly.can_slide(candidate)) else {

@@ -335,7 +335,11 @@ impl<const D: usize> Stiffened<D> {
         let contacts = active.candidates.iter().zip(&active.contacts).zip(active.all_acting());
         for (k, ((candidate, contact), r)) in contacts.enumerate() {
             let is_fixed = active.at_kink.get(k).is_some_and(|at_kink| *at_kink);
-            if is_fixed || r == Vector::<D>::zeros() || contact_model.is_mortar(candidate.pair as usize) {
+            if is_fixed
+                || active.is_bond(k)
+                || r == Vector::<D>::zeros()
+                || contact_model.is_mortar(candidate.pair as usize)
+            {
                 continue;
             }
             let weight = active.conditions[k].evaluation_weight();

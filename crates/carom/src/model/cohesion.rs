@@ -63,7 +63,7 @@ impl Cohesions {
 
 impl<const D: usize> Assembly<D> {
     /// What holds a contact of a pair together as long as it is closed [N], where nodes are at `position`; none where nothing does. What nothing
-    /// breaks begins with 0.
+    /// breaks begins with the least there is.
     pub(crate) fn adhesion(
         &self,
         (pair, site): (u32, Site),
@@ -72,7 +72,7 @@ impl<const D: usize> Assembly<D> {
     ) -> Option<f64> {
         let pair = self.contact.pairs.get(pair as usize);
         let adhesion = match self.cohesions.of(&pair)?.strength {
-            Strength::Unbreakable => return Some(0.0),
+            Strength::Unbreakable => return Some(f64::MIN_POSITIVE),
             Strength::Force(force) => force,
             Strength::Stress(stress) => {
                 stress

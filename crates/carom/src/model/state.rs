@@ -94,6 +94,11 @@ pub struct State<const D: usize> {
 }
 
 impl<const D: usize> State<D> {
+    /// Whether a contact holds that nothing breaks.
+    pub(crate) fn is_bond(&self, key: (u32, Site), assembly: &Assembly<D>) -> bool {
+        assembly.is_unbreakable(key.0) && self.reaction(key).is_some_and(|r| r.adhesion.is_some())
+    }
+
     /// The contacts that hold together.
     pub fn holding(&self) -> impl Iterator<Item = &Reaction<D>> {
         self.reactions.iter().filter(|reaction| reaction.adhesion.is_some())

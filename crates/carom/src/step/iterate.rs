@@ -51,8 +51,7 @@ pub(super) fn iterate<const D: usize>(
     Ok(iterations)
 }
 
-/// [`iterate`] for the `bodies` in contact, again and again, until everything that opens has let go. It ends: what lets go does so for good, and what
-/// nothing breaks holds by many times more each time.
+/// [`iterate`] for the `bodies` in contact, again and again, until everything that opens has let go. It ends, as what lets go does so for good.
 fn iterate_touching<const D: usize>(
     bodies: &[usize],
     solve: Solve<D>,
@@ -61,7 +60,7 @@ fn iterate_touching<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
     let mut iterations = solve(bodies, given, next, work)?;
-    while work.contacts.let_go(given) {
+    while work.contacts.let_go() {
         work.newton.begin(given.assembly, &work.motion);
         iterations += solve(bodies, given, next, work)?;
     }

@@ -101,6 +101,7 @@ fn by_reactions<const D: usize>(
             own.map_or(place, |x| place + x * (sign * step))
         };
         assembly.contact.evaluate_all(&active.candidates, &position, &mut mortar, &mut moved);
+        active.tie(&mut moved, &position);
         for ((moved, contact), r) in moved.iter_mut().zip(&active.contacts).zip(active.all_acting()) {
             moved.carry_frame(&contact.frame);
             moved.add_force(&(r * (-sign / (2.0 * step))), &mut forces);
