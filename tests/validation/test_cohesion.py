@@ -20,6 +20,7 @@ from cohesive import (
 from rigid_bodies import run
 
 import carom
+from carom.building.build import build
 
 STRESS = 1e3
 
@@ -139,3 +140,72 @@ def test_halves_that_are_glued_at_their_nodes_move_as_one(tmp_path, dimension):
     assert np.ptp(whole["strain"]) > 0.05 * initial
     for name in ("kinetic", "strain", "friction"):
         assert halves[name] == pytest.approx(whole[name], abs=1e-8 * initial), name
+
+
+def test_what_holds_is_there_after_a_restart():
+    """A block that is about to let go of the floor goes on to the last bit."""
+    case = bouncing(2, "midpoint", carom.Cohesion(stress=2e4, lasting=True))
+    whole, other = build(case), build(case)
+    whole.advance(0.04, np.inf)
+    other.restore(whole.checkpoint())
+    assert whole.checkpoint()["state/reactions/adhesion"].max() > 0.0
+    for run_on in (whole, other):
+        run_on.advance(0.1, np.inf)
+    last, wanted = other.checkpoint(), whole.checkpoint()
+    kept = [name for name in wanted if name.startswith("state/")]
+    assert [name for name in kept if not np.array_equal(last[name], wanted[name])] == []
+
+
+def test_what_cannot_hold_is_refused():
+    def refused(match, cohesion, change=None, **contact):
+        case = thrown(2, is_glued=True)
+        pair = carom.Pair(between=["lower", "upper"], cohesion=cohesion)
+        case = case.model_copy(update={"contact": carom.Contact(pairs=[pair], **contact)})
+        with pytest.raises(carom.InputError, match=match):
+            build(case if change is None else change(case))
+
+    refused("what holds is on one side of a pair", 1e3, sources="both")
+    refused("cells of second order, whose nodes have no pressure", 1e3, of_second_order)
+    with pytest.raises(carom.InputError, match='give one of "stress", "force" and "unbreakable"'):
+        carom.Cohesion()
+    with pytest.raises(carom.InputError, match='leave one of "lasting" and "unbreakable" out'):
+        carom.Cohesion(unbreakable=True, lasting=True)
+    itself = carom.Pair(between=["lower", "lower"], cohesion=1e3)
+    case = thrown(2, is_glued=True)
+    with pytest.raises(carom.InputError, match="does not hold on to itself"):
+        build(case.model_copy(update={"contact": carom.Contact(pairs=[itself])}))
+
+
+def of_second_order(case):
+    """Return the case with cells of second order in its first body."""
+    first = case.bodies[0]
+    mesh = first.mesh.model_copy(update={"cell": "quad8"})
+    return case.model_copy(
+        update={"bodies": (first.model_copy(update={"mesh": mesh}), *case.bodies[1:])}
+    )
+
+
+def test_loops_of_others_do_not_hold():
+    surface = carom.contact.Surface("block", [[0, 1]])
+    floor = carom.Plane(name="floor", point=[0.0, 0.0], normal=[0.0, 1.0])
+    pair = carom.Pair(between=["block", "floor"], cohesion=1e3)
+    with pytest.raises(carom.InputError, match="only runs of carom have it"):
+        carom.contact.ContactModel([[0.0, 0.0], [1.0, 0.0]], [surface], [floor], pairs=[pair])
+    mass = carom.ForeignBody(
+        "mass",
+        [[0.0, 0.0], [1.0, 0.0]],
+        [[0, 1]],
+        mass=np.eye(4),
+        energy=lambda _: 0.0,
+        force=np.zeros_like,
+        stiffness=lambda _: np.zeros((4, 4)),
+    )
+    contact = carom.Contact(cohesion=1e3)
+    with pytest.raises(carom.InputError, match="bodies of other codes do not hold together"):
+        carom.ForeignRun([mass], [floor], time_step=0.1, contact=contact)
+
+
+def test_the_audit_refuses_what_holds(tmp_path):
+    result = run(tmp_path, hanging(2, 20.0, "midpoint"))
+    with pytest.raises(carom.InputError, match="cannot audit surfaces that hold together yet"):
+        carom.audit(result.path)

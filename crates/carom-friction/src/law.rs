@@ -220,6 +220,18 @@ mod tests {
     }
 
     #[test]
+    fn each_direction_has_its_law_and_the_larger_coefficient_is_told() {
+        let laws: [Arc<dyn FrictionLaw>; 2] =
+            [Arc::new(law(Weakening::OverDistance(1.0), 0.0)), Arc::new(law(Weakening::OverSpeed(0.1), 1.0))];
+        let both = Directional { laws };
+        let sliding = Sliding { speed: 2.0, distance: 0.5, ..Sliding::default() };
+        assert_eq!(both.by_direction(&sliding), Some([0.35, 0.2 + 0.3 * (-20.0_f64).exp() + 2.0]));
+        assert_eq!(both.coefficient(&sliding), 0.2 + 0.3 * (-20.0_f64).exp() + 2.0);
+        assert!(both.depends_on_speed() && !both.depends_on_pressure());
+        assert_eq!((both.at_rest(), both.holding()), (0.5, None));
+    }
+
+    #[test]
     fn static_friction_that_is_kinetic_does_not_jump() {
         let same = StaticKinetic { static_coefficient: 0.2, ..law(Weakening::AtOnce, 0.1) };
         assert_eq!((same.holding(), same.at_rest()), (None, 0.2));

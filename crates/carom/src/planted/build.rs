@@ -64,11 +64,6 @@ impl<const D: usize> PlantedContact<D> {
             let message = "friction that depends on the motion needs the steps of carom, which give it a fixed point; give a coefficient";
             return Err(InputError::new(key, message));
         }
-        if let Some(key) = first_cohesion(&spec.contact) {
-            let message =
-                "surfaces hold together in the steps of carom alone, which see them let go; leave it out";
-            return Err(InputError::new(key, message));
-        }
         let mut numbering = Numbering::default();
         let mut owner: BTreeMap<u32, &str> = BTreeMap::new();
         let (mut members, mut sides, mut model) = (Vec::new(), Vec::new(), ContactModel::default());
@@ -153,6 +148,10 @@ pub(super) fn assembled<const D: usize>(
     mut model: ContactModel<D>,
     mut surfaces: Surfaces<D>,
 ) -> Result<Assembly<D>, InputError> {
+    if let Some(key) = first_cohesion(&spec.contact) {
+        let message = "surfaces of bodies of other codes do not hold together; leave it out";
+        return Err(InputError::new(key, message));
+    }
     let mut motions = Vec::new();
     let size = members.iter().map(|m| m.diameter).fold(0.0, f64::max);
     for (i, entry) in spec.obstacles.iter().enumerate() {
