@@ -45,6 +45,14 @@ impl<const D: usize> ActiveSet<D> {
         (0..self.reactions.len()).map(|i| self.acting(i))
     }
 
+    /// Lets these reactions act, with the adhesion that there is now.
+    pub fn act(&mut self, acting: &[Vector<D>]) {
+        self.reactions.copy_from_slice(acting);
+        for ((r, adhesion), weight) in self.reactions.iter_mut().zip(&self.adhesions).zip(&self.weights) {
+            r[0] += adhesion.unwrap_or(0.0) * weight;
+        }
+    }
+
     /// Whether contact `i` holds, and nothing breaks it.
     pub fn is_bond(&self, i: usize) -> bool {
         self.bonds.binary_search_by_key(&i, |(k, _)| *k).is_ok()

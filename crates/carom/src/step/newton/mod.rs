@@ -89,7 +89,8 @@ impl<const D: usize> Newton<D> {
         for nodes in bodies.iter().map(|&i| assembly.nodes(i)) {
             self.guess[nodes.clone()].copy_from_slice(&motion[nodes]);
         }
-        self.guess_reactions.clone_from(&active.reactions);
+        self.guess_reactions.clear();
+        self.guess_reactions.extend(active.all_acting());
     }
 
     /// Goes back to that guess.
@@ -103,7 +104,7 @@ impl<const D: usize> Newton<D> {
         for nodes in bodies.iter().map(|&i| assembly.nodes(i)) {
             motion[nodes.clone()].copy_from_slice(&self.guess[nodes]);
         }
-        active.reactions.clone_from(&self.guess_reactions);
+        active.act(&self.guess_reactions);
     }
 
     /// Leaves out of the correction what is left alone.
