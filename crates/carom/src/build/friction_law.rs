@@ -182,14 +182,10 @@ pub(crate) fn friction_laws<const D: usize>(
 /// If one does, and a body has no pressure at its nodes.
 pub(super) fn bearing<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Result<Bearing, InputError> {
     let by_stress = model.assembly.cohesions.all().any(|c| matches!(c.strength, Strength::Stress(_)));
-    let (key, wanted, cure) = if model.assembly.friction_laws.depend_on_pressure() {
-        (first_law(&scenario.contact), "friction that depends on the pressure", "leave p out")
-    } else if by_stress {
-        (first_cohesion(&scenario.contact), "cohesion as a stress", "give the force of a contact")
-    } else {
+    let by_pressure = model.assembly.friction_laws.depend_on_pressure();
+    if !by_pressure && !by_stress {
         return Ok(Bearing::default());
-    };
-    let key = key.unwrap_or_default();
+    }
     for (b, entry) in model.bodies.iter().zip(&scenario.bodies) {
         let quadratic = b.body.surface().facets().iter().any(|facet| facet.kind.is_quadratic());
         let why = if entry.round {
@@ -199,8 +195,16 @@ pub(super) fn bearing<const D: usize>(scenario: &Scenario, model: &Model<D>) -> 
         } else {
             continue;
         };
-        let message = format!("{wanted}: body {:?} {why}, or {cure}", b.name);
-        return Err(InputError::new(key, message));
+        let (key, message) = if by_pressure {
+            let message =
+                format!("friction that depends on the pressure: body {:?} {why}, or leave p out", b.name);
+            (first_law(&scenario.contact), message)
+        } else {
+            let message =
+                format!("cohesion as a stress: body {:?} {why}, or give the force of a contact", b.name);
+            (first_cohesion(&scenario.contact), message)
+        };
+        return Err(InputError::new(key.unwrap_or_default(), message));
     }
     Ok(Bearing::of(model.bodies.iter().map(|b| &**b)))
 }

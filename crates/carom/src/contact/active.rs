@@ -3,7 +3,6 @@
 use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Target};
 use carom_mesh::{Matrix, Vector};
 
-use super::cohering;
 use super::control::CONTROL;
 use super::pressing::Pressing;
 use super::slider::{Slider, slider_of};
@@ -108,7 +107,7 @@ impl<const D: usize> ActiveSet<D> {
                     && (contact.is_two_sided(c.pair as usize)
                         || !map.is_static() && is_stuck(c, at_start, gap));
                 self.interferences.push(interference);
-                self.adhesions.push(cohering::adhesion(given, c, at_start, gap <= closed));
+                self.adhesions.push(given.adhesion(c, at_start, gap <= closed));
                 let condition = given.condition_of(c.pair);
                 // What holds neither closes nor opens.
                 let holds = self.adhesions.last().is_some_and(Option::is_some) && !condition.rules_gaps();

@@ -3,34 +3,12 @@
 //! The reactions of the reduced problem are in the cone; what acts on bodies is less by the adhesion. So the problem is that of Signorini and Coulomb
 //! whatever holds, and no solver knows of it.
 
-use carom_contact::{Candidate, Contact};
+use carom_contact::Contact;
 use carom_friction::ContactProblem;
 use carom_mesh::Vector;
 
 use super::active::ActiveSet;
 use super::control::CONTROL;
-use crate::model::given::Given;
-
-/// What holds a contact together in a step [N] that is like this at its start, where it `is_closed` or not; none if nothing does.
-pub(super) fn adhesion<const D: usize>(
-    given: &Given<'_, D>,
-    candidate: &Candidate,
-    at_start: &Contact<D>,
-    is_closed: bool,
-) -> Option<f64> {
-    let Given { assembly, state, .. } = *given;
-    if assembly.cohesions.are_none() {
-        return None;
-    }
-    let known = state.reaction(candidate.key())?;
-    let cohesion = assembly.cohesions.of(&assembly.contact.pairs.get(candidate.pair as usize))?;
-    if known.adhesion.is_none() && !(cohesion.lasting && is_closed) {
-        return None;
-    }
-    let adhesion = assembly.adhesion(candidate.key(), at_start, &|n| given.position(n))?;
-    // What nothing breaks has held so much before.
-    Some(adhesion.max(known.adhesion.filter(|_| assembly.is_unbreakable(candidate.pair)).unwrap_or(0.0)))
-}
 
 impl<const D: usize> ActiveSet<D> {
     /// What of the reaction of contact `i` acts on its bodies, as the reduced problem has it: less than that is in the cone.

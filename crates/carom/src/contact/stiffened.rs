@@ -176,10 +176,8 @@ impl<const D: usize> Stiffened<D> {
         state: &State<D>,
         bodies: &mut [Box<dyn Body<D>>],
     ) {
-        let holding = state
-            .reactions
-            .iter()
-            .map(|r| (&r.contact, held_directions(&r.in_cone(), assembly.friction_of(r))));
+        let holding =
+            state.reactions.iter().map(|r| (&r.contact, held_directions(&r.in_cone(), r.friction(assembly))));
         self.spring_from((assembly, &state.displacement), holding, bodies);
     }
 

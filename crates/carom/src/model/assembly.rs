@@ -1,17 +1,16 @@
 use std::ops::Range;
 
-use carom_contact::{Boundaries, Candidate, ContactModel, Pair, Site, Solid, Target};
+use carom_contact::{Boundaries, Candidate, Contact, ContactModel, Pair, Site, Solid, Target};
 use carom_mesh::{Surface, Vector};
 
 use crate::model::bearing::Bearing;
-use crate::model::cohesion::{Cohesions, OF_BONDS};
+use crate::model::cohesion::Cohesions;
 use crate::model::friction_laws::FrictionLaws;
 use crate::model::interference::{Interference, Interferences};
 use crate::model::obstacle_motion::ObstacleMotion;
 use crate::model::orthotropy::Orthotropies;
 use crate::model::restitution::Restitutions;
 use crate::model::springs::Spring;
-use crate::model::state::Reaction;
 
 /// More pairs than these are not listed: where hundreds of bodies may touch, most never come near one another, and no one reads of all.
 pub(crate) const MANY_PAIRS: usize = 1000;
@@ -278,12 +277,20 @@ impl<const D: usize> Assembly<D> {
         NamedPair { between: self.names(between), friction: friction.unwrap_or_default() }
     }
 
-    /// The friction coefficient of a contact that pressed; of a law that of contacts that have never slid.
-    pub(crate) fn friction_of(&self, reaction: &Reaction<D>) -> f64 {
-        if reaction.adhesion.is_some() && self.is_unbreakable(reaction.pair) {
-            return OF_BONDS;
-        }
-        self.contact.pairs.get(reaction.pair as usize).friction
+    /// What holds a contact of a pair together as long as it is closed [N]: see [`Cohesions::adhesion`].
+    pub(crate) fn adhesion(
+        &self,
+        (pair, site): (u32, Site),
+        contact: &Contact<D>,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Option<f64> {
+        let pair = self.contact.pairs.get(pair as usize);
+        self.cohesions.adhesion((&pair, site), contact, &self.bearing, position)
+    }
+
+    /// Whether nothing breaks the contacts of a pair, given by its number, that hold.
+    pub(crate) fn is_unbreakable(&self, pair: u32) -> bool {
+        !self.cohesions.are_none() && self.cohesions.is_unbreakable(&self.contact.pairs.get(pair as usize))
     }
 
     /// Whether the nodes of body `index` that may touch have no mass.

@@ -2,7 +2,7 @@ use carom_contact::{Contact, Pair, Site, Target};
 use carom_mesh::Vector;
 
 use crate::ledger::ByPair;
-use crate::model::assembly::Assembly;
+use crate::model::bearing::Bearing;
 
 /// The friction coefficient of contacts that nothing breaks: any will do, as what holds them grows with what pulls.
 pub(crate) const OF_BONDS: f64 = 1.0;
@@ -59,40 +59,36 @@ impl Cohesions {
         }
         *self.own.get(pair.between()).unwrap_or(&self.default)
     }
-}
 
-impl<const D: usize> Assembly<D> {
-    /// What holds a contact of a pair together as long as it is closed [N], where nodes are at `position`; none where nothing does. What nothing
-    /// breaks begins with the least there is.
-    pub(crate) fn adhesion(
-        &self,
-        (pair, site): (u32, Site),
-        contact: &Contact<D>,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> Option<f64> {
-        let pair = self.contact.pairs.get(pair as usize);
-        let adhesion = match self.cohesions.of(&pair)?.strength {
-            Strength::Unbreakable => return Some(f64::MIN_POSITIVE),
-            Strength::Force(force) => force,
-            Strength::Stress(stress) => {
-                stress
-                    * match site {
-                        Site::Node(node) => {
-                            let pushes = contact.frame.row(0).transpose();
-                            self.bearing.area(node as usize, &pushes, position)
-                        }
-                        Site::Multiplier(..) => contact.area * self.bearing.depth(pair.source),
-                        // What no node stands for has no area of its own.
-                        _ => 0.0,
-                    }
-            }
-        };
-        (adhesion > 0.0).then_some(adhesion)
+    /// Whether nothing breaks the contacts of a pair that hold.
+    #[must_use]
+    pub fn is_unbreakable(&self, pair: &Pair) -> bool {
+        self.of(pair).is_some_and(|cohesion| cohesion.strength == Strength::Unbreakable)
     }
 
-    /// Whether nothing breaks the contacts of a pair, given by its number, that hold.
-    pub(crate) fn is_unbreakable(&self, pair: u32) -> bool {
-        let cohesion = || self.cohesions.of(&self.contact.pairs.get(pair as usize));
-        !self.cohesions.are_none() && cohesion().is_some_and(|c| c.strength == Strength::Unbreakable)
+    /// What holds a contact of a pair together as long as it is closed [N], where nodes are at `position`; none where nothing does. What nothing
+    /// breaks begins with the least there is.
+    pub(crate) fn adhesion<const D: usize>(
+        &self,
+        (pair, site): (&Pair, Site),
+        contact: &Contact<D>,
+        bearing: &Bearing,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Option<f64> {
+        let area = || match site {
+            Site::Node(node) => {
+                let pushes = contact.frame.row(0).transpose();
+                bearing.area(node as usize, &pushes, position)
+            }
+            Site::Multiplier(..) => contact.area * bearing.depth(pair.source),
+            // What no node stands for has no area of its own.
+            _ => 0.0,
+        };
+        let adhesion = match self.of(pair)?.strength {
+            Strength::Unbreakable => f64::MIN_POSITIVE,
+            Strength::Force(force) => force,
+            Strength::Stress(stress) => stress * area(),
+        };
+        (adhesion > 0.0).then_some(adhesion)
     }
 }

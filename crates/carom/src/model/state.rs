@@ -7,6 +7,7 @@ use carom_mesh::{Vector, nodal};
 use crate::body::{Body, BodyState};
 use crate::ledger::Energies;
 use crate::model::assembly::Assembly;
+use crate::model::cohesion::OF_BONDS;
 use crate::model::sliding::SlidingRecord;
 
 /// A contact that pressed in the last step.
@@ -39,6 +40,14 @@ impl<const D: usize> Reaction<D> {
         let mut r = self.force;
         r[0] += self.adhesion.unwrap_or(0.0);
         r
+    }
+
+    /// Its friction coefficient; of a law that of contacts that have never slid.
+    pub(crate) fn friction(&self, assembly: &Assembly<D>) -> f64 {
+        if self.adhesion.is_some() && assembly.is_unbreakable(self.pair) {
+            return OF_BONDS;
+        }
+        assembly.contact.pairs.get(self.pair as usize).friction
     }
 
     /// The candidate that it was.

@@ -238,7 +238,7 @@ pub(super) fn about_to_give_way<const D: usize>(
     let in_cones: Vec<_> = state.reactions.iter().map(Reaction::in_cone).collect();
     let reactions = state.reactions.iter().zip(&in_cones);
     let pressed: Vec<_> =
-        reactions.map(|(r, force)| (&r.contact, force, given.assembly.friction_of(r))).collect();
+        reactions.map(|(r, force)| (&r.contact, force, r.friction(given.assembly))).collect();
     for &i in bodies {
         let is_sprung = work.contacts.reduced.delassus.stiffened.is_sprung[i];
         if !is_in_question(i, work) && !is_sprung {
