@@ -44,17 +44,25 @@ impl<const D: usize> ActiveSet<D> {
         }
     }
 
-    /// Gives contacts that nothing breaks so much adhesion that their reactions are inside the cone, after a solution of the `problem`; `guess` is what
-    /// bodies know of the reactions. Returns whether that changes anything.
+    /// Gives contacts that nothing breaks so much adhesion that their reactions are inside the cone, after a solution of the `problem`, and no more than
+    /// they need, as what is in the cone is known to so many digits; `guess` is what bodies know of the reactions. Returns whether some hold by more.
     pub fn hold_on(&mut self, problem: &mut ContactProblem<D>, guess: &mut [Vector<D>]) -> bool {
         self.more.clear();
-        for (i, _) in &self.bonds {
-            let (r, w) = (self.reactions[*i], problem.motion(*i, &self.reactions));
-            let across = Vector::<D>::from_fn(|k, _| if k == 0 { 0.0 } else { r[k] }).norm();
-            let is_inside = across < self.friction[*i] * r[0] * (1.0 - CONTROL.sliding);
-            let pull = r.norm() + w.norm() * problem.step_length(*i);
+        let mut has_grown = false;
+        for k in 0..self.bonds.len() {
+            let i = self.bonds[k].0;
+            let (r, stops) = (self.reactions[i], problem.motion(i, &self.reactions) * problem.step_length(i));
+            // What is left of the motion must not lead out of the cone: at its tip the solver leaves what is as good as nothing.
+            let tried = r - stops;
+            let across = Vector::<D>::from_fn(|k, _| if k == 0 { 0.0 } else { tried[k] }).norm();
+            let is_inside = across < self.friction[i] * tried[0] * (1.0 - CONTROL.sliding);
+            let (pull, acts) = (r.norm() + stops.norm(), self.acting(i));
+            let adhesion = r[0] - acts[0];
             if !is_inside && pull > 0.0 {
-                self.more.push((*i, CONTROL.grip * pull));
+                has_grown = true;
+                self.more.push((i, CONTROL.grip * pull));
+            } else if adhesion > CONTROL.grip * CONTROL.grip * acts.norm() && acts.norm() > 0.0 {
+                self.more.push((i, CONTROL.grip * acts.norm() - adhesion));
             }
         }
         for &(i, more) in &self.more {
@@ -67,7 +75,7 @@ impl<const D: usize> ActiveSet<D> {
                 }
             }
         }
-        !self.more.is_empty()
+        has_grown
     }
 
     /// Looks at where iterations have led, with their last `problem`, whose motions are of this `size` [m]: a contact that has opened has lost its
