@@ -18,6 +18,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "validation"))
 
 from sections import (
     bars,
+    cohesion,
     conservation,
     cylinders,
     damping,
@@ -52,6 +53,7 @@ PARTS = {
     "ironing": statics.ironing_section,
     "static scenes": statics.scenes_section,
     "friction laws": friction_laws.section,
+    "cohesion": cohesion.section,
     "springs": springs.section,
     "materials": materials.materials_section,
     "modes": materials.modes_section,

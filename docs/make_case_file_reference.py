@@ -19,10 +19,9 @@ import annotated_types
 from generated import write_or_check
 from pydantic.fields import FieldInfo
 
-from carom import Scenario, StaticKinetic, Table
+from carom import Scenario, Table
 from carom.case.description import PER_DIMENSION, Description, InPlane, InSpace, Name
 from carom.case.docstrings import documented, summary
-from carom.case.friction import Coefficient
 from carom.case.schema import case_file_schema
 
 PAGE = Path(__file__).with_name("case-file.md")
@@ -183,10 +182,10 @@ def type_of(field: FieldInfo) -> str:  # noqa: PLR0911 (one per type)
     annotation, asked = parts(field)
     if annotation in PLAIN:
         return PLAIN[annotation]
-    if StaticKinetic in models(annotation):
-        return "number or table"
     if Table in models(annotation):
         return "D signals" if PER_DIMENSION in asked else "signal"
+    if number_beside_tables(annotation):
+        return "number or table"
     if get_origin(annotation) is Literal:
         return PLAIN[type(get_args(annotation)[0])]
     if get_origin(annotation) is tuple:
@@ -214,12 +213,21 @@ SIGNS = {
 }
 
 
+def number_beside_tables(annotation: object) -> list[object]:
+    """Return what is asked of the number that may stand in place of tables; nothing if none may."""
+    tables = models(annotation)
+    for part in get_args(annotation) if tables and Table not in tables else ():
+        if get_origin(part) is Annotated and get_args(part)[0] is float:
+            outer = get_args(part)[1:]
+            return [rule for field in outer for rule in getattr(field, "metadata", ())]
+    return []
+
+
 def allowed(field: FieldInfo) -> str:
     """Return what values a field may have, beyond its type."""
     annotation, asked = parts(field)
     rules = []
-    if StaticKinetic in models(annotation):
-        asked += get_args(Coefficient)[-1].metadata
+    asked += number_beside_tables(annotation)
     if get_origin(annotation) is Literal:
         rules.append(", ".join(f"`{json.dumps(value)}`" for value in get_args(annotation)))
     if get_origin(annotation) is tuple:

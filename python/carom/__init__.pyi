@@ -15,6 +15,7 @@ from carom.case.body import InitialStress as InitialStress
 from carom.case.body import ReducedBody as ReducedBody
 from carom.case.body import Region as Region
 from carom.case.body import RigidBody as RigidBody
+from carom.case.cohesion import Cohesion as Cohesion
 from carom.case.contact import Contact as Contact
 from carom.case.contact import FrictionSolver as FrictionSolver
 from carom.case.contact import Pair as Pair

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from runs import simulate
+from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import carom
@@ -122,3 +123,49 @@ def errors(angle: float, pull: float, **given) -> tuple[float, float, float]:
     found, wanted = pulled(angle, pull, **given)[0], closed_form(angle, pull, grain)
     turned = math.remainder(found.angle - wanted.angle, 2 * math.pi)
     return found.way / wanted.way - 1.0, found.taken / wanted.taken - 1.0, turned
+
+
+def thrown(
+    friction: carom.OrthotropicFriction, velocity: list[float], step: float
+) -> carom.Scenario:
+    """A block that slides on the floor from rest of its turn, and is slowed by friction alone."""
+    return carom.Scenario(
+        dimension=3,
+        analysis=carom.Dynamic(
+            end_time=0.1,
+            time_step=step,
+            scheme=carom.Conserving(),
+            gravity=[0.0, 0.0, -GRAVITY],
+        ),
+        output=carom.Output(history_every=0.01, fields_every=1.0),
+        bodies=[
+            carom.RigidBody(
+                name="block",
+                mass=MASS,
+                mesh=carom.Box(corner=[-0.5, -0.5, 0.0], size=[1.0, 1.0, 0.1], divisions=[1, 1, 1]),
+                velocity=[*velocity, 0.0],
+            )
+        ],
+        obstacles=[carom.Plane(name="floor", point=[0.0] * 3, normal=[0.0, 0.0, 1.0])],
+        contact=carom.Contact(
+            condition="midpoint",
+            pairs=[carom.Pair(between=["block", "floor"], friction=friction)],
+        ),
+    )
+
+
+def slowed(along, across, velocity: list[float], times: np.ndarray) -> np.ndarray:
+    """Velocities of what friction slows whose coefficients are functions of the speed.
+
+    v' = −g M² d/|M d| by an independent integrator, shape [count, 2].
+    """
+    turn = np.array([[math.cos(GRAIN), math.sin(GRAIN)], [-math.sin(GRAIN), math.cos(GRAIN)]])
+
+    def rate(_time, v):
+        speed = float(np.linalg.norm(v))
+        d = turn @ v / speed
+        limits = np.array([along(speed), across(speed)])
+        return -GRAVITY * turn.T @ (limits**2 * d) / np.linalg.norm(limits * d)
+
+    found = solve_ivp(rate, (0.0, times[-1]), velocity, t_eval=times, rtol=1e-12, atol=1e-13)
+    return found.y.T

@@ -160,3 +160,56 @@ def test_painleves_rod_jams_and_closes_its_books_with_every_law(tmp_path, law, c
     assert np.diff(result.history["friction"]).min() > -1e-10 * size
     # No finite force stops its tip: it is one step.
     assert result.history["rod.v_x"][1] > -0.7 * painleve.SPEED
+
+
+GRAINED = {"direction": [math.cos(GRAIN), math.sin(GRAIN), 0.0], "of": "floor"}
+
+
+def test_each_direction_may_have_its_own_law():
+    """Viscous along, weaker with speed across: beside v' = −g M² d/|M d|, at second order."""
+    along = carom.StaticKinetic(kinetic=0.15, viscous=0.3)
+    across = carom.FrictionFormula(formula="0.1 + 0.4*exp(-v/0.5)")
+    friction = carom.OrthotropicFriction(along=along, across=across, **GRAINED)
+    worst = []
+    for step in (2e-3, 1e-3):
+        history = orthotropic.simulate(orthotropic.thrown(friction, [0.8, 0.7], step)).history
+        found = np.stack([history["block.v_x"], history["block.v_y"]], axis=-1)
+        wanted = orthotropic.slowed(
+            lambda v: 0.15 + 0.3 * v,
+            lambda v: 0.1 + 0.4 * math.exp(-v / 0.5),
+            [0.8, 0.7],
+            history["time"],
+        )
+        worst.append(np.abs(found - wanted).max())
+        assert history["friction_defect"].max() < 1e-10
+        assert np.abs(history["defect"]).max() < 1e-12
+        assert history["certificate"].max() < 1e-12
+    assert worst[1] < 1e-6
+    assert worst[0] / worst[1] == pytest.approx(4.0, rel=0.1)
+
+
+def test_laws_that_say_the_same_everywhere_are_coefficients():
+    cases = []
+    for along, across in ((0.15, 0.45), (carom.FrictionFormula(formula="0.15"), 0.45)):
+        friction = carom.OrthotropicFriction(along=along, across=across, **GRAINED)
+        cases.append(orthotropic.simulate(orthotropic.thrown(friction, [0.8, 0.7], 2e-3)).history)
+    for column in ("block.v_x", "block.v_y", "friction"):
+        assert cases[0][column] == pytest.approx(cases[1][column], abs=1e-11)
+
+
+def test_a_soft_block_with_a_law_for_each_direction_closes_its_books():
+    friction = carom.OrthotropicFriction(
+        along=0.1, across=carom.FrictionFormula(formula="0.2 + 0.3*v"), **GRAINED
+    )
+    run = orthotropic.simulate(soft_block(friction))
+    initial = run.summary["energy"]["initial"]
+    assert np.diff(run.history["friction"]).min() > -1e-10 * initial
+    assert np.abs(run.history["defect"]).max() < 1e-10 * initial
+    assert run.history["friction_defect"].max() < 1e-6
+
+
+def test_laws_of_a_direction_that_jump_are_refused():
+    jump = carom.StaticKinetic(static=0.5, kinetic=0.2)
+    friction = carom.OrthotropicFriction(along=0.1, across=jump, **GRAINED)
+    with pytest.raises(carom.InputError, match="each direction has a coefficient, a formula, or"):
+        orthotropic.simulate(soft_block(friction))

@@ -98,6 +98,13 @@ impl<const D: usize> Contact<D> {
         }
     }
 
+    /// Makes the tangents so many times as long.
+    pub fn stretch_tangents(&mut self, by: [f64; 2]) {
+        for (k, by) in (1..D).zip(by) {
+            self.frame.row_mut(k).scale_mut(by);
+        }
+    }
+
     /// The components of a `force` [N] in the frame: the reaction whose force it is.
     #[must_use]
     pub fn components(&self, force: &Vector<D>) -> Vector<D> {

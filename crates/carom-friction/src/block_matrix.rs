@@ -83,6 +83,19 @@ impl<const D: usize> BlockMatrix<D> {
         self.columns[range.clone()].iter().map(|&c| c as usize).zip(&self.blocks[range])
     }
 
+    /// Multiplies the components of row `i` and of column `i` by `factors`.
+    pub fn scale(&mut self, i: usize, factors: &Vector<D>) {
+        for k in self.starts[i]..self.starts[i + 1] {
+            self.blocks[k] = Matrix::from_diagonal(factors) * self.blocks[k];
+        }
+        for row in 0..self.row_count() {
+            let columns = self.starts[row]..self.starts[row + 1];
+            if let Ok(k) = self.columns[columns.clone()].binary_search(&(i as u32)) {
+                self.blocks[columns.start + k] *= Matrix::from_diagonal(factors);
+            }
+        }
+    }
+
     /// Whether every block is the transpose of its mirror image, but for round-off.
     #[must_use]
     pub fn is_symmetric(&self) -> bool {

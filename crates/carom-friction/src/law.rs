@@ -4,6 +4,7 @@
 //! motion that the contact problem has with this μ.
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 /// How a contact slides.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -25,6 +26,11 @@ pub trait FrictionLaw: Debug + Send + Sync {
 
     /// μ up to which a contact holds that sticks, where it jumps to [`Self::coefficient`] as soon as the contact slides.
     fn holding(&self) -> Option<f64> {
+        None
+    }
+
+    /// μ along and across the direction of friction, where they differ; [`Self::coefficient`] is the larger one.
+    fn by_direction(&self, _sliding: &Sliding) -> Option<[f64; 2]> {
         None
     }
 
@@ -98,6 +104,33 @@ impl FrictionLaw for StaticKinetic {
 
     fn depends_on_speed(&self) -> bool {
         matches!(self.weakening, Weakening::OverSpeed(_)) || self.viscous != 0.0
+    }
+}
+
+/// Friction of which each of two directions has its own law. None of these jumps, and none has a state variable.
+#[derive(Debug, Clone)]
+pub struct Directional {
+    /// The laws along and across.
+    pub laws: [Arc<dyn FrictionLaw>; 2],
+}
+
+impl FrictionLaw for Directional {
+    fn coefficient(&self, sliding: &Sliding) -> f64 {
+        // What is no number is no coefficient, whichever of both it is.
+        let [along, across] = self.laws.each_ref().map(|law| law.coefficient(sliding));
+        if across.is_nan() { across } else { along.max(across) }
+    }
+
+    fn by_direction(&self, sliding: &Sliding) -> Option<[f64; 2]> {
+        Some(self.laws.each_ref().map(|law| law.coefficient(sliding)))
+    }
+
+    fn depends_on_speed(&self) -> bool {
+        self.laws.iter().any(|law| law.depends_on_speed())
+    }
+
+    fn depends_on_pressure(&self) -> bool {
+        self.laws.iter().any(|law| law.depends_on_pressure())
     }
 }
 
@@ -184,6 +217,18 @@ mod tests {
         let expected = 0.6 + 0.01 * 3.0_f64.ln() + 0.015 * 1.5_f64.ln();
         assert!((steady(2e-3) - expected).abs() < 1e-15);
         assert!((law.at_rest() - (0.6 + 0.015 * 21.0_f64.ln())).abs() < 1e-15);
+    }
+
+    #[test]
+    fn each_direction_has_its_law_and_the_larger_coefficient_is_told() {
+        let laws: [Arc<dyn FrictionLaw>; 2] =
+            [Arc::new(law(Weakening::OverDistance(1.0), 0.0)), Arc::new(law(Weakening::OverSpeed(0.1), 1.0))];
+        let both = Directional { laws };
+        let sliding = Sliding { speed: 2.0, distance: 0.5, ..Sliding::default() };
+        assert_eq!(both.by_direction(&sliding), Some([0.35, 0.2 + 0.3 * (-20.0_f64).exp() + 2.0]));
+        assert_eq!(both.coefficient(&sliding), 0.2 + 0.3 * (-20.0_f64).exp() + 2.0);
+        assert!(both.depends_on_speed() && !both.depends_on_pressure());
+        assert_eq!((both.at_rest(), both.holding()), (0.5, None));
     }
 
     #[test]

@@ -69,7 +69,7 @@ pub use block_matrix::BlockMatrix;
 pub use gauss_seidel::{GaussSeidel, Local};
 pub use global::{GlobalMethod, GlobalProblem, GlobalReport, SingularMatrix};
 pub use kind::SolverKind;
-pub use law::{FrictionLaw, RateAndState, Sliding, StaticKinetic, Weakening};
+pub use law::{Directional, FrictionLaw, RateAndState, Sliding, StaticKinetic, Weakening};
 pub use problem::ContactProblem;
 pub use projected_gradient::ProjectedGradient;
 pub use proximal::{NewtonAlartCurnier, NewtonNaturalMap, Proximal};

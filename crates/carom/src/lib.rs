@@ -46,6 +46,7 @@ pub use ledger::{BodyLedger, Books, Energies, Ledger, PairLedger};
 pub use model::Model;
 pub use model::assembly::{Assembly, Member, NamedPair};
 pub use model::bearing::Bearing;
+pub use model::cohesion::{Cohesion, Cohesions, Strength};
 pub use model::condition::ContactCondition;
 pub use model::friction_laws::FrictionLaws;
 pub use model::interference::{Interference, Overlap};

@@ -22,6 +22,7 @@ from carom.auditing.springs import AuditSpring, build_spring
 from carom.auditing.supports import Supports
 from carom.case.analysis import Conserving, Static, Theta
 from carom.case.body import AnyBody, Body, ReducedBody, RigidBody
+from carom.case.cohesion import holds
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 
@@ -260,6 +261,8 @@ def _refuse_what_is_driven(scenario: Scenario) -> None:
         raise InputError("cannot audit loads on a body that does not deform freely yet")
     if any(pair.interference is not None for pair in scenario.contact.pairs):
         raise InputError("cannot audit a pair with an interference yet")
+    if any(map(holds, (scenario.contact.cohesion, *(p.cohesion for p in scenario.contact.pairs)))):
+        raise InputError("cannot audit surfaces that hold together yet")
     if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):
         raise InputError("cannot audit the steps of a reduced body yet, as with output.audit")
     if any(isinstance(body, RigidBody) and body.round for body in scenario.bodies):

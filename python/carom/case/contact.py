@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from typing_extensions import Self
 
+from carom.case.cohesion import Holding
 from carom.case.description import Count, Description, Number, Positive, Share
 from carom.case.friction import Friction
 from carom.case.signal import Signal
@@ -76,6 +77,9 @@ class Pair(Description):
     restitution
         Coefficient of restitution e of two rigid bodies, or of a rigid one and an obstacle; None
         takes the default of `Contact`.
+    cohesion
+        What holds the two together: a stress [Pa] or a `Cohesion`; None takes the default of
+        `Contact`, 0 is none.
     sources
         Whose nodes are checked, as seen from `between`; None takes the default of `Contact`.
     discretisation
@@ -95,6 +99,7 @@ class Pair(Description):
     between: tuple[str, ...]
     friction: Friction | None = None
     restitution: Restitution | None = None
+    cohesion: Holding | None = None
     sources: Sources | None = None
     discretisation: Discretisation | None = None
     interference: Signal | None = None
@@ -131,6 +136,10 @@ class Contact(Description):
         Coefficient of restitution e of every pair of what is rigid that does not state its own,
         with the condition ``endpoint``: what meets at v_n parts at -e v_n (Moreau), and friction
         acts against the velocity that is left. None is 0.
+    cohesion
+        What holds every pair together that does not state its own, where it touches: a tensile
+        strength [Pa], or a `Cohesion`. Such pairs are checked from one side, `sources` or else the
+        finer, and their bodies keep their mass. None is none.
     solver
         Solver of the reduced contact problem.
     sources
@@ -172,6 +181,7 @@ class Contact(Description):
     condition: Condition = "massless"
     friction: Friction = 0.0
     restitution: Restitution | None = None
+    cohesion: Holding | None = None
     solver: FrictionSolver = FrictionSolver()
     sources: Sources | None = None
     targets: Literal["smooth", "faceted"] = "smooth"

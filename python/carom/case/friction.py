@@ -117,6 +117,22 @@ class FrictionFormula(Description):
     formula: str
 
 
+def _form_of_one(value: object) -> str:
+    """Return which of the forms of a direction's friction a value has."""
+    if isinstance(value, FrictionFormula) or (isinstance(value, Mapping) and "formula" in value):
+        return "[formula]"
+    return "[law]" if isinstance(value, Mapping | StaticKinetic) else "[coefficient]"
+
+
+OfDirection = Annotated[
+    Annotated[Number, Field(gt=0, le=1000), Tag("[coefficient]")]
+    | Annotated[StaticKinetic, Tag("[law]")]
+    | Annotated[FrictionFormula, Tag("[formula]")],
+    Discriminator(_form_of_one),
+]
+"""Friction of one direction: a coefficient, or a law that does not jump."""
+
+
 class OrthotropicFriction(Description):
     """Friction that depends on the direction, of pairs in space.
 
@@ -127,9 +143,11 @@ class OrthotropicFriction(Description):
     Parameters
     ----------
     along
-        Coefficient μ₁ along `direction`, greater than 0.
+        Coefficient μ₁ along `direction`, greater than 0, or a law of it: a `FrictionFormula`, or
+        `StaticKinetic` with a speed or a distance. Laws know the speed and distance of slip
+        whichever way it goes.
     across
-        Coefficient μ₂ across it, greater than 0.
+        Coefficient μ₂ across it, likewise.
     direction
         Direction in the reference configuration, of any length, shape [3]. Its part along the
         surface counts.
@@ -138,8 +156,8 @@ class OrthotropicFriction(Description):
         line drawn on its surface, or an obstacle.
     """
 
-    along: Annotated[Number, Field(gt=0, le=1000)]
-    across: Annotated[Number, Field(gt=0, le=1000)]
+    along: OfDirection
+    across: OfDirection
     direction: SpaceVector
     of: str
 
@@ -175,8 +193,8 @@ def friction_text(friction: float | FrictionLaw) -> str:
     if isinstance(friction, FrictionFormula):
         return friction.formula
     if isinstance(friction, OrthotropicFriction):
-        along, across = friction.along, friction.across
-        return f"{along:g} along {list(friction.direction)} of {friction.of}, {across:g} across"
+        along, across = friction_text(friction.along), friction_text(friction.across)
+        return f"{along} along {list(friction.direction)} of {friction.of}, {across} across"
     if isinstance(friction, StaticKinetic | RateAndState):
         given = friction.model_dump(exclude_defaults=True)
         return ", ".join(f"{key} {value:g}" for key, value in given.items())

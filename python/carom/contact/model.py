@@ -394,6 +394,7 @@ def check_names(
         refused: Mapping[str, object] = {
             "interference": pair.interference,
             "restitution": pair.restitution,
+            "cohesion": pair.cohesion,
             "resolve_overlap": pair.resolve_overlap,
         }
         for what, value in refused.items():

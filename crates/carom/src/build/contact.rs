@@ -6,6 +6,7 @@ use carom_contact::{
 use carom_fem::Hypothesis;
 use carom_mesh::Vector;
 
+use super::cohesion;
 use super::friction_law::at_rest;
 use super::mortar::{discretisation, has_mortar};
 use super::obstacle::{Surfaces, obstacle};
@@ -140,13 +141,19 @@ fn rule(
         None => at_rest("contact.friction", &spec.friction)?,
     };
     let sources = entry.and_then(|entry| entry.sources).or(spec.sources);
+    let holding = cohesion::of_pair(spec, found);
+    if let (Some((key, _)), Some(Sources::Both), Some(_)) = (&holding, sources, sides) {
+        let message =
+            "what holds is on one side of a pair; choose \"finer\", \"first\" or \"second\" for sources";
+        return Err(InputError::new(key.as_str(), message));
+    }
     let discretisation = match sides {
         Some(sides) => discretisation(spec, found, sources, sides)?,
         None => Discretisation::NodeToSegment,
     };
     // Neither side sees all that the other does. But multipliers are on one.
     let directions = match (sources, swapped) {
-        (None, _) if discretisation == Discretisation::Mortar => Directions::Finer,
+        (None, _) if discretisation == Discretisation::Mortar || holding.is_some() => Directions::Finer,
         (Some(Sources::Finer), _) => Directions::Finer,
         (None | Some(Sources::Both), _) => Directions::Both,
         (Some(Sources::First), false) | (Some(Sources::Second), true) => Directions::Forward,
@@ -223,6 +230,7 @@ mod tests {
             resolve_overlap: false,
             overlap_resolved_at: None,
             restitution: None,
+            cohesion: None,
             pairs: Vec::new(),
         };
         let side = Side { touches_itself: false, facet_width: 1.0, mass: 1.0 };

@@ -2,14 +2,16 @@
 
 use std::sync::Arc;
 
-use carom_friction::{FrictionLaw, Sliding};
+use carom_friction::{Directional, FrictionLaw, Sliding};
 
+use super::cohesion::first_cohesion;
 use super::values::number;
 use crate::Formula;
 use crate::error::InputError;
 use crate::model::Model;
 use crate::model::assembly::Assembly;
 use crate::model::bearing::Bearing;
+use crate::model::cohesion::Strength;
 use crate::model::friction_laws::{FrictionLaws, MAX_FRICTION};
 use crate::scenario::{
     ContactSpec, FrictionSpec, OrthotropicSpec, RateAndStateSpec, Scenario, StaticKineticSpec,
@@ -41,14 +43,21 @@ fn in_range(key: &str, value: f64) -> Result<f64, InputError> {
     Ok(value)
 }
 
-/// The larger of both coefficients, which are in range.
-pub(super) fn largest(key: &str, spec: &OrthotropicSpec) -> Result<f64, InputError> {
-    for (name, value) in [("along", spec.along), ("across", spec.across)] {
+/// Both coefficients of contacts that have never slid, which are in range.
+pub(super) fn by_direction(key: &str, spec: &OrthotropicSpec) -> Result<[f64; 2], InputError> {
+    let mut both = [0.0; 2];
+    for (found, (name, friction)) in both.iter_mut().zip([("along", &spec.along), ("across", &spec.across)]) {
         let key = format!("{key}.{name}");
-        in_range(&key, value)?;
-        number(&key, value, value > 0.0, "must be greater than 0")?;
+        let law = law(&key, friction)?;
+        let has_memory = matches!(**friction, FrictionSpec::RateAndState(_) | FrictionSpec::Orthotropic(_));
+        if has_memory || law.is_some_and(|law| law.holding().is_some()) {
+            let message = "each direction has a coefficient, a formula, or static and kinetic friction that falls over a speed or a distance";
+            return Err(InputError::new(key, message));
+        }
+        *found = at_rest(&key, friction)?;
+        number(&key, *found, *found > 0.0, "must be greater than 0")?;
     }
-    Ok(spec.along.max(spec.across))
+    Ok(both)
 }
 
 /// The coefficient of contacts that have never slid.
@@ -57,7 +66,9 @@ pub(super) fn at_rest(key: &str, friction: &FrictionSpec) -> Result<f64, InputEr
         Some(law) => in_range(key, law.at_rest()),
         None => match friction {
             FrictionSpec::Coefficient(value) => in_range(key, *value),
-            FrictionSpec::Orthotropic(spec) => largest(key, spec),
+            FrictionSpec::Orthotropic(spec) => {
+                by_direction(key, spec).map(|[along, across]| along.max(across))
+            }
             _ => Ok(0.0),
         },
     }
@@ -66,6 +77,15 @@ pub(super) fn at_rest(key: &str, friction: &FrictionSpec) -> Result<f64, InputEr
 /// The law, if the coefficient is not constant.
 fn law(key: &str, friction: &FrictionSpec) -> Result<Option<Arc<dyn FrictionLaw>>, InputError> {
     Ok(Some(match friction {
+        FrictionSpec::Orthotropic(spec) if friction.is_law() => {
+            by_direction(key, spec)?;
+            let own = |name: &str, friction: &FrictionSpec| -> Result<Arc<dyn FrictionLaw>, InputError> {
+                let law = law(&format!("{key}.{name}"), friction)?;
+                let constant = StaticKineticSpec::constant(at_rest(key, friction)?).law();
+                Ok(law.unwrap_or_else(|| Arc::new(constant)))
+            };
+            Arc::new(Directional { laws: [own("along", &spec.along)?, own("across", &spec.across)?] })
+        }
         FrictionSpec::Coefficient(_) | FrictionSpec::Orthotropic(_) => return Ok(None),
         FrictionSpec::Formula(spec) => {
             let formula = Formula::new(&spec.formula, ["v", "s", "p"]);
@@ -156,15 +176,16 @@ pub(crate) fn friction_laws<const D: usize>(
     Ok(laws)
 }
 
-/// The areas by which laws have their pressure; none where no law depends on it.
+/// The areas by which laws have their pressure, and cohesion its force; none where nothing asks for them.
 ///
 /// # Errors
 /// If one does, and a body has no pressure at its nodes.
 pub(super) fn bearing<const D: usize>(scenario: &Scenario, model: &Model<D>) -> Result<Bearing, InputError> {
-    if !model.assembly.friction_laws.depend_on_pressure() {
+    let by_stress = model.assembly.cohesions.all().any(|c| matches!(c.strength, Strength::Stress(_)));
+    let by_pressure = model.assembly.friction_laws.depend_on_pressure();
+    if !by_pressure && !by_stress {
         return Ok(Bearing::default());
     }
-    let key = first_law(&scenario.contact).unwrap_or_default();
     for (b, entry) in model.bodies.iter().zip(&scenario.bodies) {
         let quadratic = b.body.surface().facets().iter().any(|facet| facet.kind.is_quadratic());
         let why = if entry.round {
@@ -174,9 +195,16 @@ pub(super) fn bearing<const D: usize>(scenario: &Scenario, model: &Model<D>) -> 
         } else {
             continue;
         };
-        let message =
-            format!("friction that depends on the pressure: body {:?} {why}, or leave p out", b.name);
-        return Err(InputError::new(key, message));
+        let (key, message) = if by_pressure {
+            let message =
+                format!("friction that depends on the pressure: body {:?} {why}, or leave p out", b.name);
+            (first_law(&scenario.contact), message)
+        } else {
+            let message =
+                format!("cohesion as a stress: body {:?} {why}, or give the force of a contact", b.name);
+            (first_cohesion(&scenario.contact), message)
+        };
+        return Err(InputError::new(key.unwrap_or_default(), message));
     }
     Ok(Bearing::of(model.bodies.iter().map(|b| &**b)))
 }

@@ -1,6 +1,7 @@
 //! From a scenario to a model, a method and the state at t = 0. Everything that can be wrong is found here.
 
 mod body;
+pub(crate) mod cohesion;
 pub(crate) mod contact;
 pub(crate) mod drive;
 pub(crate) mod friction_law;
@@ -76,6 +77,7 @@ pub(crate) fn start<const D: usize>(
         ),
     };
     state.time = time;
+    cohesion::bond(&model.assembly, &mut state);
     if state.is_finite() {
         return Ok(state);
     }
@@ -148,6 +150,7 @@ pub(crate) fn built<const D: usize>(
     let mut model = restitution::restitution(scenario, model)?;
     let is_static = method.scheme == Scheme::Static;
     model.assembly.friction_laws = friction_laws(&scenario.contact, is_static, &model.assembly)?;
+    model.assembly.cohesions = cohesion::cohesions(&scenario.contact, &model.assembly)?;
     model.assembly.bearing = friction_law::bearing(scenario, &model)?;
     model.assembly.orthotropies = orthotropy::orthotropies(scenario, &model)?;
     if scenario.analysis.starts_from_nothing() {

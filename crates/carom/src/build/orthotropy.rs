@@ -6,7 +6,7 @@ use carom_contact::Solid;
 use carom_mesh::{Matrix, Vector};
 use nalgebra::DMatrix;
 
-use super::friction_law::largest;
+use super::friction_law::by_direction;
 use super::values::vector;
 use crate::ModelBody;
 use crate::error::InputError;
@@ -25,7 +25,7 @@ pub(super) fn orthotropies<const D: usize>(
 ) -> Result<Orthotropies<D>, InputError> {
     let refuse = |key: String, message: String| Err(InputError::new(key, message));
     if let FrictionSpec::Orthotropic(spec) = &scenario.contact.friction {
-        largest("contact.friction", spec)?;
+        by_direction("contact.friction", spec)?;
         let message = "friction that depends on the direction needs a surface that carries it; give it to pairs, by [[contact.pairs]]";
         return refuse("contact.friction".into(), message.into());
     }
@@ -33,7 +33,7 @@ pub(super) fn orthotropies<const D: usize>(
     for (k, entry) in scenario.contact.pairs.iter().enumerate() {
         let Some(FrictionSpec::Orthotropic(spec)) = &entry.friction else { continue };
         let key = format!("contact.pairs.{k}.friction");
-        let largest = largest(&key, spec)?;
+        let both = by_direction(&key, spec)?;
         if D < 3 {
             let message =
                 "the plane has one direction to slide in; give a coefficient, or build the case in space";
@@ -64,7 +64,8 @@ pub(super) fn orthotropies<const D: usize>(
             }
             Solid::Body(i) => carried(&model.bodies[i], &direction),
         };
-        own.insert(between, Orthotropy { lengths: [spec.along / largest, spec.across / largest], grain });
+        let largest = both[0].max(both[1]);
+        own.insert(between, Orthotropy { lengths: both.map(|mu| mu / largest), grain });
     }
     Ok(Orthotropies { own })
 }

@@ -3,14 +3,16 @@
 
 use carom_mesh::{Mesh, Surface, Vector};
 
+use super::cohesion::holds;
 use super::places;
 use super::values::vector;
 use crate::scenario::{AnalysisKind, BodyEntry, BodyKind, PairEntry, Scenario};
 
 /// Whether a body with this `mesh`, whose `surface` may touch, can do without the mass of that.
 ///
-/// It cannot if it is no body of finite elements, if it grows, if springs or masses are attached there, or if its friction depends on the motion,
-/// which nodes in static balance do not have. A static stage before or after one with massless contact has the weight where that has it.
+/// It cannot if it is no body of finite elements, if it grows, if springs or masses are attached there, if its friction depends on the motion,
+/// which nodes in static balance do not have, or if it holds on to another. A static stage before or after one with massless contact has the weight
+/// where that has it.
 pub(super) fn spares_mass<const D: usize>(
     scenario: &Scenario,
     entry: &BodyEntry,
@@ -23,6 +25,7 @@ pub(super) fn spares_mass<const D: usize>(
         && entry.growth.is_none()
         && may_touch(scenario, &entry.name)
         && !has_friction_law(scenario, &entry.name)
+        && !holds(scenario, &entry.name)
         && !is_attached_to(scenario, entry, mesh, surface)
 }
 

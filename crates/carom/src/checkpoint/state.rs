@@ -75,6 +75,8 @@ struct Reactions<const D: usize> {
     /// `u32::MAX` for none.
     facet: Vec<u32>,
     force: Vec<Vector<D>>,
+    /// Negative for none.
+    adhesion: Vec<f64>,
     gap: Vec<f64>,
     area: Vec<f64>,
     frame: Vec<Matrix<D>>,
@@ -129,6 +131,7 @@ impl<const D: usize> Reactions<D> {
             site: reactions.iter().map(|r| to_nodes(r.site)).collect(),
             facet: reactions.iter().map(|r| r.facet.unwrap_or(u32::MAX)).collect(),
             force: reactions.iter().map(|r| r.force).collect(),
+            adhesion: reactions.iter().map(|r| r.adhesion.unwrap_or(-1.0)).collect(),
             gap: contacts().map(|c| c.gap).collect(),
             area: contacts().map(|c| c.area).collect(),
             frame: contacts().map(|c| c.frame).collect(),
@@ -147,6 +150,7 @@ impl<const D: usize> Reactions<D> {
         self.site.resize(count, [0; 4]);
         self.facet.resize(count, 0);
         self.force.resize(count, Vector::zeros());
+        self.adhesion.resize(count, -1.0);
         self.gap.resize(count, 0.0);
         self.area.resize(count, 0.0);
         self.frame.resize(count, Matrix::zeros());
@@ -158,6 +162,7 @@ impl<const D: usize> Reactions<D> {
         archive.integers(&name("site"), self.site.as_flattened_mut())?;
         archive.integers(&name("facet"), &mut self.facet)?;
         archive.vectors(&name("force"), &mut self.force)?;
+        archive.numbers(&name("adhesion"), &mut self.adhesion)?;
         archive.numbers(&name("gap"), &mut self.gap)?;
         archive.numbers(&name("area"), &mut self.area)?;
         archive.numbers(&name("frame"), self.frame.iter_mut().flat_map(|f| f.iter_mut()))?;
@@ -192,7 +197,8 @@ impl<const D: usize> Reactions<D> {
             let site = to_site(assembly, pair, self.site[k]);
             let site = site.ok_or_else(|| wrong("site", "names a node that is not there"))?;
             let facet = Some(self.facet[k]).filter(|&f| f != u32::MAX);
-            let reaction = Reaction { pair, site, facet, contact, force: self.force[k] };
+            let adhesion = Some(self.adhesion[k]).filter(|a| *a >= 0.0);
+            let reaction = Reaction { pair, site, facet, contact, force: self.force[k], adhesion };
             reactions.push(reaction);
         }
         if !reactions.is_sorted_by_key(Reaction::key) {

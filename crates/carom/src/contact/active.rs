@@ -5,10 +5,11 @@ use carom_mesh::{Matrix, Vector};
 
 use super::control::CONTROL;
 use super::pressing::Pressing;
-use super::slider::Slider;
+use super::slider::{Slider, slider_of};
 use crate::body::Body;
 use crate::model::assembly::Assembly;
 use crate::model::at_rest::AtRest;
+use crate::model::cohesion::OF_BONDS;
 use crate::model::condition::{ContactCondition, Opening, impact_offset};
 use crate::model::given::Given;
 use crate::model::state::{Reaction, State};
@@ -23,7 +24,7 @@ pub(crate) struct ActiveSet<const D: usize> {
     pub conditions: Vec<ContactCondition>,
     pub weights: Vec<f64>,
     /// The frame that every contact had when it was last evaluated, in this step or as a reaction of the last one; zeros where there is none.
-    frames: Vec<Matrix<D>>,
+    pub(super) frames: Vec<Matrix<D>>,
     pub friction: Vec<f64>,
     /// The contacts of pairs with a friction law, how far their coefficients are from it where none was found that is, and the coefficients to
     /// be tried next.
@@ -35,6 +36,11 @@ pub(crate) struct ActiveSet<const D: usize> {
     pub start_gaps: Vec<f64>,
     /// The interference [m] of every contact at the start and the end of the step.
     pub interferences: Vec<[f64; 2]>,
+    /// What holds every contact together [N] beside its reaction; none where nothing does.
+    pub adhesions: Vec<Option<f64>>,
+    /// Those that nothing breaks, as they were made, with their places; and by how much more some have to hold [N].
+    pub(super) bonds: Vec<(usize, Contact<D>)>,
+    pub(super) more: Vec<(usize, f64)>,
     /// Reactions [N] that the step starts with, in the frame of the last step.
     pub start_forces: Vec<Vector<D>>,
     /// The velocities [m/s] at which contacts of rigid pairs meet, in their frames; zeros of others: see [`Self::meet`].
@@ -42,7 +48,7 @@ pub(crate) struct ActiveSet<const D: usize> {
     /// The contacts as they were evaluated before, and those that stand at a kink: see [`Self::evaluate_late`].
     before: Vec<Contact<D>>,
     pub at_kink: Vec<bool>,
-    /// Reactions as the reduced problem has them: see `ContactCondition::reaction_weight`.
+    /// Reactions as the reduced problem has them, in their cones: see `ContactCondition::reaction_weight`, and [`Self::acting`].
     pub reactions: Vec<Vector<D>>,
     /// Reactions of the state whose contacts have no part in the step.
     pub lost: Vec<usize>,
@@ -68,6 +74,7 @@ impl<const D: usize> ActiveSet<D> {
         let start = |n: u32| given.position(n);
         self.start_gaps.clear();
         self.interferences.clear();
+        self.adhesions.clear();
         contact.evaluate_all(&self.candidates, &start, &mut self.mortar, &mut self.contacts);
         let round_off = assembly.round_off();
         let inside = |c: &Candidate| CONTROL.inside * assembly.pair_size(&contact.pairs.get(c.pair as usize));
@@ -92,17 +99,19 @@ impl<const D: usize> ActiveSet<D> {
                 at_start.gap < -inside && contact.is_beyond(c, at_start, inside, &start, search)
             };
             let closed = closed(c);
-            let active = !c.redundant
-                && method.condition.is_active(gap, closed)
-                && answers(assembly, at_start)
-                && !is_beyond();
+            let takes_part = || !c.redundant && method.condition.is_active(gap, closed) && !is_beyond();
+            let active = answers(assembly, at_start) && (state.is_bond(c.key(), assembly) || takes_part());
             if active {
                 let stays = gap < 0.0
                     && !starts_from_nothing
                     && (contact.is_two_sided(c.pair as usize)
                         || !map.is_static() && is_stuck(c, at_start, gap));
                 self.interferences.push(interference);
-                self.start_gaps.push(given.condition_of(c.pair).start_gap(gap, closed, stays));
+                self.adhesions.push(given.adhesion(c, at_start, gap <= closed));
+                let condition = given.condition_of(c.pair);
+                // What holds neither closes nor opens.
+                let holds = self.adhesions.last().is_some_and(Option::is_some) && !condition.rules_gaps();
+                self.start_gaps.push(if holds { 0.0 } else { condition.start_gap(gap, closed, stays) });
             }
             active
         });
@@ -122,7 +131,8 @@ impl<const D: usize> ActiveSet<D> {
         self.touched.copy_from_slice(&given.assembly.is_connected);
         self.conditions.clear();
         self.weights.clear();
-        for candidate in &self.candidates {
+        self.bonds.clear();
+        for (candidate, adhesion) in self.candidates.iter().zip(&self.adhesions) {
             let known = given.state.reaction(candidate.key());
             let force = known.map_or_else(Vector::zeros, |r| r.force);
             let condition = given.condition_of(candidate.pair);
@@ -131,9 +141,17 @@ impl<const D: usize> ActiveSet<D> {
             self.weights.push(weight);
             self.frames.push(known.map_or_else(Matrix::zeros, |r| r.contact.frame));
             self.reactions.push(force * weight);
+            if let (Some(r), Some(adhesion)) = (self.reactions.last_mut(), adhesion) {
+                r[0] += adhesion * weight;
+            }
             self.start_forces.push(force);
             let pair = pairs.get(candidate.pair as usize);
-            self.friction.push(if given.assembly.can_slide(candidate) { pair.friction } else { 0.0 });
+            let is_bond = adhesion.is_some() && given.assembly.is_unbreakable(candidate.pair);
+            let own = if given.assembly.can_slide(candidate) { pair.friction } else { 0.0 };
+            self.friction.push(if is_bond { OF_BONDS } else { own });
+            if let (true, Some(known)) = (is_bond, known) {
+                self.bonds.push((self.reactions.len() - 1, known.contact.clone()));
+            }
             touch(&mut self.touched, &pair);
         }
         self.recall_sliding(given);
@@ -165,12 +183,15 @@ impl<const D: usize> ActiveSet<D> {
 
     /// Evaluates the contacts at the configurations of their conditions.
     fn place(&mut self, given: &Given<'_, D>, motion: &[Vector<D>]) {
-        let Self { candidates, conditions, mortar, contacts, .. } = self;
+        let Self { candidates, conditions, mortar, contacts, bonds, .. } = self;
         contacts.clear();
         for alike in conditions.chunk_by(|a, b| a == b) {
             let candidates = &candidates[contacts.len()..][..alike.len()];
             let position = evaluated_at(given, motion, alike[0]);
             given.assembly.contact.evaluate_more(candidates, &position, mortar, contacts);
+        }
+        for (i, bond) in bonds {
+            contacts[*i] = bond.moved(&evaluated_at(given, motion, conditions[*i]));
         }
     }
 
@@ -208,11 +229,14 @@ impl<const D: usize> ActiveSet<D> {
     /// Turns the frames to where those before were, or to where friction has its directions.
     fn follow_frames(&mut self, given: &Given<'_, D>, motion: &[Vector<D>]) {
         let assembly = given.assembly;
-        let contacts = self.contacts.iter_mut().zip(&mut self.frames);
+        let contacts = self.contacts.iter_mut().zip(&mut self.frames).enumerate();
         let ruled = self.candidates.iter().zip(&self.conditions);
-        for ((contact, frame), (candidate, condition)) in contacts.zip(ruled) {
+        for ((i, (contact, frame)), (candidate, condition)) in contacts.zip(ruled) {
             match assembly.orthotropies.of(candidate.pair, &assembly.contact) {
-                Some(orthotropy) => orthotropy.orient(contact, &evaluated_at(given, motion, *condition)),
+                Some(orthotropy) => {
+                    let by_law = slider_of(&self.sliders, i).and_then(|slider| slider.lengths);
+                    orthotropy.orient(contact, by_law, &evaluated_at(given, motion, *condition));
+                }
                 None => contact.carry_frame(frame),
             }
             *frame = contact.frame;
@@ -291,8 +315,8 @@ impl<const D: usize> ActiveSet<D> {
 
     /// Adds the reactions known so far to `forces` [N].
     pub fn add_reactions(&self, forces: &mut [Vector<D>]) {
-        for (contact, r) in self.contacts.iter().zip(&self.reactions) {
-            contact.add_force(r, forces);
+        for (contact, r) in self.contacts.iter().zip(self.all_acting()) {
+            contact.add_force(&r, forces);
         }
     }
 }

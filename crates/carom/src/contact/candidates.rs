@@ -46,7 +46,8 @@ impl<const D: usize> Finder<D> {
         let start = |n: u32| given.position(n);
         let end = |n: u32| start(n) + motion[n as usize];
         let path = Path { start: &start, end: &end, margin };
-        let (contact, candidates) = (&given.assembly.contact, &mut active.candidates);
+        let (assembly, candidates) = (given.assembly, &mut active.candidates);
+        let contact = &assembly.contact;
         let Self { search, asleep, .. } = self;
         let counts = |pair: &Pair| !is_asleep(asleep, pair) && !at_rest.are_still(pair);
         if at_rest.is_everything() {
@@ -72,6 +73,13 @@ impl<const D: usize> Finder<D> {
         }
         let wide = Path { margin: margin * CONTROL.widening.powi(repetition as i32), ..path };
         contact.detect_mortar(&wide, &mut active.mortar, candidates);
+        let bonds = given.state.holding().filter(|r| assembly.is_unbreakable(r.pair));
+        for bond in bonds.filter(moves).map(Reaction::candidate) {
+            match candidates.binary_search_by_key(&bond.key(), Candidate::key) {
+                Ok(k) => candidates[k].redundant = false,
+                Err(k) => candidates.insert(k, bond),
+            }
+        }
         self.found.clone_from(candidates);
     }
 

@@ -36,6 +36,7 @@ pub(crate) fn keep<const D: usize>(
     let assembly = given.assembly;
     let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
     assembly.contact.evaluate_all(&active.candidates, &end, &mut active.mortar, at_end);
+    active.tie(at_end, &end);
     for ((contact, before), [_, h1]) in at_end.iter_mut().zip(&active.contacts).zip(&active.interferences) {
         contact.gap -= h1;
         contact.carry_frame(&before.frame);
@@ -56,10 +57,13 @@ pub(crate) fn keep<const D: usize>(
             // What a coefficient that is not that of the law does to the energy.
             kept.certificate += off * r[0].max(0.0) * cone::tangential_norm(&w);
         }
-        contact.add_force(&r, &mut next.contact_force);
-        if r[0] > 0.0 {
+        let adhesion = active.adhesions[i];
+        let presses = r[0] > 0.0 || adhesion.is_some();
+        let force = active.acting(i) / active.weights[i];
+        contact.add_force(&force, &mut next.contact_force);
+        if presses {
             let Candidate { pair, site, facet, .. } = *candidate;
-            next.reactions.push(Reaction { pair, site, facet, contact: contact.clone(), force: r });
+            next.reactions.push(Reaction { pair, site, facet, contact: contact.clone(), force, adhesion });
         }
     }
     kept

@@ -30,6 +30,10 @@ pub(super) struct Control {
     pub straight: f64,
     /// A reaction this near the edge of Coulomb's cone, relative to it, slides.
     pub sliding: f64,
+    /// A contact that holds has opened by more than this, relative to the motions of its problem: farther than its solution is wrong.
+    pub opens: f64,
+    /// What nothing breaks holds by so many times more than what it was found to pull with.
+    pub grip: f64,
     /// The springs of the tangents of load steps, in stiffnesses of nodes: enough for cells that are pressed to 60 %: with 1 the last
     /// of ten steps there took 13 iterations, with 10 no more than 5. Measured on 60 random scenes:
     /// with 1, 10 and 100, wherever something pressed, load steps took 4.6, 4.3 and 4.3 iterations, and 3, 3 and 4 scenes failed.
@@ -52,6 +56,8 @@ pub(super) struct Control {
     pub law_rounds: usize,
     /// no farther than this: what round-off leaves of slow sliding.
     pub law_near: f64,
+    /// The smaller of two coefficients by direction is at least so much of the larger one.
+    pub narrowest: f64,
     /// No secant goes farther than so many times what the law is off.
     pub law_stride: f64,
     /// What the tangent of a load step has more than K̄ is nothing below this, relative to K̄ at the contacts.
@@ -72,6 +78,8 @@ pub(super) const CONTROL: Control = Control {
     kink: 1e3,
     straight: 1e-6,
     sliding: 1e-6,
+    opens: 1e-9,
+    grip: 4.0,
     spring: 10.0,
     stiffer: 100.0,
     difference: 1e-6,
@@ -82,5 +90,6 @@ pub(super) const CONTROL: Control = Control {
     law_settled: 1e-11,
     law_rounds: 20,
     law_near: 1e-8,
+    narrowest: 1e-6,
     law_stride: 10.0,
 };

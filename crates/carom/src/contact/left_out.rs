@@ -61,7 +61,7 @@ impl<const D: usize> LeftOut<D> {
     ) {
         let is_row = |k: &usize| matches!(active.candidates[*k].site, Site::Multiplier(..));
         let is_fixed = |k: &usize| active.at_kink.get(*k).is_some_and(|at_kink| *at_kink);
-        let rows = (0..active.contacts.len()).filter(|k| is_row(k) && !is_fixed(k));
+        let rows = (0..active.contacts.len()).filter(|k| is_row(k) && !is_fixed(k) && !active.is_bond(*k));
         self.known_to.clear();
         self.known_to.extend(rows.flat_map(|k| active.contacts[k].stencil().map(move |(n, _)| (n, k))));
         if self.known_to.is_empty() {
@@ -129,8 +129,8 @@ impl<const D: usize> LeftOut<D> {
                     if let Some((_, part)) = self.parts[k].last_mut() {
                         part[component] += ruled(moved) * share;
                     }
-                    let r = &active.reactions[k];
-                    if *r == Vector::<D>::zeros() {
+                    let r = active.acting(k);
+                    if r == Vector::<D>::zeros() {
                         continue;
                     }
                     moved.carry_frame(&active.contacts[k].frame);

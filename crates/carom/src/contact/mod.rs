@@ -3,6 +3,7 @@
 pub(crate) mod active;
 pub(crate) mod candidates;
 pub(crate) mod closing;
+pub(crate) mod cohering;
 pub(crate) mod compliance;
 pub(crate) mod contact_work;
 mod control;
@@ -157,6 +158,14 @@ impl<const D: usize> Contacts<D> {
         bodies: &mut [Box<dyn Body<D>>],
     ) -> Result<f64, StepError> {
         self.reduced.solve(given, &mut self.active, motion, error, bodies)
+    }
+
+    /// Whether contacts have lost what held them where iterations have led: see [`ActiveSet::let_go`].
+    pub fn let_go(&mut self) -> bool {
+        !self.active.adhesions.iter().all(Option::is_none) && {
+            let size = self.reduced.size(&self.active);
+            self.active.let_go(&self.reduced.problem, size)
+        }
     }
 
     /// What massless contacts mean for the balance of blended steps, at a guess.

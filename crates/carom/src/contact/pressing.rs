@@ -65,10 +65,10 @@ impl Pressing {
         }
     }
 
-    /// The pressure [Pa] at contact `i`, a slider, with these `reactions` [N]; 0 where no law asks for it.
-    pub fn at<const D: usize>(&self, i: usize, reactions: &[Vector<D>]) -> f64 {
+    /// The pressure [Pa] at contact `i`, a slider, with these `normal` reactions of contacts [N]; 0 where no law asks for it.
+    pub fn at(&self, i: usize, normal: impl Fn(usize) -> f64) -> f64 {
         let Ok(k) = self.ends.binary_search_by_key(&i, |&(contact, _)| contact) else { return 0.0 };
         let from = if k == 0 { 0 } else { self.ends[k - 1].1 };
-        self.terms[from..self.ends[k].1].iter().map(|&(j, part)| reactions[j][0].max(0.0) * part).sum()
+        self.terms[from..self.ends[k].1].iter().map(|&(j, part)| normal(j).max(0.0) * part).sum()
     }
 }

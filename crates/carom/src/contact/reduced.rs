@@ -9,6 +9,7 @@ use carom_mesh::Vector;
 use super::active::ActiveSet;
 use super::control::CONTROL;
 use super::delassus::Delassus;
+use super::sliding::Posed;
 use crate::body::Body;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
@@ -66,6 +67,12 @@ impl<const D: usize> Reduced<D> {
             known_motion: zeros.clone(),
             change: zeros,
         }
+    }
+
+    /// What the motions of the last problem are relative to [m]: what residuals are, or what adhesion keeps from moving.
+    pub fn size(&self, active: &ActiveSet<D>) -> f64 {
+        let adhesion = active.adhesions.iter().flatten().map(|a| a * a).sum::<f64>().sqrt();
+        size(&self.problem, &active.reactions).max(adhesion / self.problem.natural_stiffness())
     }
 
     /// Lists the nodes of every body that these contacts, springs of the model, and springs in K̄, act on.
@@ -172,11 +179,18 @@ impl<const D: usize> Reduced<D> {
             time += report.time;
             report
         };
-        let report = if active.sliders.is_empty() {
-            solve(&self.problem, &mut active.reactions)
-        } else {
-            let stand_ins = &self.delassus.stand_ins;
-            active.solve_with_laws(given, &self.offsets, stand_ins, &mut self.problem, solve)?
+        let report = loop {
+            let Self { delassus, problem, offsets, guess, .. } = &mut *self;
+            let report = if active.sliders.is_empty() {
+                solve(problem, &mut active.reactions)
+            } else {
+                let mut posed = Posed { problem, guess, offsets, stand_ins: &mut delassus.stand_ins };
+                active.solve_with_laws(given, &mut posed, &mut solve)?
+            };
+            // It ends, as what holds grows by many times.
+            if !report.is_solved() || !active.hold_on(&mut self.problem, &mut self.guess) {
+                break report;
+            }
         };
         self.solved_by = report.solver;
         self.friction_time += time;

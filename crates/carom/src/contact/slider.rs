@@ -13,6 +13,8 @@ use crate::model::sliding::SlidingRecord;
 pub(crate) struct Slider<const D: usize> {
     /// Its place among the contacts.
     pub contact: usize,
+    /// Of friction with a law for each direction the lengths of its tangents: what μ along and across are of the larger one.
+    pub lengths: Option<[f64; 2]>,
     /// What it brings from the steps before,
     pub before: SlidingRecord<D>,
     /// and what it leaves.
@@ -28,7 +30,7 @@ pub(crate) struct Slider<const D: usize> {
 impl<const D: usize> Slider<D> {
     /// Of a contact with what is known of it.
     pub fn new(contact: usize, before: SlidingRecord<D>) -> Self {
-        Self { contact, before, after: before, holds: false, turned: false, last: None }
+        Self { contact, lengths: None, before, after: before, holds: false, turned: false, last: None }
     }
 
     /// Begins to look for μ anew: what stuck holds.
@@ -57,6 +59,25 @@ impl<const D: usize> Slider<D> {
             pressure: slides.pressure,
             state: if slides.presses { law.evolved(state, speed, 0.5 * slides.dt) } else { state },
         }
+    }
+
+    /// The lengths that its tangents are to have where it `slides`; none where friction is the same both ways, or has constant coefficients.
+    pub fn lengths_for(
+        &self,
+        law: &dyn FrictionLaw,
+        sliding: &Sliding,
+    ) -> Result<Option<[f64; 2]>, StepError> {
+        let Some(coefficients) = law.by_direction(sliding) else { return Ok(None) };
+        let largest = coefficients[0].max(coefficients[1]);
+        let lengths = coefficients.map(|mu| mu / largest);
+        match lengths.iter().position(|length| !(*length >= CONTROL.narrowest)) {
+            None => Ok(Some(lengths)),
+            Some(k) => Err(self.no_coefficient(coefficients[k], sliding)),
+        }
+    }
+
+    fn no_coefficient(&self, coefficient: f64, at: &Sliding) -> StepError {
+        StepError::FrictionLaw { coefficient, speed: at.speed, distance: at.distance }
     }
 
     /// Notes what a step leaves in which it `slides`.
@@ -89,11 +110,7 @@ impl<const D: usize> Slider<D> {
         let at = self.half_way(law, slides);
         let target = law.coefficient(&at);
         if !(0.0..=MAX_FRICTION).contains(&target) {
-            return Err(StepError::FrictionLaw {
-                coefficient: target,
-                speed: at.speed,
-                distance: at.distance,
-            });
+            return Err(self.no_coefficient(target, &at));
         }
         let above = target - mu;
         let secant = self.last.and_then(|[mu_before, above_before]| {
@@ -122,4 +139,9 @@ pub(crate) struct Slides<const D: usize> {
     pub distance: f64,
     /// The way, of length 1.
     pub direction: Vector<D>,
+}
+
+/// That of a contact, given by its place.
+pub(crate) fn slider_of<const D: usize>(sliders: &[Slider<D>], contact: usize) -> Option<&Slider<D>> {
+    sliders.binary_search_by_key(&contact, |slider| slider.contact).ok().map(|k| &sliders[k])
 }

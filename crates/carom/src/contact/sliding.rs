@@ -9,11 +9,21 @@ use carom_mesh::{Matrix, Vector};
 
 use super::active::ActiveSet;
 use super::control::CONTROL;
-use super::slider::{Slider, Slides};
+use super::slider::{Slider, Slides, slider_of};
 use crate::error::StepError;
 use crate::model::friction_laws::MAX_FRICTION;
 use crate::model::given::Given;
 use crate::model::sliding::SlidingRecord;
+
+/// A contact problem, and what goes with it in the frames of its contacts.
+pub(crate) struct Posed<'a, const D: usize> {
+    pub problem: &'a mut ContactProblem<D>,
+    /// The reactions that bodies know of.
+    pub guess: &'a mut [Vector<D>],
+    pub offsets: &'a mut [Vector<D>],
+    /// What of W moves nothing: see `Delassus::stand_ins`.
+    pub stand_ins: &'a mut [Matrix<D>],
+}
 
 impl<const D: usize> ActiveSet<D> {
     /// Recalls what is known of the contacts whose pair has a friction law, and the coefficients with which they start.
@@ -25,13 +35,17 @@ impl<const D: usize> ActiveSet<D> {
         }
         for (i, candidate) in self.candidates.iter().enumerate() {
             let pair = assembly.contact.pairs.get(candidate.pair as usize);
+            if self.is_bond(i) {
+                continue;
+            }
             let Some(law) = assembly.friction_laws.of(&pair).filter(|_| assembly.can_slide(candidate)) else {
                 continue;
             };
             let found = state.sliding.binary_search_by_key(&candidate.key(), SlidingRecord::key);
             let new = || SlidingRecord::new(candidate.key(), law.initial_state());
             let known = found.map_or_else(|_| new(), |k| state.sliding[k]);
-            let slider = Slider::new(i, known);
+            let mut slider = Slider::new(i, known);
+            slider.lengths = slider.lengths_for(law, &slider.at_start()).ok().flatten();
             self.friction[i] = law.coefficient(&slider.at_start()).clamp(0.0, MAX_FRICTION);
             self.sliders.push(slider);
         }
@@ -53,6 +67,11 @@ impl<const D: usize> ActiveSet<D> {
             Some(_) => interval.map.velocity_of_motion,
             None => 1.0 / interval.map.dt,
         };
+        // Frames of orthotropic friction are stretched.
+        let is_stretched = assembly.orthotropies.of(self.candidates[i].pair, &assembly.contact).is_some();
+        let along = |x: &Vector<D>| {
+            if is_stretched { self.contacts[i].distance(x) } else { cone::tangential_norm(x) }
+        };
         let across = |x: &Vector<D>| Vector::<D>::from_fn(|k, _| if k == 0 { 0.0 } else { x[k] });
         let tried = across(r) - across(w) * step_length;
         let limit = self.friction[i] * r[0];
@@ -63,21 +82,19 @@ impl<const D: usize> ActiveSet<D> {
             presses,
             slips,
             dt: interval.map.dt,
-            speed: if presses { cone::tangential_norm(w) * per_motion } else { 0.0 },
-            pressure: self.pressing.at(i, &self.reactions) / self.weights[i],
-            distance: if slips { cone::tangential_norm(&(w - offset)) } else { 0.0 },
+            speed: if presses { along(w) * per_motion } else { 0.0 },
+            pressure: self.pressing.at(i, |j| self.acting(j)[0]) / self.weights[i],
+            distance: if slips { along(&(w - offset)) } else { 0.0 },
             direction: direction.try_normalize(0.0).unwrap_or_else(Vector::zeros),
         }
     }
 
     /// Solves the `problem` by `solve`, again and again, until its coefficients are those that the laws say of its solution, which is left in the
-    /// reactions, the coefficients in [`Self::friction`]. What of W moves nothing is in `stand_ins`: see `Delassus::stand_ins`.
+    /// reactions, the coefficients in [`Self::friction`].
     pub fn solve_with_laws(
         &mut self,
         given: &Given<'_, D>,
-        offsets: &[Vector<D>],
-        stand_ins: &[Matrix<D>],
-        problem: &mut ContactProblem<D>,
+        posed: &mut Posed<'_, D>,
         mut solve: impl FnMut(&ContactProblem<D>, &mut [Vector<D>]) -> SolveReport,
     ) -> Result<SolveReport, StepError> {
         let assembly = given.assembly;
@@ -95,9 +112,10 @@ impl<const D: usize> ActiveSet<D> {
         let mut made = Ok(());
         let mut report;
         let mut rounds = 0;
+        let mut next_lengths = Vec::new();
         loop {
-            problem.mu.clone_from(&self.friction);
-            report = solve(problem, &mut self.reactions);
+            posed.problem.mu.clone_from(&self.friction);
+            report = solve(posed.problem, &mut self.reactions);
             if !report.is_solved() {
                 break;
             }
@@ -108,10 +126,29 @@ impl<const D: usize> ActiveSet<D> {
                 let i = slider.contact;
                 let Some(law) = law(slider, self) else { continue };
                 // What stands in for a direction that is held moves nothing.
+                let Posed { problem, offsets, stand_ins, .. } = &*posed;
                 let w = problem.motion(i, &self.reactions) - stand_ins[i] * self.reactions[i];
                 let slides =
                     self.slides(given, i, [&self.reactions[i], &w, &offsets[i]], problem.step_length(i));
                 slider.leave(law, &slides);
+                let lengths = match slider.lengths_for(law, &slider.half_way(law, &slides)) {
+                    Ok(lengths) => lengths,
+                    Err(error) => {
+                        made = Err(error);
+                        continue;
+                    }
+                };
+                if let (Some(before), Some(lengths)) = (slider.lengths, lengths) {
+                    let by = [lengths[0] / before[0], lengths[1] / before[1]];
+                    let off = (by[0] - 1.0).abs().max((by[1] - 1.0).abs());
+                    is_settled &= off <= CONTROL.law_settled;
+                    is_near &= off <= CONTROL.law_near;
+                    self.unsettled = self.unsettled.max(off);
+                    if off > CONTROL.law_settled {
+                        next_lengths.push((i, by));
+                        slider.lengths = Some(lengths);
+                    }
+                }
                 let mu = self.friction[i];
                 match slider.next(law, mu, &slides) {
                     Ok((next, off)) => {
@@ -134,10 +171,26 @@ impl<const D: usize> ActiveSet<D> {
                 break;
             }
             self.next_friction.drain(..).for_each(|(i, next)| self.friction[i] = next);
+            next_lengths.drain(..).for_each(|(i, by)| self.stretch(i, by, posed));
         }
         self.next_friction.clear();
         self.sliders = sliders;
         made.map(|()| report)
+    }
+
+    /// Makes the tangents of contact `i` so many times as long, in its problem too.
+    fn stretch(&mut self, i: usize, by: [f64; 2], posed: &mut Posed<'_, D>) {
+        let factors = Vector::<D>::from_fn(|k, _| if k == 0 { 1.0 } else { by[k - 1] });
+        let Posed { problem, guess, offsets, stand_ins } = posed;
+        problem.w.scale(i, &factors);
+        problem.q[i].component_mul_assign(&factors);
+        offsets[i].component_mul_assign(&factors);
+        stand_ins[i] = Matrix::from_diagonal(&factors) * stand_ins[i] * Matrix::from_diagonal(&factors);
+        for r in [&mut self.reactions[i], &mut guess[i]] {
+            r.component_div_assign(&factors);
+        }
+        self.contacts[i].stretch_tangents(by);
+        self.frames[i] = self.contacts[i].frame;
     }
 
     /// How far the coefficient of contact `slider` is from what its law says of the motion `w` [m] at the end of a step.
@@ -156,8 +209,15 @@ impl<const D: usize> ActiveSet<D> {
         }
         let mut slides = self.slides(given, i, [&self.reactions[i], w, offset], 0.0);
         let is_at_rest = slider.after.direction == Vector::<D>::zeros();
-        slides.distance = if is_at_rest { 0.0 } else { cone::tangential_norm(&(w - offset)) };
-        (law.coefficient(&slider.half_way(law, &slides)) - self.friction[i]).abs()
+        slides.distance = if is_at_rest { 0.0 } else { self.contacts[i].distance(&(w - offset)) };
+        let at = slider.half_way(law, &slides);
+        match (law.by_direction(&at), slider.lengths) {
+            (Some(wanted), Some(lengths)) => {
+                let both = wanted.iter().zip(lengths);
+                both.map(|(mu, length)| (mu - length * self.friction[i]).abs()).fold(0.0, f64::max)
+            }
+            _ => (law.coefficient(&at) - self.friction[i]).abs(),
+        }
     }
 
     /// The coefficient up to which a contact holds that sticks, where that is more than what resists it once it slides, with the direction in which it
@@ -171,6 +231,6 @@ impl<const D: usize> ActiveSet<D> {
 
     /// The contact of a slider.
     pub fn slider_of(&self, contact: usize) -> Option<&Slider<D>> {
-        self.sliders.binary_search_by_key(&contact, |slider| slider.contact).ok().map(|k| &self.sliders[k])
+        slider_of(&self.sliders, contact)
     }
 }

@@ -20,7 +20,7 @@ impl Slip {
 
     /// Adds to the `slip` [m] of every node how far it has slid in a step of this `motion` [m] along what presses on it at the end.
     pub fn add<const D: usize>(&mut self, reactions: &[Reaction<D>], motion: &[Vector<D>], slip: &mut [f64]) {
-        let pressing = || reactions.iter().filter(|r| r.force[0] > 0.0).map(|r| &r.contact);
+        let pressing = || reactions.iter().filter(|r| r.in_cone()[0] > 0.0).map(|r| &r.contact);
         for contact in pressing() {
             let distance = contact.distance(&contact.relative(|n| motion[n]));
             for (node, weight) in nodes(contact) {

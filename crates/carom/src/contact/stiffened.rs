@@ -27,7 +27,7 @@ use super::woodbury::Woodbury;
 use crate::body::Body;
 use crate::model::assembly::Assembly;
 use crate::model::given::Given;
-use crate::model::state::{Reaction, State};
+use crate::model::state::State;
 
 /// Springs to the ground in K̄ of a body [N/m], by its own nodes, ascending.
 pub(crate) type Springs<const D: usize> = Vec<(u32, Matrix<D>)>;
@@ -176,8 +176,8 @@ impl<const D: usize> Stiffened<D> {
         state: &State<D>,
         bodies: &mut [Box<dyn Body<D>>],
     ) {
-        let friction = |r: &Reaction<D>| assembly.contact.pairs.get(r.pair as usize).friction;
-        let holding = state.reactions.iter().map(|r| (&r.contact, held_directions(&r.force, friction(r))));
+        let holding =
+            state.reactions.iter().map(|r| (&r.contact, held_directions(&r.in_cone(), r.friction(assembly))));
         self.spring_from((assembly, &state.displacement), holding, bodies);
     }
 
@@ -330,10 +330,14 @@ impl<const D: usize> Stiffened<D> {
     fn add_geometric(&mut self, given: &Given<'_, D>, active: &ActiveSet<D>, motion: &[Vector<D>]) {
         let contact_model = &given.assembly.contact;
         let mut force = vec![Vector::<D>::zeros(); motion.len()];
-        let contacts = active.candidates.iter().zip(&active.contacts).zip(&active.reactions);
+        let contacts = active.candidates.iter().zip(&active.contacts).zip(active.all_acting());
         for (k, ((candidate, contact), r)) in contacts.enumerate() {
             let is_fixed = active.at_kink.get(k).is_some_and(|at_kink| *at_kink);
-            if is_fixed || *r == Vector::<D>::zeros() || contact_model.is_mortar(candidate.pair as usize) {
+            if is_fixed
+                || active.is_bond(k)
+                || r == Vector::<D>::zeros()
+                || contact_model.is_mortar(candidate.pair as usize)
+            {
                 continue;
             }
             let weight = active.conditions[k].evaluation_weight();

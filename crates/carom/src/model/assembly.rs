@@ -1,9 +1,10 @@
 use std::ops::Range;
 
-use carom_contact::{Boundaries, Candidate, ContactModel, Pair, Site, Solid, Target};
+use carom_contact::{Boundaries, Candidate, Contact, ContactModel, Pair, Site, Solid, Target};
 use carom_mesh::{Surface, Vector};
 
 use crate::model::bearing::Bearing;
+use crate::model::cohesion::Cohesions;
 use crate::model::friction_laws::FrictionLaws;
 use crate::model::interference::{Interference, Interferences};
 use crate::model::obstacle_motion::ObstacleMotion;
@@ -55,7 +56,9 @@ pub struct Assembly<const D: usize> {
     pub restitutions: Restitutions,
     /// The friction laws of pairs whose coefficient depends on the motion.
     pub friction_laws: FrictionLaws,
-    /// The areas by which laws that depend on the pressure have it; empty where none does.
+    /// How pairs hold together.
+    pub cohesions: Cohesions,
+    /// The areas by which laws that depend on the pressure have it, and cohesion its force; empty where none is needed.
     pub bearing: Bearing,
     /// The pairs whose friction depends on the direction.
     pub orthotropies: Orthotropies<D>,
@@ -112,6 +115,7 @@ impl<const D: usize> Assembly<D> {
             interferences: Interferences::default(),
             restitutions: Restitutions::default(),
             friction_laws: FrictionLaws::default(),
+            cohesions: Cohesions::default(),
             bearing: Bearing::default(),
             orthotropies: Orthotropies::default(),
             springs: Vec::new(),
@@ -271,6 +275,22 @@ impl<const D: usize> Assembly<D> {
     pub(crate) fn named_pair(&self, between: [Solid; 2]) -> NamedPair {
         let friction = self.contact.pairs.of(between).next().map(|p| self.contact.pairs.get(p).friction);
         NamedPair { between: self.names(between), friction: friction.unwrap_or_default() }
+    }
+
+    /// What holds a contact of a pair together as long as it is closed [N]: see [`Cohesions::adhesion`].
+    pub(crate) fn adhesion(
+        &self,
+        (pair, site): (u32, Site),
+        contact: &Contact<D>,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) -> Option<f64> {
+        let pair = self.contact.pairs.get(pair as usize);
+        self.cohesions.adhesion((&pair, site), contact, &self.bearing, position)
+    }
+
+    /// Whether nothing breaks the contacts of a pair, given by its number, that hold.
+    pub(crate) fn is_unbreakable(&self, pair: u32) -> bool {
+        !self.cohesions.are_none() && self.cohesions.is_unbreakable(&self.contact.pairs.get(pair as usize))
     }
 
     /// Whether the nodes of body `index` that may touch have no mass.

@@ -6,13 +6,15 @@ use crate::ModelBody;
 /// it and bear nothing, whatever friction pulls at their nodes.
 pub(crate) const BEARS: f64 = 0.5;
 
-/// The areas that bear the contact of the nodes of bodies, where friction depends on the pressure.
+/// The areas that bear the contact of the nodes of bodies, where friction depends on the pressure or surfaces cohere.
 #[derive(Debug, Clone, Default)]
 pub struct Bearing {
     /// Facets by the numbers of all nodes, with the part of their area [m²] of the reference configuration that every node has.
     facets: Vec<(Facet, f64)>,
     /// The facets of every node.
     around: Vec<Vec<u32>>,
+    /// What makes an area [m²] of what the multipliers of every body cover [m]: its thickness in the plane, else 1.
+    depths: Vec<f64>,
 }
 
 impl Bearing {
@@ -20,6 +22,7 @@ impl Bearing {
     pub(crate) fn of<'a, const D: usize>(bodies: impl Iterator<Item = &'a ModelBody<D>>) -> Self {
         let mut bearing = Self::default();
         for b in bodies {
+            bearing.depths.push(if b.body.is_axisymmetric() { 1.0 } else { b.body.depth(&Vector::zeros()) });
             bearing.around.resize(b.nodes().end, Vec::new());
             for facet in b.body.surface().facets() {
                 let number = bearing.facets.len() as u32;
@@ -30,6 +33,11 @@ impl Bearing {
             }
         }
         bearing
+    }
+
+    /// What makes an area [m²] of what a multiplier of a body covers.
+    pub(crate) fn depth(&self, body: usize) -> f64 {
+        self.depths.get(body).copied().unwrap_or(1.0)
     }
 
     /// The area [m²] around a node that bears what `pushes` it along this direction, where nodes are at `position`; 0 where none is known.

@@ -1,4 +1,4 @@
-use carom_contact::{Pair, Site, Target};
+use carom_contact::{Candidate, Contact, Pair, Site, Target};
 use carom_mesh::Vector;
 
 use crate::StepError;
@@ -49,6 +49,23 @@ impl<'a, const D: usize> Given<'a, D> {
     /// The interference of a contact, given by pair and site, at both ends of the step [m].
     pub fn interference(&self, contact: (u32, Site)) -> [f64; 2] {
         self.assembly.interference(contact.0).ends(contact, self.interval)
+    }
+
+    /// What holds a contact together in the step [N] that is like this at its start, where it `is_closed` or not; none if nothing does.
+    pub fn adhesion(&self, candidate: &Candidate, at_start: &Contact<D>, is_closed: bool) -> Option<f64> {
+        let Self { assembly, state, .. } = *self;
+        if assembly.cohesions.are_none() {
+            return None;
+        }
+        let known = state.reaction(candidate.key())?;
+        let cohesion = assembly.cohesions.of(&assembly.contact.pairs.get(candidate.pair as usize))?;
+        if known.adhesion.is_none() && !(cohesion.lasting && is_closed) {
+            return None;
+        }
+        let adhesion = assembly.adhesion(candidate.key(), at_start, &|n| self.position(n))?;
+        // What nothing breaks has held so much before.
+        let before = known.adhesion.filter(|_| assembly.is_unbreakable(candidate.pair));
+        Some(adhesion.max(before.unwrap_or(0.0)))
     }
 
     /// The condition of a pair of the contact model: that of the method, unless it wants nodes without mass and neither side has such. Then it is

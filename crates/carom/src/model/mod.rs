@@ -3,6 +3,7 @@
 pub(crate) mod assembly;
 pub(crate) mod at_rest;
 pub(crate) mod bearing;
+pub(crate) mod cohesion;
 pub(crate) mod condition;
 pub(crate) mod each_body;
 pub(crate) mod friction_laws;

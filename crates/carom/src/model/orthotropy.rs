@@ -29,17 +29,22 @@ impl<const D: usize> Orthotropies<D> {
 /// [Hjiaj, Feng, de Saxcé & Mróz 2004]
 #[derive(Debug, Clone)]
 pub struct Orthotropy<const D: usize> {
-    /// μ₁/μ and μ₂/μ.
+    /// μ₁/μ and μ₂/μ; of laws where contacts have never slid.
     pub lengths: [f64; 2],
     /// The direction of μ₁.
     pub grain: Grain<D>,
 }
 
 impl<const D: usize> Orthotropy<D> {
-    /// Lays the frame of a contact along the grain, where nodes are at `position`.
-    pub(crate) fn orient(&self, contact: &mut Contact<D>, position: &impl Fn(u32) -> Vector<D>) {
+    /// Lays the frame of a contact along the grain, where nodes are at `position`, with tangents of these `lengths` where they are not constant.
+    pub(crate) fn orient(
+        &self,
+        contact: &mut Contact<D>,
+        lengths: Option<[f64; 2]>,
+        position: &impl Fn(u32) -> Vector<D>,
+    ) {
         let direction = self.grain.at(contact, position);
-        contact.stretch_frame(&direction, self.lengths);
+        contact.stretch_frame(&direction, lengths.unwrap_or(self.lengths));
     }
 }
 

@@ -7,6 +7,7 @@ use carom_mesh::{Vector, nodal};
 use crate::body::{Body, BodyState};
 use crate::ledger::Energies;
 use crate::model::assembly::Assembly;
+use crate::model::cohesion::OF_BONDS;
 use crate::model::sliding::SlidingRecord;
 
 /// A contact that pressed in the last step.
@@ -22,6 +23,8 @@ pub struct Reaction<const D: usize> {
     pub contact: Contact<D>,
     /// The reaction r [N] in that frame.
     pub force: Vector<D>,
+    /// The adhesion [N] that it is less by than what is in Coulomb's cone; none where nothing holds.
+    pub adhesion: Option<f64>,
 }
 
 impl<const D: usize> Reaction<D> {
@@ -29,6 +32,22 @@ impl<const D: usize> Reaction<D> {
     #[must_use]
     pub fn key(&self) -> (u32, Site) {
         (self.pair, self.site)
+    }
+
+    /// What is in Coulomb's cone [N]: the reaction and the adhesion.
+    #[must_use]
+    pub fn in_cone(&self) -> Vector<D> {
+        let mut r = self.force;
+        r[0] += self.adhesion.unwrap_or(0.0);
+        r
+    }
+
+    /// Its friction coefficient; of a law that of contacts that have never slid.
+    pub(crate) fn friction(&self, assembly: &Assembly<D>) -> f64 {
+        if self.adhesion.is_some() && assembly.is_unbreakable(self.pair) {
+            return OF_BONDS;
+        }
+        assembly.contact.pairs.get(self.pair as usize).friction
     }
 
     /// The candidate that it was.
@@ -84,6 +103,16 @@ pub struct State<const D: usize> {
 }
 
 impl<const D: usize> State<D> {
+    /// Whether a contact holds that nothing breaks.
+    pub(crate) fn is_bond(&self, key: (u32, Site), assembly: &Assembly<D>) -> bool {
+        assembly.is_unbreakable(key.0) && self.reaction(key).is_some_and(|r| r.adhesion.is_some())
+    }
+
+    /// The contacts that hold together.
+    pub fn holding(&self) -> impl Iterator<Item = &Reaction<D>> {
+        self.reactions.iter().filter(|reaction| reaction.adhesion.is_some())
+    }
+
     /// The reaction of the last step with a pair and a site.
     pub(crate) fn reaction(&self, key: (u32, Site)) -> Option<&Reaction<D>> {
         self.reactions.binary_search_by_key(&key, Reaction::key).ok().map(|k| &self.reactions[k])

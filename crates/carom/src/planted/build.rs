@@ -9,6 +9,7 @@ use serde::Deserialize;
 use super::contact::PlantedContact;
 use super::numbering::Numbering;
 use crate::build::Surfaces;
+use crate::build::cohesion::first_cohesion;
 use crate::build::contact::{check_manifold, pairs};
 use crate::build::drive::obstacle_motion;
 use crate::build::friction_law::{first_law, first_orthotropic, friction_laws};
@@ -147,6 +148,10 @@ pub(super) fn assembled<const D: usize>(
     mut model: ContactModel<D>,
     mut surfaces: Surfaces<D>,
 ) -> Result<Assembly<D>, InputError> {
+    if let Some(key) = first_cohesion(&spec.contact) {
+        let message = "surfaces of bodies of other codes do not hold together; leave it out";
+        return Err(InputError::new(key, message));
+    }
     let mut motions = Vec::new();
     let size = members.iter().map(|m| m.diameter).fold(0.0, f64::max);
     for (i, entry) in spec.obstacles.iter().enumerate() {

@@ -4,6 +4,7 @@ use carom_contact::{Penetration, Solid};
 use carom_mesh::Vector;
 
 use crate::Simulation;
+use crate::build::cohesion::bond;
 use crate::build::values::place;
 use crate::error::InputError;
 
@@ -45,6 +46,7 @@ impl<const D: usize> Simulation<D> {
         model.take_over(state);
         stage.set_in_motion(state);
         state.refresh(&model.assembly, &self.work.bodies);
+        bond(&model.assembly, state);
         if !state.is_finite() {
             let message = "the energy of the initial displacements is not finite; check their unit, metres";
             return Err(InputError::new("bodies", message));

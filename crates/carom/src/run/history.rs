@@ -35,6 +35,8 @@ pub(crate) struct History<const D: usize> {
     has_stages: bool,
     /// Whether they say how far friction is from its laws.
     has_laws: bool,
+    /// Whether they say how many contacts hold together.
+    holds: bool,
     /// Names of the supports of all stages.
     supports: Vec<String>,
     pub trails: Vec<Trail<D>>,
@@ -128,10 +130,23 @@ impl<const D: usize> History<D> {
         for spring in &model.assembly.springs {
             columns.extend(["length", "force"].map(|quantity| format!("{}.{quantity}", spring.name)));
         }
+        let holds = stages.iter().any(|stage| !stage.model.assembly.cohesions.are_none());
+        columns.extend(holds.then(|| "holding".to_string()));
         let (trails, rows) = (Vec::new(), Vec::new());
         let (parts, since, gauge) = (Vec::new(), Since::default(), Gauge::default());
-        let mut history =
-            Self { trails, tracks, has_stages, has_laws, supports, columns, rows, since, parts, gauge };
+        let mut history = Self {
+            trails,
+            tracks,
+            has_stages,
+            has_laws,
+            holds,
+            supports,
+            columns,
+            rows,
+            since,
+            parts,
+            gauge,
+        };
         history.restart(state);
         history
     }
@@ -257,6 +272,7 @@ impl<const D: usize> History<D> {
         for spring in &model.assembly.springs {
             self.rows.extend(spring.length_and_tension(&state.displacement, &state.velocity));
         }
+        self.rows.extend(self.holds.then(|| state.holding().count() as f64));
         min_gap
     }
 }

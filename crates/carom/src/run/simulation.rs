@@ -255,7 +255,8 @@ impl<const D: usize> Simulation<D> {
         let model = &stages[*current].model;
         let still = std::mem::replace(state, model.initial_state(velocity));
         state.time = still.time;
-        (state.displacement, state.anchor) = (still.displacement, still.anchor);
+        (state.displacement, state.anchor, state.reactions) =
+            (still.displacement, still.anchor, still.reactions);
         state.refresh(&model.assembly, &work.bodies);
         self.restart();
     }

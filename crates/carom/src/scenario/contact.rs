@@ -4,6 +4,7 @@ use carom_contact::Discretisation;
 use carom_friction::SolverKind;
 use serde::{Deserialize, Serialize};
 
+use super::cohesion::CohesionSpec;
 use super::friction::FrictionSpec;
 use crate::{ContactCondition, SignalSpec};
 
@@ -36,6 +37,9 @@ pub struct ContactSpec {
     /// Coefficient of restitution of every pair of what is rigid that names none.
     #[serde(default)]
     pub restitution: Option<f64>,
+    /// How every pair that says nothing else holds together.
+    #[serde(default)]
+    pub cohesion: Option<CohesionSpec>,
     /// Exceptions for pairs.
     #[serde(default)]
     pub pairs: Vec<PairEntry>,
@@ -101,6 +105,9 @@ pub struct PairEntry {
     /// Coefficient of restitution.
     #[serde(default)]
     pub restitution: Option<f64>,
+    /// How the two hold together.
+    #[serde(default)]
+    pub cohesion: Option<CohesionSpec>,
     /// Whose nodes are checked.
     pub sources: Option<Sources>,
     /// How contact between the two is written.

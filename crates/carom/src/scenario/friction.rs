@@ -22,7 +22,11 @@ pub enum FrictionSpec {
 impl FrictionSpec {
     /// Whether the coefficient depends on the motion.
     pub(crate) fn is_law(&self) -> bool {
-        !matches!(self, Self::Coefficient(_) | Self::Orthotropic(_))
+        match self {
+            Self::Coefficient(_) => false,
+            Self::Orthotropic(spec) => spec.along.is_law() || spec.across.is_law(),
+            _ => true,
+        }
     }
 }
 
@@ -30,10 +34,10 @@ impl FrictionSpec {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OrthotropicSpec {
-    /// μ₁.
-    pub along: f64,
-    /// μ₂.
-    pub across: f64,
+    /// μ₁: a coefficient or a law.
+    pub along: Box<FrictionSpec>,
+    /// μ₂, likewise.
+    pub across: Box<FrictionSpec>,
     /// The direction of μ₁ in the reference configuration, of any length.
     pub direction: Vec<f64>,
     /// The name of what carries it.
@@ -97,6 +101,11 @@ pub struct StaticKineticSpec {
 }
 
 impl StaticKineticSpec {
+    /// A coefficient that is constant.
+    pub(crate) fn constant(kinetic: f64) -> Self {
+        Self { static_coefficient: None, kinetic, speed: None, distance: None, viscous: 0.0 }
+    }
+
     /// The law. Of speed and distance there is one at most.
     pub(crate) fn law(&self) -> StaticKinetic {
         let weakening = match (self.speed, self.distance) {

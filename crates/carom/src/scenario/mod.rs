@@ -1,5 +1,6 @@
 //! The scenario as data: what the case file and the Python objects describe. Field names are those of the case file.
 
+mod cohesion;
 mod contact;
 mod drive;
 mod friction;
@@ -16,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 pub use drive::{Axis, Displacement, LoadEntry, LoadSpec, MomentSpec, MotionEntry, MotionSpec};
 
+pub use self::cohesion::CohesionSpec;
 pub use self::contact::{ContactSpec, PairEntry, SolverSpec, Sources, Targets};
 pub use self::friction::{
     FrictionFormulaSpec, FrictionSpec, OrthotropicSpec, RateAndStateSpec, StaticKineticSpec,

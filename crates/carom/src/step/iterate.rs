@@ -7,7 +7,7 @@ use super::equilibrate::{equilibrate, follow, go_on};
 use super::newton::Newton;
 use super::newton::acceleration::Last;
 use super::newton::control::CONTROL;
-use super::newton::convergence::{BodyProgress, Convergence};
+use super::newton::convergence::Convergence;
 use super::workspace::Workspace;
 use crate::error::StepError;
 use crate::model::each_body::{PerBody, try_each_body};
@@ -33,23 +33,36 @@ pub(super) fn iterate<const D: usize>(
         // The guess that softened contacts would go back to may be of other contacts, where the step is repeated.
         contacts.soften();
     }
-    for (i, progress) in newton.progress.iter_mut().enumerate() {
-        *progress = BodyProgress::new(nodal::largest(&motion[given.assembly.nodes(i)]));
-    }
-    newton.acceleration.restart();
-    newton.free_motion = None;
+    newton.begin(given.assembly, motion);
     nodal::each(&mut next.displacement, [&given.state.displacement, motion], |u1, [u0, d]| *u1 = u0 + d);
     let solve: Solve<D> = if given.interval.map.is_static() { equilibrate } else { iterate_bodies };
     let mut in_contact = std::mem::take(&mut newton.in_contact);
     in_contact.clear();
     in_contact.extend((0..work.bodies.len()).filter(|&i| contacts.active.touched[i]));
-    let made = if in_contact.is_empty() { Ok(0) } else { solve(&in_contact, given, next, work) };
+    let made =
+        if in_contact.is_empty() { Ok(0) } else { iterate_touching(&in_contact, solve, given, next, work) };
     work.newton.in_contact = in_contact;
     let mut iterations = made?;
     for i in 0..work.bodies.len() {
         if !work.contacts.active.touched[i] && !work.resting.who.bodies[i] {
             iterations = iterations.max(solve(&[i], given, next, work)?);
         }
+    }
+    Ok(iterations)
+}
+
+/// [`iterate`] for the `bodies` in contact, again and again, until everything that opens has let go. It ends, as what lets go does so for good.
+fn iterate_touching<const D: usize>(
+    bodies: &[usize],
+    solve: Solve<D>,
+    given: &Given<'_, D>,
+    next: &mut State<D>,
+    work: &mut Workspace<D>,
+) -> Result<usize, StepError> {
+    let mut iterations = solve(bodies, given, next, work)?;
+    while work.contacts.let_go() {
+        work.newton.begin(given.assembly, &work.motion);
+        iterations += solve(bodies, given, next, work)?;
     }
     Ok(iterations)
 }

@@ -73,8 +73,9 @@ fn stop<const D: usize>(
         let impulse = across * -mass(&at_end[i], given.assembly, bodies);
         // The reaction of one that stuck turned its velocity round; half of that is what it would take to stop it.
         let times = if sticks { IMPULSIVE.borne } else { 1.0 };
-        let left = reaction.force + impulse * (times / dt);
-        let is_moving = impulse.norm() > IMPULSIVE.at_rest * reaction.force[0] * dt;
+        let pressing = reaction.in_cone();
+        let left = pressing + impulse * (times / dt);
+        let is_moving = impulse.norm() > IMPULSIVE.at_rest * pressing[0] * dt;
         if !is_moving || tangential(&left) > holding * left[0] {
             continue;
         }
@@ -106,7 +107,7 @@ fn choose<const D: usize>(
         if state.reaction(reaction.key()).is_none() || active.start_gaps[i] > 0.0 || h0 != h1 {
             continue;
         }
-        let (r, mu) = (&reaction.force, active.friction[i]);
+        let (r, mu) = (&reaction.in_cone(), active.friction[i]);
         let velocity = at_end[i].relative(|n| new.velocity[n]);
         let mut impulse = velocity * -mass(&at_end[i], assembly, bodies);
         if !sticks(r, mu) {

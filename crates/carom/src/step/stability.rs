@@ -18,7 +18,7 @@ use crate::contact::Contacts;
 use crate::contact::stiffened::{ground, ground_of_model};
 use crate::error::StepError;
 use crate::model::given::Given;
-use crate::model::state::State;
+use crate::model::state::{Reaction, State};
 
 /// How much stiffer than κ contacts are where nothing but the motions that they do not see is looked at.
 const RIGID: f64 = 1e4;
@@ -101,7 +101,8 @@ fn by_reactions<const D: usize>(
             own.map_or(place, |x| place + x * (sign * step))
         };
         assembly.contact.evaluate_all(&active.candidates, &position, &mut mortar, &mut moved);
-        for ((moved, contact), r) in moved.iter_mut().zip(&active.contacts).zip(&active.reactions) {
+        active.tie(&mut moved, &position);
+        for ((moved, contact), r) in moved.iter_mut().zip(&active.contacts).zip(active.all_acting()) {
             moved.carry_frame(&contact.frame);
             moved.add_force(&(r * (-sign / (2.0 * step))), &mut forces);
         }
@@ -234,9 +235,10 @@ pub(super) fn about_to_give_way<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Option<StepError> {
     let state = given.state;
-    let pairs = &given.assembly.contact.pairs;
+    let in_cones: Vec<_> = state.reactions.iter().map(Reaction::in_cone).collect();
+    let reactions = state.reactions.iter().zip(&in_cones);
     let pressed: Vec<_> =
-        state.reactions.iter().map(|r| (&r.contact, &r.force, pairs.get(r.pair as usize).friction)).collect();
+        reactions.map(|(r, force)| (&r.contact, force, r.friction(given.assembly))).collect();
     for &i in bodies {
         let is_sprung = work.contacts.reduced.delassus.stiffened.is_sprung[i];
         if !is_in_question(i, work) && !is_sprung {

@@ -68,6 +68,15 @@ impl<const D: usize> Newton<D> {
         }
     }
 
+    /// Begins the iterations of a step from this `motion` [m].
+    pub fn begin(&mut self, assembly: &Assembly<D>, motion: &[Vector<D>]) {
+        for (i, progress) in self.progress.iter_mut().enumerate() {
+            *progress = BodyProgress::new(nodal::largest(&motion[assembly.nodes(i)]));
+        }
+        self.acceleration.restart();
+        self.free_motion = None;
+    }
+
     /// Keeps a guess of a load step of the `bodies`, to return to if it leads nowhere.
     pub fn keep_guess(
         &mut self,
@@ -80,7 +89,8 @@ impl<const D: usize> Newton<D> {
         for nodes in bodies.iter().map(|&i| assembly.nodes(i)) {
             self.guess[nodes.clone()].copy_from_slice(&motion[nodes]);
         }
-        self.guess_reactions.clone_from(&active.reactions);
+        self.guess_reactions.clear();
+        self.guess_reactions.extend(active.all_acting());
     }
 
     /// Goes back to that guess.
@@ -94,7 +104,7 @@ impl<const D: usize> Newton<D> {
         for nodes in bodies.iter().map(|&i| assembly.nodes(i)) {
             motion[nodes.clone()].copy_from_slice(&self.guess[nodes]);
         }
-        active.reactions.clone_from(&self.guess_reactions);
+        active.act(&self.guess_reactions);
     }
 
     /// Leaves out of the correction what is left alone.
