@@ -70,7 +70,7 @@ impl<const D: usize> Slider<D> {
         let Some(coefficients) = law.by_direction(sliding) else { return Ok(None) };
         let largest = coefficients[0].max(coefficients[1]);
         let lengths = coefficients.map(|mu| mu / largest);
-        match lengths.iter().position(|length| !(*length >= CONTROL.narrowest)) {
+        match lengths.iter().position(|length| length.is_nan() || *length < CONTROL.narrowest) {
             None => Ok(Some(lengths)),
             Some(k) => Err(self.no_coefficient(coefficients[k], sliding)),
         }

@@ -33,10 +33,11 @@ pub(crate) struct Landing<'a, const D: usize, M: ?Sized> {
 pub(crate) fn restore<const D: usize, M: Masses<D> + ?Sized>(
     given: &Given<'_, D>,
     new: &mut State<D>,
-    landing: Landing<'_, D, M>,
+    mut landing: Landing<'_, D, M>,
     impulses: &mut Impulses<D>,
 ) {
-    let Landing { active, at_end, motion, masses, ledgers } = landing;
+    let Landing { active, at_end, motion, .. } = landing;
+    let masses = &mut *landing.masses;
     impulses.done.clear();
     impulses.landings = 0;
     impulses.scales.fill(0.0);
@@ -65,8 +66,8 @@ pub(crate) fn restore<const D: usize, M: Masses<D> + ?Sized>(
         return;
     }
     impulses.weigh(given, at_end, masses, new);
-    rub(given, new, active, at_end, motion, masses, impulses);
-    impulses.give(given, at_end, new, ledgers, restoring);
+    rub(given, new, &mut landing, impulses);
+    impulses.give(given, landing.at_end, new, landing.ledgers, restoring);
     impulses.landings = impulses.done.len();
 }
 
@@ -99,12 +100,11 @@ fn restoring(group: &Group) -> f64 {
 fn rub<const D: usize, M: Masses<D> + ?Sized>(
     given: &Given<'_, D>,
     new: &State<D>,
-    active: &ActiveSet<D>,
-    at_end: &[Contact<D>],
-    motion: &[Vector<D>],
-    masses: &mut M,
+    landing: &mut Landing<'_, D, M>,
     impulses: &mut Impulses<D>,
 ) {
+    let Landing { active, at_end, motion, .. } = *landing;
+    let masses = &mut *landing.masses;
     let dt = given.interval.map.dt;
     let mut wanted = std::mem::take(&mut impulses.wanted);
     let mut rubs = false;
@@ -155,9 +155,8 @@ fn rub<const D: usize, M: Masses<D> + ?Sized>(
 /// Gives an impulse along the normal the share of friction that the reaction `force` has, and says whether it had another.
 fn share<const D: usize>(impulse: &mut Vector<D>, force: &Vector<D>) -> bool {
     let share = impulse[0] / force[0];
-    (1..D).fold(false, |changes, t| {
-        std::mem::replace(&mut impulse[t], share * force[t]) != impulse[t] || changes
-    })
+    let shared = Vector::<D>::from_fn(|t, _| if t == 0 { impulse[0] } else { share * force[t] });
+    std::mem::replace(impulse, shared) != shared
 }
 
 /// What friction took with a reaction in the step [J].
