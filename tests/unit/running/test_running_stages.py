@@ -151,6 +151,11 @@ def test_what_another_run_has_pressed_down_goes_on_resting(tmp_path):
     )
     assert np.ptp(run.history["block.x"]) < 1e-14
     assert run.history["kinetic"].max() < 1e-20
+    # Without mass on its sides it weighs elsewhere, and no vibration pays for the jump.
+    case["contact"] = carom.Contact(friction=0.6, condition="massless")
+    elsewhere = carom.Scenario(analysis=goes_on, initial=start, **case)
+    with pytest.raises(carom.ConvergenceError, match="contact of massless nodes leaves"):
+        carom.run(elsewhere, out=tmp_path / "elsewhere")
 
 
 def test_nothing_happens_at_the_border_of_stages():

@@ -138,12 +138,13 @@ fn rub<const D: usize, M: Masses<D> + ?Sized>(
             let [_, across] = impulses.taken(given, at_end, new, impulse, restoring);
             let takes = impulses.scale(given, new, impulse, restoring) < 0.0;
             let reaction = &new.reactions[impulse.reaction];
-            if takes && share(&mut impulse.impulse, &reaction.force) {
+            let is_last = round >= IMPULSIVE.rounds - 1;
+            if takes && !is_last && share(&mut impulse.impulse, &reaction.force) {
                 rubs = true;
-            } else if takes && rubbed(reaction, motion) + across < 0.0 {
+            } else if takes && (is_last || rubbed(reaction, motion) + across < 0.0) {
                 (impulse.impulse, impulse.energy) = (Vector::zeros(), 0.0);
                 rubs = true;
-            } else if !takes && (across < 0.0 || round == IMPULSIVE.rounds - 1) {
+            } else if !takes && (across < 0.0 || is_last) {
                 (1..D).for_each(|t| impulse.impulse[t] = 0.0);
                 rubs = true;
             }
