@@ -36,6 +36,10 @@ def test_a_block_is_pulled_off_at_its_tensile_strength(tmp_path, dimension):
     assert pull[2] < 1e-12 * limit
     assert list(result.history["holding"] > 0) == [True, True, False]
     assert result.history["normal_force"][1] == pytest.approx(-(1 - NEAR) * limit, rel=1e-9)
+    # What is set free as it lets go is told.
+    set_free = result.history["strain"][1]
+    assert result.history["normal_contact"][2] == pytest.approx(set_free, rel=3 * NEAR)
+    assert np.abs(result.history["defect"]).max() < 1e-12 * set_free
 
 
 @pytest.mark.parametrize("condition", ["midpoint", "gap", "endpoint", "massless"])
