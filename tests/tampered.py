@@ -2,13 +2,48 @@
 
 import shutil
 
+import h5py
+
+
+def little_more(value):
+    """Return a number that differs by more than round-off, also from zero."""
+    return value * (1 + 1e-6) + 1e-6
+
+
+def in_case(old, new):
+    """Change what the case says first as `old`."""
+
+    def tamper(directory):
+        path = directory / "case.toml"
+        text = path.read_text()
+        assert old in text
+        path.write_text(text.replace(old, new, 1))
+
+    return tamper
+
+
+def in_h5(name, change):
+    """Change a number in an HDF5 file: of a dataset its largest, of attributes the one named."""
+
+    def tamper(directory):
+        file, _, path = name.partition(":")
+        with h5py.File(directory / file, "r+") as opened:
+            path, _, attribute = path.partition("@")
+            if attribute:
+                opened[path].attrs[attribute] = change(opened[path].attrs[attribute])
+                return
+            values = opened[path][:]
+            index = abs(values).ravel().argmax()
+            values.ravel()[index] = change(values.ravel()[index])
+            opened[path][...] = values
+
+    return tamper
+
 
 def with_another_case(run, directory, old, new):
     """Copy a run to a directory; what its case says first as `old` is `new` there."""
     shutil.copytree(run, directory)
-    text = (directory / "case.toml").read_text()
-    assert old in text
-    (directory / "case.toml").write_text(text.replace(old, new, 1))
+    in_case(old, new)(directory)
     return directory
 
 

@@ -14,6 +14,7 @@ from carom import cli
 from carom.auditing.catalogue import CHECKS
 from carom.auditing.check_ledger import BODY_COLUMNS, PAIR_COLUMNS
 from carom.errors import InputError
+from tampered import in_case, in_h5, little_more
 
 RUBBER = {"c10": 400.0, "bulk": 3000.0, "density": 1.0}
 
@@ -96,24 +97,6 @@ def test_without_stored_steps_less_is_checked_and_that_is_said(tmp_path):
     assert any("output.audit = true" in left.store for left in audit.unchecked)
 
 
-def in_h5(name, change):
-    """Change a number in an HDF5 file: of a dataset its largest, of attributes the one named."""
-
-    def tamper(directory):
-        file, _, path = name.partition(":")
-        with h5py.File(directory / file, "r+") as opened:
-            path, _, attribute = path.partition("@")
-            if attribute:
-                opened[path].attrs[attribute] = change(opened[path].attrs[attribute])
-                return
-            values = opened[path][:]
-            index = abs(values).ravel().argmax()
-            values.ravel()[index] = change(values.ravel()[index])
-            opened[path][...] = values
-
-    return tamper
-
-
 def in_history(column, row=60):
     """Change a number of the history; row 60 is at an output time."""
 
@@ -171,20 +154,6 @@ def in_summary(*keys, factor=1 + 1e-6):
         path.write_text(json.dumps(summary))
 
     return tamper
-
-
-def in_case(old, new):
-    def tamper(directory):
-        path = directory / "case.toml"
-        text = path.read_text()
-        assert old in text
-        path.write_text(text.replace(old, new, 1))
-
-    return tamper
-
-
-def little_more(value):
-    return value * (1 + 1e-6) + 1e-6
 
 
 STEP = "audit.h5:steps/000002"

@@ -3,11 +3,10 @@
 import json
 import shutil
 
-import h5py
-import numpy as np
 import pytest
 
 import carom
+from tampered import in_case, in_h5, little_more
 
 pytestmark = pytest.mark.usefixtures("without_pictures")
 
@@ -167,7 +166,7 @@ def test_smooth_targets_are_confirmed_in_space(tmp_path, method, changes):
 def test_a_run_with_facets_has_no_smooth_targets(results, tmp_path):
     directory = tmp_path / "results"
     shutil.copytree(results, directory)
-    told('targets = "faceted"', 'targets = "smooth"')(directory)
+    in_case('targets = "faceted"', 'targets = "smooth"')(directory)
     assert "contact normals" in {check.name for check in carom.audit(directory).refuted}
 
 
@@ -296,49 +295,23 @@ def test_states_of_reduced_bodies_are_confirmed_in_space(tmp_path):
     assert checks["kinetic parts"].count > 0
 
 
-def falsified(name, change):
-    def tamper(directory):
-        file, _, path = name.partition(":")
-        with h5py.File(directory / file, "r+") as opened:
-            values = opened[path][:]
-            index = np.abs(values).ravel().argmax()
-            values.ravel()[index] = change(values.ravel()[index])
-            opened[path][...] = values
-
-    return tamper
-
-
-def told(old, new):
-    def tamper(directory):
-        path = directory / "case.toml"
-        text = path.read_text()
-        assert old in text
-        path.write_text(text.replace(old, new, 1))
-
-    return tamper
-
-
-def little_more(value):
-    return value * (1 + 1e-6) + 1e-6
-
-
 STEP = "audit.h5:steps/000002"
 
 FALSE = {
-    "displacement": falsified(f"{STEP}/end/displacement", little_more),
-    "velocity": falsified(f"{STEP}/end/velocity", little_more),
-    "reaction": falsified(f"{STEP}/end/contact_reaction", lambda f: 1.001 * f),
-    "gap": falsified(f"{STEP}/end/contact_gap", little_more),
-    "normal": falsified(f"{STEP}/end/contact_normal", lambda n: 0.999 * n),
-    "node": falsified(f"{STEP}/end/contact_node", lambda n: n - 1),
-    "stress": falsified("fields.vtkhdf:VTKHDF/CellData/stress", little_more),
-    "pressure": falsified("surface.vtkhdf:VTKHDF/CellData/pressure", little_more),
-    "area": falsified("surface.vtkhdf:VTKHDF/CellData/area", little_more),
-    "friction": told("friction = 0.2", "friction = 0.201"),
-    "spin": told("spin = [0.5, 0.2, -0.3]", "spin = [0.5, 0.2001, -0.3]"),
-    "radius": told("radius = 1.0", "radius = 1.0001"),
-    "floor": told("velocity = [0.5, 0.1, 0.1]", "velocity = [0.5, 0.1001, 0.1]"),
-    "law": told("saint-venant-kirchhoff", "neo-hookean"),
+    "displacement": in_h5(f"{STEP}/end/displacement", little_more),
+    "velocity": in_h5(f"{STEP}/end/velocity", little_more),
+    "reaction": in_h5(f"{STEP}/end/contact_reaction", lambda f: 1.001 * f),
+    "gap": in_h5(f"{STEP}/end/contact_gap", little_more),
+    "normal": in_h5(f"{STEP}/end/contact_normal", lambda n: 0.999 * n),
+    "node": in_h5(f"{STEP}/end/contact_node", lambda n: n - 1),
+    "stress": in_h5("fields.vtkhdf:VTKHDF/CellData/stress", little_more),
+    "pressure": in_h5("surface.vtkhdf:VTKHDF/CellData/pressure", little_more),
+    "area": in_h5("surface.vtkhdf:VTKHDF/CellData/area", little_more),
+    "friction": in_case("friction = 0.2", "friction = 0.201"),
+    "spin": in_case("spin = [0.5, 0.2, -0.3]", "spin = [0.5, 0.2001, -0.3]"),
+    "radius": in_case("radius = 1.0", "radius = 1.0001"),
+    "floor": in_case("velocity = [0.5, 0.1, 0.1]", "velocity = [0.5, 0.1001, 0.1]"),
+    "law": in_case("saint-venant-kirchhoff", "neo-hookean"),
 }
 
 
@@ -368,7 +341,7 @@ def test_cells_of_second_order_are_confirmed_but_smooth_targets_over_them_are_no
     refuted, checks = audited(carom.Scenario.from_dict(case), tmp_path)
     assert refuted == []
     assert checks["Coulomb: cone"].count > 0
-    told('targets = "faceted"', 'targets = "smooth"')(tmp_path)
+    in_case('targets = "faceted"', 'targets = "smooth"')(tmp_path)
     with pytest.raises(carom.InputError, match="smooth targets over facets of second order in sp"):
         carom.audit(tmp_path)
 
@@ -377,6 +350,6 @@ def test_friction_that_depends_on_the_direction_is_not_audited(results, tmp_path
     directory = tmp_path / "results"
     shutil.copytree(results, directory)
     law = '{ along = 0.1, across = 0.3, direction = [1, 0, 0], of = "floor" }'
-    told("friction = 0.2", f"friction = {law}")(directory)
+    in_case("friction = 0.2", f"friction = {law}")(directory)
     with pytest.raises(carom.InputError, match="cannot audit friction that depends on the direc"):
         carom.audit(directory)

@@ -96,8 +96,7 @@ impl<const D: usize> Stepper<'_, D> {
             among_threads(model.node_count(), || step_over(assembly, method, &interval, state, spare, work))?;
         let may_wait = length < LONG * whole;
         let share = if may_wait { LARGEST_DEBT } else { DEBT_OF_LONG_STEP };
-        let energy = energy.max(met(model, spare));
-        check_debt(state, spare, energy, share, &report)?;
+        check_debt(model, [state, spare], energy, share, &report)?;
         Ok(report)
     }
 }
@@ -117,10 +116,10 @@ fn met<const D: usize>(model: &Model<D>, state: &State<D>) -> f64 {
 }
 
 /// Refuses a step to `next` whose blends left more over than a `share` of the largest `energy` [J], be it too much or too little of a body. A run
-/// may start without any: what the step itself brings counts.
+/// may start without any: what the step itself brings counts, and what obstacles meet.
 fn check_debt<const D: usize>(
-    state: &State<D>,
-    next: &State<D>,
+    model: &Model<D>,
+    [state, next]: [&State<D>; 2],
     energy: f64,
     share: f64,
     report: &StepReport,
@@ -128,6 +127,10 @@ fn check_debt<const D: usize>(
     let debt = |state: &State<D>| state.energy_debt.iter().map(|e| e.abs()).sum::<f64>();
     let missing = debt(next) - debt(state);
     let given = report.ledger.external.abs() + report.ledger.prescribed.abs();
-    let allowed = share * energy.max(next.energies.total()).max(given);
+    let usual = share * energy.max(next.energies.total()).max(given);
+    if missing <= usual {
+        return Ok(());
+    }
+    let allowed = usual.max(share * met(model, next));
     if missing > allowed { Err(StepError::Unbalanced { missing, allowed }) } else { Ok(()) }
 }

@@ -26,7 +26,8 @@ use crate::contact::contact_work::ContactWork;
 /// some steps, and one of them fails; with 2 all complete.
 const LARGEST: f64 = 2.0;
 
-/// Up to this |α| stresses are those of a time within the step: it has no more where what it moves is not clear of round-off, below this fraction of the energy.
+/// Up to this |α| stresses are those of a time within the step. Where what it moves is not clear of round-off, below this fraction of the energy, it has no
+/// more, and is zero where that would not do: a blend of round-off makes more of it in every step, and moves nothing that is missing.
 const WITHIN: f64 = 0.5;
 const CLEAR: f64 = 1e-9;
 
@@ -102,8 +103,8 @@ impl Blend {
             let matters = missing.abs() > NEGLIGIBLE * energy;
             self.weight[i] = if matters && available.abs() > CLEAR * energy {
                 (missing / available).clamp(least, largest)
-            } else if matters && available > 0.0 {
-                Some(missing / available).filter(|weight| weight.abs() <= WITHIN).unwrap_or(0.0)
+            } else if matters && missing.abs() <= WITHIN * available {
+                missing / available
             } else {
                 0.0
             };
