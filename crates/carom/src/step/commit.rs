@@ -4,7 +4,7 @@ use carom_contact::{Contact, Solid, shares};
 use carom_fem::material::PlasticState;
 use carom_mesh::Vector;
 
-use super::landing::{Landing, restore};
+use super::landing::{Landing, restore, rubbed};
 use super::repaying::repay;
 use super::report::{PairReport, StepReport};
 use super::resting::Resting;
@@ -176,7 +176,7 @@ fn book_impulses<const D: usize>(
     report: &mut StepReport,
 ) {
     let assembly = given.assembly;
-    let Workspace { contacts, impulses, pair_reports, .. } = work;
+    let Workspace { contacts, impulses, motion, pair_reports, .. } = work;
     let State { reactions, friction_energy, displacement, .. } = next;
     impulses.join(&contacts.at_end, reactions, |reaction, done, normal, has_landed| {
         let own = assembly.contact.pairs.get(reaction.pair as usize);
@@ -194,7 +194,8 @@ fn book_impulses<const D: usize>(
         if has_landed {
             pair.ledger.normal_contact += along;
             pair.ledger.friction += across;
-            report.least_friction = report.least_friction.min(across);
+            // An impulse may take from the reaction: no more friction than was there.
+            report.least_friction = report.least_friction.min(rubbed(reaction, motion) + across);
             deposit(assembly, &reaction.contact, across, friction_energy);
         } else {
             pair.ledger.settling += along + across;

@@ -116,7 +116,8 @@ impl<const D: usize> Impulses<D> {
         forces
     }
 
-    /// Makes what was done part of the reactions, and tells `book` of each what it was, the force more along its normal [N], and whether it landed.
+    /// Makes what was done part of the reactions, and before tells `book` of each what it was, the force more along its normal [N], and whether it
+    /// landed.
     pub(crate) fn join(
         &self,
         contacts: &[Contact<D>],
@@ -126,8 +127,8 @@ impl<const D: usize> Impulses<D> {
         for (k, done) in self.done.iter().enumerate() {
             let reaction = &mut reactions[done.reaction];
             let force = reaction.contact.components(&contacts[done.contact].frame.tr_mul(&done.force));
-            reaction.force += force;
             book(reaction, done, force[0], k < self.landings);
+            reaction.force += force;
         }
     }
 

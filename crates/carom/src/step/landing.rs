@@ -9,7 +9,7 @@ use crate::body::Masses;
 use crate::contact::active::ActiveSet;
 use crate::ledger::BodyLedger;
 use crate::model::given::Given;
-use crate::model::state::State;
+use crate::model::state::{Reaction, State};
 
 /// The contacts of a step that is at its end, and the bodies that meet there.
 pub(crate) struct Landing<'a, const D: usize, M: ?Sized> {
@@ -95,26 +95,25 @@ fn restoring(group: &Group) -> f64 {
 /// Gives the impulses Coulomb's friction.
 ///
 /// Along the normal they push: where the contact does not stick, friction is against the velocity that they meet. As in a step with θ = ½ it may turn
-/// a velocity round, but not make it larger: friction takes energy at every contact, or there is none. Where they would take from a reaction that
-/// rubs, its friction would be out of the cone, and to take that back may give energy: such a contact gives nothing back.
+/// a velocity round, but not make it larger: friction takes energy at every contact, or there is none. Where they take from the reactions, they
+/// take as much of their friction; and nothing where this would give more back than it took in the step.
 fn rub<const D: usize, M: Masses<D> + ?Sized>(
     given: &Given<'_, D>,
     new: &State<D>,
     landing: &mut Landing<'_, D, M>,
     impulses: &mut Impulses<D>,
 ) {
-    let Landing { active, at_end, .. } = *landing;
+    let Landing { active, at_end, motion, .. } = *landing;
     let masses = &mut *landing.masses;
     let dt = given.interval.map.dt;
     let mut wanted = std::mem::take(&mut impulses.wanted);
     let mut rubs = false;
-    for wanted in &mut wanted {
-        let takes = impulses.scale(given, new, wanted, restoring) < 0.0;
-        let Impulse { reaction, contact, ref mut impulse, ref mut energy } = *wanted;
+    for impulse in &mut wanted {
+        let takes = impulses.scale(given, new, impulse, restoring) < 0.0;
+        let Impulse { reaction, contact, ref mut impulse, .. } = *impulse;
         let (friction, force) = (active.friction[contact], &new.reactions[reaction].force);
-        if takes && friction > 0.0 {
-            (*impulse, *energy) = (Vector::zeros(), 0.0);
-            rubs = true;
+        if takes {
+            rubs |= share(impulse, force);
             continue;
         }
         let v = at_end[contact].relative(|n| new.velocity[n]);
@@ -138,10 +137,14 @@ fn rub<const D: usize, M: Masses<D> + ?Sized>(
         for impulse in &mut wanted {
             let [_, across] = impulses.taken(given, at_end, new, impulse, restoring);
             let takes = impulses.scale(given, new, impulse, restoring) < 0.0;
-            if takes && active.friction[impulse.contact] > 0.0 {
+            let reaction = &new.reactions[impulse.reaction];
+            let is_last = round >= IMPULSIVE.rounds - 1;
+            if takes && !is_last && share(&mut impulse.impulse, &reaction.force) {
+                rubs = true;
+            } else if takes && (is_last || rubbed(reaction, motion) + across < 0.0) {
                 (impulse.impulse, impulse.energy) = (Vector::zeros(), 0.0);
                 rubs = true;
-            } else if across < 0.0 || round == IMPULSIVE.rounds - 1 {
+            } else if !takes && (across < 0.0 || is_last) {
                 (1..D).for_each(|t| impulse.impulse[t] = 0.0);
                 rubs = true;
             }
@@ -149,4 +152,17 @@ fn rub<const D: usize, M: Masses<D> + ?Sized>(
     }
     impulses.wanted = wanted;
     impulses.weigh(given, at_end, masses, new);
+}
+
+/// Gives an impulse along the normal the share of friction that the reaction `force` has, and says whether it had another.
+fn share<const D: usize>(impulse: &mut Vector<D>, force: &Vector<D>) -> bool {
+    let share = impulse[0] / force[0];
+    let shared = Vector::<D>::from_fn(|t, _| if t == 0 { impulse[0] } else { share * force[t] });
+    std::mem::replace(impulse, shared) != shared
+}
+
+/// What friction took with a reaction in the step [J].
+pub(super) fn rubbed<const D: usize>(reaction: &Reaction<D>, motion: &[Vector<D>]) -> f64 {
+    let w = reaction.contact.relative(|n| motion[n]);
+    -(1..D).map(|t| reaction.force[t] * w[t]).sum::<f64>()
 }
