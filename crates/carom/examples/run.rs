@@ -2,12 +2,18 @@
 //!
 //! `carom.Scenario.from_toml("case.toml").to_json()` writes such a file.
 
+use std::error::Error;
+
 use carom::{Scenario, Simulation};
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).ok_or("which scenario? give the path of a JSON file")?;
     let scenario: Scenario = serde_json::from_str(&std::fs::read_to_string(path)?)?;
-    let mut simulation = Simulation::<2>::new(&scenario)?;
+    if scenario.dimension == 2 { run::<2>(&scenario) } else { run::<3>(&scenario) }
+}
+
+fn run<const D: usize>(scenario: &Scenario) -> Result<(), Box<dyn Error>> {
+    let mut simulation = Simulation::<D>::new(scenario)?;
     let start = std::time::Instant::now();
     simulation.advance(f64::INFINITY, || false)?;
     let elapsed = start.elapsed().as_secs_f64();

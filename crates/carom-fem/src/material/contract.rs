@@ -258,7 +258,9 @@ proptest! {
         let svk = SaintVenantKirchhoff::new(&constants).expect("valid");
         side_by_side::<2, _>(svk, &points)?;
         side_by_side::<3, _>(svk, &points)?;
-        side_by_side::<2, _>(NeoHookean::new(&constants).expect("valid"), &points)?;
+        let neo_hookean = NeoHookean::new(&constants).expect("valid");
+        side_by_side::<2, _>(neo_hookean, &points)?;
+        side_by_side::<3, _>(neo_hookean, &points)?;
     }
 }
 

@@ -10,6 +10,8 @@ pub(crate) struct Control {
     pub sweeps: usize,
     /// Below this change of strain the correction of the discrete gradient, of its third order, is smaller than round-off.
     pub small_strain: f64,
+    /// Growth of tr C from which strains are large.
+    pub large_strain: f64,
     /// Increments below this are round-off of a point that has already flowed to its yield stress.
     pub no_flow: f64,
     /// Newton steps in search of the F₃₃ of plane stress; a handful are needed.
@@ -19,5 +21,12 @@ pub(crate) struct Control {
 }
 
 /// The thresholds of all laws.
-pub(crate) const CONTROL: Control =
-    Control { coincident: 1e-5, sweeps: 30, small_strain: 1e-6, no_flow: 1e-14, steps: 60, converged: 1e-9 };
+pub(crate) const CONTROL: Control = Control {
+    coincident: 1e-5,
+    sweeps: 30,
+    small_strain: 1e-6,
+    large_strain: 1.0,
+    no_flow: 1e-14,
+    steps: 60,
+    converged: 1e-9,
+};

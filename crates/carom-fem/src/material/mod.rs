@@ -11,6 +11,7 @@ mod elastic_constants;
 mod flowing;
 mod invariants;
 mod j2_plasticity;
+mod lanes;
 mod linear_elastic;
 mod mooney_rivlin;
 mod neo_hookean;

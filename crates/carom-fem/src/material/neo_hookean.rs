@@ -1,5 +1,9 @@
+use pulp::Simd;
+
+use super::control::CONTROL;
+use super::lanes::{self, LaneLaw, Strain, Tensor};
 use super::strain_law::{green_lagrange, growths};
-use super::{ElasticConstants, Mat3, Material, Tangent};
+use super::{Batch, ElasticConstants, Mat3, Material, Tangent};
 use crate::FemError;
 
 /// Compressible neo-Hookean: ψ = ½ μ (tr FᵀF − 3) − μ ln J + ½ λ (ln J)², J = det F (Simo & Pister 1984).
@@ -62,4 +66,111 @@ impl Material for NeoHookean {
         }
         (self.stress(f), a)
     }
+
+    fn energies<const D: usize>(&self, count: usize, f: &Batch<D>, out: &mut [f64]) {
+        lanes::energies(*self, count, f, out);
+    }
+
+    fn stresses<const D: usize>(&self, count: usize, f: &Batch<D>, out: &mut Batch<D>) {
+        lanes::stresses(*self, count, f, out);
+    }
+
+    fn discrete_stresses<const D: usize>(
+        &self,
+        count: usize,
+        f0: &Batch<D>,
+        f1: &Batch<D>,
+        out: &mut Batch<D>,
+    ) {
+        lanes::discrete_stresses(*self, count, [f0, f1], out);
+    }
+
+    fn all_step_stresses<const D: usize>(
+        &self,
+        count: usize,
+        f0: &Batch<D>,
+        f1: &Batch<D>,
+        out: &mut [Batch<D>; 3],
+    ) {
+        lanes::step_stresses(*self, count, [f0, f1], out);
+    }
+}
+
+impl LaneLaw for NeoHookean {
+    /// λ and μ.
+    type Constants<V: Simd> = [V::f64s; 2];
+    const IS_QUADRATIC: bool = false;
+
+    #[inline(always)]
+    fn splat<V: Simd>(&self, simd: V) -> [V::f64s; 2] {
+        [simd.splat_f64s(self.lambda), simd.splat_f64s(self.mu)]
+    }
+
+    /// S = μ (1 − C⁻¹) + λ ln J C⁻¹, with 1 − C⁻¹ = C⁻¹ X. Where the strain is large the terms of its [`small_growth`] cancel, those of J² do not.
+    #[inline(always)]
+    fn energy_and_stress<V: Simd, const D: usize>(
+        simd: V,
+        [lambda, mu]: [V::f64s; 2],
+        Strain { x, square }: &Strain<V, D>,
+    ) -> (V::f64s, Tensor<V, D>) {
+        let (half, one) = (simd.splat_f64s(0.5), simd.splat_f64s(1.0));
+        let mut c = *x;
+        let mut trace = simd.splat_f64s(0.0);
+        for i in 0..D {
+            c[i][i] = simd.add_f64s(x[i][i], one);
+            trace = simd.add_f64s(trace, x[i][i]);
+        }
+        let cofactors = lanes::cofactors(simd, &c);
+        let growth = simd.select_f64s(
+            simd.greater_than_f64s(trace, simd.splat_f64s(CONTROL.large_strain)),
+            simd.sub_f64s(*square, one),
+            small_growth(simd, x),
+        );
+        let log_j = simd.mul_f64s(half, lanes::each_lane::<V>(growth, f64::ln_1p));
+        let pressure = simd.mul_f64s(lambda, log_j);
+        let shear = simd.mul_f64s(mu, simd.sub_f64s(simd.mul_f64s(half, trace), log_j));
+        let energy = simd.mul_add_e_f64s(simd.mul_f64s(half, pressure), log_j, shear);
+        // C⁻¹ (μ X + λ ln J 1), C⁻¹ = cof C / J².
+        let mut inner = *x;
+        for i in 0..D {
+            for j in 0..=i {
+                inner[i][j] = simd.mul_f64s(mu, x[i][j]);
+                inner[j][i] = inner[i][j];
+            }
+            inner[i][i] = simd.add_f64s(inner[i][i], pressure);
+        }
+        let scale = simd.div_f64s(one, simd.add_f64s(one, growth));
+        let mut stress = inner;
+        for i in 0..D {
+            for j in 0..=i {
+                let mut sum = simd.splat_f64s(0.0);
+                for k in 0..D {
+                    let cofactor = if i >= k { cofactors[i][k] } else { cofactors[k][i] };
+                    sum = simd.mul_add_e_f64s(cofactor, inner[k][j], sum);
+                }
+                stress[i][j] = simd.mul_f64s(scale, sum);
+            }
+        }
+        for i in 0..D {
+            for j in 0..i {
+                stress[j][i] = stress[i][j];
+            }
+        }
+        (energy, stress)
+    }
+}
+
+/// J² − 1 = tr X + Σ principal minors of X + det X: see [`growths`].
+#[inline(always)]
+fn small_growth<V: Simd, const D: usize>(simd: V, x: &Tensor<V, D>) -> V::f64s {
+    let cofactors = lanes::cofactors(simd, x);
+    let mut growth = lanes::symmetric_determinant(simd, x, &cofactors);
+    for i in 0..D {
+        // In the plane the only minor is the determinant.
+        if D == 3 {
+            growth = simd.add_f64s(growth, cofactors[i][i]);
+        }
+        growth = simd.add_f64s(growth, x[i][i]);
+    }
+    growth
 }
