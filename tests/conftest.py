@@ -1,5 +1,11 @@
+import os
 import signal
 from pathlib import Path
+
+# Before NumPy is imported. A worker is on every core already: threads of BLAS that waited for
+# one another took a minute for the modes of a hundred nodes. The core keeps its threads.
+for library in ("OMP", "OPENBLAS", "MKL"):
+    os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
 import pytest
 from hypothesis import settings
