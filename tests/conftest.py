@@ -65,6 +65,14 @@ def _is_whole(config):
     return whole and not (option.keyword or option.markexpr or option.collectonly)
 
 
+def pytest_collection_modifyitems(config, items):
+    """Leave long tests to `make validate`."""
+    if not os.environ.get("CAROM_LONG"):
+        long = [item for item in items if item.get_closest_marker("long")]
+        config.hook.pytest_deselected(items=long)
+        items[:] = [item for item in items if item not in long]
+
+
 @pytest.fixture(autouse=True, scope="session")
 def ctrl_c_interrupts():
     """A shell starts what runs in the background with Ctrl-C ignored, and children inherit that."""
