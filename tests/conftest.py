@@ -11,6 +11,7 @@ import pytest
 from hypothesis import settings
 
 import carom
+import carom.running.recorder
 import heard
 import restarting
 
@@ -77,6 +78,23 @@ def pytest_collection_modifyitems(config, items):
 def ctrl_c_interrupts():
     """A shell starts what runs in the background with Ctrl-C ignored, and children inherit that."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+DRAW = carom.running.recorder.draw
+
+
+@pytest.fixture(autouse=True, scope="session")
+def runs_draw_nothing():
+    """Two pictures take half a second, as long as most runs here; see `pictures`."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("carom.running.recorder.draw", lambda result: None)
+        yield
+
+
+@pytest.fixture
+def pictures(monkeypatch):
+    """Runs draw what they draw for users."""
+    monkeypatch.setattr("carom.running.recorder.draw", DRAW)
 
 
 @pytest.fixture

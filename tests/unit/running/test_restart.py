@@ -26,9 +26,8 @@ KILLS = int(os.environ.get("CAROM_KILLS", "25"))
 
 @pytest.fixture(autouse=True, scope="module")
 def quick():
-    """They take longer than the run, as does waiting for the disk."""
+    """Waiting for the disk takes longer than the run."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("carom.plot.draw", lambda _: None)
         patch.setattr("os.fsync", lambda _: None)
         yield
 
