@@ -22,8 +22,8 @@ demo: $(VENV)/installed
 
 test: $(VENV)/installed-dev
 	$(BIN)/python tools/get_browser.py
-	cargo test --release --locked --workspace --exclude carom-python --tests
-	cargo test --release --locked --workspace --exclude carom-python --doc
+	cargo test --release --locked --workspace --tests
+	cargo test --release --locked --workspace --doc
 	$(MAKE) c
 	$(BIN)/pytest -n auto --dist worksteal
 
@@ -35,7 +35,6 @@ check: $(VENV)/installed-docs
 	$(BIN)/ruff format --check $(PYTHON_SOURCES)
 	$(BIN)/ruff check $(PYTHON_SOURCES)
 	$(BIN)/mypy
-	cargo run --release --locked --quiet -p carom-c --example header -- --check
 	$(BIN)/python tools/make_fortran.py --check
 	$(BIN)/python docs/make_case_file_reference.py --check
 	$(BIN)/python docs/make_command_reference.py --check
@@ -69,6 +68,7 @@ validate: $(VENV)/installed-dev
 	$(BIN)/python benchmarks/validate.py
 	$(BIN)/python benchmarks/fuzz
 	CAROM_KILLS=500 $(BIN)/pytest tests/unit/running/test_restart.py -k killed
+	CAROM_LONG=1 $(BIN)/pytest -m long
 	$(BIN)/python benchmarks/claims
 
 $(BIN)/python:

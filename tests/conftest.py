@@ -1,10 +1,17 @@
+import os
 import signal
 from pathlib import Path
+
+# Before NumPy is imported. A worker is on every core already: threads of BLAS that waited for
+# one another took a minute for the modes of a hundred nodes. The core keeps its threads.
+for library in ("OMP", "OPENBLAS", "MKL"):
+    os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
 import pytest
 from hypothesis import settings
 
 import carom
+import carom.running.recorder
 import heard
 import restarting
 
@@ -59,10 +66,35 @@ def _is_whole(config):
     return whole and not (option.keyword or option.markexpr or option.collectonly)
 
 
+def pytest_collection_modifyitems(config, items):
+    """Leave long tests to `make validate`."""
+    if not os.environ.get("CAROM_LONG"):
+        long = [item for item in items if item.get_closest_marker("long")]
+        config.hook.pytest_deselected(items=long)
+        items[:] = [item for item in items if item not in long]
+
+
 @pytest.fixture(autouse=True, scope="session")
 def ctrl_c_interrupts():
     """A shell starts what runs in the background with Ctrl-C ignored, and children inherit that."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+DRAW = carom.running.recorder.draw
+
+
+@pytest.fixture(autouse=True, scope="session")
+def runs_draw_nothing():
+    """Two pictures take half a second, as long as most runs here; see `pictures`."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("carom.running.recorder.draw", lambda result: None)
+        yield
+
+
+@pytest.fixture
+def pictures(monkeypatch):
+    """Runs draw what they draw for users."""
+    monkeypatch.setattr("carom.running.recorder.draw", DRAW)
 
 
 @pytest.fixture

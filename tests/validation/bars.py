@@ -125,6 +125,6 @@ def prototype(*, elements: int, condition: str = "gap") -> Figures:
 
 
 def order(figures: Sequence[Figures], quantity: str) -> float:
-    """Return the order in h at which a figure of runs with `ELEMENTS` vanishes."""
-    sizes = [LENGTH / elements for elements in ELEMENTS]
+    """Return the order in h at which a figure of runs vanishes, with the first of `ELEMENTS`."""
+    sizes = [LENGTH / elements for elements in ELEMENTS[: len(figures)]]
     return observed_order(sizes, [abs(getattr(figure, quantity)) for figure in figures])

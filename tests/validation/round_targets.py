@@ -18,9 +18,15 @@ RUBBER = carom.SaintVenantKirchhoff(young=2700.0, poisson=0.33, density=1.0)
 
 
 def collision(
-    targets: Targets, *, condition: str, friction: float, cell: str = "hex8", divisions: int = 4
+    targets: Targets,
+    *,
+    condition: str,
+    friction: float,
+    cell: str = "hex8",
+    divisions: int = 4,
+    end_time: float = 0.4,
 ) -> Run:
-    """Let two balls, one of which spins, meet off centre in free space."""
+    """Let two balls, one of which spins, meet off centre in free space; they part by 0.4 s."""
     spin = (0.4, -0.7, 1.5)
     first = carom.Body(
         name="first",
@@ -37,7 +43,7 @@ def collision(
     scenario = carom.Scenario(
         dimension=3,
         analysis=carom.Dynamic(
-            end_time=0.4,
+            end_time=end_time,
             time_step=2e-3,
             scheme=carom.Conserving(),
             newton=carom.Newton(tolerance=1e-12),

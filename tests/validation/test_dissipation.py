@@ -11,7 +11,7 @@ THETAS = (0.5, 0.55, 0.75, 1.0)
 def sweep(request, bars_run, cylinders_run):
     """Runs by θ: the bars, and the cylinders until they have met."""
     run, case = {
-        "bars": (bars_run, {"elements": 100}),
+        "bars": (bars_run, {"elements": 50}),
         "cylinders": (cylinders_run, {"friction": 0.2, "end_time": 3.2}),
     }[request.param]
     return {theta: run(**case, overrides=(theta_scheme(theta),)) for theta in THETAS}

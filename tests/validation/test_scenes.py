@@ -45,7 +45,14 @@ DEEPEST = {
 }
 
 
-@pytest.mark.parametrize("name", DEEPEST)
+LONG = {"plate on thin bars"}
+"""What takes as long as all others together."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=[pytest.mark.long] if name in LONG else []) for name in DEEPEST],
+)
 def test_nothing_is_in_anything(name, tmp_path):
     scenario = carom.Scenario.model_validate(SCENES[name](tmp_path))
     simulation = carom.Simulation(scenario)

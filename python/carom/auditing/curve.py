@@ -11,7 +11,11 @@ import numpy as np
 from carom.auditing.arrays import Array, Indices, Mask, einsum
 from carom.auditing.feet import BEYOND, CORNER, FLAT, TIE, Feet
 
-_BISECTIONS = 64
+_TURNS = 64
+"""At most: as often [0, 1] is halved by bisection alone, down to round-off; a few are needed."""
+
+_EPSILON = float(np.finfo(np.float64).eps)
+
 _POWERS = np.arange(4)
 
 
@@ -159,22 +163,25 @@ class Curve:
 
     @staticmethod
     def _closest(offset: Array) -> Array:
-        """Return ξ in [0, 1] where the distance is smallest: regula falsi and bisection."""
+        """Return ξ in [0, 1] where the distance is smallest, by Newton's method between bounds.
+
+        Where a step leaves the bounds they are halved. It ends where no slope falls any more.
+        """
         low, high = np.zeros(len(offset)), np.ones(len(offset))
-        value = [_slope(offset, low), _slope(offset, high)]
-        for turn in range(_BISECTIONS):
-            if turn % 2:
-                xi = 0.5 * (low + high)
-            else:
-                span = value[1] - value[0]
-                ratio = -value[0] / np.where(span > 0, span, 1.0)
-                xi = low + (high - low) * np.clip(ratio, 0.0, 1.0)
-            slope = _slope(offset, xi)
-            below = slope < 0
-            low, high = np.where(below, xi, low), np.where(below, high, xi)
-            value = [np.where(below, slope, value[0]), np.where(below, value[1], slope)]
-        better = np.abs(value[0]) < np.abs(value[1])
-        return np.where(better, low, high)
+        falls, rises = _slope(offset, low), _slope(offset, high)
+        xi = np.clip(-falls / np.where(rises > falls, rises - falls, 1.0), 0.0, 1.0)
+        closest, least = xi, np.full(len(offset), np.inf)
+        for _ in range(_TURNS):
+            slope, bend = _slope(offset, xi), _bend(offset, xi)
+            better = np.abs(slope) < least
+            closest, least = np.where(better, xi, closest), np.where(better, np.abs(slope), least)
+            low, high = np.where(slope < 0, xi, low), np.where(slope < 0, high, xi)
+            step = xi - slope / np.where(bend > 0, bend, 1.0)
+            halved = (bend <= 0) | (step < low) | (step > high)
+            if not (better | halved & (high - low > _EPSILON)).any():
+                break
+            xi = np.where(halved, 0.5 * (low + high), step)
+        return closest
 
 
 def _slopes(xi: Array) -> Array:
@@ -188,6 +195,24 @@ def _combined(offset: Array, basis: Array) -> Array:
 
 def _slope(offset: Array, xi: Array) -> Array:
     """Return half the slope of the squared distance along segments, shape [count]."""
-    d, t = _combined(offset, xi[:, None] ** _POWERS), _combined(offset, _slopes(xi))
-    slope: Array = einsum("pi,pi->p", d, t)
+    slope: Array = (_way(offset, xi) * _tangent(offset, xi)).sum(axis=1)
     return slope
+
+
+def _bend(offset: Array, xi: Array) -> Array:
+    """Return half the second derivative of the squared distance along segments, shape [count]."""
+    tangent, turn = _tangent(offset, xi), 2.0 * offset[:, 2] + 6.0 * xi[:, None] * offset[:, 3]
+    bend: Array = (tangent**2 + _way(offset, xi) * turn).sum(axis=1)
+    return bend
+
+
+def _way(offset: Array, xi: Array) -> Array:
+    x = xi[:, None]
+    way: Array = offset[:, 0] + x * (offset[:, 1] + x * (offset[:, 2] + x * offset[:, 3]))
+    return way
+
+
+def _tangent(offset: Array, xi: Array) -> Array:
+    x = xi[:, None]
+    tangent: Array = offset[:, 1] + x * (2.0 * offset[:, 2] + x * (3.0 * offset[:, 3]))
+    return tangent

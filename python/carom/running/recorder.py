@@ -308,10 +308,15 @@ class Recorder:
         write_end_state(self._directory, end)
 
 
+def draw(result: Result) -> None:
+    """Draw the pictures that every run has."""
+    from carom import plot  # noqa: PLC0415 (Matplotlib takes longer to import than the rest)
+
+    plot.draw(result)
+
+
 def conclude(directory: Path, *, reports: bool) -> Result:
     """Make what is made of a run with a summary, and remove what it needs no more."""
-    from carom.plot import draw  # noqa: PLC0415 (Matplotlib takes longer to import than the rest)
-
     result = Result.open(directory)
     draw(result)
     if reports:

@@ -20,11 +20,6 @@ COMMAND = [sys.executable, "-c", "from carom.cli import main; main()"]
 
 
 @pytest.fixture
-def quick(monkeypatch):
-    monkeypatch.setattr("carom.plot.draw", lambda _: None)
-
-
-@pytest.fixture
 def case(tmp_path):
     """A case of so many steps that a test can do something meanwhile."""
     file = tmp_path / "discs.toml"
@@ -52,7 +47,7 @@ def started(case, out, *options):
     return process
 
 
-def test_sigterm_makes_a_checkpoint_and_resume_goes_on(case, tmp_path, quick, capsys):
+def test_sigterm_makes_a_checkpoint_and_resume_goes_on(case, tmp_path, capsys):
     out = tmp_path / "out"
     process = started(case, out)
     process.terminate()
@@ -72,7 +67,7 @@ def test_sigterm_makes_a_checkpoint_and_resume_goes_on(case, tmp_path, quick, ca
     assert err.startswith(f"error: {out} is the run of another case: title = ")
 
 
-def test_a_killed_run_goes_on_and_an_ended_one_does_not(short, tmp_path, quick, capsys):
+def test_a_killed_run_goes_on_and_an_ended_one_does_not(short, tmp_path, capsys):
     whole, out = tmp_path / "whole", tmp_path / "out"
     assert in_process(capsys, "run", short, "--out", whole)[0] == 0
     process = started(short, out)
@@ -88,7 +83,7 @@ def test_a_killed_run_goes_on_and_an_ended_one_does_not(short, tmp_path, quick, 
     assert {file.name: file.stat().st_mtime_ns for file in out.iterdir()} == before
 
 
-def test_results_are_refused_without_force(short, tmp_path, quick, capsys):
+def test_results_are_refused_without_force(short, tmp_path, capsys):
     out = tmp_path / "out"
     assert in_process(capsys, "run", short, "--out", out, "--quiet")[0] == 0
     before = {file.name: file.stat().st_mtime_ns for file in tmp_path.rglob("*") if file.is_file()}
@@ -169,7 +164,7 @@ def test_watch_says_that_a_run_has_died_and_how_to_go_on(case, tmp_path, capsys)
     assert err.endswith("is gone; go on from its last checkpoint with carom run CASE --resume\n")
 
 
-def test_watch_of_a_run_that_has_ended_and_of_none(short, tmp_path, quick, capsys):
+def test_watch_of_a_run_that_has_ended_and_of_none(short, tmp_path, capsys):
     out = tmp_path / "out"
     assert in_process(capsys, "run", short, "--out", out, "--quiet")[0] == 0
     status, text, _ = in_process(capsys, "watch", out)

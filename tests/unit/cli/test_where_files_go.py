@@ -10,6 +10,8 @@ import pytest
 from carom import InputError, Scenario, cli
 from carom import run as run_scenario
 
+pytestmark = pytest.mark.usefixtures("pictures")
+
 CASE = """\
 [analysis]
 end_time = 0.01

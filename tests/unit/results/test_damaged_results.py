@@ -22,10 +22,7 @@ from restarting import scenario
 def run(tmp_path_factory):
     """A short run of one disc that touches nothing."""
     out = tmp_path_factory.mktemp("results") / "run"
-    patch = pytest.MonkeyPatch()
-    patch.setattr("carom.plot.draw", lambda _: [])
     carom.run(scenario("analysis.end_time=0.02"), out=out)
-    patch.undo()
     return out
 
 

@@ -29,11 +29,6 @@ SOFT = "materials.elastic.young=27"
 """The discs of `restarting` with waves of 6 m/s, which no solid has."""
 
 
-@pytest.fixture(autouse=True)
-def no_pictures(monkeypatch):
-    monkeypatch.setattr("carom.plot.draw", lambda _: None)
-
-
 def block(**changed):
     """A block that rests on a floor and has no energy."""
     return carom.Scenario.from_dict(

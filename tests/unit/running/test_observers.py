@@ -10,16 +10,8 @@ from carom.running.run import drive
 from stand_in import FallingSimulation
 
 
-@pytest.fixture(autouse=True, scope="module")
-def quick():
-    """Pictures take longer than the run."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("carom.plot.draw", lambda _: None)
-        yield
-
-
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory, quick):
+def whole(tmp_path_factory):
     """The results of a run that nobody looks at."""
     return carom.run(restarting.scenario(), out=tmp_path_factory.mktemp("whole") / "out")
 

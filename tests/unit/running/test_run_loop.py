@@ -22,6 +22,7 @@ def frames(directory):
         return file["VTKHDF/Steps/Values"][:].tolist()
 
 
+@pytest.mark.usefixtures("pictures")
 def test_completed_run_writes_everything(scenario, tmp_path):
     out = tmp_path / "new" / "results"
     seen = []
@@ -59,6 +60,7 @@ def test_the_last_frame_is_the_end_even_off_the_beat(scenario, tmp_path):
     np.testing.assert_allclose(frames(tmp_path), [0.0, 0.3, 0.6, 0.9, 1.0])
 
 
+@pytest.mark.usefixtures("pictures")
 @pytest.mark.parametrize(
     ("stop", "status", "reason"),
     [
@@ -102,6 +104,7 @@ def test_a_contact_problem_that_failed_is_kept_until_the_next_run(scenario, tmp_
     assert not file.exists()
 
 
+@pytest.mark.usefixtures("pictures")
 def test_nothing_of_an_earlier_run_survives(scenario, tmp_path):
     drive(FallingSimulation(scenario), scenario, tmp_path)
     (tmp_path / "notes.txt").write_text("mine")

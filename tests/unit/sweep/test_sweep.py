@@ -58,7 +58,6 @@ def here(monkeypatch):
             yield index, work(task)
 
     monkeypatch.setattr("carom.sweep.here", one_by_one)
-    monkeypatch.setattr("carom.plot.draw", lambda result: [])
     return worked
 
 
