@@ -10,29 +10,29 @@ from pathlib import Path
 
 import numpy as np
 
-from carom.auditing.believed import leave_rows
-from carom.auditing.check_case import (
+from carom.auditing.checks.believed import leave_rows
+from carom.auditing.checks.case import (
     check_files,
     check_links,
     check_materials,
     check_mesh,
     check_start,
 )
-from carom.auditing.check_events import EventChecks
-from carom.auditing.check_frames import FrameChecks
-from carom.auditing.check_ledger import LedgerChecks
-from carom.auditing.check_momenta import MomentumChecks
-from carom.auditing.check_rows import RowChecks
-from carom.auditing.check_steps import StepChecks
-from carom.auditing.check_summary import SummaryChecks
-from carom.auditing.check_surface import SurfaceChecks
-from carom.auditing.check_warnings import check_warnings
-from carom.auditing.files import Files, Frame
+from carom.auditing.checks.events import EventChecks
+from carom.auditing.checks.frames import FrameChecks
+from carom.auditing.checks.ledger import LedgerChecks
+from carom.auditing.checks.momenta import MomentumChecks
+from carom.auditing.checks.rows import RowChecks
+from carom.auditing.checks.steps import StepChecks
+from carom.auditing.checks.summary import SummaryChecks
+from carom.auditing.checks.surface import SurfaceChecks
+from carom.auditing.checks.warnings import check_warnings
 from carom.auditing.model import AuditModel
+from carom.auditing.records.files import Files, Frame
+from carom.auditing.records.rows import Rows
 from carom.auditing.report import Audit, Check, Findings, Unchecked
-from carom.auditing.rows import Rows
-from carom.auditing.scales import Scales
-from carom.auditing.step import Step
+from carom.auditing.steps.scales import Scales
+from carom.auditing.steps.step import Step
 from carom.errors import InputError
 
 __all__ = ["Audit", "Check", "Unchecked", "audit"]

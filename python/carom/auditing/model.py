@@ -8,18 +8,18 @@ from functools import cached_property, partial
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices
-from carom.auditing.body import AuditBody
-from carom.auditing.curve import Curve
-from carom.auditing.feet import Target
-from carom.auditing.gregory import GregoryPatches
-from carom.auditing.loads import Loads
-from carom.auditing.mass import NoMassInsideError
-from carom.auditing.obstacles import AuditObstacle, obstacle_of
-from carom.auditing.pairs import ALIKE, Pairs, build_sides
-from carom.auditing.places import Attached
-from carom.auditing.sheet import FlatPatches, Sheet
-from carom.auditing.springs import AuditSpring, build_spring
-from carom.auditing.supports import Supports
+from carom.auditing.bodies.body import AuditBody
+from carom.auditing.bodies.mass import NoMassInsideError
+from carom.auditing.bodies.places import Attached
+from carom.auditing.contact.obstacles import AuditObstacle, obstacle_of
+from carom.auditing.contact.pairs import ALIKE, Pairs, build_sides
+from carom.auditing.drives.loads import Loads
+from carom.auditing.drives.springs import AuditSpring, build_spring
+from carom.auditing.drives.supports import Supports
+from carom.auditing.targets.curve import Curve
+from carom.auditing.targets.feet import Target
+from carom.auditing.targets.gregory import GregoryPatches
+from carom.auditing.targets.sheet import FlatPatches, Sheet
 from carom.case.analysis import Conserving, Static, Theta
 from carom.case.body import AnyBody, Body, ReducedBody, RigidBody
 from carom.case.cohesion import holds

@@ -12,7 +12,7 @@ from two_discs import LAYER, scenario
 import carom
 from carom import cli
 from carom.auditing.catalogue import CHECKS
-from carom.auditing.check_ledger import BODY_COLUMNS, PAIR_COLUMNS
+from carom.auditing.checks.ledger import BODY_COLUMNS, PAIR_COLUMNS
 from carom.errors import InputError
 from tampered import in_case, in_h5, little_more
 

@@ -8,9 +8,9 @@ import pytest
 from two_discs import scenario
 
 import carom
-from carom.auditing.dilatation import MeanDilatation
-from carom.auditing.laws import Law
-from carom.auditing.plane_stress import PlaneStress
+from carom.auditing.materials.dilatation import MeanDilatation
+from carom.auditing.materials.laws import Law
+from carom.auditing.materials.plane_stress import PlaneStress
 
 pytestmark = pytest.mark.usefixtures("without_pictures")
 

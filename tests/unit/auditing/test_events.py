@@ -10,7 +10,7 @@ from two_discs import InMemory, scenario
 
 import carom
 from carom.auditing import audit_files
-from carom.auditing.files import Files
+from carom.auditing.records.files import Files
 
 DROP = {"bodies.0.spin": 0.0, "bodies.1.mesh.centre": [6.0, 1.05], "bodies.1.velocity": [0.0, -1.0]}
 """The discs fall on the floor apart from one another."""

@@ -13,7 +13,7 @@ from two_discs import InMemory, scenario
 
 import carom
 from carom.auditing import audit_files
-from carom.auditing.files import Files
+from carom.auditing.records.files import Files
 
 SPARSE = {"output.history_every": 0.01}
 HALVED = {"analysis.newton.max_iterations": 6}

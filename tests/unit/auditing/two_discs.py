@@ -4,7 +4,7 @@ import copy
 import json
 
 import carom
-from carom.auditing.files import Files
+from carom.auditing.records.files import Files
 
 LAYER = {
     "name": "b",

@@ -1,0 +1,88 @@
+"""Loads as the auditor sees them: forces on nodes as functions of time, and of place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from carom.auditing.arrays import Array, Indices
+from carom.auditing.bodies.body import AuditBody
+from carom.auditing.functions.signals import AuditSignal
+from carom.auditing.mesh.drawn import nodes_of
+from carom.case.load import Force, Load, Pressure, Traction
+
+Value = Callable[[AuditSignal], float]
+"""What counts of a signal."""
+
+
+class Loads:
+    """The loads of a body.
+
+    Parameters
+    ----------
+    body
+        The body.
+    given
+        What the case says, of all bodies.
+    """
+
+    def __init__(self, body: AuditBody, given: Sequence[Load]) -> None:
+        self._body = body
+        self._loads = [_Load(body, load) for load in given if load.body == body.name]
+
+    def __len__(self) -> int:
+        return len(self._loads)
+
+    def at(self, time: float, u: Array) -> Array:
+        """Return the forces on nodes [N] at a time [s] and displacements [m], [node_count, D]."""
+        return self._sum(lambda signal: signal.at(time)[0], u)
+
+    def mean(self, times: tuple[float, float], share: float, u: Array) -> Array:
+        """Return the same with values between those at two times, by the share of the second."""
+
+        def weighted(signal: AuditSignal) -> float:
+            start, end = (signal.at(time)[0] for time in times)
+            return (1.0 - share) * start + share * end
+
+        return self._sum(weighted, u)
+
+    def _sum(self, value: Value, u: Array) -> Array:
+        force = np.zeros_like(self._body.points)
+        for load in self._loads:
+            load.add(value, u, force)
+        return force
+
+
+class _Load:
+    """One load: the same vector on nodes, or along the facets of a set."""
+
+    def __init__(self, body: AuditBody, given: Load) -> None:
+        self._body = body
+        mesh, outline = body.drawn, body.boundary
+        self._facets: Indices = outline[:0]
+        self._nodes: Indices = np.zeros(0, dtype=np.int64)
+        self._follows = False
+        if isinstance(given, Force):
+            self._nodes = nodes_of(mesh, given.on, body.points, outline, body.cells.nodes)
+            self._vector = [AuditSignal(signal) for signal in given.force]
+        else:
+            assert isinstance(given, Traction | Pressure), "resultants are of rigid bodies"
+            self._facets = outline[body.named(outline, (given.on,))]
+            signals = given.traction if isinstance(given, Traction) else (given.pressure,)
+            self._vector = [AuditSignal(signal) for signal in signals]
+            self._follows = isinstance(given, Pressure) and given.follower
+
+    def add(self, value: Value, u: Array, force: Array) -> None:
+        """Add its forces to those on the nodes [N]."""
+        size = np.array([value(signal) for signal in self._vector])
+        np.add.at(force, self._nodes, size)
+        if not len(self._facets):
+            return
+        faces = self._body.faces(self._facets)
+        position = self._body.points + u if self._follows else self._body.points
+        if len(size) == 1:
+            of_facets = faces.pushed(position, float(size[0]))
+        else:
+            of_facets = faces.spread(position, size)
+        np.add.at(force, self._facets, of_facets)
