@@ -23,6 +23,7 @@ from carom.auditing.targets.sheet import FlatPatches, Sheet
 from carom.case.analysis import Conserving, Static, Theta
 from carom.case.body import AnyBody, Body, ReducedBody, RigidBody
 from carom.case.cohesion import holds
+from carom.case.full_stage import FullStage
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 
@@ -36,6 +37,8 @@ class AuditModel:
     ----------
     scenario
         The case as it was run.
+    stage
+        The analysis of it: all that holds in one stage.
     points
         Reference positions of all nodes [m], shape [node_count, D].
     cells
@@ -50,34 +53,35 @@ class AuditModel:
     """
 
     def __init__(
-        self, scenario: Scenario, points: Array, cells: list[Indices], types: list[int]
+        self,
+        scenario: Scenario,
+        stage: FullStage,
+        points: Array,
+        cells: list[Indices],
+        types: list[int],
     ) -> None:
-        _refuse_what_is_driven(scenario)
+        _refuse_what_is_driven(scenario, stage)
         if scenario.analysis is None:
             raise InputError("cannot audit a case with stages yet")
         if scenario.initial is not None:
             raise InputError("cannot audit a case that does not start from bodies as drawn yet")
-        self.scenario = scenario
+        self.scenario, self.stage = scenario, stage
         self.dimension = scenario.dimension
         """2 in the plane, 3 in space."""
-        self._pairs = Pairs(scenario)
-        self.analysis = scenario.analysis
+        self._pairs = Pairs(scenario, stage.contact)
+        self.analysis, self.contact = stage.analysis, stage.contact
         self.points = points
-        condition = scenario.contact.condition
+        condition = self.contact.condition
         if condition not in CONDITIONS:
             raise InputError(f"cannot audit the contact condition {condition!r} yet")
-        pairs = scenario.contact.pairs
-        written = [scenario.contact.discretisation, *(p.discretisation for p in pairs)]
+        written = [
+            self.contact.discretisation,
+            *(pair.discretisation for pair in self.contact.pairs),
+        ]
         if "mortar" in written:
             raise InputError("cannot audit mortar contact yet")
         self.massless = condition == "massless"
-        if isinstance(self.analysis, Static):
-            raise InputError("cannot audit a static analysis yet")
-        scheme = self.analysis.scheme
-        if not isinstance(scheme, Theta | Conserving):
-            raise InputError(f"cannot audit the scheme {scheme.kind!r} yet")
-        self.conserving = isinstance(scheme, Conserving)
-        self.theta, self.xi = (scheme.theta, scheme.xi) if isinstance(scheme, Theta) else (0.5, 0.5)
+        self._read_scheme()
         given = self.analysis.gravity
         self.gravity = np.zeros(self.dimension) if given is None else np.array(given)
         self.bodies = list(self._build_bodies(cells, types))
@@ -89,27 +93,43 @@ class AuditModel:
         # What has mass on both sides is ruled by its motion.
         self.condition = "midpoint" if condition == "massless" and not self.massless else condition
         self.blended = self.conserving and self.massless
-        self.smooth = scenario.contact.targets == "smooth"
+        self.smooth = self.contact.targets == "smooth"
         """Whether targets are smooth curves."""
         self.targets = [_target(b, smooth=self.smooth) for b in self.bodies]
         self.obstacles = [obstacle_of(one, self.dimension) for one in scenario.obstacles]
         impacts = self.condition == "endpoint"
         self.sides = list(build_sides(self._pairs, self.bodies, impacts=impacts))
-        self.supports = [Supports(body, scenario.motions) for body in self.bodies]
+        self.supports = [Supports(body, stage.motions, at_rest=self.static) for body in self.bodies]
         """Those of every body."""
         for body, supports in zip(self.bodies, self.supports, strict=True):
             if supports.held[body.massless].any():
                 raise InputError("cannot audit supports at nodes without mass yet")
-        self.loads = [Loads(body, scenario.loads) for body in self.bodies]
+        self.loads = [Loads(body, stage.loads) for body in self.bodies]
         """Those of every body."""
         self.springs = [build_spring(spring, self) for spring in scenario.springs]
         self.size = max(_diameter(b.points) for b in self.bodies)
 
+    def _read_scheme(self) -> None:
+        """Take what the analysis says of the scheme."""
+        self.static = isinstance(self.analysis, Static)
+        """Whether there is no inertia: forces balance at the end of each load step."""
+        # Where there is no velocity the end of a step has all the weight.
+        self.conserving, self.theta, self.xi = False, 1.0, 1.0
+        if not isinstance(self.analysis, Static):
+            scheme = self.analysis.scheme
+            self.conserving = isinstance(scheme, Conserving)
+            self.theta, self.xi = 0.5, 0.5
+            if isinstance(scheme, Theta):
+                self.theta, self.xi = scheme.theta, scheme.xi
+        elif self.analysis.stabilisation != "none":
+            raise InputError("cannot audit load steps that are stabilised yet")
+
     @cached_property
     def fastest_obstacle(self) -> float:
         """Largest speed of an obstacle [m/s]."""
-        steps = int(np.ceil(self.analysis.end_time / self.analysis.time_step - 1e-6))
-        times = np.arange(steps + 1) * self.analysis.time_step
+        start, step = self.stage.start_time, self.analysis.time_step
+        steps = int(np.ceil(self.stage.duration / step - 1e-6))
+        times = start + np.arange(steps + 1) * step
         speeds = [
             float(np.linalg.norm(velocity))
             for travel in (obstacle.travel for obstacle in self.obstacles)
@@ -235,7 +255,8 @@ class AuditModel:
     def jolts(self) -> bool:
         """Whether impulses change velocities: of landing, or settling of bodies that are damped."""
         damped = any(body.law.damped for body in self.bodies)
-        return self.condition == "midpoint" or self.mixed or (damped and not self.massless)
+        jolted = self.condition == "midpoint" or self.mixed or (damped and not self.massless)
+        return jolted and not self.static
 
 
 def _target(body: AuditBody, *, smooth: bool) -> Target:
@@ -254,10 +275,10 @@ def _diameter(points: Array) -> float:
     return 2.0 * float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())
 
 
-def _refuse_what_is_driven(scenario: Scenario) -> None:
+def _refuse_what_is_driven(scenario: Scenario, stage: FullStage) -> None:
     """Refuse what the auditor has no second implementation of."""
     deform = {body.name for body in scenario.bodies if isinstance(body, Body)}
-    if any(load.body not in deform for load in scenario.loads):
+    if any(one.what.body not in deform for one in stage.loads):
         raise InputError("cannot audit loads on a body that does not deform freely yet")
     if any(pair.interference is not None for pair in scenario.contact.pairs):
         raise InputError("cannot audit a pair with an interference yet")

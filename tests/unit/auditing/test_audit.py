@@ -380,5 +380,5 @@ def test_every_check_is_in_the_documents_and_none_uses_the_core():
     unsaid = {"kinetic energy", "strain energy", "total energy"}  # in one row, by their first words
     for name in CHECKS.keys() - unsaid:
         assert name in named or name.startswith("ledger: "), name
-    for source in (root / "python" / "carom" / "audit").glob("*.py"):
+    for source in (root / "python" / "carom" / "auditing").rglob("*.py"):
         assert "_carom" not in source.read_text(encoding="utf-8")

@@ -56,6 +56,7 @@ def check_start(model: AuditModel, frame: Frame, scales: Scales, findings: Findi
         wanted = turned(arms, np.atleast_1d(spin))
         if entry.velocity is not None:
             wanted = wanted + np.array(entry.velocity)
+        wanted *= not model.static
         wanted = np.where(supports.held, supports.velocity(0.0), wanted)
         error = frame.velocity[body.span] - wanted
         findings.check("initial velocity", error, ROUND_OFF * scales.speed, f"{entry.name}, t = 0")

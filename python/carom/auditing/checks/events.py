@@ -294,6 +294,8 @@ class EventChecks:
         for pair, merge in self._merge.items():
             own = min((waves[name] for name in pair.split("|") if name in waves), default=0.0)
             wanted = max(own, FLICKER * self._rows.dt) if given is None else given
+            if given is None and self._model.static:
+                wanted = 0.0  # times of load steps do not say how long anything lasts
             off = ROUND_OFF * wanted if given is None else 0.0
             self._check("events: times", merge - wanted, off, f"{pair}, merge_contacts")
 

@@ -46,6 +46,10 @@ class MomentumChecks:
 
     def all(self) -> None:
         """Check everything."""
+        if self._model.static:
+            moment = self._rows.angular_momentum
+            self._findings.check("row: angular", moment, 0.0, "nothing has a velocity")
+            return
         for body in self._model.bodies:
             self._flight(body.name)
         self._angular()

@@ -88,7 +88,7 @@ class Pressing:
     def resultants(self, row: int, active: Iterable[str]) -> dict[str, Force]:
         """Return the forces on the bodies of pairs, on the first by name, where they are known."""
         known: dict[str, Force] = {}
-        if not self._rows.single[row] or self._model.massless:
+        if not self._rows.single[row] or self._model.massless or self._model.static:
             return known
         if self._model.condition == "midpoint" and any(b.rigid for b in self._bodies.values()):
             # What arrives with the end of a step has a reaction that no row has: it is small, but

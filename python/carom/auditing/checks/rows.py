@@ -165,6 +165,8 @@ class RowChecks:
     def _centres(self) -> None:
         """Check that centres move by the velocities of the scheme."""
         model, single = self._model, self._free()
+        if model.static:
+            return
         dt = np.diff(self._times)
         off = ROUND_OFF * (self._scales.reach + model.size)
         for body in model.bodies:
@@ -213,7 +215,7 @@ class RowChecks:
                 known = single if light else free
                 held = model.supports[model.bodies.index(body)].held[node - body.span.start]
                 # What turns as a rigid body does has a scheme for its momenta, not for its nodes.
-                turns = body.rigid or body.modes is not None
+                turns = body.rigid or body.modes is not None or model.static
                 known = known & (not held[AXES.index(axis)] and not turns)
                 off = SAFETY * off / dt + SAFETY * EPS * np.abs(v[:-1])
                 if model.blended and not light:
@@ -250,7 +252,7 @@ class RowChecks:
         most = sum(len(self._model.bodies[side.source].sources) for side in self._model.sides)
         self._check("row: signs", np.maximum(h["contacts"] - most, 0.0), 0.0)
         self._check("row: signs", np.maximum(-h["penetration"], 0.0), 0.0)
-        solver = self._model.scenario.contact.solver.tolerance
+        solver = self._model.contact.solver.tolerance
         self._check("row: residual", h["residual"], solver)
         self._findings.report(
             f"largest residual of a contact problem; the case asks for {solver:g}",
@@ -261,7 +263,7 @@ class RowChecks:
         if self._model.condition in ("gap", "massless") and self._model.sides and not two_sided:
             off = self._scales.penetration()
             self._check("row: penetration", np.maximum(-h["min_gap"], 0.0), off)
-            if self._model.scenario.contact.targets == "smooth" or not self._pairs_of_bodies():
+            if self._model.contact.targets == "smooth" or not self._pairs_of_bodies():
                 # What presses is closed.
                 open_gap = np.where(h["normal_force"] > 0, h["min_gap"], 0.0)
                 self._check("row: penetration", np.maximum(open_gap, 0.0), off)

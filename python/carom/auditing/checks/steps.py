@@ -133,6 +133,9 @@ class StepChecks:
             forces[names] = forces.get(names, 0.0) + float(found.normal_force[mine].sum())
 
     def _velocity(self, step: Step, where: str) -> None:
+        if self._model.static:
+            self._check("velocity update", step.v1, 0.0, where)
+            return
         rate = 1 / (self._model.theta * step.dt)
         # d is known from displacements, with their round-off.
         off = (np.abs(step.u0) + np.abs(step.u1)) * rate + np.abs(step.v0) / self._model.theta
@@ -211,7 +214,9 @@ class StepChecks:
 
     def _impulse(self, step: Step, index: int, contact: Array, at: str) -> None:
         model, body, f = self._model, self._model.bodies[index], step.forces.of[index]
-        middle = body.points + 0.5 * (step.u0 + step.u1)[body.span]
+        # Load steps balance forces at their end, others half way.
+        u = step.u1 if model.static else 0.5 * (step.u0 + step.u1)
+        middle = body.points + u[body.span]
         arm = middle - body.mass.mean(middle)
         force, moment = self._outer(step, index, contact, arm)
         off = self._scales.force(step, index)
@@ -251,7 +256,8 @@ class StepChecks:
         """
         model, body, f = self._model, self._model.bodies[index], step.forces.of[index]
         d, b = step.d[body.span], body.massless
-        outer = f.gravity + f.loads + f.connections - f.viscous + step.forces.support(index)
+        pull = f.end_connections if model.static else f.connections
+        outer = f.gravity + f.loads + pull - f.viscous + step.forces.support(index)
         if model.blended:
             alpha = float(step.blend[index])
             start, end = (

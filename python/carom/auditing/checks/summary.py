@@ -146,7 +146,7 @@ class SummaryChecks:
     def _tolerance(self, off: float) -> None:
         """Check what the certificate is measured by: the largest energy, or work of reactions."""
         certificate, h, check = self._summary["certificate"], self._history, self._findings.check
-        share = self._model.scenario.contact.certificate_tolerance
+        share = self._model.contact.certificate_tolerance
         allowed = number(certificate["tolerance_joule"])
         largest = float((h["total"] + h["friction"]).max())
         if "reference_joule" not in certificate:

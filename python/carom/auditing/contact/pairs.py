@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.contact.friction import Law
-from carom.case.contact import Pair
+from carom.case.contact import Contact, Pair
 from carom.case.scenario import Scenario
 
 ALIKE = 1e-6
@@ -52,11 +52,13 @@ class Pairs:
     ----------
     scenario
         The case.
+    contact
+        The law of contact that holds.
     """
 
-    def __init__(self, scenario: Scenario) -> None:
+    def __init__(self, scenario: Scenario, contact: Contact) -> None:
         self._scenario = scenario
-        self._contact = scenario.contact
+        self._contact = contact
         names = [body.name for body in scenario.bodies]
         planes = [obstacle.name for obstacle in scenario.obstacles]
         self.names = [

@@ -10,7 +10,9 @@ from carom.auditing.arrays import Array, Indices
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.functions.signals import AuditSignal
 from carom.auditing.mesh.drawn import nodes_of
+from carom.case.full_stage import Given
 from carom.case.load import Force, Load, Pressure, Traction
+from carom.case.motion import Motion
 
 Value = Callable[[AuditSignal], float]
 """What counts of a signal."""
@@ -24,12 +26,12 @@ class Loads:
     body
         The body.
     given
-        What the case says, of all bodies.
+        What acts, on all bodies.
     """
 
-    def __init__(self, body: AuditBody, given: Sequence[Load]) -> None:
+    def __init__(self, body: AuditBody, given: Sequence[Given]) -> None:
         self._body = body
-        self._loads = [_Load(body, load) for load in given if load.body == body.name]
+        self._loads = [_Load(body, one.what) for one in given if one.what.body == body.name]
 
     def __len__(self) -> int:
         return len(self._loads)
@@ -57,7 +59,7 @@ class Loads:
 class _Load:
     """One load: the same vector on nodes, or along the facets of a set."""
 
-    def __init__(self, body: AuditBody, given: Load) -> None:
+    def __init__(self, body: AuditBody, given: Load | Motion) -> None:
         self._body = body
         mesh, outline = body.drawn, body.boundary
         self._facets: Indices = outline[:0]

@@ -10,6 +10,8 @@ from carom.auditing.arrays import AXES, Array, Indices, Mask
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.functions.signals import AuditSignal
 from carom.auditing.mesh.drawn import nodes_of
+from carom.case.full_stage import Given
+from carom.case.load import Load
 from carom.case.motion import Fixed, Motion, Prescribed
 from carom.errors import InputError
 
@@ -22,7 +24,9 @@ class Supports:
     body
         The body.
     given
-        The motions of the case, of all bodies.
+        The motions, of all bodies, and when each began.
+    at_rest
+        Whether what moves has no velocity, as in load steps.
 
     Raises
     ------
@@ -30,7 +34,8 @@ class Supports:
         The auditor does not know one of the motions.
     """
 
-    def __init__(self, body: AuditBody, given: Sequence[Motion]) -> None:
+    def __init__(self, body: AuditBody, given: Sequence[Given], *, at_rest: bool) -> None:
+        self._at_rest = at_rest
         self.held: Mask = np.zeros(body.points.shape, dtype=bool)
         """Which components of the displacement of nodes are given, shape [node_count, D]."""
         self.by: Indices = np.full(body.points.shape, -1)
@@ -38,14 +43,14 @@ class Supports:
         self.names: list[str] = []
         """Names of the supports, as columns of the history have them."""
         self._signals: list[list[AuditSignal]] = []
-        for motion in given:
-            if motion.body == body.name:
-                self._hold(body, motion)
+        for one in given:
+            if one.what.body == body.name:
+                self._hold(body, one.what)
 
     def __len__(self) -> int:
         return len(self.names)
 
-    def _hold(self, body: AuditBody, motion: Motion) -> None:
+    def _hold(self, body: AuditBody, motion: Load | Motion) -> None:
         if not isinstance(motion, Fixed | Prescribed) or body.rigid or body.modes is not None:
             raise InputError("cannot audit the motion of a rigid or reduced body yet")
         on = nodes_of(body.drawn, motion.on, body.points, body.boundary, body.cells.nodes)
@@ -71,7 +76,7 @@ class Supports:
 
     def velocity(self, time: float) -> Array:
         """Return its rate [m/s], shape [node_count, D]."""
-        return self._given(time, 1)
+        return np.zeros(self.held.shape) if self._at_rest else self._given(time, 1)
 
     def _given(self, time: float, order: int) -> Array:
         out = np.zeros(self.held.shape)

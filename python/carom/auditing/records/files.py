@@ -157,7 +157,7 @@ class Files:
                 )
             cells.append(connectivity[offsets[mine][:, None] + np.arange(sizes[0])])
             kinds.append(int(kind[0]))
-        return AuditModel(self.scenario, points, cells, kinds)
+        return AuditModel(self.scenario, self.scenario.full_stages()[0], points, cells, kinds)
 
     def materials(self) -> Indices | None:
         """Return the number of the material of each cell, where the fields say it."""

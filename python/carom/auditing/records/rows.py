@@ -38,6 +38,10 @@ class Rows:
         # A step that fails becomes two halves, each of which may fail: one step more each time.
         self.steps: Array = self.nominal + history["retried_steps"]
         """Steps since the row before, NaN where that is not known, [row_count]."""
+        if model.static:
+            # What had to be halved goes on in halves until they are easy.
+            shortest = (1.0 - GRID) * np.minimum(self.dt, np.diff(self.times, prepend=0.0))
+            self.steps[history["shortest_step"] < shortest] = np.nan
         self.steps[:1] = 0.0
         if summary["status"] == "failed" and history["retried_steps"][-1] > 0:
             self.steps[-1] = np.nan  # the last failures made no steps

@@ -56,15 +56,15 @@ class Works:
         Each counts as much as the scheme lets it.
         """
         work = list(self.rubbing) if self._states.model.blended else []
-        for found, share in self.booked():
+        for found in self.booked():
             w_n, w_t = found.relative(self._states.d, found.shift)
             work.append(
                 ContactWork(
                     found=found,
                     terms={
-                        "friction": -share * einsum("ki,ki->k", found.friction_force, w_t),
-                        "normal_contact": -share * found.normal_force * w_n,
-                        "prescribed": share * found.driven(self._states.held_d, found.shift),
+                        "friction": -einsum("ki,ki->k", found.friction_force, w_t),
+                        "normal_contact": -found.normal_force * w_n,
+                        "prescribed": found.driven(self._states.held_d, found.shift),
                     },
                     whole=np.zeros(len(found)),
                     doubt=np.zeros(len(found)),
@@ -121,15 +121,19 @@ class Works:
         """How sure the dissipation by friction is [J]."""
         return sum(float(work.doubt.sum()) for work in self.all)
 
-    def booked(self) -> list[tuple[Contacts, float]]:
-        """Return the contacts whose work is booked one by one, and how much of it counts."""
-        model = self._states.model
+    def booked(self) -> list[Contacts]:
+        """Return the contacts whose work is booked one by one, with what of them counts."""
+        model, touching = self._states.model, self._touching
         if model.blended:
-            return [(self._touching.moved, 1.0)] if model.mixed else []
+            return [touching.moved] if model.mixed else []
+        if model.static:
+            # Normal reactions grow with the motion; what slides does so at the limit of friction.
+            return [touching.pressed.weighted(0.5, 1.0), touching.first.weighted(0.5, 0.0)]
         if not model.massless:
-            return [(self._touching.pressed, 1.0)]
-        ends = [(self._touching.balanced, model.xi), (self._touching.first, 1 - model.xi)]
-        return [*ends, (self._touching.moved, 1.0)]
+            return [touching.pressed]
+        xi = model.xi
+        ends = [touching.balanced.weighted(xi, xi), touching.first.weighted(1 - xi, 1 - xi)]
+        return [*ends, touching.moved]
 
     @cached_property
     def rubbing(self) -> list[ContactWork]:

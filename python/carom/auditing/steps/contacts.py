@@ -123,6 +123,11 @@ class Contacts:
         force: Array = self.reaction - self.normal_force[:, None] * self.normal
         return force
 
+    def weighted(self, normal: float, across: float) -> Contacts:
+        """Return the same contacts with these parts of their normal and tangential reactions."""
+        along = self.normal_force[:, None] * self.normal
+        return replace(self, reaction=normal * along + across * (self.reaction - along))
+
     def relative(self, motion: Array, of_obstacles: Array) -> tuple[Array, Array]:
         """Return normal and tangential parts of the motion of nodes relative to their feet.
 

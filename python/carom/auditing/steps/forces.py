@@ -28,6 +28,8 @@ class BodyForces:
         As the scheme weighs them, and at the end of the step.
     connections
         Of springs and dampers, in the mean.
+    end_connections
+        Of springs at the end of the step.
     viscous
         C v̄.
     internal
@@ -39,6 +41,9 @@ class BodyForces:
         ∂E/∂u at its start.
     steadying
         Of the nodes without mass, zero elsewhere.
+    path, path_loads
+        In load steps the internal force whose work is the change of the strain energy, and the
+        loads half way.
     missing, available
         What the body received through contact with the blend α = 0, and how much less with α = 1
         [J]; zero without a blend.
@@ -49,11 +54,14 @@ class BodyForces:
     loads: Array
     end_loads: Array
     connections: Array
+    end_connections: Array
     viscous: Array
     internal: Array
     end: Array
     start: Array
     steadying: Array
+    path: Array
+    path_loads: Array
     missing: float
     available: float
 
@@ -88,12 +96,17 @@ class Forces:
         viscous = body.damping_force(u0 + 0.5 * np.where(held, d, dt * v0), mean)
         start, end = body.internal_force(u0), body.internal_force(u1)
         steadying, missing, available = np.zeros_like(d), 0.0, 0.0
+        path, path_loads = np.zeros_like(d), np.zeros_like(d)
         # A body that moves rigidly, or falls as it does, is not resisted.
         turn = rotation(dt * body.spin(u0, v0)) if body.turns else np.eye(body.dimension)
         drift = body.mass.mean(v0)
         times = (float(s.start["time"]), s.time)
         given = model.loads[index]
         loads = given.mean(times, model.xi, u0 + model.xi * d)
+        if model.static:
+            viscous = np.zeros_like(viscous)
+            path = body.conserving_force(u0, u1)
+            path_loads = given.mean(times, 0.5, u0 + 0.5 * d)
         end_loads = given.at(s.time, u1)
         pressed = s.start["contact_force"][span].sum(axis=0) + given.at(times[0], u0).sum(axis=0)
         slowed = body.law.mass_damping
@@ -123,11 +136,14 @@ class Forces:
             loads=loads,
             end_loads=end_loads,
             connections=self.pulling.force[span],
+            end_connections=self.pulling.end_force[span],
             viscous=viscous,
             internal=internal,
             end=end,
             start=start,
             steadying=steadying,
+            path=path,
+            path_loads=path_loads,
             missing=missing,
             available=available,
         )
@@ -204,7 +220,8 @@ class Forces:
             impulses = self._touching.impulse(body) / self._states.dt
             forces = (contact - impulses + f.gravity + f.connections, impulses)
             return self._states.rigid(body).residual(states, forces, self._states.dt)
-        given = f.gravity + f.loads + f.connections + contact
+        pull = f.end_connections if self._states.model.static else f.connections
+        given = f.gravity + f.loads + pull + contact
         residual = f.inertia + f.internal + f.viscous - given
         static = f.end + f.viscous + f.steadying - f.end_loads - contact
         residual[body.massless] = static[body.massless]

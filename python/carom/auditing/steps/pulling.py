@@ -24,6 +24,8 @@ class Pulling:
         """Terms of the ledger that are of no body [J]."""
         self.force: Array = np.zeros_like(states.u0)
         """Their mean force on every node of the model [N], shape [node_count, D]."""
+        self.end_force: Array = np.zeros_like(states.u0)
+        """That of springs at the end of the step [N], shape [node_count, D]."""
         for spring in states.model.springs:
             self._pull(spring)
 
@@ -47,7 +49,7 @@ class Pulling:
         lengths = [float(np.linalg.norm(r)) for r in ends]
         longer = lengths[1] - lengths[0]
         elongations = [length - spring.free_length for length in lengths]
-        resisted = spring.damping * longer / s.dt
+        resisted = 0.0 if s.model.static else spring.damping * longer / s.dt
         gradient = (ends[0] + ends[1]) / (sum(lengths) or 1.0)
         pull = gradient * (spring.tension.mean(*elongations) + resisted)
         tensions = spring.tension.at(np.array(elongations))
@@ -55,7 +57,8 @@ class Pulling:
             force * r / (length or 1.0)
             for force, r, length in zip(tensions, ends, lengths, strict=True)
         )
-        beside = (xi - 0.5) * (after - before)
+        beside = (0.0 if s.model.static else xi - 0.5) * (after - before)
+        np.add.at(self.end_force, spring.nodes, -spring.shares[:, None] * after)
         pull = pull + beside
         np.add.at(self.force, spring.nodes, -spring.shares[:, None] * pull)
         self.terms["springs"] += spring.tension.work(*elongations)

@@ -52,6 +52,8 @@ class Scales:
         travel = model.fastest_obstacle * analysis.end_time
         self.travel = EPS * travel * analysis.end_time / analysis.time_step
         """How far places of obstacles may be off, which the run sums step by step [m]."""
+        self.moved = 0.0
+        """Largest displacement of a node [m]."""
         self.mass = sum(body.mass.total for body in model.bodies)
 
     def include(self, displacement: Array, velocity: Array, time: float) -> None:
@@ -62,13 +64,14 @@ class Scales:
             energy += body.strain_energy(displacement[body.span])
         self.energy = max(self.energy, energy)
         self.speed = max(self.speed, float(np.abs(velocity).max()))
+        self.moved = max(self.moved, float(np.abs(displacement).max()))
         self.reach = max(self.reach, float(np.abs(self._model.points + displacement).max()))
 
     def penetration(self) -> float:
         """Return how deep nodes may be where gaps are ruled [m]."""
         analysis = self._model.analysis
-        motion = self.speed * analysis.time_step
-        if self._model.scenario.contact.targets == "faceted" and len(self._model.bodies) > 1:
+        motion = self.moved if self._model.static else self.speed * analysis.time_step
+        if self._model.contact.targets == "faceted" and len(self._model.bodies) > 1:
             # Facets are frozen for a step: a node that slides on may get behind the next one.
             return motion
         floor = FLOOR * self._model.size
@@ -124,13 +127,13 @@ class Scales:
         """
         bodies = range(len(self._model.bodies))
         stiffest = max(float(self.iteration(step.dt, index).max()) for index in bodies)
-        tolerance = self._model.scenario.contact.solver.tolerance
+        tolerance = self._model.contact.solver.tolerance
         return SAFETY * tolerance * (total + stiffest * step.motion)
 
     def iteration(self, dt: float, index: int) -> Array:
         """Return the force on nodes where all displacements are off by 1 m [N/m], [node_count]."""
         body, model = self._model.bodies[index], self._model
-        rate = 1 / (model.theta * dt)
+        rate = 0.0 if model.static else 1 / (model.theta * dt)
         resisted: Array = body.row_stiffness * (1.0 + body.law.stiffness_damping.max() * rate)
         for spring in model.springs:
             own = (spring.nodes >= body.span.start) & (spring.nodes < body.span.stop)

@@ -89,12 +89,16 @@ class States:
     def _motion(self) -> float:
         """Return the largest motion of a node in the step, or that of free flight if larger [m]."""
         speed = max(np.linalg.norm(self.v0, axis=1).max(), self.model.fastest_obstacle)
+        if self.model.static:
+            return float(max(np.abs(self.d).max(), speed * self.dt))
         predicted = (speed + np.linalg.norm(self.model.gravity) * self.dt) * self.dt
         return float(max(np.abs(self.d).max(), predicted))
 
     def _scheme_velocity(self) -> Array:
         """Return the velocities that the scheme makes of the motion, before impulses [m/s]."""
         theta = self.model.theta
+        if self.model.static:
+            return np.zeros_like(self.d)
         velocity: Array = (1 - 1 / theta) * self.v0 + self.d / (theta * self.dt)
         for body, supports in zip(self.model.bodies, self.model.supports, strict=True):
             if len(body.massless):

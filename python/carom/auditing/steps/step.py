@@ -66,6 +66,8 @@ class Step(States):
 
     def _body_terms(self, index: int, body: AuditBody) -> dict[str, float]:
         model, f = self.model, self.forces.of[index]
+        if model.static:
+            return self._path_terms(index, body)
         u0, u1, v0, d = (a[body.span] for a in (self.u0, self.u1, self.v0, self.d))
         held = model.supports[index].held
         end = self.end["velocity"][body.span]
@@ -86,8 +88,8 @@ class Step(States):
                 contact += self._received(body, received)
         else:
             force = np.zeros_like(model.points)
-            for found, share in self.work.booked():
-                force += share * found.nodal_forces(len(model.points))
+            for found in self.work.booked():
+                force += found.nodal_forces(len(model.points))
             received = force[body.span]
             contact = self._received(body, received)
             # What rows that are static at the end of a step leave of its mean forces.
@@ -102,6 +104,30 @@ class Step(States):
             "contact": contact,
             "connections": float((f.connections * d).sum()),
             "prescribed": self._supported(index, body),
+        }
+
+    def _path_terms(self, index: int, body: AuditBody) -> dict[str, float]:
+        """Return the same of a load step: of loads and normal reactions in its mean.
+
+        `scheme` is what the mean lacks of balance inside the body.
+        """
+        f, held = self.forces.of[index], self.model.supports[index].held
+        u0, u1, d = (a[body.span] for a in (self.u0, self.u1, self.d))
+        force = np.zeros_like(self.model.points)
+        for found in self.work.booked():
+            force += found.nodal_forces(len(self.model.points))
+        contact = float(np.where(held, 0.0, force[body.span] * d).sum())
+        lacking = (f.gravity + f.path_loads + f.connections - f.path) * d
+        inside = float(np.where(held, 0.0, lacking).sum())
+        return {
+            "kinetic": 0.0,
+            "strain": body.strain_energy(u1) - body.strain_energy(u0),
+            "external": float(((f.gravity + f.path_loads) * d).sum()),
+            "viscous": 0.0,
+            "scheme": inside + contact,
+            "contact": contact,
+            "connections": float((f.connections * d).sum()),
+            "prescribed": -float(lacking[held].sum()),
         }
 
     def _supported(self, index: int, body: AuditBody) -> float:
