@@ -1,5 +1,6 @@
 """Copies of results in which something is not as the run left it."""
 
+import json
 import shutil
 
 import h5py
@@ -49,6 +50,21 @@ def in_csv(file, column, change=little_more, row=-3):
         at = lines[0].index(column)
         lines[row][at] = repr(change(float(lines[row][at])))
         path.write_text("\n".join(",".join(line) for line in lines) + "\n")
+
+    return tamper
+
+
+def in_summary(*keys, factor=1 + 1e-6):
+    """Multiply a number of the summary by a factor."""
+
+    def tamper(directory):
+        path = directory / "summary.json"
+        summary = json.loads(path.read_text())
+        place = summary
+        for key in keys[:-1]:
+            place = place[key]
+        place[keys[-1]] *= factor
+        path.write_text(json.dumps(summary))
 
     return tamper
 

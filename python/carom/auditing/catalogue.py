@@ -65,6 +65,7 @@ CHECKS: dict[str, tuple[str, str]] = {
     "summary: counts": ("steps, times and unknowns are those of the case and the rows", ""),
     "summary: run": ("title, wall times and cross-check are those of the case and each other", ""),
     "summary: status": ("a run is completed if it reached its end within Coulomb's law", ""),
+    "summary: stages": ("stages have the times of the case, and books that are their own", ""),
     "summary: books": ("books of bodies and pairs are those of the last rows of the ledger", ""),
     "summary: warnings": ("warnings are those that other numbers give rise to", ""),
     # The contact events of the summary.

@@ -61,10 +61,6 @@ class AuditModel:
         types: list[int],
     ) -> None:
         _refuse_what_is_driven(scenario, stage)
-        if scenario.analysis is None:
-            raise InputError("cannot audit a case with stages yet")
-        if scenario.initial is not None:
-            raise InputError("cannot audit a case that does not start from bodies as drawn yet")
         self.scenario, self.stage = scenario, stage
         self.dimension = scenario.dimension
         """2 in the plane, 3 in space."""
@@ -74,17 +70,24 @@ class AuditModel:
         condition = self.contact.condition
         if condition not in CONDITIONS:
             raise InputError(f"cannot audit the contact condition {condition!r} yet")
-        written = [
+        discretisations = [
             self.contact.discretisation,
             *(pair.discretisation for pair in self.contact.pairs),
         ]
-        if "mortar" in written:
+        if "mortar" in discretisations:
             raise InputError("cannot audit mortar contact yet")
-        self.massless = condition == "massless"
+        written = [condition]
+        if not stage.is_dynamic:
+            # Load steps have the weight where steps in time of other stages have it.
+            written += [one.contact.condition for one in scenario.full_stages()]
+        self.massless = "massless" in written
         self._read_scheme()
         given = self.analysis.gravity
         self.gravity = np.zeros(self.dimension) if given is None else np.array(given)
         self.bodies = list(self._build_bodies(cells, types))
+        if self.static:
+            for body in self.bodies:
+                body.weigh_all_nodes()
         light = [len(body.massless) > 0 for body in self.bodies]
         self.massless = any(light)
         """Whether there are nodes without mass."""
@@ -107,6 +110,8 @@ class AuditModel:
         self.loads = [Loads(body, stage.loads) for body in self.bodies]
         """Those of every body."""
         self.springs = [build_spring(spring, self) for spring in scenario.springs]
+        self.before: AuditModel | None = None
+        """The stage before."""
         self.size = max(_diameter(b.points) for b in self.bodies)
 
     def _read_scheme(self) -> None:
@@ -123,6 +128,17 @@ class AuditModel:
                 self.theta, self.xi = scheme.theta, scheme.xi
         elif self.analysis.stabilisation != "none":
             raise InputError("cannot audit load steps that are stabilised yet")
+
+    @property
+    def starts_elsewhere(self) -> bool:
+        """Whether the contacts that it starts with are not where the starting state is.
+
+        Those of steps that rule the motion are where these have their middle.
+        """
+        if self.before is not None:
+            return self.before.condition not in ("gap", "massless")
+        initial = self.scenario.initial
+        return initial is not None and initial.result is not None
 
     @cached_property
     def fastest_obstacle(self) -> float:

@@ -14,7 +14,7 @@ from carom import cli
 from carom.auditing.catalogue import CHECKS
 from carom.auditing.checks.ledger import BODY_COLUMNS, PAIR_COLUMNS
 from carom.errors import InputError
-from tampered import in_case, in_h5, little_more
+from tampered import in_case, in_h5, in_summary, little_more
 
 RUBBER = {"c10": 400.0, "bulk": 3000.0, "density": 1.0}
 
@@ -139,19 +139,6 @@ def called(status):
     def tamper(directory):
         path = directory / "summary.json"
         path.write_text(json.dumps({**json.loads(path.read_text()), "status": status}))
-
-    return tamper
-
-
-def in_summary(*keys, factor=1 + 1e-6):
-    def tamper(directory):
-        path = directory / "summary.json"
-        summary = json.loads(path.read_text())
-        place = summary
-        for key in keys[:-1]:
-            place = place[key]
-        place[keys[-1]] *= factor
-        path.write_text(json.dumps(summary))
 
     return tamper
 

@@ -139,6 +139,10 @@ class AuditBody(MovingBody):
         self.row_stiffness = self._gathered(rows)
         """Largest force [N] on each node where every coordinate moves by 1 m, [node_count]."""
 
+    def weigh_all_nodes(self) -> None:
+        """Treat nodes without mass as all others, as where nothing has inertia."""
+        self.massless, self.holding = self.massless[:0], self.holding[:0]
+
     def faces(self, nodes: Indices) -> Facets:
         """Return facets of its boundary by their nodes."""
         return Facets(self.cells.kind.facet, nodes, self.thickness)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.auditing.arrays import Indices, turned, turning_axes
+from carom.auditing.arrays import Indices, Mask, turned, turning_axes
 from carom.auditing.model import AuditModel
 from carom.auditing.records.files import Frame
 from carom.auditing.report import Findings
@@ -48,6 +48,10 @@ def check_materials(model: AuditModel, stored: Indices | None, findings: Finding
 
 def check_start(model: AuditModel, frame: Frame, scales: Scales, findings: Findings) -> None:
     """Check the state at t = 0."""
+    initial = model.scenario.initial
+    if initial is not None:
+        findings.leave("the state that the run starts from, which is that of other files")
+        return
     findings.check("initial velocity", frame.displacement, 0.0, "displacement at t = 0")
     members = zip(model.scenario.bodies, model.bodies, model.supports, strict=True)
     for entry, body, supports in members:
@@ -63,23 +67,60 @@ def check_start(model: AuditModel, frame: Frame, scales: Scales, findings: Findi
 
 
 def check_links(
-    step: Mapping[str, Any] | None, frame: Frame, before: Frame, status: str, findings: Findings
+    step: Mapping[str, Any] | None,
+    frame: Frame,
+    before: Frame,
+    status: str,
+    findings: Findings,
+    *,
+    given: Mask,
 ) -> None:
-    """Check that a stored step ends at a frame, and starts there if it starts at the one before."""
+    """Check that a stored step ends at a frame, and starts there if it starts at the one before.
+
+    Nodes with `given` velocities, shape [node_count], have others than before.
+    """
     where = f"t = {frame.time:g} s"
     if step is None:
         # A step that failed leaves no pair behind.
         findings.check("stored steps", float(status != "failed"), 0.0, f"{where}, no step")
         return
     end, start = step["end"], step["start"]
-    pairs = [(end, frame)]
+    none = np.zeros(len(given), dtype=bool)
+    pairs = [(end, frame, none)]
     if start["time"] == before.time:
-        pairs.append((start, before))
+        pairs.append((start, before, given))
     findings.check("stored steps", end["time"] - frame.time, 0.0, f"{where}, time")
-    for state, fields in pairs:
+    for state, fields, others in pairs:
         for name, theirs in (
             ("displacement", fields.displacement),
             ("velocity", fields.velocity),
             ("contact_force", fields.reaction),
         ):
-            findings.check("stored steps", state[name] - theirs, 0.0, f"{where}, {name}")
+            error = state[name] - theirs
+            if name == "velocity":
+                error = error[~others]
+            findings.check("stored steps", error, 0.0, f"{where}, {name}")
+
+
+def check_given(
+    model: AuditModel, step: Mapping[str, Any], before: Frame, scales: Scales, findings: Findings
+) -> Mask:
+    """Check the velocities that bodies are given when a stage starts; return whose they are.
+
+    The mask is of nodes, of none where the step is not the first of the stage.
+    """
+    start, given = step["start"], np.zeros(len(model.points), dtype=bool)
+    if start["time"] != before.time or before.time != model.stage.start_time:
+        return given
+    for entry in model.stage.velocities:
+        number = next(i for i, b in enumerate(model.bodies) if b.name == entry.body)
+        body, supports = model.bodies[number], model.supports[number]
+        u = start["displacement"][body.span]
+        spin = np.zeros(turning_axes(model.dimension)) if entry.spin is None else entry.spin
+        wanted = turned(body.arms(u), np.atleast_1d(spin))
+        wanted = wanted + (0.0 if entry.velocity is None else np.array(entry.velocity))
+        given[body.span] = True
+        error = np.where(supports.held, 0.0, start["velocity"][body.span] - wanted)
+        at = f"{entry.body}, t = {before.time:g} s"
+        findings.check("initial velocity", error, ROUND_OFF * scales.speed, at)
+    return given

@@ -32,14 +32,14 @@ class ContactChecks:
     def __init__(self, model: AuditModel, scales: Scales, findings: Findings) -> None:
         self._model, self._scales, self._findings = model, scales, findings
         self._check = findings.check
-        self._sliding = Sliding(model, scales)
+        self.sliding = Sliding(model, scales)
         self._facet = min(_shortest(body) for body in model.bodies)
 
     def step(self, step: Step, where: str) -> tuple[float, float]:
         """Check a step; return its bi-potential gap, and how far that may be off [J]."""
         ruled = Ruled.of(step)
-        friction = self._sliding.coefficients(step, ruled)
-        if self._model.rubs_by_law and not self._sliding.known:
+        friction = self.sliding.coefficients(step, ruled)
+        if self._model.rubs_by_law and not self.sliding.known:
             self._findings.leave(
                 "what friction laws remember: how far contacts had slid before a stored step",
                 store="output.fields_every = the time step",
@@ -47,7 +47,7 @@ class ContactChecks:
         touching = step.touching
         self._places(touching.all, step.end, step, where)
         self._cone(touching.all, step, touching.whole_force, friction.whole + friction.doubt, where)
-        if self._model.condition in ("gap", "massless"):
+        if self._model.condition in ("gap", "massless") and not step.starts_elsewhere:
             # Of the other conditions the contacts before are where no stored state is.
             first = touching.first
             self._places(first, step.start, step, where)

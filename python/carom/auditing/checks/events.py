@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from carom.auditing.arrays import Array
-from carom.auditing.checks.pressing import PRESSED, Pressing
-from carom.auditing.model import AuditModel
+from carom.auditing.checks.pressing import PRESSED, Pressing, PressingOfRun
 from carom.auditing.records.numbers import number
+from carom.auditing.records.parts import Part
 from carom.auditing.records.rows import GRID, Rows
 from carom.auditing.report import Findings
 from carom.auditing.steps.scales import ROUND_OFF, SAFETY, Scales
@@ -67,8 +67,8 @@ class EventChecks:
 
     Parameters
     ----------
-    model, scales
-        The model and its magnitudes.
+    parts
+        The stages of the run, each with its magnitudes.
     findings
         Where what is found goes.
     rows
@@ -83,8 +83,7 @@ class EventChecks:
 
     def __init__(
         self,
-        model: AuditModel,
-        scales: Scales,
+        parts: Sequence[tuple[Part, Scales]],
         findings: Findings,
         rows: Rows,
         *,
@@ -92,7 +91,11 @@ class EventChecks:
         summary: Mapping[str, Any],
         stored: Mapping[float, Mapping[frozenset[str], float]],
     ) -> None:
-        self._model, self._scales = model, scales
+        self._models = [part.model for part, _ in parts]
+        model, self._scales = self._models[-1], parts[-1][1]
+        self._model = model
+        self._massless = any(model.massless for model in self._models)
+        self._jolts = any(model.jolts for model in self._models)
         self._check, self._leave = findings.check, findings.leave
         self._rows = rows
         named = {f"{a}|{b}": frozenset((a, b)) for a, b in model.pairs()}
@@ -109,7 +112,11 @@ class EventChecks:
             for name in self._pairs
         }
         """Whether the pair did something between the row before and this one, by pair."""
-        self._pressing = Pressing(model, scales, rows, self._pairs, stored)
+        stages = [
+            (part.first, Pressing(part.model, scales, part.rows, self._pairs, stored))
+            for part, scales in parts
+        ]
+        self._pressing = PressingOfRun(stages, rows.history["normal_force"])
         names = {between: name for name, between in self._pairs.items()}
         self._events = [
             Event(
@@ -177,7 +184,7 @@ class EventChecks:
             peaks = {e.pair: e.peak for e in self._events if self._holds(e, int(row))}
             low = sum(bound[0] for bound in bounds.values())
             high = sum(min(bound[1], peaks[name]) for name, bound in bounds.items())
-            off = (PRESSED + TURNED * self._model.jolts) * total[row]
+            off = (PRESSED + TURNED * self._jolts) * total[row]
             self._check("events: force", max(low - total[row], 0.0), off, where)
             self._check("events: force", max(total[row] - high, 0.0), off, where)
             self.known[row] = high - low <= PINNED * total[row]
@@ -194,7 +201,7 @@ class EventChecks:
         others = set(self._claims[row]) - {pair}
         if not others:
             return True
-        if self._rows.single[row] and self._rubs[pair][row] and not self._model.massless:
+        if self._rows.single[row] and self._rubs[pair][row] and not self._massless:
             return True
         return self._pressing.bounds(row, [*others, pair])[pair][0] > 0
 
@@ -254,10 +261,11 @@ class EventChecks:
 
     def _off_grid(self, time: float) -> float:
         """Return how far a time is from the ends of steps, or of their halves, quarters … [s]."""
-        analysis = self._model.analysis
-        finest = self._rows.dt * 0.5**analysis.max_halvings
-        nominal = np.rint(time / self._rows.dt) * self._rows.dt
-        off = abs(time - np.rint(time / finest) * finest)
+        model = next((m for m in self._models if time <= m.stage.end_time), self._model)
+        analysis, since = model.analysis, time - model.stage.start_time
+        finest = analysis.time_step * 0.5**analysis.max_halvings
+        nominal = model.stage.start_time + np.rint(since / analysis.time_step) * analysis.time_step
+        off = abs(since - np.rint(since / finest) * finest)
         if not (self._rows.history["retried_steps"] > 0).any():
             off = abs(time - nominal)
         off = min(off, abs(time - analysis.end_time))
@@ -324,7 +332,7 @@ class EventChecks:
     def _pauses(self, pair: str, events: list[Event]) -> None:
         """Check that pauses within an event are shorter than those between two."""
         rows, merge = self._rows, self._merge.get(pair, np.nan)
-        slack = GRID * rows.dt
+        slack = GRID * min(model.analysis.time_step for model in self._models)
         for before, after in pairwise(events):
             row = rows.at(after.onset)
             known = row is not None and rows.single[row]
@@ -341,7 +349,7 @@ class EventChecks:
             longest = max((p for p in pauses if p > slack), default=0.0)
             at = f"{pair}, event {event.index}"
             self._check("events: times", max(longest - merge, 0.0), slack, f"{at}, pause")
-        if not self._model.massless:
+        if not self._massless:
             # What a pair did between two rows, it did in an event.
             for row in np.flatnonzero(self._rubs[pair])[1:]:
                 covered = any(

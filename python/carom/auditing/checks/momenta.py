@@ -47,7 +47,8 @@ class MomentumChecks:
     def all(self) -> None:
         """Check everything."""
         if self._model.static:
-            moment = self._rows.angular_momentum
+            # What a stage starts with is of the one before.
+            moment = self._rows.angular_momentum[self._rows.times > self._model.stage.start_time]
             self._findings.check("row: angular", moment, 0.0, "nothing has a velocity")
             return
         for body in self._model.bodies:

@@ -8,7 +8,7 @@ normal forces is at least the resultant without what friction may add to it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -25,8 +25,37 @@ Force = tuple[Array, float]
 """A force [N], shape [D], and how far it may be off [N]."""
 
 
+class PressingOfRun:
+    """Normal forces of pairs in all stages of a run.
+
+    Parameters
+    ----------
+    stages
+        Those of every stage, and the number of its first row among those of the run.
+    total
+        Normal forces of the rows of the run [N], shape [row_count].
+    """
+
+    def __init__(self, stages: Sequence[tuple[int, Pressing]], total: Array) -> None:
+        self._stages, self.total = stages, total
+
+    def bounds(self, row: int, active: Iterable[str]) -> dict[str, tuple[float, float]]:
+        """Return for the pairs that may press at a row how hard, at least and at most [N]."""
+        first, stage = self._at(row)
+        return stage.bounds(row - first, active)
+
+    def apart(self, row: int, active: Iterable[str]) -> dict[str, tuple[float, float]]:
+        """Return the same without what the row says of their sum [N]."""
+        first, stage = self._at(row)
+        return stage.apart(row - first, active)
+
+    def _at(self, row: int) -> tuple[int, Pressing]:
+        # The row between two stages is of the first.
+        return next((one for one in reversed(self._stages) if one[0] < row), self._stages[0])
+
+
 class Pressing:
-    """Normal forces of pairs.
+    """Normal forces of pairs in a stage.
 
     Parameters
     ----------

@@ -12,18 +12,12 @@ from carom.auditing.arrays import AXES, Array
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.bodies.moving import KINETIC_PARTS
 from carom.auditing.checks.blend import LARGEST_BLEND
-from carom.auditing.checks.summary import SUMMED
 from carom.auditing.model import AuditModel
+from carom.auditing.records.parts import OF_STEPS, SUMS
 from carom.auditing.records.rows import GRID, Rows
 from carom.auditing.report import Findings
 from carom.auditing.steps.scales import EPS, ROUND_OFF, SAFETY, Scales
 from carom.ledger_terms import terms
-
-OF_STEPS = (
-    *("contacts", "normal_force", "newton_iterations", "retried_steps", "shortest_step"),
-    *("certificate", "residual", "blend", "step_defect"),
-)
-"""Columns that say something of the steps since the row before."""
 
 
 class RowChecks:
@@ -52,6 +46,7 @@ class RowChecks:
         self._model, self._scales, self._findings = model, scales, findings
         self._rows, self._history, self._summary = rows, rows.history, summary
         self._dt, self._end = rows.dt, model.analysis.end_time
+        self._start = model.stage.start_time
         self._times = rows.times
 
     def all(self) -> None:
@@ -77,7 +72,7 @@ class RowChecks:
 
     def _grid(self) -> None:
         times = self._times
-        nominal = np.rint(times / self._dt) * self._dt
+        nominal = self._start + np.rint((times - self._start) / self._dt) * self._dt
         off_grid = np.minimum(np.abs(times - nominal), np.abs(times - self._end))
         if self._summary["status"] == "failed":
             off_grid[-1] = 0.0  # where the last good part of a step ended
@@ -85,9 +80,11 @@ class RowChecks:
         self._check("row times", np.maximum(-np.diff(times), 0.0), 0.0)
         self._check("row times", (np.diff(times) == 0.0).astype(float), 0.0)
         # Every step that ends at or after the next multiple of the interval is due a row.
-        every = self._model.scenario.full_stages()[0].history_every
-        ends = np.arange(np.floor(times[-1] / self._dt + GRID) + 1) * self._dt
+        every = self._model.stage.history_every
+        count = np.floor((times[-1] - self._start) / self._dt + GRID) + 1
+        ends = np.arange(count) * self._dt
         due = np.floor((ends + GRID * self._dt) / every)
+        ends = self._start + ends
         missing = np.setdiff1d(ends[1:][np.diff(due) > 0], times)
         missing = missing[missing < times[-1] - GRID * self._dt]
         self._findings.check("row times", float(len(missing)), 0.0, "rows that are due")
@@ -111,7 +108,7 @@ class RowChecks:
             term.sign * (h[term.name] - (h[term.name][0] if term.side == "stored" else 0.0))
             for term in terms("run")
         )
-        scale = sum((np.abs(h[name]) for name in SUMMED), np.zeros(len(h["time"])))
+        scale = sum((np.abs(h[name]) for name in SUMS), np.zeros(len(h["time"])))
         self._check("row: defect", h["defect"] - known, off + ROUND_OFF * scale)
         # The defect is the sum of those of the steps, of which the row has the largest.
         change, largest = np.abs(np.diff(h["defect"])), h["step_defect"][1:]
@@ -145,7 +142,9 @@ class RowChecks:
         off = ROUND_OFF * (scales.energy + weight) + SAFETY * EPS * steps * weight
         loaded = any(len(loads) for loads in model.loads)
         supported = any(len(supports) for supports in model.supports)
-        if not loaded:
+        if model.stage.velocities:
+            self._findings.leave("the work of giving bodies velocities when a stage starts")
+        elif not loaded:
             self._check("row: external", h["external"] - external, off)
         stored = self._rows.momentum
         off = SAFETY * ROUND_OFF * scales.mass * scales.speed
@@ -262,7 +261,9 @@ class RowChecks:
         two_sided = any(side.two_sided for side in self._model.sides) or self._model.mixed
         if self._model.condition in ("gap", "massless") and self._model.sides and not two_sided:
             off = self._scales.penetration()
-            self._check("row: penetration", np.maximum(-h["min_gap"], 0.0), off)
+            # What a stage starts with is of the one before.
+            own = self._times > self._start if self._model.before else np.isfinite(self._times)
+            self._check("row: penetration", np.maximum(-h["min_gap"][own], 0.0), off)
             if self._model.contact.targets == "smooth" or not self._pairs_of_bodies():
                 # What presses is closed.
                 open_gap = np.where(h["normal_force"] > 0, h["min_gap"], 0.0)
@@ -287,9 +288,8 @@ class RowChecks:
         fewest = 0.5 ** np.minimum(h["retried_steps"][1:], 60)
         least = np.minimum(self._dt, dt) * fewest
         if not np.isnan(steps).any():
-            last = np.ceil(self._end / self._dt - 1e-6) - 1
-            short = self._times[1:] > last * self._dt + off
-            least = np.where(
-                short, np.minimum(least, (self._end - last * self._dt) * fewest), least
-            )
+            duration = self._model.stage.duration
+            whole = (np.ceil(duration / self._dt - 1e-6) - 1) * self._dt
+            short = self._times[1:] > self._start + whole + off
+            least = np.where(short, np.minimum(least, (duration - whole) * fewest), least)
             self._check("row: signs", np.maximum(least - shortest, 0.0), off)

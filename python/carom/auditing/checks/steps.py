@@ -47,6 +47,10 @@ class StepChecks:
         self._gap = (0.0, 0.0)
         """The bi-potential gap of the last step, and how far it may be off [J]."""
 
+    def go_on(self, before: StepChecks) -> None:
+        """Go on from the stage before."""
+        self._contacts.sliding.go_on(before._contacts.sliding)
+
     def step(self, step: Step) -> None:
         """Check a step by itself."""
         where = f"t = {step.time:g} s"
@@ -66,6 +70,10 @@ class StepChecks:
         self._ledger(step, where)
         self._gap = self._contacts.step(step, where)
         self._note_forces(step)
+
+    def turn(self, step: Step) -> float:
+        """Return how far feet may be off: places over the length of a facet."""
+        return self._contacts.turn(step)
 
     def rows(self, step: Step, before: Row | None, after: Row) -> None:
         """Check the history's row at the end of a step, and that at its start if there is one."""
@@ -298,6 +306,10 @@ class StepChecks:
         resisted = sum(scales.resisted(step, index) for index in range(len(model.bodies)))
         off = {"strain": strain, "friction": friction, "normal_contact": work}
         off |= {"viscous": sums + resisted, "prescribed": work + resisted}
+        if step.starts_elsewhere and step.uses_start:
+            self._findings.leave("what the first step of a stage makes of contacts of the last")
+            off |= dict.fromkeys(("scheme", "normal_contact"), friction)
+            off["prescribed"] += step.work.doubt
         for name in ENERGIES:
             error = step.ledger[name] - mine[name]
             self._check(f"ledger: {name.replace('_', ' ')}", error, off.get(name, sums), where)

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, get_args
 
 import numpy as np
 
 from carom.auditing.arrays import turning_axes
 from carom.auditing.bodies.body import AuditBody
-from carom.auditing.model import AuditModel
 from carom.auditing.records.numbers import number
+from carom.auditing.records.parts import SUMS, Part
 from carom.auditing.records.rows import GRID, Rows
 from carom.auditing.report import Findings
 from carom.auditing.steps.scales import EPS, ROUND_OFF, SAFETY, Scales
 from carom.io.summary_types import Status
-from carom.ledger_terms import terms
-
-SUMMED = tuple(term.name for term in terms("run") if term.side != "stored")
-"""Terms of the ledger that are sums since the start."""
 
 
 class SummaryChecks:
@@ -26,8 +22,10 @@ class SummaryChecks:
 
     Parameters
     ----------
-    model, scales
-        The model and its magnitudes.
+    parts
+        The stages of the run.
+    scales
+        The magnitudes of the last of them.
     findings
         Where what is found goes.
     rows
@@ -38,15 +36,16 @@ class SummaryChecks:
 
     def __init__(
         self,
-        model: AuditModel,
+        parts: Sequence[Part],
         scales: Scales,
         findings: Findings,
         rows: Rows,
         summary: Mapping[str, Any],
     ) -> None:
-        self._model, self._scales, self._findings = model, scales, findings
+        self._parts, self._models = parts, [part.model for part in parts]
+        self._model, self._scales, self._findings = self._models[-1], scales, findings
         self._rows, self._history, self._summary = rows, rows.history, summary
-        self._end = model.analysis.end_time
+        self._end = self._model.scenario.end_time
 
     def all(self) -> None:
         """Check everything."""
@@ -57,13 +56,15 @@ class SummaryChecks:
         self._counts()
         self._run()
         self._status()
+        if self._model.scenario.stages:
+            self._stages()
 
     def _energies(self) -> None:
         h, energy = self._history, self._summary["energy"]
         check = self._findings.check
         check("summary: energies", number(energy["initial"]) - h["total"][0], 0.0, "initial")
         check("summary: energies", number(energy["final"]) - h["total"][-1], 0.0, "final")
-        for name in ("kinetic", "strain", "springs", *SUMMED):
+        for name in ("kinetic", "strain", "springs", *SUMS):
             check("summary: energies", number(energy[name]) - h[name][-1], 0.0, name)
 
     def _extremes(self) -> None:
@@ -95,8 +96,9 @@ class SummaryChecks:
         if summary["min_gap"] is not None:
             excess = h["min_gap"].min() - number(summary["min_gap"])
             self._extreme("min_gap", excess, 0.0, exact=every)
-        if self._model.condition in ("gap", "massless") and self._model.sides:
-            mixed = self._model.mixed
+        ruled = all(model.condition in ("gap", "massless") for model in self._models)
+        if ruled and self._model.sides:
+            mixed = any(model.mixed for model in self._models)
             one_sided = not (mixed or any(side.two_sided for side in self._model.sides))
             depth = -number(summary["min_gap"]) if summary["min_gap"] is not None else 0.0
             if one_sided:
@@ -118,11 +120,12 @@ class SummaryChecks:
         """Check that the run's least friction says whether friction of any step gave energy."""
         least, h = number(self._summary["least_friction"]), self._history
         self._findings.check("summary: extremes", max(least, 0.0), 0.0, "least_friction")
-        if self._model.gives_back:
+        if any(model.gives_back for model in self._models):
             self._findings.leave("the least friction of a step", "summary.json: least_friction")
             return
         # No step may give back more than this, and none can have taken less than nothing.
-        slip = self._scales.displacement_in(np.array(self._rows.dt)) + self._scales.travel
+        longest = max(part.rows.dt for part in self._parts)
+        slip = self._scales.displacement_in(np.array(longest)) + self._scales.travel
         off = SAFETY**2 * float(slip) * float(h["normal_force"].max()) + (
             ROUND_OFF * self._scales.energy
         )
@@ -134,7 +137,7 @@ class SummaryChecks:
     def _repaid(self) -> None:
         """Check that vibration took or gave nothing where no stresses are blended."""
         repaid = number(self._summary["repaid"])
-        if not self._model.blended:
+        if not any(model.blended for model in self._models):
             self._findings.check("summary: extremes", repaid, 0.0, "repaid")
             return
         self._findings.check("summary: extremes", min(repaid, 0.0), 0.0, "repaid")
@@ -173,7 +176,8 @@ class SummaryChecks:
     def _counts(self) -> None:
         rows, summary, check = self._rows, self._summary, self._findings.check
         end = float(rows.times[-1])
-        steps = np.ceil(end / rows.dt - GRID)
+        spans = [(part.end - part.model.stage.start_time) / part.rows.dt for part in self._parts]
+        steps = sum(np.ceil(span - GRID) for span in spans)
         if summary["status"] == "failed":
             steps = min(steps, summary["steps"])
         dofs = sum(_unknowns(body) for body in self._model.bodies)
@@ -214,7 +218,7 @@ class SummaryChecks:
         idle = np.where((steps > 0.0) & (np.rint(count) == 0.0), change, 0.0)
         size = SAFETY * EPS * float(np.abs(strain).max(initial=0.0))
         check("summary: counts", idle, size, "newton_iterations of rows")
-        most = self._model.analysis.newton.max_iterations
+        most = max(model.analysis.newton.max_iterations for model in self._models)
         # A step that contacts turn up in is repeated, four times in all.
         check("summary: counts", np.maximum(mean - 4 * most, 0.0), off, "newton_iterations of rows")
         said = float(self._summary["newton_iterations"])
@@ -247,6 +251,45 @@ class SummaryChecks:
         leave("how often matrices were factorised", "summary.json: factorisations")
         if answered:
             leave("what a second solver said", "summary.json: cross_check")
+
+    def _stages(self) -> None:
+        """Check what the summary says of stages: their times, and what their ledgers gained."""
+        check, said = self._findings.check, self._summary["stages"]
+        check("summary: stages", float(len(said) != len(self._parts)), 0.0, "number")
+        for part, own in zip(self._parts, said, strict=False):
+            stage, rows = part.model.stage, part.rows
+            at = own["name"]
+            check("summary: stages", float(at != stage.name), 0.0, at)
+            for name, figure in (
+                ("start_time", own["start_time"] - stage.start_time),
+                ("end_time", own["end_time"] - part.end),
+                ("time_step", own["time_step"] - rows.dt),
+                ("steps", own["steps"] - np.ceil((part.end - stage.start_time) / rows.dt - GRID)),
+                ("retried_steps", own["retried_steps"] - rows.history["retried_steps"].sum()),
+            ):
+                check("summary: stages", float(figure), 0.0, f"{at}, {name}")
+            h, energy = rows.history, own["energy"]
+            size = sum(float(np.abs(self._history[name]).max()) for name in SUMS)
+            off = ROUND_OFF * (self._scales.energy + size)
+            for name in SUMS:
+                check("summary: stages", number(energy[name]) - h[name][-1], off, f"{at}, {name}")
+            for name, column in (("final", "total"), ("kinetic", "kinetic"), ("strain", "strain")):
+                check("summary: stages", number(energy[name]) - h[column][-1], off, f"{at}, {name}")
+            check("summary: stages", number(energy["initial"]) - h["total"][0], off, at)
+            worst = h["step_defect"].max() - number(energy["max_step_defect"])
+            check("summary: stages", worst, 0.0, f"{at}, max_step_defect")
+            for name, rows_of in (
+                ("max_drift", np.abs(h["total"] - h["total"][0])),
+                ("max_defect", np.abs(h["defect"])),
+            ):
+                short = float(rows_of.max()) - number(energy[name])
+                check("summary: stages", max(short, 0.0), off, f"{at}, {name}")
+            for entry in (*own["bodies"], *own["pairs"]):
+                key = entry["name"] if "name" in entry else "|".join(entry["between"])
+                columns = part.ledger.get(key, {})
+                for name in columns.keys() & entry.keys() - {"time"}:
+                    error = number(entry[name]) - columns[name][-1]
+                    check("summary: stages", error, off, f"{at}, {key}, {name}")
 
     def _status(self) -> None:
         """Check that a run is called completed if it is, and if it keeps Coulomb's law."""

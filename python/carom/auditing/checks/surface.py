@@ -128,7 +128,7 @@ class SurfaceChecks:
         self._check("surface: pressure", np.maximum(-pressure, 0.0), 0.0, f"{where}, pulls")
         free = ~(frame.reaction[self._facets] != 0.0).any(axis=(1, 2))
         self._check("surface: pressure", pressure[free], 0.0, f"{where}, of nothing")
-        if row is not None:
+        if row is not None and frame.time > self._model.stage.start_time:
             # Bodies that touch one another both bear what they press with.
             whole, force = float((pressure * self._area).sum()), row["normal_force"]
             most = force * (2.0 if any(side.target >= 0 for side in self._model.sides) else 1.0)
@@ -136,7 +136,7 @@ class SurfaceChecks:
             off = ROUND_OFF * (force + size * float(self._area.sum()))
             self._check("surface: pressure", error, off, f"{where}, in sum")
 
-    def borne(self, contacts: Contacts, frame: Frame) -> None:
+    def borne(self, contacts: Contacts, frame: Frame, moved: float) -> None:
         """Check the pressures of the last output time against the contacts of its step.
 
         Parameters
@@ -145,6 +145,8 @@ class SurfaceChecks:
             The contacts, where the condition is written.
         frame
             The fields of the bodies at the end of the step.
+        moved
+            How far feet may be off, in lengths of facets.
         """
         if not self._known:
             return
@@ -166,7 +168,7 @@ class SurfaceChecks:
                 self._bear(node, share * force, facing, into, turn=turn, slack=float(slack))
         where = f"t = {frame.time:g} s"
         # The run may have a foot at a node on the other facet there, with nodes that bear nothing.
-        off += SAFETY * ROUND_OFF * self._pressure.max(initial=0.0)
+        off += (SAFETY * ROUND_OFF + moved) * self._pressure.max(initial=0.0)
         self._check("surface: pressure", self._pressure - mine, off, where)
 
     def _bear(

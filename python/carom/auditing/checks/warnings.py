@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from carom.auditing.model import AuditModel
@@ -23,13 +23,15 @@ Figures = tuple[float, float]
 """What a number is, and what it may be."""
 
 
-def check_warnings(model: AuditModel, summary: Mapping[str, Any], findings: Findings) -> None:
+def check_warnings(
+    models: Sequence[AuditModel], summary: Mapping[str, Any], findings: Findings
+) -> None:
     """Check the warnings of a summary by its other numbers and the case.
 
     Parameters
     ----------
-    model
-        The model.
+    models
+        The models of the stages.
     summary
         What ``summary.json`` says; one without warnings is of a version that wrote none.
     findings
@@ -46,10 +48,11 @@ def check_warnings(model: AuditModel, summary: Mapping[str, Any], findings: Find
             findings.check("summary: warnings", float(warned["where"] != where), 0.0, code)
     for code, warning in written.items():
         if code == "coarse-step":
-            step = model.analysis.time_step
+            steps = [model.analysis.time_step for model in models]
+            step = min(steps, key=lambda one: abs(one - number(warning["value"])))
             _compare(findings, code, warning, (step, float(warning["allowed"] or 0.0)))
         elif code == "wave-speed":
-            soft = [body for body in model.bodies if not body.rigid]
+            soft = [body for body in models[0].bodies if not body.rigid]
             speeds = [body.law.wave_speed for body in soft]
             error = min(abs(speed / number(warning["value"]) - 1) for speed in speeds)
             findings.check("summary: warnings", error, ROUND_OFF, code)

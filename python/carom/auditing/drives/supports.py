@@ -40,12 +40,16 @@ class Supports:
         """Which components of the displacement of nodes are given, shape [node_count, D]."""
         self.by: Indices = np.full(body.points.shape, -1)
         """By which support, shape [node_count, D]; −1 where by none."""
+        self.anchor: Array = np.zeros(body.points.shape)
+        """Displacements that those given are counted from [m], shape [node_count, D]."""
+        self._since: list[float] = []
         self.names: list[str] = []
         """Names of the supports, as columns of the history have them."""
         self._signals: list[list[AuditSignal]] = []
         for one in given:
             if one.what.body == body.name:
                 self._hold(body, one.what)
+                self._since.append(one.since)
 
     def __len__(self) -> int:
         return len(self.names)
@@ -70,9 +74,16 @@ class Supports:
         self.names.append(f"{motion.body}.{motion.on}")
         self._signals.append(signals)
 
+    def begin(self, u: Array, time: float, before: Supports | None) -> None:
+        """Count what begins at a time [s] from displacements [m], all else as it was `before`."""
+        for number, since in enumerate(self._since):
+            mine = self.by == number
+            known = before is not None and since < time
+            self.anchor[mine] = (before.anchor if before is not None and known else u)[mine]
+
     def displacement(self, time: float) -> Array:
         """Return what is given at a time [s], zero elsewhere [m], shape [node_count, D]."""
-        return self._given(time, 0)
+        return np.where(self.held, self.anchor + self._given(time, 0), 0.0)
 
     def velocity(self, time: float) -> Array:
         """Return its rate [m/s], shape [node_count, D]."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -141,8 +142,8 @@ class Files:
         if self.scenario.output.audit and not self.has_steps:
             raise InputError(f"{path}: has no {layout.AUDIT}, which its case asks for")
 
-    def model(self) -> AuditModel:
-        """Build the model of the case on the mesh of the fields."""
+    def models(self) -> list[AuditModel]:
+        """Build the models of the case, one a stage, on the mesh of the fields."""
         with _Fields(self.path / layout.FIELDS) as root:
             points = root["Points"][:, : self.scenario.dimension]
             connectivity, offsets = root["Connectivity"][:], root["Offsets"][:]
@@ -157,7 +158,13 @@ class Files:
                 )
             cells.append(connectivity[offsets[mine][:, None] + np.arange(sizes[0])])
             kinds.append(int(kind[0]))
-        return AuditModel(self.scenario, self.scenario.full_stages()[0], points, cells, kinds)
+        models = [
+            AuditModel(self.scenario, stage, points, cells, kinds)
+            for stage in self.scenario.full_stages()
+        ]
+        for before, model in pairwise(models):
+            model.before = before
+        return models
 
     def materials(self) -> Indices | None:
         """Return the number of the material of each cell, where the fields say it."""

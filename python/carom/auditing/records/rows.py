@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -28,7 +28,7 @@ class Rows:
     def __init__(
         self, model: AuditModel, history: Mapping[str, Array], summary: Mapping[str, Any]
     ) -> None:
-        self.history = history
+        self.history, self.model = history, model
         self._axes = AXES[: model.dimension]
         self.times: Array = history["time"]
         self.dt = model.analysis.time_step
@@ -40,8 +40,12 @@ class Rows:
         """Steps since the row before, NaN where that is not known, [row_count]."""
         if model.static:
             # What had to be halved goes on in halves until they are easy.
-            shortest = (1.0 - GRID) * np.minimum(self.dt, np.diff(self.times, prepend=0.0))
+            since = np.diff(self.times, prepend=model.stage.start_time)
+            shortest = (1.0 - GRID) * np.minimum(self.dt, since)
             self.steps[history["shortest_step"] < shortest] = np.nan
+        if model.stage.velocities:
+            # Nothing says of the row before what bodies were given after it.
+            self.steps[1:2] = np.nan
         self.steps[:1] = 0.0
         if summary["status"] == "failed" and history["retried_steps"][-1] > 0:
             self.steps[-1] = np.nan  # the last failures made no steps
@@ -49,6 +53,18 @@ class Rows:
         """Whether one step led from the row before to this one, [row_count]."""
         self.complete = bool(self.single[1:].all())
         """Whether every step has a row."""
+
+    @classmethod
+    def joined(
+        cls, parts: Sequence[Rows], history: Mapping[str, Array], summary: Mapping[str, Any]
+    ) -> Rows:
+        """Return the rows of a run from those of its stages, which share the rows between them."""
+        whole = cls(parts[-1].model, history, summary)
+        for name in ("nominal", "steps", "single"):
+            own = [getattr(part, name)[number > 0 :] for number, part in enumerate(parts)]
+            setattr(whole, name, np.concatenate(own))
+        whole.complete = all(part.complete for part in parts)
+        return whole
 
     def __len__(self) -> int:
         return len(self.times)

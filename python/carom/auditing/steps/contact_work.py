@@ -58,6 +58,10 @@ class Works:
         work = list(self.rubbing) if self._states.model.blended else []
         for found in self.booked():
             w_n, w_t = found.relative(self._states.d, found.shift)
+            doubt = np.zeros(len(found))
+            if self._states.starts_elsewhere and self._states.uses_start:
+                # Where the contacts of the start were is not stored.
+                doubt = np.linalg.norm(found.reaction, axis=1) * self._states.motion
             work.append(
                 ContactWork(
                     found=found,
@@ -67,7 +71,7 @@ class Works:
                         "prescribed": found.driven(self._states.held_d, found.shift),
                     },
                     whole=np.zeros(len(found)),
-                    doubt=np.zeros(len(found)),
+                    doubt=doubt,
                 )
             )
         if self._states.model.blended and not self._states.model.mixed:
@@ -118,7 +122,7 @@ class Works:
 
     @property
     def doubt(self) -> float:
-        """How sure the dissipation by friction is [J]."""
+        """How sure the work of contacts is [J]."""
         return sum(float(work.doubt.sum()) for work in self.all)
 
     def booked(self) -> list[Contacts]:

@@ -131,7 +131,7 @@ class Forces:
             missing += float((without * d).sum())
             available -= float((beside * d).sum())
         return BodyForces(
-            inertia=body.mass.times(v1 - v0) / dt,
+            inertia=body.mass.times(v1 - v0) / dt * (not model.static),
             gravity=body.mass.nodal[:, None] * model.gravity,
             loads=loads,
             end_loads=end_loads,

@@ -8,6 +8,8 @@ may be as large as that error times what it depends on.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from carom.auditing.arrays import Array
@@ -46,15 +48,20 @@ class Scales:
         """Largest energy of a state [J]."""
         self.speed = model.fastest_obstacle
         """Largest speed of a node, or of an obstacle [m/s]."""
-        self.reach = model.fastest_obstacle * model.analysis.end_time
+        self.reach = model.fastest_obstacle * model.stage.duration
         """Largest distance of a node from the origin, or of an obstacle from its start [m]."""
         analysis = model.analysis
         travel = model.fastest_obstacle * analysis.end_time
-        self.travel = EPS * travel * analysis.end_time / analysis.time_step
+        self.travel = EPS * travel * model.stage.duration / analysis.time_step
         """How far places of obstacles may be off, which the run sums step by step [m]."""
         self.moved = 0.0
         """Largest displacement of a node [m]."""
         self.mass = sum(body.mass.total for body in model.bodies)
+
+    def share(self, others: Sequence[Scales]) -> None:
+        """Take the largest magnitudes of the stages of a run."""
+        for name in ("energy", "speed", "reach", "moved"):
+            setattr(self, name, max(getattr(one, name) for one in (self, *others)))
 
     def include(self, displacement: Array, velocity: Array, time: float) -> None:
         """Take a state at a time [s] into account."""

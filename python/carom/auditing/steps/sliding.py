@@ -74,10 +74,15 @@ class Sliding:
     def __init__(self, model: AuditModel, scales: Scales) -> None:
         self._model, self._scales = model, scales
         self._records: dict[Key, Record] = {}
-        self._time = 0.0
+        self._time = model.stage.start_time
         self._off = 0.0
-        self.known = True
+        self.known = model.scenario.initial is None or model.scenario.initial.result is None
         """Whether every step since the start of the run was stored."""
+
+    def go_on(self, before: Sliding) -> None:
+        """Take over what contacts bring from the stage before."""
+        self._records, self._off = before._records, before._off
+        self._time, self.known = before._time, before.known
 
     def coefficients(self, step: Step, ruled: Ruled) -> Coefficients:
         """Return the coefficients in a step, which follows the one before that was asked about."""

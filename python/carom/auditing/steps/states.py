@@ -43,6 +43,17 @@ class States:
         self.motion = self._motion()
         self.v_scheme = self._scheme_velocity()
 
+    @property
+    def starts_elsewhere(self) -> bool:
+        """Whether the contacts at its start are not where that is: see `AuditModel`."""
+        model = self.model
+        return model.starts_elsewhere and float(self.start["time"]) == model.stage.start_time
+
+    @property
+    def uses_start(self) -> bool:
+        """Whether the reactions of its start count in it."""
+        return self.model.static or self.model.massless
+
     def _length(self) -> tuple[float, float, float]:
         """Return the length of the step, how far it is from one of the time grid, and its parts.
 
@@ -52,7 +63,7 @@ class States:
         difference of two times has more round-off than a step may have.
         """
         analysis = self.model.analysis
-        nominal, end = analysis.time_step, analysis.end_time
+        nominal, end = analysis.time_step, self.model.stage.duration
         raw = self.time - float(self.start["time"])
         steps = max(int(np.ceil(end / nominal - 1e-6)), 1)
         last = end - (steps - 1) * nominal
@@ -88,9 +99,9 @@ class States:
 
     def _motion(self) -> float:
         """Return the largest motion of a node in the step, or that of free flight if larger [m]."""
-        speed = max(np.linalg.norm(self.v0, axis=1).max(), self.model.fastest_obstacle)
         if self.model.static:
-            return float(max(np.abs(self.d).max(), speed * self.dt))
+            return float(max(np.abs(self.d).max(), self.model.fastest_obstacle * self.dt))
+        speed = max(np.linalg.norm(self.v0, axis=1).max(), self.model.fastest_obstacle)
         predicted = (speed + np.linalg.norm(self.model.gravity) * self.dt) * self.dt
         return float(max(np.abs(self.d).max(), predicted))
 

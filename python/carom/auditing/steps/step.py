@@ -112,7 +112,9 @@ class Step(States):
         `scheme` is what the mean lacks of balance inside the body.
         """
         f, held = self.forces.of[index], self.model.supports[index].held
-        u0, u1, d = (a[body.span] for a in (self.u0, self.u1, self.d))
+        u0, u1, v0, d = (a[body.span] for a in (self.u0, self.u1, self.v0, self.d))
+        # What moved before load steps began comes to rest with the first.
+        kinetic = body.kinetic_energy(u0, v0)
         force = np.zeros_like(self.model.points)
         for found in self.work.booked():
             force += found.nodal_forces(len(self.model.points))
@@ -120,11 +122,11 @@ class Step(States):
         lacking = (f.gravity + f.path_loads + f.connections - f.path) * d
         inside = float(np.where(held, 0.0, lacking).sum())
         return {
-            "kinetic": 0.0,
+            "kinetic": -kinetic,
             "strain": body.strain_energy(u1) - body.strain_energy(u0),
             "external": float(((f.gravity + f.path_loads) * d).sum()),
             "viscous": 0.0,
-            "scheme": inside + contact,
+            "scheme": inside + contact + kinetic,
             "contact": contact,
             "connections": float((f.connections * d).sum()),
             "prescribed": -float(lacking[held].sum()),
