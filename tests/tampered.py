@@ -76,11 +76,11 @@ def with_another_case(run, directory, old, new):
     return directory
 
 
-def with_another_number(run, directory, column, factor):
-    """Copy a run to a directory; a number in the middle of its history is multiplied there."""
+def with_another_number(run, directory, column, factor, row=51):
+    """Copy a run to a directory; a number in a row of its history is multiplied there."""
     shutil.copytree(run, directory)
     lines = [line.split(",") for line in (directory / "history.csv").read_text().splitlines()]
     at = lines[0].index(column)
-    lines[51][at] = repr(float(lines[51][at]) * factor)
+    lines[row][at] = repr(float(lines[row][at]) * factor)
     (directory / "history.csv").write_text("\n".join(",".join(line) for line in lines) + "\n")
     return directory

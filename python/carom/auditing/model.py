@@ -104,9 +104,6 @@ class AuditModel:
         self.sides = list(build_sides(self._pairs, self.bodies, impacts=impacts))
         self.supports = [Supports(body, stage.motions, at_rest=self.static) for body in self.bodies]
         """Those of every body."""
-        for body, supports in zip(self.bodies, self.supports, strict=True):
-            if supports.held[body.massless].any():
-                raise InputError("cannot audit supports at nodes without mass yet")
         self.loads = [Loads(body, stage.loads) for body in self.bodies]
         """Those of every body."""
         self.springs = [build_spring(spring, self) for spring in scenario.springs]

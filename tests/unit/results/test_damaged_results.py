@@ -168,7 +168,6 @@ def test_bodies_that_are_swapped_in_the_mesh_cannot_be_audited(results):
 
 
 CANNOT = [
-    ("bodies.0.hypothesis=axisymmetric", "cannot audit an axisymmetric body yet"),
     ("materials.elastic.viscosity={shear=1.0}", "cannot audit a material with viscosity yet"),
     (
         'materials.elastic={kind="j2-plasticity",young=9.0,poisson=0.3,density=1.0,'

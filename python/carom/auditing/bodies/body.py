@@ -27,13 +27,15 @@ from carom.case.body import AnyBody, ReducedBody, RigidBody
 from carom.case.material import Material
 from carom.case.mesh import Rectangle
 from carom.case.point_mass import PointMass
-from carom.errors import InputError
 
 STEADYING = 0.1
 """Resistance of a node without mass to a change of its motion, in terms of what holds it."""
 
 HEAVIEST = 0.25
 """The same at most, as the inertia of this part of the mass that the node had."""
+
+ON_THE_AXIS = 1e-9
+"""Nodes whose radius is below this part of the size of a body of revolution are on its axis."""
 
 MUCH_SHORTER = 8.0
 """From so many parts of a nominal step on the resistance grows with their square."""
@@ -73,7 +75,6 @@ class AuditBody(MovingBody):
         massless: bool,
         masses: Sequence[PointMass] = (),
     ) -> None:
-        _refuse_forms(entry)
         self.name = entry.name
         self._entry = entry
         self.points = points
@@ -91,21 +92,25 @@ class AuditBody(MovingBody):
         """For every node the one that it moves with, itself as a rule, [node_count]."""
         self.images: Indices = np.flatnonzero(self.masters != np.arange(len(points)))
         """Nodes that move with another: of a body that repeats itself."""
-        self.turns = self.law.objective and not self.images.size
+        self.revolution = entry.hypothesis == "axisymmetric"
+        """Whether it is one of revolution around x = 0."""
+        self.turns = self.law.objective and not self.images.size and not self.revolution
         """Whether it can turn without storing energy."""
         kind, self.dimension = kind_of(vtk_type), int(points.shape[1])
         self.thickness = entry.thickness if self.dimension == 2 else 1.0
         """Thickness [m]; 1 in space."""
-        self.cells = Cells(kind, nodes, points, self.thickness)
+        self.cells = Cells(kind, nodes, points, self.thickness, revolution=self.revolution)
+        size = float(np.linalg.norm(np.ptp(points, axis=0)))
+        on_axis = points[:, 0] <= ON_THE_AXIS * size
+        self.on_axis: Indices = np.flatnonzero(on_axis & self.revolution)
+        """Nodes on the axis of a body of revolution, which stay there."""
         self.response: Response = self.law
         """What stresses its deformation has."""
         if dilates:
             self.response = MeanDilatation(self.law, self.cells.weights)
         self.boundary: Indices = boundary(kind, nodes)
         """All facets of its boundary, the sides where it repeats itself too."""
-        outer = self.boundary
-        if self.images.size:
-            outer = outer[~self.named(outer, ("left", "right"))]
+        outer = self._outside()
         self.outline: Indices = outer
         """All facets of its boundary, whatever of it may touch others."""
         sets = entry.contact_sets
@@ -120,13 +125,20 @@ class AuditBody(MovingBody):
             _density(entry, self.law, self.cells),
             lumped=entry.mass == "lumped",
             massless=self.massless,
-            facets=self.faces(self.facets),
+            facets=Facets(kind.facet, self.facets, self.thickness),
             added=[one for given in masses for one in self._added(given)],
         )
         self.more = np.zeros((1, 1))
         if isinstance(entry, RigidBody) and entry.inertia is not None:
             self.more = _tensor(entry.inertia) - inertia(self.arms(0.0 * points), self.mass.times)
         self._stiffen(dilates=dilates)
+
+    def _outside(self) -> Indices:
+        """Return the facets of the boundary that are outside."""
+        outer = self.boundary
+        if self.images.size:
+            outer = outer[~self.named(outer, ("left", "right"))]
+        return outer[~np.isin(outer, self.on_axis).all(axis=1)]
 
     def _stiffen(self, *, dilates: bool) -> None:
         """Find what resists where nothing has moved."""
@@ -145,7 +157,7 @@ class AuditBody(MovingBody):
 
     def faces(self, nodes: Indices) -> Facets:
         """Return facets of its boundary by their nodes."""
-        return Facets(self.cells.kind.facet, nodes, self.thickness)
+        return Facets(self.cells.kind.facet, nodes, self.thickness, self.revolution)
 
     @property
     def facet_areas(self) -> Array:
@@ -254,11 +266,6 @@ class AuditBody(MovingBody):
         """Sum numbers of the nodes of cells, shape [cell_count, a], over the cells."""
         sums = np.bincount(self.cells.nodes.ravel(), local.ravel(), len(self.points))
         return sums.astype(np.float64)
-
-
-def _refuse_forms(entry: AnyBody) -> None:
-    if entry.hypothesis == "axisymmetric":
-        raise InputError("cannot audit an axisymmetric body yet")
 
 
 def _tensor(given: float | tuple[float, ...] | tuple[tuple[float, ...], ...]) -> Array:

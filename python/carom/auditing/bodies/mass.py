@@ -116,8 +116,18 @@ class Mass:
         return self._follow.transposed(self._all_nodes(self._follow.extended(v)))
 
     def mean(self, v: Array) -> Array:
-        """Return the mean of nodal vectors by mass, shape [D]."""
-        return self.nodal @ v / self.total
+        """Return the mean of nodal vectors by mass, shape [D].
+
+        In a body of revolution what is radial cancels around the axis.
+        """
+        return self.resultant(self.nodal[:, None] * v) / self.total
+
+    def resultant(self, values: Array) -> Array:
+        """Return the sum of vectors of nodes, shape [D], without what cancels around an axis."""
+        total: Array = values.sum(axis=0)
+        if self._cells.revolution:
+            total[0] = 0.0
+        return total
 
     def _all_nodes(self, v: Array) -> Array:
         product = self._of_volume(v)

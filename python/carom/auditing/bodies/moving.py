@@ -7,6 +7,7 @@ import numpy as np
 from carom.auditing.arrays import (
     Array,
     Indices,
+    Mask,
     cross,
     inertia,
     nearest_rotation,
@@ -44,6 +45,9 @@ class MovingBody:
 
     turns: bool
     """Whether it can turn without storing energy."""
+
+    revolution: bool
+    """Whether it is one of revolution, which moves along its axis only."""
 
     more: Array
     """What a rigid body has more of inertia than its cells have, as drawn [kg m²]."""
@@ -93,30 +97,43 @@ class MovingBody:
 
     def angular_momentum(self, u: Array, v: Array) -> Array:
         """Return that about the origin [kg m²/s]."""
+        if self.revolution:
+            return np.zeros(1)
         if self.modes is not None:
             return self._axes(u).angular_momentum(self.mass.mean(self.points + u), v)
         own: Array = cross(self.points + u, self.mass.times(v)).sum(axis=0)
         return own + self._more_at(u, v)
+
+    def momentum(self, v: Array) -> Array:
+        """Return Σ M v [kg m/s], shape [D]."""
+        return self.mass.resultant(self.mass.times(v))
 
     def kinetic_parts(self, u: Array, v: Array) -> tuple[float, float, float]:
         """Return that of the centre, of the turn as a rigid body, and the rest [J].
 
         A body that repeats itself does not turn.
         """
-        momentum = self.mass.times(v).sum(axis=0)
+        momentum = self.momentum(v)
         translation = 0.5 * float(momentum @ momentum) / float(self.mass.nodal.sum())
         rotation = 0.0
-        if not self.images.size:
+        if not self.images.size and not self.revolution:
             centre = self.mass.mean(self.points + u)
             moment = self.angular_momentum(u, v) - cross(centre, momentum)
             rotation = 0.5 * float(moment @ solved(self.inertia(u), moment))
         return translation, rotation, self.kinetic_energy(u, v) - translation - rotation
 
-    def vibration(self, u: Array, v: Array) -> Array:
-        """Return v less a rigid motion of the same momenta [m/s]; zero at nodes without mass."""
+    def vibration(self, u: Array, v: Array, held: Mask) -> Array:
+        """Return v less a rigid motion of the same momenta [m/s]; zero at nodes without mass.
+
+        Where something is `held`, shape [node_count, D], only translations are left that supports
+        leave free, and nothing where supports move.
+        """
+        if v[held].any():
+            return np.zeros_like(v)
         arms, momenta = self.arms(u), self.mass.times(v)
-        field: Array = v - momenta.sum(axis=0) / self.mass.total
-        if not self.images.size:
+        drift = self.mass.resultant(momenta) / self.mass.total
+        field: Array = v - np.where(held.any(axis=0), 0.0, drift)
+        if not held.any() and not self.images.size and not self.revolution:
             moment = cross(arms, momenta).sum(axis=0)
             field -= turned(arms, solved(inertia(arms, self.mass.times), moment))
         field[self.massless] = 0.0
@@ -128,6 +145,8 @@ class MovingBody:
 
     def spin(self, u: Array, v: Array) -> Array:
         """Return the mean spin about the centre [rad/s], by row sums of the mass; of mean axes."""
+        if self.revolution:
+            return np.zeros(1)
         if self.modes is not None:
             return self._axes(u).rates(v)[1]
         arms = self.arms(u)

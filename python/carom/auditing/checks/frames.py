@@ -152,7 +152,7 @@ class FrameChecks:
         momentum, moment = np.zeros(dimension), np.zeros(turning_axes(dimension))
         for body in self._model.bodies:
             u, v = frame.displacement[body.span], frame.velocity[body.span]
-            momentum += body.mass.times(v).sum(axis=0)
+            momentum += body.momentum(v)
             moment += body.angular_momentum(u, v)
         stored = np.array([row[name] for name in components("momentum", dimension)])
         off = ROUND_OFF * self._scales.mass * self._scales.speed

@@ -38,6 +38,7 @@ class Supports:
         self._at_rest = at_rest
         self.held: Mask = np.zeros(body.points.shape, dtype=bool)
         """Which components of the displacement of nodes are given, shape [node_count, D]."""
+        self.held[body.on_axis, 0] = True
         self.by: Indices = np.full(body.points.shape, -1)
         """By which support, shape [node_count, D]; −1 where by none."""
         self.anchor: Array = np.zeros(body.points.shape)

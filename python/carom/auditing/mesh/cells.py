@@ -24,29 +24,47 @@ class Cells:
         Reference positions of the body's nodes [m], shape [node_count, D].
     thickness
         Thickness [m]; 1 in space.
+    revolution
+        Whether they are of a body of revolution around x = 0, of which they are the whole rings.
 
     Attributes
     ----------
     gradients
         ∂N_a/∂X at the points where stresses are [1/m], shape [cell_count, q, a, D].
+    hoops
+        N_a/R there [1/m], shape [cell_count, q, a]; zero but in a body of revolution.
     weights
         Volumes of these points [m³], shape [cell_count, q].
     """
 
-    def __init__(self, kind: Kind, nodes: Indices, points: Array, thickness: float) -> None:
-        self.kind = kind
+    def __init__(
+        self,
+        kind: Kind,
+        nodes: Indices,
+        points: Array,
+        thickness: float,
+        *,
+        revolution: bool = False,
+    ) -> None:
+        self.kind, self.revolution = kind, revolution
         self.nodes = nodes
         self.node_count, self.dimension = points.shape
         self._corners = points[nodes]
         apart = [self._corners[:, a] - self._corners[:, b] for a, b in _pairs(nodes.shape[1])]
         self.shortest_edge = float(min(np.linalg.norm(d, axis=1).min() for d in apart))
         """Shortest distance between nodes of a cell in the reference configuration [m]."""
-        self.gradients, volumes = self._mapped(rule_of_stresses(kind))
-        self.weights = volumes * thickness
-        rule = rule_of_masses(kind)
+        rule = rule_of_stresses(kind, revolution=revolution)
+        self.gradients, volumes = self._mapped(rule)
+        depth, radius = self._depth(rule, thickness)
+        self.weights = volumes * depth
+        self.hoops = np.zeros(self.gradients.shape[:3])
+        if revolution:
+            self.hoops = kind.values(rule[0])[None] / radius[..., None]
+        rule = rule_of_masses(kind, revolution=revolution)
         _, volumes = self._mapped(rule)
         values = kind.values(rule[0])
-        self.shared_volumes = einsum("cq,qa,qb->cab", volumes * thickness, values, values)
+        depth, _ = self._depth(rule, thickness)
+        self.shared_volumes = einsum("cq,qa,qb->cab", volumes * depth, values, values)
         """∫N_a N_b dV of the cells [m³], shape [cell_count, a, b]."""
 
     def deformation_gradient(self, u: Array) -> Array:
@@ -54,12 +72,17 @@ class Cells:
         gradient = einsum("cai,cqaj->cqij", u[self.nodes], self.gradients)
         f: Array = np.broadcast_to(np.eye(3), (*gradient.shape[:2], 3, 3)).copy()
         f[..., : self.dimension, : self.dimension] += gradient
+        if self.revolution:
+            f[..., 2, 2] += einsum("ca,cqa->cq", u[self.nodes][..., 0], self.hoops)
         return f
 
     def divergence(self, stress: Array) -> Array:
         """Return the nodal forces Σ_q w P·∇N_a [N] of stresses [Pa], shape [node_count, D]."""
         free = stress[..., : self.dimension, : self.dimension]
-        return self.assembled(einsum("cq,cqij,cqaj->cai", self.weights, free, self.gradients))
+        local = einsum("cq,cqij,cqaj->cai", self.weights, free, self.gradients)
+        if self.revolution:
+            local[..., 0] += einsum("cq,cq,cqa->ca", self.weights, stress[..., 2, 2], self.hoops)
+        return self.assembled(local)
 
     def assembled(self, local: Array) -> Array:
         """Sum vectors of the nodes of cells, shape [cell_count, a, D], over the cells."""
@@ -71,6 +94,14 @@ class Cells:
         """Return means over each cell of values at its points, shape [cell_count, q, ...]."""
         share = self.weights / self.weights.sum(axis=1, keepdims=True)
         return einsum("cq,cq...->c...", share, values)
+
+    def _depth(self, rule: Rule, thickness: float) -> tuple[Array, Array]:
+        """Return how far cells go on across the plane at points of a rule, and radii there [m]."""
+        radius = einsum("ca,qa->cq", self._corners[..., 0], self.kind.values(rule[0]))
+        if not self.revolution:
+            return np.full(radius.shape, thickness), radius
+        depth: Array = 2.0 * np.pi * radius
+        return depth, radius
 
     def _mapped(self, rule: Rule) -> tuple[Array, Array]:
         """Return gradients in X, shape [cell_count, q, a, D], and volumes of points of a rule."""

@@ -24,11 +24,14 @@ class Facets:
         shape [facet_count, a].
     thickness
         Thickness of the body [m]; 1 in space.
+    revolution
+        Whether they are of a body of revolution around x = 0, of which they are the whole rings.
     """
 
     kind: Kind
     nodes: Indices
     thickness: float
+    revolution: bool = False
 
     def areas(self, position: Array) -> Array:
         """Return their areas ∫dA where nodes are at `position` [m²], shape [facet_count]."""
@@ -61,8 +64,12 @@ class Facets:
     def _at_points(self, position: Array) -> Array:
         """Return area vectors of the points of quadrature [m²], shape [facet_count, q, D]."""
         places, weights = rule_of_masses(self.kind)
-        tangents = einsum("fai,qak->fqki", position[self.nodes], self.kind.slopes(places))
-        return self.thickness * weights[:, None] * area_vector(tangents)
+        corners = position[self.nodes]
+        tangents = einsum("fai,qak->fqki", corners, self.kind.slopes(places))
+        depth = np.full((len(corners), len(weights)), self.thickness)
+        if self.revolution:
+            depth = 2.0 * np.pi * einsum("fa,qa->fq", corners[..., 0], self.kind.values(places))
+        return (depth * weights)[..., None] * area_vector(tangents)
 
 
 def area_vector(tangents: Array) -> Array:

@@ -11,14 +11,17 @@ Rule = tuple[Array, Array]
 """Points, shape [q, d], and their weights, shape [q]."""
 
 
-def rule_of_stresses(kind: Kind) -> Rule:
-    """Return the rule that is exact for products of slopes in cells that are not distorted."""
-    return _rule(kind, 2 * (kind.degree - 1))
+def rule_of_stresses(kind: Kind, *, revolution: bool = False) -> Rule:
+    """Return the rule that is exact for products of slopes in cells that are not distorted.
+
+    In a body of revolution strains of hoops are values, and the radius is a factor.
+    """
+    return _rule(kind, 2 * kind.degree if revolution else 2 * (kind.degree - 1))
 
 
-def rule_of_masses(kind: Kind) -> Rule:
+def rule_of_masses(kind: Kind, *, revolution: bool = False) -> Rule:
     """Return the rule that is exact for products of values in cells that are not distorted."""
-    return _rule(kind, 2 * kind.degree)
+    return _rule(kind, 2 * kind.degree + 1 if revolution else 2 * kind.degree)
 
 
 def _rule(kind: Kind, degree: int) -> Rule:

@@ -24,13 +24,19 @@ def reference_stiffness(cells: Cells, lame: Array, shear: Array, *, dilates: boo
     sheared = einsum("cq,cqaj,cqbj->cab", w, g, g)
     outer = einsum("cq,cqai,cqbk->caibk", w, g, g)
     crossed = outer.transpose(0, 1, 4, 3, 2)
+    grown, hoops = g.copy(), np.zeros_like(outer)
+    if cells.revolution:
+        # Radial motion strains the hoops.
+        grown[..., 0] += cells.hoops
+        hoops[:, :, 0, :, 0] = 2.0 * einsum("cq,cqa,cqb->cab", w, cells.hoops, cells.hoops)
     isotropic = einsum("cab,ik->caibk", sheared, np.eye(cells.dimension))
     first, second = (m[:, None, None, None, None] for m in (lame, shear))
-    stiffness: Array = second * (isotropic + crossed)
+    stiffness: Array = second * (isotropic + crossed + hoops)
+    outer = einsum("cq,cqai,cqbk->caibk", w, grown, grown)
     if not dilates:
         return np.asarray(stiffness + first * outer)
     # The change of volume is that of the cell: tr ε is its mean, but in dev ε.
     whole = w.sum(axis=1)[:, None, None, None, None]
-    mean = einsum("cq,cqai->cai", w, g)
+    mean = einsum("cq,cqai->cai", w, grown)
     alike = einsum("cai,cbk->caibk", mean, mean) / whole
     return np.asarray(stiffness + (first + 2 / 3 * second) * alike - 2 / 3 * second * outer)

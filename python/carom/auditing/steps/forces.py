@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, cross, inertia, rotation, solved, turned
 from carom.auditing.bodies.body import HEAVIEST, MUCH_SHORTER, STEADYING, AuditBody
+from carom.auditing.steps.contacts import all_forces
 from carom.auditing.steps.pulling import Pulling
 from carom.auditing.steps.states import States
 from carom.auditing.steps.touching import Touching
@@ -108,7 +109,7 @@ class Forces:
             path = body.conserving_force(u0, u1)
             path_loads = given.mean(times, 0.5, u0 + 0.5 * d)
         end_loads = given.at(s.time, u1)
-        pressed = s.start["contact_force"][span].sum(axis=0) + given.at(times[0], u0).sum(axis=0)
+        pressed = body.mass.resultant(s.start["contact_force"][span] + given.at(times[0], u0))
         slowed = body.law.mass_damping
         driven = model.gravity + pressed / body.mass.total - slowed * drift
         fall = dt * dt * model.theta * driven / (1.0 + slowed * model.theta * dt)
@@ -160,7 +161,9 @@ class Forces:
         centre = body.mass.mean(middle)
         x0, x1 = body.points + u0 - centre, body.points + u1 - centre
         b = body.massless
-        p0, p1 = self._states.start["contact_force"][body.span][b], held[b]
+        # What supports hold is theirs: contact neither moves it nor receives its work.
+        free = ~self._states.model.supports[index].held[b]
+        p0, p1 = (p[b] * free for p in (self._states.start["contact_force"][body.span], held))
         arms = body.mass.times(middle - centre)
         resists = inertia(middle - centre, body.mass.times)
         parts = []
@@ -169,8 +172,8 @@ class Forces:
             (body.difference_force(u0, u1), (-1.0, 1.0)),
         ):
             # What the forces of the boundary have more than the reactions of start and end.
-            lacking = inner[b] + (viscous[b] if shares[0] > 0 else 0.0)
-            excess = (lacking - shares[0] * p0 - shares[1] * p1).sum(axis=0)
+            lacking = (inner[b] + (viscous[b] if shares[0] > 0 else 0.0)) * free
+            excess = body.mass.resultant(lacking - shares[0] * p0 - shares[1] * p1)
             moment = cross((middle - centre)[b], lacking)
             moment = moment - shares[0] * cross(x0[b], p0) - shares[1] * cross(x1[b], p1)
             spin = solved(resists, moment.sum(axis=0) * body.turns)
@@ -178,9 +181,9 @@ class Forces:
             parts.append((inner, rigid))
         (mean, given), (difference, moved) = parts
         d = u1 - u0
-        missing = float(((mean + viscous)[b] * d[b]).sum() - (given * d).sum())
+        missing = float(((mean + viscous)[b] * free * d[b]).sum() - (given * d).sum())
         rest = difference + moved
-        available = float((rest * d).sum() - (rest[b] * d[b]).sum())
+        available = float((rest * d).sum() - (rest[b] * free * d[b]).sum())
         return mean + given + self._states.blend[index] * rest, missing, available
 
     def contact(self, body: AuditBody) -> Array:
@@ -192,6 +195,14 @@ class Forces:
             alpha = float(self._states.blend[self._states.model.bodies.index(body)])
             return force - at_end + without + alpha * beside
         return force
+
+    def contact_on_held(self, body: AuditBody) -> Array:
+        """Return the mean of contact forces over the step, which supports see to [N]."""
+        if not len(body.massless):
+            return self.contact(body)
+        xi, touching = self._states.model.xi, self._touching
+        parts = [touching.first.weighted(1 - xi, 1 - xi), touching.balanced.weighted(xi, xi)]
+        return all_forces([*parts, touching.moved], len(self._states.model.points))[body.span]
 
     def residual(self, index: int) -> Array:
         """Return what the equation of motion lacks, node by node [N], shape [node_count, D].
@@ -221,10 +232,12 @@ class Forces:
             forces = (contact - impulses + f.gravity + f.connections, impulses)
             return self._states.rigid(body).residual(states, forces, self._states.dt)
         pull = f.end_connections if self._states.model.static else f.connections
-        given = f.gravity + f.loads + pull + contact
+        given = f.gravity + f.loads + pull + self.contact_on_held(body)
         residual = f.inertia + f.internal + f.viscous - given
         static = f.end + f.viscous + f.steadying - f.end_loads - contact
-        residual[body.massless] = static[body.massless]
+        # What is held of nodes without mass is seen to over the whole step.
+        b, held = body.massless, self._states.model.supports[index].held
+        residual[b] = np.where(held[b], residual[b], static[b])
         return body.folded(residual)
 
     def on_mass(self, body: AuditBody) -> tuple[Array, Array]:

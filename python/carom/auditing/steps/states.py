@@ -86,7 +86,7 @@ class States:
         for index in np.flatnonzero(self.shares):
             body, share = self.model.bodies[index], self.shares[index]
             v, u = before[body.span], self.u1[body.span]
-            field = body.vibration(u, v) / (1.0 + share)
+            field = body.vibration(u, v, self.model.supports[index].held) / (1.0 + share)
             energy[index] = body.kinetic_energy(u, field)
             v -= share * field
         return before, energy

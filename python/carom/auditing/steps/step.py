@@ -93,8 +93,8 @@ class Step(States):
             received = force[body.span]
             contact = self._received(body, received)
             # What rows that are static at the end of a step leave of its mean forces.
-            b = body.massless
-            scheme += float(((received + f.loads - f.viscous - f.internal)[b] * d[b]).sum())
+            b, moved = body.massless, np.where(held, 0.0, d)
+            scheme += float(((received + f.loads - f.viscous - f.internal) * moved)[b].sum())
         return {
             "kinetic": body.kinetic_energy(u1, end) - body.kinetic_energy(u0, v0),
             "strain": body.strain_energy(u1) - body.strain_energy(u0),
