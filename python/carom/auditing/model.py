@@ -235,10 +235,12 @@ class AuditModel:
     def _spares_mass(self, entry: AnyBody, body: AuditBody) -> bool:
         """Return whether a body may have no mass where it touches others.
 
-        What is rigid or reduced may not, nor what rubs by a law, nor where springs or masses are
-        attached to what may touch.
+        What is rigid or reduced may not, nor what flows or rubs by a law, nor where springs or
+        masses are attached to what may touch.
         """
         if isinstance(entry, RigidBody | ReducedBody) or self._pairs.rubs_by_law(entry.name):
+            return False
+        if body.law.flows:
             return False
         attached: list[Attached] = [*self.scenario.masses]
         attached += [end for spring in self.scenario.springs for end in spring.between]

@@ -168,12 +168,6 @@ def test_bodies_that_are_swapped_in_the_mesh_cannot_be_audited(results):
 
 
 CANNOT = [
-    ("materials.elastic.viscosity={shear=1.0}", "cannot audit a material with viscosity yet"),
-    (
-        'materials.elastic={kind="j2-plasticity",young=9.0,poisson=0.3,density=1.0,'
-        "yield_stress=1.0}",
-        "cannot audit the law 'j2-plasticity' yet",
-    ),
     (
         'obstacles=[{name="floor",kind="box",corner=[-9,-9],size=[18,1]}]',
         "cannot audit obstacles of kind 'box' yet",

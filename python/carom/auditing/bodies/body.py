@@ -227,6 +227,32 @@ class AuditBody(MovingBody):
         density = self.response.energy(self.cells.deformation_gradient(u))
         return float((self.cells.weights * density).sum())
 
+    def plastic_work(self, u: Array) -> float:
+        """Return the plastic work of a step to u [J]."""
+        if not self.law.flows:
+            return 0.0
+        density = self.response.plastic_work(self.cells.deformation_gradient(u))
+        return float((self.cells.weights * density).sum())
+
+    def plastic_strain(self, u: Array) -> Array:
+        """Return the equivalent plastic strain of cells after a step to u, shape [cell_count]."""
+        if not self.law.flows:
+            return np.zeros(len(self.cells.nodes))
+        strain = self.response.plastic_strain(self.cells.deformation_gradient(u))
+        return self.cells.mean(strain)
+
+    def advance(self, u: Array) -> None:
+        """Remember what a step to u leaves of what flows."""
+        if self.law.flows:
+            self.response.advance(self.cells.deformation_gradient(u))
+
+    def viscous_force(self, u0: Array, u1: Array, dt: float) -> Array:
+        """Return the force with which viscosity resists a step from u₀ to u₁ [N]."""
+        if not self.law.viscous:
+            return np.zeros_like(u0)
+        f0, f1 = (self.cells.deformation_gradient(u) for u in (u0, u1))
+        return self.cells.divergence(self.law.viscous_stress(f0, f1, dt))
+
     def internal_force(self, u: Array) -> Array:
         """Return ∂E/∂u [N], shape [node_count, D]."""
         return self.cells.divergence(self.response.stress(self.cells.deformation_gradient(u)))

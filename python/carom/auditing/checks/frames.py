@@ -101,6 +101,9 @@ class FrameChecks:
             rest = body.law.modulus * EPS if body.law.subtracts else off * strain
             off = ROUND_OFF * density.max() + np.abs(stress).max() * strain + SAFETY * rest
             self._check("energy density", frame.energy_density[mine] - density, off, at)
+            if body.law.flows:
+                error = frame.plastic_strain[mine] - body.plastic_strain(u)
+                self._check("plastic strain", error, SAFETY * strain, at)
 
     def _gaps(self, frame: Frame, where: str) -> float | None:
         model = self._model

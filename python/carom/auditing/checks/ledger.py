@@ -209,7 +209,7 @@ class LedgerChecks:
         for index, (body, terms) in enumerate(zip(model.bodies, step.body_terms, strict=True)):
             strain = sum(scales.strain(body, u[body.span]) for u in (step.u0, step.u1))
             resisted = scales.resisted(step, index)
-            more = {"strain": strain, "contact": strain + work}
+            more = {"strain": strain, "plastic": strain, "contact": strain + work}
             more |= {"viscous": resisted, "prescribed": resisted}
             if model.static:
                 # What contact does in the mean of the step is the scheme's, too.

@@ -245,9 +245,16 @@ class RowChecks:
         )
         limit = LARGEST_BLEND if self._model.blended else 0.0
         self._check("row: signs", np.maximum(h["blend"] - limit, 0.0), 0.0)
-        # Of a case that can be audited, no law flows.
-        for name in ("plastic", *(() if self._model.springs else ("springs", "dampers"))):
-            self._check("row: signs", h[name], 0.0)
+        flows = any(body.law.flows for body in self._model.bodies)
+        off = ROUND_OFF * self._scales.energy
+        self._check("row: plastic", np.maximum(-np.diff(h["plastic"], prepend=0.0), 0.0), off)
+        for name, may_be in (
+            ("plastic", flows),
+            ("springs", bool(self._model.springs)),
+            ("dampers", bool(self._model.springs)),
+        ):
+            if not may_be:
+                self._check("row: signs", h[name], 0.0)
         most = sum(len(self._model.bodies[side.source].sources) for side in self._model.sides)
         self._check("row: signs", np.maximum(h["contacts"] - most, 0.0), 0.0)
         self._check("row: signs", np.maximum(-h["penetration"], 0.0), 0.0)

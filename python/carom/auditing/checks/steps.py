@@ -315,7 +315,7 @@ class StepChecks:
         work = sums + reactions * scales.geometry(step)
         friction = work + step.work.doubt
         resisted = sum(scales.resisted(step, index) for index in range(len(model.bodies)))
-        off = {"strain": strain, "friction": friction, "normal_contact": work}
+        off = {"strain": strain, "plastic": strain, "friction": friction, "normal_contact": work}
         off |= {"viscous": sums + resisted, "prescribed": work + resisted}
         if step.starts_elsewhere and step.uses_start:
             self._findings.leave("what the first step of a stage makes of contacts of the last")
@@ -334,7 +334,8 @@ class StepChecks:
         else:
             self._check("energy of the step", missed, work, where)
         for body, terms in zip(model.bodies, step.body_terms, strict=True):
-            change = terms["kinetic"] + terms["strain"] + terms["viscous"] - terms["external"]
+            change = terms["kinetic"] + terms["strain"] - terms["external"]
+            change += terms["viscous"] + terms["plastic"]
             at = f"{body.name}, {where}"
             received = terms["contact"] + terms["connections"] + terms["prescribed"]
             self._check("energy of bodies", change - received, work, at)

@@ -21,6 +21,18 @@ class Response(Protocol):
     def energy(self, f: Array) -> Array:
         """Return ψ [J/m³] of F, shape [cell_count, q]."""
 
+    def potential(self, f: Array) -> Array:
+        """Return ψ and the plastic work of a step to F together [J/m³], shape [cell_count, q]."""
+
+    def plastic_work(self, f: Array) -> Array:
+        """Return the plastic work of a step to F [J/m³], shape [cell_count, q]."""
+
+    def plastic_strain(self, f: Array) -> Array:
+        """Return the equivalent plastic strain after a step to F, shape [cell_count, q]."""
+
+    def advance(self, f: Array) -> None:
+        """Remember what a step to F leaves."""
+
     def stress(self, f: Array) -> Array:
         """Return P [Pa], whose work is the change of energy."""
 
@@ -52,6 +64,22 @@ class MeanDilatation:
         """Return ψ(F̂) [J/m³], shape [cell_count, q]."""
         return self._law.energy(self._modified(f))
 
+    def potential(self, f: Array) -> Array:
+        """Return ψ(F̂) and the plastic work together [J/m³], shape [cell_count, q]."""
+        return self._law.potential(self._modified(f))
+
+    def plastic_work(self, f: Array) -> Array:
+        """Return the plastic work of a step to F [J/m³], shape [cell_count, q]."""
+        return self._law.plastic_work(self._modified(f))
+
+    def plastic_strain(self, f: Array) -> Array:
+        """Return the equivalent plastic strain after a step to F, shape [cell_count, q]."""
+        return self._law.plastic_strain(self._modified(f))
+
+    def advance(self, f: Array) -> None:
+        """Remember what a step to F leaves."""
+        self._law.advance(self._modified(f))
+
     def stress(self, f: Array) -> Array:
         """Return P [Pa]: Σ w P:δF is the change of Σ w ψ(F̂), shape [cell_count, q, 3, 3]."""
         modified = self._modified(f)
@@ -74,7 +102,7 @@ class MeanDilatation:
 
     def discrete_stress(self, f0: Array, f1: Array) -> Array:
         """Return ½(F₀ + F₁)(S + κ ΔE), with S at the mean strains and κ one number per cell."""
-        gained = self.energy(f1) - self.energy(f0)
+        gained = self.potential(f1) - self.potential(f0)
         return discrete_gradient(f0, f1, self._of_c, gained, self._weights)
 
     def _of_c(self, c: Array) -> Array:

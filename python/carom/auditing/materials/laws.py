@@ -22,7 +22,6 @@ from carom.case.material import (
     LinearElastic,
     Material,
     SaintVenantKirchhoff,
-    Viscosity,
 )
 from carom.errors import InputError
 
@@ -63,8 +62,6 @@ class Law:
         """
         s = stress or InitialStress()
         initial = np.array([[s.xx, s.xy, s.xz], [s.xy, s.yy, s.yz], [s.xz, s.yz, s.zz]])
-        if material.viscosity != Viscosity():
-            raise InputError("cannot audit a material with viscosity yet")
         of_c = law_of_c(material)
         if of_c is not None:
             return cls(material.kind, *of_c.moduli, initial, of_c, free)
@@ -161,6 +158,10 @@ class Law:
             return mean @ self._hooke(0.5 * (self._strain(f0) + self._strain(f1)))
         gained = self._energy(f1) - self._energy(f0)
         return discrete_gradient(f0, f1, self.of_c.second_piola, gained)
+
+    def potential(self, f: Array) -> Array:
+        """Return ψ [J/m³], to which nothing that flows adds, shape [...]."""
+        return self.energy(f)
 
     def stress_difference(self, f0: Array, f1: Array) -> Array:
         """Return ½(F₀ + F₁)(S₁ − S₀) [Pa], which has no moment, shape [..., 3, 3]."""

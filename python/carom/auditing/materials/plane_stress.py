@@ -65,6 +65,10 @@ class PlaneStress:
         """Return ψ [J/m³] of F in the plane, shape [..., 3, 3], shape [...]."""
         return self.law.energy(self._in_space(f))
 
+    def potential(self, f: Array) -> Array:
+        """Return ψ [J/m³], shape [...]."""
+        return self.energy(f)
+
     def stress(self, f: Array) -> Array:
         """Return P [Pa], shape [..., 3, 3]."""
         return self.law.stress(self._in_space(f))

@@ -53,7 +53,7 @@ class Frame:
     strain
         Green–Lagrange strain of the cells, which no check needs.
     plastic_strain
-        Equivalent plastic strain of the cells; no law that can be audited has any.
+        Equivalent plastic strain of the cells.
     flat
         Largest component out of the plane, which must be zero.
     """

@@ -95,6 +95,7 @@ class Forces:
         mean[body.massless] = d[body.massless] / dt
         mean[held] = d[held] / dt
         viscous = body.damping_force(u0 + 0.5 * np.where(held, d, dt * v0), mean)
+        viscous += body.viscous_force(u0, u1, dt)
         start, end = body.internal_force(u0), body.internal_force(u1)
         steadying, missing, available = np.zeros_like(d), 0.0, 0.0
         path, path_loads = np.zeros_like(d), np.zeros_like(d)

@@ -94,7 +94,8 @@ class Groups:
         """Return what the groups have yet to give back after the step, [body_count] [J]."""
         left = self._start_debt(self.books)
         for terms, leader in zip(body_terms, self.books, strict=True):
-            left[leader] += terms["kinetic"] + terms["strain"] + terms["viscous"]
+            left[leader] += terms["kinetic"] + terms["strain"]
+            left[leader] += terms["viscous"] + terms["plastic"]
             left[leader] -= terms["external"] + terms["connections"]
             left[leader] -= terms["prescribed"]
         for work in self._work.all:

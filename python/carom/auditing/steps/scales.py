@@ -141,7 +141,9 @@ class Scales:
         """Return the force on nodes where all displacements are off by 1 m [N/m], [node_count]."""
         body, model = self._model.bodies[index], self._model
         rate = 0.0 if model.static else 1 / (model.theta * dt)
-        resisted: Array = body.row_stiffness * (1.0 + body.law.stiffness_damping.max() * rate)
+        resisted: Array = body.row_stiffness * (
+            1.0 + (body.law.stiffness_damping.max() + body.law.sluggishness) * rate
+        )
         for spring in model.springs:
             own = (spring.nodes >= body.span.start) & (spring.nodes < body.span.stop)
             shares = np.abs(spring.shares)

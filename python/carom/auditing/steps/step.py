@@ -18,7 +18,7 @@ from carom.auditing.steps.states import States
 from carom.auditing.steps.touching import Touching
 from carom.ledger_terms import TERMS, names
 
-BODY_ENERGIES = ("kinetic", "strain", "external", "viscous", "scheme")
+BODY_ENERGIES = ("kinetic", "strain", "external", "viscous", "plastic", "scheme")
 """Terms of the ledger that are sums over the bodies."""
 
 CONNECTION_ENERGIES = ("springs", "dampers")
@@ -100,6 +100,7 @@ class Step(States):
             "strain": body.strain_energy(u1) - body.strain_energy(u0),
             "external": float(((f.gravity + f.loads) * d).sum()),
             "viscous": float((f.viscous * d).sum()),
+            "plastic": body.plastic_work(u1),
             "scheme": scheme,
             "contact": contact,
             "connections": float((f.connections * d).sum()),
@@ -126,6 +127,7 @@ class Step(States):
             "strain": body.strain_energy(u1) - body.strain_energy(u0),
             "external": float(((f.gravity + f.path_loads) * d).sum()),
             "viscous": 0.0,
+            "plastic": body.plastic_work(u1),
             "scheme": inside + contact + kinetic,
             "contact": contact,
             "connections": float((f.connections * d).sum()),
