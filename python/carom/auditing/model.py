@@ -11,7 +11,7 @@ from carom.auditing.arrays import Array, Indices
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.bodies.mass import NoMassInsideError
 from carom.auditing.bodies.places import Attached
-from carom.auditing.contact.obstacles import AuditObstacle, obstacle_of
+from carom.auditing.contact.obstacles import AuditObstacle, Cornered, obstacle_of
 from carom.auditing.contact.pairs import ALIKE, Pairs, build_sides
 from carom.auditing.drives.loads import Loads
 from carom.auditing.drives.springs import AuditSpring, build_spring
@@ -125,6 +125,18 @@ class AuditModel:
                 self.theta, self.xi = scheme.theta, scheme.xi
         elif self.analysis.stabilisation != "none":
             raise InputError("cannot audit load steps that are stabilised yet")
+
+    @property
+    def faceted(self) -> bool:
+        """Whether facets are frozen for a step: those of bodies, or of obstacles with corners."""
+        of_bodies = self.contact.targets == "faceted" and len(self.bodies) > 1
+        return of_bodies or self.corner_count > 0
+
+    @property
+    def corner_count(self) -> int:
+        """How many corners obstacles have."""
+        shapes = [obstacle.shape for obstacle in self.obstacles]
+        return sum(len(shape.corners) for shape in shapes if isinstance(shape, Cornered))
 
     @property
     def starts_elsewhere(self) -> bool:

@@ -169,10 +169,6 @@ def test_bodies_that_are_swapped_in_the_mesh_cannot_be_audited(results):
 
 CANNOT = [
     (
-        'obstacles=[{name="floor",kind="box",corner=[-9,-9],size=[18,1]}]',
-        "cannot audit obstacles of kind 'box' yet",
-    ),
-    (
         'contact.pairs=[{between=["left","right"],interference="1e-3*t"}]',
         "cannot audit a pair with an interference yet",
     ),

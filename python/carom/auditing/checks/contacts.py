@@ -71,7 +71,8 @@ class ContactChecks:
             for body in self._model.bodies:
                 error[body.span] *= len(body.massless) > 0
         total = float(np.abs(found.reaction).sum())
-        self._check("nodal reactions", error, total * turn, where)
+        off = total * turn + self._scales.least_reaction(step.dt)
+        self._check("nodal reactions", error, off, where)
 
     def _cone(
         self,
@@ -85,6 +86,7 @@ class ContactChecks:
         total = float(np.abs(found.reaction).sum())
         size = np.linalg.norm(found.reaction, axis=1)
         off = size * self.turn(step) + self._scales.reaction(step, total)
+        off += self._scales.least_reaction(step.dt)
         normal, across = force
         self._check("Signorini: compression", np.maximum(-normal, 0.0), off, where)
         bounded = np.isfinite(friction)

@@ -57,8 +57,9 @@ class FrameChecks:
                 )
         self._check("free nodes", frame.reaction[self._free], 0.0, where)
         if not self._model.obstacles:
-            total = np.abs(frame.reaction).sum()
-            self._check("action and reaction", frame.reaction.sum(axis=0), ROUND_OFF * total, where)
+            off = ROUND_OFF * np.abs(frame.reaction).sum()
+            off += self._scales.least_reaction(self._model.analysis.time_step)
+            self._check("action and reaction", frame.reaction.sum(axis=0), off, where)
         smallest = self._gaps(frame, where)
         if row is None:
             self._findings.leave("frames at whose times the history has no row")

@@ -256,6 +256,7 @@ class RowChecks:
             if not may_be:
                 self._check("row: signs", h[name], 0.0)
         most = sum(len(self._model.bodies[side.source].sources) for side in self._model.sides)
+        most += self._model.corner_count * len(self._model.bodies)
         self._check("row: signs", np.maximum(h["contacts"] - most, 0.0), 0.0)
         self._check("row: signs", np.maximum(-h["penetration"], 0.0), 0.0)
         solver = self._model.contact.solver.tolerance
@@ -271,13 +272,10 @@ class RowChecks:
             # What a stage starts with is of the one before.
             own = self._times > self._start if self._model.before else np.isfinite(self._times)
             self._check("row: penetration", np.maximum(-h["min_gap"][own], 0.0), off)
-            if self._model.contact.targets == "smooth" or not self._pairs_of_bodies():
+            if self._model.contact.targets == "smooth" or not self._model.faceted:
                 # What presses is closed.
                 open_gap = np.where(h["normal_force"] > 0, h["min_gap"], 0.0)
                 self._check("row: penetration", np.maximum(open_gap, 0.0), off)
-
-    def _pairs_of_bodies(self) -> bool:
-        return any(side.target >= 0 for side in self._model.sides)
 
     def _lengths(self) -> None:
         """Check the shortest steps: those of the times, or of as many halves as there may be."""

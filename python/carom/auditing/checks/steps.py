@@ -80,6 +80,7 @@ class StepChecks:
         where = f"t = {step.time:g} s"
         found = step.touching.all
         off = self._contacts.turn(step) * float(np.abs(found.reaction).sum())
+        off += self._scales.least_reaction(step.dt)
         self._check("contact count", after["contacts"] - len(found), 0.0, where)
         self._check("normal force", after["normal_force"] - found.normal_force.sum(), off, where)
         gap, doubt = self._gap

@@ -134,6 +134,7 @@ class SurfaceChecks:
             most = force * (2.0 if any(side.target >= 0 for side in self._model.sides) else 1.0)
             error = max(force - whole, whole - most, 0.0)
             off = ROUND_OFF * (force + size * float(self._area.sum()))
+            off += self._scales.least_reaction(self._model.analysis.time_step)
             self._check("surface: pressure", error, off, f"{where}, in sum")
 
     def borne(self, contacts: Contacts, frame: Frame, moved: float) -> None:
@@ -169,6 +170,7 @@ class SurfaceChecks:
         where = f"t = {frame.time:g} s"
         # The run may have a foot at a node on the other facet there, with nodes that bear nothing.
         off += (SAFETY * ROUND_OFF + moved) * self._pressure.max(initial=0.0)
+        off += self._scales.least_reaction(self._model.analysis.time_step) / self._area
         self._check("surface: pressure", self._pressure - mine, off, where)
 
     def _bear(

@@ -7,10 +7,22 @@ from typing import Protocol
 
 import numpy as np
 
-from carom.auditing.arrays import AXES, Array
+from carom.auditing.arrays import AXES, Array, Indices
 from carom.auditing.functions.signals import Travel, Uniform
-from carom.case.obstacle import Obstacle, Plane, RigidCylinder, RigidSphere
-from carom.errors import InputError
+from carom.auditing.mesh.kinds import KINDS
+from carom.auditing.targets.curve import Curve
+from carom.auditing.targets.feet import Target
+from carom.auditing.targets.sheet import FlatPatches, Sheet
+from carom.case.obstacle import (
+    Obstacle,
+    Plane,
+    RigidBox,
+    RigidCylinder,
+    RigidPolygon,
+    RigidSphere,
+    RigidSurface,
+)
+from carom.mesh_file import read_surface
 
 
 class Shape(Protocol):
@@ -65,8 +77,13 @@ def _shape(entry: Obstacle, dimension: int) -> Shape:
         axis = np.array(entry.axis) / np.linalg.norm(entry.axis)
         point, across = np.array(entry.point), np.eye(dimension) - np.outer(axis, axis)
         return Round(point, across, entry.radius, -1.0 if entry.cavity else 1.0)
-    # Their corners are checked against the facets of bodies too.
-    raise InputError(f"cannot audit obstacles of kind {entry.kind!r} yet")
+    if isinstance(entry, RigidBox):
+        return Cornered.box(np.array(entry.corner), np.array(entry.size))
+    if isinstance(entry, RigidPolygon):
+        return Cornered.polygon(np.array(entry.points))
+    assert isinstance(entry, RigidSurface), "there are no other obstacles"
+    read = read_surface(entry.file, scale=entry.scale, key=f"obstacle {entry.name!r}")
+    return Cornered(read.points, read.triangles)
 
 
 @dataclass(frozen=True)
@@ -87,6 +104,62 @@ class HalfSpace:
     def nearest(self, x: Array) -> tuple[Array, Array]:
         """Return signed distances of points [m] and unit normals, shapes [count], [count, D]."""
         return (x - self.point) @ self.normal, np.broadcast_to(self.normal, x.shape)
+
+
+class Cornered:
+    """What straight facets enclose: to a body they are what the facets of another body are.
+
+    Parameters
+    ----------
+    corners
+        Its corners [m], shape [corner_count, D].
+    facets
+        Its facets by their corners, outward as those of bodies, shape [facet_count, a].
+    """
+
+    def __init__(self, corners: Array, facets: Indices) -> None:
+        self.corners, self.facets = corners, facets
+        if corners.shape[1] == 2:
+            self.target: Target = Curve(facets, corners, smooth=False)
+        else:
+            kind = KINDS["tri3" if facets.shape[1] == 3 else "quad4"]
+            self.target = Sheet(facets, FlatPatches(kind, facets))
+
+    @classmethod
+    def box(cls, corner: Array, size: Array) -> Cornered:
+        """Return a box with sides along the axes, in the plane a rectangle."""
+        if len(corner) == 2:
+            return cls.polygon(corner + size * np.array([[0, 0], [1, 0], [1, 1], [0, 1]]))
+        kind = KINDS["hex8"]
+        return cls(corner + 0.5 * size * (1.0 + kind.nodes), kind.facets)
+
+    @classmethod
+    def polygon(cls, points: Array) -> Cornered:
+        """Return the inside of a polygon in the plane, in either sense of turning."""
+        x, y = points.T
+        if float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) < 0.0:
+            points = points[::-1]
+        numbers = np.arange(len(points))
+        return cls(points, np.stack([numbers, np.roll(numbers, -1)], axis=1))
+
+    @property
+    def edges(self) -> Indices:
+        """The lines around its facets, shape [count, 2]."""
+        sides = np.concatenate(
+            [np.roll(self.facets, -k, axis=1)[:, :2] for k in range(self.facets.shape[1])]
+        )
+        edges: Indices = np.unique(np.sort(sides, axis=1), axis=0)
+        return edges
+
+    def nearest(self, x: Array) -> tuple[Array, Array]:
+        """Return signed distances of points [m] and unit normals, shapes [count], [count, D]."""
+        feet = self.target.feet(x, self.corners)
+        normals = np.zeros(x.shape)
+        for k in range(len(x)):
+            mine = np.flatnonzero(feet.point == k)
+            if len(mine):
+                normals[k] = feet.normal[mine[np.abs(feet.gap[mine]).argmin()]]
+        return self.target.signed_distance(x, self.corners), normals
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,9 @@ from carom.auditing.model import AuditModel
 BEARS = 0.5
 """Facets bear a contact at their node that face it at least this well, relative to the best."""
 
-AT_NODE, AT_EDGES, BEFORE_ROUND = range(3)
-"""Where contacts are: at a node, where edges cross, or on a facet or edge before what is round."""
+AT_NODE, AT_EDGES, BEFORE_ROUND, AT_CORNER = range(4)
+"""Where contacts are: at a node, where edges cross, on a facet or edge before what is round, or on
+a facet at a corner of an obstacle."""
 
 
 @dataclass(frozen=True)

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices
 from carom.auditing.contact.crossings import crossings, edges
+from carom.auditing.contact.obstacles import Cornered
 from carom.auditing.contact.rounding import nearest_places
 from carom.auditing.model import AuditModel
-from carom.auditing.steps.contacts import AT_EDGES, AT_NODE, BEFORE_ROUND, Contacts
+from carom.auditing.steps.contacts import AT_EDGES, BEFORE_ROUND, Contacts
+from carom.auditing.steps.cornered import at_corners, at_edges, on_obstacle
+from carom.auditing.steps.place import Place, weighted
 from carom.auditing.targets.feet import CORNER, Feet, Target
 
 SAME = 1e-7
@@ -23,31 +26,6 @@ BALANCED = 1e-9
 
 NOT_AT_NODE = 1e-5
 """Contacts whose node has no foot as near to what is stored as this are not at a node."""
-
-
-@dataclass
-class Place:
-    """Where a contact is.
-
-    Parameters
-    ----------
-    gap, normal
-        Gap [m] and normal, shape [D].
-    misfit
-        How far these are from what is stored, in sizes of the model.
-    site, facet
-        What it is, and the facet of its foot.
-    sources, followed
-        Nodes of either side, in the numbering of the model, with their weights.
-    """
-
-    gap: float
-    normal: Array
-    misfit: float = np.inf
-    site: int = AT_NODE
-    facet: int = -1
-    sources: list[tuple[int, float]] = field(default_factory=list)
-    followed: list[tuple[int, float]] = field(default_factory=list)
 
 
 def find(
@@ -114,6 +92,9 @@ class _Finder:
 
     def _before_obstacle(self, number: int, at: Indices) -> None:
         obstacle = self._model.obstacles[number]
+        if isinstance(obstacle.shape, Cornered):
+            self._before_cornered(number, obstacle.shape, at)
+            return
         gaps, normals = obstacle.nearest(self._position[self._node[at]], self._time)
         for k, contact in enumerate(at):
             misfit = float(self._misfit(contact, gaps[k], normals[k]))
@@ -121,6 +102,58 @@ class _Finder:
             self._places[contact] = Place(float(gaps[k]), normals[k], misfit, sources=own)
             if self._may_be(BEFORE_ROUND, contact):
                 self._before_round(number, int(contact))
+
+    def _before_cornered(self, number: int, shape: Cornered, at: Indices) -> None:
+        """Look for feet of nodes on an obstacle with corners, of its corners on bodies, and edges.
+
+        Facets of the obstacle are to a body what those of another are.
+        """
+        shift = self._model.obstacles[number].travel.displacement(self._time)
+        for contact in map(int, at):
+            node = int(self._node[contact])
+            places = self._fitted(contact, on_obstacle(shape, shift, node, self._position))
+            fits = min((place.misfit for place in places), default=np.inf) <= NOT_AT_NODE
+            if self._like is not None or not fits:
+                places += self._at_its_corners(number, contact)
+            if self._like is not None and places:
+                places = [self._nearest_to_known(places, contact)]
+            if not places:
+                continue
+            least = min(place.misfit for place in places)
+            alike = [place for place in places if place.misfit <= least + SAME]
+            self._places[contact] = alike[0]
+            if len(alike) > 1:
+                self._alike[contact] = alike
+
+    def _at_its_corners(self, number: int, contact: int) -> list[Place]:
+        """Return where corners and edges of an obstacle are on facets and edges of the source."""
+        obstacle, source = self._model.obstacles[number], int(self._source[contact])
+        if source >= len(self._model.bodies) or not isinstance(obstacle.shape, Cornered):
+            return []
+        shape, shift = obstacle.shape, obstacle.travel.displacement(self._time)
+        body, target = self._model.bodies[source], self._model.targets[source]
+        places = at_corners(shape, shift, body, target, self._position)
+        if self._model.dimension == 3:
+            node, towards = int(self._node[contact]), self._normal[contact]
+            places += at_edges(shape, shift, (body, node), self._position, towards)
+        return self._fitted(contact, places)
+
+    def _fitted(self, contact: int, places: list[Place]) -> list[Place]:
+        """Return places with how far they are from what is stored of a contact."""
+        return [
+            replace(place, misfit=float(self._misfit(contact, np.array(place.gap), place.normal)))
+            for place in places
+        ]
+
+    def _nearest_to_known(self, places: list[Place], contact: int) -> Place:
+        """Return which of the places goes on from the contact that it is like."""
+        assert self._like is not None, "something is known"
+        site, facet = int(self._like.site[contact]), int(self._like.facet[contact])
+        own = [p for p in places if p.site == site and p.facet == facet] or places
+        known = (self._like.sources[contact], self._like.shares[contact])
+        # Of edges and corners on the same facet the one whose nodes are most alike.
+        apart = [(round(place.apart(*known), 6), place.misfit) for place in own]
+        return own[apart.index(min(apart))]
 
     def _may_be(self, site: int, contact: int) -> bool:
         """Return whether a contact may be something else than at its node."""
@@ -197,11 +230,23 @@ class _Finder:
             if not np.abs(left).max(initial=0.0) > BALANCED * total:
                 return
             for contact in range(len(self._places)):
-                if with_edges and self._model.dimension == 3 and self._target[contact] >= 0:
-                    found = self._at_edges(int(self._target[contact]), contact)
+                if with_edges:
+                    found = self._other_places(contact)
                     self._alike.setdefault(contact, [self._places[contact]]).extend(found)
                 if contact in self._alike:
                     self._choose(contact, left)
+
+    def _other_places(self, contact: int) -> list[Place]:
+        """Return where edges cross, or corners are, that fit a contact as well as its node does."""
+        target = int(self._target[contact])
+        if target >= 0:
+            return self._at_edges(target, contact) if self._model.dimension == 3 else []
+        number = -1 - target
+        if number >= len(self._model.obstacles):
+            return []
+        found = self._at_its_corners(number, contact)
+        most = self._places[contact].misfit + SAME
+        return [place for place in found if place.misfit <= most]
 
     def _choose(self, contact: int, left: Array) -> None:
         """Choose the place of a contact that leaves least of the forces [N] on its nodes."""
@@ -251,8 +296,8 @@ class _Finder:
                 normal=found.normal[k],
                 misfit=float(misfit[k]),
                 site=AT_EDGES,
-                sources=_weighted(found.source[k], found.along[k, 0]),
-                followed=_weighted(found.target[k], found.along[k, 1]),
+                sources=weighted(found.source[k], found.along[k, 0]),
+                followed=weighted(found.target[k], found.along[k, 1]),
             )
             for k in good
         ]
@@ -291,11 +336,6 @@ class _Finder:
             normal_error=np.linalg.norm(self._normal - normal, axis=1),
             side=tuple(sides.get((int(s), int(t))) for s, t in between),
         )
-
-
-def _weighted(ends: Indices, along: float) -> list[tuple[int, float]]:
-    """Return the ends of an edge with their weights at a part of the way along it."""
-    return [(int(ends[0]), 1.0 - along), (int(ends[1]), along)]
 
 
 def _padded(stencils: list[list[tuple[int, float]]]) -> tuple[Indices, Array]:

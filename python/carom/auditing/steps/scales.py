@@ -78,7 +78,7 @@ class Scales:
         """Return how deep nodes may be where gaps are ruled [m]."""
         analysis = self._model.analysis
         motion = self.moved if self._model.static else self.speed * analysis.time_step
-        if self._model.contact.targets == "faceted" and len(self._model.bodies) > 1:
+        if self._model.faceted:
             # Facets are frozen for a step: a node that slides on may get behind the next one.
             return motion
         floor = FLOOR * self._model.size
@@ -136,6 +136,16 @@ class Scales:
         stiffest = max(float(self.iteration(step.dt, index).max()) for index in bodies)
         tolerance = self._model.contact.solver.tolerance
         return SAFETY * tolerance * (total + stiffest * step.motion)
+
+    def least_reaction(self, dt: float) -> float:
+        """Return below what reactions are round-off in a step of this length [N].
+
+        Displacements have round-off of the size of the model, and what resists it makes forces of
+        that.
+        """
+        bodies = range(len(self._model.bodies))
+        stiffest = max(float(self.iteration(dt, index).max()) for index in bodies)
+        return EPS * (self._model.size + self.reach) * stiffest
 
     def iteration(self, dt: float, index: int) -> Array:
         """Return the force on nodes where all displacements are off by 1 m [N/m], [node_count]."""
