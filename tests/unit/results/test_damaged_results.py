@@ -169,6 +169,11 @@ def test_bodies_that_are_swapped_in_the_mesh_cannot_be_audited(results):
 
 CANNOT = [
     (
+        'materials.elastic={kind="j2-plasticity",young=9.0,poisson=0.3,density=1.0,'
+        "yield_stress=1.0}\nbodies.0.initial_stress={xx=1e-3}",
+        "cannot audit the law 'j2-plasticity' yet",
+    ),
+    (
         'contact.pairs=[{between=["left","right"],interference="1e-3*t"}]',
         "cannot audit a pair with an interference yet",
     ),
@@ -188,7 +193,7 @@ CANNOT = [
 
 @pytest.mark.parametrize(("override", "message"), CANNOT)
 def test_what_the_auditor_does_not_know_is_named(results, override, message):
-    (results / "case.toml").write_text(scenario(override).to_toml(complete=True))
+    (results / "case.toml").write_text(scenario(*override.split("\n")).to_toml(complete=True))
     with pytest.raises(InputError) as caught:
         carom.audit(results)
     assert str(caught.value) == message
