@@ -111,18 +111,36 @@ RIGID = {
 }
 
 
-@pytest.mark.parametrize(
-    ("given", "said"),
-    [
-        (
-            {"motions": [{"kind": "guided", "body": "ball", "x": "0.1*t"}]},
-            "cannot audit the motion",
-        ),
-        ({"loads": [{"kind": "resultant", "body": "ball", "force": [1, 0]}]}, "cannot audit loads"),
-    ],
-)
-def test_what_drives_rigid_bodies_cannot_be_audited(tmp_path, given, said):
-    changes = {"bodies": [RIGID], "motions": [], "springs": [], **given}
+def test_guided_bodies_cannot_be_audited(tmp_path):
+    motions = [{"kind": "guided", "body": "ball", "x": "0.1*t"}]
+    changes = {"bodies": [RIGID], "motions": motions, "springs": []}
     carom.run(held("midpoint", "conserving", **changes), out=tmp_path)
-    with pytest.raises(carom.InputError, match=said):
+    with pytest.raises(carom.InputError, match="cannot audit the motion"):
         carom.audit(tmp_path)
+
+
+def test_forces_and_moments_on_rigid_bodies_are_confirmed(tmp_path):
+    pushed = {
+        "kind": "resultant",
+        "body": "ball",
+        "force": ["2*sin(30*t)", 1.0],
+        "moment": "0.3*cos(20*t)",
+        "point": [0.1, 2.05],
+    }
+    floor = {"kind": "plane", "name": "floor", "point": [0, 1.78], "normal": [0, 1]}
+    changes = {
+        "bodies": [RIGID],
+        "motions": [],
+        "springs": [],
+        "loads": [pushed],
+        "obstacles": [floor],
+    }
+    carom.run(held("midpoint", UNEVEN, **changes), out=tmp_path / "run")
+    audit = carom.audit(tmp_path / "run")
+    assert audit.refuted == ()
+    checks = {check.name: check for check in audit.checks}
+    assert checks["angular impulse"].figure < 1e-13
+    assert checks["ledger: external"].figure < 1e-13
+    for old, new in (("0.3*cos", "0.3001*cos"), ("0.1, 2.05", "0.101, 2.05")):
+        changed = with_another_case(tmp_path / "run", tmp_path / new, old, new)
+        assert "angular impulse" in {check.name for check in carom.audit(changed).refuted}

@@ -164,6 +164,11 @@ class AuditBody(MovingBody):
         """Areas of the facets that may touch others [m²], shape [facet_count]."""
         return self.faces(self.facets).areas(self.points)
 
+    def centre_of_force(self, point: tuple[float, ...] | None) -> Place:
+        """Return where a force on a rigid body acts: at a point as drawn, or the centre of mass."""
+        at = self.mass.mean(self.points) if point is None else np.array(point)
+        return place_on(self._entry, self.points, at)
+
     def places(self, at: Attached) -> list[Place]:
         """Return the places that something is attached to: of a set every node of it."""
         if at.on is None:

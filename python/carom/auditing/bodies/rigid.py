@@ -88,7 +88,12 @@ class RigidStep:
         return velocity
 
     def residual(
-        self, states: tuple[Array, Array, Array], forces: tuple[Array, Array], dt: float
+        self,
+        states: tuple[Array, Array, Array],
+        forces: tuple[Array, Array],
+        dt: float,
+        *,
+        at_end: bool = False,
     ) -> Array:
         """Return what momenta lack, as forces on nodes [N], shape [node_count, D].
 
@@ -103,14 +108,18 @@ class RigidStep:
             Forces of the step on the nodes, and impulses at its end over Δt [N].
         dt
             Length of the step [s].
+        at_end
+            Whether forces balance at the end of the step, as in load steps, where nothing moves.
         """
         body, (during, impulses) = self.body, forces
         u1, v0, v1 = states
         u0 = u1 - self.shift - turned(self.arms[1], self.turn)
         gained = body.mass.mean(v1) - body.mass.mean(v0)
         spun = body.inertia(u1) @ body.spin(u1, v1) - body.inertia(u0) @ body.spin(u0, v0)
+        if at_end:
+            gained, spun = 0.0 * gained, 0.0 * spun
         force = body.mass.total * gained / dt - (during + impulses).sum(axis=0)
-        moment = spun / dt - cross(self.arms[1], during).sum(axis=0)
+        moment = spun / dt - cross(self.arms[2 if at_end else 1], during).sum(axis=0)
         moment -= cross(self.arms[2], impulses).sum(axis=0)
         weight = body.mass.nodal[:, None]
         turn = solved(body.nodal_inertia(self.arms[1]), moment)

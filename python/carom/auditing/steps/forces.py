@@ -104,12 +104,13 @@ class Forces:
         drift = body.mass.mean(v0)
         times = (float(s.start["time"]), s.time)
         given = model.loads[index]
-        loads = given.mean(times, model.xi, u0 + model.xi * d)
+        loads = given.mean(times, model.xi, u0 + model.xi * d, u0 + 0.5 * d)
+        end_loads = given.at(s.time, u1)
         if model.static:
+            loads = end_loads
             viscous = np.zeros_like(viscous)
             path = body.conserving_force(u0, u1)
             path_loads = given.mean(times, 0.5, u0 + 0.5 * d)
-        end_loads = given.at(s.time, u1)
         pressed = body.mass.resultant(s.start["contact_force"][span] + given.at(times[0], u0))
         slowed = body.law.mass_damping
         driven = model.gravity + pressed / body.mass.total - slowed * drift
@@ -230,8 +231,9 @@ class Forces:
             s = self._states
             states = (s.u1[body.span], s.v0[body.span], s.v1[body.span])
             impulses = self._touching.impulse(body) / self._states.dt
-            forces = (contact - impulses + f.gravity + f.connections, impulses)
-            return self._states.rigid(body).residual(states, forces, self._states.dt)
+            pull = f.end_connections if s.model.static else f.connections
+            forces = (contact - impulses + f.gravity + f.loads + pull, impulses)
+            return s.rigid(body).residual(states, forces, s.dt, at_end=s.model.static)
         pull = f.end_connections if self._states.model.static else f.connections
         given = f.gravity + f.loads + pull + self.contact_on_held(body)
         residual = f.inertia + f.internal + f.viscous - given
