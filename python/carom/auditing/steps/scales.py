@@ -151,6 +151,10 @@ class Scales:
         """Return the force on nodes where all displacements are off by 1 m [N/m], [node_count]."""
         body, model = self._model.bodies[index], self._model
         rate = 0.0 if model.static else 1 / (model.theta * dt)
+        if model.static and body.rigid:
+            # Nothing resists it but what it touches.
+            stiffest = max(float(other.row_stiffness.max()) for other in model.bodies)
+            return np.full(len(body.points), stiffest)
         resisted: Array = body.row_stiffness * (
             1.0 + (body.law.stiffness_damping.max() + body.law.sluggishness) * rate
         )
