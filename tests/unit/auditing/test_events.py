@@ -284,7 +284,7 @@ def test_contacts_are_merged_as_the_case_says_or_as_waves_run(read):
     def merging(scenario, merge):
         pairs = [{**pair, "merge_contacts": merge} for pair in files.summary["pairs"]]
         changed = files.changed(scenario=scenario, summary={**files.summary, "pairs": pairs})
-        changed._model = Files.model(changed)
+        changed._models = Files.models(changed)
         return refuted(changed)
 
     given = files.scenario.with_overrides(["output.merge_contacts=0.03"])
