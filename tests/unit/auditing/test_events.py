@@ -200,7 +200,7 @@ def test_a_contact_solver_that_missed_its_tolerance_is_found(read):
     files = read("two pairs")
     scenario = files.scenario.with_overrides(["contact.solver.tolerance=1e-13"])
     strict = files.changed(scenario=scenario)
-    strict._model = Files.model(strict)
+    strict._models = Files.models(strict)
     assert refuted(strict) == {"row: residual"}
 
 
