@@ -1,5 +1,6 @@
 """Copies of results in which something is not as the run left it."""
 
+import json
 import shutil
 
 import h5py
@@ -40,6 +41,34 @@ def in_h5(name, change):
     return tamper
 
 
+def in_csv(file, column, change=little_more, row=-3):
+    """Change a number of a table, by default in the last row but two."""
+
+    def tamper(directory):
+        path = directory / file
+        lines = [line.split(",") for line in path.read_text().splitlines()]
+        at = lines[0].index(column)
+        lines[row][at] = repr(change(float(lines[row][at])))
+        path.write_text("\n".join(",".join(line) for line in lines) + "\n")
+
+    return tamper
+
+
+def in_summary(*keys, factor=1 + 1e-6):
+    """Multiply a number of the summary by a factor."""
+
+    def tamper(directory):
+        path = directory / "summary.json"
+        summary = json.loads(path.read_text())
+        place = summary
+        for key in keys[:-1]:
+            place = place[key]
+        place[keys[-1]] *= factor
+        path.write_text(json.dumps(summary))
+
+    return tamper
+
+
 def with_another_case(run, directory, old, new):
     """Copy a run to a directory; what its case says first as `old` is `new` there."""
     shutil.copytree(run, directory)
@@ -47,11 +76,11 @@ def with_another_case(run, directory, old, new):
     return directory
 
 
-def with_another_number(run, directory, column, factor):
-    """Copy a run to a directory; a number in the middle of its history is multiplied there."""
+def with_another_number(run, directory, column, factor, row=51):
+    """Copy a run to a directory; a number in a row of its history is multiplied there."""
     shutil.copytree(run, directory)
     lines = [line.split(",") for line in (directory / "history.csv").read_text().splitlines()]
     at = lines[0].index(column)
-    lines[51][at] = repr(float(lines[51][at]) * factor)
+    lines[row][at] = repr(float(lines[row][at]) * factor)
     (directory / "history.csv").write_text("\n".join(",".join(line) for line in lines) + "\n")
     return directory

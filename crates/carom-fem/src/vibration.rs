@@ -20,7 +20,7 @@ impl<const D: usize> Vibration<D> {
     ///
     /// w is the velocity less that of a rigid body of the same momenta, at right angles to it in the mass matrix. Where supports hold the body they take
     /// the momenta of what they hold, and only translations that they leave free are no vibration. A body of revolution, or one that repeats itself, does not
-    /// turn. Where supports move there is no answer, and the energy is zero.
+    /// turn. Where supports move there is no answer: the energy is zero, and so is w.
     pub fn measure(&mut self, body: &Body<D>, u: &[Vector<D>], velocity: &[Vector<D>]) -> f64 {
         let Self { field, momentum, arms } = self;
         for own in [&mut *field, momentum, arms] {
@@ -28,6 +28,8 @@ impl<const D: usize> Vibration<D> {
         }
         let held = body.held().dofs();
         if held.iter().any(|dof| velocity[dof.node as usize][dof.component as usize] != 0.0) {
+            field.fill(Vector::zeros());
+            momentum.fill(Vector::zeros());
             return 0.0;
         }
         body.mass().multiply(velocity, momentum);

@@ -10,29 +10,20 @@ from pathlib import Path
 
 import numpy as np
 
-from carom.auditing.believed import leave_rows
-from carom.auditing.check_case import (
-    check_files,
-    check_links,
-    check_materials,
-    check_mesh,
-    check_start,
-)
-from carom.auditing.check_events import EventChecks
-from carom.auditing.check_frames import FrameChecks
-from carom.auditing.check_ledger import LedgerChecks
-from carom.auditing.check_momenta import MomentumChecks
-from carom.auditing.check_rows import RowChecks
-from carom.auditing.check_steps import StepChecks
-from carom.auditing.check_summary import SummaryChecks
-from carom.auditing.check_surface import SurfaceChecks
-from carom.auditing.check_warnings import check_warnings
-from carom.auditing.files import Files, Frame
-from carom.auditing.model import AuditModel
+from carom.auditing.checks.believed import leave_rows
+from carom.auditing.checks.case import check_files, check_materials, check_mesh
+from carom.auditing.checks.events import EventChecks
+from carom.auditing.checks.ledger import LedgerChecks
+from carom.auditing.checks.momenta import MomentumChecks
+from carom.auditing.checks.rows import RowChecks
+from carom.auditing.checks.states import StageChecks, StateChecks, stage_at
+from carom.auditing.checks.summary import SummaryChecks
+from carom.auditing.checks.warnings import check_warnings
+from carom.auditing.records.files import Files
+from carom.auditing.records.parts import parts_of
+from carom.auditing.records.rows import Rows
 from carom.auditing.report import Audit, Check, Findings, Unchecked
-from carom.auditing.rows import Rows
-from carom.auditing.scales import Scales
-from carom.auditing.step import Step
+from carom.auditing.steps.scales import Scales
 from carom.errors import InputError
 
 __all__ = ["Audit", "Check", "Unchecked", "audit"]
@@ -73,80 +64,53 @@ def audit_files(files: Files) -> Audit:
 
 
 def _check(files: Files, findings: Findings) -> None:
-    model = files.model()
     if any(a == b for a, b in (pair["between"] for pair in files.summary["pairs"])):
         raise InputError("cannot audit a body in contact with itself yet")
-    scales = Scales(model)
+    parts = parts_of(files)
+    models = [part.model for part in parts]
+    scales = [Scales(model) for model in models]
     frames = []
     for frame in files.frames():
-        scales.include(frame.displacement, frame.velocity, frame.time)
+        own = scales[stage_at(parts, frame.time)]
+        own.include(frame.displacement, frame.velocity, frame.time)
         frames.append(frame.time)
+    for own in scales:
+        own.share(scales)
     check_files(files.path, files.summary, findings)
-    check_mesh(model, findings)
-    check_materials(model, files.materials(), findings)
-    ledger = LedgerChecks(
-        model, scales, findings, files.ledger, history=files.history, summary=files.summary
+    check_mesh(models[0], findings)
+    check_materials(models[0], files.materials(), findings)
+    stages = [StageChecks(part, own, findings) for part, own in zip(parts, scales, strict=True)]
+    whole = LedgerChecks(
+        models[-1], scales[-1], findings, files.ledger, history=files.history, summary=files.summary
     )
-    ledger.all()
-    pressed = _check_states(files, model, scales, ledger, findings)
-    rows, events = Rows(model, files.history, files.summary), files.summary["contacts"]
-    RowChecks(model, scales, findings, rows, files.summary).all()
-    SummaryChecks(model, scales, findings, rows, files.summary).all()
-    check_warnings(model, files.summary, findings)
-    momenta = MomentumChecks(model, scales, findings, rows, events)
-    momenta.all()
+    whole.books()
+    StateChecks(files, stages, whole, findings).all()
+    stored = {time: pairs for stage in stages for time, pairs in stage.steps.pressed.items()}
+    rows = Rows.joined([part.rows for part in parts], files.history, files.summary)
+    SummaryChecks(parts, scales[-1], findings, rows, files.summary).all()
+    check_warnings(models, files.summary, findings)
     contacts = EventChecks(
-        model, scales, findings, rows, ledger=files.ledger, summary=files.summary, stored=pressed
-    )
-    contacts.all()
-    leave_rows(
-        model,
+        list(zip(parts, scales, strict=True)),
         findings,
         rows,
-        frames=frames,
-        stored=pressed,
-        turning=momenta.angular,
-        pressing=contacts.known,
+        ledger=files.ledger,
+        summary=files.summary,
+        stored=stored,
     )
-
-
-def _check_states(
-    files: Files, model: AuditModel, scales: Scales, ledger: LedgerChecks, findings: Findings
-) -> dict[float, dict[frozenset[str], float]]:
-    """Check the frames, and with each the stored step that ended there; return forces of pairs."""
-    frames = FrameChecks(model, scales, findings)
-    steps = StepChecks(model, scales, findings)
-    growing = not model.gives_back or files.summary["least_friction"] >= 0
-    surface = SurfaceChecks(model, scales, findings, files.facets(), growing=growing)
-    surfaces = files.surface_frames()
-    rows = {float(time): index for index, time in enumerate(files.history["time"])}
-    stored = files.steps()
-    before: Frame | None = None
-    for frame in files.frames():
-        row = files.row(rows[frame.time]) if frame.time in rows else None
-        frames.frame(frame, row)
-        ledger.frame(frame)
-        surface.frame(next(surfaces, None), frame, row, ledger.friction_on)
-        if before is None:
-            check_start(model, frame, scales, findings)
-        elif files.has_steps:
-            step = next(stored, None)
-            check_links(step, frame, before, files.summary["status"], findings)
-            if step is not None:
-                checked = Step(model, step)
-                steps.step(checked)
-                ledger.step(checked)
-                surface.borne(checked.touching.all, frame)
-                if row is not None:
-                    at = rows.get(checked.start["time"])
-                    steps.rows(checked, None if at is None else files.row(at), row)
-        before = frame
-    if next(surfaces, None) is not None:
-        findings.check("surface: frames", 1.0, 0.0, "more frames than of the bodies")
-    if not files.has_steps:
-        findings.leave(
-            "equations of motion, reactions, Coulomb's law: run with output.audit = true"
+    contacts.all()
+    for stage in stages:
+        part = stage.part
+        RowChecks(part.model, stage.scales, findings, part.rows, part.summary).all()
+        momenta = MomentumChecks(
+            part.model, stage.scales, findings, part.rows, files.summary["contacts"]
         )
-    elif next(stored, None) is not None:
-        findings.check("stored steps", 1.0, 0.0, "more steps than frames")
-    return steps.pressed
+        momenta.all()
+        leave_rows(
+            part.model,
+            findings,
+            part.rows,
+            frames=frames,
+            stored=stored,
+            turning=momenta.angular,
+            pressing=contacts.known[part.first : part.first + len(part.rows)],
+        )

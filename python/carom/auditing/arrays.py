@@ -24,6 +24,12 @@ def einsum(subscripts: str, *operands: Array) -> Array:
     return result
 
 
+def sizes(vectors: Array) -> Array:
+    """Return the lengths of vectors, shape [..., D], shape [...]."""
+    lengths: Array = np.linalg.norm(vectors, axis=-1)
+    return lengths
+
+
 def components(name: str, dimension: int) -> list[str]:
     """Return the columns of a vector: its name with each axis."""
     return [f"{name}_{axis}" for axis in AXES[:dimension]]

@@ -8,21 +8,22 @@ from functools import cached_property, partial
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices
-from carom.auditing.body import AuditBody
-from carom.auditing.curve import Curve
-from carom.auditing.feet import Target
-from carom.auditing.gregory import GregoryPatches
-from carom.auditing.loads import Loads
-from carom.auditing.mass import NoMassInsideError
-from carom.auditing.obstacles import AuditObstacle, obstacle_of
-from carom.auditing.pairs import ALIKE, Pairs, build_sides
-from carom.auditing.places import Attached
-from carom.auditing.sheet import FlatPatches, Sheet
-from carom.auditing.springs import AuditSpring, build_spring
-from carom.auditing.supports import Supports
+from carom.auditing.bodies.body import AuditBody
+from carom.auditing.bodies.mass import NoMassInsideError
+from carom.auditing.bodies.places import Attached
+from carom.auditing.contact.obstacles import AuditObstacle, Cornered, obstacle_of
+from carom.auditing.contact.pairs import ALIKE, Pairs, build_sides
+from carom.auditing.drives.loads import Loads
+from carom.auditing.drives.springs import AuditSpring, build_spring
+from carom.auditing.drives.supports import Supports
+from carom.auditing.targets.curve import Curve
+from carom.auditing.targets.feet import Target
+from carom.auditing.targets.gregory import GregoryPatches
+from carom.auditing.targets.sheet import FlatPatches, Sheet
 from carom.case.analysis import Conserving, Static, Theta
 from carom.case.body import AnyBody, Body, ReducedBody, RigidBody
 from carom.case.cohesion import holds
+from carom.case.full_stage import FullStage
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 
@@ -36,6 +37,8 @@ class AuditModel:
     ----------
     scenario
         The case as it was run.
+    stage
+        The analysis of it: all that holds in one stage.
     points
         Reference positions of all nodes [m], shape [node_count, D].
     cells
@@ -50,37 +53,41 @@ class AuditModel:
     """
 
     def __init__(
-        self, scenario: Scenario, points: Array, cells: list[Indices], types: list[int]
+        self,
+        scenario: Scenario,
+        stage: FullStage,
+        points: Array,
+        cells: list[Indices],
+        types: list[int],
     ) -> None:
-        _refuse_what_is_driven(scenario)
-        if scenario.analysis is None:
-            raise InputError("cannot audit a case with stages yet")
-        if scenario.initial is not None:
-            raise InputError("cannot audit a case that does not start from bodies as drawn yet")
-        self.scenario = scenario
+        _refuse_what_is_driven(scenario, stage)
+        self.scenario, self.stage = scenario, stage
         self.dimension = scenario.dimension
         """2 in the plane, 3 in space."""
-        self._pairs = Pairs(scenario)
-        self.analysis = scenario.analysis
+        self._pairs = Pairs(scenario, stage.contact)
+        self.analysis, self.contact = stage.analysis, stage.contact
         self.points = points
-        condition = scenario.contact.condition
+        condition = self.contact.condition
         if condition not in CONDITIONS:
             raise InputError(f"cannot audit the contact condition {condition!r} yet")
-        pairs = scenario.contact.pairs
-        written = [scenario.contact.discretisation, *(p.discretisation for p in pairs)]
-        if "mortar" in written:
+        discretisations = [
+            self.contact.discretisation,
+            *(pair.discretisation for pair in self.contact.pairs),
+        ]
+        if "mortar" in discretisations:
             raise InputError("cannot audit mortar contact yet")
-        self.massless = condition == "massless"
-        if isinstance(self.analysis, Static):
-            raise InputError("cannot audit a static analysis yet")
-        scheme = self.analysis.scheme
-        if not isinstance(scheme, Theta | Conserving):
-            raise InputError(f"cannot audit the scheme {scheme.kind!r} yet")
-        self.conserving = isinstance(scheme, Conserving)
-        self.theta, self.xi = (scheme.theta, scheme.xi) if isinstance(scheme, Theta) else (0.5, 0.5)
+        written = [condition]
+        if not stage.is_dynamic:
+            # Load steps have the weight where steps in time of other stages have it.
+            written += [one.contact.condition for one in scenario.full_stages()]
+        self.massless = "massless" in written
+        self._read_scheme()
         given = self.analysis.gravity
         self.gravity = np.zeros(self.dimension) if given is None else np.array(given)
         self.bodies = list(self._build_bodies(cells, types))
+        if self.static:
+            for body in self.bodies:
+                body.weigh_all_nodes()
         light = [len(body.massless) > 0 for body in self.bodies]
         self.massless = any(light)
         """Whether there are nodes without mass."""
@@ -89,27 +96,65 @@ class AuditModel:
         # What has mass on both sides is ruled by its motion.
         self.condition = "midpoint" if condition == "massless" and not self.massless else condition
         self.blended = self.conserving and self.massless
-        self.smooth = scenario.contact.targets == "smooth"
+        self.smooth = self.contact.targets == "smooth"
         """Whether targets are smooth curves."""
         self.targets = [_target(b, smooth=self.smooth) for b in self.bodies]
         self.obstacles = [obstacle_of(one, self.dimension) for one in scenario.obstacles]
         impacts = self.condition == "endpoint"
         self.sides = list(build_sides(self._pairs, self.bodies, impacts=impacts))
-        self.supports = [Supports(body, scenario.motions) for body in self.bodies]
+        self.supports = [Supports(body, stage.motions, at_rest=self.static) for body in self.bodies]
         """Those of every body."""
-        for body, supports in zip(self.bodies, self.supports, strict=True):
-            if supports.held[body.massless].any():
-                raise InputError("cannot audit supports at nodes without mass yet")
-        self.loads = [Loads(body, scenario.loads) for body in self.bodies]
+        self.loads = [Loads(body, stage.loads) for body in self.bodies]
         """Those of every body."""
         self.springs = [build_spring(spring, self) for spring in scenario.springs]
+        self.before: AuditModel | None = None
+        """The stage before."""
         self.size = max(_diameter(b.points) for b in self.bodies)
+
+    def _read_scheme(self) -> None:
+        """Take what the analysis says of the scheme."""
+        self.static = isinstance(self.analysis, Static)
+        """Whether there is no inertia: forces balance at the end of each load step."""
+        # Where there is no velocity the end of a step has all the weight.
+        self.conserving, self.theta, self.xi = False, 1.0, 1.0
+        if not isinstance(self.analysis, Static):
+            scheme = self.analysis.scheme
+            self.conserving = isinstance(scheme, Conserving)
+            self.theta, self.xi = 0.5, 0.5
+            if isinstance(scheme, Theta):
+                self.theta, self.xi = scheme.theta, scheme.xi
+        elif self.analysis.stabilisation != "none":
+            raise InputError("cannot audit load steps that are stabilised yet")
+
+    @property
+    def faceted(self) -> bool:
+        """Whether facets are frozen for a step: those of bodies, or of obstacles with corners."""
+        of_bodies = self.contact.targets == "faceted" and len(self.bodies) > 1
+        return of_bodies or self.corner_count > 0
+
+    @property
+    def corner_count(self) -> int:
+        """How many corners obstacles have."""
+        shapes = [obstacle.shape for obstacle in self.obstacles]
+        return sum(len(shape.corners) for shape in shapes if isinstance(shape, Cornered))
+
+    @property
+    def starts_elsewhere(self) -> bool:
+        """Whether the contacts that it starts with are not where the starting state is.
+
+        Those of steps that rule the motion are where these have their middle.
+        """
+        if self.before is not None:
+            return self.before.condition not in ("gap", "massless")
+        initial = self.scenario.initial
+        return initial is not None and initial.result is not None
 
     @cached_property
     def fastest_obstacle(self) -> float:
         """Largest speed of an obstacle [m/s]."""
-        steps = int(np.ceil(self.analysis.end_time / self.analysis.time_step - 1e-6))
-        times = np.arange(steps + 1) * self.analysis.time_step
+        start, step = self.stage.start_time, self.analysis.time_step
+        steps = int(np.ceil(self.stage.duration / step - 1e-6))
+        times = start + np.arange(steps + 1) * step
         speeds = [
             float(np.linalg.norm(velocity))
             for travel in (obstacle.travel for obstacle in self.obstacles)
@@ -202,10 +247,12 @@ class AuditModel:
     def _spares_mass(self, entry: AnyBody, body: AuditBody) -> bool:
         """Return whether a body may have no mass where it touches others.
 
-        What is rigid or reduced may not, nor what rubs by a law, nor where springs or masses are
-        attached to what may touch.
+        What is rigid or reduced may not, nor what flows or rubs by a law, nor where springs or
+        masses are attached to what may touch.
         """
         if isinstance(entry, RigidBody | ReducedBody) or self._pairs.rubs_by_law(entry.name):
+            return False
+        if body.law.flows:
             return False
         attached: list[Attached] = [*self.scenario.masses]
         attached += [end for spring in self.scenario.springs for end in spring.between]
@@ -235,7 +282,8 @@ class AuditModel:
     def jolts(self) -> bool:
         """Whether impulses change velocities: of landing, or settling of bodies that are damped."""
         damped = any(body.law.damped for body in self.bodies)
-        return self.condition == "midpoint" or self.mixed or (damped and not self.massless)
+        jolted = self.condition == "midpoint" or self.mixed or (damped and not self.massless)
+        return jolted and not self.static
 
 
 def _target(body: AuditBody, *, smooth: bool) -> Target:
@@ -254,11 +302,8 @@ def _diameter(points: Array) -> float:
     return 2.0 * float(np.linalg.norm(points - points.mean(axis=0), axis=1).max())
 
 
-def _refuse_what_is_driven(scenario: Scenario) -> None:
+def _refuse_what_is_driven(scenario: Scenario, stage: FullStage) -> None:
     """Refuse what the auditor has no second implementation of."""
-    deform = {body.name for body in scenario.bodies if isinstance(body, Body)}
-    if any(load.body not in deform for load in scenario.loads):
-        raise InputError("cannot audit loads on a body that does not deform freely yet")
     if any(pair.interference is not None for pair in scenario.contact.pairs):
         raise InputError("cannot audit a pair with an interference yet")
     if any(map(holds, (scenario.contact.cohesion, *(p.cohesion for p in scenario.contact.pairs)))):

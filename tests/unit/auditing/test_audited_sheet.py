@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from carom.auditing.crossings import crossings
-from carom.auditing.gregory import GregoryPatches
-from carom.auditing.kinds import KINDS
-from carom.auditing.quadrature import rule_of_masses, rule_of_stresses
-from carom.auditing.sheet import FlatPatches, Sheet
+from carom.auditing.contact.crossings import crossings
+from carom.auditing.mesh.kinds import KINDS
+from carom.auditing.mesh.quadrature import rule_of_masses, rule_of_stresses
+from carom.auditing.targets.gregory import GregoryPatches
+from carom.auditing.targets.sheet import FlatPatches, Sheet
 
 RNG = np.random.default_rng(5)
 

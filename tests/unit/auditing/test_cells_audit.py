@@ -8,11 +8,9 @@ import pytest
 from two_discs import scenario
 
 import carom
-from carom.auditing.dilatation import MeanDilatation
-from carom.auditing.laws import Law
-from carom.auditing.plane_stress import PlaneStress
-
-pytestmark = pytest.mark.usefixtures("without_pictures")
+from carom.auditing.materials.dilatation import MeanDilatation
+from carom.auditing.materials.laws import Law
+from carom.auditing.materials.plane_stress import PlaneStress
 
 OGDEN = carom.Ogden(mu=[600.0, 30.0, -40.0], alpha=[1.8, 4.5, -1.7], bulk=3000.0, density=1.0)
 FOAM = carom.BlatzKo(shear=1000.0, poisson=0.3, fraction=0.3, density=1.0)

@@ -9,9 +9,6 @@ from tampered import with_another_case, with_another_number
 UNEVEN = {"kind": "theta", "theta": 0.7, "xi": 0.6}
 
 
-pytestmark = pytest.mark.usefixtures("without_pictures")
-
-
 def by_name(audit):
     return {check.name: check for check in audit.checks}
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from carom.auditing.curve import Curve
+from carom.auditing.targets.curve import Curve
 
 COUNT = 24
 

@@ -31,9 +31,6 @@ GENTLE = {"analysis.gravity": [0, -5.0], "analysis.end_time": 0.1, "analysis.tim
 """So that no corner folds where nodes have no mass."""
 
 
-pytestmark = pytest.mark.usefixtures("without_pictures")
-
-
 def driven(condition, scheme, **changes):
     given = {"obstacles": [SHAKEN], "loads": LOADS, "output.fields_every": 0.02}
     return scenario(condition, scheme, **{**given, "analysis.gravity": [0, -20.0], **changes})

@@ -4,8 +4,6 @@ import pytest
 
 import carom
 
-pytestmark = pytest.mark.usefixtures("without_pictures")
-
 
 def scene(bodies, *, material=None, step=1e-3, end=0.1, condition="midpoint", **contact):
     """Bodies under gravity above a floor."""

@@ -10,7 +10,7 @@ from two_discs import InMemory, scenario
 
 import carom
 from carom.auditing import audit_files
-from carom.auditing.files import Files
+from carom.auditing.records.files import Files
 
 DROP = {"bodies.0.spin": 0.0, "bodies.1.mesh.centre": [6.0, 1.05], "bodies.1.velocity": [0.0, -1.0]}
 """The discs fall on the floor apart from one another."""
@@ -200,7 +200,7 @@ def test_a_contact_solver_that_missed_its_tolerance_is_found(read):
     files = read("two pairs")
     scenario = files.scenario.with_overrides(["contact.solver.tolerance=1e-13"])
     strict = files.changed(scenario=scenario)
-    strict._model = Files.model(strict)
+    strict._models = Files.models(strict)
     assert refuted(strict) == {"row: residual"}
 
 
@@ -284,7 +284,7 @@ def test_contacts_are_merged_as_the_case_says_or_as_waves_run(read):
     def merging(scenario, merge):
         pairs = [{**pair, "merge_contacts": merge} for pair in files.summary["pairs"]]
         changed = files.changed(scenario=scenario, summary={**files.summary, "pairs": pairs})
-        changed._model = Files.model(changed)
+        changed._models = Files.models(changed)
         return refuted(changed)
 
     given = files.scenario.with_overrides(["output.merge_contacts=0.03"])

@@ -13,8 +13,8 @@ from two_discs import InMemory, scenario
 
 import carom
 from carom.auditing import audit_files
-from carom.auditing.files import Files
-from carom.auditing.step import Step
+from carom.auditing.records.files import Files
+from carom.auditing.steps.step import Step
 
 SPARSE = {"output.history_every": 0.01}
 HALVED = {"analysis.newton.max_iterations": 6}
@@ -53,7 +53,7 @@ def read(tmp_path_factory):
             steps[id(step)] = Step(model, step)
         return steps[id(step)]
 
-    patch.setattr("carom.auditing.Step", once)
+    patch.setattr("carom.auditing.checks.states.Step", once)
 
     def files(name):
         if name not in done:

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import carom
-from carom.auditing.formula import Formula
-from carom.auditing.signals import AuditSignal
+from carom.auditing.functions.formula import Formula
+from carom.auditing.functions.signals import AuditSignal
 
 SMOOTH = [
     "2^3^0.5*t - -t^2/3",

@@ -11,9 +11,6 @@ from tampered import with_another_case, with_another_number
 UNEVEN = {"kind": "theta", "theta": 0.7, "xi": 0.6}
 
 
-pytestmark = pytest.mark.usefixtures("without_pictures")
-
-
 @pytest.mark.parametrize(
     "method", [("gap", "theta"), ("midpoint", "conserving"), ("endpoint", UNEVEN)]
 )
@@ -73,15 +70,34 @@ def test_a_force_or_work_that_was_changed_is_found(tmp_path, run, column):
     assert {check.name for check in carom.audit(directory).refuted} - {"files"}
 
 
-def test_supports_at_nodes_without_mass_cannot_be_audited(tmp_path):
-    mesh = {**SQUARE, "corner": [0.0, 0.0], "divisions": [8, 8]}
-    beam = {"name": "beam", "material": "m", "mesh": mesh}
+@pytest.mark.parametrize("scheme", ["theta", "conserving"])
+def test_supports_at_nodes_without_mass_are_confirmed(tmp_path, scheme):
+    mesh = {**SQUARE, "corner": [0.0, 0.0], "divisions": [6, 6]}
+    disc = {"kind": "disc", "centre": [0.7, 0.72], "radius": 0.2, "divisions": 6}
+    ball = {"name": "ball", "material": "m", "mesh": disc, "velocity": [0.3, -1.0]}
     floor = {"kind": "plane", "name": "floor", "point": [0, 0], "normal": [0, 1]}
-    changes = {"bodies": [beam], "springs": [], "obstacles": [floor]}
-    analysis = {"end_time": 0.01, "time_step": 2e-3}
-    carom.run(held("massless", "theta", analysis=analysis, **changes), out=tmp_path)
-    with pytest.raises(carom.InputError, match="cannot audit supports at nodes without mass yet"):
-        carom.audit(tmp_path)
+    changes = {
+        "bodies": [{"name": "beam", "material": "m", "mesh": mesh}, ball],
+        "springs": [],
+        "obstacles": [floor],
+    }
+    analysis = {
+        "end_time": 0.06,
+        "time_step": 2e-3,
+        "gravity": [0, -9.81],
+        "scheme": {"kind": scheme},
+    }
+    carom.run(held("massless", scheme, analysis=analysis, **changes), out=tmp_path / "run")
+    audit = carom.audit(tmp_path / "run")
+    assert audit.refuted == ()
+    checks = {check.name: check for check in audit.checks}
+    assert checks["massless nodes"].figure < 1e-8
+    assert checks["support forces"].figure < 1e-8
+    assert checks["ledger: prescribed"].figure < 1e-10
+    changed = with_another_number(
+        tmp_path / "run", tmp_path / "changed", "beam.left.force_x", 1 + 1e-5, row=21
+    )
+    assert "support forces" in {check.name for check in carom.audit(changed).refuted}
 
 
 RIGID = {
@@ -92,18 +108,36 @@ RIGID = {
 }
 
 
-@pytest.mark.parametrize(
-    ("given", "said"),
-    [
-        (
-            {"motions": [{"kind": "guided", "body": "ball", "x": "0.1*t"}]},
-            "cannot audit the motion",
-        ),
-        ({"loads": [{"kind": "resultant", "body": "ball", "force": [1, 0]}]}, "cannot audit loads"),
-    ],
-)
-def test_what_drives_rigid_bodies_cannot_be_audited(tmp_path, given, said):
-    changes = {"bodies": [RIGID], "motions": [], "springs": [], **given}
+def test_guided_bodies_cannot_be_audited(tmp_path):
+    motions = [{"kind": "guided", "body": "ball", "x": "0.1*t"}]
+    changes = {"bodies": [RIGID], "motions": motions, "springs": []}
     carom.run(held("midpoint", "conserving", **changes), out=tmp_path)
-    with pytest.raises(carom.InputError, match=said):
+    with pytest.raises(carom.InputError, match="cannot audit the motion"):
         carom.audit(tmp_path)
+
+
+def test_forces_and_moments_on_rigid_bodies_are_confirmed(tmp_path):
+    pushed = {
+        "kind": "resultant",
+        "body": "ball",
+        "force": ["2*sin(30*t)", 1.0],
+        "moment": "0.3*cos(20*t)",
+        "point": [0.1, 2.05],
+    }
+    floor = {"kind": "plane", "name": "floor", "point": [0, 1.78], "normal": [0, 1]}
+    changes = {
+        "bodies": [RIGID],
+        "motions": [],
+        "springs": [],
+        "loads": [pushed],
+        "obstacles": [floor],
+    }
+    carom.run(held("midpoint", UNEVEN, **changes), out=tmp_path / "run")
+    audit = carom.audit(tmp_path / "run")
+    assert audit.refuted == ()
+    checks = {check.name: check for check in audit.checks}
+    assert checks["angular impulse"].figure < 1e-13
+    assert checks["ledger: external"].figure < 1e-13
+    for old, new in (("0.3*cos", "0.3001*cos"), ("0.1, 2.05", "0.101, 2.05")):
+        changed = with_another_case(tmp_path / "run", tmp_path / new, old, new)
+        assert "angular impulse" in {check.name for check in carom.audit(changed).refuted}

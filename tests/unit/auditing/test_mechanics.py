@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import carom
-from carom.auditing.body import AuditBody
-from carom.auditing.cells import boundary
-from carom.auditing.kinds import KINDS
-from carom.auditing.mass import affine_weights
+from carom.auditing.bodies.body import AuditBody
+from carom.auditing.bodies.mass import affine_weights
+from carom.auditing.mesh.cells import boundary
+from carom.auditing.mesh.kinds import KINDS
 
 STRESSES = (None, carom.InitialStress(xx=0.4, yy=-0.2, zz=0.1, xy=0.3))
 MATERIALS = {

@@ -7,9 +7,6 @@ import carom
 WIDE, HIGH = 6, 4
 
 
-pytestmark = pytest.mark.usefixtures("without_pictures")
-
-
 def deck(path, *, shift=0.0):
     """Write a skewed block of quadrilaterals, of which the right half is a set of cells."""
     number = {(i, j): 1 + j * (WIDE + 1) + i for j in range(HIGH + 1) for i in range(WIDE + 1)}

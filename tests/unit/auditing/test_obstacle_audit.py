@@ -6,9 +6,6 @@ import pytest
 
 import carom
 
-pytestmark = pytest.mark.usefixtures("without_pictures")
-
-
 SHAPES = {
     "disc": {"kind": "sphere", "centre": [0.2, -1.0], "radius": 1.0, "velocity": [0.2, 0.1]},
     "hole": {"kind": "sphere", "centre": [0.3, 2.5], "radius": 2.6, "cavity": True},

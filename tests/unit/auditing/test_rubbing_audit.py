@@ -8,8 +8,6 @@ from rubbing import LAWS, rubbing
 
 import carom
 
-pytestmark = pytest.mark.usefixtures("without_pictures")
-
 
 @pytest.fixture(scope="module")
 def results(tmp_path_factory):

@@ -8,8 +8,6 @@ import pytest
 import carom
 from tampered import in_case, in_h5, little_more
 
-pytestmark = pytest.mark.usefixtures("without_pictures")
-
 ELASTIC = {"kind": "saint-venant-kirchhoff", "young": 2700.0, "poisson": 0.33, "density": 1.0}
 
 

@@ -4,7 +4,7 @@ import copy
 import json
 
 import carom
-from carom.auditing.files import Files
+from carom.auditing.records.files import Files
 
 LAYER = {
     "name": "b",
@@ -71,11 +71,11 @@ class InMemory(Files):
 
     def __init__(self, files):
         self.__dict__.update(files.__dict__)
-        self._model = files.model()
+        self._models = files.models()
         self._states = list(files.frames()), list(files.surface_frames()), list(files.steps())
 
-    def model(self):
-        return self._model
+    def models(self):
+        return self._models
 
     def frames(self):
         return iter(self._states[0])

@@ -1,0 +1,1 @@
+"""Bodies as the auditor sees them: forces, energies and momenta of their states."""

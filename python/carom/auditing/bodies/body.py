@@ -1,0 +1,331 @@
+"""A body as the auditor sees it: forces, energies and momenta of its states."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+
+from carom.auditing.arrays import (
+    Array,
+    Indices,
+    Mask,
+    einsum,
+    inertia,
+)
+from carom.auditing.bodies.mass import AddedMass, Mass
+from carom.auditing.bodies.moving import MovingBody
+from carom.auditing.bodies.places import Attached, Place, place_on
+from carom.auditing.materials.composition import Composition
+from carom.auditing.materials.dilatation import MeanDilatation, Response
+from carom.auditing.mesh.cells import Cells, boundary
+from carom.auditing.mesh.drawn import drawn, nodes_of, unknown
+from carom.auditing.mesh.facets import Facets
+from carom.auditing.mesh.kinds import kind_of
+from carom.auditing.mesh.stiffness import reference_stiffness
+from carom.case.body import AnyBody, ReducedBody, RigidBody
+from carom.case.material import Material
+from carom.case.mesh import Rectangle
+from carom.case.point_mass import PointMass
+
+STEADYING = 0.1
+"""Resistance of a node without mass to a change of its motion, in terms of what holds it."""
+
+HEAVIEST = 0.25
+"""The same at most, as the inertia of this part of the mass that the node had."""
+
+ON_THE_AXIS = 1e-9
+"""Nodes whose radius is below this part of the size of a body of revolution are on its axis."""
+
+MUCH_SHORTER = 8.0
+"""From so many parts of a nominal step on the resistance grows with their square."""
+
+ITERATIONS = 500
+"""Most iterations for the velocities that impulses give; mass matrices need some dozens."""
+
+
+class AuditBody(MovingBody):
+    """One body of a case. All arrays are in its own numbering of nodes.
+
+    Parameters
+    ----------
+    entry
+        What the case says of it.
+    materials
+        The materials of the case.
+    vtk_type, nodes, points
+        Its cells and reference positions, see `Cells`.
+    first_node
+        Number of its first node in the model.
+    massless
+        Whether the nodes that may touch others have no mass.
+    masses
+        Masses at points of it.
+    """
+
+    def __init__(
+        self,
+        entry: AnyBody,
+        materials: Mapping[str, Material],
+        *,
+        vtk_type: int,
+        nodes: Indices,
+        points: Array,
+        first_node: int,
+        massless: bool,
+        masses: Sequence[PointMass] = (),
+    ) -> None:
+        self.name = entry.name
+        self._entry = entry
+        self.points = points
+        self.span = slice(first_node, first_node + len(points))
+        self.rigid = isinstance(entry, RigidBody)
+        """Whether its nodes move as one."""
+        self.modes = entry.modes if isinstance(entry, ReducedBody) else None
+        """Modes of a reduced body beside the shapes of its contact surface."""
+        self.drawn = drawn(entry, points.shape[1])
+        """Its mesh as the case draws it."""
+        self.law = Composition(entry, materials, points[nodes].mean(axis=1), self.drawn)
+        """Its materials, cell by cell."""
+        dilates = not isinstance(entry, RigidBody) and entry.formulation != "standard"
+        self.masters = _masters(entry, points)
+        """For every node the one that it moves with, itself as a rule, [node_count]."""
+        self.images: Indices = np.flatnonzero(self.masters != np.arange(len(points)))
+        """Nodes that move with another: of a body that repeats itself."""
+        self.revolution = entry.hypothesis == "axisymmetric"
+        """Whether it is one of revolution around x = 0."""
+        self.turns = self.law.objective and not self.images.size and not self.revolution
+        """Whether it can turn without storing energy."""
+        kind, self.dimension = kind_of(vtk_type), int(points.shape[1])
+        self.thickness = entry.thickness if self.dimension == 2 else 1.0
+        """Thickness [m]; 1 in space."""
+        self.cells = Cells(kind, nodes, points, self.thickness, revolution=self.revolution)
+        size = float(np.linalg.norm(np.ptp(points, axis=0)))
+        on_axis = points[:, 0] <= ON_THE_AXIS * size
+        self.on_axis: Indices = np.flatnonzero(on_axis & self.revolution)
+        """Nodes on the axis of a body of revolution, which stay there."""
+        self.response: Response = self.law
+        """What stresses its deformation has."""
+        if dilates:
+            self.response = MeanDilatation(self.law, self.cells.weights)
+        self.boundary: Indices = boundary(kind, nodes)
+        """All facets of its boundary, the sides where it repeats itself too."""
+        outer = self._outside()
+        self.outline: Indices = outer
+        """All facets of its boundary, whatever of it may touch others."""
+        sets = entry.contact_sets
+        self.facets = outer if sets is None else outer[self.named(outer, sets)]
+        self.surface: Indices = np.unique(self.facets)
+        self.sources = np.setdiff1d(self.surface, self.images)
+        """Nodes that may touch others; an image would do so twice."""
+        self.massless = self.surface if massless else np.zeros(0, dtype=np.int64)
+        self.mass = Mass(
+            self.cells,
+            points,
+            _density(entry, self.law, self.cells),
+            lumped=entry.mass == "lumped",
+            massless=self.massless,
+            facets=Facets(kind.facet, self.facets, self.thickness),
+            added=[one for given in masses for one in self._added(given)],
+        )
+        self.more = np.zeros((1, 1))
+        if isinstance(entry, RigidBody) and entry.inertia is not None:
+            self.more = _tensor(entry.inertia) - inertia(self.arms(0.0 * points), self.mass.times)
+        self._stiffen(dilates=dilates)
+
+    def _outside(self) -> Indices:
+        """Return the facets of the boundary that are outside."""
+        outer = self.boundary
+        if self.images.size:
+            outer = outer[~self.named(outer, ("left", "right"))]
+        return outer[~np.isin(outer, self.on_axis).all(axis=1)]
+
+    def _stiffen(self, *, dilates: bool) -> None:
+        """Find what resists where nothing has moved."""
+        lame, shear = self.law.first, self.law.second
+        self._stiffness = reference_stiffness(self.cells, lame, shear, dilates=dilates)
+        diagonal = einsum("caiai->ca", self._stiffness)
+        self.holding = self._gathered(diagonal)[self.massless] / self.dimension
+        """tr K_bb/D of each massless node in the reference configuration [N/m]."""
+        rows: Array = np.abs(self._stiffness).sum(axis=(3, 4)).max(axis=2)
+        self.row_stiffness = self._gathered(rows)
+        """Largest force [N] on each node where every coordinate moves by 1 m, [node_count]."""
+
+    def weigh_all_nodes(self) -> None:
+        """Treat nodes without mass as all others, as where nothing has inertia."""
+        self.massless, self.holding = self.massless[:0], self.holding[:0]
+
+    def faces(self, nodes: Indices) -> Facets:
+        """Return facets of its boundary by their nodes."""
+        return Facets(self.cells.kind.facet, nodes, self.thickness, self.revolution)
+
+    @property
+    def facet_areas(self) -> Array:
+        """Areas of the facets that may touch others [m²], shape [facet_count]."""
+        return self.faces(self.facets).areas(self.points)
+
+    def centre_of_force(self, point: tuple[float, ...] | None) -> Place:
+        """Return where a force on a rigid body acts: at a point as drawn, or the centre of mass."""
+        at = self.mass.mean(self.points) if point is None else np.array(point)
+        return place_on(self._entry, self.points, at)
+
+    def places(self, at: Attached) -> list[Place]:
+        """Return the places that something is attached to: of a set every node of it."""
+        if at.on is None:
+            return [place_on(self._entry, self.points, np.array(at.point))]
+        nodes = nodes_of(self.drawn, at.on, self.points, self.boundary, self.cells.nodes)
+        return [Place(np.array([node]), np.ones(1), self.points[node]) for node in nodes]
+
+    def named(self, facets: Indices, names: Iterable[str]) -> Mask:
+        """Return which facets of a boundary are of one of these sets."""
+        chosen = np.zeros(len(facets), dtype=bool)
+        for name in names:
+            if name == "all":
+                return np.ones(len(facets), dtype=bool)
+            own = self.drawn.facets(name, self.points, facets)
+            if own is None:
+                raise unknown(name)
+            chosen |= own
+        return chosen
+
+    def _added(self, given: PointMass) -> list[AddedMass]:
+        places = self.places(given)
+        share = given.mass / len(places)
+        return [AddedMass(share, place.nodes, place.shares) for place in places]
+
+    def accelerated(self, impulse: Array, held: Mask) -> Array:
+        """Return M⁻¹ p of impulses on nodes [N s] as velocities [m/s], by conjugate gradients.
+
+        Images move as their masters do, and nodes without mass and what is held not at all.
+        """
+        moves = np.zeros(held.shape, dtype=bool)
+        moves[self.masters] = True
+        moves[self.massless] = False
+        moves &= ~held
+        scale = np.where(moves, np.abs(self.folded(self.mass.nodal))[:, None], 1.0)
+        rest = self.folded(impulse) * moves
+        velocity, ready = np.zeros_like(rest), rest / scale
+        along, power = ready, float((rest * ready).sum())
+        least = np.finfo(np.float64).eps ** 2 * power
+        for _ in range(ITERATIONS):
+            if power <= least:
+                break
+            resisted = self.folded(self.mass.times(along[self.masters])) * moves
+            step = power / float((along * resisted).sum())
+            velocity, rest = velocity + step * along, rest - step * resisted
+            ready = rest / scale
+            before, power = power, float((rest * ready).sum())
+            along = ready + power / before * along
+        return velocity[self.masters]
+
+    def folded(self, values: Array) -> Array:
+        """Return numbers or vectors of nodes with those of images moved to their masters."""
+        folded = np.zeros_like(values)
+        np.add.at(folded, self.masters, values)
+        return folded
+
+    def strain_energy(self, u: Array) -> float:
+        """Return ∫ψ dV [J]."""
+        if self.modes is not None:
+            local = self._axes(u).own[self.cells.nodes]
+            return 0.5 * float(einsum("cai,caibk,cbk->", local, self._stiffness, local))
+        density = self.response.energy(self.cells.deformation_gradient(u))
+        return float((self.cells.weights * density).sum())
+
+    def plastic_work(self, u: Array) -> float:
+        """Return the plastic work of a step to u [J]."""
+        if not self.law.flows:
+            return 0.0
+        density = self.response.plastic_work(self.cells.deformation_gradient(u))
+        return float((self.cells.weights * density).sum())
+
+    def plastic_strain(self, u: Array) -> Array:
+        """Return the equivalent plastic strain of cells after a step to u, shape [cell_count]."""
+        if not self.law.flows:
+            return np.zeros(len(self.cells.nodes))
+        strain = self.response.plastic_strain(self.cells.deformation_gradient(u))
+        return self.cells.mean(strain)
+
+    def advance(self, u: Array) -> None:
+        """Remember what a step to u leaves of what flows."""
+        if self.law.flows:
+            self.response.advance(self.cells.deformation_gradient(u))
+
+    def viscous_force(self, u0: Array, u1: Array, dt: float) -> Array:
+        """Return the force with which viscosity resists a step from u₀ to u₁ [N]."""
+        if not self.law.viscous:
+            return np.zeros_like(u0)
+        f0, f1 = (self.cells.deformation_gradient(u) for u in (u0, u1))
+        return self.cells.divergence(self.law.viscous_stress(f0, f1, dt))
+
+    def internal_force(self, u: Array) -> Array:
+        """Return ∂E/∂u [N], shape [node_count, D]."""
+        return self.cells.divergence(self.response.stress(self.cells.deformation_gradient(u)))
+
+    def conserving_force(self, u0: Array, u1: Array) -> Array:
+        """Return the force [N] whose work from u₀ to u₁ is the change of the strain energy."""
+        f0, f1 = (self.cells.deformation_gradient(u) for u in (u0, u1))
+        return self.cells.divergence(self.response.discrete_stress(f0, f1))
+
+    def difference_force(self, u0: Array, u1: Array) -> Array:
+        """Return the force [N] of the difference of the stresses at u₁ and u₀."""
+        f0, f1 = (self.cells.deformation_gradient(u) for u in (u0, u1))
+        return self.cells.divergence(self.response.stress_difference(f0, f1))
+
+    def damping_force(self, u: Array, v: Array) -> Array:
+        """Return C v [N] with C = α M + β R K₀ Rᵀ and R the mean rotation at u."""
+        force = self.law.mass_damping * self.mass.times(v)
+        share = self.law.stiffness_damping
+        if share.any():
+            rotation = self.rotation(u)
+            local = einsum("caibk,cbk->cai", self._stiffness, (v @ rotation)[self.cells.nodes])
+            force += self.cells.assembled(share[:, None, None] * local) @ rotation.T
+        return force
+
+    def cell_states(self, u: Array) -> tuple[Array, Array]:
+        """Return mean Cauchy stress xx yy zz xy yz xz [Pa] and energy density [J/m³] of cells."""
+        f = self.cells.deformation_gradient(u if self.modes is None else self._axes(u).own)
+        stress = self.cells.mean(self.response.cauchy_stress(f))
+        if self.modes is not None:
+            rotation = np.eye(3)
+            rotation[: self.dimension, : self.dimension] = self._axes(u).rotation
+            stress = rotation @ stress @ rotation.T
+        components = stress[:, [0, 1, 2, 0, 1, 0], [0, 1, 2, 1, 2, 2]]
+        return components, self.cells.mean(self.response.energy(f))
+
+    def _gathered(self, local: Array) -> Array:
+        """Sum numbers of the nodes of cells, shape [cell_count, a], over the cells."""
+        sums = np.bincount(self.cells.nodes.ravel(), local.ravel(), len(self.points))
+        return sums.astype(np.float64)
+
+
+def _tensor(given: float | tuple[float, ...] | tuple[tuple[float, ...], ...]) -> Array:
+    """Return an inertia as a matrix, shape [1, 1] or [3, 3]; three numbers are its principal."""
+    table = np.asarray(given, dtype=np.float64)
+    if table.ndim == 1:
+        return np.diag(table)
+    return table.reshape(1, 1) if table.ndim == 0 else table
+
+
+def _density(entry: AnyBody, law: Composition, cells: Cells) -> Array:
+    """Return the density of each cell [kg/m³]; the mass of a rigid body may be given."""
+    if not isinstance(entry, RigidBody):
+        return law.density
+    if entry.density is not None:
+        return np.full(len(cells.nodes), entry.density)
+    assert entry.mass is not None
+    return np.full(len(cells.nodes), entry.mass / float(cells.shared_volumes.sum()))
+
+
+def _masters(entry: AnyBody, points: Array) -> Indices:
+    """Return the node that each moves with: on the right side of what repeats itself another."""
+    masters = np.arange(len(points))
+    if not isinstance(entry.mesh, Rectangle) or not entry.mesh.periodic:
+        return masters
+    low, width = entry.mesh.corner[0], entry.mesh.size[0]
+    left, right = (
+        np.flatnonzero(np.abs(points[:, 0] - x) <= 1e-9 * width) for x in (low, low + width)
+    )
+    for node in right:
+        masters[node] = left[np.abs(points[left, 1] - points[node, 1]).argmin()]
+    return masters

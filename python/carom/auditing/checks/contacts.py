@@ -1,0 +1,132 @@
+"""Checks of the contacts of a stored step: their places, and Signorini's and Coulomb's laws."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from carom.auditing.arrays import Array, einsum, sizes
+from carom.auditing.bodies.body import AuditBody
+from carom.auditing.model import AuditModel
+from carom.auditing.report import Findings
+from carom.auditing.steps.contacts import Contacts, all_forces
+from carom.auditing.steps.ruled import Ruled
+from carom.auditing.steps.scales import ROUND_OFF, SAFETY, Scales
+from carom.auditing.steps.sliding import Coefficients, Sliding
+from carom.auditing.steps.step import Step
+
+
+class ContactChecks:
+    """Checks of contacts, step after step.
+
+    Parameters
+    ----------
+    model, scales
+        The model and its magnitudes.
+    findings
+        Where what is found goes.
+    """
+
+    def __init__(self, model: AuditModel, scales: Scales, findings: Findings) -> None:
+        self._model, self._scales, self._findings = model, scales, findings
+        self._check = findings.check
+        self.sliding = Sliding(model, scales)
+        self._facet = min(_shortest(body) for body in model.bodies)
+
+    def step(self, step: Step, where: str) -> tuple[float, float]:
+        """Check a step; return its bi-potential gap, and how far that may be off [J]."""
+        ruled = Ruled.of(step)
+        friction = self.sliding.coefficients(step, ruled)
+        if self._model.rubs_by_law and not self.sliding.known:
+            self._findings.leave(
+                "what friction laws remember: how far contacts had slid before a stored step",
+                store="output.fields_every = the time step",
+            )
+        touching = step.touching
+        self._places(touching.all, step.end, step, where)
+        self._cone(touching.all, step, touching.whole_force, friction.whole + friction.doubt, where)
+        if self._model.condition in ("gap", "massless") and not step.starts_elsewhere:
+            # Of the other conditions the contacts before are where no stored state is.
+            first = touching.first
+            self._places(first, step.start, step, where)
+            force = (first.normal_force, sizes(first.friction_force))
+            self._cone(first, step, force, first.most_friction, where)
+        return self._laws(step, ruled, friction, where)
+
+    def turn(self, step: Step) -> float:
+        """Return how far normals may be off: places over the length of a facet."""
+        return SAFETY * self._scales.geometry(step) / self._facet + ROUND_OFF
+
+    def _places(self, found: Contacts, state: Mapping[str, Any], step: Step, where: str) -> None:
+        self._check("pairs", [float(side is None) for side in found.side], 0.0, where)
+        self._check("contact gaps", found.gap_error, self._scales.geometry(step), where)
+        turn = self.turn(step)
+        self._check("contact normals", found.normal_error, turn, where)
+        parts = [step.touching.pressed, *step.touching.impulses] if state is step.end else [found]
+        error = state["contact_force"] - all_forces(parts, len(self._model.points))
+        if self._model.mixed and state is not step.end:
+            # Where nodes have mass the state has reactions of other pairs too.
+            for body in self._model.bodies:
+                error[body.span] *= len(body.massless) > 0
+        total = float(np.abs(found.reaction).sum())
+        off = total * turn + self._scales.least_reaction(step.dt)
+        self._check("nodal reactions", error, off, where)
+
+    def _cone(
+        self,
+        found: Contacts,
+        step: Step,
+        force: tuple[Array, Array],
+        friction: Array,
+        where: str,
+    ) -> None:
+        """Check that normal and tangential forces are in the cones of these coefficients."""
+        total = float(np.abs(found.reaction).sum())
+        size = np.linalg.norm(found.reaction, axis=1)
+        off = size * self.turn(step) + self._scales.reaction(step, total)
+        off += self._scales.least_reaction(step.dt)
+        normal, across = force
+        self._check("Signorini: compression", np.maximum(-normal, 0.0), off, where)
+        bounded = np.isfinite(friction)
+        excess = across - np.where(bounded, friction, 0.0) * normal
+        excess = np.where(bounded, np.maximum(excess, 0.0), 0.0)
+        self._check("Coulomb: cone", excess, off * (1 + np.where(bounded, friction, 0.0)), where)
+
+    def _laws(
+        self, step: Step, ruled: Ruled, friction: Coefficients, where: str
+    ) -> tuple[float, float]:
+        found = step.touching.pressed
+        signorini = ruled.normal * found.normal_force
+        off = np.linalg.norm(found.reaction, axis=1) * self._scales.geometry(step)
+        self._check("Signorini: complementarity", signorini, off, where)
+        # Where a reaction is small, the solver's tolerance of it counts for more.
+        slip = sizes(found.relative(step.d, found.shift)[1])
+        off += slip * self._scales.reaction(step, float(np.abs(found.reaction).sum()))
+        work = einsum("ki,ki->k", found.friction_force, ruled.across)
+        across = sizes(ruled.across)
+        coulomb = friction.least * found.normal_force * across + work
+        # Where μ is only bounded, friction takes no less than the least of it, and the cone says
+        # that it takes no more.
+        coulomb = np.where(friction.fixed, coulomb, np.maximum(coulomb, 0.0))
+        doubt = friction.doubt * np.maximum(found.normal_force, 0.0) * across
+        self._check("Coulomb: slip", coulomb, off * (1 + friction.least) + doubt, where)
+        by_law = ~friction.fixed
+        if by_law.any():
+            force = (found.normal_force, sizes(found.friction_force))
+            most = np.where(by_law, friction.most + friction.doubt, np.inf)
+            self._cone(found, step, force, most, where)
+        total = float(np.abs(signorini).sum() + np.abs(coulomb).sum())
+        self._findings.report("largest bi-potential gap of a step", total, "J")
+        return total, float(doubt.sum())
+
+
+def _shortest(body: AuditBody) -> float:
+    """Return the shortest distance between nodes of a facet that may touch [m]."""
+    if not len(body.facets):
+        return np.inf
+    nodes = body.points[body.facets]
+    count = nodes.shape[1]
+    pairs = [(a, b) for a in range(count) for b in range(a)]
+    return float(min(np.linalg.norm(nodes[:, a] - nodes[:, b], axis=1).min() for a, b in pairs))

@@ -1,0 +1,1 @@
+"""What may touch, and by which laws: pairs, obstacles, friction."""

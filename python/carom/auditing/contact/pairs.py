@@ -1,0 +1,158 @@
+"""Pairs of the case as the auditor sees them: whose nodes are checked, and by which laws."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from carom.auditing.bodies.body import AuditBody
+from carom.auditing.contact.friction import Law
+from carom.case.contact import Contact, Pair
+from carom.case.scenario import Scenario
+
+ALIKE = 1e-6
+"""Facets and masses apart by no more than this part are alike."""
+
+
+@dataclass(frozen=True)
+class Side:
+    """Nodes of a body against a body, or against an obstacle.
+
+    Parameters
+    ----------
+    source
+        Index of the body whose nodes are checked.
+    target
+        Index of a body, or −1 − that of an obstacle.
+    law
+        Friction.
+    two_sided
+        Whether the pair is checked from the other side too.
+    restitution
+        Coefficient of restitution of what is rigid where velocities are ruled; None elsewhere.
+    massless
+        Whether nodes of either body are without mass.
+    """
+
+    source: int
+    target: int
+    law: Law
+    two_sided: bool
+    restitution: float | None = None
+    massless: bool = False
+
+
+class Pairs:
+    """What the case says of pairs.
+
+    Parameters
+    ----------
+    scenario
+        The case.
+    contact
+        The law of contact that holds.
+    """
+
+    def __init__(self, scenario: Scenario, contact: Contact) -> None:
+        self._scenario = scenario
+        self._contact = contact
+        names = [body.name for body in scenario.bodies]
+        planes = [obstacle.name for obstacle in scenario.obstacles]
+        self.names = [
+            (first, second)
+            for a, first in enumerate(names)
+            for second in (*names[a + 1 :], *planes)
+            if self.enabled(first, second)
+        ]
+        """The names of all that may touch, two and two, in the order of the case."""
+
+    def of(self, a: str, b: str) -> Pair | None:
+        """Return what the case says of a pair by name."""
+        return next((entry for entry in self._contact.pairs if {a, b} == set(entry.between)), None)
+
+    def enabled(self, a: str, b: str) -> bool:
+        """Return whether two may touch."""
+        entry = self.of(a, b)
+        return entry is None or entry.enabled
+
+    def may_touch(self, name: str) -> bool:
+        """Return whether there is anything that a body may touch."""
+        return any(name in pair for pair in self.names)
+
+    def obstacle(self, name: str) -> int:
+        """Return the number of an obstacle."""
+        return [obstacle.name for obstacle in self._scenario.obstacles].index(name)
+
+    def law(self, a: str, b: str) -> Law:
+        """Return the friction of two by name."""
+        entry = self.of(a, b)
+        own = None if entry is None else entry.friction
+        return Law(self._contact.friction if own is None else own)
+
+    def rubs_by_law(self, name: str) -> bool:
+        """Return whether friction of a body is no coefficient, or not everywhere."""
+        given = [self._contact.friction]
+        own = (entry for entry in self._contact.pairs if name in entry.between)
+        given += [entry.friction for entry in own if entry.friction is not None]
+        return not all(Law(friction).constant for friction in given)
+
+    def restitution(self, a: str, b: str) -> float:
+        """Return that of two rigid solids by name."""
+        entry = self.of(a, b)
+        own = None if entry is None else entry.restitution
+        return self._contact.restitution or 0.0 if own is None else own
+
+    def sources(self, a: str, b: str) -> tuple[str, bool]:
+        """Return whose nodes are checked, and whether that is seen from the second."""
+        entry = self.of(a, b)
+        if entry is None or entry.sources is None:
+            # The auditor has no mortar rows, of which one side has the multipliers.
+            return self._contact.sources or "both", False
+        return entry.sources, entry.between[0] == b
+
+
+def build_sides(pairs: Pairs, bodies: Sequence[AuditBody], *, impacts: bool) -> Iterator[Side]:
+    """Yield the sides of all pairs; `impacts` says whether velocities are ruled."""
+    number = {body.name: index for index, body in enumerate(bodies)}
+    obstacles = [second for pair in pairs.names for second in pair if second not in number]
+    number |= {name: -1 - pairs.obstacle(name) for name in obstacles}
+    for first, second in pairs.names:
+        a, b = number[first], number[second]
+        met = [bodies[index] for index in (a, b) if index >= 0]
+        ruled = impacts and all(body.rigid for body in met)
+        make = partial(
+            Side,
+            law=pairs.law(first, second),
+            restitution=pairs.restitution(first, second) if ruled else None,
+            massless=any(len(body.massless) > 0 for body in met),
+        )
+        if b < 0:
+            yield make(a, b, two_sided=False)
+            continue
+        sources, swapped = pairs.sources(first, second)
+        if sources == "finer":
+            sources = "second" if _is_finer(bodies[b], bodies[a]) else "first"
+            swapped = False
+        forward, backward = sources in ("first", "both"), sources in ("second", "both")
+        if swapped:
+            forward, backward = backward, forward
+        both = forward and backward
+        if forward:
+            yield make(a, b, two_sided=both)
+        if backward:
+            yield make(b, a, two_sided=both)
+
+
+def _is_finer(body: AuditBody, other: AuditBody) -> bool:
+    wide, wide_other = _mean_facet(body), _mean_facet(other)
+    if abs(wide - wide_other) > ALIKE * max(wide, wide_other):
+        return wide < wide_other
+    return body.mass.total < (1 - ALIKE) * other.mass.total
+
+
+def _mean_facet(body: AuditBody) -> float:
+    sizes = np.linalg.norm(body.faces(body.facets).vectors(body.points), axis=1) / body.thickness
+    return float((sizes ** (1 / (body.dimension - 1))).mean())

@@ -1,0 +1,1 @@
+"""What drives bodies: loads, supports and springs."""

@@ -1,0 +1,1 @@
+"""Laws of materials as the auditor writes them."""

@@ -1,0 +1,234 @@
+"""The contacts of a state, and how far nodes are from what they may touch."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from carom.auditing.arrays import Array, Indices, einsum
+from carom.auditing.contact.pairs import Side
+from carom.auditing.model import AuditModel
+
+BEARS = 0.5
+"""Facets bear a contact at their node that face it at least this well, relative to the best."""
+
+AT_NODE, AT_EDGES, BEFORE_ROUND, AT_CORNER = range(4)
+"""Where contacts are: at a node, where edges cross, on a facet or edge before what is round, or on
+a facet at a corner of an obstacle."""
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """Contacts with a reaction, in the model's numbering of nodes.
+
+    Parameters
+    ----------
+    node
+        Source nodes, of edges and facets the one that takes most, shape [count].
+    site
+        Where they are, shape [count].
+    source, target
+        Body of the node; index of a body, or −1 − that of an obstacle; shape [count].
+    reaction
+        Force on the source [N], shape [count, D].
+    gap, normal
+        By the auditor's closest point [m], shape [count] and [count, D].
+    sources, shares
+        Nodes of the source, and how much of it each is, shape [count, m].
+    followed, weights
+        Nodes that the foot follows, and how much, shape [count, n]; none for obstacles.
+    facet
+        Facet of the foot, shape [count]; −1 for obstacles.
+    shift, velocity
+        How far the obstacle moves in the step [m], and its velocity at the end [m/s], shape
+        [count, D]; zero for bodies.
+    gap_error, normal_error
+        What was stored less that, shape [count].
+    side
+        The pairs they belong to; None where the case has no such pair.
+    """
+
+    node: Indices
+    site: Indices
+    source: Indices
+    target: Indices
+    reaction: Array
+    gap: Array
+    normal: Array
+    sources: Indices
+    shares: Array
+    followed: Indices
+    weights: Array
+    facet: Indices
+    shift: Array
+    velocity: Array
+    gap_error: Array
+    normal_error: Array
+    side: tuple[Side | None, ...]
+
+    def less(self, others: list[Contacts]) -> Contacts:
+        """Return the same contacts without the reactions of others."""
+        reaction = self.reaction.copy()
+        for other in others:
+            reaction -= other.reaction
+        return replace(self, reaction=reaction)
+
+    def __len__(self) -> int:
+        return len(self.node)
+
+    @property
+    def massless(self) -> NDArray[np.bool_]:
+        """Which of them have a side without mass, shape [count]."""
+        return np.array([side is not None and side.massless for side in self.side], dtype=bool)
+
+    def only(self, chosen: NDArray[np.bool_]) -> Contacts:
+        """Return those that are chosen."""
+        side = tuple(side for side, keep in zip(self.side, chosen, strict=True) if keep)
+        arrays = (one for one in fields(self) if one.name != "side")
+        return Contacts(**{one.name: getattr(self, one.name)[chosen] for one in arrays}, side=side)
+
+    def placed(self, chosen: NDArray[np.bool_], others: Contacts) -> Contacts:
+        """Return the same contacts where they are if chosen, and else where `others` are."""
+        geometry = (
+            *("site", "gap", "normal", "sources", "shares", "followed", "weights", "facet"),
+            *("gap_error", "normal_error"),
+        )
+        found: dict[str, Any] = {}
+        for name in geometry:
+            mine, theirs = _alike(getattr(self, name), getattr(others, name))
+            found[name] = np.where(chosen[:, None] if mine.ndim > 1 else chosen, mine, theirs)
+        return replace(self, **found)
+
+    @property
+    def friction(self) -> Array:
+        """Coulomb's coefficients, shape [count]; NaN where friction is a law."""
+        return np.array([0.0 if side is None else side.law.fixed for side in self.side])
+
+    @property
+    def most_friction(self) -> Array:
+        """The largest that μ can be, shape [count]."""
+        return np.array([0.0 if side is None else side.law.most for side in self.side])
+
+    @property
+    def normal_force(self) -> Array:
+        """r_n [N], shape [count]."""
+        return einsum("ki,ki->k", self.reaction, self.normal)
+
+    @property
+    def friction_force(self) -> Array:
+        """r_t [N], shape [count, D]."""
+        force: Array = self.reaction - self.normal_force[:, None] * self.normal
+        return force
+
+    def weighted(self, normal: float, across: float) -> Contacts:
+        """Return the same contacts with these parts of their normal and tangential reactions."""
+        along = self.normal_force[:, None] * self.normal
+        return replace(self, reaction=normal * along + across * (self.reaction - along))
+
+    def relative(self, motion: Array, of_obstacles: Array) -> tuple[Array, Array]:
+        """Return normal and tangential parts of the motion of nodes relative to their feet.
+
+        They are of the shapes [count] and [count, D].
+
+        Parameters
+        ----------
+        motion
+            Of all nodes of the model, shape [node_count, D].
+        of_obstacles
+            That of the obstacles: their shift, or their velocity where `motion` is one.
+        """
+        feet = einsum("kj,kji->ki", self.weights, motion[self.followed]) + of_obstacles
+        relative = einsum("kj,kji->ki", self.shares, motion[self.sources]) - feet
+        along = einsum("ki,ki->k", relative, self.normal)
+        return along, relative - along[:, None] * self.normal
+
+    def driven(self, held: Array, of_obstacles: Array) -> Array:
+        """Return what prescribed motion does against the reactions [J] or [W], shape [count].
+
+        Parameters
+        ----------
+        held
+            The motion of what supports hold, zero elsewhere, shape [node_count, D].
+        of_obstacles
+            That of the obstacles.
+        """
+        along, across = self.relative(held, of_obstacles)
+        relative = along[:, None] * self.normal + across
+        return -einsum("ki,ki->k", self.reaction, relative)
+
+    @property
+    def keys(self) -> list[tuple[int, ...]]:
+        """What tells each contact from the others: its nodes, and what they are against."""
+        keys: list[tuple[int, ...]] = []
+        for k, site in enumerate(self.site):
+            nodes = (
+                [int(self.node[k])] if site == AT_NODE else sorted(set(self.sources[k].tolist()))
+            )
+            others = sorted(set(self.followed[k, :2].tolist())) if site == AT_EDGES else []
+            keys.append((int(self.target[k]), int(site), *nodes, *others))
+        return keys
+
+    def borne(self, k: int) -> list[tuple[int, float]]:
+        """Return the nodes of the source of a contact, with what each has of what presses on it."""
+        return _shared(self.sources[k], self.shares[k])
+
+    def passed_on(self, k: int) -> list[tuple[int, float]]:
+        """Return the same of its foot; none of obstacles."""
+        return _shared(self.followed[k], self.weights[k]) if self.target[k] >= 0 else []
+
+    def nodal_forces(self, node_count: int) -> Array:
+        """Return the reactions spread over nodes and feet [N], shape [node_count, D]."""
+        force = np.zeros((node_count, self.normal.shape[1]))
+        np.add.at(force, self.sources, self.shares[:, :, None] * self.reaction[:, None])
+        np.add.at(force, self.followed, -self.weights[:, :, None] * self.reaction[:, None])
+        return force
+
+
+def _alike(a: Array, b: Array) -> tuple[Array, Array]:
+    """Return arrays whose rows are as long as those of the other: nodes without a weight follow."""
+    if a.ndim == 1:
+        return a, b
+    width = max(a.shape[1], b.shape[1])
+    longer = [np.pad(rows, ((0, 0), (0, width - rows.shape[1]))) for rows in (a, b)]
+    return longer[0], longer[1]
+
+
+def _shared(nodes: Indices, weights: Array) -> list[tuple[int, float]]:
+    sizes = np.abs(weights)
+    pairs = zip(nodes.tolist(), (sizes / sizes.sum()).tolist(), strict=True)
+    return [(node, share) for node, share in pairs if share > 0.0]
+
+
+def all_forces(parts: Sequence[Contacts], node_count: int) -> Array:
+    """Return the reactions of several on the nodes [N], shape [node_count, D]."""
+    force: Array = np.sum([part.nodal_forces(node_count) for part in parts], axis=0)
+    return force
+
+
+def smallest_gaps(model: AuditModel, position: Array, time: float) -> list[float]:
+    """Return for every side the smallest signed distance of its nodes from its target [m]."""
+    return [_smallest_gap(model, side, position, time) for side in model.sides]
+
+
+def _smallest_gap(model: AuditModel, side: Side, position: Array, time: float) -> float:
+    body = model.bodies[side.source]
+    x = position[body.span][body.sources]
+    if side.target < 0:
+        return float(model.obstacles[-1 - side.target].distance(x, time).min())
+    target = model.bodies[side.target]
+    nodes = position[target.span]
+    # Only nodes that may be the closest are looked at closely: a facet is no farther than its
+    # nodes, and no closer than these by more than its own length or so.
+    near = np.linalg.norm(x[:, None] - nodes[target.surface][None], axis=2).min(axis=1)
+    across = nodes[target.facets] - nodes[target.facets[:, :1]]
+    longest = np.linalg.norm(across, axis=2).max()
+    close = x[near <= near.min() + 2 * longest]
+    smallest = float(model.targets[side.target].signed_distance(close, nodes).min())
+    if np.isfinite(smallest):
+        return smallest
+    # All of these are beyond the rim of an open surface.
+    return float(model.targets[side.target].signed_distance(x, nodes).min())

@@ -1,0 +1,385 @@
+"""The stored contacts of a state, found again by the auditor's own closest points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from carom.auditing.arrays import Array, Indices
+from carom.auditing.contact.crossings import crossings, edges
+from carom.auditing.contact.obstacles import Cornered
+from carom.auditing.contact.rounding import nearest_places
+from carom.auditing.model import AuditModel
+from carom.auditing.steps.contacts import AT_EDGES, BEFORE_ROUND, Contacts
+from carom.auditing.steps.cornered import at_corners, at_edges, on_obstacle
+from carom.auditing.steps.place import Place, weighted
+from carom.auditing.targets.feet import CORNER, Feet, Target
+
+SAME = 1e-7
+"""Feet whose gap [model size] and normal differ by no more are equally good: at edges of facets."""
+
+BALANCED = 1e-9
+"""What is left of forces on nodes below this part of all reactions needs no other feet."""
+
+NOT_AT_NODE = 1e-5
+"""Contacts whose node has no foot as near to what is stored as this are not at a node."""
+
+
+def find(
+    model: AuditModel,
+    state: Mapping[str, Any],
+    position: Array,
+    time: float,
+    *,
+    step: tuple[float, float],
+    like: Contacts | None = None,
+) -> Contacts:
+    """Find the contacts of a state with nodes at `position` [m] and obstacles as at `time` [s].
+
+    The `step` has start and end [s].
+
+    Feet are those that come closest to the stored gaps and normals. What is stored is not of all
+    times of a step: feet at others are near those of the contacts `like` them.
+    """
+    return _Finder(model, state, position, time, like).found(step)
+
+
+class _Finder:
+    def __init__(
+        self,
+        model: AuditModel,
+        state: Mapping[str, Any],
+        position: Array,
+        time: float,
+        like: Contacts | None,
+    ) -> None:
+        self._model, self._position, self._time, self._like = model, position, time, like
+        self._state = state
+        stored = state["contact_node"]
+        self._node = np.clip(stored, 0, len(model.points) - 1)
+        self._source = np.array([model.body_of(int(n)) for n in stored], dtype=np.int64)
+        self._target: Indices = state["contact_target"]
+        self._gap: Array = state["contact_gap"]
+        self._normal: Array = state["contact_normal"]
+        self._places = [
+            Place(np.nan, np.full(model.dimension, np.nan), sources=[(int(node), 1.0)])
+            for node in self._node
+        ]
+
+        self._alike: dict[int, list[Place]] = {}
+        """Feet of a contact that are as good as one another."""
+
+    def found(self, step: tuple[float, float]) -> Contacts:
+        """Return the contacts, of which a step has start and end [s]."""
+        for t in np.unique(self._target):
+            at = np.flatnonzero(self._target == t)
+            if t >= 0 and t < len(self._model.bodies):
+                self._before_body(int(t), at)
+            elif t < 0 and -1 - t < len(self._model.obstacles):
+                self._before_obstacle(int(-1 - t), at)
+        if self._like is None:
+            self._settle()
+        return self._gathered(step)
+
+    def _misfit(self, contact: int, gap: Array, normal: Array) -> Array:
+        """Return how far gaps and normals, shapes [count] and [count, D], are from a stored one."""
+        apart = np.linalg.norm(self._normal[contact] - normal, axis=-1)
+        misfit: Array = np.abs(gap - self._gap[contact]) / self._model.size + apart
+        return misfit
+
+    def _before_obstacle(self, number: int, at: Indices) -> None:
+        obstacle = self._model.obstacles[number]
+        if isinstance(obstacle.shape, Cornered):
+            self._before_cornered(number, obstacle.shape, at)
+            return
+        gaps, normals = obstacle.nearest(self._position[self._node[at]], self._time)
+        for k, contact in enumerate(at):
+            misfit = float(self._misfit(contact, gaps[k], normals[k]))
+            own = self._places[contact].sources
+            self._places[contact] = Place(float(gaps[k]), normals[k], misfit, sources=own)
+            if self._may_be(BEFORE_ROUND, contact):
+                self._before_round(number, int(contact))
+
+    def _before_cornered(self, number: int, shape: Cornered, at: Indices) -> None:
+        """Look for feet of nodes on an obstacle with corners, of its corners on bodies, and edges.
+
+        Facets of the obstacle are to a body what those of another are.
+        """
+        shift = self._model.obstacles[number].travel.displacement(self._time)
+        for contact in map(int, at):
+            node = int(self._node[contact])
+            places = self._fitted(contact, on_obstacle(shape, shift, node, self._position))
+            fits = min((place.misfit for place in places), default=np.inf) <= NOT_AT_NODE
+            if self._like is not None or not fits:
+                places += self._at_its_corners(number, contact)
+            if self._like is not None and places:
+                places = [self._nearest_to_known(places, contact)]
+            if not places:
+                continue
+            least = min(place.misfit for place in places)
+            alike = [place for place in places if place.misfit <= least + SAME]
+            self._places[contact] = alike[0]
+            if len(alike) > 1:
+                self._alike[contact] = alike
+
+    def _at_its_corners(self, number: int, contact: int) -> list[Place]:
+        """Return where corners and edges of an obstacle are on facets and edges of the source."""
+        obstacle, source = self._model.obstacles[number], int(self._source[contact])
+        if source >= len(self._model.bodies) or not isinstance(obstacle.shape, Cornered):
+            return []
+        shape, shift = obstacle.shape, obstacle.travel.displacement(self._time)
+        body, target = self._model.bodies[source], self._model.targets[source]
+        places = at_corners(shape, shift, body, target, self._position)
+        if self._model.dimension == 3:
+            node, towards = int(self._node[contact]), self._normal[contact]
+            places += at_edges(shape, shift, (body, node), self._position, towards)
+        return self._fitted(contact, places)
+
+    def _fitted(self, contact: int, places: list[Place]) -> list[Place]:
+        """Return places with how far they are from what is stored of a contact."""
+        return [
+            replace(place, misfit=float(self._misfit(contact, np.array(place.gap), place.normal)))
+            for place in places
+        ]
+
+    def _nearest_to_known(self, places: list[Place], contact: int) -> Place:
+        """Return which of the places goes on from the contact that it is like."""
+        assert self._like is not None, "something is known"
+        site, facet = int(self._like.site[contact]), int(self._like.facet[contact])
+        own = [p for p in places if p.site == site and p.facet == facet] or places
+        known = (self._like.sources[contact], self._like.shares[contact])
+        # Of edges and corners on the same facet the one whose nodes are most alike.
+        apart = [(round(place.apart(*known), 6), place.misfit) for place in own]
+        return own[apart.index(min(apart))]
+
+    def _may_be(self, site: int, contact: int) -> bool:
+        """Return whether a contact may be something else than at its node."""
+        if self._like is not None:
+            return int(self._like.site[contact]) == site
+        return not self._places[contact].misfit <= NOT_AT_NODE
+
+    def _before_round(self, number: int, contact: int) -> None:
+        """Look for the facet or edge around the node that is before something round."""
+        source = self._source[contact]
+        if source >= len(self._model.bodies) or self._model.dimension == 2:
+            return
+        body = self._model.bodies[source]
+        own = int(self._node[contact]) - body.span.start
+        shift = self._model.obstacles[number].travel.displacement(self._time)
+        known = None if self._like is None else self._like.sources[contact] - body.span.start
+        shape = self._model.obstacles[number].shape
+        for place in nearest_places(shape, body, own, self._position[body.span] - shift, known):
+            misfit = float(self._misfit(contact, np.array(place.gap), place.normal))
+            if misfit < self._places[contact].misfit or known is not None:
+                nodes = [(int(n) + body.span.start, w) for n, w in place.stencil]
+                self._places[contact] = Place(
+                    place.gap, place.normal, misfit, BEFORE_ROUND, sources=nodes
+                )
+
+    def _before_body(self, number: int, at: Indices) -> None:
+        model, target = self._model, self._model.targets[number]
+        span = model.bodies[number].span
+        feet = target.feet(self._position[self._node[at]], self._position[span])
+        for k, contact in enumerate(at):
+            mine = np.flatnonzero(feet.point == k)
+            if len(mine):
+                self._at_node(feet, mine, int(contact), number)
+            if model.dimension == 3 and self._may_be(AT_EDGES, contact):
+                crossed = self._at_edges(number, int(contact))
+                if crossed:
+                    self._places[contact], self._alike[int(contact)] = crossed[0], crossed
+
+    def _at_node(self, feet: Feet, mine: Indices, contact: int, number: int) -> None:
+        misfit = self._misfit(contact, feet.gap[mine], feet.normal[mine])
+        good = mine[misfit <= misfit.min() + SAME]
+        good = good[np.argsort(feet.beyond[good], kind="stable")]
+        if self._like is not None:
+            near = (int(self._like.facet[contact]), self._like.normal[contact])
+            target = self._model.targets[number]
+            good = np.array([_next(feet, mine, near, target, otherwise=int(good[0]))])
+        first = self._model.bodies[number].span.start
+        alike = [
+            Place(
+                gap=float(feet.gap[foot]),
+                normal=feet.normal[foot],
+                misfit=float(misfit.min()),
+                facet=int(feet.facet[foot]),
+                sources=self._places[contact].sources,
+                followed=[
+                    (int(node) + first, float(weight))
+                    for node, weight in zip(feet.nodes[foot], feet.weights[foot], strict=True)
+                ],
+            )
+            for foot in good
+        ]
+        self._places[contact] = alike[0]
+        if len(alike) > 1:
+            self._alike[contact] = alike
+
+    def _settle(self) -> None:
+        """Choose among places that are alike, as on flat sides, by the stored forces on nodes."""
+        left = self._state["contact_force"].copy()
+        for contact, place in enumerate(self._places):
+            self._press(contact, place, left, -1.0)
+        total = float(np.abs(self._state["contact_reaction"]).sum())
+        # Faces that lie on one another touch with edges where nodes would do as well.
+        for with_edges in (False, True):
+            if not np.abs(left).max(initial=0.0) > BALANCED * total:
+                return
+            for contact in range(len(self._places)):
+                if with_edges:
+                    found = self._other_places(contact)
+                    self._alike.setdefault(contact, [self._places[contact]]).extend(found)
+                if contact in self._alike:
+                    self._choose(contact, left)
+
+    def _other_places(self, contact: int) -> list[Place]:
+        """Return where edges cross, or corners are, that fit a contact as well as its node does."""
+        target = int(self._target[contact])
+        if target >= 0:
+            return self._at_edges(target, contact) if self._model.dimension == 3 else []
+        number = -1 - target
+        if number >= len(self._model.obstacles):
+            return []
+        found = self._at_its_corners(number, contact)
+        most = self._places[contact].misfit + SAME
+        return [place for place in found if place.misfit <= most]
+
+    def _choose(self, contact: int, left: Array) -> None:
+        """Choose the place of a contact that leaves least of the forces [N] on its nodes."""
+        alike = self._alike[contact]
+        self._press(contact, self._places[contact], left, 1.0)
+        nodes = {node for place in alike for node, _ in (*place.sources, *place.followed)}
+        errors = []
+        for place in alike:
+            self._press(contact, place, left, -1.0)
+            errors.append(float((left[sorted(nodes)] ** 2).sum()))
+            self._press(contact, place, left, 1.0)
+        self._places[contact] = alike[int(np.argmin(errors))]
+        self._press(contact, self._places[contact], left, -1.0)
+
+    def _press(self, contact: int, place: Place, force: Array, sign: float) -> None:
+        """Add the reaction of a contact at a place to forces on nodes [N], or take it off."""
+        reaction = sign * self._state["contact_reaction"][contact]
+        for node, weight in place.sources:
+            force[node] += weight * reaction
+        for node, weight in place.followed:
+            force[node] -= weight * reaction
+
+    def _at_edges(self, number: int, contact: int) -> list[Place]:
+        """Return where edges around the node cross edges of the target, all that fit best."""
+        model, source = self._model, self._source[contact]
+        if source >= len(model.bodies) or number >= len(model.bodies):
+            return []
+        if self._like is None:
+            mine = edges(model.bodies[source])
+            mine = mine[(mine == self._node[contact]).any(axis=1)]
+            theirs = edges(model.bodies[number])
+        else:
+            mine = self._like.sources[contact : contact + 1, :2]
+            theirs = self._like.followed[contact : contact + 1, :2]
+        found = crossings(self._position, mine, theirs, self._normal[contact])
+        misfit = self._misfit(contact, found.gap, found.normal)
+        if not len(misfit) or not misfit.min() < np.inf:
+            return []
+        if self._like is None and not misfit.min() < self._places[contact].misfit + SAME:
+            return []
+        # Edges that go on in one line cross at the same place.
+        good = np.flatnonzero(misfit <= misfit.min() + SAME)
+        good = good[np.argsort(found.beyond[good], kind="stable")]
+        return [
+            Place(
+                gap=float(found.gap[k]),
+                normal=found.normal[k],
+                misfit=float(misfit[k]),
+                site=AT_EDGES,
+                sources=weighted(found.source[k], found.along[k, 0]),
+                followed=weighted(found.target[k], found.along[k, 1]),
+            )
+            for k in good
+        ]
+
+    def _gathered(self, step: tuple[float, float]) -> Contacts:
+        model, count = self._model, len(self._places)
+        shift = np.zeros((count, model.dimension))
+        velocity = np.zeros_like(shift)
+        for k, t in enumerate(self._target):
+            if -len(model.obstacles) <= t < 0:
+                travel = model.obstacles[-1 - t].travel
+                before, after = (travel.displacement(end) for end in step)
+                shift[k], velocity[k] = after - before, travel.velocity(step[1])
+        gap = np.array([place.gap for place in self._places])
+        normal = np.array([place.normal for place in self._places]).reshape(shift.shape)
+        sources, shares = _padded([place.sources for place in self._places])
+        followed, weights = _padded([place.followed for place in self._places])
+        sides = {(side.source, side.target): side for side in model.sides}
+        between = zip(self._source, self._target, strict=True)
+        return Contacts(
+            node=self._node,
+            site=np.array([place.site for place in self._places], dtype=np.int64),
+            source=self._source,
+            target=self._target,
+            reaction=self._state["contact_reaction"],
+            gap=gap,
+            normal=normal,
+            sources=sources,
+            shares=shares,
+            followed=followed,
+            weights=weights,
+            facet=np.array([place.facet for place in self._places], dtype=np.int64),
+            shift=shift,
+            velocity=velocity,
+            gap_error=self._gap - gap,
+            normal_error=np.linalg.norm(self._normal - normal, axis=1),
+            side=tuple(sides.get((int(s), int(t))) for s, t in between),
+        )
+
+
+def _padded(stencils: list[list[tuple[int, float]]]) -> tuple[Indices, Array]:
+    """Return nodes and weights as arrays, shape [count, n], with zero weights at the end."""
+    width = max((len(stencil) for stencil in stencils), default=1)
+    nodes = np.zeros((len(stencils), max(width, 1)), dtype=np.int64)
+    weights = np.zeros(nodes.shape)
+    for k, stencil in enumerate(stencils):
+        for j, (node, weight) in enumerate(stencil):
+            nodes[k, j], weights[k, j] = node, weight
+    return nodes, weights
+
+
+def _next(
+    feet: Feet, mine: Indices, known: tuple[int, Array], target: Target, *, otherwise: int
+) -> int:
+    """Return which of the feet `mine` of a point goes on from a known one.
+
+    It stays on its facet. On a smooth target it goes on to the next one where the foot is on that;
+    beyond an edge, beside both, it stays.
+
+    Parameters
+    ----------
+    feet
+        Feet of points.
+    mine
+        Those of the point.
+    known
+        Facet of the known foot, and its normal.
+    target
+        The target.
+    otherwise
+        What to return where none goes on from it.
+    """
+    facet, normal = known
+    own = feet.facet[mine] == facet
+    on = feet.beyond[mine] == 0.0
+    walks = facet >= 0 and bool(target.smooth[facet])
+    choices = [own & on] if walks else [own]
+    if walks:
+        # Sides beyond a corner are not beside it.
+        beside = np.isin(target.facets[feet.facet[mine]], target.facets[facet]).any(axis=1)
+        beside &= feet.normal[mine] @ normal > CORNER
+        beside &= target.smooth[feet.facet[mine]]
+        choices += [beside & on, own]
+    found = next((chosen for chosen in choices if chosen.any()), None)
+    return otherwise if found is None else int(mine[found.argmax()])

@@ -1,0 +1,49 @@
+"""Where a contact is, and the nodes of either side."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from carom.auditing.arrays import Array, Indices
+from carom.auditing.steps.contacts import AT_NODE
+
+
+@dataclass
+class Place:
+    """Where a contact is.
+
+    Parameters
+    ----------
+    gap, normal
+        Gap [m] and normal, shape [D].
+    misfit
+        How far these are from what is stored, in sizes of the model.
+    site, facet
+        What it is, and the facet of its foot.
+    sources, followed
+        Nodes of either side, in the numbering of the model, with their weights.
+    """
+
+    gap: float
+    normal: Array
+    misfit: float = np.inf
+    site: int = AT_NODE
+    facet: int = -1
+    sources: list[tuple[int, float]] = field(default_factory=list)
+    followed: list[tuple[int, float]] = field(default_factory=list)
+
+    def apart(self, nodes: Indices, shares: Array) -> float:
+        """Return how far its nodes of the source are from others, by their weights."""
+        weights: dict[int, float] = {}
+        for node, weight in zip(nodes.tolist(), shares.tolist(), strict=True):
+            weights[node] = weights.get(node, 0.0) + weight
+        for node, weight in self.sources:
+            weights[node] = weights.get(node, 0.0) - weight
+        return sum(abs(weight) for weight in weights.values())
+
+
+def weighted(ends: Indices, along: float) -> list[tuple[int, float]]:
+    """Return the ends of an edge with their weights at a part of the way along it."""
+    return [(int(ends[0]), 1.0 - along), (int(ends[1]), along)]

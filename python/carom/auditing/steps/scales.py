@@ -1,0 +1,166 @@
+"""How far a number may be from what the auditor computes, from the tolerances of the run itself.
+
+There are two reasons for differences. Sums of floating-point numbers in another order differ by
+round-off of their largest terms. And the run stops its iterations: the displacements of a step are
+known up to Newton's tolerance times the largest motion in the step. What must vanish in the step
+may be as large as that error times what it depends on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from carom.auditing.arrays import Array
+from carom.auditing.bodies.body import AuditBody
+from carom.auditing.model import AuditModel
+from carom.auditing.steps.step import Step
+
+EPS = float(np.finfo(np.float64).eps)
+
+ROUND_OFF = 2.0**13 * EPS
+"""Relative difference of two sums over a mesh, of their largest terms: 1.8e-12."""
+
+FLOOR = 4 * EPS
+"""Corrections below this part of the model's size are round-off to the run."""
+
+SAFETY = 10.0
+"""The last correction of a run bounds its error only up to the rate of convergence."""
+
+LAST = 1e2
+"""Contacts are evaluated before the last correction, which is above Newton's tolerance by up to
+this where iterations converge so fast that the next one would be below it."""
+
+
+class Scales:
+    """Magnitudes of a model over its states, and tolerances made of them.
+
+    Parameters
+    ----------
+    model
+        The model.
+    """
+
+    def __init__(self, model: AuditModel) -> None:
+        self._model = model
+        self.energy = 0.0
+        """Largest energy of a state [J]."""
+        self.speed = model.fastest_obstacle
+        """Largest speed of a node, or of an obstacle [m/s]."""
+        self.reach = model.fastest_obstacle * model.stage.duration
+        """Largest distance of a node from the origin, or of an obstacle from its start [m]."""
+        analysis = model.analysis
+        travel = model.fastest_obstacle * analysis.end_time
+        self.travel = EPS * travel * model.stage.duration / analysis.time_step
+        """How far places of obstacles may be off, which the run sums step by step [m]."""
+        self.moved = 0.0
+        """Largest displacement of a node [m]."""
+        self.mass = sum(body.mass.total for body in model.bodies)
+
+    def share(self, others: Sequence[Scales]) -> None:
+        """Take the largest magnitudes of the stages of a run."""
+        for name in ("energy", "speed", "reach", "moved"):
+            setattr(self, name, max(getattr(one, name) for one in (self, *others)))
+
+    def include(self, displacement: Array, velocity: Array, time: float) -> None:
+        """Take a state at a time [s] into account."""
+        energy = sum(spring.energy(displacement, time) for spring in self._model.springs)
+        for body in self._model.bodies:
+            energy += body.kinetic_energy(displacement[body.span], velocity[body.span])
+            energy += body.strain_energy(displacement[body.span])
+        self.energy = max(self.energy, energy)
+        self.speed = max(self.speed, float(np.abs(velocity).max()))
+        self.moved = max(self.moved, float(np.abs(displacement).max()))
+        self.reach = max(self.reach, float(np.abs(self._model.points + displacement).max()))
+
+    def penetration(self) -> float:
+        """Return how deep nodes may be where gaps are ruled [m]."""
+        analysis = self._model.analysis
+        motion = self.moved if self._model.static else self.speed * analysis.time_step
+        if self._model.faceted:
+            # Facets are frozen for a step: a node that slides on may get behind the next one.
+            return motion
+        floor = FLOOR * self._model.size
+        return SAFETY * max(analysis.newton.tolerance * motion, floor) + self.travel
+
+    def strain(self, body: AuditBody, u: Array) -> float:
+        """Return how far the strain energy of a state may be off [J].
+
+        Displacements have round-off of their size, which does work on the internal forces.
+        """
+        error = EPS * (self._model.size + float(np.abs(u).max()))
+        stiffness = float(body.row_stiffness.sum())
+        energy = body.strain_energy(u)
+        # E ≈ ½ k e², so that an error of e changes it by √(2 E k) δ + ½ k δ².
+        slope = float(np.sqrt(2 * max(energy, 0.0) * stiffness)) + stiffness * error
+        return ROUND_OFF * abs(energy) + SAFETY * slope * error
+
+    def displacement(self, step: Step) -> float:
+        """Return how far the displacements of a step may be off [m]."""
+        tolerance = self._model.analysis.newton.tolerance * step.motion
+        return SAFETY * max(tolerance, FLOOR * (self._model.size + self.reach))
+
+    def displacement_in(self, dt: Array) -> Array:
+        """Return how far displacements of steps of these lengths [s] may be off [m]."""
+        motion = (self.speed + float(np.linalg.norm(self._model.gravity)) * dt) * dt
+        tolerance = self._model.analysis.newton.tolerance * motion
+        return SAFETY * np.maximum(tolerance, FLOOR * (self._model.size + self.reach))
+
+    def geometry(self, step: Step) -> float:
+        """Return how far the places of contacts may be off [m]."""
+        return LAST * self.displacement(step) + self.travel
+
+    def force(self, step: Step, index: int) -> Array:
+        """Return how far the equation of motion of nodes of a body may be off [N], [node_count]."""
+        return self.iteration(step.dt, index) * self.displacement(step)
+
+    def resisted(self, step: Step, index: int) -> float:
+        """Return how far the work of what resists a body, and of what holds it, may be off [J].
+
+        Displacements have round-off of the size of the model, over which these forces do work.
+        """
+        f, held = step.forces.of[index], self._model.supports[index].held
+        parts = (f.inertia, f.internal, f.gravity, f.loads, f.connections)
+        size = float(np.abs(f.viscous).sum())
+        size += sum(float(np.abs(part[held]).sum()) for part in parts)
+        return SAFETY * EPS * (self._model.size + self.reach) * size
+
+    def reaction(self, step: Step, total: float) -> float:
+        """Return how far reactions whose sizes sum to `total` [N] may be from Coulomb's cone [N].
+
+        The solver's residual is relative to the reactions, or to the force that would undo the
+        motion of the step where that is larger.
+        """
+        bodies = range(len(self._model.bodies))
+        stiffest = max(float(self.iteration(step.dt, index).max()) for index in bodies)
+        tolerance = self._model.contact.solver.tolerance
+        return SAFETY * tolerance * (total + stiffest * step.motion)
+
+    def least_reaction(self, dt: float) -> float:
+        """Return below what reactions are round-off in a step of this length [N].
+
+        Displacements have round-off of the size of the model, and what resists it makes forces of
+        that.
+        """
+        bodies = range(len(self._model.bodies))
+        stiffest = max(float(self.iteration(dt, index).max()) for index in bodies)
+        return EPS * (self._model.size + self.reach) * stiffest
+
+    def iteration(self, dt: float, index: int) -> Array:
+        """Return the force on nodes where all displacements are off by 1 m [N/m], [node_count]."""
+        body, model = self._model.bodies[index], self._model
+        rate = 0.0 if model.static else 1 / (model.theta * dt)
+        if model.static and body.rigid:
+            # Nothing resists it but what it touches.
+            stiffest = max(float(other.row_stiffness.max()) for other in model.bodies)
+            return np.full(len(body.points), stiffest)
+        resisted: Array = body.row_stiffness * (
+            1.0 + (body.law.stiffness_damping.max() + body.law.sluggishness) * rate
+        )
+        for spring in model.springs:
+            own = (spring.nodes >= body.span.start) & (spring.nodes < body.span.stop)
+            shares = np.abs(spring.shares)
+            held = spring.stiffness(dt) * float(shares.sum()) * shares[own]
+            np.add.at(resisted, spring.nodes[own] - body.span.start, held)
+        return resisted + np.abs(body.mass.nodal) * (rate / dt + body.law.mass_damping * rate)

@@ -1,0 +1,104 @@
+"""The reference domains of facets in space, and what is closest in them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.auditing.arrays import Array, Mask, einsum
+from carom.auditing.mesh.kinds import Kind
+from carom.auditing.targets.feet import BEYOND
+
+ON_EDGE = 1e-9
+"""What is closer to an edge, in widths of the domain, is on it."""
+
+
+@dataclass(frozen=True)
+class Domain:
+    """A triangle or a square.
+
+    Parameters
+    ----------
+    corners
+        Its corners, counter-clockwise, shape [corner_count, 2].
+    """
+
+    corners: Array
+
+    @classmethod
+    def of(cls, kind: Kind) -> Domain:
+        """Return that of a facet."""
+        return cls(kind.nodes[: kind.corner_count])
+
+    @property
+    def middle(self) -> Array:
+        """Its middle, shape [2]."""
+        middle: Array = self.corners.mean(axis=0)
+        return middle
+
+    @property
+    def is_triangle(self) -> bool:
+        """Whether it is a triangle."""
+        return len(self.corners) == 3
+
+    def inside(self, xi: Array) -> Array:
+        """Return how far points are inside of each edge, in widths, [count, edge_count]."""
+        if self.is_triangle:
+            return np.stack([xi[:, 1], 1.0 - xi[:, 0] - xi[:, 1], xi[:, 0]], axis=1)
+        x, y = xi.T
+        return 0.5 * np.stack([1.0 + y, 1.0 - x, 1.0 - y, 1.0 + x], axis=1)
+
+    def outside(self, xi: Array) -> Array:
+        """Return how far points are outside, in widths, zero inside, shape [count]."""
+        outside: Array = np.maximum(-self.inside(xi), 0.0).max(axis=1)
+        return outside
+
+    def leaves(self, xi: Array, step: Array, edges: Mask) -> Mask:
+        """Return whether steps from points lead out across one of these edges, shape [count]."""
+        at = self.inside(xi)
+        change = self.inside(xi + step) - at
+        across = edges & (at <= ON_EDGE) & (change < -ON_EDGE)
+        return np.asarray(across.any(axis=1), dtype=bool)
+
+    def reached(self, xi: Array) -> Array:
+        """Return points brought to what reaches beyond the domain by half its width."""
+        if not self.is_triangle:
+            end = 1.0 + 2.0 * BEYOND
+            return np.clip(xi, -end, end)
+        # First both coordinates, then their sum, as near as it can be.
+        low, most = -BEYOND, 1.0 + BEYOND
+        xi = np.maximum(xi, low)
+        excess = xi.sum(axis=1) - most
+        first = np.clip(xi[:, 0] - 0.5 * excess, low, most - low)
+        moved = np.stack([first, most - first], axis=1)
+        return np.where((excess > 0)[:, None], moved, xi)
+
+    def step(self, xi: Array, slope: Array, metric: Array) -> Array:
+        """Return the steps that minimise ½ s·A s − b·s within the domain, shape [count, 2].
+
+        Parameters
+        ----------
+        xi
+            Where the steps begin, in the domain, shape [count, 2].
+        slope, metric
+            b and A, positive definite, shapes [count, 2] and [count, 2, 2].
+        """
+        free: Array = np.linalg.solve(metric, slope[..., None])[..., 0].astype(np.float64)
+        inside = (self.inside(xi + free) >= 0.0).all(axis=1)
+        best: Array = free
+        least = np.where(inside, -np.inf, np.inf)
+        after = np.roll(self.corners, -1, axis=0)
+        for a, b in zip(self.corners, after, strict=True):
+            along = b - a
+            to_a = a - xi
+            # On an edge s = a − ξ + t (b − a).
+            resisted = einsum("kij,j->ki", metric, along)
+            slopes = (slope - einsum("kij,kj->ki", metric, to_a)) @ along
+            t = np.clip(slopes / (resisted @ along), 0.0, 1.0)
+            s = to_a + t[:, None] * along
+            value = 0.5 * einsum("ki,kij,kj->k", s, metric, s) - einsum("ki,ki->k", slope, s)
+            better = value < least
+            best = np.where(better[:, None], s, best)
+            least = np.where(better, value, least)
+        return best

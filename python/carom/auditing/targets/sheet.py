@@ -1,0 +1,217 @@
+"""Where points are closest to a target in space."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+
+from carom.auditing.arrays import Array, Indices, Mask, cross, einsum
+from carom.auditing.mesh.kinds import Kind
+from carom.auditing.targets.domain import Domain
+from carom.auditing.targets.feet import TIE, Feet
+
+STEPS = 60
+"""Most steps to a closest point; they converge at a rate of distance over radius."""
+
+CLOSE = 1e-14
+"""Changes of ξ below this end the search."""
+
+AT_ONCE = 4_000_000
+"""Most pairs of points and facets whose distances are known at a time."""
+
+
+class Patches(Protocol):
+    """Pieces of surface, each a combination of nodes for every ξ of a domain."""
+
+    @property
+    def nodes(self) -> Indices:
+        """The nodes that every patch follows, shape [patch_count, n]."""
+
+    @property
+    def domain(self) -> Domain:
+        """Where ξ is."""
+
+    @property
+    def curved(self) -> Mask:
+        """Which of them go on into others without a kink, shape [patch_count]."""
+
+    def values(self, patch: Indices, xi: Array) -> Array:
+        """Return the weights of the nodes at ξ, shape [count, n]."""
+
+    def slopes(self, patch: Indices, xi: Array) -> Array:
+        """Return their derivatives by ξ, shape [count, n, 2]."""
+
+
+class FlatPatches:
+    """Facets as their shape functions have them.
+
+    Parameters
+    ----------
+    kind
+        Their kind.
+    nodes
+        Their nodes, shape [facet_count, a].
+    """
+
+    def __init__(self, kind: Kind, nodes: Indices) -> None:
+        self.nodes, self._kind = nodes, kind
+        self.domain = Domain.of(kind)
+        self.curved: Mask = np.zeros(len(nodes), dtype=bool)
+
+    def values(self, patch: Indices, xi: Array) -> Array:
+        """Return N_a at ξ, shape [count, a]."""
+        del patch
+        return self._kind.values(xi)
+
+    def slopes(self, patch: Indices, xi: Array) -> Array:
+        """Return ∂N_a/∂ξ, shape [count, a, 2]."""
+        del patch
+        return self._kind.slopes(xi)
+
+
+class Sheet:
+    """The boundary of a body in space that nodes of others are checked against.
+
+    Parameters
+    ----------
+    facets
+        Facets in the body's numbering, outward by the right-hand rule, shape [facet_count, a].
+    patches
+        The pieces of surface over them, one for each.
+    """
+
+    def __init__(self, facets: Indices, patches: Patches) -> None:
+        self.facets, self._patches = facets, patches
+        self.smooth = patches.curved
+        self.width = patches.nodes.shape[1]
+        self._rim = _rims(facets[:, : len(patches.domain.corners)])
+
+    def feet(self, x: Array, position: Array) -> Feet:
+        """Return all feet near the points, see `Target`."""
+        point, patch = self._near(x, position, reach=2.0)
+        xi = self._closest(x[point], patch, position)
+        value, tangents = self._at(patch, xi, position)
+        nodes = self._patches.nodes[patch]
+        offset = x[point] - einsum("kn,kni->ki", value, position[nodes])
+        # Where ξ is at an edge there may be a way to go on.
+        further = self._patches.domain.reached(xi + _along(tangents, offset)) - xi
+        weights = value + einsum("kna,ka->kn", self._patches.slopes(patch, xi), further)
+        normal = _unit(cross(tangents[:, 0], tangents[:, 1]))
+        left = x[point] - einsum("kn,kni->ki", weights, position[nodes])
+        return Feet(
+            point=point,
+            facet=patch,
+            gap=einsum("ki,ki->k", normal, left),
+            normal=normal,
+            nodes=nodes,
+            weights=weights,
+            beyond=self._patches.domain.outside(xi + further),
+        )
+
+    def closest_weights(self, x: Array, position: Array) -> Array:
+        """Return the weights of the nodes of its first patch where that is closest to a point."""
+        patch = np.zeros(1, dtype=np.int64)
+        xi = self._closest(x[None], patch, position)
+        weights: Array = self._patches.values(patch, xi)[0]
+        return weights
+
+    def signed_distance(self, x: Array, position: Array) -> Array:
+        """Return the distances of points from it [m], see `Target`."""
+        point, patch = self._near(x, position, reach=0.0)
+        xi = self._closest(x[point], patch, position)
+        value, tangents = self._at(patch, xi, position)
+        offset = x[point] - einsum("kn,kni->ki", value, position[self._patches.nodes[patch]])
+        distance = np.linalg.norm(offset, axis=1)
+        front = einsum("ki,ki->k", offset, _unit(cross(tangents[:, 0], tangents[:, 1])))
+        size = np.linalg.norm(tangents, axis=2).max(axis=1)
+        closest = np.full(len(x), np.inf)
+        np.minimum.at(closest, point, distance)
+        tied = distance <= closest[point] + TIE * size
+        squarely = np.where(tied, np.abs(front), -1.0)
+        order = np.lexsort((squarely, point))
+        last = order[np.append(point[order][1:] != point[order][:-1], True)]
+        signed: Array = np.full(len(x), np.inf)
+        signed[point[last]] = np.copysign(closest[point[last]], front[last])
+        further = _along(tangents[last], offset[last])
+        off = self._patches.domain.leaves(xi[last], further, self._rim[patch[last]])
+        signed[point[last][off]] = np.inf
+        return signed
+
+    def _near(self, x: Array, position: Array, reach: float) -> tuple[Indices, Indices]:
+        """Return points with the facets that may be closest, and others as far as some radii."""
+        corners = position[self.facets]
+        centre = corners.mean(axis=1)
+        radius = np.linalg.norm(corners - centre[:, None], axis=2).max(axis=1)
+        points, patches = [], []
+        step = max(AT_ONCE // max(len(centre), 1), 1)
+        for first in range(0, len(x), step):
+            far = np.linalg.norm(x[first : first + step, None] - centre[None], axis=2)
+            # A smooth patch is no farther from its facet than the facet is wide.
+            bound = (far + 2 * radius).min(axis=1) + reach * radius.max()
+            point, patch = np.nonzero(far - 2 * radius <= bound[:, None])
+            points.append(point + first)
+            patches.append(patch)
+        return np.concatenate(points), np.concatenate(patches)
+
+    def _at(self, patch: Indices, xi: Array, position: Array) -> tuple[Array, Array]:
+        """Return weights, and tangents [m], shape [count, 2, 3]."""
+        nodes = position[self._patches.nodes[patch]]
+        tangents = einsum("kna,kni->kai", self._patches.slopes(patch, xi), nodes)
+        return self._patches.values(patch, xi), tangents
+
+    def _closest(self, x: Array, patch: Indices, position: Array) -> Array:
+        """Return ξ of the closest points of patches, shape [count, 2].
+
+        Steps go to where the tangent plane at the last one is closest, within the domain, and are
+        shortened until the distance falls.
+        """
+        domain, nodes = self._patches.domain, position[self._patches.nodes[patch]]
+        xi: Array = np.broadcast_to(domain.middle, (len(x), 2)).copy()
+        moving = np.arange(len(x))
+
+        def off(at: Array, some: Indices) -> Array:
+            value = self._patches.values(patch[some], at)
+            return x[some] - einsum("kn,kni->ki", value, nodes[some])
+
+        for _ in range(STEPS):
+            if not len(moving):
+                break
+            at = xi[moving]
+            slopes = self._patches.slopes(patch[moving], at)
+            tangents = einsum("kna,kni->kai", slopes, nodes[moving])
+            offset = off(at, moving)
+            metric = einsum("kai,kbi->kab", tangents, tangents)
+            step = domain.step(at, einsum("kai,ki->ka", tangents, offset), metric)
+            before = einsum("ki,ki->k", offset, offset)
+            for _ in range(30):
+                after = (off(at + step, moving) ** 2).sum(axis=1)
+                worse = (after > before) & (np.abs(step).max(axis=1) > 1e-7)
+                if not worse.any():
+                    break
+                step[worse] *= 0.5
+            xi[moving] = at + step
+            moving = moving[np.abs(step).max(axis=1) > CLOSE]
+        return xi
+
+
+def _along(tangents: Array, offset: Array) -> Array:
+    """Return how far along tangents their plane is closest to offsets, shape [count, 2]."""
+    metric = einsum("kai,kbi->kab", tangents, tangents)
+    slope = einsum("kai,ki->ka", tangents, offset)
+    return np.asarray(np.linalg.solve(metric, slope[..., None])[..., 0], dtype=np.float64)
+
+
+def _unit(vectors: Array) -> Array:
+    unit: Array = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+    return unit
+
+
+def _rims(corners: Indices) -> Mask:
+    """Return which edges of facets are of one facet only, shape [facet_count, edge]."""
+    ends = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2), axis=2)
+    _, inverse, count = np.unique(
+        ends.reshape(-1, 2), axis=0, return_inverse=True, return_counts=True
+    )
+    alone: Mask = (count == 1)[inverse].reshape(corners.shape)
+    return alone
