@@ -10,6 +10,7 @@ mod control;
 mod coupling;
 pub(crate) mod cross_check;
 pub(crate) mod delassus;
+mod islands;
 mod left_out;
 pub(crate) mod on_masses;
 mod pressing;
@@ -29,6 +30,7 @@ use self::active::ActiveSet;
 use self::candidates::Finder;
 use self::contact_work::ContactWork;
 use self::control::CONTROL;
+use self::islands::Islands;
 use self::on_masses::OnMasses;
 use self::reduced::Reduced;
 use self::slip::Slip;
@@ -51,7 +53,9 @@ pub struct PosedProblem<'a, const D: usize> {
 #[derive(Debug)]
 pub(crate) struct Contacts<const D: usize> {
     pub finder: Finder<D>,
+    /// Those that take part in the step, or in the iterations of an island.
     pub active: ActiveSet<D>,
+    islands: Islands<D>,
     pub reduced: Reduced<D>,
     /// What the contacts mean for the balance of blended steps.
     pub work: Vec<ContactWork>,
@@ -70,6 +74,7 @@ impl<const D: usize> Contacts<D> {
         Self {
             finder: Finder::new(assembly.body_count()),
             active: ActiveSet::new(assembly.body_count()),
+            islands: Islands::default(),
             reduced: Reduced::new(assembly),
             work: Vec::new(),
             on_masses: OnMasses::default(),
@@ -93,13 +98,14 @@ impl<const D: usize> Contacts<D> {
         }
     }
 
-    /// Evaluates the contacts at a guess and gets the bodies ready to respond to them; late in the iterations of a step the last correction [m] is
+    /// Evaluates the contacts of `touching` bodies at a guess and gets these ready to respond to them; late in the iterations of a step the last correction [m] is
     /// given, see [`ActiveSet::evaluate_late`].
     pub fn evaluate(
         &mut self,
         given: &Given<'_, D>,
         motion: &[Vector<D>],
         late: Option<f64>,
+        touching: &[usize],
         bodies: &mut [Box<dyn Body<D>>],
     ) {
         match late {
@@ -107,7 +113,7 @@ impl<const D: usize> Contacts<D> {
             None => self.active.evaluate(given, motion),
         }
         self.active.meet(given, bodies);
-        self.reduced.prepare(given, &self.active, bodies);
+        self.reduced.prepare(given, &self.active, touching, bodies);
     }
 
     /// Whether anything acts on bodies from outside that depends on their motion: contacts or springs.
@@ -133,9 +139,9 @@ impl<const D: usize> Contacts<D> {
         stiffened.is_geometric
     }
 
-    /// From now on they have none.
-    pub fn soften(&mut self) {
-        self.reduced.delassus.stiffened.clear();
+    /// From now on they have none, and `bodies` no springs.
+    pub fn soften(&mut self, bodies: &[usize]) {
+        self.reduced.delassus.stiffened.clear(bodies);
     }
 
     /// Makes what contacts add to the tangents of a load step: see [`Reduced::stiffen`].
