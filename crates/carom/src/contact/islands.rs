@@ -7,8 +7,8 @@ use carom_contact::Target;
 use carom_friction::{ContactProblem, Measure, SolverKind, measure};
 use carom_mesh::Vector;
 
-use super::Contacts;
 use super::active::ActiveSet;
+use super::reduced::Reduced;
 use super::slider::slider_of;
 use crate::model::forest::Forest;
 use crate::model::given::Given;
@@ -46,6 +46,15 @@ impl<const D: usize> Island<D> {
         self.bodies.clear();
         self.numbers.clear();
         self.active.clear();
+    }
+
+    /// Puts what is known of it in the place of what is there.
+    fn exchange(&mut self, active: &mut ActiveSet<D>, reduced: &mut Reduced<D>) {
+        let Self { active: own, problem, offsets, guess, .. } = self;
+        std::mem::swap(own, active);
+        std::mem::swap(problem, &mut reduced.problem);
+        std::mem::swap(offsets, &mut reduced.offsets);
+        std::mem::swap(guess, &mut reduced.guess);
     }
 }
 
@@ -142,26 +151,22 @@ impl<const D: usize> Islands<D> {
         whole.sliders = sliders;
     }
 
-    /// Writes the contact problems of the islands to that of all.
-    fn gather_problems(
-        &self,
-        problem: &mut ContactProblem<D>,
-        offsets: &mut Vec<Vector<D>>,
-        guess: &mut Vec<Vector<D>>,
-    ) {
+    /// Makes the contact problem of all of those of the islands.
+    fn gather_problems(&self, whole: &mut Reduced<D>) {
+        let Reduced { problem, offsets, guess, .. } = whole;
         problem.w.clear();
         problem.q.clear();
         problem.mu.clear();
         offsets.clear();
         guess.clear();
         for &(number, place) in &self.places {
-            let Island { numbers, problem: own, offsets: own_offsets, guess: own_guess, .. } =
-                &self.all[number];
-            problem.w.push_row(own.w.row(place).map(|(column, block)| (numbers[column], *block)));
-            problem.q.push(own.q[place]);
-            problem.mu.push(own.mu[place]);
-            offsets.push(own_offsets[place]);
-            guess.push(own_guess[place]);
+            let own = &self.all[number];
+            let row = own.problem.w.row(place);
+            problem.w.push_row(row.map(|(column, block)| (own.numbers[column], *block)));
+            problem.q.push(own.problem.q[place]);
+            problem.mu.push(own.problem.mu[place]);
+            offsets.push(own.offsets[place]);
+            guess.push(own.guess[place]);
         }
     }
 }
@@ -176,77 +181,74 @@ fn must_stay_whole<const D: usize>(given: &Given<'_, D>) -> bool {
         || assembly.contact.pairs.have_mortar()
 }
 
-impl<const D: usize> Contacts<D> {
-    /// Divides what was selected by islands; returns how many there are.
-    pub fn divide(&mut self, given: &Given<'_, D>) -> usize {
-        let Self { islands, active, .. } = self;
-        let count = islands.find(given, active);
-        if islands.is_divided() {
-            std::mem::swap(active, &mut islands.whole);
-            islands.share(given);
+impl<const D: usize> Islands<D> {
+    /// Divides the `active` contacts of a step by islands; returns how many there are.
+    pub fn divide(&mut self, given: &Given<'_, D>, active: &mut ActiveSet<D>) -> usize {
+        let count = self.find(given, active);
+        if self.is_divided() {
+            std::mem::swap(active, &mut self.whole);
+            self.share(given);
         }
         count
     }
 
-    /// Makes the contacts of an island the present ones; returns its bodies, ascending.
-    pub fn enter(&mut self, island: usize) -> Vec<usize> {
-        if self.islands.is_divided() {
-            self.exchange(island);
-            std::mem::swap(&mut self.active.touched, &mut self.islands.whole.touched);
+    /// Makes the contacts of an island the `active` ones; returns its bodies, ascending.
+    pub fn enter(
+        &mut self,
+        island: usize,
+        active: &mut ActiveSet<D>,
+        reduced: &mut Reduced<D>,
+    ) -> Vec<usize> {
+        if self.is_divided() {
+            self.all[island].exchange(active, reduced);
+            std::mem::swap(&mut active.touched, &mut self.whole.touched);
         }
-        std::mem::take(&mut self.islands.all[island].bodies)
+        std::mem::take(&mut self.all[island].bodies)
     }
 
     /// Keeps what the iterations of an island have come to, of these `bodies`.
-    pub fn leave(&mut self, island: usize, bodies: Vec<usize>) {
-        self.islands.all[island].bodies = bodies;
-        if self.islands.is_divided() {
-            std::mem::swap(&mut self.active.touched, &mut self.islands.whole.touched);
-            self.islands.all[island].solved_by = self.reduced.solved_by;
-            self.exchange(island);
+    pub fn leave(
+        &mut self,
+        island: usize,
+        bodies: Vec<usize>,
+        active: &mut ActiveSet<D>,
+        reduced: &mut Reduced<D>,
+    ) {
+        self.all[island].bodies = bodies;
+        if self.is_divided() {
+            std::mem::swap(&mut active.touched, &mut self.whole.touched);
+            self.all[island].solved_by = reduced.solved_by;
+            self.all[island].exchange(active, reduced);
         }
-    }
-
-    /// Puts what is known of an island in the place of what is there.
-    fn exchange(&mut self, island: usize) {
-        let Island { active, problem, offsets, guess, .. } = &mut self.islands.all[island];
-        std::mem::swap(active, &mut self.active);
-        std::mem::swap(problem, &mut self.reduced.problem);
-        std::mem::swap(offsets, &mut self.reduced.offsets);
-        std::mem::swap(guess, &mut self.reduced.guess);
     }
 
     /// Puts the islands of a step together again.
-    pub fn join(&mut self, given: &Given<'_, D>) {
-        let Self { islands, active, reduced, .. } = self;
-        if !islands.is_divided() {
+    pub fn join(&mut self, given: &Given<'_, D>, active: &mut ActiveSet<D>, reduced: &mut Reduced<D>) {
+        if !self.is_divided() {
             return;
         }
-        islands.gather(given);
-        islands.gather_problems(&mut reduced.problem, &mut reduced.offsets, &mut reduced.guess);
-        let of_step = &islands.all[..islands.count];
-        let largest = of_step.iter().max_by_key(|island| island.numbers.len());
+        self.gather(given);
+        self.gather_problems(reduced);
+        let largest = self.all[..self.count].iter().max_by_key(|island| island.numbers.len());
         reduced.solved_by = largest.map_or(reduced.solved_by, |island| island.solved_by);
-        std::mem::swap(active, &mut islands.whole);
+        std::mem::swap(active, &mut self.whole);
     }
 
     /// Gives up a step in which the iterations of an island have failed: its problem is the last one posed.
-    pub fn give_up(&mut self, island: usize) {
-        let Self { islands, active, reduced, .. } = self;
-        if islands.is_divided() {
-            std::mem::swap(&mut islands.all[island].problem, &mut reduced.problem);
-            std::mem::swap(&mut islands.all[island].guess, &mut reduced.guess);
-            std::mem::swap(active, &mut islands.whole);
+    pub fn give_up(&mut self, island: usize, active: &mut ActiveSet<D>, reduced: &mut Reduced<D>) {
+        if self.is_divided() {
+            std::mem::swap(&mut self.all[island].problem, &mut reduced.problem);
+            std::mem::swap(&mut self.all[island].guess, &mut reduced.guess);
+            std::mem::swap(active, &mut self.whole);
         }
     }
 
     /// How far the reactions of the step are from the laws, where every island is measured on its own.
-    pub fn measure(&self) -> Measure {
-        let Self { islands, active, reduced, .. } = self;
-        if !islands.is_divided() {
+    pub fn measure(&self, active: &ActiveSet<D>, reduced: &Reduced<D>) -> Measure {
+        if !self.is_divided() {
             return measure(&reduced.problem, &active.reactions);
         }
-        let in_contact = islands.all[..islands.count].iter().filter(|island| !island.numbers.is_empty());
+        let in_contact = self.all[..self.count].iter().filter(|island| !island.numbers.is_empty());
         in_contact.map(|island| measure(&island.problem, &island.active.reactions)).fold(
             Measure::default(),
             |sum, own| Measure {

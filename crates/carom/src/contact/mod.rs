@@ -23,7 +23,7 @@ pub(crate) mod stiffened;
 mod woodbury;
 
 use carom_contact::Contact;
-use carom_friction::ContactProblem;
+use carom_friction::{ContactProblem, Measure};
 use carom_mesh::Vector;
 
 use self::active::ActiveSet;
@@ -82,6 +82,36 @@ impl<const D: usize> Contacts<D> {
             at_end: Vec::new(),
             mean_force: vec![Vector::zeros(); assembly.reference.len()],
         }
+    }
+
+    /// Divides what was selected by islands; returns how many there are. [`Self::join`] puts them together again.
+    pub fn divide(&mut self, given: &Given<'_, D>) -> usize {
+        self.islands.divide(given, &mut self.active)
+    }
+
+    /// Makes the contacts of an island the active ones; returns its bodies, ascending.
+    pub fn enter(&mut self, island: usize) -> Vec<usize> {
+        self.islands.enter(island, &mut self.active, &mut self.reduced)
+    }
+
+    /// Keeps what the iterations of an island have come to, of these `bodies`.
+    pub fn leave(&mut self, island: usize, bodies: Vec<usize>) {
+        self.islands.leave(island, bodies, &mut self.active, &mut self.reduced);
+    }
+
+    /// Puts the islands of a step together again.
+    pub fn join(&mut self, given: &Given<'_, D>) {
+        self.islands.join(given, &mut self.active, &mut self.reduced);
+    }
+
+    /// Gives up a step in which the iterations of an island have failed: its problem is the last one posed.
+    pub fn give_up(&mut self, island: usize) {
+        self.islands.give_up(island, &mut self.active, &mut self.reduced);
+    }
+
+    /// How far the reactions of the step are from the laws.
+    pub fn measure(&self) -> Measure {
+        self.islands.measure(&self.active, &self.reduced)
     }
 
     /// Sums the forces of the books: the reactions at the two `ends` of a step by the weights of their conditions.
