@@ -4,6 +4,7 @@ Processor time of one thread:
 
     RAYON_NUM_THREADS=1 .venv/bin/python benchmarks/many_bodies.py 2 10 100 1000 10000
     RAYON_NUM_THREADS=1 .venv/bin/python benchmarks/many_bodies.py 3 8 64 512 4096
+    RAYON_NUM_THREADS=1 .venv/bin/python benchmarks/many_bodies.py 2 10 100 --condition massless
 """
 
 from __future__ import annotations
@@ -22,10 +23,16 @@ import carom
 RADIUS = 0.05
 STEP = 5e-4
 STEPS = 40
+CONDITIONS = ("midpoint", "gap", "massless")
 
 
 def pile(
-    dimension: int, count: int, *, steps: int = STEPS, damping: float = 20.0
+    dimension: int,
+    count: int,
+    *,
+    steps: int = STEPS,
+    damping: float = 20.0,
+    condition: str = "midpoint",
 ) -> carom.Scenario:
     """Return bodies in layers above a floor, each a little off its place, about to touch.
 
@@ -75,13 +82,13 @@ def pile(
         materials={"rubber": law},
         bodies=bodies,
         obstacles=walls,
-        contact=carom.Contact(condition="midpoint", friction=0.3),
+        contact=carom.Contact(condition=condition, friction=0.3),
     )
 
 
-def measure(dimension: int, count: int) -> None:
+def measure(dimension: int, count: int, condition: str) -> None:
     """Set up and run a pile."""
-    case = pile(dimension, count)
+    case = pile(dimension, count, condition=condition)
     begun = process_time()
     simulation = carom.Simulation(case)
     set_up = process_time() - begun
@@ -108,12 +115,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("dimension", type=int, choices=(2, 3))
     parser.add_argument("counts", type=int, nargs="+")
+    parser.add_argument("--condition", default="midpoint", choices=CONDITIONS)
     arguments = parser.parse_args()
     if len(arguments.counts) == 1:
-        measure(arguments.dimension, arguments.counts[0])
+        measure(arguments.dimension, arguments.counts[0], arguments.condition)
         return
     for count in arguments.counts:
-        subprocess.run([sys.executable, __file__, str(arguments.dimension), str(count)], check=True)
+        of_pile = [str(arguments.dimension), str(count), "--condition", arguments.condition]
+        subprocess.run([sys.executable, __file__, *of_pile], check=True)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,10 @@ A pile falls, is damped until all of it rests, and waits. Processor time of one 
 
     RAYON_NUM_THREADS=1 .venv/bin/python benchmarks/resting_piles.py 2 100 1000
     RAYON_NUM_THREADS=1 .venv/bin/python benchmarks/resting_piles.py 3 64
+    RAYON_NUM_THREADS=1 .venv/bin/python benchmarks/resting_piles.py 2 100 --driven
+
+With --driven the pile of discs lies on a slab that is held where it is and will be moved when all
+is over, in place of the floor.
 """
 
 from __future__ import annotations
@@ -11,7 +15,7 @@ from __future__ import annotations
 import argparse
 from time import process_time
 
-from many_bodies import STEP, pile
+from many_bodies import RADIUS, STEP, pile
 
 import carom
 
@@ -22,9 +26,35 @@ WAIT = 400
 DAMPING = 60.0
 
 
-def measure(dimension: int, count: int) -> None:
+def on_slab(case: carom.Scenario) -> carom.Scenario:
+    """Return a pile of discs with a slab in place of its floor, which moves when all is over."""
+    east = next(o for o in case.obstacles if o.name == "wall-0-1")
+    width = east.point[0]
+    slab = carom.Body(
+        name="slab",
+        material="rubber",
+        mesh=carom.Rectangle(
+            corner=[0.1 * RADIUS, -RADIUS],
+            size=[width - 0.2 * RADIUS, RADIUS],
+            divisions=[max(4, round(width / RADIUS)), 2],
+        ),
+    )
+    end = case.analysis.end_time
+    motion = carom.Prescribed(body="slab", on="bottom", x=0.0, y=f"0.1*step(t - {end})*(t - {end})")
+    return case.model_copy(
+        update={
+            "bodies": (*case.bodies, slab),
+            "obstacles": tuple(o for o in case.obstacles if o.name != "floor"),
+            "motions": (motion,),
+        }
+    )
+
+
+def measure(dimension: int, count: int, *, driven: bool) -> None:
     """Print what a pile costs in motion and at rest."""
-    simulation = carom.Simulation(pile(dimension, count, steps=MOST + WAIT, damping=DAMPING))
+    case = pile(dimension, count, steps=MOST + WAIT, damping=DAMPING)
+    simulation = carom.Simulation(on_slab(case) if driven else case)
+    count += driven
     # Factors are made in the first step.
     simulation.step()
     moving = time_of(simulation, MOVING) / MOVING
@@ -55,9 +85,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("dimension", type=int, choices=(2, 3))
     parser.add_argument("counts", type=int, nargs="+")
+    parser.add_argument("--driven", action="store_true")
     arguments = parser.parse_args()
     for count in arguments.counts:
-        measure(arguments.dimension, count)
+        measure(arguments.dimension, count, driven=arguments.driven)
 
 
 if __name__ == "__main__":

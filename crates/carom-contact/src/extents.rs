@@ -164,7 +164,7 @@ mod tests {
                 let deepest = pairs.iter().map(|pair| -gap(pair)).fold(0.0, f64::max);
                 for known in [f64::INFINITY, smallest + 0.3, smallest] {
                     for deepest in [f64::INFINITY, deepest] {
-                        let gaps = KnownGaps { least, most: 6.0, known, deepest };
+                        let gaps = KnownGaps { least, most: 6.0, known, deepest, suspects: None };
                         assert_eq!(gauge.smallest_gap(&model, &gaps, &at), smallest);
                     }
                 }

@@ -9,7 +9,7 @@ use crate::{ContactModel, Extents, Pair, Target};
 
 /// What is known of the gaps of all pairs before they are asked for.
 #[derive(Debug, Clone, Copy)]
-pub struct KnownGaps<F> {
+pub struct KnownGaps<'a, F> {
     /// What every pair may have: gaps count beyond it [m].
     pub least: F,
     /// The largest of these [m].
@@ -18,6 +18,18 @@ pub struct KnownGaps<F> {
     pub known: f64,
     /// No node is deeper inside a target than this [m]; infinite if that is not known.
     pub deepest: f64,
+    /// The only nodes that may be inside of a target that is a surface, each with its pair, ascending by pairs; none if it may be any.
+    pub suspects: Option<&'a [(u32, u32)]>,
+}
+
+impl<F> KnownGaps<'_, F> {
+    /// Those of a pair.
+    fn suspects_of(&self, pair: usize) -> Option<&[(u32, u32)]> {
+        let all = self.suspects?;
+        let from = all.partition_point(|&(p, _)| (p as usize) < pair);
+        let until = all.partition_point(|&(p, _)| (p as usize) <= pair);
+        Some(&all[from..until])
+    }
 }
 
 /// What a measure of gaps keeps from one call to the next. It may be dropped at any moment.
@@ -45,13 +57,13 @@ impl<const D: usize> Default for Facets<D> {
 }
 
 impl<const D: usize> Gauge<D> {
-    /// The smallest gap of all pairs beyond the least that each may have [m], where the nodes are at `position`, or the known one if that is smaller;
+    /// The smallest gap of all pairs of two solids beyond the least that each may have [m], where the nodes are at `position`, or the known one if that is smaller;
     /// infinite without a pair.
     #[must_use]
     pub fn smallest_gap<F: Fn(&Pair) -> f64>(
         &mut self,
         model: &ContactModel<D>,
-        gaps: &KnownGaps<F>,
+        gaps: &KnownGaps<'_, F>,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> f64 {
         self.place(model, position);
@@ -63,6 +75,8 @@ impl<const D: usize> Gauge<D> {
         loop {
             let mut pairs = std::mem::take(&mut self.pairs);
             model.within(reach, &self.extents, &mut pairs);
+            // A surface is no distance away from itself.
+            pairs.retain(|&p| !model.is_self_contact(p));
             let smallest = self.smallest_among(&pairs, model, gaps, position);
             self.pairs = pairs;
             if !model.pairs.are_many() || smallest + gaps.most <= reach || reach > all.diameter() {
@@ -92,26 +106,33 @@ impl<const D: usize> Gauge<D> {
         &mut self,
         pairs: &[usize],
         model: &ContactModel<D>,
-        gaps: &KnownGaps<F>,
+        gaps: &KnownGaps<'_, F>,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> f64 {
-        let pairs = || pairs.iter().map(|&p| model.pairs.get(p));
+        let pairs = || pairs.iter().map(|&p| (p, model.pairs.get(p)));
         let bound = |extents: &Extents<D>, pair: &Pair| {
             let least = (gaps.least)(pair);
             (model.at_least(pair, extents, position).max(-gaps.deepest) - least, least)
         };
         let mut smallest = gaps.known;
         if smallest == f64::INFINITY {
-            let nearest = pairs().map(|pair| (bound(&self.extents, &pair), pair));
-            if let Some(((_, least), pair)) = nearest.min_by(|a, b| a.0.0.total_cmp(&b.0.0)) {
-                smallest = self.gap_within(f64::INFINITY, &pair, model, f64::INFINITY, position) - least;
+            let nearest = pairs().map(|(p, pair)| (bound(&self.extents, &pair), (p, pair)));
+            if let Some(((_, least), (p, pair))) = nearest.min_by(|a, b| a.0.0.total_cmp(&b.0.0)) {
+                let any = KnownGaps {
+                    least: &gaps.least,
+                    most: gaps.most,
+                    known: gaps.known,
+                    deepest: f64::INFINITY,
+                    suspects: None,
+                };
+                smallest = self.gap_within(f64::INFINITY, (p, &pair), model, &any, position) - least;
             }
         }
-        for pair in pairs() {
+        for (p, pair) in pairs() {
             let (at_least, least) = bound(&self.extents, &pair);
             // Only a gap below the smallest so far is asked for.
             if at_least < smallest {
-                let gap = self.gap_within(smallest + least, &pair, model, gaps.deepest, position);
+                let gap = self.gap_within(smallest + least, (p, &pair), model, gaps, position);
                 smallest = smallest.min(gap - least);
             }
         }
@@ -119,26 +140,33 @@ impl<const D: usize> Gauge<D> {
     }
 
     /// The smallest distance of a source of a pair from its target, negative inside, if it is below `reach` [m]; otherwise it may come out larger, also
-    /// infinite. No source is deeper inside than `deepest` [m].
-    fn gap_within(
+    /// infinite.
+    fn gap_within<F>(
         &mut self,
         reach: f64,
-        pair: &Pair,
+        (number, pair): (usize, &Pair),
         model: &ContactModel<D>,
-        deepest: f64,
+        gaps: &KnownGaps<'_, F>,
         position: &impl Fn(u32) -> Vector<D>,
     ) -> f64 {
-        let points = model.surfaces[pair.source].sources.iter().map(|&n| position(n));
+        let sources = &model.surfaces[pair.source].sources;
         match pair.target {
             Target::Obstacle(o) => {
+                let points = sources.iter().map(|&n| position(n));
                 points.map(|x| model.obstacles[o].gap(&x, position).0).fold(f64::INFINITY, f64::min)
             }
             Target::Surface(t) => {
                 let (side, surface) = (&mut self.sides[t], &model.surfaces[t]);
+                let suspects = gaps.suspects_of(number);
                 let mut smallest = reach;
-                for x in points {
+                for &node in sources {
+                    let x = position(node);
                     let distance = side.whole.distance(&x);
                     if distance > smallest.max(0.0) {
+                        continue;
+                    }
+                    let is_suspect = suspects.is_none_or(|some| some.iter().any(|&(_, n)| n == node));
+                    if !is_suspect && smallest <= 0.0 {
                         continue;
                     }
                     if !side.is_fitted {
@@ -146,7 +174,8 @@ impl<const D: usize> Gauge<D> {
                         side.is_fitted = true;
                     }
                     // Outside of the box of the target nothing is behind a facet: what is farther than the smallest so far has no say.
-                    let reach = if distance > 0.0 { smallest } else { smallest.max(deepest) };
+                    let may_be_inside = is_suspect && distance <= 0.0;
+                    let reach = if may_be_inside { smallest.max(gaps.deepest) } else { smallest };
                     smallest = smallest.min(signed_distance_within(reach, &x, surface, &side.tree, position));
                 }
                 smallest

@@ -241,6 +241,9 @@ pub trait Body<const D: usize>: Send + Sync {
         false
     }
 
+    /// Puts what its supports gave `before` [N] among the forces of every `support` of the model: where it rests these stay as they are.
+    fn keep_support(&self, _before: &[Vector<D>], _support: &mut [Vector<D>]) {}
+
     /// The velocity at which it moves as a whole [m/s].
     fn mean_velocity(&self, velocity: &[Vector<D>]) -> Vector<D>;
 

@@ -1,6 +1,6 @@
 //! Which contacts there may be in a step.
 
-use carom_contact::{Candidate, Contact, Mortar, Pair, Path, Search, Site, Solid, Target, Witness};
+use carom_contact::{Candidate, Contact, Mortar, Pair, Pairs, Path, Search, Site, Solid, Target, Witness};
 use carom_mesh::Vector;
 
 use super::active::ActiveSet;
@@ -19,6 +19,8 @@ pub(crate) struct Finder<const D: usize> {
     pub found: Vec<Candidate>,
     /// Those of the step that say what no other does, as the measure has shown.
     needed: Vec<(u32, Site)>,
+    /// Whether the last step has looked at its end for what it did not find.
+    has_looked: bool,
     missed: Vec<Candidate>,
     missed_contacts: Vec<Contact<D>>,
     missed_mortar: Mortar<D>,
@@ -81,6 +83,7 @@ impl<const D: usize> Finder<D> {
             }
         }
         self.found.clone_from(candidates);
+        self.has_looked = false;
     }
 
     /// Whether a node that the search did not find, or that another stood for, has gone through its target by the end of the step. If so, what was
@@ -88,7 +91,11 @@ impl<const D: usize> Finder<D> {
     ///
     /// Only where the condition is written there: the others choose their contacts at the start.
     pub fn missed_one(&mut self, given: &Given<'_, D>, at_rest: &AtRest, next: &State<D>) -> bool {
-        if !given.method.condition.rules_the_end() || at_rest.is_everything() {
+        if !given.method.condition.rules_the_end() {
+            return false;
+        }
+        self.has_looked = true;
+        if at_rest.is_everything() {
             return false;
         }
         let assembly = given.assembly;
@@ -96,7 +103,7 @@ impl<const D: usize> Finder<D> {
         // What is closed counts whatever the sign of round-off: an edge that goes on keeps others from being found at its end.
         let closed = CONTROL.closed * assembly.size;
         let at_end = Path::resting(&end, assembly.reach(given.interval.end) + closed);
-        let Self { search, asleep, found, needed, missed, missed_mortar, missed_contacts } = self;
+        let Self { search, asleep, found, needed, missed, missed_mortar, missed_contacts, .. } = self;
         let contact = &assembly.contact;
         let counts = |pair: &Pair| !is_asleep(asleep, pair) && !at_rest.are_still(pair);
         contact.detect_node_by_node(counts, &at_end, search, missed);
@@ -118,6 +125,22 @@ impl<const D: usize> Finder<D> {
             found.sort_unstable();
         }
         missed_one || needed.len() > known
+    }
+
+    /// Takes note that the step has come to nothing.
+    pub fn forget_end(&mut self) {
+        self.has_looked = false;
+    }
+
+    /// The nodes that may be inside of surfaces where the last step ended, each with its pair, ascending: those that were found and were not among its contacts,
+    /// the `active`. Of all others it has seen that they are not. None if it has not looked, and of rows of mortar pairs, which are about means.
+    pub fn suspects(&self, pairs: &Pairs, active: &[Candidate]) -> Option<Vec<(u32, u32)>> {
+        if !self.has_looked || pairs.have_mortar() {
+            return None;
+        }
+        let is_idle = |c: &&Candidate| active.binary_search_by_key(&c.key(), Candidate::key).is_err();
+        let of_node = |c: &Candidate| Some((c.pair, c.node()?));
+        Some(self.found.iter().filter(is_idle).filter_map(of_node).collect())
     }
 
     /// Whether candidates that nobody had found would have kept out what the measure of the step has found inside. If so, they are searched

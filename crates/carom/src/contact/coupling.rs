@@ -27,7 +27,6 @@ impl Coupling {
     /// Lists `contacts` by node and body.
     pub fn list<const D: usize>(&mut self, assembly: &Assembly<D>, contacts: &[Contact<D>]) {
         self.links.clear();
-        self.of_body.iter_mut().for_each(Vec::clear);
         for (i, contact) in (0_u32..).zip(contacts) {
             for (node, _) in contact.stencil() {
                 let Some(b) = assembly.body_of(node) else { continue };
@@ -42,8 +41,11 @@ impl Coupling {
 
     /// Undoes [`Self::list`].
     pub fn forget<const D: usize>(&mut self, assembly: &Assembly<D>, contacts: &[Contact<D>]) {
-        let nodes = contacts.iter().flat_map(|contact| contact.stencil().map(|(node, _)| node));
-        nodes.filter(|&node| assembly.body_of(node).is_some()).for_each(|node| self.last[node] = END);
+        for (node, _) in contacts.iter().flat_map(Contact::stencil) {
+            let Some(b) = assembly.body_of(node) else { continue };
+            self.last[node] = END;
+            self.of_body[b].clear();
+        }
     }
 
     /// Writes the contacts that may respond to `contact`, number `i`, and itself, ascending, to `partners`.

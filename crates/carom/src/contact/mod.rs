@@ -10,6 +10,7 @@ mod control;
 mod coupling;
 pub(crate) mod cross_check;
 pub(crate) mod delassus;
+mod islands;
 mod left_out;
 pub(crate) mod on_masses;
 mod pressing;
@@ -22,13 +23,14 @@ pub(crate) mod stiffened;
 mod woodbury;
 
 use carom_contact::Contact;
-use carom_friction::ContactProblem;
+use carom_friction::{ContactProblem, Measure};
 use carom_mesh::Vector;
 
 use self::active::ActiveSet;
 use self::candidates::Finder;
 use self::contact_work::ContactWork;
 use self::control::CONTROL;
+use self::islands::Islands;
 use self::on_masses::OnMasses;
 use self::reduced::Reduced;
 use self::slip::Slip;
@@ -51,7 +53,9 @@ pub struct PosedProblem<'a, const D: usize> {
 #[derive(Debug)]
 pub(crate) struct Contacts<const D: usize> {
     pub finder: Finder<D>,
+    /// Those that take part in the step, or in the iterations of an island.
     pub active: ActiveSet<D>,
+    islands: Islands<D>,
     pub reduced: Reduced<D>,
     /// What the contacts mean for the balance of blended steps.
     pub work: Vec<ContactWork>,
@@ -70,6 +74,7 @@ impl<const D: usize> Contacts<D> {
         Self {
             finder: Finder::new(assembly.body_count()),
             active: ActiveSet::new(assembly.body_count()),
+            islands: Islands::default(),
             reduced: Reduced::new(assembly),
             work: Vec::new(),
             on_masses: OnMasses::default(),
@@ -77,6 +82,36 @@ impl<const D: usize> Contacts<D> {
             at_end: Vec::new(),
             mean_force: vec![Vector::zeros(); assembly.reference.len()],
         }
+    }
+
+    /// Divides what was selected by islands; returns how many there are. [`Self::join`] puts them together again.
+    pub fn divide(&mut self, given: &Given<'_, D>) -> usize {
+        self.islands.divide(given, &mut self.active)
+    }
+
+    /// Makes the contacts of an island the active ones; returns its bodies, ascending.
+    pub fn enter(&mut self, island: usize) -> Vec<usize> {
+        self.islands.enter(island, &mut self.active, &mut self.reduced)
+    }
+
+    /// Keeps what the iterations of an island have come to, of these `bodies`.
+    pub fn leave(&mut self, island: usize, bodies: Vec<usize>) {
+        self.islands.leave(island, bodies, &mut self.active, &mut self.reduced);
+    }
+
+    /// Puts the islands of a step together again.
+    pub fn join(&mut self, given: &Given<'_, D>) {
+        self.islands.join(given, &mut self.active, &mut self.reduced);
+    }
+
+    /// Gives up a step in which the iterations of an island have failed: its problem is the last one posed.
+    pub fn give_up(&mut self, island: usize) {
+        self.islands.give_up(island, &mut self.active, &mut self.reduced);
+    }
+
+    /// How far the reactions of the step are from the laws.
+    pub fn measure(&self) -> Measure {
+        self.islands.measure(&self.active, &self.reduced)
     }
 
     /// Sums the forces of the books: the reactions at the two `ends` of a step by the weights of their conditions.
@@ -93,13 +128,14 @@ impl<const D: usize> Contacts<D> {
         }
     }
 
-    /// Evaluates the contacts at a guess and gets the bodies ready to respond to them; late in the iterations of a step the last correction [m] is
+    /// Evaluates the contacts of `touching` bodies at a guess and gets these ready to respond to them; late in the iterations of a step the last correction [m] is
     /// given, see [`ActiveSet::evaluate_late`].
     pub fn evaluate(
         &mut self,
         given: &Given<'_, D>,
         motion: &[Vector<D>],
         late: Option<f64>,
+        touching: &[usize],
         bodies: &mut [Box<dyn Body<D>>],
     ) {
         match late {
@@ -107,7 +143,7 @@ impl<const D: usize> Contacts<D> {
             None => self.active.evaluate(given, motion),
         }
         self.active.meet(given, bodies);
-        self.reduced.prepare(given, &self.active, bodies);
+        self.reduced.prepare(given, &self.active, touching, bodies);
     }
 
     /// Whether anything acts on bodies from outside that depends on their motion: contacts or springs.
@@ -133,9 +169,9 @@ impl<const D: usize> Contacts<D> {
         stiffened.is_geometric
     }
 
-    /// From now on they have none.
-    pub fn soften(&mut self) {
-        self.reduced.delassus.stiffened.clear();
+    /// From now on they have none, and `bodies` no springs.
+    pub fn soften(&mut self, bodies: &[usize]) {
+        self.reduced.delassus.stiffened.clear(bodies);
     }
 
     /// Makes what contacts add to the tangents of a load step: see [`Reduced::stiffen`].

@@ -44,8 +44,9 @@ pub(crate) struct Reduced<const D: usize> {
     pub solved_by: SolverKind,
     /// Time spent in the friction solver so far.
     pub friction_time: Duration,
-    /// The nodes of every body that contacts act on, ascending.
+    /// The nodes of every body that contacts act on, ascending, and the bodies of which they were listed; others have none.
     nodes: Vec<Vec<u32>>,
+    listed: Vec<usize>,
     /// The motion with the reactions known so far, at these nodes and of obstacles [m].
     known_motion: Vec<Vector<D>>,
     /// The change of the nodal forces by that of the reactions, at these nodes [N].
@@ -64,6 +65,7 @@ impl<const D: usize> Reduced<D> {
             solved_by: SolverKind::default(),
             friction_time: Duration::ZERO,
             nodes: vec![Vec::new(); assembly.body_count()],
+            listed: Vec::new(),
             known_motion: zeros.clone(),
             change: zeros,
         }
@@ -75,21 +77,25 @@ impl<const D: usize> Reduced<D> {
         size(&self.problem, &active.reactions).max(adhesion / self.problem.natural_stiffness())
     }
 
-    /// Lists the nodes of every body that these contacts, springs of the model, and springs in K̄, act on.
+    /// Lists the nodes of `bodies` that these contacts of theirs, springs of the model, and springs in K̄, act on.
     fn list_nodes<'a>(
         &mut self,
         assembly: &Assembly<D>,
+        bodies: &[usize],
         touched: &[bool],
         contacts: impl Iterator<Item = &'a Contact<D>>,
     ) {
-        self.nodes.iter_mut().for_each(Vec::clear);
+        self.listed.iter().for_each(|&i| self.nodes[i].clear());
+        self.listed.clear();
+        self.listed.extend_from_slice(bodies);
         // The motion of obstacles is prescribed: they do not respond.
         for (b, own) in contacts.flat_map(Contact::stencil).filter_map(|(n, _)| assembly.place_of(n)) {
             self.nodes[b].push(own as u32);
         }
         assembly.connected().for_each(|(b, own)| self.nodes[b].push(own as u32));
         let stiffened = &self.delassus.stiffened;
-        for (i, nodes) in self.nodes.iter_mut().enumerate() {
+        for &i in bodies {
+            let nodes = &mut self.nodes[i];
             if touched[i] && stiffened.is_sprung[i] {
                 nodes.extend(stiffened.springs[i].iter().map(|&(node, _)| node));
             }
@@ -106,7 +112,7 @@ impl<const D: usize> Reduced<D> {
         bodies: &mut [Box<dyn Body<D>>],
     ) {
         let touched = vec![false; bodies.len()];
-        self.list_nodes(assembly, &touched, state.reactions.iter().map(|r| &r.contact));
+        self.list_nodes(assembly, &assembly.everyone, &touched, state.reactions.iter().map(|r| &r.contact));
         self.nodes.iter().zip(bodies).for_each(|(nodes, body)| body.expect_contacts(nodes));
     }
 
@@ -115,13 +121,19 @@ impl<const D: usize> Reduced<D> {
         self.nodes.iter().zip(bodies).for_each(|(nodes, body)| body.expect_contacts(nodes));
     }
 
-    /// Gets the bodies ready to respond at the nodes of the contacts: their compliance there, and the reach of these nodes.
-    pub fn prepare(&mut self, given: &Given<'_, D>, active: &ActiveSet<D>, bodies: &mut [Box<dyn Body<D>>]) {
-        self.list_nodes(given.assembly, &active.touched, active.contacts.iter());
+    /// Gets those of the bodies that are `touching` ready to respond at the nodes of their contacts: their compliance there, and the reach of these nodes.
+    pub fn prepare(
+        &mut self,
+        given: &Given<'_, D>,
+        active: &ActiveSet<D>,
+        touching: &[usize],
+        bodies: &mut [Box<dyn Body<D>>],
+    ) {
+        self.list_nodes(given.assembly, touching, &active.touched, active.contacts.iter());
         let everywhere = given.interval.map.is_static();
-        let Self { nodes, delassus, .. } = self;
+        let Self { nodes, listed, delassus, .. } = self;
         let all = (PerBody(bodies), PerBody(&mut delassus.compliances));
-        each_body(given.assembly, &given.assembly.everyone, all, &|i, (body, compliance)| {
+        each_body(given.assembly, listed, all, &|i, (body, compliance)| {
             let (body, nodes) = (body.own(), &nodes[i]);
             if !nodes.is_empty() {
                 compliance.own().prepare(&mut **body, nodes, everywhere);
@@ -212,9 +224,9 @@ impl<const D: usize> Reduced<D> {
     fn look(&mut self, assembly: &Assembly<D>, motion: &[Vector<D>], bodies: &mut [Box<dyn Body<D>>]) {
         let obstacles = assembly.node_count()..;
         self.known_motion[obstacles.clone()].copy_from_slice(&motion[obstacles]);
-        let Self { nodes, known_motion, .. } = self;
+        let Self { nodes, listed, known_motion, .. } = self;
         let all = (PerBody(bodies), PerNode(known_motion));
-        each_body(assembly, &assembly.everyone, all, &|i, (body, seen)| {
+        each_body(assembly, listed, all, &|i, (body, seen)| {
             let (nodes, seen) = (&nodes[i], seen.0);
             if nodes.is_empty() {
                 return;
@@ -229,7 +241,7 @@ impl<const D: usize> Reduced<D> {
     fn give(&mut self, assembly: &Assembly<D>, active: &ActiveSet<D>, bodies: &mut [Box<dyn Body<D>>]) {
         // Obstacles do not respond, but their places take what contacts leave there.
         self.change[assembly.node_count()..].fill(Vector::zeros());
-        for (i, nodes) in self.nodes.iter().enumerate() {
+        for (i, nodes) in self.listed.iter().map(|&i| (i, &self.nodes[i])) {
             let first = assembly.nodes(i).start;
             nodes.iter().for_each(|&node| self.change[first + node as usize] = Vector::zeros());
         }
@@ -239,8 +251,8 @@ impl<const D: usize> Reduced<D> {
         if self.delassus.stiffened.is_needed() {
             self.delassus.stiffened.stand_in(&mut self.change);
         }
-        let Self { nodes, change, .. } = self;
-        each_body(assembly, &assembly.everyone, PerBody(bodies), &|i, body| {
+        let Self { nodes, listed, change, .. } = self;
+        each_body(assembly, listed, PerBody(bodies), &|i, body| {
             if !nodes[i].is_empty() {
                 body.own().add_forces(&nodes[i], &change[assembly.nodes(i)]);
             }

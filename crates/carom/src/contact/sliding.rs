@@ -51,6 +51,11 @@ impl<const D: usize> ActiveSet<D> {
         }
     }
 
+    /// Makes what tells the pressure at `sliders`.
+    pub(super) fn prepare_pressing(&mut self, given: &Given<'_, D>, sliders: &[Slider<D>]) {
+        self.pressing.prepare(given, &self.candidates, &self.contacts, sliders);
+    }
+
     /// How contact `i` slides that presses with `r` and moves by `w` relative to its target, which lacks `offset` of the variable of
     /// friction. `step_length` makes a force of a motion [N/m].
     fn slides(
@@ -103,7 +108,7 @@ impl<const D: usize> ActiveSet<D> {
             let pair = active.candidates[slider.contact].pair as usize;
             assembly.friction_laws.of(&assembly.contact.pairs.get(pair))
         };
-        self.pressing.prepare(given, &self.candidates, &self.contacts, &sliders);
+        self.prepare_pressing(given, &sliders);
         for slider in &mut sliders {
             if let Some(law) = law(slider, self) {
                 slider.begin(law, &mut self.friction[slider.contact]);

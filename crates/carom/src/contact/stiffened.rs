@@ -161,11 +161,11 @@ impl<const D: usize> Stiffened<D> {
         self.missing.is_needed()
     }
 
-    /// Forgets what a step before has left.
-    pub fn clear(&mut self) {
+    /// Forgets what was of `bodies` before.
+    pub fn clear(&mut self, bodies: &[usize]) {
         self.missing.clear();
         self.left_out.clear();
-        self.let_go();
+        self.let_go(bodies);
         self.is_geometric = false;
     }
 
@@ -236,11 +236,13 @@ impl<const D: usize> Stiffened<D> {
         true
     }
 
-    /// No K̄ has springs any more: those of a step before are of no use in the next.
-    pub fn let_go(&mut self) {
-        self.is_sprung.fill(false);
-        self.of_model.iter_mut().for_each(Vec::clear);
-        self.times.fill(1.0);
+    /// No K̄ of `bodies` has springs any more: those of a step before are of no use in the next.
+    pub fn let_go(&mut self, bodies: &[usize]) {
+        for &i in bodies {
+            self.is_sprung[i] = false;
+            self.of_model[i].clear();
+            self.times[i] = 1.0;
+        }
     }
 
     /// Adds the forces −κ w that go with the springs between contacts to `residual` [N]. The contacts are those of the guess.

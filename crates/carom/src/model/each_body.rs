@@ -112,9 +112,8 @@ fn share<const D: usize, P: Cut, E: Send>(
     [first_body, first_node]: [usize; 2],
     work: &(impl Fn(usize, P) -> Result<(), E> + Sync),
 ) -> Result<(), E> {
-    let (&[first, ..], &[.., last]) = (bodies, bodies) else { return Ok(()) };
-    let nodes = assembly.nodes(last).end - assembly.nodes(first).start;
-    if bodies.len() > 1 && nodes > BODIES && has_threads() {
+    let nodes = || bodies.iter().map(|&i| assembly.nodes(i).len()).sum::<usize>();
+    if bodies.len() > 1 && has_threads() && nodes() > BODIES {
         let (before, after) = bodies.split_at(bodies.len() / 2);
         let middle = [after[0], assembly.nodes(after[0]).start];
         let (left, right) = all.cut(middle[0] - first_body, middle[1] - first_node);

@@ -6,6 +6,7 @@ pub(crate) mod bearing;
 pub(crate) mod cohesion;
 pub(crate) mod condition;
 pub(crate) mod each_body;
+pub(crate) mod forest;
 pub(crate) mod friction_laws;
 pub(crate) mod given;
 pub(crate) mod interference;

@@ -10,6 +10,9 @@ use crate::{Ledger, Model, State};
 /// What kinetic energy is split into: see [`KineticParts`].
 const PARTS: [&str; 3] = ["translation", "rotation", "vibration"];
 
+/// How far behind a facet nodes are found, in facets.
+const SEARCHED: f64 = 0.5;
+
 /// What is added to the depth that a step has measured before nothing is thought to be deeper, in sizes of the largest body.
 const DEEPER: f64 = 0.01;
 
@@ -198,8 +201,16 @@ impl<const D: usize> History<D> {
         }
     }
 
-    /// Writes a row of stage number `stage`, from 0; returns the smallest gap of all pairs [m].
-    pub fn record(&mut self, model: &Model<D>, state: &State<D>, ledger: &Ledger, stage: usize) -> f64 {
+    /// Writes a row of stage number `stage`, from 0; returns the smallest gap of all pairs [m]. `suspects` are the nodes that the last step may have left inside of
+    /// something, each with its pair, if it has looked for them.
+    pub fn record(
+        &mut self,
+        model: &Model<D>,
+        state: &State<D>,
+        ledger: &Ledger,
+        stage: usize,
+        suspects: Option<&[(u32, u32)]>,
+    ) -> f64 {
         let e = &state.energies;
         self.rows.push(state.time);
         self.rows.extend(self.has_stages.then_some(stage as f64 + 1.0));
@@ -242,7 +253,9 @@ impl<const D: usize> History<D> {
         let at_most = interferences.all().map(|i| i.least(state.time).min(most)).fold(0.0, f64::max);
         // Nodes deep between others are closest to a side; the contacts know what they face.
         let known = if since.steps > 0 { since.min_gap } else { f64::INFINITY };
-        let gaps = KnownGaps { least, most: at_most, known, deepest: deepest(model, &since) };
+        let deepest = deepest(model, &since);
+        let suspects = suspects.filter(|_| is_shallow(model, &since));
+        let gaps = KnownGaps { least, most: at_most, known, deepest, suspects };
         let min_gap = self.gauge.smallest_gap(&model.assembly.contact, &gaps, &at);
         self.rows.extend([
             since.contacts as f64,
@@ -286,6 +299,16 @@ fn deepest<const D: usize>(model: &Model<D>, since: &Since) -> f64 {
     // Arcs of targets are in front of the facets that depth is measured from, and further when these are bent; the rest is for round-off.
     let arcs = (0..assembly.body_count()).map(|i| assembly.boundaries.largest_arc(i)).fold(0.0, f64::max);
     since.penetration + 2.0 * arcs + DEEPER * assembly.size
+}
+
+/// Whether all that is inside something at the end of the last step is in front of the middle of the facets, where a search has found it.
+fn is_shallow<const D: usize>(model: &Model<D>, since: &Since) -> bool {
+    let assembly = &model.assembly;
+    let sizes = |i: usize| (assembly.boundaries.least_cell(i), assembly.boundaries.largest_arc(i));
+    let (cell, arc) = (0..assembly.body_count())
+        .map(sizes)
+        .fold((f64::INFINITY, 0.0_f64), |(cell, arc), own| (cell.min(own.0), arc.max(own.1)));
+    since.steps > 0 && assembly.interferences.are_none() && since.penetration + 2.0 * arc < SEARCHED * cell
 }
 
 /// The components of a rotational quantity that exist in D dimensions: z in 2D, all in 3D.

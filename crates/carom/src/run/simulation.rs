@@ -452,8 +452,16 @@ impl<const D: usize> Simulation<D> {
     fn record(&mut self) {
         self.complete_tracked();
         let stage = &self.stages[self.current];
-        let min_gap = self.history.record(&stage.model, &self.state, &self.books.total, self.current);
-        let pairs = &self.stages[self.current].model.assembly.contact.pairs;
+        let contacts = &self.work.contacts;
+        let pairs = &stage.model.assembly.contact.pairs;
+        let suspects = contacts.finder.suspects(pairs, &contacts.active.candidates);
+        let min_gap = self.history.record(
+            &stage.model,
+            &self.state,
+            &self.books.total,
+            self.current,
+            suspects.as_deref(),
+        );
         self.ledger_table.record(self.state.time, &self.books, pairs);
         self.totals.min_gap = self.totals.min_gap.min(min_gap);
         self.last_recorded = Some(self.state.time);

@@ -83,6 +83,13 @@ impl Signal {
         }
     }
 
+    /// Whether it has the same value at two times [s], and no rate at either.
+    #[must_use]
+    pub fn stands_still(&self, times: [f64; 2]) -> bool {
+        let [a, b] = times.map(|t| self.at(t));
+        a.value == b.value && a.rate == 0.0 && b.rate == 0.0
+    }
+
     /// Whether it is the constant 0.
     #[must_use]
     pub fn is_zero(&self) -> bool {

@@ -92,15 +92,16 @@ fn keep_contacts<const D: usize>(
     work: &mut Workspace<D>,
     report: &mut StepReport,
 ) {
-    let Workspace { contacts: Contacts { active, reduced, at_end, .. }, motion, resting, .. } = work;
-    if active.contacts.is_empty() {
+    let Workspace { contacts, motion, resting, .. } = work;
+    if contacts.active.contacts.is_empty() {
         next.reactions.clear();
         next.contact_force.fill(Vector::zeros());
         carry(given, next, resting, report);
         remember(&given.state.sliding, std::iter::empty(), &mut next.sliding);
         return;
     }
-    let measure = carom_friction::measure(&reduced.problem, &active.reactions);
+    let measure = contacts.measure();
+    let Contacts { active, reduced, at_end, .. } = contacts;
     report.residual = measure.natural_residual;
     report.solver_certificate = measure.certificate / active.least_weight();
     let kept = keep(given, active, &reduced.offsets, motion, at_end, next);
@@ -129,7 +130,7 @@ fn carry<const D: usize>(
 fn close_bodies<const D: usize>(given: &Given<'_, D>, next: &mut State<D>, work: &mut Workspace<D>) {
     let assembly = given.assembly;
     let Workspace { bodies, contacts, blend, motion, body_ledgers, springs, resting, .. } = work;
-    resting.keep(given, next, body_ledgers);
+    resting.keep(given, next, bodies, body_ledgers);
     let State { displacement, contact_force, velocity, internal_force, .. } = next;
     contacts.weigh(given, [&given.state.reactions, &next.reactions]);
     let Contacts { on_masses, active, mean_force, .. } = &mut *contacts;

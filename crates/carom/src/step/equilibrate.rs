@@ -75,10 +75,10 @@ pub(super) fn go_on<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
     let Workspace { contacts, newton, motion, bodies: all, .. } = work;
-    contacts.soften();
-    newton.holding.fill(Holding::default());
+    contacts.soften(bodies);
+    bodies.iter().for_each(|&i| newton.holding[i] = Holding::default());
     if bodies.iter().any(|&i| contacts.active.touched[i]) {
-        contacts.evaluate(given, motion, None, all);
+        contacts.evaluate(given, motion, None, bodies, all);
     }
     linearise(bodies, given, next, work)?;
     let allowed = given.method.newton.max_iterations - made;
@@ -177,7 +177,7 @@ fn solve<const D: usize>(
 ) -> Result<f64, StepError> {
     let touched = bodies.iter().any(|&i| work.contacts.active.touched[i]);
     if touched {
-        work.contacts.evaluate(given, &work.motion, late, &mut work.bodies);
+        work.contacts.evaluate(given, &work.motion, late, bodies, &mut work.bodies);
     }
     residuals(bodies, 1, given, next, work);
     let reacts = touched && work.contacts.react(given.assembly);
@@ -241,7 +241,7 @@ pub(super) fn set_out<const D: usize>(
     let Workspace { bodies, contacts, newton, motion, .. } = work;
     contacts.reduced.expect_those_of(given.state, given.assembly, bodies);
     let stiffened = &mut contacts.reduced.delassus.stiffened;
-    stiffened.let_go();
+    stiffened.let_go(&given.assembly.everyone);
     stiffened.spring_from_start(given.assembly, given.state, bodies);
     stiffened.is_geometric = false;
     newton.holding.fill(Holding::default());

@@ -20,29 +20,38 @@ type Solve<const D: usize> =
 
 /// Newton's iterations with a kept factor; returns how many the slowest body took. Writes u₊ to `next` and d to `work`.
 ///
-/// Bodies in contact depend on one another and iterate together, every other one alone to its end.
+/// Bodies of an island depend on one another and iterate together, every other one alone to its end.
 pub(super) fn iterate<const D: usize>(
     given: &Given<'_, D>,
     next: &mut State<D>,
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
+    let everyone = &given.assembly.everyone;
     let Workspace { contacts, newton, motion, resting, .. } = work;
     contacts.active.select(given, &contacts.finder.search, &resting.who);
     contacts.on_masses.begin(given);
     if !given.interval.map.is_static() {
         // The guess that softened contacts would go back to may be of other contacts, where the step is repeated.
-        contacts.soften();
+        contacts.soften(everyone);
     }
-    newton.begin(given.assembly, motion);
+    newton.begin(everyone, given.assembly, motion);
     nodal::each(&mut next.displacement, [&given.state.displacement, motion], |u1, [u0, d]| *u1 = u0 + d);
     let solve: Solve<D> = if given.interval.map.is_static() { equilibrate } else { iterate_bodies };
-    let mut in_contact = std::mem::take(&mut newton.in_contact);
-    in_contact.clear();
-    in_contact.extend((0..work.bodies.len()).filter(|&i| contacts.active.touched[i]));
-    let made =
-        if in_contact.is_empty() { Ok(0) } else { iterate_touching(&in_contact, solve, given, next, work) };
-    work.newton.in_contact = in_contact;
-    let mut iterations = made?;
+    let mut iterations = 0;
+    for island in 0..contacts.divide(given) {
+        let bodies = work.contacts.enter(island);
+        let made = iterate_touching(&bodies, solve, given, next, work);
+        if !given.interval.map.is_static() {
+            // The next island begins without.
+            work.contacts.soften(&bodies);
+        }
+        work.contacts.leave(island, bodies);
+        if made.is_err() {
+            work.contacts.give_up(island);
+        }
+        iterations = iterations.max(made?);
+    }
+    work.contacts.join(given);
     for i in 0..work.bodies.len() {
         if !work.contacts.active.touched[i] && !work.resting.who.bodies[i] {
             iterations = iterations.max(solve(&[i], given, next, work)?);
@@ -51,7 +60,7 @@ pub(super) fn iterate<const D: usize>(
     Ok(iterations)
 }
 
-/// [`iterate`] for the `bodies` in contact, again and again, until everything that opens has let go. It ends, as what lets go does so for good.
+/// [`iterate`] for the `bodies` of an island, again and again, until everything that opens has let go. It ends, as what lets go does so for good.
 fn iterate_touching<const D: usize>(
     bodies: &[usize],
     solve: Solve<D>,
@@ -61,13 +70,13 @@ fn iterate_touching<const D: usize>(
 ) -> Result<usize, StepError> {
     let mut iterations = solve(bodies, given, next, work)?;
     while work.contacts.let_go() {
-        work.newton.begin(given.assembly, &work.motion);
+        work.newton.begin(bodies, given.assembly, &work.motion);
         iterations += solve(bodies, given, next, work)?;
     }
     Ok(iterations)
 }
 
-/// [`iterate`] for some `bodies`: all that are in contact, or one that is not.
+/// [`iterate`] for some `bodies`: those of an island, or one that nothing touches.
 fn iterate_bodies<const D: usize>(
     bodies: &[usize],
     given: &Given<'_, D>,
@@ -78,7 +87,7 @@ fn iterate_bodies<const D: usize>(
         // A bridge leads through what is not stable, in steps as long as they may be.
         return go_on(bodies, 0, given, next, work);
     }
-    let mut convergence = Convergence::new(given);
+    let mut convergence = Convergence::new(bodies, given);
     let touched = bodies.iter().any(|&i| work.contacts.active.touched[i]);
     // What makes blended iterations slow is the blend, which no tangent knows of.
     let may_go_on = touched && !given.interval.is_blended;
@@ -90,7 +99,7 @@ fn iterate_bodies<const D: usize>(
             let Workspace { contacts, motion, bodies: all, newton, .. } = work;
             let late =
                 (iteration > CONTROL.late).then(|| convergence.largest_correction(bodies, &newton.progress));
-            contacts.evaluate(given, motion, late, all);
+            contacts.evaluate(given, motion, late, bodies, all);
         }
         residuals(bodies, iteration, given, next, work);
         let reacts = touched && work.contacts.react(given.assembly);
@@ -141,7 +150,7 @@ fn iterate_bodies<const D: usize>(
         {
             work.newton.keep_guess(bodies, given.assembly, &work.motion, &work.contacts.active);
             may_stiffen = work.contacts.take_stiffness_of_reactions();
-            work.newton.acceleration.restart();
+            work.newton.acceleration.restart(bodies);
         }
         if may_go_on && iteration >= CONTROL.endured && convergence.is_linear(bodies, &work.newton.progress) {
             return go_on(bodies, iteration, given, next, work);
@@ -163,8 +172,8 @@ fn soften<const D: usize>(
 ) {
     work.newton.return_to_guess(bodies, given.assembly, &mut work.motion, &mut work.contacts.active);
     follow(bodies, given, next, work);
-    work.contacts.soften();
-    work.newton.acceleration.restart();
+    work.contacts.soften(bodies);
+    work.newton.acceleration.restart(bodies);
 }
 
 /// Moves the `bodies` on to better guesses.
@@ -191,7 +200,7 @@ fn renew<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
     let Workspace { bodies: all, newton, motion, factorisations, .. } = work;
-    newton.acceleration.restart();
+    newton.acceleration.restart(bodies);
     let Newton { slow, progress, .. } = newton;
     slow.clear();
     slow.extend(bodies.iter().filter(|&&i| progress[i].contraction > CONTROL.slow_contraction));

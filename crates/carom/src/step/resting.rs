@@ -17,6 +17,7 @@ use crate::body::Body;
 use crate::ledger::{BodyLedger, Energies};
 use crate::model::assembly::Assembly;
 use crate::model::at_rest::AtRest;
+use crate::model::forest::Forest;
 use crate::model::given::Given;
 use crate::model::method::Method;
 use crate::model::state::{Reaction, State};
@@ -162,7 +163,13 @@ impl<const D: usize> Resting<D> {
     }
 
     /// Leaves what rests where it was.
-    pub fn keep(&self, given: &Given<'_, D>, next: &mut State<D>, ledgers: &mut [BodyLedger]) {
+    pub fn keep(
+        &self,
+        given: &Given<'_, D>,
+        next: &mut State<D>,
+        bodies: &[Box<dyn Body<D>>],
+        ledgers: &mut [BodyLedger],
+    ) {
         if self.awake.len() == self.who.bodies.len() {
             return;
         }
@@ -174,6 +181,7 @@ impl<const D: usize> Resting<D> {
             velocities.for_each(|(end, v)| *end = map.end_velocity(v, &Vector::zeros()));
             next.internal_force[nodes.clone()].copy_from_slice(&state.internal_force[nodes]);
             next.history[i].clone_from(&state.history[i]);
+            bodies[i].keep_support(&state.support, &mut next.support);
             let before = state.body_energies[i];
             let kinetic = before.kinetic * map.velocity_of_velocity.powi(2);
             next.body_energies[i] = Energies { kinetic, ..before };
@@ -282,7 +290,7 @@ fn sides(pair: &Pair) -> [Option<usize>; 2] {
 /// Bodies that touch one another, directly or through others: a forest in which every tree is an island.
 #[derive(Debug, Default)]
 struct Islands {
-    parents: Vec<usize>,
+    forest: Forest,
     /// Whether something of the island of a root moves.
     is_disturbed: Vec<bool>,
     /// Whether a reaction acts on a body.
@@ -292,35 +300,25 @@ struct Islands {
 impl Islands {
     /// So many bodies, each on its own.
     fn begin(&mut self, bodies: usize) {
-        self.parents.clear();
-        self.parents.extend(0..bodies);
+        self.forest.begin(bodies);
         self.is_disturbed.clear();
         self.is_disturbed.resize(bodies, false);
         self.is_pressed.clear();
         self.is_pressed.resize(bodies, false);
     }
 
-    fn root(&mut self, mut body: usize) -> usize {
-        while self.parents[body] != body {
-            self.parents[body] = self.parents[self.parents[body]];
-            body = self.parents[body];
-        }
-        body
-    }
-
     fn join(&mut self, a: usize, b: usize) {
-        let [a, b] = [self.root(a), self.root(b)];
-        self.parents[a.max(b)] = a.min(b);
-        self.is_disturbed[a.min(b)] |= self.is_disturbed[a.max(b)];
+        let [stays, other] = self.forest.join(a, b);
+        self.is_disturbed[stays] |= self.is_disturbed[other];
     }
 
     fn disturb(&mut self, body: usize) {
-        let root = self.root(body);
+        let root = self.forest.root(body);
         self.is_disturbed[root] = true;
     }
 
     fn is_disturbed(&mut self, body: usize) -> bool {
-        let root = self.root(body);
+        let root = self.forest.root(body);
         self.is_disturbed[root]
     }
 }

@@ -158,7 +158,7 @@ pub(super) fn check_together<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<(), StepError> {
     let Workspace { contacts, motion, bodies, newton, .. } = work;
-    contacts.evaluate(given, motion, None, bodies);
+    contacts.evaluate(given, motion, None, &given.assembly.everyone, bodies);
     let was_geometric = contacts.is_stiffened();
     if !contacts.take_stiffness_of_reactions() {
         return Ok(());

@@ -15,6 +15,7 @@ mod foreign_body;
 mod hypotheses;
 mod incline;
 mod invariance;
+mod islands;
 mod large_bodies;
 mod ledger;
 mod load_steps;

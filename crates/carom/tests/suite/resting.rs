@@ -144,6 +144,41 @@ fn a_load_that_sets_in_and_a_floor_that_moves_off_are_felt_in_their_step() {
     }
 }
 
+/// Symptom guarded against: what lies on a plate whose motion has not begun, or that is clamped, never rested.
+#[test]
+fn what_lies_on_a_support_that_will_move_rests_until_it_does_and_its_force_stays() {
+    for motion in [
+        json!({"kind": "prescribed", "body": "lower", "on": "bottom", "x": 0.0, "y": "0.05*step(t - 0.9)*(t - 0.9)"}),
+        json!({"kind": "fixed", "body": "lower", "on": "bottom"}),
+    ] {
+        let mut case = two(1.0);
+        case["obstacles"] = json!([]);
+        let moves = motion["kind"] == "prescribed";
+        case["motions"] = json!([motion]);
+        case["output"]["history_every"] = json!(DT);
+        let mut simulation = started(&case);
+        go_on(&mut simulation, 0.9 - 1.5 * DT);
+        assert_eq!(simulation.resting(), [true, true], "{case}");
+        let weight = 2.0 * 1000.0 * 9.81;
+        let held = simulation.state().support[0][1];
+        assert!((held - weight).abs() < 1e-6 * weight, "{held} N hold {weight} N");
+        let mut states = Vec::new();
+        awake(&case, 905, |_, state| states.push(state.clone()));
+        let still = simulation.state().clone();
+        while simulation.step() < 905 {
+            simulation.advance(f64::INFINITY, || true).expect("runs");
+            let (now, other) = (simulation.state(), &states[simulation.step() as usize - 1]);
+            assert!(apart(now, other) < 1e-10, "step {}: {:e} m", simulation.step(), apart(now, other));
+            let off = (now.support[0] - other.support[0]).norm();
+            assert!(off < 1e-6 * weight, "step {}: {off:e} N", simulation.step());
+        }
+        assert_eq!(simulation.resting(), [!moves; 2]);
+        assert_eq!(apart(&still, simulation.state()) > 1e-6, moves);
+        let defect = simulation.books().total.defect().abs();
+        assert!(defect < 1e-10 * simulation.books().total.external.abs(), "{defect:e} J");
+    }
+}
+
 /// Whether anything rests in any step.
 fn ever_rests(case: &Value) -> bool {
     let mut simulation = started(case);

@@ -119,3 +119,31 @@ fn damped_bodies_may_come_to_rest_on_massless_nodes() {
     // At rest next to nothing vibrates that could pay.
     assert!(energy.max_defect < 2e-5 * energy.initial, "{energy:?}");
 }
+
+/// Symptom guarded against: the smallest gap of a body that may touch itself was zero all the time, as its nodes are on its own surface.
+#[test]
+fn the_smallest_gap_in_flight_is_the_way_to_the_floor() {
+    let mut case = drop_on_floor();
+    case["output"]["history_every"] = json!(1e-2);
+    let mut simulation = Simulation::<2>::new(&parse(&case)).expect("valid");
+    let nodes = simulation.model().node_count();
+    let mut lowest = Vec::new();
+    let mut note = |simulation: &Simulation<2>| {
+        let places = simulation.model().assembly.reference.iter().zip(&simulation.state().displacement);
+        lowest.push(places.take(nodes).map(|(x, u)| x[1] + u[1]).fold(f64::INFINITY, f64::min));
+    };
+    note(&simulation);
+    while simulation.step() < simulation.steps() {
+        simulation.advance(f64::INFINITY, || true).expect("runs");
+        note(&simulation);
+    }
+    let rows = simulation.take_history();
+    let width = simulation.history_columns().len();
+    let gap = simulation.history_columns().iter().position(|c| c == "min_gap").expect("there");
+    let gaps: Vec<f64> = rows.chunks_exact(width).map(|row| row[gap]).collect();
+    assert_eq!(gaps.len(), lowest.len());
+    assert!(gaps[0] > 1e-3, "{} m", gaps[0]);
+    for (gap, lowest) in gaps.iter().zip(&lowest) {
+        assert!((gap - lowest).abs() < 1e-12, "{gap} m, and the lowest node is {lowest} m above the floor");
+    }
+}

@@ -184,7 +184,11 @@ impl<const D: usize> Body<D> for FeBody<D> {
     }
 
     fn is_driven_alike(&self, [a, b]: [f64; 2]) -> bool {
-        self.part.is_loaded_alike([a, b]) && self.part.supports.driven(&self.part.body).next().is_none()
+        self.part.is_loaded_alike([a, b]) && self.part.supports.stand_still([a, b])
+    }
+
+    fn keep_support(&self, before: &[Vector<D>], support: &mut [Vector<D>]) {
+        self.part.supports.numbers().for_each(|k| support[k] = before[k]);
     }
 
     fn begin_step(

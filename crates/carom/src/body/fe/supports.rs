@@ -73,6 +73,20 @@ impl<const D: usize> Supports<D> {
         })
     }
 
+    /// Whether its motions are where they were at another time [s], and stand still at both.
+    pub fn stand_still(&self, times: [f64; 2]) -> bool {
+        self.motions
+            .iter()
+            .flat_map(|(_, components)| components)
+            .flatten()
+            .all(|signal| signal.stands_still(times))
+    }
+
+    /// The numbers of its motions in the model.
+    pub fn numbers(&self) -> impl Iterator<Item = usize> {
+        self.motions.iter().map(|(number, _)| *number)
+    }
+
     /// Everything that symmetry holds at zero.
     pub fn bound<'a>(&'a self, body: &'a Body<D>) -> impl Iterator<Item = &'a HeldDof> {
         body.held()

@@ -23,6 +23,11 @@ impl Guide {
         std::array::from_fn(|i| !is_free_to_turn && self.along[i].is_some())
     }
 
+    /// Whether it is where it was at another time [s], and stands still at both.
+    pub fn stands_still(&self, times: [f64; 2]) -> bool {
+        self.along.iter().chain(&self.about).flatten().all(|signal| signal.stands_still(times))
+    }
+
     /// The velocity [m/s] and the angular velocity [rad/s] at time `t` [s], where they are prescribed.
     pub fn rates(&self, t: f64) -> [[Option<f64>; 3]; 2] {
         [&self.along, &self.about]

@@ -160,7 +160,14 @@ impl<const D: usize> Body<D> for RigidBody<D> {
     fn is_driven_alike(&self, [a, b]: [f64; 2]) -> bool {
         let RigidPart { guide, resultants, .. } = self.part();
         let is_alike = |r: &Resultant| r.values(|s| s.at(a).value) == r.values(|s| s.at(b).value);
-        guide.is_none() && resultants.iter().all(is_alike) && self.body.is_loaded_alike([a, b])
+        let stands_still = guide.as_ref().is_none_or(|guide| guide.stands_still([a, b]));
+        stands_still && resultants.iter().all(is_alike) && self.body.is_loaded_alike([a, b])
+    }
+
+    fn keep_support(&self, before: &[Vector<D>], support: &mut [Vector<D>]) {
+        if let Some(guide) = &self.part().guide {
+            support[guide.number] = before[guide.number];
+        }
     }
 
     fn begin_step(

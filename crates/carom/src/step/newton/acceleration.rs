@@ -1,7 +1,7 @@
 //! Anderson's acceleration of the iterations of a step, which a kept factor makes a fixed-point iteration.
 //!
 //! Let f_k be the corrections at guesses d_k. The next guess is not d_k + f_k but that of the combination of the last guesses
-//! whose corrections cancel best (Walker & Ni, SIAM J. Numer. Anal. 49, 2011). Bodies in contact depend on one another and
+//! whose corrections cancel best (Walker & Ni, SIAM J. Numer. Anal. 49, 2011). Bodies of an island depend on one another and
 //! share a combination, others have their own. The acceleration is local to a step: contacts of the next one are others.
 
 use std::ops::Range;
@@ -117,9 +117,9 @@ impl<const D: usize> Acceleration<D> {
         }
     }
 
-    /// Forgets all, because the iteration has become another.
-    pub fn restart(&mut self) {
-        self.bodies.fill(Record::default());
+    /// Forgets what is known of `bodies`, because their iteration has become another.
+    pub fn restart(&mut self, bodies: &[usize]) {
+        bodies.iter().for_each(|&i| self.bodies[i] = Record::default());
     }
 
     /// Takes note of the correction `f` of a body, at `nodes` of the model, and of the guess that led to it, to the `motion` so far.

@@ -54,10 +54,11 @@ pub(crate) struct Convergence {
 }
 
 impl Convergence {
-    pub fn new<const D: usize>(given: &Given<'_, D>) -> Self {
+    /// Of some `bodies`.
+    pub fn new<const D: usize>(bodies: &[usize], given: &Given<'_, D>) -> Self {
         let Given { assembly, method, state, interval } = *given;
         let map = &interval.map;
-        let is_changing = state.history.iter().any(|history| !history.is_empty());
+        let is_changing = bodies.iter().any(|&i| !state.history[i].is_empty());
         // What the blend adds to reactions on bodies with mass is that of the last guess: the end is slower than the beginning.
         let lags = interval.is_blended && assembly.is_mixed();
         let safety = match map.stress {

@@ -41,9 +41,7 @@ pub(crate) struct Newton<const D: usize> {
     pub caught: Option<StepError>,
     /// The motion by which a load step found that a body gives way.
     pub giving_way: Option<GivingWay<D>>,
-    /// The bodies that contacts act on.
-    pub in_contact: Vec<usize>,
-    /// Those of them whose K̄ is to be renewed.
+    /// Bodies whose K̄ is to be renewed.
     pub slow: Vec<usize>,
 }
 
@@ -63,17 +61,16 @@ impl<const D: usize> Newton<D> {
             free_motion: None,
             caught: None,
             giving_way: None,
-            in_contact: Vec::with_capacity(assembly.body_count()),
             slow: Vec::with_capacity(assembly.body_count()),
         }
     }
 
-    /// Begins the iterations of a step from this `motion` [m].
-    pub fn begin(&mut self, assembly: &Assembly<D>, motion: &[Vector<D>]) {
-        for (i, progress) in self.progress.iter_mut().enumerate() {
-            *progress = BodyProgress::new(nodal::largest(&motion[assembly.nodes(i)]));
+    /// Begins the iterations of some `bodies` in a step from this `motion` [m].
+    pub fn begin(&mut self, bodies: &[usize], assembly: &Assembly<D>, motion: &[Vector<D>]) {
+        for &i in bodies {
+            self.progress[i] = BodyProgress::new(nodal::largest(&motion[assembly.nodes(i)]));
         }
-        self.acceleration.restart();
+        self.acceleration.restart(bodies);
         self.free_motion = None;
     }
 
