@@ -97,6 +97,14 @@ def pictures(monkeypatch):
     monkeypatch.setattr("carom.running.recorder.draw", DRAW)
 
 
+@pytest.fixture(scope="module")
+def module_pictures():
+    """The same where a fixture runs a case for all tests of a file."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("carom.running.recorder.draw", DRAW)
+        yield
+
+
 @pytest.fixture
 def examples():
     return EXAMPLES

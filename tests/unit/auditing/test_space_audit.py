@@ -155,7 +155,7 @@ CAN = {
     ],
 )
 def test_smooth_targets_are_confirmed_in_space(tmp_path, method, changes):
-    smooth = {"contact.targets": "smooth", "analysis.end_time": 0.06, **changes}
+    smooth = {"contact.targets": "smooth", **changes}
     refuted, checks = audited(balls(*method, **smooth), tmp_path)
     assert refuted == []
     assert checks["contact normals"].count > 10

@@ -17,7 +17,7 @@ from reported import DISC
 
 
 @pytest.fixture(scope="module")
-def study(tmp_path_factory):
+def study(tmp_path_factory, module_pictures):
     """A study over the friction and a name that is no folder name, of which one run is refused."""
     out = tmp_path_factory.mktemp("study") / "friction & speed"
     brief = {**DISC["analysis"], "end_time": 0.2}

@@ -67,14 +67,6 @@ impl Material for NeoHookean {
         (self.stress(f), a)
     }
 
-    fn energies<const D: usize>(&self, count: usize, f: &Batch<D>, out: &mut [f64]) {
-        lanes::energies(*self, count, f, out);
-    }
-
-    fn stresses<const D: usize>(&self, count: usize, f: &Batch<D>, out: &mut Batch<D>) {
-        lanes::stresses(*self, count, f, out);
-    }
-
     fn discrete_stresses<const D: usize>(
         &self,
         count: usize,

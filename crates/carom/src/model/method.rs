@@ -75,9 +75,14 @@ impl<const D: usize> Method<D> {
     }
 
     /// The numbers that factors are kept in. They have double precision in a static analysis, where no mass keeps K̄
-    /// well-conditioned.
+    /// well-conditioned. So they do with massless contact, whose balance of energy sees the last correction itself and not its
+    /// square.
     fn precision(&self) -> Precision {
-        if self.scheme == Scheme::Static { Precision::Double } else { Precision::Single }
+        if self.scheme == Scheme::Static || self.condition.is_massless() {
+            Precision::Double
+        } else {
+            Precision::Single
+        }
     }
 
     /// Whether what normal reactions take on landing is given back, in pairs that rule the motion. Without inertia nothing lands.

@@ -10,10 +10,8 @@ use super::workspace::Workspace;
 use crate::model::given::Given;
 use crate::model::state::State;
 
-/// The largest part of the energy of vibrations that a step may take, and how many times as much it may give. More waits for the next. What is
-/// given makes the same vibration larger, and less than a hundredth may be round-off.
+/// The largest part of the energy of vibrations that a step may take or give. More waits for the next.
 const LARGEST_PART: f64 = 0.5;
-const LARGEST_GIFT: f64 = 100.0;
 
 /// What is left over below this fraction of the energy of the model is round-off.
 const NEGLIGIBLE: f64 = 1e-14;
@@ -46,7 +44,7 @@ pub(super) fn repay<const D: usize>(
         if vibration <= 0.0 {
             continue;
         }
-        let part = (next.energy_debt[leader] / vibration).clamp(-LARGEST_GIFT, LARGEST_PART);
+        let part = (next.energy_debt[leader] / vibration).clamp(-LARGEST_PART, LARGEST_PART);
         // (1 + s)² = 1 − part, without its cancellation.
         let share = -part / (1.0 + (1.0 - part).sqrt());
         blend.share[i] = share;
@@ -60,7 +58,7 @@ pub(super) fn repay<const D: usize>(
     }
     for (debt, vibration) in next.energy_debt.iter_mut().zip(&blend.vibration_of_group) {
         if *vibration > 0.0 {
-            *debt -= debt.clamp(-LARGEST_GIFT * vibration, LARGEST_PART * vibration);
+            *debt -= debt.clamp(-LARGEST_PART * vibration, LARGEST_PART * vibration);
         }
     }
     next.sum_energies(given.assembly);

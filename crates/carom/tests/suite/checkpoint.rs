@@ -182,7 +182,7 @@ fn a_strip_that_lies_on_the_floor_with_many_nodes() {
 /// A polynomial stands for the factor, and more nodes are in contact than have blocks of compliance with all others.
 #[test]
 fn a_large_block_that_lands_flat() {
-    let whole = goes_on_identically::<3>(&large_bodies::block([0.0; 3], "midpoint"), 2);
+    let whole = goes_on_identically::<3>(&large_bodies::block([0.0; 3]), 2);
     assert!(whole.summary().energy.terms.friction > 0.0);
 }
 

@@ -16,10 +16,7 @@ KEPT = 0.5
 """The largest |α| of iterations that find none that closes the balance."""
 
 LARGEST_PART = 0.5
-"""The largest part of the energy of vibration that a step may take."""
-
-LARGEST_GIFT = 100.0
-"""How many times as much it may give."""
+"""The largest part of the energy of vibration that a step may take or give."""
 
 UNCLEAR = 1e-8
 """What a blend can move below this share of the energy is not sure to be clear of round-off."""
@@ -118,6 +115,6 @@ class BlendChecks:
             for energy in (step.vibration, step.repaid)
         )
         debt = step.left_over[leaders] - repaid
-        due = np.clip(debt, -LARGEST_GIFT * vibration, LARGEST_PART * vibration)
-        error = np.where(shares[leaders] == 0.0, 0.0, repaid + due)
+        most = LARGEST_PART * vibration
+        error = np.where(shares[leaders] == 0.0, 0.0, repaid + np.clip(debt, -most, most))
         self._check("repaying", error, allowed, where)
