@@ -142,9 +142,12 @@ pub(crate) fn signed_distance_within<const D: usize>(
             // Its box is within reach and it is not, nor need what would tell its side be.
         } else if d < distance - tie {
             (distance, side) = (d, front);
-        } else if d <= distance + tie && front.abs() > side.abs() {
-            // At a shared corner the facet seen most squarely decides the side.
-            (distance, side) = (distance.min(d), front);
+        } else if d <= distance + tie {
+            distance = distance.min(d);
+            // At a shared corner the facet seen most squarely decides the side, of two the one that it is behind: whichever is met first.
+            if front.abs() > side.abs() || front.abs() == side.abs() && front < side {
+                side = front;
+            }
         }
         looked_at.min(distance + tie)
     });

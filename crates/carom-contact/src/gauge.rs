@@ -176,7 +176,9 @@ impl<const D: usize> Gauge<D> {
                     // Outside of the box of the target nothing is behind a facet: what is farther than the smallest so far has no say.
                     let may_be_inside = is_suspect && distance <= 0.0;
                     let reach = if may_be_inside { smallest.max(gaps.deepest) } else { smallest };
-                    smallest = smallest.min(signed_distance_within(reach, &x, surface, &side.tree, position));
+                    let gap = signed_distance_within(reach, &x, surface, &side.tree, position);
+                    // What is known to be outside is not inside by round-off, whose sign is that of the facet met first.
+                    smallest = smallest.min(if is_suspect { gap } else { gap.abs() });
                 }
                 smallest
             }
