@@ -51,9 +51,7 @@ def test_cells_forms_and_laws_are_confirmed(tmp_path, method, changes):
 @pytest.fixture(scope="module")
 def sheet(tmp_path_factory):
     directory = tmp_path_factory.mktemp("sheet")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("carom.plot.draw", lambda _: [])
-        carom.run(scenario(**SHEET, **{"bodies.1.mesh.cell": "tri6"}), out=directory)
+    carom.run(scenario(**SHEET, **{"bodies.1.mesh.cell": "tri6"}), out=directory)
     return directory
 
 

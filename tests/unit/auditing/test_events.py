@@ -29,8 +29,6 @@ RUNS = {
 @pytest.fixture(scope="module")
 def directories(tmp_path_factory):
     """Run a case once and return its directory."""
-    patch = pytest.MonkeyPatch()
-    patch.setattr("carom.plot.draw", lambda _: [])
     done = {}
 
     def directory(name):
@@ -43,8 +41,7 @@ def directories(tmp_path_factory):
             )
         return done[name]
 
-    yield directory
-    patch.undo()
+    return directory
 
 
 @pytest.fixture(scope="module")

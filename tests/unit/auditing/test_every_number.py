@@ -45,7 +45,6 @@ def read(tmp_path_factory):
     What follows from a stored step alone, which is never changed here, is found for it once.
     """
     patch = pytest.MonkeyPatch()
-    patch.setattr("carom.plot.draw", lambda _: [])
     done, steps = {}, {}
 
     def once(model, step):

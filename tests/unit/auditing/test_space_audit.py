@@ -316,9 +316,7 @@ FALSE = {
 @pytest.fixture(scope="module")
 def results(tmp_path_factory):
     directory = tmp_path_factory.mktemp("results")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("carom.plot.draw", lambda _: [])
-        carom.run(balls(), out=directory)
+    carom.run(balls(), out=directory)
     return directory
 
 

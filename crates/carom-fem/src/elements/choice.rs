@@ -1,11 +1,6 @@
 //! Which elements and dashpots a body is made of.
-//!
-//! They are chosen in the plane and in space by functions that leave nothing open, for this crate to compile them, once. Where D is still
-//! open, every crate that has a body compiles all loops over cells anew, and the tests do again.
 
-use std::any::Any;
-
-use carom_mesh::{CellKind, Mesh};
+use carom_mesh::CellKind;
 
 use super::block::Block;
 use super::dashpots::{Dashpots, ViscousBlock};
@@ -22,73 +17,6 @@ use crate::{BodySpec, FemError, Formulation, Hypothesis};
 /// # Errors
 /// If a material constant is out of range, a cell is inverted or degenerate, or the formulation is not one for these cells.
 pub fn elements<const D: usize>(
-    spec: &BodySpec,
-    cells: &Cells<'_, D>,
-    graph: &NodeGraph,
-) -> Result<Box<dyn Elements<D>>, FemError> {
-    fn plane(spec: &BodySpec, cells: &Cells<'_, 2>, graph: &NodeGraph) -> Made<dyn Elements<2>> {
-        chosen_elements(spec, cells, graph)
-    }
-    fn space(spec: &BodySpec, cells: &Cells<'_, 3>, graph: &NodeGraph) -> Made<dyn Elements<3>> {
-        chosen_elements(spec, cells, graph)
-    }
-    match Known::of(cells) {
-        Known::Plane(cells) => plane(spec, &cells, graph).map(in_open_dimension),
-        Known::Space(cells) => space(spec, &cells, graph).map(in_open_dimension),
-    }
-}
-
-/// The viscous resistance of `cells` in a body like `spec`; `objective` says whether its law is one of large displacements.
-///
-/// # Errors
-/// If a cell is inverted or degenerate, or the body is a sheet in plane stress, whose change of thickness is not known.
-pub fn dashpots<const D: usize>(
-    spec: &BodySpec,
-    objective: bool,
-    cells: &Cells<'_, D>,
-    graph: &NodeGraph,
-) -> Result<Box<dyn Dashpots<D>>, FemError> {
-    type Resistance<const D: usize> = Made<dyn Dashpots<D>>;
-    fn plane(spec: &BodySpec, objective: bool, cells: &Cells<'_, 2>, graph: &NodeGraph) -> Resistance<2> {
-        chosen_dashpots(spec, objective, cells, graph)
-    }
-    fn space(spec: &BodySpec, objective: bool, cells: &Cells<'_, 3>, graph: &NodeGraph) -> Resistance<3> {
-        chosen_dashpots(spec, objective, cells, graph)
-    }
-    match Known::of(cells) {
-        Known::Plane(cells) => plane(spec, objective, &cells, graph).map(in_open_dimension),
-        Known::Space(cells) => space(spec, objective, &cells, graph).map(in_open_dimension),
-    }
-}
-
-/// What is chosen, or why nothing can be.
-type Made<T> = Result<Box<T>, FemError>;
-
-/// Cells whose dimension is known where they are compiled.
-enum Known<'a> {
-    Plane(Cells<'a, 2>),
-    Space(Cells<'a, 3>),
-}
-
-impl<'a> Known<'a> {
-    fn of<const D: usize>(cells: &Cells<'a, D>) -> Self {
-        let &Cells { mesh, block, numbers, depth } = cells;
-        let mesh: &dyn Any = mesh;
-        match (mesh.downcast_ref::<Mesh<2>>(), mesh.downcast_ref::<Mesh<3>>()) {
-            (Some(mesh), _) => Self::Plane(Cells { mesh, block, numbers, depth }),
-            (_, Some(mesh)) => Self::Space(Cells { mesh, block, numbers, depth }),
-            _ => unreachable!("bodies have 2 or 3 dimensions"),
-        }
-    }
-}
-
-/// The same thing where its dimension is open again, which no type tells the compiler.
-fn in_open_dimension<T: 'static, U: 'static>(made: T) -> U {
-    let made: Box<dyn Any> = Box::new(made);
-    *made.downcast().unwrap_or_else(|_| unreachable!("its dimension is that of its cells"))
-}
-
-fn chosen_elements<const D: usize>(
     spec: &BodySpec,
     cells: &Cells<'_, D>,
     graph: &NodeGraph,
@@ -136,7 +64,11 @@ fn chosen_elements<const D: usize>(
     }
 }
 
-fn chosen_dashpots<const D: usize>(
+/// The viscous resistance of `cells` in a body like `spec`; `objective` says whether its law is one of large displacements.
+///
+/// # Errors
+/// If a cell is inverted or degenerate, or the body is a sheet in plane stress, whose change of thickness is not known.
+pub fn dashpots<const D: usize>(
     spec: &BodySpec,
     objective: bool,
     cells: &Cells<'_, D>,

@@ -7,13 +7,31 @@ pub(crate) struct Forest {
 }
 
 impl Forest {
-    /// So many numbers, each on its own.
+    /// Of so many numbers, each on its own.
+    pub fn new(count: usize) -> Self {
+        Self { parents: (0..count).collect() }
+    }
+
+    /// Makes it one of so many numbers, each on its own.
     pub fn begin(&mut self, count: usize) {
         self.parents.clear();
         self.parents.extend(0..count);
     }
 
+    /// Puts a number on its own again, whose whole tree is to be.
+    pub fn part(&mut self, number: usize) {
+        self.parents[number] = number;
+    }
+
     /// The root of the tree of a number.
+    pub fn root_of(&self, mut number: usize) -> usize {
+        while self.parents[number] != number {
+            number = self.parents[number];
+        }
+        number
+    }
+
+    /// The same, and the way to it becomes shorter.
     pub fn root(&mut self, mut number: usize) -> usize {
         while self.parents[number] != number {
             self.parents[number] = self.parents[self.parents[number]];

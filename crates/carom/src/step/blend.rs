@@ -21,6 +21,7 @@ use carom_contact::{Pair, Target};
 
 use crate::body::Balance;
 use crate::contact::contact_work::ContactWork;
+use crate::model::forest::Forest;
 
 /// Largest |α|. Up to ½ stresses are those of a time within the step. Measured on 40 random scenes: with ½ the books of five stay open for
 /// some steps, and one of them fails; with 2 all complete.
@@ -42,7 +43,7 @@ pub(crate) struct Blend {
     groups: Vec<Balance>,
     /// The least and the largest α of every group.
     ranges: Vec<[f64; 2]>,
-    leader: Vec<usize>,
+    forest: Forest,
     /// α of every body.
     pub weight: Vec<f64>,
     /// The energy of the vibration of every body at the end of the step [J], where it is asked for.
@@ -60,7 +61,7 @@ impl Blend {
             balances: vec![Balance::default(); bodies],
             groups: vec![Balance::default(); bodies],
             ranges: vec![[-LARGEST, LARGEST]; bodies],
-            leader: (0..bodies).collect(),
+            forest: Forest::new(bodies),
             weight: vec![0.0; bodies],
             vibration: vec![0.0; bodies],
             vibration_of_group: vec![0.0; bodies],
@@ -73,22 +74,25 @@ impl Blend {
     /// more.
     pub fn weigh(&mut self, bodies: &[usize], contacts: &[ContactWork], energy_debt: &[f64], energy: f64) {
         for &i in bodies {
-            (self.leader[i], self.groups[i]) = (i, Balance::default());
+            self.forest.part(i);
+            self.groups[i] = Balance::default();
             self.ranges[i] = [-LARGEST, LARGEST];
         }
         for c in contacts {
             match c.target {
-                Target::Surface(target) if c.start > 0.0 || c.end > 0.0 => self.join(c.source, target),
+                Target::Surface(target) if c.start > 0.0 || c.end > 0.0 => {
+                    self.forest.join(c.source, target);
+                }
                 _ => {}
             }
         }
         for &i in bodies {
-            let group = &mut self.groups[leader_of(&self.leader, i)];
+            let group = &mut self.groups[self.forest.root_of(i)];
             group.missing += self.balances[i].missing + energy_debt[i];
             group.available += self.balances[i].available;
         }
         for c in contacts {
-            let leader = leader_of(&self.leader, c.source);
+            let leader = self.forest.root_of(c.source);
             narrow(&mut self.ranges[leader], c);
             let group = &mut self.groups[leader];
             let [start, end] = c.driven;
@@ -97,7 +101,7 @@ impl Blend {
         }
         let energy = bodies.iter().map(|&i| self.balances[i].motion).sum::<f64>().max(energy);
         for &i in bodies {
-            let leader = leader_of(&self.leader, i);
+            let leader = self.forest.root_of(i);
             let (Balance { missing, available, .. }, [least, largest]) =
                 (self.groups[leader], self.ranges[leader]);
             let matters = missing.abs() > NEGLIGIBLE * energy;
@@ -113,18 +117,13 @@ impl Blend {
 
     /// Takes note that a body rests: it is a group of its own, and nothing of it is blended.
     pub fn rest(&mut self, body: usize) {
-        (self.leader[body], self.weight[body]) = (body, 0.0);
+        self.forest.part(body);
+        self.weight[body] = 0.0;
     }
 
     /// Keeps the weights of `bodies`, as far as they are those of stresses of a time within the step. What they leave over waits, or vibration has it.
     pub fn keep(&mut self, bodies: &[usize]) {
         bodies.iter().for_each(|&i| self.weight[i] = self.weight[i].clamp(-WITHIN, WITHIN));
-    }
-
-    /// Puts two bodies in one group.
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.leader_of(a), self.leader_of(b));
-        self.leader[a.max(b)] = a.min(b);
     }
 
     /// Adds what a step left over to `energy_debt`: `surplus` of every body and what friction took, group by group. `booked` is what contacts
@@ -138,20 +137,20 @@ impl Blend {
     ) {
         for (pair, _) in booked {
             if let Target::Surface(target) = pair.target {
-                self.join(pair.source, target);
+                self.forest.join(pair.source, target);
             }
         }
         self.groups.fill(Balance::default());
         for (i, surplus) in surplus.enumerate() {
-            self.groups[leader_of(&self.leader, i)].missing += energy_debt[i] + surplus;
+            self.groups[self.forest.root_of(i)].missing += energy_debt[i] + surplus;
         }
         for c in contacts {
             let weight = self.weight[c.source];
-            let group = &mut self.groups[leader_of(&self.leader, c.source)];
+            let group = &mut self.groups[self.forest.root_of(c.source)];
             group.missing += c.dissipation(weight) - c.prescribed(weight);
         }
         for (pair, taken) in booked {
-            self.groups[leader_of(&self.leader, pair.source)].missing += taken;
+            self.groups[self.forest.root_of(pair.source)].missing += taken;
         }
         energy_debt
             .iter_mut()
@@ -161,7 +160,7 @@ impl Blend {
 
     /// The first body of the group that a body belongs to.
     pub fn leader_of(&self, body: usize) -> usize {
-        leader_of(&self.leader, body)
+        self.forest.root_of(body)
     }
 
     /// Largest |α|.
@@ -178,12 +177,4 @@ fn narrow([least, largest]: &mut [f64; 2], contact: &ContactWork) {
     } else if change < 0.0 {
         *largest = largest.min(-0.5 * sum / change);
     }
-}
-
-/// The first body of the group that a body belongs to.
-fn leader_of(leaders: &[usize], mut body: usize) -> usize {
-    while leaders[body] != body {
-        body = leaders[body];
-    }
-    body
 }

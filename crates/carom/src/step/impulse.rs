@@ -8,6 +8,7 @@ use crate::body::{Jolt, Masses};
 use crate::contact::contact_work::driven;
 use crate::ledger::BodyLedger;
 use crate::model::assembly::Assembly;
+use crate::model::forest::Forest;
 use crate::model::given::Given;
 use crate::model::state::{Reaction, State};
 
@@ -73,8 +74,8 @@ pub(crate) struct Impulses<const D: usize> {
     borne: Vec<f64>,
     /// The impulses [N s] that supports would give, each with the body and the support.
     supports: Vec<(usize, usize, Vector<D>)>,
-    /// For every body one that it is connected with; the one that stands for its group stands for itself.
-    next: Vec<usize>,
+    /// What impulses connect.
+    forest: Forest,
     groups: Vec<Group>,
     /// By how much of what they answered last the velocities of bodies were changed last.
     pub(crate) scales: Vec<f64>,
@@ -99,7 +100,7 @@ impl<const D: usize> Impulses<D> {
             takes_part: vec![false; bodies],
             borne: vec![0.0; bodies],
             supports: Vec::new(),
-            next: vec![0; bodies],
+            forest: Forest::new(bodies),
             groups: vec![Group::NONE; bodies],
             scales: vec![0.0; bodies],
         }
@@ -208,15 +209,14 @@ impl<const D: usize> Impulses<D> {
         self.takes_part.fill(false);
         self.force.fill(Vector::zeros());
         self.change.fill(Vector::zeros());
-        self.next.iter_mut().enumerate().for_each(|(i, next)| *next = i);
+        self.forest.begin(self.takes_part.len());
         self.groups.fill(Group::NONE);
         for Impulse { reaction, contact, impulse, .. } in wanted {
             let Reaction { pair, .. } = new.reactions[*reaction];
             let pair = given.assembly.contact.pairs.get(pair as usize);
             let target = if let Target::Surface(target) = pair.target { target } else { pair.source };
             (self.takes_part[pair.source], self.takes_part[target]) = (true, true);
-            let (a, b) = (self.group(pair.source), self.group(target));
-            self.next[a.max(b)] = a.min(b);
+            self.forest.join(pair.source, target);
             contacts[*contact].add_force(impulse, &mut self.force);
         }
     }
@@ -302,11 +302,8 @@ impl<const D: usize> Impulses<D> {
     }
 
     /// The body that stands for the group of one.
-    fn group(&self, mut body: usize) -> usize {
-        while self.next[body] != body {
-            body = self.next[body];
-        }
-        body
+    fn group(&self, body: usize) -> usize {
+        self.forest.root_of(body)
     }
 
     /// The body that stands for the group of a reaction of the state `new`.
