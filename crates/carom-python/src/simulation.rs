@@ -116,7 +116,7 @@ impl Simulation {
     fn centres_of_mass<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         with!(&self.inner, run => {
             let centres: Vec<_> =
-                run.model().bodies.iter().map(|b| b.body.mean(b.body.mesh().nodes())).collect();
+                run.model().bodies.iter().map(|b| b.mean(b.body.mesh().nodes())).collect();
             arrays::vectors(py, &centres)
         })
     }

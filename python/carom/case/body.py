@@ -171,12 +171,14 @@ class RigidBody(Description):
     name
         Unique over bodies, obstacles and tracked points.
     density
-        Density [kg/m³], which with the cells of the mesh makes mass, centre and inertia.
+        Density [kg/m³], which with the cells of the mesh makes mass, centre and inertia; of a body
+        that is `round` with the disc or ball.
     mass
         Mass [kg], in place of a density.
     inertia
-        Inertia about the centre of mass [kg m²] where it is not that of the cells: a number in 2D,
-        in 3D the moments about the axes of space if these are principal, or three rows of three.
+        Inertia about the centre of mass [kg m²] where it is not that of the cells, or of the disc
+        or ball of a body that is `round`: a number in 2D, in 3D the moments about the axes of space
+        if these are principal, or three rows of three.
     hypothesis
         What a body of the plane is in space: plane-strain for a slice of `thickness`, or
         axisymmetric, a body of revolution around x = 0.
@@ -186,7 +188,8 @@ class RigidBody(Description):
         Reference geometry and its cells.
     round
         Whether the body, whose mesh is a disc or a ball, is as round as that to planes, spheres and
-        cylinders, and to other round bodies. To all others it is its mesh.
+        cylinders, and to other round bodies, and has the mass and inertia of that. To all others it
+        is its mesh.
     contact_sets
         Sets of facets that may touch others, such as the sides of a rectangle; None for all.
     velocity

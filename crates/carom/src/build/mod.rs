@@ -20,6 +20,7 @@ mod reduced;
 mod regions;
 mod restitution;
 mod rigid;
+mod roundness;
 pub(crate) mod side;
 mod signals;
 mod spare_mass;
@@ -73,7 +74,7 @@ pub(crate) fn start<const D: usize>(
     let mut state = match method.scheme {
         Scheme::Static => model.state_at_rest(),
         _ => model.initial_state(
-            moving.flat_map(|(b, motion)| motion.velocities(&b.body, b.body.mesh().nodes())).collect(),
+            moving.flat_map(|(b, motion)| motion.velocities(b, b.body.mesh().nodes())).collect(),
         ),
     };
     state.time = time;
@@ -115,8 +116,8 @@ pub(crate) fn built<const D: usize>(
         let first_node = bodies.last().map_or(0, |b| b.nodes().end);
         let given = meshes.remove(&entry.name);
         bodies.push(if entry.kind == BodyKind::Rigid {
-            let (body, inertia) = rigid::rigid_body(scenario, i, entry, given)?;
-            ModelBody::new(&entry.name, body, first_node).rigid(inertia)
+            let (body, spec) = rigid::rigid_body(scenario, i, entry, given)?;
+            ModelBody::new(&entry.name, body, first_node).rigid(&spec)
         } else if entry.kind == BodyKind::Reduced {
             let (body, part) = reduced::reduced_body(scenario, i, entry, given)?;
             ModelBody::new(&entry.name, body, first_node).reduced(part)

@@ -1,7 +1,7 @@
-use carom_fem::Body;
 use carom_mesh::{Vector, tensor};
 
 use super::values::{number, vector};
+use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::Model;
 use crate::scenario::{Scenario, Spin};
@@ -17,7 +17,11 @@ pub(crate) struct RigidMotion<const D: usize> {
 
 impl<const D: usize> RigidMotion<D> {
     /// The velocities [m/s] of the nodes of a `body` at these `positions` [m].
-    pub fn velocities(&self, body: &Body<D>, positions: &[Vector<D>]) -> impl Iterator<Item = Vector<D>> {
+    pub fn velocities(
+        &self,
+        body: &ModelBody<D>,
+        positions: &[Vector<D>],
+    ) -> impl Iterator<Item = Vector<D>> {
         let centre = body.mean(positions);
         positions.iter().map(move |x| self.drift + tensor::rotation_velocity(&self.spin, &(x - centre)))
     }

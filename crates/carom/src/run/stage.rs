@@ -135,7 +135,7 @@ impl<const D: usize> Stage<D> {
         for i in given {
             let at = |n: usize| assembly.reference[n] + state.displacement[n];
             let positions: Vec<Vector<D>> = bodies[i].nodes().map(at).collect();
-            let velocity: Vec<Vector<D>> = self.motions[i].velocities(&bodies[i].body, &positions).collect();
+            let velocity: Vec<Vector<D>> = self.motions[i].velocities(&bodies[i], &positions).collect();
             gained[i] = state.give_velocity(assembly, &stepping, i, &velocity);
         }
         gained

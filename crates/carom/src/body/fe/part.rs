@@ -1,12 +1,12 @@
 use std::ops::Range;
 
 use carom_fem::{Body, KineticParts, Momenta};
-use carom_mesh::{Matrix, Vector};
+use carom_mesh::Vector;
 
 use super::load::Load;
 use super::supports::Supports;
 use crate::body::reduced::part::ReducedPart;
-use crate::body::rigid::part::RigidPart;
+use crate::body::rigid::part::{RigidPart, RigidSpec};
 use crate::signal::Signal;
 
 /// A body in its place in the model, and what drives it. Its cells are those of finite elements; of a rigid body they make the mass.
@@ -50,10 +50,10 @@ impl<const D: usize> ModelBody<D> {
         }
     }
 
-    /// The same, rigid: with the mass of its cells, and with this inertia about its centre [kg m²] if that is given.
+    /// The same, rigid: with the mass of its cells, but for what is said of it.
     #[must_use]
-    pub fn rigid(self, inertia: Option<Matrix<3>>) -> Self {
-        Self { rigid: Some(RigidPart::new(&self.body, inertia)), ..self }
+    pub(crate) fn rigid(self, spec: &RigidSpec<D>) -> Self {
+        Self { rigid: Some(RigidPart::new(&self.body, spec)), ..self }
     }
 
     /// Whether its loads are the same at two times [s], and how far it has grown.
@@ -106,11 +106,20 @@ impl<const D: usize> ModelBody<D> {
         Momenta { momentum, angular_momentum, kinetic }
     }
 
+    /// The mean of a nodal vector by mass: the centre of mass of places.
+    #[must_use]
+    pub fn mean(&self, v: &[Vector<D>]) -> Vector<D> {
+        self.rigid.as_ref().map_or_else(|| self.body.mean(v), |rigid| rigid.shape.at_centre(v))
+    }
+
     /// Its centre of mass [m], the velocity of that [m/s] and its mean spin [rad/s], with three components each, at these displacements [m] and
     /// velocities [m/s] of its nodes. Of a reduced body only those are asked that every step places.
     pub(crate) fn drift(&self, u: &[Vector<D>], v: &[Vector<D>]) -> [[f64; 3]; 3] {
         if let Some(reduced) = &self.reduced {
             return reduced.drift(u, v);
+        }
+        if let Some(rigid) = &self.rigid {
+            return rigid.drift(u, v);
         }
         let padded = |x: Vector<D>| std::array::from_fn(|i| if i < D { x[i] } else { 0.0 });
         [padded(self.body.centre(u)), padded(self.body.mean(v)), self.body.spin(u, v)]
