@@ -359,7 +359,7 @@ def test_what_is_round_weighs_and_turns_as_the_disc_or_ball(tmp_path, cell, said
     assert history["b.y"] == pytest.approx(-0.1, abs=1e-14)
     if "mass" in said:
         own = 0.7 * 3.0 * radius**2
-        given = own if dimension == 2 else [own] * 3
+        given = own if dimension == 2 else (own,) * 3
         case = case.model_copy(update={"bodies": (body.model_copy(update={"inertia": given}),)})
         other = run(tmp_path, case).history
         expected = 0.5 * 3.0 * 0.7**2 + own * 3.0**2 / 2

@@ -18,6 +18,7 @@ from carom.case.description import (
     SpaceVector,
     Vector,
 )
+from carom.case.foreign_body import ForeignEntry
 from carom.case.mesh import Ball, Disc, Mesh, Rectangle
 from carom.case.signal import Signal
 from carom.messages import known, problem
@@ -313,12 +314,15 @@ class ReducedBody(Description):
 
 def materials_of(body: AnyBody) -> tuple[str, ...]:
     """Return the names of the materials of a body: that of the rest, then those of its regions."""
-    if isinstance(body, RigidBody):
+    if isinstance(body, RigidBody | ForeignEntry):
         return ()
     return (body.material, *(region.material for region in body.regions))
 
 
-AnyBody = Annotated[Body | RigidBody | ReducedBody, Field(discriminator="kind")]
+DescribedBody = Annotated[Body | RigidBody | ReducedBody, Field(discriminator="kind")]
+"""A body that plain data describe."""
+
+AnyBody = Annotated[Body | RigidBody | ReducedBody | ForeignEntry, Field(discriminator="kind")]
 """A body of any kind."""
 
 
@@ -331,7 +335,9 @@ def with_kinds(data: object) -> object:
 
 
 def of_kind(body: Any) -> Any:  # noqa: ANN401 (checked where it is used)
-    """Return a body that, where it names no kind, is deformable."""
+    """Return a body that, where it names no kind, is deformable, and the entry of a foreign one."""
+    if callable(entry := getattr(body, "as_entry", None)):
+        return entry()
     if isinstance(body, Mapping) and "kind" not in body:
         return {"kind": "deformable", **body}
     return body

@@ -164,7 +164,11 @@ fn rule(
 
 /// Whether a body may touch itself. What is rigid or deforms little cannot.
 fn touches_itself(entry: &BodyEntry) -> bool {
-    entry.self_contact != Some(false) && entry.kind == BodyKind::Deformable
+    match entry.kind {
+        BodyKind::Deformable => entry.self_contact != Some(false),
+        BodyKind::Foreign => entry.self_contact == Some(true),
+        BodyKind::Rigid | BodyKind::Reduced => false,
+    }
 }
 
 /// Refuses a surface that has no two sides everywhere.

@@ -9,7 +9,7 @@ use super::masses::masses;
 use super::mesh::mesh;
 use super::roundness::Roundness;
 use super::values::number;
-use crate::body::rigid::part::RigidSpec;
+use crate::body::rigid::shape::RigidSpec;
 use crate::error::InputError;
 use crate::scenario::{BodyEntry, BodyMass, Inertia, Scenario};
 

@@ -5,9 +5,8 @@ use carom_mesh::{Matrix, Vector, nodal, tensor};
 
 use super::outline::Outline;
 use super::place::{Place, Rates};
-use crate::body::rigid::part::RigidSpec;
 use crate::body::rigid::pose::{Pose, Twist, cayley, lift, lower};
-use crate::body::rigid::shape::RigidShape;
+use crate::body::rigid::shape::{RigidShape, RigidSpec};
 use crate::ledger::Energies;
 
 /// Frames are found after some of these; every one leaves as much of an error as there is strain.

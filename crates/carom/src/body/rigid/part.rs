@@ -1,17 +1,8 @@
 use carom_fem::Body;
-use carom_mesh::{Matrix, Vector};
+use carom_mesh::Vector;
 
 use super::guide::{Guide, Resultant};
-use super::shape::RigidShape;
-
-/// What is said of the mass of a rigid body that is not that of its cells.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct RigidSpec<const D: usize> {
-    /// Its centre [m].
-    pub centre: Option<Vector<D>>,
-    /// Its inertia about the centre [kg m²].
-    pub inertia: Option<Matrix<3>>,
-}
+use super::shape::{RigidShape, RigidSpec};
 
 /// What makes a body of the model rigid.
 #[derive(Debug, Clone, PartialEq)]

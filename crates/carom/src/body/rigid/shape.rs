@@ -1,8 +1,16 @@
 use carom_fem::Body;
 use carom_mesh::{Matrix, Vector, nodal, tensor};
 
-use super::part::RigidSpec;
 use super::pose::{Displaced, Pose, Twist, cross_matrix, inverse_on, lift, lower};
+
+/// What is said of the mass of a rigid body that is not that of its cells.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct RigidSpec<const D: usize> {
+    /// Its centre [m].
+    pub centre: Option<Vector<D>>,
+    /// Its inertia about the centre [kg m²].
+    pub inertia: Option<Matrix<3>>,
+}
 
 /// A rigid body in the reference configuration: its mass, and the places of its nodes.
 #[derive(Debug, Clone, PartialEq)]
