@@ -48,6 +48,7 @@ PARTS = {
     "massless cylinders": massless.cylinders_section,
     "long runs": robustness.long_runs_section,
     "massless bars": massless.bars_section,
+    "bouncing bar": massless.bounces_section,
     "massless layer": massless.layer_section,
     "loads": robustness.loads_section,
     "random scenes": robustness.random_scenes_section,
