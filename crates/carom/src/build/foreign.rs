@@ -65,7 +65,8 @@ pub(super) fn foreign_body<const D: usize>(
         made.map_err(|e| InputError::mesh(format!("{key}.mesh"), e.to_string()))
     };
     let total = law.total_mass();
-    if !(total > 0.0) || ForeignBody::new(mesh.nodes().to_vec(), &law, Vector::zeros()).is_err() {
+    let is_heavy = total > 0.0;
+    if !is_heavy || ForeignBody::new(mesh.nodes().to_vec(), &law, Vector::zeros()).is_err() {
         return refuse(format!("{key}.mass"), not_definite(name));
     }
     Ok((made(total / made(1.0)?.volume())?, law))
