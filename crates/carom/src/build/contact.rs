@@ -1,7 +1,8 @@
 use std::collections::BTreeMap;
 
 use carom_contact::{
-    ContactModel, ContactSurface, Directions, Discretisation, PairRule, PairRules, Pairs, Side, Solid,
+    ContactModel, ContactSurface, Directions, Discretisation, PairRule, PairRules, Pairs, Positions, Side,
+    Solid,
 };
 use carom_fem::Hypothesis;
 use carom_mesh::Vector;
@@ -175,7 +176,7 @@ fn touches_itself(entry: &BodyEntry) -> bool {
 pub(crate) fn check_manifold<const D: usize>(
     key: &str,
     surface: &ContactSurface,
-    position: &impl Fn(u32) -> Vector<D>,
+    position: &Positions<'_, D>,
 ) -> Result<(), InputError> {
     let edges = surface.non_manifold_edges();
     let Some(ends) = edges.first() else { return Ok(()) };
