@@ -66,6 +66,7 @@ def test_a_body_may_start_under_a_stress_that_nothing_holds(cells):
     assert total[-1] == pytest.approx(total[0], rel=1e-12)
 
 
+@pytest.mark.filterwarnings("ignore::carom.CaromWarning")
 @pytest.mark.parametrize("cells", [3, 12])
 def test_what_was_pressed_may_be_let_go(cells, tmp_path):
     """Symptom guarded against: half of its energy was missing in the step in which the load went."""
@@ -92,3 +93,12 @@ def test_what_was_pressed_may_be_let_go(cells, tmp_path):
     pressed_in = history["strain"][np.searchsorted(history["time"], 1.0)]
     assert history["total"][-1] == pytest.approx(pressed_in, rel=1e-11)
     assert history["block.y"][-1] > 1.1
+
+
+def test_what_waited_for_vibrations_is_told_as_such(tmp_path):
+    """Symptom guarded against: it was put down to the time step, whatever the step."""
+    with pytest.warns(carom.CaromWarning) as told:
+        carom.run(pressed(3, f"{PRESSURE}"), out=tmp_path)
+    defect = next(str(each.message) for each in told if "the ledger" in str(each.message))
+    assert "until vibrations had it" in defect
+    assert "time_step" not in defect
