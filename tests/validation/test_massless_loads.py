@@ -1,4 +1,4 @@
-"""Loads on nodes without mass: these give way at once, and vibration has the energy some steps later."""
+"""Loads on nodes without mass: these give way at once, and vibration has the energy soon after."""
 
 import numpy as np
 import pytest
@@ -69,7 +69,7 @@ def test_a_body_may_start_under_a_stress_that_nothing_holds(cells):
 @pytest.mark.filterwarnings("ignore::carom.CaromWarning")
 @pytest.mark.parametrize("cells", [3, 12])
 def test_what_was_pressed_may_be_let_go(cells, tmp_path):
-    """Symptom guarded against: half of its energy was missing in the step in which the load went."""
+    """Symptom guarded against: half of its energy was missing when the load was gone."""
     case = carom.Scenario(
         materials=RUBBER,
         bodies=[block(cells, height=0.0)],

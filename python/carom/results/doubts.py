@@ -26,7 +26,7 @@ MUCH_REPAID = 0.02
 """What vibrations took or gave in all, relative to the same energy, to be warned of."""
 
 WAITED = 0.25
-"""What vibrations had in the end of the largest defect, at least, if it was what waited for them."""
+"""Part of the largest defect that vibrations have had in the end, if it waited for them."""
 
 ROUND_OFF = 1e-9
 """Part of the work that the reactions of a step prevent that is round-off in every respect."""
