@@ -5,7 +5,6 @@ use carom_contact::{
     Solid,
 };
 use carom_fem::Hypothesis;
-use carom_mesh::Vector;
 
 use super::cohesion;
 use super::friction_law::at_rest;
