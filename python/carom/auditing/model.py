@@ -11,6 +11,7 @@ from carom.auditing.arrays import Array, Indices
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.bodies.mass import NoMassInsideError
 from carom.auditing.bodies.places import Attached
+from carom.auditing.contact.interference import Interference
 from carom.auditing.contact.obstacles import AuditObstacle, Cornered, obstacle_of
 from carom.auditing.contact.pairs import ALIKE, Pairs, build_sides
 from carom.auditing.drives.loads import Loads
@@ -64,7 +65,7 @@ class AuditModel:
         self.scenario, self.stage = scenario, stage
         self.dimension = scenario.dimension
         """2 in the plane, 3 in space."""
-        self._pairs = Pairs(scenario, stage.contact)
+        self._pairs = Pairs(scenario, stage)
         self.analysis, self.contact = stage.analysis, stage.contact
         self.points = points
         condition = self.contact.condition
@@ -107,6 +108,7 @@ class AuditModel:
         self.loads = [Loads(body, stage.loads) for body in self.bodies]
         """Those of every body."""
         self.springs = [build_spring(spring, self) for spring in scenario.springs]
+        self._depths: dict[tuple[int, int], Array] = {}
         self.before: AuditModel | None = None
         """The stage before."""
         self.size = max(_diameter(b.points) for b in self.bodies)
@@ -207,6 +209,26 @@ class AuditModel:
         """Return an obstacle by name."""
         return self.obstacles[self._pairs.obstacle(name)]
 
+    def interference(self, a: str, b: str) -> Interference:
+        """Return by how much the surfaces of two are pushed apart, by their names."""
+        return self._pairs.interference(a, b)
+
+    def drawn_depths(self, source: int, target: int) -> Array:
+        """Return how deep nodes of a body are in a body or obstacle as drawn [m], [node_count].
+
+        It is zero of what is outside, and of what may not touch.
+        """
+        if (source, target) not in self._depths:
+            body, depths = self.bodies[source], np.zeros(len(self.bodies[source].points))
+            x = body.points[body.sources]
+            if target < 0:
+                gaps = self.obstacles[-1 - target].distance(x, 0.0)
+            else:
+                gaps = self.targets[target].signed_distance(x, self.bodies[target].points)
+            depths[body.sources] = np.maximum(-np.where(np.isfinite(gaps), gaps, 0.0), 0.0)
+            self._depths[source, target] = depths
+        return self._depths[source, target]
+
     def tracks(self) -> list[tuple[str, int]]:
         """Return the names of tracked points and the nodes nearest to them."""
         tracks = []
@@ -304,8 +326,11 @@ def _diameter(points: Array) -> float:
 
 def _refuse_what_is_driven(scenario: Scenario, stage: FullStage) -> None:
     """Refuse what the auditor has no second implementation of."""
-    if any(pair.interference is not None for pair in scenario.contact.pairs):
-        raise InputError("cannot audit a pair with an interference yet")
+    contact = stage.contact
+    resolves = contact.resolve_overlap or any(pair.resolve_overlap for pair in contact.pairs)
+    if resolves and scenario.dimension == 3:
+        # Edges that cross have depths of their own as drawn.
+        raise InputError("cannot audit overlaps that are taken up in space yet")
     if any(map(holds, (scenario.contact.cohesion, *(p.cohesion for p in scenario.contact.pairs)))):
         raise InputError("cannot audit surfaces that hold together yet")
     if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):

@@ -44,7 +44,7 @@ def find(
     Feet are those that come closest to the stored gaps and normals. What is stored is not of all
     times of a step: feet at others are near those of the contacts `like` them.
     """
-    return _Finder(model, state, position, time, like).found(step)
+    return _Finder(model, state, position, time, like, step).found()
 
 
 class _Finder:
@@ -55,6 +55,7 @@ class _Finder:
         position: Array,
         time: float,
         like: Contacts | None,
+        step: tuple[float, float],
     ) -> None:
         self._model, self._position, self._time, self._like = model, position, time, like
         self._state = state
@@ -62,7 +63,15 @@ class _Finder:
         self._node = np.clip(stored, 0, len(model.points) - 1)
         self._source = np.array([model.body_of(int(n)) for n in stored], dtype=np.int64)
         self._target: Indices = state["contact_target"]
-        self._gap: Array = state["contact_gap"]
+        self._step = step
+        sides = {(side.source, side.target): side for side in model.sides}
+        between = zip(self._source.tolist(), self._target.tolist(), strict=True)
+        self._sides = tuple(sides.get(key) for key in between)
+        self._interference = self._pushed_apart()
+        part = (time - step[0]) / (step[1] - step[0])
+        self._stand_off: Array = self._interference @ np.array([1.0 - part, part])
+        # Gaps are stored as the law sees them.
+        self._gap: Array = state["contact_gap"] + self._stand_off
         self._normal: Array = state["contact_normal"]
         self._places = [
             Place(np.nan, np.full(model.dimension, np.nan), sources=[(int(node), 1.0)])
@@ -72,8 +81,22 @@ class _Finder:
         self._alike: dict[int, list[Place]] = {}
         """Feet of a contact that are as good as one another."""
 
-    def found(self, step: tuple[float, float]) -> Contacts:
-        """Return the contacts, of which a step has start and end [s]."""
+    def _pushed_apart(self) -> Array:
+        """Return the interference of contacts at both ends of the step [m], shape [count, 2]."""
+        pushed = np.zeros((len(self._node), 2))
+        for k, side in enumerate(self._sides):
+            if side is None:
+                continue
+            depth = 0.0
+            if side.interference.left(self._step[0]) > 0.0:
+                own = int(self._node[k]) - self._model.bodies[side.source].span.start
+                depth = float(self._model.drawn_depths(side.source, side.target)[own])
+            pushed[k, 0] = side.interference.as_state(self._step[0], depth)
+            pushed[k, 1] = side.interference.at(self._step[1], depth)
+        return pushed
+
+    def found(self) -> Contacts:
+        """Return the contacts."""
         for t in np.unique(self._target):
             at = np.flatnonzero(self._target == t)
             if t >= 0 and t < len(self._model.bodies):
@@ -82,7 +105,7 @@ class _Finder:
                 self._before_obstacle(int(-1 - t), at)
         if self._like is None:
             self._settle()
-        return self._gathered(step)
+        return self._gathered()
 
     def _misfit(self, contact: int, gap: Array, normal: Array) -> Array:
         """Return how far gaps and normals, shapes [count] and [count, D], are from a stored one."""
@@ -302,28 +325,26 @@ class _Finder:
             for k in good
         ]
 
-    def _gathered(self, step: tuple[float, float]) -> Contacts:
+    def _gathered(self) -> Contacts:
         model, count = self._model, len(self._places)
         shift = np.zeros((count, model.dimension))
         velocity = np.zeros_like(shift)
         for k, t in enumerate(self._target):
             if -len(model.obstacles) <= t < 0:
                 travel = model.obstacles[-1 - t].travel
-                before, after = (travel.displacement(end) for end in step)
-                shift[k], velocity[k] = after - before, travel.velocity(step[1])
+                before, after = (travel.displacement(end) for end in self._step)
+                shift[k], velocity[k] = after - before, travel.velocity(self._step[1])
         gap = np.array([place.gap for place in self._places])
         normal = np.array([place.normal for place in self._places]).reshape(shift.shape)
         sources, shares = _padded([place.sources for place in self._places])
         followed, weights = _padded([place.followed for place in self._places])
-        sides = {(side.source, side.target): side for side in model.sides}
-        between = zip(self._source, self._target, strict=True)
         return Contacts(
             node=self._node,
             site=np.array([place.site for place in self._places], dtype=np.int64),
             source=self._source,
             target=self._target,
             reaction=self._state["contact_reaction"],
-            gap=gap,
+            gap=gap - self._stand_off,
             normal=normal,
             sources=sources,
             shares=shares,
@@ -332,9 +353,10 @@ class _Finder:
             facet=np.array([place.facet for place in self._places], dtype=np.int64),
             shift=shift,
             velocity=velocity,
+            interference=self._interference,
             gap_error=self._gap - gap,
             normal_error=np.linalg.norm(self._normal - normal, axis=1),
-            side=tuple(sides.get((int(s), int(t))) for s, t in between),
+            side=self._sides,
         )
 
 

@@ -37,6 +37,7 @@ class Ruled:
         """Return the motions of the contacts of a step with the reactions that bore its motion."""
         found, model = step.touching.pressed, step.model
         w_n, w_t = found.relative(step.d, found.shift)
+        w_n = w_n - found.widening
         slip, rate = w_t, np.full(len(found), 1.0 / step.dt)
         # What is open at the start may be closed, and what is as good as closed is.
         landed = w_n + np.maximum(step.touching.start_gaps, 0.0)
@@ -53,6 +54,7 @@ class Ruled:
             w_n = ruled_by_motion
         elif model.condition == "endpoint":
             before, across = found.relative(step.met, _driven(step, found))
+            before = before - found.widening / step.dt
             w_n = w_n + (model.theta - 1) * step.dt * before
             given = [None if side is None else side.restitution for side in found.side]
             bounce = np.array([0.0 if e is None else e for e in given])
