@@ -22,7 +22,7 @@ from carom.auditing.targets.feet import Target
 from carom.auditing.targets.gregory import GregoryPatches
 from carom.auditing.targets.sheet import FlatPatches, Sheet
 from carom.case.analysis import Conserving, Static, Theta
-from carom.case.body import AnyBody, Body, ReducedBody, RigidBody
+from carom.case.body import AnyBody, ReducedBody, RigidBody
 from carom.case.cohesion import holds
 from carom.case.full_stage import FullStage
 from carom.case.scenario import Scenario
@@ -269,12 +269,12 @@ class AuditModel:
     def _spares_mass(self, entry: AnyBody, body: AuditBody) -> bool:
         """Return whether a body may have no mass where it touches others.
 
-        What is rigid or reduced may not, nor what flows or rubs by a law, nor where springs or
+        What is rigid or reduced may not, nor what flows, grows or rubs by a law, nor where springs or
         masses are attached to what may touch.
         """
         if isinstance(entry, RigidBody | ReducedBody) or self._pairs.rubs_by_law(entry.name):
             return False
-        if body.law.flows:
+        if body.law.flows or body.growth.acts:
             return False
         attached: list[Attached] = [*self.scenario.masses]
         attached += [end for spring in self.scenario.springs for end in spring.between]
@@ -337,5 +337,3 @@ def _refuse_what_is_driven(scenario: Scenario, stage: FullStage) -> None:
         raise InputError("cannot audit the steps of a reduced body yet, as with output.audit")
     if any(isinstance(body, RigidBody) and body.round for body in scenario.bodies):
         raise InputError("cannot audit a rigid body that is round yet")
-    if any(isinstance(body, Body) and body.growth is not None for body in scenario.bodies):
-        raise InputError("cannot audit a body that grows yet")

@@ -308,7 +308,7 @@ class StepChecks:
         mine = step.energy_terms()
         sums = 2 * ROUND_OFF * scales.energy
         strain = sums + sum(
-            scales.strain(b, u[b.span]) for b in model.bodies for u in (step.u0, step.u1)
+            scales.strain(b, u[b.span], t) for b in model.bodies for u, t in step.ends
         )
         reactions = float(np.abs(step.touching.all.reaction).sum())
         if model.massless:
@@ -318,6 +318,8 @@ class StepChecks:
         resisted = sum(scales.resisted(step, index) for index in range(len(model.bodies)))
         off = {"strain": strain, "plastic": strain, "friction": friction, "normal_contact": work}
         off |= {"viscous": sums + resisted, "prescribed": work + resisted}
+        if any(body.growth.acts for body in model.bodies):
+            off["prescribed"] += strain
         if model.static:
             # What contact does in the mean of a load step is the scheme's, too.
             off["scheme"] = strain + work

@@ -96,7 +96,9 @@ class Forces:
         mean[held] = d[held] / dt
         viscous = body.damping_force(u0 + 0.5 * np.where(held, d, dt * v0), mean)
         viscous += body.viscous_force(u0, u1, dt)
-        start, end = body.internal_force(u0), body.internal_force(u1)
+        grown = s.grown(body)
+        start, end = body.internal_force(u0, grown[0]), body.internal_force(u1, grown[1])
+        half_way = 0.5 * (grown[0] + grown[1])
         steadying, missing, available = np.zeros_like(d), 0.0, 0.0
         path, path_loads = np.zeros_like(d), np.zeros_like(d)
         # A body that moves rigidly, or falls as it does, is not resisted.
@@ -109,7 +111,7 @@ class Forces:
         if model.static:
             loads = end_loads
             viscous = np.zeros_like(viscous)
-            path = body.conserving_force(u0, u1)
+            path = body.conserving_force(u0, u1, half_way)
             path_loads = given.mean(times, 0.5, u0 + 0.5 * d)
         pressed = body.mass.resultant(s.start["contact_force"][span] + given.at(times[0], u0))
         slowed = body.law.mass_damping
@@ -126,7 +128,7 @@ class Forces:
             opposed = viscous - loads
             internal, missing, available = self._blended(index, body, opposed, at_end)
         elif model.conserving:
-            internal = body.conserving_force(u0, u1)
+            internal = body.conserving_force(u0, u1, half_way)
         else:
             internal = (1 - model.xi) * start + model.xi * end
         if model.mixed and model.blended and not len(body.massless):
@@ -170,7 +172,7 @@ class Forces:
         resists = inertia(middle - centre, body.mass.times)
         parts = []
         for inner, shares in (
-            (body.conserving_force(u0, u1), (0.5, 0.5)),
+            (body.conserving_force(u0, u1, 0.0), (0.5, 0.5)),
             (body.difference_force(u0, u1), (-1.0, 1.0)),
         ):
             # What the forces of the boundary have more than the reactions of start and end.

@@ -69,7 +69,7 @@ class Step(States):
         if model.static:
             return self._path_terms(index, body)
         u0, u1, v0, d = (a[body.span] for a in (self.u0, self.u1, self.v0, self.d))
-        held = model.supports[index].held
+        held, grown = model.supports[index].held, self.grown(body)
         end = self.end["velocity"][body.span]
         jump = self.v_scheme[body.span] - v0
         if body.rigid:
@@ -97,14 +97,14 @@ class Step(States):
             scheme += float(((received + f.loads - f.viscous - f.internal) * moved)[b].sum())
         return {
             "kinetic": body.kinetic_energy(u1, end) - body.kinetic_energy(u0, v0),
-            "strain": body.strain_energy(u1) - body.strain_energy(u0),
+            "strain": body.strain_energy(u1, grown[1]) - body.strain_energy(u0, grown[0]),
             "external": float(((f.gravity + f.loads) * d).sum()),
             "viscous": float((f.viscous * d).sum()),
-            "plastic": body.plastic_work(u1),
+            "plastic": body.plastic_work(u1, grown[1]),
             "scheme": scheme,
             "contact": contact,
             "connections": float((f.connections * d).sum()),
-            "prescribed": self._supported(index, body),
+            "prescribed": self._supported(index, body) + body.work_of_growth((u0, u1), grown),
         }
 
     def _path_terms(self, index: int, body: AuditBody) -> dict[str, float]:
@@ -113,6 +113,7 @@ class Step(States):
         `scheme` is what the mean lacks of balance inside the body.
         """
         f, held = self.forces.of[index], self.model.supports[index].held
+        grown = self.grown(body)
         u0, u1, v0, d = (a[body.span] for a in (self.u0, self.u1, self.v0, self.d))
         # What moved before load steps began comes to rest with the first.
         kinetic = body.kinetic_energy(u0, v0)
@@ -124,14 +125,14 @@ class Step(States):
         inside = float(np.where(held, 0.0, lacking).sum())
         return {
             "kinetic": -kinetic,
-            "strain": body.strain_energy(u1) - body.strain_energy(u0),
+            "strain": body.strain_energy(u1, grown[1]) - body.strain_energy(u0, grown[0]),
             "external": float(((f.gravity + f.path_loads) * d).sum()),
             "viscous": 0.0,
-            "plastic": body.plastic_work(u1),
+            "plastic": body.plastic_work(u1, grown[1]),
             "scheme": inside + contact + kinetic,
             "contact": contact,
             "connections": float((f.connections * d).sum()),
-            "prescribed": -float(lacking[held].sum()),
+            "prescribed": body.work_of_growth((u0, u1), grown) - float(lacking[held].sum()),
         }
 
     def _supported(self, index: int, body: AuditBody) -> float:
