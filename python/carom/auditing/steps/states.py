@@ -137,7 +137,7 @@ class States:
             if body.rigid:
                 u0, v0 = self.u0[body.span], self.v0[body.span]
                 velocity[body.span] = self.rigid(body).scheme(u0, v0, theta, self.dt)[0]
-            if len(supports):
+            elif len(supports):
                 given = supports.velocity(self.time)
                 velocity[body.span][supports.held] = given[supports.held]
         return velocity
@@ -171,7 +171,8 @@ class States:
 
     def rigid(self, body: AuditBody) -> RigidStep:
         """Return the motion of a rigid body."""
-        return RigidStep.of(body, self.u0[body.span], self.d[body.span])
+        guiding = self.model.supports[self.model.bodies.index(body)].guiding(self.time)
+        return RigidStep.of(body, self.u0[body.span], self.d[body.span], guiding)
 
     def position(self, weight: float) -> Array:
         """Return the positions between start (0) and end (1) of the step [m]."""
