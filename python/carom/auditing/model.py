@@ -213,6 +213,34 @@ class AuditModel:
         """Return by how much the surfaces of two are pushed apart, by their names."""
         return self._pairs.interference(a, b)
 
+    def is_round(self, source: int, target: int) -> bool:
+        """Return whether both sides are what they are without their meshes: round, or plain."""
+        if self.bodies[source].ball is None:
+            return False
+        if target < 0:
+            return not isinstance(self.obstacles[-1 - target].shape, Cornered)
+        return self.bodies[target].ball is not None
+
+    def round_gap(
+        self, source: int, target: int, position: Array, time: float
+    ) -> tuple[float, Array]:
+        """Return the gap [m] and the normal, shape [D], of a round body before what has no corners.
+
+        Nodes are at `position` [m], shape [node_count, D], and obstacles as at a time [s].
+        """
+        body, ball = self.bodies[source], self.bodies[source].ball
+        assert ball is not None, "the source is round"
+        centre = ball.centre(position[body.span])
+        if target < 0:
+            gap, normal = self.obstacles[-1 - target].nearest(centre[None], time)
+            return float(gap[0]) - ball.radius, normal[0]
+        other, theirs = self.bodies[target], self.bodies[target].ball
+        assert theirs is not None, "the target is round"
+        apart = centre - theirs.centre(position[other.span])
+        distance = float(np.linalg.norm(apart))
+        normal = apart / distance if distance > 0.0 else np.eye(self.dimension)[0]
+        return distance - ball.radius - theirs.radius, normal
+
     def drawn_depths(self, source: int, target: int) -> Array:
         """Return how deep nodes of a body are in a body or obstacle as drawn [m], [node_count].
 
@@ -221,7 +249,9 @@ class AuditModel:
         if (source, target) not in self._depths:
             body, depths = self.bodies[source], np.zeros(len(self.bodies[source].points))
             x = body.points[body.sources]
-            if target < 0:
+            if self.is_round(source, target):
+                gaps = np.full(len(x), self.round_gap(source, target, self.points, 0.0)[0])
+            elif target < 0:
                 gaps = self.obstacles[-1 - target].distance(x, 0.0)
             else:
                 gaps = self.targets[target].signed_distance(x, self.bodies[target].points)
@@ -335,5 +365,3 @@ def _refuse_what_is_driven(scenario: Scenario, stage: FullStage) -> None:
         raise InputError("cannot audit surfaces that hold together yet")
     if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):
         raise InputError("cannot audit the steps of a reduced body yet, as with output.audit")
-    if any(isinstance(body, RigidBody) and body.round for body in scenario.bodies):
-        raise InputError("cannot audit a rigid body that is round yet")

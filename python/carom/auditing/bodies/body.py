@@ -13,6 +13,7 @@ from carom.auditing.arrays import (
     einsum,
     inertia,
 )
+from carom.auditing.bodies.ball import Ball
 from carom.auditing.bodies.growing import Growth
 from carom.auditing.bodies.mass import AddedMass, Mass
 from carom.auditing.bodies.moving import MovingBody
@@ -121,6 +122,8 @@ class AuditBody(MovingBody):
         self.surface: Indices = np.unique(self.facets)
         self.sources = np.setdiff1d(self.surface, self.images)
         """Nodes that may touch others; an image would do so twice."""
+        self.ball = Ball.of(entry, points, self.surface)
+        """What it is to other round things and what has no corners, if it is round."""
         self.massless = self.surface if massless else np.zeros(0, dtype=np.int64)
         self.mass = Mass(
             self.cells,

@@ -239,7 +239,9 @@ def _smallest_of_overlapping(
     """Return the same where nodes have clearances of their own."""
     body = model.bodies[side.source]
     x = position[body.span][body.sources]
-    if side.target < 0:
+    if model.is_round(side.source, side.target):
+        gaps = np.full(len(x), model.round_gap(side.source, side.target, position, time)[0])
+    elif side.target < 0:
         gaps = model.obstacles[-1 - side.target].distance(x, time)
     else:
         nodes = position[model.bodies[side.target].span]
@@ -249,6 +251,8 @@ def _smallest_of_overlapping(
 
 
 def _smallest_gap(model: AuditModel, side: Side, position: Array, time: float) -> float:
+    if model.is_round(side.source, side.target):
+        return model.round_gap(side.source, side.target, position, time)[0]
     body = model.bodies[side.source]
     x = position[body.span][body.sources]
     if side.target < 0:

@@ -99,6 +99,10 @@ class _Finder:
         """Return the contacts."""
         for t in np.unique(self._target):
             at = np.flatnonzero(self._target == t)
+            round_ones = np.array([self._is_round(int(k)) for k in at], dtype=bool)
+            for contact in at[round_ones]:
+                self._of_ball(int(contact))
+            at = at[~round_ones]
             if t >= 0 and t < len(self._model.bodies):
                 self._before_body(int(t), at)
             elif t < 0 and -1 - t < len(self._model.obstacles):
@@ -106,6 +110,33 @@ class _Finder:
         if self._like is None:
             self._settle()
         return self._gathered()
+
+    def _is_round(self, contact: int) -> bool:
+        """Return whether a contact is of a round body with what has no corners."""
+        source, target = int(self._source[contact]), int(self._target[contact])
+        bodies, obstacles = self._model.bodies, self._model.obstacles
+        known = source < len(bodies) and -len(obstacles) <= target < len(bodies)
+        return known and self._model.is_round(source, target)
+
+    def _of_ball(self, contact: int) -> None:
+        """Place a contact of a round body where it touches."""
+        model = self._model
+        source, target = int(self._source[contact]), int(self._target[contact])
+        gap, normal = model.round_gap(source, target, self._position, self._time)
+        self._places[contact] = Place(
+            gap=gap,
+            normal=normal,
+            misfit=float(self._misfit(contact, np.array(gap), normal)),
+            sources=self._on_ball(source, normal),
+            followed=self._on_ball(target, -normal) if target >= 0 else [],
+        )
+
+    def _on_ball(self, body: int, normal: Array) -> list[tuple[int, float]]:
+        span, ball = self._model.bodies[body].span, self._model.bodies[body].ball
+        assert ball is not None, "both sides are round"
+        pressed = self._state["contact_force"][span].any(axis=1)
+        found = ball.touching(normal, self._position[span], pressed)
+        return [(node + span.start, weight) for node, weight in found]
 
     def _misfit(self, contact: int, gap: Array, normal: Array) -> Array:
         """Return how far gaps and normals, shapes [count] and [count, D], are from a stored one."""
@@ -262,6 +293,8 @@ class _Finder:
     def _other_places(self, contact: int) -> list[Place]:
         """Return where edges cross, or corners are, that fit a contact as well as its node does."""
         target = int(self._target[contact])
+        if self._is_round(contact):
+            return []
         if target >= 0:
             return self._at_edges(target, contact) if self._model.dimension == 3 else []
         number = -1 - target
