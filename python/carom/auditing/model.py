@@ -299,8 +299,8 @@ class AuditModel:
     def _spares_mass(self, entry: AnyBody, body: AuditBody) -> bool:
         """Return whether a body may have no mass where it touches others.
 
-        What is rigid or reduced may not, nor what flows, grows or rubs by a law, nor where springs or
-        masses are attached to what may touch.
+        What is rigid or reduced may not, nor what flows, grows or rubs by a law, nor where springs
+        or masses are attached to what may touch.
         """
         if isinstance(entry, RigidBody | ReducedBody) or self._pairs.rubs_by_law(entry.name):
             return False

@@ -135,7 +135,8 @@ def run(tmp_path_factory):
 
 
 @pytest.mark.parametrize(
-    ("old", "new"), [("0.3*t", "0.3000001*t"), ("6*t^2", "6.0001*t^2"), ("0.02*sin", "0.0200001*sin")]
+    ("old", "new"),
+    [("0.3*t", "0.3000001*t"), ("6*t^2", "6.0001*t^2"), ("0.02*sin", "0.0200001*sin")],
 )
 def test_a_guide_that_is_not_that_of_the_run_is_found(tmp_path, run, old, new):
     directory = with_another_case(run, tmp_path / "changed", old, new)

@@ -61,7 +61,10 @@ def test_surfaces_that_are_pushed_apart_and_let_closer_are_confirmed(tmp_path, m
     [
         {},
         {"friction": 0.1, "pairs": [{"between": ["shaft", "hub"], "interference": 0.005}]},
-        {"friction": 0.1, "pairs": [{"between": ["shaft", "hub"], "interference": "0.01*t + 0.001"}]},
+        {
+            "friction": 0.1,
+            "pairs": [{"between": ["shaft", "hub"], "interference": "0.01*t + 0.001"}],
+        },
     ],
 )
 def test_a_press_fit_is_confirmed(tmp_path, contact):

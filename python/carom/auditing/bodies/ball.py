@@ -51,7 +51,8 @@ class Ball:
 
     def nodes(self, pressed: Mask) -> Indices:
         """Return the nodes that it follows; of those that are as far the ones that are pressed."""
-        chosen, axes = [int(self._surface[0])], []
+        chosen = [int(self._surface[0])]
+        axes: list[Array] = []
         for _ in range(self._points.shape[1]):
             arms = self._points[self._surface] - self._points[chosen[0]]
             for axis in axes:

@@ -125,19 +125,26 @@ class AuditBody(MovingBody):
         self.ball = Ball.of(entry, points, self.surface)
         """What it is to other round things and what has no corners, if it is round."""
         self.massless = self.surface if massless else np.zeros(0, dtype=np.int64)
+        self._weigh(masses)
+        self._stiffen(dilates=dilates)
+
+    def _weigh(self, masses: Sequence[PointMass]) -> None:
+        """Find its mass, with masses at points of it."""
+        entry = self._entry
         self.mass = Mass(
             self.cells,
-            points,
+            self.points,
             _density(entry, self.law, self.cells),
             lumped=entry.mass == "lumped",
             massless=self.massless,
-            facets=Facets(kind.facet, self.facets, self.thickness),
+            facets=Facets(self.cells.kind.facet, self.facets, self.thickness),
             added=[one for given in masses for one in self._added(given)],
         )
         self.more = np.zeros((1, 1))
         if isinstance(entry, RigidBody) and entry.inertia is not None:
-            self.more = _tensor(entry.inertia) - inertia(self.arms(0.0 * points), self.mass.times)
-        self._stiffen(dilates=dilates)
+            self.more = _tensor(entry.inertia) - inertia(
+                self.arms(0.0 * self.points), self.mass.times
+            )
 
     def _outside(self) -> Indices:
         """Return the facets of the boundary that are outside."""

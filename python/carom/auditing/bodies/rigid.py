@@ -153,9 +153,7 @@ class RigidStep:
         moment -= cross(self.arms[2], impulses).sum(axis=0)
         return force, moment
 
-    def taken_by_scheme(
-        self, v0: Array, v1: Array, theta: float, dt: float
-    ) -> tuple[float, float]:
+    def taken_by_scheme(self, v0: Array, v1: Array, theta: float, dt: float) -> tuple[float, float]:
         """Return what the scheme takes of the free motion, and what guides give beside it [J].
 
         These do m Δv·(½(v₀ + v₁) − d/Δt), and likewise of turns, where the motion at the end is not

@@ -103,7 +103,9 @@ class FrameChecks:
             off = ROUND_OFF * density.max() + np.abs(stress).max() * strain + SAFETY * rest
             self._check("energy density", frame.energy_density[mine] - density, off, at)
             if body.law.flows:
-                error = frame.plastic_strain[mine] - body.plastic_strain(u, body.growth.at(frame.time))
+                error = frame.plastic_strain[mine] - body.plastic_strain(
+                    u, body.growth.at(frame.time)
+                )
                 self._check("plastic strain", error, SAFETY * strain, at)
 
     def _gaps(self, frame: Frame, where: str) -> float | None:
@@ -134,7 +136,9 @@ class FrameChecks:
             for body in bodies
         )
         off = ROUND_OFF * scales.energy
-        strain_off = off + sum(scales.strain(b, frame.displacement[b.span], frame.time) for b in bodies)
+        strain_off = off + sum(
+            scales.strain(b, frame.displacement[b.span], frame.time) for b in bodies
+        )
         self._check("kinetic energy", row["kinetic"] - kinetic, off, where)
         self._check("strain energy", row["strain"] - strain, strain_off, where)
         springs = sum(s.energy(frame.displacement, frame.time) for s in self._model.springs)

@@ -233,9 +233,7 @@ def smallest_gaps(model: AuditModel, position: Array, time: float) -> list[float
     return gaps
 
 
-def _smallest_of_overlapping(
-    model: AuditModel, side: Side, position: Array, time: float
-) -> float:
+def _smallest_of_overlapping(model: AuditModel, side: Side, position: Array, time: float) -> float:
     """Return the same where nodes have clearances of their own."""
     body = model.bodies[side.source]
     x = position[body.span][body.sources]

@@ -44,7 +44,7 @@ def find(
     Feet are those that come closest to the stored gaps and normals. What is stored is not of all
     times of a step: feet at others are near those of the contacts `like` them.
     """
-    return _Finder(model, state, position, time, like, step).found()
+    return _Finder(model, state, (position, time), step, like).found()
 
 
 class _Finder:
@@ -52,11 +52,11 @@ class _Finder:
         self,
         model: AuditModel,
         state: Mapping[str, Any],
-        position: Array,
-        time: float,
-        like: Contacts | None,
+        at: tuple[Array, float],
         step: tuple[float, float],
+        like: Contacts | None,
     ) -> None:
+        position, time = at
         self._model, self._position, self._time, self._like = model, position, time, like
         self._state = state
         stored = state["contact_node"]

@@ -108,10 +108,10 @@ class States:
 
     def _growing(self) -> float:
         """Return by how much the size of a body would change by what it grows [m]."""
-        changes = [
-            abs(float(np.subtract(*self.grown(body)))) * float(np.linalg.norm(np.ptp(body.points, 0)))
-            for body in self.model.bodies
-        ]
+        changes = []
+        for body in self.model.bodies:
+            before, after = self.grown(body)
+            changes.append(abs(after - before) * float(np.linalg.norm(np.ptp(body.points, axis=0))))
         return max(changes)
 
     def _motion(self) -> float:
