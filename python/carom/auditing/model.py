@@ -11,6 +11,7 @@ from carom.auditing.arrays import Array, Indices
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.bodies.mass import NoMassInsideError
 from carom.auditing.bodies.places import Attached
+from carom.auditing.contact.interference import Interference
 from carom.auditing.contact.obstacles import AuditObstacle, Cornered, obstacle_of
 from carom.auditing.contact.pairs import ALIKE, Pairs, build_sides
 from carom.auditing.drives.loads import Loads
@@ -65,7 +66,7 @@ class AuditModel:
         self.scenario, self.stage = scenario, stage
         self.dimension = scenario.dimension
         """2 in the plane, 3 in space."""
-        self._pairs = Pairs(scenario, stage.contact)
+        self._pairs = Pairs(scenario, stage)
         self.analysis, self.contact = stage.analysis, stage.contact
         self.points = points
         condition = self.contact.condition
@@ -108,6 +109,7 @@ class AuditModel:
         self.loads = [Loads(body, stage.loads) for body in self.bodies]
         """Those of every body."""
         self.springs = [build_spring(spring, self) for spring in scenario.springs]
+        self._depths: dict[tuple[int, int], Array] = {}
         self.before: AuditModel | None = None
         """The stage before."""
         self.size = max(_diameter(b.points) for b in self.bodies)
@@ -208,6 +210,56 @@ class AuditModel:
         """Return an obstacle by name."""
         return self.obstacles[self._pairs.obstacle(name)]
 
+    def interference(self, a: str, b: str) -> Interference:
+        """Return by how much the surfaces of two are pushed apart, by their names."""
+        return self._pairs.interference(a, b)
+
+    def is_round(self, source: int, target: int) -> bool:
+        """Return whether both sides are what they are without their meshes: round, or plain."""
+        if self.bodies[source].ball is None:
+            return False
+        if target < 0:
+            return not isinstance(self.obstacles[-1 - target].shape, Cornered)
+        return self.bodies[target].ball is not None
+
+    def round_gap(
+        self, source: int, target: int, position: Array, time: float
+    ) -> tuple[float, Array]:
+        """Return the gap [m] and the normal, shape [D], of a round body before what has no corners.
+
+        Nodes are at `position` [m], shape [node_count, D], and obstacles as at a time [s].
+        """
+        body, ball = self.bodies[source], self.bodies[source].ball
+        assert ball is not None, "the source is round"
+        centre = ball.centre(position[body.span])
+        if target < 0:
+            gap, normal = self.obstacles[-1 - target].nearest(centre[None], time)
+            return float(gap[0]) - ball.radius, normal[0]
+        other, theirs = self.bodies[target], self.bodies[target].ball
+        assert theirs is not None, "the target is round"
+        apart = centre - theirs.centre(position[other.span])
+        distance = float(np.linalg.norm(apart))
+        normal = apart / distance if distance > 0.0 else np.eye(self.dimension)[0]
+        return distance - ball.radius - theirs.radius, normal
+
+    def drawn_depths(self, source: int, target: int) -> Array:
+        """Return how deep nodes of a body are in a body or obstacle as drawn [m], [node_count].
+
+        It is zero of what is outside, and of what may not touch.
+        """
+        if (source, target) not in self._depths:
+            body, depths = self.bodies[source], np.zeros(len(self.bodies[source].points))
+            x = body.points[body.sources]
+            if self.is_round(source, target):
+                gaps = np.full(len(x), self.round_gap(source, target, self.points, 0.0)[0])
+            elif target < 0:
+                gaps = self.obstacles[-1 - target].distance(x, 0.0)
+            else:
+                gaps = self.targets[target].signed_distance(x, self.bodies[target].points)
+            depths[body.sources] = np.maximum(-np.where(np.isfinite(gaps), gaps, 0.0), 0.0)
+            self._depths[source, target] = depths
+        return self._depths[source, target]
+
     def tracks(self) -> list[tuple[str, int]]:
         """Return the names of tracked points and the nodes nearest to them."""
         tracks = []
@@ -250,12 +302,12 @@ class AuditModel:
     def _spares_mass(self, entry: DescribedBody, body: AuditBody) -> bool:
         """Return whether a body may have no mass where it touches others.
 
-        What is rigid or reduced may not, nor what flows or rubs by a law, nor where springs or
-        masses are attached to what may touch.
+        What is rigid or reduced may not, nor what flows, grows or rubs by a law, nor where springs
+        or masses are attached to what may touch.
         """
         if isinstance(entry, RigidBody | ReducedBody) or self._pairs.rubs_by_law(entry.name):
             return False
-        if body.law.flows:
+        if body.law.flows or body.growth.acts:
             return False
         attached: list[Attached] = [*self.scenario.masses]
         attached += [end for spring in self.scenario.springs for end in spring.between]
@@ -307,13 +359,12 @@ def _diameter(points: Array) -> float:
 
 def _refuse_what_is_driven(scenario: Scenario, stage: FullStage) -> None:
     """Refuse what the auditor has no second implementation of."""
-    if any(pair.interference is not None for pair in scenario.contact.pairs):
-        raise InputError("cannot audit a pair with an interference yet")
+    contact = stage.contact
+    resolves = contact.resolve_overlap or any(pair.resolve_overlap for pair in contact.pairs)
+    if resolves and scenario.dimension == 3:
+        # Edges that cross have depths of their own as drawn.
+        raise InputError("cannot audit overlaps that are taken up in space yet")
     if any(map(holds, (scenario.contact.cohesion, *(p.cohesion for p in scenario.contact.pairs)))):
         raise InputError("cannot audit surfaces that hold together yet")
     if scenario.output.audit and any(body.kind == "reduced" for body in scenario.bodies):
         raise InputError("cannot audit the steps of a reduced body yet, as with output.audit")
-    if any(isinstance(body, RigidBody) and body.round for body in scenario.bodies):
-        raise InputError("cannot audit a rigid body that is round yet")
-    if any(isinstance(body, Body) and body.growth is not None for body in scenario.bodies):
-        raise InputError("cannot audit a body that grows yet")

@@ -108,14 +108,6 @@ RIGID = {
 }
 
 
-def test_guided_bodies_cannot_be_audited(tmp_path):
-    motions = [{"kind": "guided", "body": "ball", "x": "0.1*t"}]
-    changes = {"bodies": [RIGID], "motions": motions, "springs": []}
-    carom.run(held("midpoint", "conserving", **changes), out=tmp_path)
-    with pytest.raises(carom.InputError, match="cannot audit the motion"):
-        carom.audit(tmp_path)
-
-
 def test_forces_and_moments_on_rigid_bodies_are_confirmed(tmp_path):
     pushed = {
         "kind": "resultant",

@@ -170,16 +170,6 @@ CANNOT = [
         "yield_stress=1.0}\nbodies.0.initial_stress={xx=1e-3}",
         "cannot audit the law 'j2-plasticity' yet",
     ),
-    (
-        'contact.pairs=[{between=["left","right"],interference="1e-3*t"}]',
-        "cannot audit a pair with an interference yet",
-    ),
-    (
-        'bodies.0={name="left",kind="rigid",density=1.0,round=true,'
-        'mesh={kind="disc",centre=[0,0],radius=1.0,divisions=2}}',
-        "cannot audit a rigid body that is round yet",
-    ),
-    ("bodies.0.growth='1e-3*t'", "cannot audit a body that grows yet"),
     ("contact.discretisation=mortar", "cannot audit mortar contact yet"),
     (
         'analysis={kind="static",end_time=0.02,time_step=2e-3,stabilisation="dynamic"}',

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -13,6 +13,8 @@ from carom.auditing.arrays import (
     einsum,
     inertia,
 )
+from carom.auditing.bodies.ball import Ball
+from carom.auditing.bodies.growing import Growth
 from carom.auditing.bodies.mass import AddedMass, Mass
 from carom.auditing.bodies.moving import MovingBody
 from carom.auditing.bodies.places import Attached, Place, place_on
@@ -87,6 +89,8 @@ class AuditBody(MovingBody):
         """Its mesh as the case draws it."""
         self.law = Composition(entry, materials, points[nodes].mean(axis=1), self.drawn)
         """Its materials, cell by cell."""
+        self.growth = Growth.of(entry, large=self.law.objective)
+        """How it grows."""
         dilates = not isinstance(entry, RigidBody) and entry.formulation != "standard"
         self.masters = _masters(entry, points)
         """For every node the one that it moves with, itself as a rule, [node_count]."""
@@ -118,20 +122,29 @@ class AuditBody(MovingBody):
         self.surface: Indices = np.unique(self.facets)
         self.sources = np.setdiff1d(self.surface, self.images)
         """Nodes that may touch others; an image would do so twice."""
+        self.ball = Ball.of(entry, points, self.surface)
+        """What it is to other round things and what has no corners, if it is round."""
         self.massless = self.surface if massless else np.zeros(0, dtype=np.int64)
+        self._weigh(masses)
+        self._stiffen(dilates=dilates)
+
+    def _weigh(self, masses: Sequence[PointMass]) -> None:
+        """Find its mass, with masses at points of it."""
+        entry = self._entry
         self.mass = Mass(
             self.cells,
-            points,
+            self.points,
             _density(entry, self.law, self.cells),
             lumped=entry.mass == "lumped",
             massless=self.massless,
-            facets=Facets(kind.facet, self.facets, self.thickness),
+            facets=Facets(self.cells.kind.facet, self.facets, self.thickness),
             added=[one for given in masses for one in self._added(given)],
         )
         self.more = np.zeros((1, 1))
         if isinstance(entry, RigidBody) and entry.inertia is not None:
-            self.more = _tensor(entry.inertia) - inertia(self.arms(0.0 * points), self.mass.times)
-        self._stiffen(dilates=dilates)
+            self.more = _tensor(entry.inertia) - inertia(
+                self.arms(0.0 * self.points), self.mass.times
+            )
 
     def _outside(self) -> Indices:
         """Return the facets of the boundary that are outside."""
@@ -224,32 +237,41 @@ class AuditBody(MovingBody):
         np.add.at(folded, self.masters, values)
         return folded
 
-    def strain_energy(self, u: Array) -> float:
-        """Return ∫ψ dV [J]."""
+    def strain_energy(self, u: Array, grown: float) -> float:
+        """Return the strain energy [J] of what has grown by this strain."""
         if self.modes is not None:
             local = self._axes(u).own[self.cells.nodes]
             return 0.5 * float(einsum("cai,caibk,cbk->", local, self._stiffness, local))
-        density = self.response.energy(self.cells.deformation_gradient(u))
-        return float((self.cells.weights * density).sum())
+        return self._integral(self.response.energy, u, grown)
 
-    def plastic_work(self, u: Array) -> float:
+    def plastic_work(self, u: Array, grown: float) -> float:
         """Return the plastic work of a step to u [J]."""
-        if not self.law.flows:
-            return 0.0
-        density = self.response.plastic_work(self.cells.deformation_gradient(u))
-        return float((self.cells.weights * density).sum())
+        return self._integral(self.response.plastic_work, u, grown) if self.law.flows else 0.0
 
-    def plastic_strain(self, u: Array) -> Array:
+    def work_of_growth(self, u: tuple[Array, Array], grown: tuple[float, float]) -> float:
+        """Return the work of growth in a step [J], the change of energy by it at fixed motion.
+
+        By the first half of it where the step starts, and by the second where it ends.
+        """
+        if grown[0] == grown[1]:
+            return 0.0
+        middle = 0.5 * (grown[0] + grown[1])
+        (before, half), (late, after) = (
+            [self._integral(self.response.potential, place, strain) for strain in strains]
+            for place, strains in zip(u, ((grown[0], middle), (middle, grown[1])), strict=True)
+        )
+        return half - before + after - late
+
+    def plastic_strain(self, u: Array, grown: float) -> Array:
         """Return the equivalent plastic strain of cells after a step to u, shape [cell_count]."""
         if not self.law.flows:
             return np.zeros(len(self.cells.nodes))
-        strain = self.response.plastic_strain(self.cells.deformation_gradient(u))
-        return self.cells.mean(strain)
+        return self.cells.mean(self.response.plastic_strain(self._elastic(u, grown)))
 
-    def advance(self, u: Array) -> None:
+    def advance(self, u: Array, grown: float) -> None:
         """Remember what a step to u leaves of what flows."""
         if self.law.flows:
-            self.response.advance(self.cells.deformation_gradient(u))
+            self.response.advance(self._elastic(u, grown))
 
     def viscous_force(self, u0: Array, u1: Array, dt: float) -> Array:
         """Return the force with which viscosity resists a step from u₀ to u₁ [N]."""
@@ -258,19 +280,33 @@ class AuditBody(MovingBody):
         f0, f1 = (self.cells.deformation_gradient(u) for u in (u0, u1))
         return self.cells.divergence(self.law.viscous_stress(f0, f1, dt))
 
-    def internal_force(self, u: Array) -> Array:
+    def internal_force(self, u: Array, grown: float) -> Array:
         """Return ∂E/∂u [N], shape [node_count, D]."""
-        return self.cells.divergence(self.response.stress(self.cells.deformation_gradient(u)))
+        stress = self.response.stress(self._elastic(u, grown))
+        return self.cells.divergence(self.growth.factor(grown, 2) * stress)
 
-    def conserving_force(self, u0: Array, u1: Array) -> Array:
+    def conserving_force(self, u0: Array, u1: Array, grown: float) -> Array:
         """Return the force [N] whose work from u₀ to u₁ is the change of the strain energy."""
-        f0, f1 = (self.cells.deformation_gradient(u) for u in (u0, u1))
-        return self.cells.divergence(self.response.discrete_stress(f0, f1))
+        f0, f1 = (self._elastic(u, grown) for u in (u0, u1))
+        stress = self.response.discrete_stress(f0, f1)
+        return self.cells.divergence(self.growth.factor(grown, 2) * stress)
 
     def difference_force(self, u0: Array, u1: Array) -> Array:
-        """Return the force [N] of the difference of the stresses at u₁ and u₀."""
+        """Return the force [N] of the difference of the stresses at u₁ and u₀.
+
+        Only bodies without mass where they touch have it, and these do not grow.
+        """
         f0, f1 = (self.cells.deformation_gradient(u) for u in (u0, u1))
         return self.cells.divergence(self.response.stress_difference(f0, f1))
+
+    def _elastic(self, u: Array, grown: float) -> Array:
+        """Return F_e at the points of cells, shape [cell_count, q, 3, 3]."""
+        return self.growth.elastic(self.cells.deformation_gradient(u), grown)
+
+    def _integral(self, density: Callable[[Array], Array], u: Array, grown: float) -> float:
+        """Return the integral over the body as it has grown of a density of F_e [J]."""
+        whole = float((self.cells.weights * density(self._elastic(u, grown))).sum())
+        return self.growth.factor(grown, 3) * whole
 
     def damping_force(self, u: Array, v: Array) -> Array:
         """Return C v [N] with C = α M + β R K₀ Rᵀ and R the mean rotation at u."""
@@ -282,16 +318,17 @@ class AuditBody(MovingBody):
             force += self.cells.assembled(share[:, None, None] * local) @ rotation.T
         return force
 
-    def cell_states(self, u: Array) -> tuple[Array, Array]:
+    def cell_states(self, u: Array, grown: float) -> tuple[Array, Array]:
         """Return mean Cauchy stress xx yy zz xy yz xz [Pa] and energy density [J/m³] of cells."""
-        f = self.cells.deformation_gradient(u if self.modes is None else self._axes(u).own)
+        f = self._elastic(u if self.modes is None else self._axes(u).own, grown)
         stress = self.cells.mean(self.response.cauchy_stress(f))
         if self.modes is not None:
             rotation = np.eye(3)
             rotation[: self.dimension, : self.dimension] = self._axes(u).rotation
             stress = rotation @ stress @ rotation.T
         components = stress[:, [0, 1, 2, 0, 1, 0], [0, 1, 2, 1, 2, 2]]
-        return components, self.cells.mean(self.response.energy(f))
+        density = self.growth.factor(grown, 3) * self.cells.mean(self.response.energy(f))
+        return components, density
 
     def _gathered(self, local: Array) -> Array:
         """Sum numbers of the nodes of cells, shape [cell_count, a], over the cells."""

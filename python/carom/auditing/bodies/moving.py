@@ -54,9 +54,10 @@ class MovingBody:
 
     def rotation(self, u: Array) -> Array:
         """Return the mean rotation of the body: the polar factor of Σ m (x − c) ⊗ (X − C)."""
-        return self._turned_to(u) if self.turns else np.eye(self.dimension)
+        return self.turned_to(u) if self.turns else np.eye(self.dimension)
 
-    def _turned_to(self, u: Array) -> Array:
+    def turned_to(self, u: Array) -> Array:
+        """Return how the nodes have turned, whatever the body is."""
         x, reference = self.points + u, self.points
         weight = self.mass.nodal[:, None]
         arms = reference - self.mass.mean(reference)
@@ -72,7 +73,7 @@ class MovingBody:
             return self._axes(u).inertia
         whole = inertia(self.arms(u), self.mass.times)
         if self.more.any():
-            turn = self._turned_to(u) if self.dimension == 3 else np.eye(1)
+            turn = self.turned_to(u) if self.dimension == 3 else np.eye(1)
             whole = whole + turn @ self.more @ turn.T
         return whole
 

@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from carom.auditing.arrays import Indices, Mask, turned, turning_axes
+from carom.auditing.arrays import Array, Indices, Mask, turned, turning_axes
+from carom.auditing.bodies.body import AuditBody
+from carom.auditing.drives.supports import Supports
 from carom.auditing.model import AuditModel
 from carom.auditing.records.files import Frame
 from carom.auditing.report import Findings
@@ -61,7 +63,7 @@ def check_start(model: AuditModel, frame: Frame, scales: Scales, findings: Findi
         if entry.velocity is not None:
             wanted = wanted + np.array(entry.velocity)
         wanted *= not model.static
-        wanted = np.where(supports.held, supports.velocity(0.0), wanted)
+        wanted = _as_driven(body, supports, np.zeros_like(wanted), wanted, 0.0)
         error = frame.velocity[body.span] - wanted
         findings.check("initial velocity", error, ROUND_OFF * scales.speed, f"{entry.name}, t = 0")
 
@@ -120,7 +122,23 @@ def check_given(
         wanted = turned(body.arms(u), np.atleast_1d(spin))
         wanted = wanted + (0.0 if entry.velocity is None else np.array(entry.velocity))
         given[body.span] = True
-        error = np.where(supports.held, 0.0, start["velocity"][body.span] - wanted)
+        wanted = _as_driven(body, supports, u, wanted, before.time)
+        error = start["velocity"][body.span] - wanted
+        if not body.rigid:
+            error = np.where(supports.held, 0.0, error)
         at = f"{entry.body}, t = {before.time:g} s"
         findings.check("initial velocity", error, ROUND_OFF * scales.speed, at)
     return given
+
+
+def _as_driven(
+    body: AuditBody, supports: Supports, u: Array, velocity: Array, time: float
+) -> Array:
+    """Return velocities of nodes [m/s] at displacements u [m] with what is given of them then."""
+    if supports.guide is None:
+        return np.where(supports.held, supports.velocity(time), velocity)
+    guiding = supports.guide.at(time)
+    along = np.where(guiding.along, guiding.velocity, body.mass.mean(velocity))
+    about = np.where(guiding.about, guiding.spin, body.spin(u, velocity))
+    driven: Array = along + turned(body.arms(u), about)
+    return driven

@@ -89,7 +89,7 @@ class FrameChecks:
         first = 0
         for body in self._model.bodies:
             u = frame.displacement[body.span]
-            stress, density = body.cell_states(u)
+            stress, density = body.cell_states(u, body.growth.at(frame.time))
             mine = slice(first, first + len(stress))
             first = mine.stop
             # Strains have the round-off of displacements over edges, and of F itself.
@@ -103,7 +103,9 @@ class FrameChecks:
             off = ROUND_OFF * density.max() + np.abs(stress).max() * strain + SAFETY * rest
             self._check("energy density", frame.energy_density[mine] - density, off, at)
             if body.law.flows:
-                error = frame.plastic_strain[mine] - body.plastic_strain(u)
+                error = frame.plastic_strain[mine] - body.plastic_strain(
+                    u, body.growth.at(frame.time)
+                )
                 self._check("plastic strain", error, SAFETY * strain, at)
 
     def _gaps(self, frame: Frame, where: str) -> float | None:
@@ -129,9 +131,14 @@ class FrameChecks:
             body.kinetic_energy(frame.displacement[body.span], frame.velocity[body.span])
             for body in bodies
         )
-        strain = sum(body.strain_energy(frame.displacement[body.span]) for body in bodies)
+        strain = sum(
+            body.strain_energy(frame.displacement[body.span], body.growth.at(frame.time))
+            for body in bodies
+        )
         off = ROUND_OFF * scales.energy
-        strain_off = off + sum(scales.strain(b, frame.displacement[b.span]) for b in bodies)
+        strain_off = off + sum(
+            scales.strain(b, frame.displacement[b.span], frame.time) for b in bodies
+        )
         self._check("kinetic energy", row["kinetic"] - kinetic, off, where)
         self._check("strain energy", row["strain"] - strain, strain_off, where)
         springs = sum(s.energy(frame.displacement, frame.time) for s in self._model.springs)
@@ -186,8 +193,9 @@ class FrameChecks:
         parts = np.array(body.kinetic_parts(u, v))
         off = SAFETY * ROUND_OFF * self._scales.energy
         self._check("kinetic parts", stored(*KINETIC_PARTS) - parts, off, at)
-        off += self._scales.strain(body, u)
-        self._check("body strain", stored("strain")[0] - body.strain_energy(u), off, at)
+        off += self._scales.strain(body, u, frame.time)
+        strain = body.strain_energy(u, body.growth.at(frame.time))
+        self._check("body strain", stored("strain")[0] - strain, off, at)
         radius = float(np.ptp(body.points, axis=0).max())
         off = SAFETY * ROUND_OFF * speed * (1 + self._scales.reach / radius) / radius
         self._check(

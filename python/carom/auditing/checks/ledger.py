@@ -144,7 +144,7 @@ class LedgerChecks:
             reach = float(np.linalg.norm(weight)) * (self._scales.reach + model.size)
             steps = max(float(self._summary["steps"]), 1.0)
             off = ROUND_OFF * (self._scales.energy + (1 + steps / 1e3) * reach)
-            if not model.supported(body):
+            if not (model.supported(body) or body.growth.acts):
                 nothing = entry["prescribed"]
                 self._check("books: external", nothing, 0.0, f"{body.name}, no supports")
             if not model.connected(body):
@@ -181,7 +181,7 @@ class LedgerChecks:
         energies = [
             (
                 body.kinetic_energy(frame.displacement[body.span], frame.velocity[body.span]),
-                body.strain_energy(frame.displacement[body.span]),
+                body.strain_energy(frame.displacement[body.span], body.growth.at(frame.time)),
             )
             for body in self._model.bodies
         ]
@@ -189,7 +189,7 @@ class LedgerChecks:
         for body, now, start in zip(self._model.bodies, energies, self._energies, strict=True):
             entry = self._bodies[body.name]
             off = 2 * ROUND_OFF * self._scales.energy
-            strain = off + self._scales.strain(body, frame.displacement[body.span])
+            strain = off + self._scales.strain(body, frame.displacement[body.span], frame.time)
             for row in np.flatnonzero(entry["time"] == frame.time):
                 at = f"{body.name}, t = {frame.time:g} s"
                 error = entry["kinetic"][row] - (now[0] - start[0])
@@ -207,10 +207,10 @@ class LedgerChecks:
         reactions = sum(np.abs(work.found.reaction).sum() for work in step.work.all)
         work = float(reactions) * scales.geometry(step)
         for index, (body, terms) in enumerate(zip(model.bodies, step.body_terms, strict=True)):
-            strain = sum(scales.strain(body, u[body.span]) for u in (step.u0, step.u1))
+            strain = sum(scales.strain(body, u[body.span], t) for u, t in step.ends)
             resisted = scales.resisted(step, index)
             more = {"strain": strain, "plastic": strain, "contact": strain + work}
-            more |= {"viscous": resisted, "prescribed": resisted}
+            more |= {"viscous": resisted, "prescribed": resisted + strain * body.growth.acts}
             if model.static:
                 # What contact does in the mean of the step is the scheme's, too.
                 more["scheme"] = strain + work

@@ -111,7 +111,8 @@ class MomentumChecks:
         turning = all(body.turns for body in model.bodies)
         free = self.angular
         free &= rows.single & ~self._touches({o.name for o in model.scenario.obstacles})
-        if model.mixed or not model.massless:
+        apart = any(side.target >= 0 and side.interference.acts for side in model.sides)
+        if model.mixed or not model.massless or apart:
             # Reactions may act where nodes and feet are not at the same place.
             free &= ~self._touches({body.name for body in model.bodies})
         grounded = not all(model.joins_bodies(spring) for spring in model.springs)

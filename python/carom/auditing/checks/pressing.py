@@ -173,10 +173,14 @@ class Pressing:
         v = rows.drift(name)
         h = np.diff(rows.times, prepend=rows.times[0] - rows.dt)
         before = np.concatenate([v[:1], v[:-1]])
-        mean = (1 - model.xi) * before + model.xi * v
+        # Damping knows nothing of impulses at the end of a step: velocities there are the scheme's.
+        moved = np.diff(rows.centre(name), axis=0, prepend=rows.centre(name)[:1]) / h[:, None]
+        scheme = (1 - 1 / model.theta) * before + moved / model.theta
+        mean = (1 - model.xi) * before + model.xi * scheme
         force = mass * ((v - before) / h[:, None] - model.gravity + damping * mean)
         place = self._scales.displacement_in(h)
         off = place * (1 / h + damping) / (model.theta * h) + SAFETY * ROUND_OFF * (
-            self._scales.speed / h + damping * self._scales.speed
+            self._scales.speed / h
+            + damping * (self._scales.speed + self._scales.reach / (model.theta * h))
         )
         return force, mass * off

@@ -67,7 +67,7 @@ class StageChecks:
     def advance(self, frame: Frame) -> None:
         """Let bodies remember what flowed up to a frame."""
         for body in self.model.bodies:
-            body.advance(frame.displacement[body.span])
+            body.advance(frame.displacement[body.span], body.growth.at(frame.time))
 
 
 def stage_at(parts: Sequence[Part], time: float) -> int:

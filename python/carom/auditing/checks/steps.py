@@ -10,6 +10,7 @@ from carom.auditing.arrays import AXES, Array, cross
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.checks.blend import BlendChecks
 from carom.auditing.checks.contacts import ContactChecks
+from carom.auditing.drives.guides import Guide
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.steps.contacts import all_forces
@@ -107,7 +108,7 @@ class StepChecks:
         for index, supports in enumerate(self._model.supports):
             force, allowed = step.forces.support(index), self._scales.force(step, index)
             for number, name in enumerate(supports.names):
-                mine = supports.by == number
+                mine = (supports.by == number) | (supports.guide is not None)
                 total = np.where(mine, force, 0.0).sum(axis=0)
                 stored = np.array(
                     [after[f"{name}.force_{axis}"] for axis in AXES[: self._model.dimension]]
@@ -171,7 +172,8 @@ class StepChecks:
                 impulse = step.rigid(body).borne(impulse)
             error = body.folded(mass.times(change[body.span]) - impulse)
             # What is held keeps its velocity, and supports see to it.
-            error[self._model.supports[self._model.bodies.index(body)].held] = 0.0
+            if not body.rigid:
+                error[self._model.supports[self._model.bodies.index(body)].held] = 0.0
             allowed = mass.nodal[:, None] * off[body.span].max() + total * (turn + IMPULSE)
             self._check("velocity update", error, allowed, f"{body.name}, {where}")
 
@@ -198,6 +200,9 @@ class StepChecks:
     def _supports(self, step: Step, index: int, at: str) -> None:
         """Check that what is held is where it is to be, at the velocity that it is to have."""
         supports, span = self._model.supports[index], self._model.bodies[index].span
+        if supports.guide is not None:
+            self._guided(step, index, supports.guide, at)
+            return
         if not supports.held.any():
             return
         held = supports.held
@@ -207,6 +212,24 @@ class StepChecks:
         speed = step.end["velocity"][span] - supports.velocity(step.time)
         off = ROUND_OFF * self._scales.speed
         self._check("supports", step.dt * speed[held], step.dt * off, f"{at}, velocity")
+
+    def _guided(self, step: Step, index: int, guide: Guide, at: str) -> None:
+        """Check that a rigid body is where it is guided, at the velocity that it is to have."""
+        body, rigid = self._model.bodies[index], step.rigid(self._model.bodies[index])
+        guiding, u1 = rigid.guiding, step.u1[body.span]
+        off = SAFETY * EPS * (self._model.size + self._scales.reach)
+        place = body.mass.mean(u1) - guide.displacement(step.time)
+        self._check("supports", place[guiding.along], off, at)
+        # Turns as the way of what is farthest from the centre.
+        radius = float(np.linalg.norm(rigid.arms[0], axis=1).max())
+        turn = rigid.turn - guide.turn(float(step.start["time"]), step.time)
+        self._check("supports", radius * turn[guiding.about], SAFETY * off, f"{at}, turn")
+        v = step.end["velocity"][body.span]
+        speed = body.mass.mean(v) - guiding.velocity
+        spin = radius * (body.spin(u1, v) - guiding.spin)
+        off = step.dt * SAFETY * ROUND_OFF * (self._scales.speed + self._scales.reach / step.dt)
+        self._check("supports", step.dt * speed[guiding.along], off, f"{at}, velocity")
+        self._check("supports", step.dt * spin[guiding.about], off, f"{at}, spin")
 
     def _rigid(self, step: Step, index: int, at: str) -> None:
         """Check that nodes move as one, and both momenta change by what acts."""
@@ -308,7 +331,7 @@ class StepChecks:
         mine = step.energy_terms()
         sums = 2 * ROUND_OFF * scales.energy
         strain = sums + sum(
-            scales.strain(b, u[b.span]) for b in model.bodies for u in (step.u0, step.u1)
+            scales.strain(b, u[b.span], t) for b in model.bodies for u, t in step.ends
         )
         reactions = float(np.abs(step.touching.all.reaction).sum())
         if model.massless:
@@ -318,6 +341,8 @@ class StepChecks:
         resisted = sum(scales.resisted(step, index) for index in range(len(model.bodies)))
         off = {"strain": strain, "plastic": strain, "friction": friction, "normal_contact": work}
         off |= {"viscous": sums + resisted, "prescribed": work + resisted}
+        if any(body.growth.acts for body in model.bodies):
+            off["prescribed"] += strain
         if model.static:
             # What contact does in the mean of a load step is the scheme's, too.
             off["scheme"] = strain + work

@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.auditing.arrays import turning_axes
 from carom.auditing.bodies.body import AuditBody
+from carom.auditing.drives.supports import Supports
 from carom.auditing.records.numbers import number
 from carom.auditing.records.parts import SUMS, Part
 from carom.auditing.records.rows import GRID, Rows
@@ -184,7 +185,7 @@ class SummaryChecks:
             steps = min(steps, summary["steps"])
         dofs = sum(_unknowns(body) for body in self._model.bodies)
         dofs -= sum(
-            int(supports.held[body.masters == np.arange(len(body.points))].sum())
+            _given(body, supports)
             for body, supports in zip(self._model.bodies, self._model.supports, strict=True)
         )
         for name, figure in (
@@ -319,3 +320,11 @@ def _unknowns(body: AuditBody) -> int:
     if body.rigid:
         return body.dimension + turning_axes(body.dimension)
     return body.dimension * (len(body.points) - len(body.images))
+
+
+def _given(body: AuditBody, supports: Supports) -> int:
+    """Return how many unknowns of a body are given."""
+    if supports.guide is not None:
+        guiding = supports.guide.at(0.0)
+        return int(guiding.along.sum() + guiding.about.sum())
+    return int(supports.held[body.masters == np.arange(len(body.points))].sum())

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
 
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.contact.friction import Law
-from carom.case.contact import Contact, Pair
+from carom.auditing.contact.interference import Interference
+from carom.case.contact import Pair
+from carom.case.full_stage import FullStage
 from carom.case.scenario import Scenario
 
 ALIKE = 1e-6
@@ -35,6 +37,8 @@ class Side:
         Coefficient of restitution of what is rigid where velocities are ruled; None elsewhere.
     massless
         Whether nodes of either body are without mass.
+    interference
+        By how much their surfaces are pushed apart.
     """
 
     source: int
@@ -43,6 +47,7 @@ class Side:
     two_sided: bool
     restitution: float | None = None
     massless: bool = False
+    interference: Interference = field(default_factory=Interference)
 
 
 class Pairs:
@@ -52,13 +57,13 @@ class Pairs:
     ----------
     scenario
         The case.
-    contact
-        The law of contact that holds.
+    stage
+        The analysis of it whose law of contact holds.
     """
 
-    def __init__(self, scenario: Scenario, contact: Contact) -> None:
-        self._scenario = scenario
-        self._contact = contact
+    def __init__(self, scenario: Scenario, stage: FullStage) -> None:
+        self._scenario, self._stage = scenario, stage
+        self._contact = stage.contact
         names = [body.name for body in scenario.bodies]
         planes = [obstacle.name for obstacle in scenario.obstacles]
         self.names = [
@@ -105,6 +110,11 @@ class Pairs:
         own = None if entry is None else entry.restitution
         return self._contact.restitution or 0.0 if own is None else own
 
+    def interference(self, a: str, b: str) -> Interference:
+        """Return by how much the surfaces of two are pushed apart."""
+        end, static = self._stage.end_time, not self._stage.is_dynamic
+        return Interference.of(self._contact, self.of(a, b), end, static=static)
+
     def sources(self, a: str, b: str) -> tuple[str, bool]:
         """Return whose nodes are checked, and whether that is seen from the second."""
         entry = self.of(a, b)
@@ -128,6 +138,7 @@ def build_sides(pairs: Pairs, bodies: Sequence[AuditBody], *, impacts: bool) -> 
             law=pairs.law(first, second),
             restitution=pairs.restitution(first, second) if ruled else None,
             massless=any(len(body.massless) > 0 for body in met),
+            interference=pairs.interference(first, second),
         )
         if b < 0:
             yield make(a, b, two_sided=False)

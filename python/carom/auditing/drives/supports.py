@@ -8,12 +8,12 @@ import numpy as np
 
 from carom.auditing.arrays import AXES, Array, Indices, Mask
 from carom.auditing.bodies.body import AuditBody
+from carom.auditing.drives.guides import Guide, Guiding
 from carom.auditing.functions.signals import AuditSignal
 from carom.auditing.mesh.drawn import nodes_of
 from carom.case.full_stage import Given
 from carom.case.load import Load
-from carom.case.motion import Fixed, Motion, Prescribed
-from carom.errors import InputError
+from carom.case.motion import Fixed, Guided, Motion, Prescribed
 
 
 class Supports:
@@ -27,15 +27,10 @@ class Supports:
         The motions, of all bodies, and when each began.
     at_rest
         Whether what moves has no velocity, as in load steps.
-
-    Raises
-    ------
-    InputError
-        The auditor does not know one of the motions.
     """
 
     def __init__(self, body: AuditBody, given: Sequence[Given], *, at_rest: bool) -> None:
-        self._at_rest = at_rest
+        self._at_rest, self._dimension, self._mean = at_rest, body.dimension, body.mass.mean
         self.held: Mask = np.zeros(body.points.shape, dtype=bool)
         """Which components of the displacement of nodes are given, shape [node_count, D]."""
         self.held[body.on_axis, 0] = True
@@ -47,6 +42,8 @@ class Supports:
         self.names: list[str] = []
         """Names of the supports, as columns of the history have them."""
         self._signals: list[list[AuditSignal]] = []
+        self.guide: Guide | None = None
+        """What guides it, if it is rigid and something does."""
         for one in given:
             if one.what.body == body.name:
                 self._hold(body, one.what)
@@ -56,8 +53,12 @@ class Supports:
         return len(self.names)
 
     def _hold(self, body: AuditBody, motion: Load | Motion) -> None:
-        if not isinstance(motion, Fixed | Prescribed) or body.rigid or body.modes is not None:
-            raise InputError("cannot audit the motion of a rigid or reduced body yet")
+        if isinstance(motion, Guided):
+            self.guide = Guide(motion, body.dimension, at_rest=self._at_rest)
+            self.held[:] = self.guide.at(0.0).held
+            self.names.append(motion.body)
+            return
+        assert isinstance(motion, Fixed | Prescribed), "loads are no motions"
         on = nodes_of(body.drawn, motion.on, body.points, body.boundary, body.cells.nodes)
         alike = np.isin(body.masters, body.masters[on])
         axes = AXES[: body.dimension]
@@ -80,7 +81,15 @@ class Supports:
         for number, since in enumerate(self._since):
             mine = self.by == number
             known = before is not None and since < time
+            if self.guide is not None:
+                goes_on = before.guide if before is not None and known else None
+                self.guide.anchor = self._mean(u) if goes_on is None else goes_on.anchor
+                continue
             self.anchor[mine] = (before.anchor if before is not None and known else u)[mine]
+
+    def guiding(self, time: float) -> Guiding:
+        """Return what guides the body at the end of a step [s]; nothing does as a rule."""
+        return Guiding.none(self._dimension) if self.guide is None else self.guide.at(time)
 
     def displacement(self, time: float) -> Array:
         """Return what is given at a time [s], zero elsewhere [m], shape [node_count, D]."""

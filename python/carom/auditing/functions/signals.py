@@ -21,6 +21,8 @@ class AuditSignal:
     """
 
     def __init__(self, given: Signal | None) -> None:
+        self.given = given is not None
+        """Whether the case says anything."""
         self._given = 0.0 if given is None else given
         self._formula = Formula(given) if isinstance(given, str) else None
 

@@ -43,8 +43,10 @@ class Composition:
     ) -> None:
         materials = [known[name] for name in materials_of(entry)]
         stress = entry.initial_stress if isinstance(entry, Body) else None
-        free = middles.shape[1]
         sheet = entry.hypothesis == "plane-stress"
+        grows = isinstance(entry, Body) and entry.growth is not None and not sheet
+        # What cannot grow across the plane is strained there.
+        free = 3 if grows else middles.shape[1]
         self._laws = [_law(one, free, stress, sheet=sheet) for one in materials] or [Law.none()]
         self._densities = [material.density for material in materials]
         regions = () if isinstance(entry, RigidBody) else entry.regions

@@ -67,8 +67,9 @@ class Works:
                     found=found,
                     terms={
                         "friction": -einsum("ki,ki->k", found.friction_force, w_t),
-                        "normal_contact": -found.normal_force * w_n,
-                        "prescribed": found.driven(self._states.held_d, found.shift),
+                        "normal_contact": -found.normal_force * (w_n - found.widening),
+                        "prescribed": found.driven(self._states.held_d, found.shift)
+                        + found.normal_force * found.widening,
                     },
                     whole=np.zeros(len(found)),
                     doubt=doubt,
@@ -160,18 +161,16 @@ class Works:
                 moved[k] = left[k] = end_slip[ended[key]]
                 normals[k] = balanced.normal[ended[key]]
         held = self._states.held_d
+        first = self._touching.first
         by_end = balanced.driven(held, balanced.shift)
+        by_end = by_end + balanced.normal_force * balanced.widening
+        by_start = _turned_to(first, normals).driven(held, first.shift)
+        by_start = by_start + first.normal_force * first.widening
         blend = np.append(self._states.blend, 0.0)  # the last is of nodes of no body
         work = []
         for sign, found, slip, off, driven in (
             (1.0, balanced, end_slip, np.zeros(len(end_slip)), by_end),
-            (
-                -1.0,
-                self._touching.first,
-                moved,
-                np.abs(moved - left),
-                _turned_to(self._touching.first, normals).driven(held, self._touching.first.shift),
-            ),
+            (-1.0, first, moved, np.abs(moved - left), by_start),
         ):
             share = 0.5 + sign * blend[found.source]
             force = found.friction * found.normal_force

@@ -36,7 +36,7 @@ class Contacts:
     reaction
         Force on the source [N], shape [count, D].
     gap, normal
-        By the auditor's closest point [m], shape [count] and [count, D].
+        By the auditor's closest point, less the interference [m], shape [count] and [count, D].
     sources, shares
         Nodes of the source, and how much of it each is, shape [count, m].
     followed, weights
@@ -46,6 +46,8 @@ class Contacts:
     shift, velocity
         How far the obstacle moves in the step [m], and its velocity at the end [m/s], shape
         [count, D]; zero for bodies.
+    interference
+        By how much surfaces are pushed apart at start and end of the step [m], shape [count, 2].
     gap_error, normal_error
         What was stored less that, shape [count].
     side
@@ -66,9 +68,16 @@ class Contacts:
     facet: Indices
     shift: Array
     velocity: Array
+    interference: Array
     gap_error: Array
     normal_error: Array
     side: tuple[Side | None, ...]
+
+    @property
+    def widening(self) -> Array:
+        """How much farther surfaces are pushed apart in the step [m], shape [count]."""
+        widening: Array = self.interference[:, 1] - self.interference[:, 0]
+        return widening
 
     def less(self, others: list[Contacts]) -> Contacts:
         """Return the same contacts without the reactions of others."""
@@ -210,11 +219,38 @@ def all_forces(parts: Sequence[Contacts], node_count: int) -> Array:
 
 
 def smallest_gaps(model: AuditModel, position: Array, time: float) -> list[float]:
-    """Return for every side the smallest signed distance of its nodes from its target [m]."""
-    return [_smallest_gap(model, side, position, time) for side in model.sides]
+    """Return for every side the smallest gap of its nodes [m].
+
+    It is the signed distance from the target less the interference.
+    """
+    gaps = []
+    for side in model.sides:
+        if side.interference.left(time) > 0.0:
+            gaps.append(_smallest_of_overlapping(model, side, position, time))
+            continue
+        pushed = float(side.interference.as_state(time))
+        gaps.append(_smallest_gap(model, side, position, time) - pushed)
+    return gaps
+
+
+def _smallest_of_overlapping(model: AuditModel, side: Side, position: Array, time: float) -> float:
+    """Return the same where nodes have clearances of their own."""
+    body = model.bodies[side.source]
+    x = position[body.span][body.sources]
+    if model.is_round(side.source, side.target):
+        gaps = np.full(len(x), model.round_gap(side.source, side.target, position, time)[0])
+    elif side.target < 0:
+        gaps = model.obstacles[-1 - side.target].distance(x, time)
+    else:
+        nodes = position[model.bodies[side.target].span]
+        gaps = model.targets[side.target].signed_distance(x, nodes)
+    depths = model.drawn_depths(side.source, side.target)[body.sources]
+    return float((gaps - side.interference.as_state(time, depths)).min())
 
 
 def _smallest_gap(model: AuditModel, side: Side, position: Array, time: float) -> float:
+    if model.is_round(side.source, side.target):
+        return model.round_gap(side.source, side.target, position, time)[0]
     body = model.bodies[side.source]
     x = position[body.span][body.sources]
     if side.target < 0:

@@ -44,7 +44,7 @@ def find(
     Feet are those that come closest to the stored gaps and normals. What is stored is not of all
     times of a step: feet at others are near those of the contacts `like` them.
     """
-    return _Finder(model, state, position, time, like).found(step)
+    return _Finder(model, state, (position, time), step, like).found()
 
 
 class _Finder:
@@ -52,17 +52,26 @@ class _Finder:
         self,
         model: AuditModel,
         state: Mapping[str, Any],
-        position: Array,
-        time: float,
+        at: tuple[Array, float],
+        step: tuple[float, float],
         like: Contacts | None,
     ) -> None:
+        position, time = at
         self._model, self._position, self._time, self._like = model, position, time, like
         self._state = state
         stored = state["contact_node"]
         self._node = np.clip(stored, 0, len(model.points) - 1)
         self._source = np.array([model.body_of(int(n)) for n in stored], dtype=np.int64)
         self._target: Indices = state["contact_target"]
-        self._gap: Array = state["contact_gap"]
+        self._step = step
+        sides = {(side.source, side.target): side for side in model.sides}
+        between = zip(self._source.tolist(), self._target.tolist(), strict=True)
+        self._sides = tuple(sides.get(key) for key in between)
+        self._interference = self._pushed_apart()
+        part = (time - step[0]) / (step[1] - step[0])
+        self._stand_off: Array = self._interference @ np.array([1.0 - part, part])
+        # Gaps are stored as the law sees them.
+        self._gap: Array = state["contact_gap"] + self._stand_off
         self._normal: Array = state["contact_normal"]
         self._places = [
             Place(np.nan, np.full(model.dimension, np.nan), sources=[(int(node), 1.0)])
@@ -72,17 +81,62 @@ class _Finder:
         self._alike: dict[int, list[Place]] = {}
         """Feet of a contact that are as good as one another."""
 
-    def found(self, step: tuple[float, float]) -> Contacts:
-        """Return the contacts, of which a step has start and end [s]."""
+    def _pushed_apart(self) -> Array:
+        """Return the interference of contacts at both ends of the step [m], shape [count, 2]."""
+        pushed = np.zeros((len(self._node), 2))
+        for k, side in enumerate(self._sides):
+            if side is None:
+                continue
+            depth = 0.0
+            if side.interference.left(self._step[0]) > 0.0:
+                own = int(self._node[k]) - self._model.bodies[side.source].span.start
+                depth = float(self._model.drawn_depths(side.source, side.target)[own])
+            pushed[k, 0] = side.interference.as_state(self._step[0], depth)
+            pushed[k, 1] = side.interference.at(self._step[1], depth)
+        return pushed
+
+    def found(self) -> Contacts:
+        """Return the contacts."""
         for t in np.unique(self._target):
             at = np.flatnonzero(self._target == t)
+            round_ones = np.array([self._is_round(int(k)) for k in at], dtype=bool)
+            for contact in at[round_ones]:
+                self._of_ball(int(contact))
+            at = at[~round_ones]
             if t >= 0 and t < len(self._model.bodies):
                 self._before_body(int(t), at)
             elif t < 0 and -1 - t < len(self._model.obstacles):
                 self._before_obstacle(int(-1 - t), at)
         if self._like is None:
             self._settle()
-        return self._gathered(step)
+        return self._gathered()
+
+    def _is_round(self, contact: int) -> bool:
+        """Return whether a contact is of a round body with what has no corners."""
+        source, target = int(self._source[contact]), int(self._target[contact])
+        bodies, obstacles = self._model.bodies, self._model.obstacles
+        known = source < len(bodies) and -len(obstacles) <= target < len(bodies)
+        return known and self._model.is_round(source, target)
+
+    def _of_ball(self, contact: int) -> None:
+        """Place a contact of a round body where it touches."""
+        model = self._model
+        source, target = int(self._source[contact]), int(self._target[contact])
+        gap, normal = model.round_gap(source, target, self._position, self._time)
+        self._places[contact] = Place(
+            gap=gap,
+            normal=normal,
+            misfit=float(self._misfit(contact, np.array(gap), normal)),
+            sources=self._on_ball(source, normal),
+            followed=self._on_ball(target, -normal) if target >= 0 else [],
+        )
+
+    def _on_ball(self, body: int, normal: Array) -> list[tuple[int, float]]:
+        span, ball = self._model.bodies[body].span, self._model.bodies[body].ball
+        assert ball is not None, "both sides are round"
+        pressed = self._state["contact_force"][span].any(axis=1)
+        found = ball.touching(normal, self._position[span], pressed)
+        return [(node + span.start, weight) for node, weight in found]
 
     def _misfit(self, contact: int, gap: Array, normal: Array) -> Array:
         """Return how far gaps and normals, shapes [count] and [count, D], are from a stored one."""
@@ -239,6 +293,8 @@ class _Finder:
     def _other_places(self, contact: int) -> list[Place]:
         """Return where edges cross, or corners are, that fit a contact as well as its node does."""
         target = int(self._target[contact])
+        if self._is_round(contact):
+            return []
         if target >= 0:
             return self._at_edges(target, contact) if self._model.dimension == 3 else []
         number = -1 - target
@@ -302,28 +358,26 @@ class _Finder:
             for k in good
         ]
 
-    def _gathered(self, step: tuple[float, float]) -> Contacts:
+    def _gathered(self) -> Contacts:
         model, count = self._model, len(self._places)
         shift = np.zeros((count, model.dimension))
         velocity = np.zeros_like(shift)
         for k, t in enumerate(self._target):
             if -len(model.obstacles) <= t < 0:
                 travel = model.obstacles[-1 - t].travel
-                before, after = (travel.displacement(end) for end in step)
-                shift[k], velocity[k] = after - before, travel.velocity(step[1])
+                before, after = (travel.displacement(end) for end in self._step)
+                shift[k], velocity[k] = after - before, travel.velocity(self._step[1])
         gap = np.array([place.gap for place in self._places])
         normal = np.array([place.normal for place in self._places]).reshape(shift.shape)
         sources, shares = _padded([place.sources for place in self._places])
         followed, weights = _padded([place.followed for place in self._places])
-        sides = {(side.source, side.target): side for side in model.sides}
-        between = zip(self._source, self._target, strict=True)
         return Contacts(
             node=self._node,
             site=np.array([place.site for place in self._places], dtype=np.int64),
             source=self._source,
             target=self._target,
             reaction=self._state["contact_reaction"],
-            gap=gap,
+            gap=gap - self._stand_off,
             normal=normal,
             sources=sources,
             shares=shares,
@@ -332,9 +386,10 @@ class _Finder:
             facet=np.array([place.facet for place in self._places], dtype=np.int64),
             shift=shift,
             velocity=velocity,
+            interference=self._interference,
             gap_error=self._gap - gap,
             normal_error=np.linalg.norm(self._normal - normal, axis=1),
-            side=tuple(sides.get((int(s), int(t))) for s, t in between),
+            side=self._sides,
         )
 
 

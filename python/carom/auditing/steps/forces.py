@@ -96,7 +96,9 @@ class Forces:
         mean[held] = d[held] / dt
         viscous = body.damping_force(u0 + 0.5 * np.where(held, d, dt * v0), mean)
         viscous += body.viscous_force(u0, u1, dt)
-        start, end = body.internal_force(u0), body.internal_force(u1)
+        grown = s.grown(body)
+        start, end = body.internal_force(u0, grown[0]), body.internal_force(u1, grown[1])
+        half_way = 0.5 * (grown[0] + grown[1])
         steadying, missing, available = np.zeros_like(d), 0.0, 0.0
         path, path_loads = np.zeros_like(d), np.zeros_like(d)
         # A body that moves rigidly, or falls as it does, is not resisted.
@@ -109,7 +111,7 @@ class Forces:
         if model.static:
             loads = end_loads
             viscous = np.zeros_like(viscous)
-            path = body.conserving_force(u0, u1)
+            path = body.conserving_force(u0, u1, half_way)
             path_loads = given.mean(times, 0.5, u0 + 0.5 * d)
         pressed = body.mass.resultant(s.start["contact_force"][span] + given.at(times[0], u0))
         slowed = body.law.mass_damping
@@ -126,13 +128,13 @@ class Forces:
             opposed = viscous - loads
             internal, missing, available = self._blended(index, body, opposed, at_end)
         elif model.conserving:
-            internal = body.conserving_force(u0, u1)
+            internal = body.conserving_force(u0, u1, half_way)
         else:
             internal = (1 - model.xi) * start + model.xi * end
         if model.mixed and model.blended and not len(body.massless):
             without, beside = self.on_mass(body)
-            missing += float((without * d).sum())
-            available -= float((beside * d).sum())
+            missing += float((without * d)[~held].sum())
+            available -= float((beside * d)[~held].sum())
         return BodyForces(
             inertia=body.mass.times(v1 - v0) / dt * (not model.static),
             gravity=body.mass.nodal[:, None] * model.gravity,
@@ -170,7 +172,7 @@ class Forces:
         resists = inertia(middle - centre, body.mass.times)
         parts = []
         for inner, shares in (
-            (body.conserving_force(u0, u1), (0.5, 0.5)),
+            (body.conserving_force(u0, u1, 0.0), (0.5, 0.5)),
             (body.difference_force(u0, u1), (-1.0, 1.0)),
         ):
             # What the forces of the boundary have more than the reactions of start and end.
@@ -215,7 +217,19 @@ class Forces:
         return np.where(held, 0.0, self._unbalanced(index))
 
     def support(self, index: int) -> Array:
-        """Return the forces of supports on the nodes of a body [N], shape [node_count, D]."""
+        """Return the forces of supports on the nodes of a body [N], shape [node_count, D].
+
+        That of a guide is shared by the nodes as their mass is.
+        """
+        body = self._states.model.bodies[index]
+        if body.rigid:
+            states, forces = self._of_rigid(index)
+            rigid = self._states.rigid(body)
+            static = self._states.model.static
+            lacking, _ = rigid.lacking(states, forces, self._states.dt, at_end=static)
+            lacking = np.where(rigid.guiding.along, lacking, 0.0)
+            shared: Array = body.mass.nodal[:, None] / body.mass.total * lacking
+            return shared
         held = self._states.model.supports[index].held
         return np.where(held, self._unbalanced(index), 0.0)
 
@@ -226,14 +240,10 @@ class Forces:
         in static balance at the end of the step, but for the force that steadies them.
         """
         body, f = self._states.model.bodies[index], self.of[index]
-        contact = self.contact(body)
         if body.rigid:
-            s = self._states
-            states = (s.u1[body.span], s.v0[body.span], s.v1[body.span])
-            impulses = self._touching.impulse(body) / self._states.dt
-            pull = f.end_connections if s.model.static else f.connections
-            forces = (contact - impulses + f.gravity + f.loads + pull, impulses)
+            s, (states, forces) = self._states, self._of_rigid(index)
             return s.rigid(body).residual(states, forces, s.dt, at_end=s.model.static)
+        contact = self.contact(body)
         pull = f.end_connections if self._states.model.static else f.connections
         given = f.gravity + f.loads + pull + self.contact_on_held(body)
         residual = f.inertia + f.internal + f.viscous - given
@@ -242,6 +252,37 @@ class Forces:
         b, held = body.massless, self._states.model.supports[index].held
         residual[b] = np.where(held[b], residual[b], static[b])
         return body.folded(residual)
+
+    def _of_rigid(self, index: int) -> tuple[tuple[Array, Array, Array], tuple[Array, Array]]:
+        """Return the states of a rigid body, and its forces of the step and of impulses [N]."""
+        s, body, f = self._states, self._states.model.bodies[index], self.of[index]
+        states = (s.u1[body.span], s.v0[body.span], s.v1[body.span])
+        impulses = self._touching.impulse(body) / s.dt
+        pull = f.end_connections if s.model.static else f.connections
+        return states, (self.contact(body) - impulses + f.gravity + f.loads + pull, impulses)
+
+    def guided(self, index: int) -> float:
+        """Return the work of what guides a rigid body in a step in time [J].
+
+        What presses on displacements that are given is no load of its: that work is of the pairs.
+        """
+        s, body, f = self._states, self._states.model.bodies[index], self.of[index]
+        rigid = s.rigid(body)
+        unheld, guiding = rigid.guiding.unheld, rigid.guiding
+        v0, v1, v2 = (v[body.span] for v in (s.v0, s.v_scheme, s.v1))
+        impulse = self._touching.impulse(body)
+        contact = unheld(self.contact(body) - impulse / s.dt)
+        during = contact + f.gravity + f.loads + f.connections
+        force, moment = rigid.lacking(
+            (s.u1[body.span], v0, v1), (during, np.zeros_like(during)), s.dt
+        )
+        work = float((force * rigid.shift)[guiding.along].sum())
+        work += float((moment * rigid.turn)[guiding.about].sum())
+        impulse = unheld(impulse)
+        spun = cross(rigid.arms[2], impulse).sum(axis=0) * body.spin(s.u1[body.span], v2)
+        work -= float((impulse.sum(axis=0) * body.mass.mean(v2))[guiding.along].sum())
+        work -= float(spun[guiding.about].sum())
+        return work + rigid.taken_by_scheme(v0, v1, s.model.theta, s.dt)[1]
 
     def on_mass(self, body: AuditBody) -> tuple[Array, Array]:
         """Return what contacts of the other kind do to a body with mass in the step [N].

@@ -33,8 +33,20 @@ def deepest_node(model: AuditModel, position: Array, time: float) -> float:
             elif not bodies[other].images.size:  # Others are not closed.
                 target = bodies[other]
                 depth = _depths(nodes, position[target.span], target)
+            depth = depth - _clearance(model, (a, b), time)
             deepest = max(deepest, float(depth.max(initial=0.0)))
     return deepest
+
+
+def _clearance(model: AuditModel, pair: tuple[str, str], time: float) -> float:
+    """Return how deep two may be inside one another by their interference [m]."""
+    interference = model.interference(*pair)
+    most = 0.0
+    if interference.left(time) > 0.0:
+        between = [(side.source, side.target) for side in model.sides]
+        sides = [key for key in between if {model.name(n) for n in key} == set(pair)]
+        most = max(float(model.drawn_depths(*key).max()) for key in sides)
+    return max(-float(interference.at(time, most)), 0.0)
 
 
 def _depths(points: Array, position: Array, body: AuditBody) -> Array:

@@ -37,6 +37,7 @@ class Ruled:
         """Return the motions of the contacts of a step with the reactions that bore its motion."""
         found, model = step.touching.pressed, step.model
         w_n, w_t = found.relative(step.d, found.shift)
+        w_n = w_n - found.widening
         slip, rate = w_t, np.full(len(found), 1.0 / step.dt)
         # What is open at the start may be closed, and what is as good as closed is.
         landed = w_n + np.maximum(step.touching.start_gaps, 0.0)
@@ -52,12 +53,16 @@ class Ruled:
         elif model.condition == "midpoint":
             w_n = ruled_by_motion
         elif model.condition == "endpoint":
-            before, across = found.relative(step.met, _driven(step, found))
-            w_n = w_n + (model.theta - 1) * step.dt * before
             given = [None if side is None else side.restitution for side in found.side]
+            ruled = np.array([e is not None for e in given], dtype=bool)
+            driven = _driven(step, found)
+            met, across = found.relative(step.met, driven)
+            # Only impacts of what is rigid are about velocities half way.
+            before = np.where(ruled, met, found.relative(step.v0, driven)[0])
+            before = before - found.widening / step.dt
+            w_n = w_n + (model.theta - 1) * step.dt * before
             bounce = np.array([0.0 if e is None else e for e in given])
             w_n = w_n + model.theta * step.dt * bounce * before
-            ruled = np.array([e is not None for e in given], dtype=bool)
             w_t = np.where(ruled[:, None], w_t + (model.theta - 1) * step.dt * across, w_t)
             rate = np.where(ruled, rate / model.theta, rate)
         return cls(normal=w_n, across=w_t, slip=slip, rate=rate)

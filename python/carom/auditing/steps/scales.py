@@ -68,7 +68,7 @@ class Scales:
         energy = sum(spring.energy(displacement, time) for spring in self._model.springs)
         for body in self._model.bodies:
             energy += body.kinetic_energy(displacement[body.span], velocity[body.span])
-            energy += body.strain_energy(displacement[body.span])
+            energy += body.strain_energy(displacement[body.span], body.growth.at(time))
         self.energy = max(self.energy, energy)
         self.speed = max(self.speed, float(np.abs(velocity).max()))
         self.moved = max(self.moved, float(np.abs(displacement).max()))
@@ -84,14 +84,14 @@ class Scales:
         floor = FLOOR * self._model.size
         return SAFETY * max(analysis.newton.tolerance * motion, floor) + self.travel
 
-    def strain(self, body: AuditBody, u: Array) -> float:
-        """Return how far the strain energy of a state may be off [J].
+    def strain(self, body: AuditBody, u: Array, time: float) -> float:
+        """Return how far the strain energy of a state at a time [s] may be off [J].
 
         Displacements have round-off of their size, which does work on the internal forces.
         """
         error = EPS * (self._model.size + float(np.abs(u).max()))
         stiffness = float(body.row_stiffness.sum())
-        energy = body.strain_energy(u)
+        energy = body.strain_energy(u, body.growth.at(time))
         # E ≈ ½ k e², so that an error of e changes it by √(2 E k) δ + ½ k δ².
         slope = float(np.sqrt(2 * max(energy, 0.0) * stiffness)) + stiffness * error
         return ROUND_OFF * abs(energy) + SAFETY * slope * error

@@ -97,13 +97,31 @@ class States:
         repaid: Array = self.vibration * self.shares * (2.0 + self.shares)
         return repaid
 
+    @property
+    def ends(self) -> list[tuple[Array, float]]:
+        """Displacements [m] and times [s] of start and end."""
+        return [(self.u0, float(self.start["time"])), (self.u1, self.time)]
+
+    def grown(self, body: AuditBody) -> tuple[float, float]:
+        """Return how a body has grown at start and end: its linear strain."""
+        return body.growth.at(float(self.start["time"])), body.growth.at(self.time)
+
+    def _growing(self) -> float:
+        """Return by how much the size of a body would change by what it grows [m]."""
+        changes = []
+        for body in self.model.bodies:
+            before, after = self.grown(body)
+            changes.append(abs(after - before) * float(np.linalg.norm(np.ptp(body.points, axis=0))))
+        return max(changes)
+
     def _motion(self) -> float:
         """Return the largest motion of a node in the step, or that of free flight if larger [m]."""
         if self.model.static:
-            return float(max(np.abs(self.d).max(), self.model.fastest_obstacle * self.dt))
+            driven = max(self.model.fastest_obstacle * self.dt, self._growing())
+            return float(max(np.abs(self.d).max(), driven))
         speed = max(np.linalg.norm(self.v0, axis=1).max(), self.model.fastest_obstacle)
         predicted = (speed + np.linalg.norm(self.model.gravity) * self.dt) * self.dt
-        return float(max(np.abs(self.d).max(), predicted))
+        return float(max(np.abs(self.d).max(), predicted, self._growing()))
 
     def _scheme_velocity(self) -> Array:
         """Return the velocities that the scheme makes of the motion, before impulses [m/s]."""
@@ -119,7 +137,7 @@ class States:
             if body.rigid:
                 u0, v0 = self.u0[body.span], self.v0[body.span]
                 velocity[body.span] = self.rigid(body).scheme(u0, v0, theta, self.dt)[0]
-            if len(supports):
+            elif len(supports):
                 given = supports.velocity(self.time)
                 velocity[body.span][supports.held] = given[supports.held]
         return velocity
@@ -153,7 +171,8 @@ class States:
 
     def rigid(self, body: AuditBody) -> RigidStep:
         """Return the motion of a rigid body."""
-        return RigidStep.of(body, self.u0[body.span], self.d[body.span])
+        guiding = self.model.supports[self.model.bodies.index(body)].guiding(self.time)
+        return RigidStep.of(body, self.u0[body.span], self.d[body.span], guiding)
 
     def position(self, weight: float) -> Array:
         """Return the positions between start (0) and end (1) of the step [m]."""

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.auditing.arrays import Array
+from carom.auditing.arrays import Array, cross
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.model import AuditModel
 from carom.auditing.steps.contact_work import Works
@@ -69,13 +69,14 @@ class Step(States):
         if model.static:
             return self._path_terms(index, body)
         u0, u1, v0, d = (a[body.span] for a in (self.u0, self.u1, self.v0, self.d))
-        held = model.supports[index].held
+        held, grown = model.supports[index].held, self.grown(body)
         end = self.end["velocity"][body.span]
         jump = self.v_scheme[body.span] - v0
-        if body.rigid:
-            jump = self.rigid(body).scheme(u0, v0, model.theta, self.dt)[1]
         scheme = (model.theta - 0.5) * 2 * body.kinetic_energy(u0, jump)
-        if held.any():
+        if body.rigid:
+            rigid, v1 = self.rigid(body), self.v_scheme[body.span]
+            scheme = rigid.taken_by_scheme(v0, v1, model.theta, self.dt)[0]
+        elif held.any():
             # What is held moves as it is given, not as the scheme would have it.
             free = np.where(held, 0.0, jump)
             scheme = (model.theta - 0.5) * float((free * body.mass.times(jump)).sum())
@@ -97,14 +98,14 @@ class Step(States):
             scheme += float(((received + f.loads - f.viscous - f.internal) * moved)[b].sum())
         return {
             "kinetic": body.kinetic_energy(u1, end) - body.kinetic_energy(u0, v0),
-            "strain": body.strain_energy(u1) - body.strain_energy(u0),
+            "strain": body.strain_energy(u1, grown[1]) - body.strain_energy(u0, grown[0]),
             "external": float(((f.gravity + f.loads) * d).sum()),
             "viscous": float((f.viscous * d).sum()),
-            "plastic": body.plastic_work(u1),
+            "plastic": body.plastic_work(u1, grown[1]),
             "scheme": scheme,
             "contact": contact,
             "connections": float((f.connections * d).sum()),
-            "prescribed": self._supported(index, body),
+            "prescribed": self._supported(index, body) + body.work_of_growth((u0, u1), grown),
         }
 
     def _path_terms(self, index: int, body: AuditBody) -> dict[str, float]:
@@ -113,6 +114,7 @@ class Step(States):
         `scheme` is what the mean lacks of balance inside the body.
         """
         f, held = self.forces.of[index], self.model.supports[index].held
+        grown = self.grown(body)
         u0, u1, v0, d = (a[body.span] for a in (self.u0, self.u1, self.v0, self.d))
         # What moved before load steps began comes to rest with the first.
         kinetic = body.kinetic_energy(u0, v0)
@@ -122,17 +124,33 @@ class Step(States):
         contact = float(np.where(held, 0.0, force[body.span] * d).sum())
         lacking = (f.gravity + f.path_loads + f.connections - f.path) * d
         inside = float(np.where(held, 0.0, lacking).sum())
+        given = -float(lacking[held].sum())
+        if body.rigid:
+            inside, given = self._guided_path(index, body, force[body.span])
         return {
             "kinetic": -kinetic,
-            "strain": body.strain_energy(u1) - body.strain_energy(u0),
+            "strain": body.strain_energy(u1, grown[1]) - body.strain_energy(u0, grown[0]),
             "external": float(((f.gravity + f.path_loads) * d).sum()),
             "viscous": 0.0,
-            "plastic": body.plastic_work(u1),
-            "scheme": inside + contact + kinetic,
+            "plastic": body.plastic_work(u1, grown[1]),
+            "scheme": inside + kinetic + (0.0 if body.rigid else contact),
             "contact": contact,
             "connections": float((f.connections * d).sum()),
-            "prescribed": -float(lacking[held].sum()),
+            "prescribed": body.work_of_growth((u0, u1), grown) + given,
         }
+
+    def _guided_path(self, index: int, body: AuditBody, contact: Array) -> tuple[float, float]:
+        """Return the work of all forces on a rigid body in a load step along what is free [J].
+
+        And that of guides against them along what is guided.
+        """
+        f, rigid = self.forces.of[index], self.rigid(body)
+        during = rigid.guiding.unheld(contact) + f.gravity + f.path_loads + f.connections
+        moment = cross(rigid.arms[1], during).sum(axis=0)
+        shifted, turned = during.sum(axis=0) * rigid.shift, moment * rigid.turn
+        along, about = rigid.guiding.along, rigid.guiding.about
+        free = float(shifted[~along].sum() + turned[~about].sum())
+        return free, -float(shifted[along].sum() + turned[about].sum())
 
     def _supported(self, index: int, body: AuditBody) -> float:
         """Return the work of what holds a body in the step [J].
@@ -141,6 +159,8 @@ class Step(States):
         is free alone. Where v₊ is not what the scheme makes of the motion, they give the rest.
         """
         f, held = self.forces.of[index], self.model.supports[index].held
+        if body.rigid:
+            return self.forces.guided(index)
         if not held.any():
             return 0.0
         v0, v1, v2, d = (a[body.span] for a in (self.v0, self.v_scheme, self.v1, self.d))
