@@ -22,7 +22,7 @@ from carom.auditing.targets.feet import Target
 from carom.auditing.targets.gregory import GregoryPatches
 from carom.auditing.targets.sheet import FlatPatches, Sheet
 from carom.case.analysis import Conserving, Static, Theta
-from carom.case.body import Body, DescribedBody, ReducedBody, RigidBody
+from carom.case.body import DescribedBody, ReducedBody, RigidBody
 from carom.case.cohesion import holds
 from carom.case.foreign_body import ForeignEntry
 from carom.case.full_stage import FullStage
