@@ -8,9 +8,8 @@ A pile falls, is damped until all of it rests, and waits. Processor time of one 
     RAYON_NUM_THREADS=1 .venv/bin/python benchmarks/resting_piles.py 3 64
     RAYON_NUM_THREADS=1 .venv/bin/python benchmarks/resting_piles.py 2 100 --driven
 
-A pile sinks as fast as its slowest vibration fades, whose frequency falls with the height: damping
-of more than twice that makes it creep. So 1,000 discs, 32 layers, want a stiffer rubber to come to
-rest in some 1,500 steps.
+A pile settles as fast as its slowest vibration fades, whose frequency falls with the height: more
+damping than twice that makes it creep. 1,000 discs, 32 layers, settle sooner of stiffer rubber.
 
 With --driven the pile of discs lies on a slab that is held where it is and will be moved when all
 is over, in place of the floor.
