@@ -41,9 +41,11 @@ With `theta` max |ΔE|/E₀ is {theta} for N = {elements}.
 At a fixed time step errors do not fall: consistent mass runs ahead of the wave where steps are
 short, and lets the bars part early by more and more cells. With c Δt = h/√2 both leading errors of
 dispersion cancel, and the orders do not turn round; the velocity jumps, so that its order is at
-most a half. *Late* is the release after the exact one in times h/c that a wave takes through a
-cell, *plateau* the mean force over the middle half of the contact against ρ c v A. Asserted in
+most a half. Asserted in
 `test_two_bars.py::test_massless_bars_converge_where_waves_disperse_least`.
+
+*Late* is the release after the exact one in times h/c that a wave takes through a cell, *plateau*
+the mean force over the middle half of the contact against ρ c v A.
 
 {matched}
 """
@@ -55,8 +57,10 @@ BOUNCES = """\
 condition `massless`, c Δt = h/√2, until {end:g} s. Nine contacts, of which every other one leaves
 the bar ringing and the next takes the vibration back; the exact height of its lower end is derived
 there by d'Alembert's solution. Its error over the drop, root mean square, by time; asserted in
-`test_bouncing_bar.py`. Fronts that have crossed the bar many times are spread over it: what comes
-back of them late no longer converges at these sizes.
+`test_bouncing_bar.py`.
+
+Fronts that have crossed the bar many times are spread over it: what comes back of them late no
+longer converges at these sizes.
 
 {bounces}
 

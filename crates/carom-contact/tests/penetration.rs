@@ -1,5 +1,7 @@
 //! The measure of penetration against depths that are known.
 
+use std::slice::from_ref;
+
 use carom_contact::{Boundaries, Obstacle, Penetration, RigidShape, Solid};
 use carom_mesh::{CellBlock, CellKind, Mesh, Surface, Vector, generate};
 
@@ -280,7 +282,7 @@ fn what_lies_in_the_hollow_of_a_curved_side_is_not_in_it() {
     // The upper side is the parabola y = 0.9 + 0.1 x², up to 0.936 at 0.6, where its chord is at 0.96.
     let hollow = curved_cell([6, 2], [-0.1, 0.0]);
     let shape = RigidShape::Box { corner: Vector::<2>::new(0.4, 0.94), size: Vector::<2>::new(0.2, 0.2) };
-    assert_eq!(depth(&[hollow.clone()], vec![shape]), 0.0);
+    assert_eq!(depth(from_ref(&hollow), vec![shape]), 0.0);
     assert_eq!(depth(&[hollow, block([0.4, 0.94], [0.2; 2], [1; 2])], vec![]), 0.0);
 }
 
@@ -334,10 +336,10 @@ fn parts_of_a_body_that_lie_flush_on_one_another_are_not_in_one_another() {
     for aside in [0.0, 0.13, 0.3, 0.8] {
         for sunk in [0.0, 1e-14, 1e-12] {
             let flat = two_parts([aside, 1.0 - sunk]);
-            assert!(depth(&[flat.clone()], vec![]) < 2e-12, "{aside} {sunk:e}");
+            assert!(depth(from_ref(&flat), vec![]) < 2e-12, "{aside} {sunk:e}");
             assert!(deepest(&measured(&[flat], vec![], turned)) < 2e-12, "{aside} {sunk:e}");
             let solid = two_parts([aside, 0.07, 1.0 - sunk]);
-            assert!(depth(&[solid.clone()], vec![]) < 2e-12, "{aside} {sunk:e}");
+            assert!(depth(from_ref(&solid), vec![]) < 2e-12, "{aside} {sunk:e}");
             assert!(deepest(&measured(&[solid], vec![], turned)) < 2e-12, "{aside} {sunk:e}");
         }
     }
@@ -355,6 +357,6 @@ fn edges_of_one_body_that_go_through_one_another_are_told() {
         .collect();
     let cross = Mesh::new(nodes, vec![CellBlock { kind: CellKind::Hex8, connectivity }]).expect("valid");
     // They are asked just before themselves, by a millionth of a facet.
-    let found = [depth(&[cross.clone()], vec![]), deepest(&measured(&[cross], vec![], turned))];
+    let found = [depth(from_ref(&cross), vec![]), deepest(&measured(&[cross], vec![], turned))];
     assert!(found.iter().all(|depth| (depth - 0.03).abs() < 4e-6), "{found:?}");
 }
