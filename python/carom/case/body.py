@@ -103,7 +103,8 @@ class Body(Description):
     hypothesis
         What a body of the plane is in space: a slice of a long body (no strain across the plane),
         a sheet (no stress across it) or a body of revolution. In the last, x is the radius and y
-        runs along the axis; masses, forces and energies are those of the whole body.
+        runs along the axis; masses, forces and energies are those of the whole body, which touches
+        bodies of revolution alone.
     formulation
         How the deformation follows from the displacements; mean-dilatation has one change of volume
         per quad4 or hex8 cell, so that nearly incompressible bodies do not lock.

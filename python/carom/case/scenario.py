@@ -33,6 +33,7 @@ from carom.case.obstacle import Obstacle
 from carom.case.output import Output, Track
 from carom.case.pattern import Pattern, pairs_of_copies
 from carom.case.point_mass import PointMass
+from carom.case.revolution import check_revolution
 from carom.case.spring import Spring
 from carom.case.stage import Stage, StageOutput
 from carom.case.stage_rules import check_stages
@@ -362,6 +363,11 @@ class Scenario(Description):
                     f"pair already given by {first_use[two]}", key=key, value=pair.between
                 )
             first_use[two] = key
+        return self
+
+    @model_validator(mode="after")
+    def _what_touches_is_of_one_space(self) -> Self:
+        check_revolution(self)
         return self
 
     @model_validator(mode="after")

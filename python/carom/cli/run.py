@@ -9,6 +9,7 @@ import typer
 from rich.console import Console
 
 from carom.building.build import build
+from carom.case.scenario import Scenario
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import failures
 from carom.cli.progress import shown_progress
@@ -20,6 +21,7 @@ from carom.errors import (
     naming,
 )
 from carom.io import layout
+from carom.io.claim import claimed
 from carom.mesh_file import Note
 from carom.results.doubts import Doubt
 from carom.results.result import Result
@@ -70,7 +72,7 @@ def run(
             raise InputError("--resume goes on with a run, --force replaces it; give one of them")
         scenario = load(case, overrides)
         _spare_the_case(case, directory)
-        if resume and (there := ended(directory, scenario)) is not None:
+        if resume and (there := _ended(directory, scenario)) is not None:
             tell(
                 f"{directory}: the run has ended ({there.summary['status']}); nothing to go on with"
             )
@@ -95,6 +97,14 @@ def run(
                 console.print(Result.open(directory))
             raise
         console.print(result)
+
+
+def _ended(directory: Path, scenario: Scenario) -> Result | None:
+    """Return the results of a run that has ended, whose last files may have to be made."""
+    if not (directory / layout.PROGRESS).exists():
+        return ended(directory, scenario)
+    with claimed(directory):
+        return ended(directory, scenario)
 
 
 def _spare_the_case(case: Path, directory: Path) -> None:

@@ -20,6 +20,9 @@ FAILED_PROBLEM = "failed_contact_problem.hdf5"
 PROGRESS = "progress.json"
 """There while the run goes on, and after it was killed."""
 
+LOCK = "run.lock"
+"""What a run holds while it goes on, see `carom.io.claim`."""
+
 DIGESTED = (CASE, HISTORY, LEDGER)
 """Files of which the summary has digests: text that is easily edited."""
 
@@ -74,10 +77,10 @@ def has_results(directory: Path) -> bool:
         The directory is not one of results and has something in it, or there can be none.
     """
     there = entries(directory)
-    # A run makes its progress file before any other, so one that was killed early has it.
+    # A run makes its lock and its progress file before any other: one killed early has these.
     if PROGRESS in there or {HISTORY, FIELDS} <= there:
         return not there.isdisjoint(_NAMES)
-    refuse_foreign(directory, there - {f"{PROGRESS}{UNFINISHED}"}, of="a carom run")
+    refuse_foreign(directory, there - {LOCK, f"{PROGRESS}{UNFINISHED}"}, of="a carom run")
     return False
 
 

@@ -68,17 +68,11 @@ class ProgressFile:
     Parameters
     ----------
     directory
-        Results directory.
-
-    Raises
-    ------
-    InputError
-        Another run is going on there.
+        Results directory, which the run has for itself, see `carom.io.claim`.
     """
 
     def __init__(self, directory: Path) -> None:
         self._path = directory / layout.PROGRESS
-        refuse_running(directory)
         self._last = 0.0
         self.write(None)
 
@@ -122,10 +116,18 @@ def refuse_running(directory: Path) -> None:
     """
     running = read_progress(directory)
     if running is not None and not running.is_own and running.is_alive:
-        raise InputError(
-            f"{directory}: a run is going on there (process {running.pid} on {running.host}); "
-            "choose another --out, or follow it with carom watch"
-        )
+        raise going_on(directory)
+
+
+def going_on(directory: Path) -> InputError:
+    """Return the refusal of a directory in which another run is going on."""
+    running = read_progress(directory)
+    # One that has only just begun has not said who it is.
+    who = f" (process {running.pid} on {running.host})" if running and running.is_alive else ""
+    return InputError(
+        f"{directory}: a run is going on there{who}; choose another --out, or follow it with carom "
+        "watch"
+    )
 
 
 def _birth(pid: int) -> str:

@@ -15,8 +15,10 @@ from typing import TYPE_CHECKING, Any
 
 from carom.errors import CaromWarning
 from carom.io.summary_types import WarningSummary
+from carom.results.penetration import depth_of, too_deep
 
 if TYPE_CHECKING:
+    from carom.case.scenario import Scenario
     from carom.mesh_file import Note
 
 LARGE_DEFECT = 0.02
@@ -94,7 +96,7 @@ def warn(doubt: Doubt) -> None:
     warnings.warn(doubt.as_warning(), stacklevel=level)
 
 
-def doubts(summary: Mapping[str, Any]) -> Iterator[Doubt]:
+def doubts(summary: Mapping[str, Any], scenario: Scenario) -> Iterator[Doubt]:
     """Yield what a user should know of the results of a run, by what its summary has else."""
     share = defect_share(summary["energy"])
     repaid = _over_energy(summary.get("repaid", 0.0), summary["energy"])
@@ -124,7 +126,7 @@ def doubts(summary: Mapping[str, Any]) -> Iterator[Doubt]:
     if (worst := too_deep(summary)) is not None:
         yield Doubt(
             "penetration",
-            depth_of(worst),
+            depth_of(worst, scenario),
             "penetration.worst",
             worst["depth"],
             worst["allowed"],
@@ -141,29 +143,6 @@ def doubts(summary: Mapping[str, Any]) -> Iterator[Doubt]:
         )
     if (check := summary["cross_check"]) is not None:
         yield from _unconfirmed(check)
-
-
-def too_deep(summary: Mapping[str, Any]) -> Mapping[str, Any] | None:
-    """Return where something was deeper in something else than it may be; none in old results."""
-    worst: Mapping[str, Any] | None = summary.get("penetration", {}).get("worst")
-    return None if worst is None or worst["depth"] <= worst["allowed"] else worst
-
-
-def depth_of(worst: Mapping[str, Any]) -> str:
-    """Return who was how deep in whom, and what to do."""
-    first, second = worst["between"]
-    who = f"{first} was" if first == second else f"{first} and {second} were"
-    whom = "itself" if first == second else "one another"
-    remedy = (
-        "let it touch itself, which bodies.self_contact = false forbids"
-        if first == second
-        else 'check both sides where one alone is checked, contact.sources = "both"'
-    )
-    return (
-        f"{who} up to {worst['depth']:.2g} m inside {whom} at t = {worst['time']:.3g} s, more than "
-        f"the {worst['allowed']:.2g} m of contact.penetration_tolerance: mesh more finely, take a "
-        f"smaller analysis.time_step, or {remedy}"
-    )
 
 
 def _is_round_off(summary: Mapping[str, Any]) -> bool:

@@ -12,7 +12,7 @@ from rich.table import Table
 from carom.display.counting import count
 from carom.display.tables import Rows, add, two_columns
 from carom.io import layout
-from carom.results.doubts import too_deep
+from carom.results.penetration import too_deep
 
 SHOWN_CONTACTS = 12
 """Contact events that fit a screen; `summary.json` has them all."""

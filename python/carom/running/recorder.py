@@ -27,7 +27,6 @@ from carom.io.vtkhdf import SURFACE_CELL_FIELDS, SURFACE_POINT_FIELDS, FieldsWri
 from carom.results.doubts import Doubt, doubts, written_doubts
 from carom.results.fields import Fields, parts
 from carom.results.result import Result
-from carom.system.existing import make
 from carom.system.interrupt import uninterrupted
 from carom.system.progress import Progress
 
@@ -47,7 +46,7 @@ class Recorder:
     Parameters
     ----------
     directory
-        Directory to write, made if need be.
+        Directory to write, which the run has for itself, see `carom.io.claim`.
     scenario
         What is run.
     simulation
@@ -62,8 +61,7 @@ class Recorder:
     Raises
     ------
     InputError
-        Another run is going on in the directory; it has files of others; or not the results that
-        the checkpoint knows of.
+        The directory has files of others, or not the results that the checkpoint knows of.
     """
 
     def __init__(
@@ -76,8 +74,6 @@ class Recorder:
         checkpoint: Checkpoint | None = None,
         notify: Callable[[Doubt], None],
     ) -> None:
-        layout.has_results(directory)
-        make(directory)
         self._progress = ProgressFile(directory)
         self._directory = directory
         self._scenario = scenario
@@ -273,7 +269,7 @@ class Recorder:
             "wall_s_per_step": wall / max(native["steps"], 1),
         }
         found = written_doubts(native)
-        found += doubts(summary)
+        found += doubts(summary, self._scenario)
         new = [doubt for doubt in dict.fromkeys(found) if doubt not in self._doubts]
         summary["warnings"] = [doubt.as_summary() for doubt in (*self._doubts, *new)]
         write_summary(self._directory / layout.SUMMARY, summary)

@@ -12,7 +12,6 @@ from carom.case.scenario import Scenario
 from carom.errors import InputError
 from carom.io import layout
 from carom.io.checkpoint import Checkpoint, DamagedError, read_checkpoint
-from carom.io.progress import refuse_running
 from carom.io.summary import read_summary
 from carom.results.doubts import Doubt
 from carom.results.result import Result, read_case
@@ -24,6 +23,8 @@ Notify = Callable[[Doubt], None]
 
 def ended(directory: Path, scenario: Scenario) -> Result | None:
     """Return the results of a run of this scenario that has ended; None if there is more to do.
+
+    The last files are made where it was stopped in the middle of them.
 
     Raises
     ------
@@ -38,7 +39,6 @@ def ended(directory: Path, scenario: Scenario) -> Result | None:
         return None
     refuse_other_results(directory, scenario)
     if (directory / layout.PROGRESS).exists():  # stopped in the middle of its last files
-        refuse_running(directory)
         return conclude(directory, reports=scenario.output.report)
     return Result.open(directory)
 

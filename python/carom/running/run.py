@@ -6,6 +6,7 @@ import errno
 import math
 import re
 import shlex
+import shutil
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -25,9 +26,10 @@ from carom.errors import (
     StorageError,
 )
 from carom.io import layout
-from carom.io.progress import refuse_running
+from carom.io.claim import claimed
 from carom.mesh_file import Note
-from carom.results.doubts import Doubt, depth_of, too_deep, warn, written_doubts
+from carom.results.doubts import Doubt, warn, written_doubts
+from carom.results.penetration import depth_of, too_deep
 from carom.results.result import Result
 from carom.running.observer import Observer, ObserverError, Observing, Stop
 from carom.running.recorder import Recorder
@@ -135,49 +137,49 @@ def drive(
             "resume: a run with a body of another code does not go on where it stopped, as no file "
             "holds its law; start again with force=True"
         )
-    refuse_running(directory)
-    has_results = layout.has_results(directory)
-    case = identity(scenario, simulation)
-    checkpoint = None
-    noted: list[Doubt] = []
-    if resume:
-        if (result := ended(directory, scenario)) is not None:
-            for doubt in written_doubts(result.summary):
-                notify(doubt)
-            return result
-        checkpoint = latest(directory, case, simulation, noted.append)
-        if checkpoint is None:
-            refuse_other_results(directory, scenario)
-    elif has_results and not force:
-        raise InputError(
-            f"{directory}: has results of a run; --force replaces them, --resume goes on with a "
-            "run that was stopped (force=True, resume=True in Python), or choose another --out"
-        )
-    frames = 0 if checkpoint is None else checkpoint.record["frames_due"]
-    schedule = Schedule(scenario, time=simulation.time, frames=frames)
-    observing = Observing(observers, State(scenario, simulation)) if observers else None
-    with (
-        _storing(directory),
-        Recorder(
+    with _storing(directory), claimed(directory):
+        has_results = layout.has_results(directory)
+        case = identity(scenario, simulation)
+        checkpoint = None
+        noted: list[Doubt] = []
+        if resume:
+            if (result := ended(directory, scenario)) is not None:
+                for doubt in written_doubts(result.summary):
+                    notify(doubt)
+                return result
+            checkpoint = latest(directory, case, simulation, noted.append)
+            if checkpoint is None:
+                refuse_other_results(directory, scenario)
+        elif has_results and not force:
+            raise InputError(
+                f"{directory}: has results of a run; --force replaces them, --resume goes on with "
+                "a run that was stopped (force=True, resume=True in Python), or choose another "
+                "--out"
+            )
+        frames = 0 if checkpoint is None else checkpoint.record["frames_due"]
+        schedule = Schedule(scenario, time=simulation.time, frames=frames)
+        observing = Observing(observers, State(scenario, simulation)) if observers else None
+        with Recorder(
             directory, scenario, simulation, case=case, checkpoint=checkpoint, notify=notify
-        ) as recorder,
-    ):
-        before = [] if checkpoint is None else written_doubts(checkpoint.record)
-        first = first_doubts(scenario, simulation.describe(), notes)
-        for doubt in (*before, *first, *noted):
-            recorder.doubt(doubt)
-        wish = _take(
-            simulation, scenario, recorder, schedule, observing=observing, progress=progress
-        )
-        if (reason := _violation(simulation)) is not None:
-            recorder.close(status="uncertified", reason=reason)
-            raise CertificateError(reason)
-        if (reason := _intersection(simulation)) is not None:
-            recorder.close(status="intersecting", reason=reason)
-            raise PenetrationError(reason)
-        if wish is not None and not schedule.has_ended:
-            return recorder.close(status="stopped", reason=f"{wish} at t = {simulation.time:g} s")
-        return recorder.close(status="completed")
+        ) as recorder:
+            before = [] if checkpoint is None else written_doubts(checkpoint.record)
+            first = first_doubts(scenario, simulation.describe(), notes)
+            for doubt in (*before, *first, *noted):
+                recorder.doubt(doubt)
+            wish = _take(
+                simulation, scenario, recorder, schedule, observing=observing, progress=progress
+            )
+            if (reason := _violation(simulation)) is not None:
+                recorder.close(status="uncertified", reason=reason)
+                raise CertificateError(reason)
+            if (reason := _intersection(simulation, scenario)) is not None:
+                recorder.close(status="intersecting", reason=reason)
+                raise PenetrationError(reason)
+            if wish is not None and not schedule.has_ended:
+                return recorder.close(
+                    status="stopped", reason=f"{wish} at t = {simulation.time:g} s"
+                )
+            return recorder.close(status="completed")
 
 
 class _Reporter:
@@ -290,6 +292,9 @@ def _go(
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 """Numbers of errors of a file for which there is no room."""
 
+_LITTLE = 2**20
+"""Room on a disk that is as good as full [bytes]."""
+
 
 @contextmanager
 def _storing(directory: Path) -> Iterator[None]:
@@ -298,12 +303,20 @@ def _storing(directory: Path) -> Iterator[None]:
         yield
     except OSError as error:
         what = f"{error.filename or directory}: {error.strerror or error}"
-        # HDF5 gives no number with some of its errors: the disk is full, most often.
-        mend = "make room" if error.errno in (None, *_FULL) else "see to it"
+        mend = "make room" if _is_full(error, directory) else "see to it"
         remedy = f"{mend} and start again"
         if (directory / layout.CHECKPOINT).exists():
             remedy = f"the last checkpoint is whole: {mend} and go on with --resume"
         raise StorageError(f"{what}; {remedy}") from error
+
+
+def _is_full(error: OSError, directory: Path) -> bool:
+    """Return whether there is no room for a file; HDF5 gives no number with some of its errors."""
+    if error.errno is not None:
+        return error.errno in _FULL
+    if (number := re.search(r"errno = (\d+)", str(error))) is not None:
+        return int(number[1]) in _FULL
+    return shutil.disk_usage(directory).free < _LITTLE
 
 
 def _replay(file: Path, solver: FrictionSolver) -> str:
@@ -329,10 +342,10 @@ def _violation(simulation: Simulation) -> str | None:
     )
 
 
-def _intersection(simulation: Simulation) -> str | None:
+def _intersection(simulation: Simulation, scenario: Scenario) -> str | None:
     """Return who went into whom, if somebody went deeper than is allowed."""
     worst = too_deep(simulation.summary())
-    return None if worst is None else depth_of(worst)
+    return None if worst is None else depth_of(worst, scenario)
 
 
 def _slug(title: str) -> str:

@@ -1,6 +1,7 @@
 """The run loop on a simulation that knows no mechanics: what is written, whatever happens."""
 
 import errno
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
@@ -137,6 +138,29 @@ def test_a_file_that_cannot_be_written_is_told_with_a_remedy_that_fits(
         drive(FallingSimulation(scenario, stop_at=0.6, stop=stop), scenario, tmp_path)
     said = str(caught.value)
     assert said == f"history.csv: said by the system; {remedy} and start again"
+
+
+# Symptom guarded against: HDF5 found a file in use, and "make room" was the advice.
+@pytest.mark.parametrize(
+    ("said", "remedy"),
+    [
+        ("Can't write data (errno = 28, error message = 'No space left on device')", "make room"),
+        ("Unable to lock file (errno = 11, error message = 'in use')", "see to it"),
+        ("Can't decrement id ref count", "see to it"),
+    ],
+)
+def test_room_is_asked_for_only_where_there_is_none(scenario, tmp_path, said, remedy):
+    with pytest.raises(StorageError) as caught:
+        drive(FallingSimulation(scenario, stop_at=0.6, stop=OSError(said)), scenario, tmp_path)
+    assert str(caught.value) == f"{tmp_path}: {said}; {remedy} and start again"
+
+
+def test_hdf5_without_a_reason_on_a_full_disk(scenario, tmp_path, monkeypatch):
+    full = SimpleNamespace(free=0)
+    monkeypatch.setattr("carom.running.run.shutil.disk_usage", lambda _: full)
+    stop = OSError("Can't decrement id ref count")
+    with pytest.raises(StorageError, match="ref count; make room and start again"):
+        drive(FallingSimulation(scenario, stop_at=0.6, stop=stop), scenario, tmp_path)
 
 
 def test_a_run_that_leaves_coulombs_law_is_not_completed(scenario, tmp_path):
