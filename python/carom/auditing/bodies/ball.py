@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices, Mask
@@ -48,6 +50,22 @@ class Ball:
         """Return its centre [m] where its nodes are at `position` [m], shape [D]."""
         centre: Array = self._shares @ position
         return centre
+
+    def volume(self, entry: RigidBody) -> float:
+        """Return that of a body which is this ball [m³]; around the axis it is a ring."""
+        radius = self.radius
+        if isinstance(entry.mesh, BallMesh):
+            return 4.0 / 3.0 * math.pi * radius**3
+        deep = entry.thickness
+        if entry.hypothesis == "axisymmetric":
+            deep = 2.0 * math.pi * float(self.centre(self._points)[0])
+        return math.pi * radius**2 * deep
+
+    def inertia(self, mass: float) -> Array:
+        """Return the inertia with a mass [kg] about its centre [kg m²], shape [1, 1] or [3, 3]."""
+        if self._points.shape[1] == 3:
+            return np.eye(3) * (0.4 * mass * self.radius**2)
+        return np.eye(1) * (0.5 * mass * self.radius**2)
 
     def nodes(self, pressed: Mask) -> Indices:
         """Return the nodes that it follows; of those that are as far the ones that are pressed."""

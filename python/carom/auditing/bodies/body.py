@@ -134,17 +134,20 @@ class AuditBody(MovingBody):
         self.mass = Mass(
             self.cells,
             self.points,
-            _density(entry, self.law, self.cells),
+            _density(entry, self.law, self.cells, self.ball),
             lumped=entry.mass == "lumped",
             massless=self.massless,
             facets=Facets(self.cells.kind.facet, self.facets, self.thickness),
             added=[one for given in masses for one in self._added(given)],
         )
         self.more = np.zeros((1, 1))
+        given = None
         if isinstance(entry, RigidBody) and entry.inertia is not None:
-            self.more = _tensor(entry.inertia) - inertia(
-                self.arms(0.0 * self.points), self.mass.times
-            )
+            given = _tensor(entry.inertia)
+        elif self.ball is not None and not self.revolution:
+            given = self.ball.inertia(float(self.mass.nodal.sum()))
+        if given is not None:
+            self.more = given - inertia(self.arms(0.0 * self.points), self.mass.times)
 
     def _outside(self) -> Indices:
         """Return the facets of the boundary that are outside."""
@@ -344,14 +347,19 @@ def _tensor(given: float | tuple[float, ...] | tuple[tuple[float, ...], ...]) ->
     return table.reshape(1, 1) if table.ndim == 0 else table
 
 
-def _density(entry: DescribedBody, law: Composition, cells: Cells) -> Array:
-    """Return the density of each cell [kg/m³]; the mass of a rigid body may be given."""
+def _density(entry: DescribedBody, law: Composition, cells: Cells, ball: Ball | None) -> Array:
+    """Return the density of each cell [kg/m³].
+
+    The mass of a rigid body may be given, and cells of one that is round have that of the ball.
+    """
     if not isinstance(entry, RigidBody):
         return law.density
+    volume = float(cells.shared_volumes.sum())
     if entry.density is not None:
-        return np.full(len(cells.nodes), entry.density)
+        whole = volume if ball is None else ball.volume(entry)
+        return np.full(len(cells.nodes), entry.density * (whole / volume))
     assert entry.mass is not None
-    return np.full(len(cells.nodes), entry.mass / float(cells.shared_volumes.sum()))
+    return np.full(len(cells.nodes), entry.mass / volume)
 
 
 def _masters(entry: DescribedBody, points: Array) -> Indices:
