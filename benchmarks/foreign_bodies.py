@@ -19,39 +19,11 @@ from time import perf_counter
 import numpy as np
 
 import carom
-from carom.building.build import build
 
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
 
-from plain_fem import Triangles, outer_edges  # noqa: E402
-
-
-def bodies(case: carom.Scenario) -> list[carom.ForeignBody]:
-    """Return the bodies of a case of triangles by the other code."""
-    mesh = build(case).mesh()
-    cells = mesh["connectivity"].reshape(-1, 3)
-    out = []
-    for index, body in enumerate(case.bodies):
-        law = case.materials[body.material]
-        own = cells[mesh["body"] == index]
-        points = mesh["points"][own.min() : own.max() + 1]
-        fem = Triangles(
-            points, own - own.min(), young=law.young, poisson=law.poisson, density=law.density
-        )
-        out.append(
-            carom.ForeignBody(
-                body.name,
-                points,
-                outer_edges(own - own.min()),
-                mass=fem.mass,
-                energy=fem.energy,
-                force=fem.force,
-                stiffness=fem.stiffness,
-                velocity=body.velocity,
-            )
-        )
-    return out
+from foreign_case import foreign_bodies  # noqa: E402
 
 
 def main(end_time: float = 15.0) -> None:
@@ -67,7 +39,7 @@ def main(end_time: float = 15.0) -> None:
         )
         time_step = case.analysis.time_step
         run = carom.ForeignRun(
-            bodies(case), case.obstacles, time_step=time_step, contact=case.contact
+            foreign_bodies(case), case.obstacles, time_step=time_step, contact=case.contact
         )
         initial, taken, rubbed, defect = run.energy, 0.0, 0.0, 0.0
         certificate, iterations = 0.0, 0

@@ -33,10 +33,11 @@ def pile(
     steps: int = STEPS,
     damping: float = 20.0,
     condition: str = "midpoint",
+    young: float = 5e6,
 ) -> carom.Scenario:
     """Return bodies in layers above a floor, each a little off its place, about to touch.
 
-    The damping [1/s] is that of their mass.
+    The damping [1/s] is that of their mass, `young` their Young's modulus [Pa].
     """
     rng = np.random.default_rng(1)
     side = max(2, round(count ** (1 / dimension)))
@@ -68,7 +69,10 @@ def pile(
                 )
             )
     law = carom.SaintVenantKirchhoff(
-        young=5e6, poisson=0.3, density=1100.0, damping=carom.Damping(mass=damping, stiffness=2e-4)
+        young=young,
+        poisson=0.3,
+        density=1100.0,
+        damping=carom.Damping(mass=damping, stiffness=2e-4),
     )
     return carom.Scenario(
         dimension=dimension,

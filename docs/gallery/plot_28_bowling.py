@@ -17,7 +17,6 @@ MASS, RADIUS, FRICTION, SPEED, GRAVITY = 6.8, 0.108, 0.15, 7.0, 9.81
 ball = carom.RigidBody(
     name="ball",
     mass=MASS,
-    inertia=[0.4 * MASS * RADIUS**2] * 3,  # of the ball, not of its mesh
     round=True,
     mesh=carom.Ball(centre=[0.0, 0.0, RADIUS], radius=RADIUS, divisions=4),
     velocity=[SPEED, 0.0, 0.0],

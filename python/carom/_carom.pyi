@@ -73,6 +73,7 @@ class Simulation:
         scenario: str,
         meshes: Mapping[str, MeshArrays] | None = None,
         surfaces: Mapping[str, SurfaceArrays] | None = None,
+        foreign: Mapping[str, object] | None = None,
     ) -> None: ...
     @property
     def time(self) -> float: ...

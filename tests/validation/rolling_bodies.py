@@ -14,11 +14,13 @@ def rolling(dimension, *, length, condition, slip=0.0, friction=0.5):
     radius, speed, step = 0.1, 2.0, 2e-3
     rate = (speed - slip) / radius
     if dimension == 2:
-        mesh = carom.Disc(centre=[0.0, radius], radius=radius, divisions=2)
-        inertia, about = 0.5 * radius**2, -rate
+        mesh = carom.Disc(centre=[0.0, radius], radius=radius, divisions=1, rings=1, cell="tri3")
+        about = -rate
     else:
-        mesh = carom.Ball(centre=[0.0, 0.0, radius], radius=radius, divisions=2)
-        inertia, about = (0.4 * radius**2,) * 3, [0.0, rate, 0.0]
+        mesh = carom.Ball(
+            centre=[0.0, 0.0, radius], radius=radius, divisions=1, rings=1, cell="tet4"
+        )
+        about = [0.0, rate, 0.0]
     end = length / speed
     return carom.Scenario(
         dimension=dimension,
@@ -28,8 +30,7 @@ def rolling(dimension, *, length, condition, slip=0.0, friction=0.5):
         bodies=[
             carom.RigidBody(
                 name="b",
-                mass=1.0,
-                inertia=inertia,
+                density=250.0,
                 mesh=mesh,
                 round=True,
                 velocity=[speed] + [0.0] * (dimension - 1),

@@ -328,6 +328,60 @@ def test_two_round_bodies_meet_at_one_point(tmp_path, dimension):
     assert [history[f"a.v_{axis}"][-1] for axis in "xy"] == pytest.approx([0, 0], abs=1e-12)
 
 
+@pytest.mark.parametrize("cell", ["quad4", "tri3", "hex8", "tet4"])
+@pytest.mark.parametrize("said", [{"density": 700.0}, {"mass": 3.0}])
+def test_what_is_round_weighs_and_turns_as_the_disc_or_ball(tmp_path, cell, said):
+    """Closed forms: π R² t or 4/3 π R³; ½ m R² or ⅖ m R²; the centre of the mesh."""
+    dimension, radius = (2, 0.2) if cell in {"quad4", "tri3"} else (3, 0.2)
+    centre, velocity = [0.3, -0.1, 0.5][:dimension], [0.7, 0.0, 0.0][:dimension]
+    shape = carom.Disc if dimension == 2 else carom.Ball
+    body = carom.RigidBody(
+        name="b",
+        **said,
+        mesh=shape(centre=centre, radius=radius, divisions=1, rings=1, cell=cell),
+        round=True,
+        velocity=velocity,
+        spin=3.0 if dimension == 2 else [1.0, 2.0, 2.0],
+        **({"thickness": 0.5} if dimension == 2 else {}),
+    )
+    case = carom.Scenario(
+        dimension=dimension, analysis=carom.Dynamic(end_time=1.0, time_step=0.1), bodies=[body]
+    )
+    history = run(tmp_path, case).history
+    volume = 0.5 * np.pi * radius**2 if dimension == 2 else 4 / 3 * np.pi * radius**3
+    mass = said.get("mass", 700.0 * volume)
+    assert history["momentum_x"][0] == pytest.approx(0.7 * mass, rel=1e-13)
+    assert [history[f"b.{x}"][0] for x in "xyz"[:dimension]] == pytest.approx(centre, abs=1e-15)
+    turning = (0.5 if dimension == 2 else 0.4) * mass * radius**2 * 3.0**2 / 2
+    assert history["total"][0] == pytest.approx(0.5 * mass * 0.7**2 + turning, rel=1e-13)
+    # What turns about its centre of mass goes straight.
+    assert history["b.x"][-1] == pytest.approx(0.3 + 0.7, rel=1e-13)
+    assert history["b.y"] == pytest.approx(-0.1, abs=1e-14)
+    if "mass" in said:
+        own = 0.7 * 3.0 * radius**2
+        given = own if dimension == 2 else (own,) * 3
+        case = case.model_copy(update={"bodies": (body.model_copy(update={"inertia": given}),)})
+        other = run(tmp_path, case).history
+        expected = 0.5 * 3.0 * 0.7**2 + own * 3.0**2 / 2
+        assert other["total"][0] == pytest.approx(expected, rel=1e-13), "what is given counts"
+
+
+def test_a_round_ring_around_the_axis_has_the_mass_of_a_torus(tmp_path):
+    """Closed form: 2 π² x R² (Pappus)."""
+    body = carom.RigidBody(
+        name="b",
+        density=2.0,
+        hypothesis="axisymmetric",
+        mesh=carom.Disc(centre=[0.5, 0.1], radius=0.1, divisions=1, rings=1),
+        round=True,
+        velocity=[0.0, -1.0],
+    )
+    case = carom.Scenario(analysis=carom.Dynamic(end_time=0.1, time_step=0.1), bodies=[body])
+    history = run(tmp_path, case).history
+    assert history["total"][0] == pytest.approx(2.0 * np.pi**2 * 0.5 * 0.1**2, rel=1e-13)
+    assert history["b.y"][0] == pytest.approx(0.1, abs=1e-15)
+
+
 def test_what_has_corners_is_not_round():
     with pytest.raises(carom.InputError, match="is of bodies whose mesh is a disc or a ball"):
         carom.RigidBody(

@@ -105,6 +105,28 @@ def test_massless_nodes_keep_energy_on_every_mesh(massless):
         assert figures.velocity_error <= 0.06
 
 
+def test_massless_bars_converge_where_waves_disperse_least(bars_run):
+    """The velocity jumps, so half an order is the most that its L2 norm can have."""
+    elements = (50, 100, 200)
+    done = [
+        bars.figures(
+            bars_run(
+                elements=n,
+                condition="massless",
+                overrides=(bars.CONSERVING, *bars.least_dispersion(n)),
+            )
+        )
+        for n in elements
+    ]
+    assert bars.order(done, "displacement_error", elements) > 0.88
+    assert bars.order(done, "velocity_error", elements) > 0.4
+    crossings = [bars.LENGTH / n / bars.WAVE_SPEED for n in elements]
+    for figures, crossing in zip(done, crossings, strict=True):
+        assert figures.release == pytest.approx(bars.RELEASE, abs=0.75 * crossing)
+    assert [figures.plateau for figures in done] == pytest.approx([1.0, 1.0, 1.0], abs=1e-3)
+    assert done[-1].plateau == pytest.approx(1.0, abs=2e-4)
+
+
 def test_massless_contact_point_follows_the_reference_curve(bars_run):
     """Another distribution of the mass: curves are close where waves do not jump."""
     history = bars_run(elements=100, condition="massless").history

@@ -1,5 +1,6 @@
 //! Balls, in the plane discs, that are round whatever their mesh.
 
+use crate::path::Positions;
 use carom_mesh::{Matrix, Vector, tensor};
 
 /// A node that is no farther than this from a plane, in radii, is in it.
@@ -28,7 +29,7 @@ impl Ball {
         centre: &Vector<D>,
         radius: f64,
         nodes: &[u32],
-        reference: &impl Fn(u32) -> Vector<D>,
+        reference: &Positions<'_, D>,
     ) -> Option<Self> {
         let mut chosen = vec![*nodes.first()?];
         let mut axes: Vec<Vector<D>> = Vec::new();
@@ -53,13 +54,13 @@ impl Ball {
     }
 
     /// Its centre [m].
-    pub fn centre<const D: usize>(&self, position: &impl Fn(u32) -> Vector<D>) -> Vector<D> {
+    pub fn centre<const D: usize>(&self, position: &Positions<'_, D>) -> Vector<D> {
         let nodes = self.nodes.iter().zip(&self.centre);
         nodes.fold(Vector::zeros(), |x, (&n, weight)| x + position(n) * *weight)
     }
 
     /// The weights of the nodes that make a point of the ball.
-    fn weights<const D: usize>(&self, x: &Vector<D>, position: &impl Fn(u32) -> Vector<D>) -> Weights {
+    fn weights<const D: usize>(&self, x: &Vector<D>, position: &Positions<'_, D>) -> Weights {
         let first = position(self.nodes[0]);
         let mut edges = Matrix::<D>::zeros();
         for (k, &node) in self.nodes[1..].iter().enumerate() {
@@ -76,7 +77,7 @@ impl Ball {
     pub fn touching<const D: usize>(
         &self,
         normal: &Vector<D>,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> impl Iterator<Item = (u32, f64)> {
         let x = self.centre(position) - normal * self.radius;
         self.nodes.iter().copied().zip(self.weights(&x, position))

@@ -4,13 +4,14 @@ use carom_mesh::Vector;
 
 use crate::ball::Ball;
 use crate::frame::frame;
+use crate::path::Positions;
 use crate::{Candidate, Contact, ContactModel, Obstacle, Path, Target};
 
 /// The contact with an `obstacle` without corners.
 fn before_obstacle<const D: usize>(
     ball: &Ball,
     obstacle: &Obstacle<D>,
-    position: &impl Fn(u32) -> Vector<D>,
+    position: &Positions<'_, D>,
 ) -> Contact<D> {
     let (gap, normal) = obstacle.gap(&ball.centre(position), position);
     let sources = ball.touching(&normal, position);
@@ -19,11 +20,7 @@ fn before_obstacle<const D: usize>(
 }
 
 /// The contact with another ball.
-fn before_ball<const D: usize>(
-    ball: &Ball,
-    other: &Ball,
-    position: &impl Fn(u32) -> Vector<D>,
-) -> Contact<D> {
+fn before_ball<const D: usize>(ball: &Ball, other: &Ball, position: &Positions<'_, D>) -> Contact<D> {
     let apart = ball.centre(position) - other.centre(position);
     let distance = apart.norm();
     // Two that have the same centre are pushed apart along the first axis.
@@ -48,12 +45,7 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// Adds to `out` a pair of balls that come near one another, once for both directions.
-    pub(crate) fn detect_balls<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
-        &self,
-        pair: usize,
-        path: &Path<'_, D, S, E>,
-        out: &mut Vec<Candidate>,
-    ) {
+    pub(crate) fn detect_balls(&self, pair: usize, path: &Path<'_, D>, out: &mut Vec<Candidate>) {
         let Some([ball, other]) = self.balls(pair) else { return };
         if self.pairs.directions(pair).start != pair {
             return;
@@ -65,11 +57,11 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// Adds to `out` a ball that comes near an obstacle without corners.
-    pub(crate) fn detect_ball<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    pub(crate) fn detect_ball(
         &self,
         (pair, ball): (usize, &Ball),
         obstacle: &Obstacle<D>,
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
         out: &mut Vec<Candidate>,
     ) {
         let near = path.margin + ball.radius;
@@ -81,11 +73,7 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// The contact of a pair of balls.
-    pub(crate) fn between_balls(
-        &self,
-        pair: usize,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> Option<Contact<D>> {
+    pub(crate) fn between_balls(&self, pair: usize, position: &Positions<'_, D>) -> Option<Contact<D>> {
         let [ball, other] = self.balls(pair)?;
         Some(before_ball(ball, other, position))
     }
@@ -95,7 +83,7 @@ impl<const D: usize> ContactModel<D> {
         &self,
         pair: usize,
         obstacle: &Obstacle<D>,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> Option<Contact<D>> {
         let ball = self.surfaces[self.pairs.get(pair).source].ball.as_ref()?;
         (!obstacle.has_corners()).then(|| before_obstacle(ball, obstacle, position))

@@ -4,6 +4,7 @@ use smallvec::SmallVec;
 
 use crate::edge::Crossing;
 use crate::frame::{carried, frame, lengths, stretched};
+use crate::path::Positions;
 
 /// What may touch at one place: gap, frame, and the stencil that maps nodal to relative motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,7 +57,7 @@ impl<const D: usize> Contact<D> {
         frame: Matrix<D>,
         sources: impl ExactSizeIterator<Item = (u32, f64)>,
         targets: impl ExactSizeIterator<Item = (u32, f64)>,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> Self {
         let source_count = sources.len();
         let stencil = sources.chain(targets).collect();
@@ -124,7 +125,7 @@ impl<const D: usize> Contact<D> {
 
     /// The same contact, frame and stencil, with its gap where nodes are at `position`.
     #[must_use]
-    pub fn moved(&self, position: &impl Fn(u32) -> Vector<D>) -> Self {
+    pub fn moved(&self, position: &Positions<'_, D>) -> Self {
         Self { gap: self.relative(|n| position(n as u32))[0], ..self.clone() }
     }
 
@@ -142,12 +143,12 @@ impl<const D: usize> Contact<D> {
 
     /// The point of the source [m] where nodes are at `position`.
     #[must_use]
-    pub fn source_point(&self, position: &impl Fn(u32) -> Vector<D>) -> Vector<D> {
+    pub fn source_point(&self, position: &Positions<'_, D>) -> Vector<D> {
         self.sources().fold(Vector::zeros(), |x, (n, weight)| x + position(n as u32) * weight)
     }
 
     /// Where it is on the target [m], if that deforms or has nodes of its own.
-    pub fn target_point(&self, position: &impl Fn(u32) -> Vector<D>) -> Vector<D> {
+    pub fn target_point(&self, position: &Positions<'_, D>) -> Vector<D> {
         self.targets().fold(Vector::zeros(), |x, (n, weight)| x - position(n as u32) * weight)
     }
 

@@ -1,6 +1,7 @@
 use carom_mesh::{Facet, Vector};
 
 use crate::parts::parts;
+use crate::path::Positions;
 use crate::project::{Projection, Reach, Weights, normal};
 use crate::tolerances::{EDGES, SEARCH};
 
@@ -44,7 +45,7 @@ pub(crate) fn smooth_neighbour<'a, const D: usize>(
     f: u32,
     end: usize,
     around: &impl Fn(u32) -> &'a [u32],
-    reference: &impl Fn(u32) -> Vector<D>,
+    reference: &Positions<'_, D>,
 ) -> Option<u32> {
     let direction = |f: u32, end: usize| {
         let facet = &facets[f as usize];
@@ -66,7 +67,7 @@ impl Curve {
     pub fn through<'a, const D: usize>(
         facets: &[Facet],
         around: &impl Fn(u32) -> &'a [u32],
-        reference: &impl Fn(u32) -> Vector<D>,
+        reference: &Positions<'_, D>,
     ) -> Self {
         let segment = |f: u32| Segment::new(facets, f, around, reference);
         Self { segments: (0..facets.len() as u32).map(segment).collect() }
@@ -82,7 +83,7 @@ impl Curve {
         start: u32,
         x: &Vector<D>,
         reach: Reach,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> Projection<'_, D> {
         let mut segment = &self.segments[start as usize];
         let mut offset = Cubic::new(segment, x, position);
@@ -131,7 +132,7 @@ impl Curve {
     pub fn control_points<const D: usize>(
         &self,
         segment: u32,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> [Vector<D>; 4] {
         let Cubic(c) = Cubic::new(&self.segments[segment as usize], &Vector::zeros(), position);
         [c[0], c[0] + c[1] / 3.0, c[0] + (c[1] * 2.0 + c[2]) / 3.0, c[0] + c[1] + c[2] + c[3]]
@@ -143,7 +144,7 @@ impl Segment {
         facets: &[Facet],
         f: u32,
         around: &impl Fn(u32) -> &'a [u32],
-        reference: &impl Fn(u32) -> Vector<D>,
+        reference: &Positions<'_, D>,
     ) -> Self {
         let ends = |f: u32| {
             let nodes = &facets[f as usize].nodes;
@@ -211,7 +212,7 @@ impl Segment {
 struct Cubic<const D: usize>([Vector<D>; 4]);
 
 impl<const D: usize> Cubic<D> {
-    fn new(segment: &Segment, x: &Vector<D>, position: &impl Fn(u32) -> Vector<D>) -> Self {
+    fn new(segment: &Segment, x: &Vector<D>, position: &Positions<'_, D>) -> Self {
         let mut c = [Vector::zeros(); 4];
         for (&node, weights) in segment.nodes.iter().zip(&segment.weights).take(segment.len) {
             let offset = position(node) - x;

@@ -4,6 +4,7 @@ use carom_mesh::parallel::each_group;
 use crate::edge::Crossing;
 use crate::frame::frame;
 use crate::looking::{Looking, Scratch};
+use crate::path::Positions;
 use crate::project::{Projection, Reach};
 use crate::search::SolidSurface;
 use crate::{Candidate, Contact, ContactModel, Obstacle, Pair, Path, Search, Site, Solid, Target};
@@ -22,12 +23,7 @@ impl<const D: usize> ContactModel<D> {
     ///
     /// A node that slides over the rim of its target while it is a little
     /// inside, as the condition `midpoint` lets it, is beside the target from then on.
-    pub fn detect<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
-        &self,
-        path: &Path<'_, D, S, E>,
-        search: &mut Search<D>,
-        out: &mut Vec<Candidate>,
-    ) {
+    pub fn detect(&self, path: &Path<'_, D>, search: &mut Search<D>, out: &mut Vec<Candidate>) {
         self.detect_node_by_node(|_| true, path, search, out);
         let mut mortar = std::mem::take(&mut search.mortar);
         self.detect_mortar(path, &mut mortar, out);
@@ -35,10 +31,10 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// [`ContactModel::detect`] of the pairs that count, but for multipliers, which [`ContactModel::detect_mortar`] finds.
-    pub fn detect_node_by_node<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
+    pub fn detect_node_by_node(
         &self,
         counts: impl Fn(&Pair) -> bool,
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
@@ -52,10 +48,10 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// The same of a body with itself.
-    pub fn detect_itself<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
+    pub fn detect_itself(
         &self,
         body: usize,
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
@@ -69,10 +65,10 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// Finds the candidates of these `pairs`, ascending, of which the boxes are swept.
-    fn detect_among<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
+    fn detect_among(
         &self,
         pairs: &[usize],
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
@@ -93,10 +89,10 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// Adds the candidates of one pair to those found.
-    fn detect_pair<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    fn detect_pair(
         &self,
         p: usize,
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
         search: &Search<D>,
         (scratch, out): (&mut Scratch<D>, &mut Vec<Candidate>),
     ) {
@@ -134,11 +130,11 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// Adds to `out` the nodes of a pair that come near an obstacle without facets.
-    fn detect_round<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    fn detect_round(
         &self,
         pair: usize,
         obstacle: &Obstacle<D>,
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
         search: &Search<D>,
         out: &mut Vec<Candidate>,
     ) {
@@ -159,10 +155,10 @@ impl<const D: usize> ContactModel<D> {
 
     /// Adds to those found the nodes of a pair that come near facets of the target, in space the edges that cross, and the corners of an obstacle
     /// that come near facets of the source.
-    fn detect_faceted<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    fn detect_faceted(
         &self,
         pair: usize,
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
         search: &Search<D>,
         (scratch, out): (&mut Scratch<D>, &mut Vec<Candidate>),
     ) {
@@ -202,7 +198,7 @@ impl<const D: usize> ContactModel<D> {
     /// beyond the edge of a facet, or beyond a corner of a smooth target. Beyond an edge in space that is warped, or round, it is the gradient
     /// where the tangent plane does not turn along the edge.
     #[must_use]
-    pub fn evaluate(&self, candidate: &Candidate, position: &impl Fn(u32) -> Vector<D>) -> Contact<D> {
+    pub fn evaluate(&self, candidate: &Candidate, position: &Positions<'_, D>) -> Contact<D> {
         let pair = self.pairs.get(candidate.pair as usize);
         match pair.target {
             Target::Obstacle(o) => self.before_obstacle(candidate, &self.obstacles[o], position),
@@ -233,12 +229,7 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// The contact of a node of a pair with the facet of its target that is nearest to it; where that has no facets, one with nothing.
-    pub(crate) fn before_nearest(
-        &self,
-        pair: usize,
-        node: u32,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> Contact<D> {
+    pub(crate) fn before_nearest(&self, pair: usize, node: u32, position: &Positions<'_, D>) -> Contact<D> {
         let x = position(node);
         let target = match self.pairs.get(pair).target {
             Target::Surface(t) => Some(&self.surfaces[t]),
@@ -260,7 +251,7 @@ impl<const D: usize> ContactModel<D> {
         &self,
         candidate: &Candidate,
         obstacle: &Obstacle<D>,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> Contact<D> {
         let position = &obstacle.placed(position);
         if let Some(contact) = self.ball_before_obstacle(candidate.pair as usize, obstacle, position)

@@ -2,6 +2,7 @@ use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
+use crate::path::Positions;
 use crate::project::Reach;
 use crate::tolerances::MEASURE;
 use crate::{Candidate, Contact, ContactModel, ContactSurface, Pair, Search, Site, Solid, Target};
@@ -18,7 +19,7 @@ pub struct Proximity<const D: usize> {
 impl<const D: usize> ContactModel<D> {
     /// Where the source nodes of `pair` are closest to, or deepest inside, the target.
     #[must_use]
-    pub fn proximity(&self, pair: &Pair, position: &impl Fn(u32) -> Vector<D>) -> Option<Proximity<D>> {
+    pub fn proximity(&self, pair: &Pair, position: &Positions<'_, D>) -> Option<Proximity<D>> {
         let nodes = self.surfaces[pair.source].sources.iter().map(|&n| position(n));
         self.closest(nodes, pair.target, position)
     }
@@ -31,7 +32,7 @@ impl<const D: usize> ContactModel<D> {
         &self,
         points: impl Iterator<Item = Vector<D>>,
         target: Target,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> Option<Proximity<D>> {
         let mut closest: Option<Proximity<D>> = None;
         let mut keep = |gap: f64, at: Vector<D>| {
@@ -79,7 +80,7 @@ impl<const D: usize> ContactModel<D> {
         candidate: &Candidate,
         contact: &Contact<D>,
         distance: f64,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
         search: &Search<D>,
     ) -> bool {
         let pair = candidate.pair as usize;
@@ -117,7 +118,7 @@ fn signed_distance<const D: usize>(
     x: &Vector<D>,
     surface: &ContactSurface,
     tree: &Bvh<D>,
-    position: &impl Fn(u32) -> Vector<D>,
+    position: &Positions<'_, D>,
 ) -> f64 {
     signed_distance_within(f64::INFINITY, x, surface, tree, position)
 }
@@ -128,7 +129,7 @@ pub(crate) fn signed_distance_within<const D: usize>(
     x: &Vector<D>,
     surface: &ContactSurface,
     tree: &Bvh<D>,
-    position: &impl Fn(u32) -> Vector<D>,
+    position: &Positions<'_, D>,
 ) -> f64 {
     let (mut distance, mut side) = (f64::INFINITY, 0.0);
     // Whatever is as near as a facet within reach, and may tell its side, is looked at.

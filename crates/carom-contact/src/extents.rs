@@ -4,6 +4,7 @@ use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
 use crate::neighbours::Neighbours;
+use crate::path::Positions;
 use crate::{ContactModel, ContactSurface, Pair, Solid, Target};
 
 /// Boxes around all surfaces at one moment, or on their way.
@@ -45,7 +46,7 @@ impl<const D: usize> Extents<D> {
 impl<const D: usize> ContactModel<D> {
     /// Boxes around the facets and sources of all surfaces, where the nodes are at `position`.
     #[must_use]
-    pub fn extents(&self, position: &impl Fn(u32) -> Vector<D>) -> Extents<D> {
+    pub fn extents(&self, position: &Positions<'_, D>) -> Extents<D> {
         let around = |s: &ContactSurface| {
             let facets = (0..s.facets.len() as u32).map(|f| s.bounds(f, position));
             let sources = Aabb::of(s.sources.iter().map(|&n| position(n)));
@@ -67,7 +68,7 @@ impl<const D: usize> ContactModel<D> {
 
     /// A number that no gap of a pair is smaller than [m]; without bound where the boxes overlap.
     #[must_use]
-    pub fn at_least(&self, pair: &Pair, extents: &Extents<D>, position: &impl Fn(u32) -> Vector<D>) -> f64 {
+    pub fn at_least(&self, pair: &Pair, extents: &Extents<D>, position: &Positions<'_, D>) -> f64 {
         let source = &extents.surfaces[pair.source];
         match pair.target {
             // The distance from an obstacle changes by no more than the way.

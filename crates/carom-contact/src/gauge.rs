@@ -1,10 +1,9 @@
 //! The smallest gap of all pairs.
 
-use carom_mesh::Vector;
-
 use crate::aabb::Aabb;
 use crate::bvh::{self, Bvh};
 use crate::distance::signed_distance_within;
+use crate::path::Positions;
 use crate::{ContactModel, Extents, Pair, Target};
 
 /// What is known of the gaps of all pairs before they are asked for.
@@ -64,7 +63,7 @@ impl<const D: usize> Gauge<D> {
         &mut self,
         model: &ContactModel<D>,
         gaps: &KnownGaps<'_, F>,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> f64 {
         self.place(model, position);
         let surfaces = &self.extents.surfaces;
@@ -87,7 +86,7 @@ impl<const D: usize> Gauge<D> {
     }
 
     /// Boxes around all facets and surfaces.
-    fn place(&mut self, model: &ContactModel<D>, position: &impl Fn(u32) -> Vector<D>) {
+    fn place(&mut self, model: &ContactModel<D>, position: &Positions<'_, D>) {
         let Self { extents, sides, .. } = self;
         sides.resize_with(model.surfaces.len(), Facets::default);
         extents.surfaces.clear();
@@ -107,7 +106,7 @@ impl<const D: usize> Gauge<D> {
         pairs: &[usize],
         model: &ContactModel<D>,
         gaps: &KnownGaps<'_, F>,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> f64 {
         let pairs = || pairs.iter().map(|&p| (p, model.pairs.get(p)));
         let bound = |extents: &Extents<D>, pair: &Pair| {
@@ -147,7 +146,7 @@ impl<const D: usize> Gauge<D> {
         (number, pair): (usize, &Pair),
         model: &ContactModel<D>,
         gaps: &KnownGaps<'_, F>,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> f64 {
         let sources = &model.surfaces[pair.source].sources;
         match pair.target {

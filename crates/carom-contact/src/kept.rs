@@ -1,8 +1,7 @@
 //! Candidates that were known before.
 
-use carom_mesh::Vector;
-
 use crate::edge::Crossing;
+use crate::path::Positions;
 use crate::project::Reach;
 use crate::surface::diameter;
 use crate::tolerances::{EDGES, SEARCH};
@@ -11,12 +10,7 @@ use crate::{Candidate, ContactModel, Path, Site};
 impl<const D: usize> ContactModel<D> {
     /// Adds to the candidates `out` of [`ContactModel::detect`] those that were `known` before and are not among them, with the facets
     /// that they faced then.
-    pub fn recall<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
-        &self,
-        known: &[Candidate],
-        path: &Path<'_, D, S, E>,
-        out: &mut Vec<Candidate>,
-    ) {
+    pub fn recall(&self, known: &[Candidate], path: &Path<'_, D>, out: &mut Vec<Candidate>) {
         let found = out.len();
         // Multipliers are what the search finds of them. A pair may have been of nodes in an analysis before.
         let lasts = |c: &&Candidate| match c.site {
@@ -38,12 +32,7 @@ impl<const D: usize> ContactModel<D> {
     /// Whether a candidate that pressed before, `apart` from what it faced or inside it by so much [m], still touches it, up to a little beyond
     /// the edge of that. There the trembling of round-off would decide from step to step which of two nodes that face one another is found.
     #[must_use]
-    pub fn still_touches(
-        &self,
-        candidate: &Candidate,
-        apart: f64,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> bool {
+    pub fn still_touches(&self, candidate: &Candidate, apart: f64, position: &Positions<'_, D>) -> bool {
         let position = &self.placed(candidate.pair, position);
         match candidate.site {
             Site::Node(node) | Site::Corner(node) => {

@@ -57,7 +57,7 @@ pub use mortar::Mortar;
 pub use obstacle::{ClosedSurface, Obstacle, PolygonDefect, RigidShape, SurfaceDefect};
 pub use pair::{Discretisation, Pair, Target};
 pub use pairs::{Directions, PairRule, PairRules, Pairs, Side};
-pub use path::Path;
+pub use path::{Path, Positions};
 pub use penetration::{Boundaries, Feature, Penetration, Solid, Witness};
 pub use search::Search;
 pub use surface::ContactSurface;

@@ -1,5 +1,6 @@
 use carom_mesh::Vector;
 
+use crate::path::Positions;
 use crate::{Candidate, ContactSurface, Obstacle, Pairs, Site, Target};
 
 /// All surfaces, obstacles and pairs.
@@ -38,11 +39,7 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// Where nodes, and the corners of the obstacle of a pair, are.
-    pub(crate) fn placed(
-        &self,
-        pair: u32,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> impl Fn(u32) -> Vector<D> {
+    pub(crate) fn placed(&self, pair: u32, position: &Positions<'_, D>) -> impl Fn(u32) -> Vector<D> {
         let obstacle = match self.pairs.get(pair as usize).target {
             Target::Obstacle(o) => Some(&self.obstacles[o]),
             Target::Surface(_) => None,

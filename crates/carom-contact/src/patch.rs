@@ -3,6 +3,7 @@ use carom_mesh::{CellKind, Facet, Vector};
 
 use crate::closest::{Local, Parametric};
 use crate::domain::Domain;
+use crate::path::Positions;
 use crate::tolerances::SEARCH;
 
 /// Intervals of the grid of starting points.
@@ -29,7 +30,7 @@ pub struct Point<const D: usize> {
 
 impl<const D: usize> Patch<D> {
     /// A facet whose nodes are at `position`.
-    pub fn new(facet: &Facet, position: &impl Fn(u32) -> Vector<D>) -> Self {
+    pub fn new(facet: &Facet, position: &Positions<'_, D>) -> Self {
         let mut nodes = [Vector::zeros(); MAX_FACET_NODES];
         for (node, &a) in nodes.iter_mut().zip(&facet.nodes) {
             *node = position(a);

@@ -3,6 +3,7 @@ use smallvec::SmallVec;
 
 use crate::domain::Domain;
 use crate::patch::Patch;
+use crate::path::Positions;
 
 /// Weights of the nodes that a point follows; without an allocation for as many as there are around most facets.
 pub type Weights = SmallVec<[f64; 32]>;
@@ -35,7 +36,7 @@ pub fn project<'a, const D: usize>(
     x: &Vector<D>,
     facet: &'a Facet,
     reach: Reach,
-    position: &impl Fn(u32) -> Vector<D>,
+    position: &Positions<'_, D>,
 ) -> Projection<'a, D> {
     let patch = Patch::new(facet, position);
     let xi = patch.closest(x);

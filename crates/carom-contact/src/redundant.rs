@@ -1,15 +1,14 @@
 //! Candidates that say what others say: together they would leave the reactions undetermined and make the solvers slow.
 
-use carom_mesh::Vector;
-
 use crate::edge::Crossing;
+use crate::path::Positions;
 use crate::project::{Reach, project};
 use crate::tolerances::{EDGES, SEARCH};
 use crate::{Candidate, ContactModel, Site};
 
 impl<const D: usize> ContactModel<D> {
     /// Marks what other candidates say where nodes are at `position`.
-    pub(crate) fn mark_redundant(&self, position: &impl Fn(u32) -> Vector<D>, candidates: &mut [Candidate]) {
+    pub(crate) fn mark_redundant(&self, position: &Positions<'_, D>, candidates: &mut [Candidate]) {
         for k in 0..candidates.len() {
             let c = candidates[k];
             candidates[k].redundant = match c.site {
@@ -35,7 +34,7 @@ impl<const D: usize> ContactModel<D> {
         &self,
         candidate: &Candidate,
         node: u32,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
         candidates: &[Candidate],
     ) -> bool {
         let pair = candidate.pair as usize;
@@ -56,7 +55,7 @@ impl<const D: usize> ContactModel<D> {
         &self,
         candidate: &Candidate,
         gap: f64,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
         candidates: &[Candidate],
     ) -> bool {
         let (Site::Node(_), true, Some(facet)) = (candidate.site, candidate.redundant, candidate.facet)
@@ -82,7 +81,7 @@ impl<const D: usize> ContactModel<D> {
         &self,
         candidate: &Candidate,
         corner: u32,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
         candidates: &[Candidate],
     ) -> bool {
         let faced = self.faced_node(candidate, corner, position);
@@ -92,12 +91,7 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// The node of its facet that the `node` or corner of a candidate stands over, if it is over one.
-    fn faced_node(
-        &self,
-        candidate: &Candidate,
-        node: u32,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> Option<u32> {
+    fn faced_node(&self, candidate: &Candidate, node: u32, position: &Positions<'_, D>) -> Option<u32> {
         let facet = &self.faced_surface(candidate)?.facets[candidate.facet? as usize];
         let position = &self.placed(candidate.pair, position);
         let p = project(&position(node), facet, Reach::Facet, position);
@@ -114,7 +108,7 @@ impl<const D: usize> ContactModel<D> {
         k: usize,
         edges: [[u32; 2]; 2],
         nodes: bool,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
         candidates: &mut [Candidate],
     ) {
         let placed = &self.placed(candidates[k].pair, position);

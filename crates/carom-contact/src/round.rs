@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 use crate::aabb::Aabb;
 use crate::edge::{Edge, SurfaceEdge};
 use crate::frame::frame;
-use crate::path::Path;
+use crate::path::{Path, Positions};
 use crate::project::Reach;
 use crate::surface::diameter;
 use crate::tolerances::SEARCH;
@@ -43,11 +43,11 @@ impl<const D: usize> ContactModel<D> {
     /// they are smaller, nodes keep it out but for what it bulges between them.
     ///
     /// What is behind the middle of the obstacle at the start of the step is the far side of a thin body.
-    pub(crate) fn detect_between<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    pub(crate) fn detect_between(
         &self,
         pair: usize,
         obstacle: &Obstacle<D>,
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
         out: &mut Vec<Candidate>,
     ) {
         let Some(radius) = obstacle.shape.bulging_radius() else { return };
@@ -100,7 +100,7 @@ impl<const D: usize> ContactModel<D> {
         &self,
         candidate: &Candidate,
         obstacle: &Obstacle<D>,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> Option<Contact<D>> {
         let source = &self.surfaces[self.pairs.get(candidate.pair as usize).source];
         let nearest = source.nearest(candidate.site, obstacle, position)?;
@@ -115,7 +115,7 @@ impl<const D: usize> ContactModel<D> {
     pub(crate) fn is_said_before(
         &self,
         k: usize,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
         candidates: &[Candidate],
     ) -> bool {
         let candidate = &candidates[k];
@@ -143,7 +143,7 @@ impl ContactSurface {
         &self,
         site: Site,
         obstacle: &Obstacle<D>,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> Option<Nearest<D>> {
         let shift = obstacle.shift(position);
         match (site, &obstacle.shape) {

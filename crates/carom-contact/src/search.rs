@@ -1,4 +1,3 @@
-use carom_mesh::Vector;
 use carom_mesh::parallel::{SURFACES, each_group};
 
 use crate::aabb::Aabb;
@@ -102,12 +101,7 @@ impl<const D: usize> Search<D> {
     }
 
     /// Brings the trees of all that is asked for in `pairs` up to date.
-    pub(crate) fn fit<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
-        &mut self,
-        model: &ContactModel<D>,
-        pairs: &[usize],
-        path: &Path<'_, D, S, E>,
-    ) {
+    pub(crate) fn fit(&mut self, model: &ContactModel<D>, pairs: &[usize], path: &Path<'_, D>) {
         for &p in pairs {
             let pair = model.pairs.get(p);
             let (source, target) = (Solid::Body(pair.source), model.faceted_target(&pair));
@@ -136,11 +130,11 @@ impl<const D: usize> Search<D> {
     }
 
     /// Boxes around all that moves along a `path` and belongs to one of these `pairs` of `model`.
-    pub(crate) fn sweep<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
+    pub(crate) fn sweep(
         &mut self,
         model: &ContactModel<D>,
         pairs: impl Iterator<Item = Pair>,
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
     ) {
         self.forget(model);
         pairs.for_each(|pair| self.expect(model, &pair));
@@ -148,11 +142,11 @@ impl<const D: usize> Search<D> {
     }
 
     /// The same of all pairs that count, and where they are many boxes around whole surfaces on their way.
-    pub(crate) fn sweep_where<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
+    pub(crate) fn sweep_where(
         &mut self,
         model: &ContactModel<D>,
         counts: &impl Fn(&Pair) -> bool,
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
     ) {
         self.forget(model);
         let are_many = model.pairs.are_many();
@@ -194,11 +188,7 @@ impl<const D: usize> Search<D> {
         source.is_faced |= is_faced;
     }
 
-    fn sweep_expected<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
-        &mut self,
-        model: &ContactModel<D>,
-        path: &Path<'_, D, S, E>,
-    ) {
+    fn sweep_expected(&mut self, model: &ContactModel<D>, path: &Path<'_, D>) {
         each_group(&mut self.surfaces, SURFACES, |first, surfaces| {
             for (swept, surface) in surfaces.iter_mut().zip(&model.surfaces[first..]) {
                 if swept.is_source {
@@ -223,11 +213,11 @@ impl<const D: usize> Search<D> {
 
     /// Tells `found` which of the sources of a surface come near facets of a `target`, and which facet each faces: the closest one half way
     /// among those that face it.
-    pub(crate) fn facing<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    pub(crate) fn facing(
         &self,
         source: &ContactSurface,
         target: SolidSurface<'_>,
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
         scratch: &mut Scratch<D>,
         mut found: impl FnMut(u32, u32),
     ) {
@@ -312,11 +302,7 @@ impl<const D: usize> Swept<D> {
     }
 
     /// Brings the trees that somebody asks for up to date.
-    fn fit_asked<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
-        &mut self,
-        surface: &ContactSurface,
-        path: &Path<'_, D, S, E>,
-    ) {
+    fn fit_asked(&mut self, surface: &ContactSurface, path: &Path<'_, D>) {
         if self.is_asked {
             self.fit(surface, path);
         }
@@ -325,11 +311,7 @@ impl<const D: usize> Swept<D> {
         }
     }
 
-    fn sweep_facets<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
-        &mut self,
-        surface: &ContactSurface,
-        path: &Path<'_, D, S, E>,
-    ) {
+    fn sweep_facets(&mut self, surface: &ContactSurface, path: &Path<'_, D>) {
         self.facets.clear();
         let facets = 0..surface.facets.len() as u32;
         self.facets.extend(facets.map(|f| surface.bounds(f, path.start).union(&surface.bounds(f, path.end))));
@@ -337,11 +319,7 @@ impl<const D: usize> Swept<D> {
     }
 
     /// Brings the tree up to date, once per sweep.
-    pub fn fit<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
-        &mut self,
-        surface: &ContactSurface,
-        path: &Path<'_, D, S, E>,
-    ) {
+    pub fn fit(&mut self, surface: &ContactSurface, path: &Path<'_, D>) {
         if self.is_fitted {
             return;
         }
@@ -357,11 +335,7 @@ impl<const D: usize> Swept<D> {
     }
 
     /// The same for the edges of the `surface`.
-    fn fit_edges<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
-        &mut self,
-        surface: &ContactSurface,
-        path: &Path<'_, D, S, E>,
-    ) {
+    fn fit_edges(&mut self, surface: &ContactSurface, path: &Path<'_, D>) {
         let room = |e: u32| {
             let swept = surface.edges[e as usize].path(path.start, path.end);
             swept.inflated(path.margin + SEARCH.depth * swept.diameter())
@@ -372,7 +346,7 @@ impl<const D: usize> Swept<D> {
 
 #[cfg(test)]
 mod tests {
-    use carom_mesh::{CellBlock, Mesh, Surface, generate};
+    use carom_mesh::{CellBlock, Mesh, Surface, Vector, generate};
 
     use super::*;
     use crate::{Discretisation, Pair};

@@ -1,10 +1,9 @@
 //! Which facets of its own surface a node never touches.
 
-use carom_mesh::Vector;
-
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::edge::Edge;
+use crate::path::Positions;
 use crate::project::Reach;
 use crate::surface::diameter;
 use crate::tolerances::SEARCH;
@@ -17,7 +16,7 @@ impl ContactSurface {
     /// close behind in the `reference` configuration [m]: those of the other side of a thin wall. All others it may touch if it
     /// faces them.
     #[must_use]
-    pub fn touching_itself<const D: usize>(mut self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
+    pub fn touching_itself<const D: usize>(mut self, reference: &Positions<'_, D>) -> Self {
         let facets = 0..self.facets.len() as u32;
         let room = |f: u32| {
             let facet = self.bounds(f, reference);

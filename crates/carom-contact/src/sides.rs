@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use carom_mesh::{Facet, Vector};
+use carom_mesh::Facet;
 use smallvec::SmallVec;
 
 use crate::curve::smooth_neighbour;
 use crate::parts::parts;
+use crate::path::Positions;
 use crate::sheet::Network;
 
 /// Which of the facets around a node are on one side of it: those that go on into one another without a corner or an edge.
@@ -23,7 +24,7 @@ impl Sides {
     pub fn of<'a, const D: usize>(
         facets: &[Facet],
         around: &impl Fn(u32) -> &'a [u32],
-        reference: &impl Fn(u32) -> Vector<D>,
+        reference: &Positions<'_, D>,
     ) -> Self {
         let fans =
             if D == 2 { fans_in_plane(facets, around, reference) } else { fans_in_space(facets, reference) };
@@ -54,7 +55,7 @@ impl Sides {
 fn fans_in_plane<'a, const D: usize>(
     facets: &[Facet],
     around: &impl Fn(u32) -> &'a [u32],
-    reference: &impl Fn(u32) -> Vector<D>,
+    reference: &Positions<'_, D>,
 ) -> Vec<SmallVec<[u32; 4]>> {
     let fan = |f: u32, a: usize| match a {
         0 | 1 => smooth_neighbour(facets, f, a, around, reference).map_or(f, |g| g.min(f)),
@@ -64,10 +65,7 @@ fn fans_in_plane<'a, const D: usize>(
 }
 
 /// The fan around each node of every facet: the number of its sector.
-fn fans_in_space<const D: usize>(
-    facets: &[Facet],
-    reference: &impl Fn(u32) -> Vector<D>,
-) -> Vec<SmallVec<[u32; 4]>> {
+fn fans_in_space<const D: usize>(facets: &[Facet], reference: &Positions<'_, D>) -> Vec<SmallVec<[u32; 4]>> {
     let network = Network::new(facets, reference);
     let mut fans: Vec<SmallVec<[u32; 4]>> =
         facets.iter().map(|f| SmallVec::from_elem(0, f.nodes.len())).collect();

@@ -7,6 +7,7 @@ use crate::ball::Ball;
 use crate::curve::Curve;
 use crate::edge::Edge;
 use crate::patch::Patch;
+use crate::path::Positions;
 use crate::project::{Projection, Reach, Weights, area_normal, normal, project};
 use crate::sheet::Sheet;
 use crate::sides::Sides;
@@ -57,11 +58,7 @@ impl ContactSurface {
     /// The boundary of a body whose first node has the number `first_node`, with its edges if it is one in space, convex ones and all others.
     /// They are those of the `reference` configuration [m]. As a target it consists of its facets.
     #[must_use]
-    pub fn new<const D: usize>(
-        surface: &Surface,
-        first_node: u32,
-        reference: &impl Fn(u32) -> Vector<D>,
-    ) -> Self {
+    pub fn new<const D: usize>(surface: &Surface, first_node: u32, reference: &Positions<'_, D>) -> Self {
         Self::without_edges(surface, first_node).edged(reference)
     }
 
@@ -123,7 +120,7 @@ impl ContactSurface {
         self,
         centre: &Vector<D>,
         radius: f64,
-        reference: &impl Fn(u32) -> Vector<D>,
+        reference: &Positions<'_, D>,
     ) -> Self {
         Self { ball: Ball::new(centre, radius, &self.nodes, reference), ..self }
     }
@@ -140,7 +137,7 @@ impl ContactSurface {
     /// `reference` are the positions [m] without deformation. Where the boundary turns by more than 40° there it keeps its edge or corner.
     /// Lines of second order stay faceted.
     #[must_use]
-    pub fn smoothed<const D: usize>(mut self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
+    pub fn smoothed<const D: usize>(mut self, reference: &Positions<'_, D>) -> Self {
         if self.facets.iter().all(|f| f.kind == CellKind::Line2) {
             self.shape = Shape::Curved(Curve::through(&self.facets, &|node| self.around(node), reference));
         } else if self.facets.iter().all(|f| f.kind.dimension() == 2) {
@@ -153,7 +150,7 @@ impl ContactSurface {
     /// one side where they go on into one another without a corner or an edge, which is where the boundary turns by more than 40° in
     /// the `reference` configuration [m]. Else a node has one side.
     #[must_use]
-    pub fn sided<const D: usize>(self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
+    pub fn sided<const D: usize>(self, reference: &Positions<'_, D>) -> Self {
         Self { sides: Sides::of(&self.facets, &|node| self.around(node), reference), ..self }
     }
 
@@ -164,10 +161,7 @@ impl ContactSurface {
 
     /// The same boundary without the sources that nothing flat can touch first: those around which it is flat in the `reference`
     /// configuration [m], to 1°.
-    pub(crate) fn without_flat_sources<const D: usize>(
-        mut self,
-        reference: &impl Fn(u32) -> Vector<D>,
-    ) -> Self {
+    pub(crate) fn without_flat_sources<const D: usize>(mut self, reference: &Positions<'_, D>) -> Self {
         let normals: Vec<Vector<D>> =
             self.facets.iter().map(|facet| normal(&Patch::new(facet, reference).middle().tangents)).collect();
         let turns = |around: &[u32]| {
@@ -196,7 +190,7 @@ impl ContactSurface {
         f: u32,
         x: &Vector<D>,
         reach: Reach,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> Projection<'_, D> {
         match &self.shape {
             Shape::Curved(curve) => curve.project(f, x, reach, position),
@@ -235,18 +229,13 @@ impl ContactSurface {
     }
 
     /// How far `x` is in front of the facet `f` [m], negative behind it.
-    pub(crate) fn gap_at<const D: usize>(
-        &self,
-        f: u32,
-        x: &Vector<D>,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> f64 {
+    pub(crate) fn gap_at<const D: usize>(&self, f: u32, x: &Vector<D>, position: &Positions<'_, D>) -> f64 {
         let p = self.project(f, x, Reach::Facet, position);
         p.normal.dot(&(x - p.point))
     }
 
     /// A box around the ball that the surface stands for; empty if it stands for none.
-    pub(crate) fn round_box<const D: usize>(&self, position: &impl Fn(u32) -> Vector<D>) -> Aabb<D> {
+    pub(crate) fn round_box<const D: usize>(&self, position: &Positions<'_, D>) -> Aabb<D> {
         let ends = self.ball.iter().flat_map(|ball| {
             let (centre, radius) = (ball.centre(position), Vector::repeat(ball.radius));
             [centre - radius, centre + radius]
@@ -255,7 +244,7 @@ impl ContactSurface {
     }
 
     /// A box around what the surface is over the facet `f`.
-    pub(crate) fn bounds<const D: usize>(&self, f: u32, position: &impl Fn(u32) -> Vector<D>) -> Aabb<D> {
+    pub(crate) fn bounds<const D: usize>(&self, f: u32, position: &Positions<'_, D>) -> Aabb<D> {
         match &self.shape {
             Shape::Curved(curve) => Aabb::of(curve.control_points(f, position)),
             Shape::Tiled(sheet) if sheet.covers(f) => Aabb::of(sheet.control_points(f, position)),
@@ -267,11 +256,7 @@ impl ContactSurface {
     }
 
     /// Mean outward normal of the facets around a node, weighted by their size; not normalised.
-    pub(crate) fn node_normal<const D: usize>(
-        &self,
-        node: u32,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> Vector<D> {
+    pub(crate) fn node_normal<const D: usize>(&self, node: u32, position: &Positions<'_, D>) -> Vector<D> {
         self.around(node).iter().fold(Vector::zeros(), |sum, &f| {
             sum + area_normal(&Patch::new(&self.facets[f as usize], position).middle().tangents)
         })
@@ -279,7 +264,7 @@ impl ContactSurface {
 }
 
 /// The largest distance between two nodes of a facet [m].
-pub(crate) fn diameter<const D: usize>(facet: &Facet, position: &impl Fn(u32) -> Vector<D>) -> f64 {
+pub(crate) fn diameter<const D: usize>(facet: &Facet, position: &Positions<'_, D>) -> f64 {
     let nodes = &facet.nodes;
     let from = |(k, a): (usize, &u32)| {
         let x = position(*a);

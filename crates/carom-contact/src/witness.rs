@@ -1,7 +1,5 @@
 //! Candidates where a measure has found bodies inside one another.
 
-use carom_mesh::Vector;
-
 use crate::aabb::Aabb;
 use crate::edge::{Edge, Pierced, SurfaceEdge};
 use crate::patch::rim;
@@ -15,10 +13,10 @@ impl<const D: usize> ContactModel<D> {
     ///
     /// The rules by which [`ContactModel::detect`] chooses need not foresee everything: what they leave out is found here, where it matters.
     /// Of bodies that are checked from one side alone, nodes of the other are inside by choice: these are left alone.
-    pub fn witnessed<S: Fn(u32) -> Vector<D> + Sync, E: Fn(u32) -> Vector<D> + Sync>(
+    pub fn witnessed(
         &self,
         witnesses: &[Witness],
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
         search: &mut Search<D>,
         out: &mut Vec<Candidate>,
     ) {
@@ -69,11 +67,11 @@ impl<const D: usize> ContactModel<D> {
 
 impl ContactSurface {
     /// The facet that is nearest to where a node starts, among those that it comes near.
-    fn nearest_on_the_way<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    fn nearest_on_the_way<const D: usize>(
         &self,
         node: u32,
         swept: &Swept<D>,
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
     ) -> Option<u32> {
         let x = (path.start)(node);
         let mut nearest: Option<(f64, u32)> = None;
@@ -88,13 +86,13 @@ impl ContactSurface {
 
     /// The edges of the source and of the target of the crossing at which an edge of another surface, which is the source or not, goes
     /// through one of this by what accounts for its depth [m]; of several the shallowest.
-    fn pierced_on_the_way<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    fn pierced_on_the_way<const D: usize>(
         &self,
         of_another: SurfaceEdge<'_>,
         depth: f64,
         is_source: bool,
         swept: &Swept<D>,
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
     ) -> Option<[[u32; 2]; 2]> {
         let mut best: Option<Pierced> = None;
         swept.tree.overlapping(&of_another.edge.path(path.start, path.end), |f, _| {

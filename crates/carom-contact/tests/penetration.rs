@@ -273,3 +273,88 @@ fn a_motion_is_cut_into_as_many_parts_whichever_way_it_goes() {
         assert_eq!(parts_of_a_passage(2.0, angle), 1);
     }
 }
+
+/// Symptom guarded against: chords between the nodes of a hollow side were in a box that lay in the hollow, and the run failed.
+#[test]
+fn what_lies_in_the_hollow_of_a_curved_side_is_not_in_it() {
+    // The upper side is the parabola y = 0.9 + 0.1 x², up to 0.936 at 0.6, where its chord is at 0.96.
+    let hollow = curved_cell([6, 2], [-0.1, 0.0]);
+    let shape = RigidShape::Box { corner: Vector::<2>::new(0.4, 0.94), size: Vector::<2>::new(0.2, 0.2) };
+    assert_eq!(depth(&[hollow.clone()], vec![shape]), 0.0);
+    assert_eq!(depth(&[hollow, block([0.4, 0.94], [0.2; 2], [1; 2])], vec![]), 0.0);
+}
+
+/// Symptom guarded against: a ball that a body was drawn around, with no node in it, was not seen.
+#[test]
+fn a_ball_within_a_body_is_found_without_a_node_in_it() {
+    let ball =
+        |x: f64| RigidShape::Sphere { centre: Vector::<3>::new(x, 0.5, 0.5), radius: 0.1, cavity: false };
+    let disc = |x: f64| RigidShape::Sphere { centre: Vector::<2>::new(x, 0.5), radius: 0.1, cavity: false };
+    for x in [0.3, 0.45, 0.5] {
+        close(depth(&[block([0.0; 3], [1.0; 3], [1; 3])], vec![ball(x)]), x + 0.1);
+        close(depth(&[block([0.0; 2], [1.0; 2], [3; 2])], vec![disc(x)]), x + 0.1);
+    }
+    assert_eq!(depth(&[block([0.0; 2], [1.0; 2], [3; 2])], vec![disc(1.2)]), 0.0);
+}
+
+/// Symptom guarded against: a ball of 3 mm was let into a wall of 4 mm by a share of its facets, which were half a metre long.
+#[test]
+fn a_depth_is_judged_by_the_wall_and_by_what_is_in_it() {
+    let plate = [block([0.0; 2], [1.0, 4e-3], [2, 1])];
+    let shot = |size: f64| RigidShape::Box {
+        corner: Vector::<2>::new(0.13, 3e-3),
+        size: Vector::<2>::new(size, size),
+    };
+    let cell =
+        |size: f64| measured(&plate, vec![shot(size)], |x| *x).iter().map(|p| p.cell).fold(1.0, f64::min);
+    close(cell(3e-3), 3e-3);
+    close(cell(9e-3), 4e-3);
+    let pressed = [plate[0].clone(), block([0.1, 3.9e-3], [0.5, 0.5], [1; 2])];
+    let found = measured(&pressed, vec![], |x| *x);
+    close(found.iter().map(|p| p.cell).fold(1.0, f64::min), 4e-3);
+}
+
+/// Two blocks of one mesh, the second moved by an offset.
+fn two_parts<const D: usize>(offset: [f64; D]) -> Mesh<D> {
+    let part = block([0.0; D], [1.0; D], [3; D]);
+    let count = part.nodes().len() as u32;
+    let offset = Vector::<D>::from(offset);
+    let nodes = part.nodes().iter().copied().chain(part.nodes().iter().map(|x| x + offset)).collect();
+    let blocks = part.blocks().iter().map(|b| {
+        let again = b.connectivity.iter().map(|n| n + count);
+        CellBlock { kind: b.kind, connectivity: b.connectivity.iter().copied().chain(again).collect() }
+    });
+    Mesh::new(nodes, blocks.collect()).expect("valid")
+}
+
+/// Symptom guarded against: of two blocks in one mesh the upper one lay flush on the lower one, and edges that went through its side by round-off
+/// were told to be as deep as they reach beyond it.
+#[test]
+fn parts_of_a_body_that_lie_flush_on_one_another_are_not_in_one_another() {
+    for aside in [0.0, 0.13, 0.3, 0.8] {
+        for sunk in [0.0, 1e-14, 1e-12] {
+            let flat = two_parts([aside, 1.0 - sunk]);
+            assert!(depth(&[flat.clone()], vec![]) < 2e-12, "{aside} {sunk:e}");
+            assert!(deepest(&measured(&[flat], vec![], turned)) < 2e-12, "{aside} {sunk:e}");
+            let solid = two_parts([aside, 0.07, 1.0 - sunk]);
+            assert!(depth(&[solid.clone()], vec![]) < 2e-12, "{aside} {sunk:e}");
+            assert!(deepest(&measured(&[solid], vec![], turned)) < 2e-12, "{aside} {sunk:e}");
+        }
+    }
+}
+
+/// Edges that cross, of which no node is inside, are as deep as what they leave of one another.
+#[test]
+fn edges_of_one_body_that_go_through_one_another_are_told() {
+    let bar = |corner: [f64; 3], size: [f64; 3]| block(corner, size, [1; 3]);
+    let (along, across) = (bar([-2.0, -0.1, 0.0], [4.0, 0.2, 0.2]), bar([-0.1, -2.0, 0.17], [0.2, 4.0, 0.2]));
+    let count = along.nodes().len() as u32;
+    let nodes = along.nodes().iter().chain(across.nodes()).copied().collect();
+    let connectivity = (along.blocks()[0].connectivity.iter().copied())
+        .chain(across.blocks()[0].connectivity.iter().map(|n| n + count))
+        .collect();
+    let cross = Mesh::new(nodes, vec![CellBlock { kind: CellKind::Hex8, connectivity }]).expect("valid");
+    // They are asked just before themselves, by a millionth of a facet.
+    let found = [depth(&[cross.clone()], vec![]), deepest(&measured(&[cross], vec![], turned))];
+    assert!(found.iter().all(|depth| (depth - 0.03).abs() < 4e-6), "{found:?}");
+}

@@ -168,6 +168,10 @@ impl<const D: usize> BlockLu<D> {
                 }
                 let factor = factor * self.inverse_pivots[j];
                 self.lower[e] = factor;
+                if a[self.order[j] as usize] == Matrix::<D>::zeros() {
+                    // Its row has nothing right of the diagonal.
+                    continue;
+                }
                 let range = self.upper_starts[j]..self.upper_starts[j + 1];
                 products += 1 + range.len();
                 if products > LOOK {

@@ -54,12 +54,18 @@ fn contact_problem<'py, const D: usize>(
     Ok(contact)
 }
 
-/// `ConvergenceError` with its report and, where that is what failed, the contact problem that was posed last.
+/// `ConvergenceError` with its report and, where that is what failed, the contact problem that was posed last; its cause is what a body of another code
+/// `raised`.
 pub fn run_error<const D: usize>(
     py: Python<'_>,
     error: &RunError,
     posed: Option<PosedProblem<'_, D>>,
+    raised: Option<&PyErr>,
 ) -> PyErr {
+    let message = match raised {
+        Some(raised) => format!("{error}; a body of another code raised {raised}"),
+        None => error.to_string(),
+    };
     let make = || {
         let report = PyDict::new(py);
         report.set_item("time", error.time)?;
@@ -67,7 +73,9 @@ pub fn run_error<const D: usize>(
         report.set_item("halvings", error.halvings)?;
         report.set_item("reason", error.reason.to_string())?;
         let contact = contact_problem(py, &error.reason, posed, &report)?;
-        class(py, "ConvergenceError")?.call((error.to_string(), report), Some(&contact))
+        class(py, "ConvergenceError")?.call((message, report), Some(&contact))
     };
-    make().map_or_else(|e| e, PyErr::from_value)
+    let made = make().map_or_else(|e| e, PyErr::from_value);
+    made.set_cause(py, raised.map(|raised| raised.clone_ref(py)));
+    made
 }

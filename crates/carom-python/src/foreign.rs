@@ -4,10 +4,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
-use carom::{Blocks, ForeignCode, ForeignPart, ForeignSpec, Outline};
+use carom::{Blocks, ForeignCode, ForeignLaw, ForeignPart, ForeignSpec, Laws, Outline};
 use carom_mesh::{Matrix, Vector};
 use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyException, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -18,21 +18,27 @@ use crate::{arrays, mesh};
 
 /// What a call of a law led to: the first exception, and the time of all calls [ns].
 #[derive(Default)]
-struct Calls {
+pub(crate) struct Calls {
     failed: Mutex<Option<PyErr>>,
     time: AtomicU64,
 }
 
 impl Calls {
     /// The first exception since the last look.
-    fn take_error(&self) -> Option<PyErr> {
+    pub fn take_error(&self) -> Option<PyErr> {
         self.failed.lock().ok().and_then(|mut failed| failed.take())
+    }
+
+    /// Whether an exception waits that is no error: nothing is to be tried again.
+    fn is_interrupted(&self, py: Python<'_>) -> bool {
+        let failed = self.failed.lock();
+        failed.is_ok_and(|failed| failed.as_ref().is_some_and(|e| !is_error(py, e)))
     }
 
     /// What a call returned, and its time; nothing after an exception, which is kept.
     fn noting<T>(&self, call: impl FnOnce(Python<'_>) -> PyResult<T>) -> Option<T> {
         let start = Instant::now();
-        let answer = Python::attach(call);
+        let answer = Python::attach(|py| if self.is_interrupted(py) { None } else { Some(call(py)) })?;
         self.time.fetch_add(start.elapsed().as_nanos() as u64, Ordering::Relaxed);
         match answer {
             Ok(answer) => Some(answer),
@@ -44,6 +50,11 @@ impl Calls {
             }
         }
     }
+}
+
+/// Whether an exception is an error, and not that of Ctrl-C.
+pub fn is_error(py: Python<'_>, exception: &PyErr) -> bool {
+    exception.is_instance_of::<PyException>(py)
 }
 
 /// The law of a body, as the methods of a `carom.foreign.ForeignBody` say it.
@@ -112,12 +123,28 @@ pub struct ForeignRun {
     calls: Arc<Calls>,
 }
 
+/// What a `carom.foreign.ForeignBody` says of its mass and its law.
+fn law<const D: usize>(body: &Bound<'_, PyAny>, calls: &Arc<Calls>) -> PyResult<ForeignLaw<D>> {
+    let velocity: PyReadonlyArray2<'_, f64> = body.getattr("velocity")?.extract()?;
+    let fixed: PyReadonlyArray2<'_, bool> = body.getattr("fixed")?.extract()?;
+    let held = fixed.as_array().rows().into_iter().map(|row| std::array::from_fn(|i| row[i])).collect();
+    Ok(ForeignLaw {
+        velocity: arrays::from_rows(&velocity, velocity.shape()[0])?,
+        held,
+        mass: blocks(&body.getattr("mass_entries")?)?,
+        code: Arc::new(Law { body: body.clone().unbind(), calls: Arc::clone(calls) }),
+    })
+}
+
+/// Those of a dictionary with the names of bodies as keys.
+pub fn laws<const D: usize>(given: Option<&Bound<'_, PyDict>>, calls: &Arc<Calls>) -> PyResult<Laws<D>> {
+    let laws = given.into_iter().flatten();
+    laws.map(|(name, body)| Ok((name.extract()?, law(&body, calls)?))).collect()
+}
+
 /// A body as `carom.foreign.ForeignBody` has it.
 fn part<const D: usize>(body: &Bound<'_, PyAny>, calls: &Arc<Calls>) -> PyResult<ForeignPart<D>> {
     let points: PyReadonlyArray2<'_, f64> = body.getattr("points")?.extract()?;
-    let velocity: PyReadonlyArray2<'_, f64> = body.getattr("velocity")?.extract()?;
-    let fixed: PyReadonlyArray2<'_, bool> = body.getattr("fixed")?.extract()?;
-    let fixed = fixed.as_array();
     let surface = body.getattr("surface")?;
     let kinds: Vec<PyReadonlyArray2<'_, i64>> = surface.getattr("facets")?.extract()?;
     Ok(ForeignPart {
@@ -126,11 +153,8 @@ fn part<const D: usize>(body: &Bound<'_, PyAny>, calls: &Arc<Calls>) -> PyResult
             facets: facets_of(&kinds)?,
             touches_itself: surface.getattr("self_contact")?.extract()?,
         },
-        velocity: arrays::from_rows(&velocity, points.shape()[0])?,
         points: rows(&points)?,
-        held: fixed.rows().into_iter().map(|row| std::array::from_fn(|i| row[i])).collect(),
-        mass: blocks(&body.getattr("mass_entries")?)?,
-        code: Box::new(Law { body: body.clone().unbind(), calls: Arc::clone(calls) }),
+        law: law(body, calls)?,
     })
 }
 

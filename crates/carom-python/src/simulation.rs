@@ -1,6 +1,7 @@
+use std::sync::Arc;
 use std::time::Instant;
 
-use carom::{Outcome, Scenario};
+use carom::{Inputs, Outcome, Scenario};
 use carom_mesh::Vector;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::exceptions::{PyIndexError, PyValueError};
@@ -10,6 +11,7 @@ use serde::Serialize;
 
 use crate::dimension::{Dimension, with};
 use crate::error::{input_error, run_error};
+use crate::foreign::{Calls, is_error, laws};
 use crate::{arrays, checkpoint, mesh};
 
 /// Wall time between two looks for Ctrl-C [s]; a step that takes longer is followed by one.
@@ -19,6 +21,7 @@ const SIGNAL_INTERVAL: f64 = 0.02;
 #[pyclass(module = "carom._carom")]
 pub struct Simulation {
     inner: Dimension<carom::Simulation<2>, carom::Simulation<3>>,
+    calls: Arc<Calls>,
 }
 
 /// Signed distances [m] and normals of points.
@@ -33,27 +36,37 @@ fn to_python<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py
 #[pymethods]
 impl Simulation {
     #[new]
-    #[pyo3(signature = (scenario, meshes=None, surfaces=None))]
+    #[pyo3(signature = (scenario, meshes=None, surfaces=None, foreign=None))]
     fn new(
         py: Python<'_>,
         scenario: &str,
         meshes: Option<&Bound<'_, PyDict>>,
         surfaces: Option<&Bound<'_, PyDict>>,
+        foreign: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let scenario: Scenario = serde_json::from_str(scenario)
             .map_err(|e| input_error(py, &carom::InputError::new("", format!("not a scenario: {e}"))))?;
+        let calls = Arc::new(Calls::default());
         let inner = match scenario.dimension {
             3 => {
-                let (meshes, surfaces) = (mesh::meshes(py, meshes)?, mesh::surfaces(surfaces)?);
-                py.detach(|| carom::Simulation::with_files(&scenario, meshes, surfaces)).map(Dimension::Space)
+                let inputs = Inputs {
+                    meshes: mesh::meshes(py, meshes)?,
+                    surfaces: mesh::surfaces(surfaces)?,
+                    laws: laws(foreign, &calls)?,
+                };
+                py.detach(|| carom::Simulation::with_inputs(&scenario, inputs)).map(Dimension::Space)
             }
             // No surface is an obstacle of the plane: the build refuses what says so.
             _ => {
-                let meshes = mesh::meshes(py, meshes)?;
-                py.detach(|| carom::Simulation::with_meshes(&scenario, meshes)).map(Dimension::Plane)
+                let (meshes, laws) = (mesh::meshes(py, meshes)?, laws(foreign, &calls)?);
+                let inputs = Inputs { laws, ..Inputs::from(meshes) };
+                py.detach(|| carom::Simulation::with_inputs(&scenario, inputs)).map(Dimension::Plane)
             }
         };
-        Ok(Self { inner: inner.map_err(|e| input_error(py, &e))? })
+        if let Some(error) = calls.take_error() {
+            return Err(error);
+        }
+        Ok(Self { inner: inner.map_err(|e| input_error(py, &e))?, calls })
     }
 
     #[getter]
@@ -116,7 +129,7 @@ impl Simulation {
     fn centres_of_mass<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         with!(&self.inner, run => {
             let centres: Vec<_> =
-                run.model().bodies.iter().map(|b| b.body.mean(b.body.mesh().nodes())).collect();
+                run.model().bodies.iter().map(|b| b.mean(b.body.mesh().nodes())).collect();
             arrays::vectors(py, &centres)
         })
     }
@@ -230,13 +243,13 @@ impl Simulation {
     }
 
     /// Overwrites the velocities [m/s] of all nodes; ValueError once a step was made, or if they do not fit.
-    fn set_initial_velocity(&mut self, velocity: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
+    fn set_initial_velocity(&mut self, py: Python<'_>, velocity: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
         with!(&mut self.inner, run => {
             if run.step() > 0 {
                 return Err(PyValueError::new_err("steps were made already"));
             }
             let velocity = arrays::from_rows(&velocity, run.model().node_count())?;
-            run.set_initial_velocity(velocity);
+            py.detach(|| run.set_initial_velocity(velocity));
         });
         Ok(())
     }
@@ -281,7 +294,8 @@ impl Simulation {
 
     /// Runs to `until` [s] or for `budget` seconds of wall time, one step at least; whether `until` is reached.
     fn advance(&mut self, py: Python<'_>, until: f64, budget: f64) -> PyResult<bool> {
-        with!(&mut self.inner, run => advance(py, run, until, budget))
+        let Self { inner, calls } = self;
+        with!(inner, run => advance(py, run, calls, (until, budget)))
     }
 
     /// All that it takes to go on from here, as arrays by name.
@@ -322,8 +336,8 @@ impl Simulation {
 fn advance<const D: usize>(
     py: Python<'_>,
     run: &mut carom::Simulation<D>,
-    until: f64,
-    budget: f64,
+    calls: &Calls,
+    (until, budget): (f64, f64),
 ) -> PyResult<bool> {
     let (outcome, interrupt) = py.detach(|| {
         let start = Instant::now();
@@ -339,8 +353,12 @@ fn advance<const D: usize>(
         });
         (outcome, interrupt)
     });
+    let raised = calls.take_error();
+    let interrupt =
+        interrupt.or_else(|| raised.as_ref().filter(|e| !is_error(py, e)).map(|e| e.clone_ref(py)));
     if let Some(interrupt) = interrupt {
         return Err(interrupt);
     }
-    Ok(outcome.map_err(|e| run_error(py, &e, run.posed_problem()))? == Outcome::Reached)
+    // What a shorter step has got over is forgotten.
+    Ok(outcome.map_err(|e| run_error(py, &e, run.posed_problem(), raised.as_ref()))? == Outcome::Reached)
 }

@@ -22,8 +22,9 @@ from carom.auditing.targets.feet import Target
 from carom.auditing.targets.gregory import GregoryPatches
 from carom.auditing.targets.sheet import FlatPatches, Sheet
 from carom.case.analysis import Conserving, Static, Theta
-from carom.case.body import AnyBody, ReducedBody, RigidBody
+from carom.case.body import DescribedBody, ReducedBody, RigidBody
 from carom.case.cohesion import holds
+from carom.case.foreign_body import ForeignEntry
 from carom.case.full_stage import FullStage
 from carom.case.scenario import Scenario
 from carom.errors import InputError
@@ -271,6 +272,8 @@ class AuditModel:
     def _build_bodies(self, cells: list[Indices], types: list[int]) -> Iterator[AuditBody]:
         first = 0
         for entry, nodes, vtk_type in zip(self.scenario.bodies, cells, types, strict=True):
+            if isinstance(entry, ForeignEntry):
+                raise InputError("cannot audit a body of another code, whose law no file holds")
             last = int(nodes.max()) + 1
             if int(nodes.min()) != first or last > len(self.points):
                 raise InputError(f"body {entry.name!r}: the mesh is not numbered body after body")
@@ -296,7 +299,7 @@ class AuditModel:
         if first != len(self.points):
             raise InputError(f"the mesh has {len(self.points)} nodes, its bodies have {first}")
 
-    def _spares_mass(self, entry: AnyBody, body: AuditBody) -> bool:
+    def _spares_mass(self, entry: DescribedBody, body: AuditBody) -> bool:
         """Return whether a body may have no mass where it touches others.
 
         What is rigid or reduced may not, nor what flows, grows or rubs by a law, nor where springs

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from carom._carom import Simulation
 from carom.building.closing import closed
 from carom.building.leaps import refuse_leaps
 from carom.building.magnitudes import refuse_unbounded
+from carom.case.foreign_body import ForeignEntry
 from carom.case.mesh import MeshFile
 from carom.case.obstacle import Obstacle, RigidSurface
 from carom.case.scenario import Scenario
@@ -36,11 +38,13 @@ def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
     InputError
         The scenario cannot be run, such as bodies that overlap at the start.
     """
-    meshes, surfaces = _meshes(scenario), obstacle_surfaces(scenario.obstacles)
+    foreign = _foreign(scenario)
+    meshes = _meshes(scenario) | {name: code.mesh() for name, code in foreign.items()}
+    surfaces = obstacle_surfaces(scenario.obstacles)
 
     def make(scenario: Scenario, meshes: Mapping[str, MeshArrays]) -> Simulation:
         try:
-            return Simulation(_json(scenario), dict(meshes), surfaces)
+            return Simulation(_json(scenario), dict(meshes), surfaces, foreign)
         except InputError as error:
             raise _at_its_place(error, scenario) from None
 
@@ -121,6 +125,24 @@ def _meshes(scenario: Scenario) -> dict[str, MeshArrays]:
         # What is said of a file is said once.
         meshes[body.name] = arrays if is_first else replace(arrays, notes=[])
     return meshes
+
+
+def _foreign(scenario: Scenario) -> dict[str, Any]:
+    """Return the bodies of other codes, each of which has answered once, by their names."""
+    foreign = {}
+    for index, body in enumerate(scenario.bodies):
+        if not isinstance(body, ForeignEntry) or body.code is None:
+            continue
+        code, key = body.code, f"bodies.{index}"
+        space = code.points.shape[1]
+        if space != scenario.dimension:
+            raise InputError(
+                f"{key}: {body.name!r} is a body in {space}D; set dimension = {space} at the top",
+                key,
+            )
+        code.stiffness_at(np.zeros_like(code.points))
+        foreign[body.name] = code
+    return foreign
 
 
 def obstacle_surfaces(obstacles: Sequence[Obstacle]) -> dict[str, SurfaceArrays]:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from carom.case.body import RigidBody, materials_of
+from carom.case.foreign_body import ForeignEntry
 from carom.case.scenario import Scenario
 from carom.errors import InputError
 
@@ -41,9 +42,15 @@ def refuse_unbounded(scenario: Scenario, description: Mapping[str, Any]) -> None
     for index, (body, built) in enumerate(zip(scenario.bodies, description["bodies"], strict=True)):
         for key, what in OF_BODIES.items():
             value = built[key]
-            if isinstance(body, RigidBody):
+            if isinstance(body, RigidBody | ForeignEntry):
                 if key not in OF_WAVES and (value is None or not value > 0.0):
-                    raise _vanishing(index, body.name, what, value, "its density or mass")
+                    raise _vanishing(
+                        index,
+                        body.name,
+                        what,
+                        value,
+                        "its mass" if isinstance(body, ForeignEntry) else "its density or mass",
+                    )
                 continue
             if value is None or not value > 0.0:
                 made_of = " and ".join(

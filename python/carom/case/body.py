@@ -18,6 +18,7 @@ from carom.case.description import (
     SpaceVector,
     Vector,
 )
+from carom.case.foreign_body import ForeignEntry
 from carom.case.mesh import Ball, Disc, Mesh, Rectangle
 from carom.case.signal import Signal
 from carom.messages import known, problem
@@ -171,12 +172,14 @@ class RigidBody(Description):
     name
         Unique over bodies, obstacles and tracked points.
     density
-        Density [kg/m³], which with the cells of the mesh makes mass, centre and inertia.
+        Density [kg/m³], which with the cells of the mesh makes mass, centre and inertia; of a body
+        that is `round` with the disc or ball.
     mass
         Mass [kg], in place of a density.
     inertia
-        Inertia about the centre of mass [kg m²] where it is not that of the cells: a number in 2D,
-        in 3D the moments about the axes of space if these are principal, or three rows of three.
+        Inertia about the centre of mass [kg m²] where it is not that of the cells, or of the disc
+        or ball of a body that is `round`: a number in 2D, in 3D the moments about the axes of space
+        if these are principal, or three rows of three.
     hypothesis
         What a body of the plane is in space: plane-strain for a slice of `thickness`, or
         axisymmetric, a body of revolution around x = 0.
@@ -186,7 +189,8 @@ class RigidBody(Description):
         Reference geometry and its cells.
     round
         Whether the body, whose mesh is a disc or a ball, is as round as that to planes, spheres and
-        cylinders, and to other round bodies. To all others it is its mesh.
+        cylinders, and to other round bodies, and has the mass and inertia of that. To all others it
+        is its mesh.
     contact_sets
         Sets of facets that may touch others, such as the sides of a rectangle; None for all.
     velocity
@@ -310,12 +314,15 @@ class ReducedBody(Description):
 
 def materials_of(body: AnyBody) -> tuple[str, ...]:
     """Return the names of the materials of a body: that of the rest, then those of its regions."""
-    if isinstance(body, RigidBody):
+    if isinstance(body, RigidBody | ForeignEntry):
         return ()
     return (body.material, *(region.material for region in body.regions))
 
 
-AnyBody = Annotated[Body | RigidBody | ReducedBody, Field(discriminator="kind")]
+DescribedBody = Annotated[Body | RigidBody | ReducedBody, Field(discriminator="kind")]
+"""A body that plain data describe."""
+
+AnyBody = Annotated[Body | RigidBody | ReducedBody | ForeignEntry, Field(discriminator="kind")]
 """A body of any kind."""
 
 
@@ -328,7 +335,9 @@ def with_kinds(data: object) -> object:
 
 
 def of_kind(body: Any) -> Any:  # noqa: ANN401 (checked where it is used)
-    """Return a body that, where it names no kind, is deformable."""
+    """Return a body that, where it names no kind, is deformable, and the entry of a foreign one."""
+    if callable(entry := getattr(body, "as_entry", None)):
+        return entry()
     if isinstance(body, Mapping) and "kind" not in body:
         return {"kind": "deformable", **body}
     return body

@@ -37,5 +37,5 @@ def scenario_html(scenario: Scenario) -> Html:
 
 
 def _body_text(body: AnyBody) -> str:
-    made_of = ", ".join(dict.fromkeys(materials_of(body))) or "rigid"
+    made_of = ", ".join(dict.fromkeys(materials_of(body))) or body.kind
     return f"{body.name}: {body.mesh.kind}, {made_of}"

@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 from pydantic import BeforeValidator, Field, model_validator
 from typing_extensions import Self
 
-from carom.case.body import AnyBody, Region, RigidBody, of_kind
+from carom.case.body import DescribedBody, Region, RigidBody, of_kind
 from carom.case.contact import Pair
 from carom.case.description import (
     PER_DIMENSION,
@@ -71,7 +71,7 @@ class Grid(Description):
     jitter: NonNegative = 0.0
     seed: Seed = 0
 
-    def copies(self, body: AnyBody) -> Iterator[Copy]:
+    def copies(self, body: DescribedBody) -> Iterator[Copy]:
         """Yield the copies of a body, along the first axis first."""
         first = centre(body.mesh, len(self.counts))
         shift = self.shift or (0.0,) * len(first)
@@ -134,7 +134,7 @@ class RandomPlaces(Description):
             raise problem(what, key="scales", value=self.scales)
         return self
 
-    def copies(self, body: AnyBody) -> Iterator[Copy]:
+    def copies(self, body: DescribedBody) -> Iterator[Copy]:
         """Yield the copies of a body."""
         radius = reach(body.mesh)
         if radius is None:
@@ -159,7 +159,7 @@ class RandomPlaces(Description):
         for place, scale in zip(places, scales, strict=True):
             yield Copy(place, scale, self._velocity(body, random))
 
-    def _velocity(self, body: AnyBody, random: Random) -> tuple[float, ...] | None:
+    def _velocity(self, body: DescribedBody, random: Random) -> tuple[float, ...] | None:
         if self.speed == 0.0:
             return None
         own = body.velocity or (0.0,) * len(self.corner)
@@ -220,7 +220,7 @@ class ListedPlaces(Description):
             for index, vector in enumerate(getattr(self, name)):
                 yield f"{path}{name}.{index}", vector
 
-    def copies(self, body: AnyBody) -> Iterator[Copy]:
+    def copies(self, body: DescribedBody) -> Iterator[Copy]:
         """Yield the copies of a body."""
         for k, place in enumerate(self.places):
             yield Copy(
@@ -250,10 +250,10 @@ class Pattern(Description):
         Where its copies are.
     """
 
-    body: Annotated[AnyBody, BeforeValidator(of_kind)]
+    body: Annotated[DescribedBody, BeforeValidator(of_kind)]
     at: Annotated[Grid | RandomPlaces | ListedPlaces, Field(discriminator="kind")]
 
-    def bodies(self, dimension: int) -> list[AnyBody]:
+    def bodies(self, dimension: int) -> list[DescribedBody]:
         """Return the copies in a space of this dimension.
 
         Raises
@@ -274,7 +274,7 @@ class Pattern(Description):
         ]
 
 
-def _own(body: AnyBody, number: int, copy: Copy) -> dict[str, Any]:
+def _own(body: DescribedBody, number: int, copy: Copy) -> dict[str, Any]:
     """Return what of a copy differs from the body that is repeated."""
     own: dict[str, Any] = {
         "name": f"{body.name}-{number}",

@@ -23,6 +23,7 @@ from carom.case.body import AnyBody, Body, RigidBody, with_kinds
 from carom.case.contact import Contact
 from carom.case.default_condition import with_condition
 from carom.case.description import Description, Name
+from carom.case.foreign_body import ForeignEntry
 from carom.case.full_stage import FullStage, full_stages
 from carom.case.initial import Initial
 from carom.case.load import Load
@@ -266,7 +267,7 @@ class Scenario(Description):
     @model_validator(mode="after")
     def _materials_exist(self) -> Self:
         for index, body in enumerate(self.bodies):
-            if isinstance(body, RigidBody):
+            if isinstance(body, RigidBody | ForeignEntry):
                 continue
             path = f"bodies.{index}"
             _require(body.material, self.materials, what="material", key=f"{path}.material")
@@ -276,10 +277,14 @@ class Scenario(Description):
         return self
 
     @model_validator(mode="after")
-    def _reduced_bodies_start_as_drawn(self) -> Self:
+    def _some_bodies_start_as_drawn(self) -> Self:
         # What is read of the nodes of another state may be no more than a part of it.
         if self.initial is not None and any(body.kind == "reduced" for body in self.bodies):
             raise problem("a case with a reduced body starts as drawn; leave it out", key="initial")
+        if self.initial is not None and any(body.kind == "foreign" for body in self.bodies):
+            raise problem(
+                "a case with a body of another code starts as drawn; leave it out", key="initial"
+            )
         return self
 
     @model_validator(mode="before")
@@ -335,7 +340,7 @@ class Scenario(Description):
         touch_themselves = {
             body.name
             for body in self.bodies
-            if isinstance(body, Body) and body.self_contact is not False
+            if isinstance(body, Body | ForeignEntry) and body.self_contact is not False
         }
         names = [body.name for body in self.bodies] + sorted(obstacles)
         first_use: dict[frozenset[str], str] = {}

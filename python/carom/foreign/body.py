@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
+from carom.case.foreign_body import ForeignEntry
 from carom.contact.surface import Surface
 from carom.errors import InputError
 from carom.friction.arrays import matrix, numbers, shown
+from carom.mesh_file.arrays import MeshArrays, Refused
+from carom.mesh_file.cells import KINDS
+from carom.mesh_file.upright import upright
+from carom.messages import known
+
+CONTACT_SET = "contact"
+"""The facets that may touch others, among the sets of a scenario."""
 
 Entries = tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]
 """Rows, columns and values of a sparse matrix."""
 
 
 class ForeignBody:
-    """A deformable body of another code, for `ForeignRun`.
+    """A deformable body of another code, among the bodies of a `Scenario` or for `ForeignRun`.
 
     Its unknowns are the displacements of its nodes. With the scheme ``conserving`` a step keeps its
     energy and momenta whatever its law, as long as its energy is the same wherever the body is
@@ -51,6 +59,12 @@ class ForeignBody:
         component i of node n is D n + i.
     self_contact
         Whether it may touch itself.
+    cells
+        Its cells by the name of their kind in meshio, such as ``{"triangle": mesh.t.T}``, nodes in
+        VTK's order, shape [cell_count, node_count]. They are what is drawn of it, and what may be
+        inside what; `ForeignRun` does without.
+    thickness
+        Thickness of a body in the plane [m], by which fields have forces as pressures.
 
     Raises
     ------
@@ -72,8 +86,11 @@ class ForeignBody:
         fixed: ArrayLike | None = None,
         dofs: ArrayLike | None = None,
         self_contact: bool = False,
+        cells: Mapping[str, ArrayLike] | None = None,
+        thickness: float = 1.0,
     ) -> None:
         self.name = name
+        self._cells, self._thickness = cells, thickness
         self.surface = Surface(name, facets, self_contact=self_contact)
         self.points = numbers(self._key("points"), points)
         if self.points.ndim != 2 or self.points.shape[1] not in {2, 3} or not len(self.points):
@@ -89,6 +106,65 @@ class ForeignBody:
         self._place = np.argsort(self._dofs.ravel())
         self._energy, self._force, self._stiffness = energy, force, stiffness
         self.mass_entries = self._entries("mass", mass)
+
+    def as_entry(self) -> ForeignEntry:
+        """Return what a scenario has in its place."""
+        entry = ForeignEntry(
+            name=self.name,
+            thickness=self._thickness,
+            contact_sets=(CONTACT_SET,),
+            self_contact=self.surface.self_contact,
+        )
+        return entry.with_code(self)
+
+    def mesh(self) -> MeshArrays:
+        """Return its cells and facets, as a run of a scenario draws them.
+
+        Raises
+        ------
+        InputError
+            It has no cells, or they are none of carom's, inside out, or not of all its points.
+        """
+        if self._cells is None:
+            raise self._refusal(
+                "cells",
+                "are missing; in a scenario a body is drawn, so give its cells by their kind, such "
+                'as cells={"triangle": cells}',
+            )
+        blocks = [(kind, self._nodes_of(kind, cells)) for kind, cells in self._cells.items()]
+        used = np.unique(np.concatenate([nodes.ravel() for _, nodes in blocks]))
+        if not np.array_equal(used, np.arange(len(self.points))):
+            raise self._refusal(
+                "cells",
+                f"have {len(used)} of the {len(self.points)} points; give every point a cell, and "
+                "every cell its points",
+            )
+        try:
+            right = upright(self.points, blocks)
+        except Refused as refused:
+            raise self._refusal("cells", refused.what) from None
+        return MeshArrays(
+            points=self.points,
+            blocks=[(KINDS[kind].name, nodes) for kind, nodes in right.blocks],
+            facet_sets={CONTACT_SET: self.surface.facets},
+        )
+
+    def _nodes_of(self, kind: str, cells: ArrayLike) -> NDArray[np.int64]:
+        """Return the nodes of the cells of a kind."""
+        space = self.points.shape[1]
+        if kind not in KINDS or KINDS[kind].dimension != space:
+            taken = [name for name, one in KINDS.items() if one.dimension == space]
+            raise self._refusal(
+                "cells", f"{kind!r} is no kind of cell in {space}D; {known(kind, taken)}"
+            )
+        array, width = np.asarray(cells), len(KINDS[kind].mirror)
+        if array.ndim != 2 or array.shape[1] != width or array.dtype.kind not in "iu":
+            raise self._refusal(
+                "cells",
+                f"{kind!r} has shape {shown(array.shape)} and type {array.dtype}; must be integers "
+                f"of shape [cell_count, {width}]",
+            )
+        return np.ascontiguousarray(array, dtype=np.int64)
 
     @property
     def dof_count(self) -> int:

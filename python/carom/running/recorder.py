@@ -83,6 +83,8 @@ class Recorder:
         self._scenario = scenario
         self._simulation = simulation
         self._case = case
+        # What a body of another code remembers is not known.
+        self._goes_on = all(body.kind != "foreign" for body in scenario.bodies)
         written: dict[str, Any] = {} if checkpoint is None else checkpoint.record
         if checkpoint is None:
             layout.clear(directory)
@@ -152,6 +154,8 @@ class Recorder:
         OSError
             It could not be written; the last one is as it was.
         """
+        if not self._goes_on:
+            return
         self.history()
         self._queue.flush()
         names = [layout.HISTORY, layout.LEDGER, layout.FIELDS, layout.SURFACE]
@@ -253,7 +257,7 @@ class Recorder:
         # A step that failed has overwritten the start of the last good one.
         self._frame(with_step=status != "failed")
         self._queue.flush()
-        if status == "completed":
+        if status == "completed" and self._goes_on:
             self._end_state()
         if self._scenario.output.modes is not None:
             self._split_over_modes(self._scenario.output.modes)

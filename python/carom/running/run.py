@@ -129,6 +129,12 @@ def drive(
         Told of every doubt as it arises, see `carom.results.doubts`; of those that the results give
         rise to after they are written.
     """
+    is_foreign = any(body.kind == "foreign" for body in scenario.bodies)
+    if resume and is_foreign:
+        raise InputError(
+            "resume: a run with a body of another code does not go on where it stopped, as no file "
+            "holds its law; start again with force=True"
+        )
     refuse_running(directory)
     has_results = layout.has_results(directory)
     case = identity(scenario, simulation)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.case.body import RigidBody
+from carom.case.foreign_body import ForeignEntry
 from carom.case.point_mass import PointMass
 from carom.case.scenario import Scenario
 from carom.case.spring import Place, Spring
@@ -198,9 +199,11 @@ class _Finder:
 
     def __init__(self, scenario: Scenario, frames: Frames) -> None:
         self._scenario, self._frames = scenario, frames
-        self._bodies = {body.name: body for body in scenario.bodies}
+        # Springs and masses are of no body of another code.
+        entries = (body for body in scenario.bodies if not isinstance(body, ForeignEntry))
+        self._bodies = {body.name: body for body in entries}
         self._obstacles = {obstacle.name: obstacle for obstacle in scenario.obstacles}
-        self._parts: dict[str, Part] = parts(frames, list(self._bodies))
+        self._parts: dict[str, Part] = parts(frames, [body.name for body in scenario.bodies])
 
     def link(self, spring: Spring) -> Link:
         first, second = (self._attached(place) for place in spring.between)

@@ -16,10 +16,10 @@ impl<const D: usize> ContactModel<D> {
     ///
     /// Of a mortar pair they count where no facet beside them looks where they do: there multipliers have the mean of gaps that open on
     /// both sides, and what the facets carry is theirs.
-    pub(crate) fn detect_crossings<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    pub(crate) fn detect_crossings(
         &self,
         pair: usize,
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
         search: &Search<D>,
         found: &mut Vec<Found>,
         out: &mut Vec<Candidate>,
@@ -61,11 +61,11 @@ impl<const D: usize> ContactModel<D> {
 }
 
 /// The crossing of two edges, if they are what the surfaces would touch with.
-fn crossing<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+fn crossing<const D: usize>(
     source: SurfaceEdge<'_>,
     target: SurfaceEdge<'_>,
     is_mortar: bool,
-    path: &Path<'_, D, S, E>,
+    path: &Path<'_, D>,
 ) -> Option<Found> {
     let [s, t] = [source.edge, target.edge];
     let (start, middle) = (path.start, |n: u32| path.middle(n));

@@ -8,13 +8,14 @@ use super::crossing::turns_outwards;
 use super::{Edge, Side};
 use crate::ContactSurface;
 use crate::patch::{Patch, rim};
+use crate::path::Positions;
 use crate::project::normal;
 use crate::tolerances::{EDGES, SEARCH};
 
 impl ContactSurface {
     /// The same boundary with its edges, if it is one in space: convex ones, at which facets meet at an angle in the `reference`
     /// configuration [m], and all others.
-    pub(crate) fn edged<const D: usize>(mut self, reference: &impl Fn(u32) -> Vector<D>) -> Self {
+    pub(crate) fn edged<const D: usize>(mut self, reference: &Positions<'_, D>) -> Self {
         let mut open: BTreeMap<[u32; 2], ([u32; 2], Side)> = BTreeMap::new();
         for (f, facet) in (0..).zip(&self.facets).filter(|(_, facet)| facet.kind.dimension() == 2) {
             for ([a, b], middle) in lines(facet.kind) {
@@ -47,7 +48,7 @@ impl ContactSurface {
     }
 
     /// Finds the ends at which edges go on, by less of a turn than at a corner.
-    fn join_edges<const D: usize>(&mut self, reference: &impl Fn(u32) -> Vector<D>) {
+    fn join_edges<const D: usize>(&mut self, reference: &Positions<'_, D>) {
         let mut at: BTreeMap<u32, Vec<(usize, usize, Vector<D>)>> = BTreeMap::new();
         for (k, edge) in self.edges.iter().enumerate() {
             let along = (reference(edge.nodes[1]) - reference(edge.nodes[0])).normalize();
@@ -65,7 +66,7 @@ impl ContactSurface {
     }
 
     /// How wide the two facets of an edge are across it [m].
-    fn widths<const D: usize>(&self, edge: &Edge, position: &impl Fn(u32) -> Vector<D>) -> [f64; 2] {
+    fn widths<const D: usize>(&self, edge: &Edge, position: &Positions<'_, D>) -> [f64; 2] {
         let along = position(edge.nodes[1]) - position(edge.nodes[0]);
         let across = |x: Vector<D>| (x - along * (along.dot(&x) / along.norm_squared())).norm();
         edge.sides.map(|side| {
@@ -85,7 +86,7 @@ pub(crate) struct SurfaceEdge<'a> {
 
 impl SurfaceEdge<'_> {
     /// Outward unit normals of the two facets beside it, at its middle.
-    pub(crate) fn normals<const D: usize>(&self, position: &impl Fn(u32) -> Vector<D>) -> [Vector<D>; 2] {
+    pub(crate) fn normals<const D: usize>(&self, position: &Positions<'_, D>) -> [Vector<D>; 2] {
         self.edge.sides.map(|side| {
             let patch = Patch::new(&self.surface.facets[side.facet as usize], position);
             normal(&patch.at(&side.middle).tangents)

@@ -9,6 +9,7 @@ mod pierced;
 use carom_mesh::Vector;
 
 use crate::aabb::Aabb;
+use crate::path::Positions;
 use crate::tolerances::EDGES;
 
 pub(crate) use crossing::Crossing;
@@ -46,11 +47,7 @@ impl Edge {
     }
 
     /// A box around the edge, and a little of where another goes on, on its way through a step.
-    pub fn path<const D: usize>(
-        &self,
-        start: &impl Fn(u32) -> Vector<D>,
-        end: &impl Fn(u32) -> Vector<D>,
-    ) -> Aabb<D> {
+    pub fn path<const D: usize>(&self, start: &Positions<'_, D>, end: &Positions<'_, D>) -> Aabb<D> {
         let ends = |x: [Vector<D>; 2]| self.gone_on(&x, EDGES.dent);
         Aabb::of([ends(self.nodes.map(start)), ends(self.nodes.map(end))].into_iter().flatten())
     }

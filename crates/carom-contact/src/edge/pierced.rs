@@ -1,7 +1,5 @@
 //! Edges that go through others.
 
-use carom_mesh::Vector;
-
 use super::crossing::is_foremost;
 use super::{Crossing, SurfaceEdge};
 use crate::Path;
@@ -19,10 +17,10 @@ pub(crate) struct Pierced {
 impl Pierced {
     /// The edges of a source and of a target, flat ones too, if the one is behind the other at the end, and farther than at the start, where
     /// the surfaces would touch with them.
-    pub fn of<const D: usize, S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
+    pub fn of<const D: usize>(
         source: SurfaceEdge<'_>,
         target: SurfaceEdge<'_>,
-        path: &Path<'_, D, S, E>,
+        path: &Path<'_, D>,
     ) -> Option<Self> {
         let [s, t] = [source.edge, target.edge];
         let [a, b] = [s, t].map(|edge| edge.nodes.map(path.start));

@@ -7,6 +7,7 @@ use super::clip::{Polygon, intersection, orient};
 use super::plane::Plane;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
+use crate::path::Positions;
 use crate::surface::diameter;
 use crate::tolerances::MORTAR;
 use crate::{ContactModel, ContactSurface, Path, Target};
@@ -24,12 +25,7 @@ pub(super) struct Facing {
 
 impl<const D: usize> ContactModel<D> {
     /// Adds the facing facets of a pair that come within `margin` [m] of one another between `start` and `end`.
-    pub(super) fn find_facing<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
-        &self,
-        pair: usize,
-        path: &Path<'_, D, S, E>,
-        out: &mut Vec<Facing>,
-    ) {
+    pub(super) fn find_facing(&self, pair: usize, path: &Path<'_, D>, out: &mut Vec<Facing>) {
         let Target::Surface(target) = self.pairs.get(pair).target else { return };
         let (source, target) = (&self.surfaces[self.pairs.get(pair).source], &self.surfaces[target]);
         let middle = |n: u32| path.middle(n);
@@ -72,10 +68,7 @@ struct Room<const D: usize> {
 }
 
 impl<const D: usize> Room<D> {
-    fn swept<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
-        facet: &Facet,
-        path: &Path<'_, D, S, E>,
-    ) -> Self {
+    fn swept(facet: &Facet, path: &Path<'_, D>) -> Self {
         let places = || facet.nodes.iter().flat_map(|&n| path.ends(n));
         let centre = places().sum::<Vector<D>>() / (2 * facet.nodes.len()) as f64;
         let around = places().map(|x| (x - centre).norm_squared()).fold(0.0, f64::max).sqrt();
@@ -103,7 +96,7 @@ struct Near<const D: usize> {
 }
 
 impl<const D: usize> Near<D> {
-    fn new(number: u32, facet: &Facet, room: Room<D>, position: &impl Fn(u32) -> Vector<D>) -> Option<Self> {
+    fn new(number: u32, facet: &Facet, room: Room<D>, position: &Positions<'_, D>) -> Option<Self> {
         let corners: SmallVec<[Vector<D>; 4]> =
             facet.nodes[..facet.kind.corner_count()].iter().map(|&n| position(n)).collect();
         let plane = Plane::through(&corners)?;

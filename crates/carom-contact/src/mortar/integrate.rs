@@ -11,6 +11,7 @@ use super::quadrature::rule;
 use super::row::Row;
 use crate::ContactSurface;
 use crate::parts::{MAX_FACET_NODES, parts};
+use crate::path::Positions;
 use crate::project::{Reach, Weights};
 use crate::tolerances::MORTAR;
 
@@ -35,7 +36,7 @@ pub(super) fn integrate<const D: usize>(
     [of_source, of_target]: [&ContactSurface; 2],
     source_facet: u32,
     targets: impl Iterator<Item = u32> + Clone,
-    position: &impl Fn(u32) -> Vector<D>,
+    position: &Positions<'_, D>,
     row_of: &impl Fn(usize) -> Option<usize>,
     rows: &mut [Row<D>],
 ) {

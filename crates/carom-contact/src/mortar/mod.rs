@@ -33,11 +33,10 @@ mod row;
 
 use std::ops::Range;
 
-use carom_mesh::Vector;
-
 use self::facing::Facing;
 use self::integrate::integrate;
 use self::row::Row;
+use crate::path::Positions;
 use crate::{Candidate, Contact, ContactModel, Discretisation, Extents, Path, Site, Target};
 
 /// The node of a multiplier and the side of it that it is on.
@@ -60,12 +59,7 @@ impl<const D: usize> ContactModel<D> {
     /// Finds the multipliers of mortar pairs whose gap comes within the margin of the `path` and adds them to the candidates `out`.
     ///
     /// A multiplier counts where the target covers it at the predicted middle of the step or at its end.
-    pub fn detect_mortar<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
-        &self,
-        path: &Path<'_, D, S, E>,
-        mortar: &mut Mortar<D>,
-        out: &mut Vec<Candidate>,
-    ) {
+    pub fn detect_mortar(&self, path: &Path<'_, D>, mortar: &mut Mortar<D>, out: &mut Vec<Candidate>) {
         mortar.facing.clear();
         mortar.found.clear();
         let (middle, end) = (|n: u32| path.middle(n), path.end);
@@ -114,7 +108,7 @@ impl<const D: usize> ContactModel<D> {
     pub fn evaluate_all(
         &self,
         candidates: &[Candidate],
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
         mortar: &mut Mortar<D>,
         out: &mut Vec<Contact<D>>,
     ) {
@@ -126,7 +120,7 @@ impl<const D: usize> ContactModel<D> {
     pub fn evaluate_more(
         &self,
         candidates: &[Candidate],
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
         mortar: &mut Mortar<D>,
         out: &mut Vec<Contact<D>>,
     ) {
@@ -160,7 +154,7 @@ impl<const D: usize> ContactModel<D> {
         &self,
         pair: usize,
         (node, side): Multiplier,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> Contact<D> {
         let mut mortar = Mortar::default();
         let nearest = self.before_nearest(pair, node, position);
@@ -182,11 +176,7 @@ impl<const D: usize> ContactModel<D> {
     }
 
     /// Writes to `pairs` the mortar pairs, ascending, that may come within the margin of a `path`.
-    fn mortar_pairs<S: Fn(u32) -> Vector<D>, E: Fn(u32) -> Vector<D>>(
-        &self,
-        path: &Path<'_, D, S, E>,
-        pairs: &mut Vec<usize>,
-    ) {
+    fn mortar_pairs(&self, path: &Path<'_, D>, pairs: &mut Vec<usize>) {
         pairs.clear();
         if self.pairs.have_mortar() {
             let way = if self.pairs.are_many() {
@@ -204,7 +194,7 @@ impl<const D: usize> ContactModel<D> {
         &self,
         pair: usize,
         multipliers: &[Multiplier],
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
         mortar: &mut Mortar<D>,
     ) {
         let Target::Surface(target) = self.pairs.get(pair).target else { return };

@@ -4,6 +4,7 @@ use carom_mesh::Vector;
 
 use crate::Contact;
 use crate::frame::frame;
+use crate::path::Positions;
 use crate::tolerances::MORTAR;
 
 /// The integrals of a multiplier Φ over the part of the source that faces the target.
@@ -57,7 +58,7 @@ impl<const D: usize> Row<D> {
     }
 
     /// The contact that the multiplier stands for where nodes are at `position`; none if the target does not cover it.
-    pub fn contact(&self, position: &impl Fn(u32) -> Vector<D>) -> Option<Contact<D>> {
+    pub fn contact(&self, position: &Positions<'_, D>) -> Option<Contact<D>> {
         if self.area <= MORTAR.covered * self.whole {
             return None;
         }

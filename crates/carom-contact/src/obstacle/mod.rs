@@ -6,6 +6,7 @@ mod direction;
 mod faceted;
 mod polygon;
 
+use crate::path::Positions;
 use std::sync::Arc;
 
 use carom_mesh::Vector;
@@ -91,20 +92,20 @@ impl<const D: usize> Obstacle<D> {
 
     /// How far it has moved [m], the nodes being at `position`.
     #[inline]
-    pub(crate) fn shift(&self, position: &impl Fn(u32) -> Vector<D>) -> Vector<D> {
+    pub(crate) fn shift(&self, position: &Positions<'_, D>) -> Vector<D> {
         self.node.map_or_else(Vector::zeros, position)
     }
 
     /// Signed distance of `x` [m], negative inside the obstacle, and the unit normal there: the gradient of the distance.
     #[inline]
     #[must_use]
-    pub fn gap(&self, x: &Vector<D>, position: &impl Fn(u32) -> Vector<D>) -> (f64, Vector<D>) {
+    pub fn gap(&self, x: &Vector<D>, position: &Positions<'_, D>) -> (f64, Vector<D>) {
         self.shape.gap(&(x - self.shift(position)))
     }
 
     /// Whether `x` is within `margin` [m] of the obstacle or inside it.
     #[inline]
-    pub(crate) fn is_near(&self, x: &Vector<D>, margin: f64, position: &impl Fn(u32) -> Vector<D>) -> bool {
+    pub(crate) fn is_near(&self, x: &Vector<D>, margin: f64, position: &Positions<'_, D>) -> bool {
         self.gap(x, position).0 <= margin
     }
 
@@ -127,7 +128,7 @@ impl<const D: usize> Obstacle<D> {
     }
 
     /// Where nodes and the corners of this obstacle are, the nodes being at `position`.
-    pub(crate) fn placed(&self, position: &impl Fn(u32) -> Vector<D>) -> impl Fn(u32) -> Vector<D> {
+    pub(crate) fn placed(&self, position: &Positions<'_, D>) -> impl Fn(u32) -> Vector<D> {
         move |n| match self.faceted.as_ref().and_then(|f| f.corner(n)) {
             Some(corner) => corner + self.shift(position),
             None => position(n),

@@ -9,9 +9,8 @@ use crate::surface::overshoot;
 use crate::tolerances::MEASURE;
 
 impl<const D: usize> Shell<D> {
-    /// What of the curved edges is deepest inside another boundary.
-    pub fn curves_inside_of(&self, other: &Self) -> Deep<D> {
-        let mut deepest = Deep::none();
+    /// Tells `found` the deepest place of every curved edge that is inside another boundary, with its half from node to node and a facet beside it.
+    pub fn curves_inside_of(&self, other: &Self, mut found: impl FnMut(Deep<D>, [u32; 2], u32)) {
         for edge in &self.curved {
             let room = self.room_of(edge);
             let mut is_near = false;
@@ -20,14 +19,15 @@ impl<const D: usize> Shell<D> {
                 continue;
             }
             let reach = room.diameter() + other.largest_cell;
-            let (at, gap) = self.lowest(edge, &|x| other.signed_distance(x, reach).0);
-            if -gap > deepest.depth {
+            let (t, at, gap) = self.lowest(edge, &|x| other.signed_distance(x, reach).0);
+            if gap < 0.0 {
                 let nearest = other.signed_distance(&at, reach).1;
-                deepest =
-                    Deep { depth: -gap, at, facet: Some(self.around(edge[2])[0]), other: Some(nearest) };
+                let own = self.around(edge[2])[0];
+                let end = if t < 0.0 { edge[0] } else { edge[1] };
+                let half = [end.min(edge[2]), end.max(edge[2])];
+                found(Deep { depth: -gap, at, facet: Some(own), other: Some(nearest) }, half, own);
             }
         }
-        deepest
     }
 
     /// What of the curved edges is deepest inside what is this `gap` [m] away.
@@ -39,7 +39,7 @@ impl<const D: usize> Shell<D> {
             if gap(&self.at(edge[2])) > reach {
                 continue;
             }
-            let (at, gap) = self.lowest(edge, gap);
+            let (_, at, gap) = self.lowest(edge, gap);
             if -gap > deepest.depth {
                 deepest = Deep { depth: -gap, at, facet: Some(self.around(edge[2])[0]), other: None };
             }
@@ -52,8 +52,8 @@ impl<const D: usize> Shell<D> {
         Aabb::of(edge.map(|n| self.at(n))).scaled(overshoot(CellKind::Line3))
     }
 
-    /// Where on a curved edge a value is lowest, and the value: the least at a few places, and from there on by parabolas.
-    fn lowest(&self, edge: &[u32; 3], value: &impl Fn(&Vector<D>) -> f64) -> (Vector<D>, f64) {
+    /// Where on a curved edge a value is lowest, from -1 at its start to 1, the place, and the value: the least at a few places, and from there on by parabolas.
+    fn lowest(&self, edge: &[u32; 3], value: &impl Fn(&Vector<D>) -> f64) -> (f64, Vector<D>, f64) {
         let [a, b, middle] = edge.map(|n| self.at(n));
         let at = |t: f64| a * (0.5 * t * (t - 1.0)) + b * (0.5 * t * (t + 1.0)) + middle * (1.0 - t * t);
         let there = |t: f64| (t, value(&at(t)));
@@ -69,6 +69,6 @@ impl<const D: usize> Shell<D> {
             lowest = lower(lowest, there(t + step * way.clamp(-1.0, 1.0)));
             step *= 0.25;
         }
-        (at(lowest.0), lowest.1)
+        (lowest.0, at(lowest.0), lowest.1)
     }
 }

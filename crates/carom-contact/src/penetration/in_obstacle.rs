@@ -33,7 +33,7 @@ impl<const D: usize> Shell<D> {
         if !bulges {
             return deepest;
         }
-        for &(nodes, f) in &self.edges {
+        for (nodes, f) in self.straight() {
             let ends = nodes.map(|n| self.at(n));
             let length = (ends[1] - ends[0]).norm();
             if ends.iter().map(gap).sum::<f64>() < length {

@@ -20,6 +20,8 @@ use carom_mesh::{Surface, Vector};
 use crate::Obstacle;
 use crate::aabb::Aabb;
 use crate::neighbours::Neighbours;
+use crate::path::Positions;
+use crate::tolerances::MEASURE;
 use deep::Deep;
 pub use feature::Feature;
 use shell::Shell;
@@ -51,7 +53,7 @@ pub struct Penetration<const D: usize> {
     pub at: Vector<D>,
     /// The two, bodies before obstacles.
     pub between: [Solid; 2],
-    /// Diameter of the smaller facet that is there [m].
+    /// What is smaller there [m]: the diameter of a facet, or how thick the wall behind it or the obstacle is.
     pub cell: f64,
     /// How far the arcs that the facets there stand for are in front of them [m], those of both sides together; of a round obstacle how far it
     /// bulges into the facet.
@@ -103,7 +105,7 @@ impl<const D: usize> Boundaries<D> {
     pub fn new<'a>(
         bodies: impl Iterator<Item = (&'a Surface, u32)>,
         obstacles: &[Obstacle<D>],
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> Self {
         let mut shells: Vec<_> = bodies.map(|(surface, first)| Shell::new(surface, first)).collect();
         for shell in &mut shells {
@@ -148,7 +150,7 @@ impl<const D: usize> Boundaries<D> {
         &mut self,
         obstacles: &[Obstacle<D>],
         counts: impl Fn([Solid; 2]) -> bool + Sync,
-        position: &(impl Fn(u32) -> Vector<D> + Sync),
+        position: &Positions<'_, D>,
         mut found: impl FnMut(Penetration<D>),
     ) {
         each_group(&mut self.shells, SURFACES, |_, shells| {
@@ -157,17 +159,29 @@ impl<const D: usize> Boundaries<D> {
         self.near.find(self.shells.len(), 0.0, |i| self.shells[i].bounds());
         self.fit_those_that_meet(obstacles, &counts, position);
         self.look(obstacles, &counts, position);
-        let Self { shells, witnesses, inside, .. } = self;
+        let Self { shells, skins, witnesses, inside, .. } = self;
         witnesses.clear();
         for Inside { deepest, witnesses: own } in &inside[..shells.len()] {
             witnesses.extend_from_slice(own);
             for &(between, Deep { depth, at, facet, other }) in deepest {
-                let facets =
-                    between.iter().zip([facet, other]).filter_map(|(solid, facet)| match (solid, facet) {
-                        (Solid::Body(i), Some(facet)) => Some((&shells[*i], facet)),
-                        _ => None,
+                let there = between.iter().zip([facet, other]);
+                let bodies = there.filter_map(|(solid, facet)| match (solid, facet) {
+                    (Solid::Body(i), Some(facet)) => Some((*i, facet)),
+                    _ => None,
+                });
+                let diameters = bodies.clone().map(|(i, f)| shells[i].diameter(f));
+                let mut cell = diameters.fold(f64::INFINITY, f64::min);
+                if depth > MEASURE.witnessed * cell {
+                    for (i, facet) in bodies.clone() {
+                        shells[i].fit();
+                        cell = cell.min(shells[i].wall_behind(facet));
+                    }
+                    cell = between.iter().fold(cell, |cell, solid| match solid {
+                        Solid::Obstacle(o) => cell.min(skins[*o].thickness),
+                        Solid::Body(_) => cell,
                     });
-                let cell = facets.clone().map(|(shell, f)| shell.diameter(f)).fold(f64::INFINITY, f64::min);
+                }
+                let facets = bodies.map(|(i, f)| (&shells[i], f));
                 let bulge = between.iter().map(|solid| match solid {
                     Solid::Obstacle(o) => obstacles[*o].shape.bulge(cell),
                     Solid::Body(_) => 0.0,
@@ -184,7 +198,7 @@ impl<const D: usize> Boundaries<D> {
         &mut self,
         obstacles: &[Obstacle<D>],
         counts: &(impl Fn([Solid; 2]) -> bool + Sync),
-        position: &(impl Fn(u32) -> Vector<D> + Sync),
+        position: &Positions<'_, D>,
     ) {
         let Self { shells, skins, near, inside, .. } = self;
         inside.resize_with(inside.len().max(shells.len()), Inside::default);
@@ -223,7 +237,7 @@ impl<const D: usize> Boundaries<D> {
         &mut self,
         obstacles: &[Obstacle<D>],
         counts: &(impl Fn([Solid; 2]) -> bool + Sync),
-        position: &(impl Fn(u32) -> Vector<D> + Sync),
+        position: &Positions<'_, D>,
     ) {
         let Self { shells, skins, near, .. } = self;
         let is_asked = |i: usize, bounds: &Aabb<D>| {
@@ -232,7 +246,8 @@ impl<const D: usize> Boundaries<D> {
                 || near.of(i).any(|j| counts([me, Solid::Body(j)]))
                 || skins.iter().zip(obstacles).enumerate().any(|(o, (skin, obstacle))| {
                     let shift = obstacle.shift(position);
-                    let comes_near = skin.corners.iter().any(|x| bounds.contains(&(x + shift)))
+                    let mut points = skin.corners.iter().copied().chain(skin.ball.map(|(centre, _)| centre));
+                    let comes_near = points.any(|x| bounds.contains(&(x + shift)))
                         || skin.edges.iter().any(|ends| bounds.overlaps(&Aabb::of(ends.map(|x| x + shift))));
                     comes_near && counts([me, Solid::Obstacle(o)])
                 })

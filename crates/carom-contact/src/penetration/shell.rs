@@ -10,6 +10,7 @@ use super::skin::Skin;
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::patch::{Patch, bows, foot, rim};
+use crate::path::Positions;
 use crate::project::normal;
 use crate::surface::{diameter, overshoot};
 use crate::tolerances::{MEASURE, SEARCH};
@@ -20,10 +21,12 @@ pub(super) struct Shell<const D: usize> {
     pub facets: Vec<Facet>,
     /// Its nodes, ascending, and the facets around each, the smallest first.
     pub nodes: Vec<(u32, Vec<u32>)>,
-    /// Its edges from node to node, and the smaller of their facets; in the plane the facets themselves.
+    /// Its edges from node to node, and the smaller of their facets; in the plane the facets themselves. Those of second order are in two parts.
     pub edges: Vec<([u32; 2], u32)>,
     /// Those of second order, each once, by their ends and the node between.
     pub curved: Vec<[u32; 3]>,
+    /// The nodes between.
+    between: BTreeSet<u32>,
     /// Diameters of its facets [m] where it was first, and of its smallest and its largest one.
     cells: Vec<f64>,
     pub least_cell: f64,
@@ -68,6 +71,7 @@ impl<const D: usize> Shell<D> {
             x: vec![Vector::zeros(); nodes.keys().next_back().map_or(0, |last| (last - first) as usize + 1)],
             nodes: nodes.into_iter().collect(),
             edges: edges.into_iter().map(|(nodes, (f, _))| (nodes, f)).collect(),
+            between: curved.iter().map(|[_, _, middle]| *middle).collect(),
             curved: curved.into_iter().collect(),
             is_fitted: false,
             facets,
@@ -83,7 +87,7 @@ impl<const D: usize> Shell<D> {
     }
 
     /// Takes note of where its nodes are.
-    pub fn place(&mut self, position: &impl Fn(u32) -> Vector<D>) {
+    pub fn place(&mut self, position: &Positions<'_, D>) {
         self.is_fitted = false;
         for (node, _) in &self.nodes {
             self.x[(*node - self.first) as usize] = position(*node);
@@ -163,6 +167,12 @@ impl<const D: usize> Shell<D> {
         self.diameter(facet) * turns.fold(1.0, f64::min).acos() / 8.0
     }
 
+    /// The edges that are straight, each with the smaller of its facets.
+    pub fn straight(&self) -> impl Iterator<Item = ([u32; 2], u32)> {
+        let is_straight = |nodes: &[u32; 2]| nodes.iter().all(|n| !self.between.contains(n));
+        self.edges.iter().copied().filter(move |(nodes, _)| is_straight(nodes))
+    }
+
     /// The facets around a node.
     pub fn around(&self, node: u32) -> &[u32] {
         self.nodes.binary_search_by_key(&node, |(n, _)| *n).map_or(&[], |k| &self.nodes[k].1)
@@ -171,6 +181,20 @@ impl<const D: usize> Shell<D> {
     /// The normal in the middle of a facet.
     pub fn normal(&self, f: u32) -> Vector<D> {
         normal(&Patch::new(&self.facets[f as usize], &|n| self.at(n)).middle().tangents)
+    }
+
+    /// How thick the wall behind the middle of a facet is [m]; infinite where nothing is behind it.
+    pub fn wall_behind(&self, f: u32) -> f64 {
+        let middle = Patch::new(&self.facets[f as usize], &|n| self.at(n)).middle();
+        let reach = 2.0 * self.bounds.diameter();
+        let ends = [middle.point, middle.point - normal(&middle.tangents) * reach];
+        let mut thickness = f64::INFINITY;
+        self.tree.overlapping(&Aabb::of(ends), |g, _| {
+            if g != f {
+                self.crossings(g, &ends, &mut |share, _| thickness = thickness.min(share * reach));
+            }
+        });
+        thickness
     }
 
     /// How deep `x` is inside, or zero, and the facet that it is closest to; zero too where nothing is within `reach` [m].
@@ -235,11 +259,12 @@ impl<const D: usize> Shell<D> {
                 note(other.deep(&x, reach, around.first().copied()), Feature::Node(*node), around[0]);
             }
         }
-        for &(nodes, f) in &self.edges {
+        for (nodes, f) in self.straight() {
             let ends = nodes.map(|n| self.at(n));
             note(other.deepest_of_segment(&ends, Some(f)), Feature::Edge(nodes), f);
         }
-        deepest.deeper(self.curves_inside_of(other))
+        self.curves_inside_of(other, |deep, nodes, f| note(deep, Feature::Edge(nodes), f));
+        deepest
     }
 
     /// What of the corners and edges of an obstacle that has moved by `shift` [m] is deepest inside.
@@ -249,6 +274,15 @@ impl<const D: usize> Shell<D> {
             let x = x + shift;
             if self.bounds.contains(&x) {
                 deepest = deepest.deeper(self.deep(&x, reach, None));
+            }
+        }
+        // A ball may be inside without a node of the body in it. Where its middle is not, the boundary is seen to go into it.
+        if let Some((centre, radius)) = skin.ball {
+            let centre = centre + shift;
+            let deep =
+                if self.bounds.contains(&centre) { self.deep(&centre, reach, None) } else { Deep::none() };
+            if deep.depth > 0.0 {
+                deepest = deepest.deeper(Deep { depth: deep.depth + radius, ..deep });
             }
         }
         for ends in &skin.edges {

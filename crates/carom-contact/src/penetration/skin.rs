@@ -11,6 +11,8 @@ use crate::obstacle::box_corners;
 pub(super) struct Skin<const D: usize> {
     pub corners: Vec<Vector<D>>,
     pub edges: Vec<[Vector<D>; 2]>,
+    /// The middle of what is round on all sides, and its radius [m].
+    pub ball: Option<(Vector<D>, f64)>,
     /// How thin it is [m]: its shortest side, or that of the box around it; none if it has no end.
     pub thickness: f64,
 }
@@ -22,10 +24,12 @@ impl<const D: usize> Skin<D> {
             RigidShape::Surface(surface) => {
                 let corners = surface.vertices().to_vec();
                 let thickness = Aabb::of(corners.iter().copied()).shortest_side();
-                Self { corners, edges: surface.edges().collect(), thickness }
+                Self { corners, edges: surface.edges().collect(), ball: None, thickness }
             }
-            RigidShape::Sphere { radius, cavity: false, .. }
-            | RigidShape::Cylinder { radius, cavity: false, .. } => Self::round(2.0 * radius),
+            RigidShape::Sphere { centre, radius, cavity: false } => {
+                Self { ball: Some((*centre, *radius)), ..Self::round(2.0 * radius) }
+            }
+            RigidShape::Cylinder { radius, cavity: false, .. } => Self::round(2.0 * radius),
             // Nobody comes out on the other side of these.
             RigidShape::Plane { .. } | RigidShape::Sphere { .. } | RigidShape::Cylinder { .. } => {
                 Self::round(f64::INFINITY)
@@ -34,13 +38,13 @@ impl<const D: usize> Skin<D> {
     }
 
     fn round(thickness: f64) -> Self {
-        Self { corners: Vec::new(), edges: Vec::new(), thickness }
+        Self { corners: Vec::new(), edges: Vec::new(), ball: None, thickness }
     }
 
     fn of_box(corner: &Vector<D>, size: &Vector<D>) -> Self {
         let corners = box_corners(corner, size);
         let along = |i: usize| (0..1 << D).filter(move |k| k >> i & 1 == 0).map(move |k| [k, k | 1 << i]);
         let edges = (0..D).flat_map(along).map(|ends| ends.map(|k: usize| corners[k])).collect();
-        Self { corners, edges, thickness: size.min() }
+        Self { corners, edges, ball: None, thickness: size.min() }
     }
 }

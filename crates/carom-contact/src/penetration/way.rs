@@ -5,6 +5,7 @@ use carom_mesh::Vector;
 use super::shell::Shell;
 use super::{Boundaries, Solid};
 use crate::Obstacle;
+use crate::path::Positions;
 
 /// What moves from its start to its end. Nothing of it hangs on the axes.
 struct Mover<const D: usize> {
@@ -63,8 +64,8 @@ impl<const D: usize> Boundaries<D> {
         farthest: f64,
         obstacles: &[Obstacle<D>],
         counts: impl Fn([Solid; 2]) -> bool,
-        start: &impl Fn(u32) -> Vector<D>,
-        end: &impl Fn(u32) -> Vector<D>,
+        start: &Positions<'_, D>,
+        end: &Positions<'_, D>,
     ) -> usize {
         let shells = self.shells.iter().map(|shell| shell.least_cell);
         let thinnest =
@@ -102,7 +103,7 @@ fn parts_of(motion: f64, thickness: f64) -> usize {
 }
 
 impl<const D: usize> Shell<D> {
-    fn mover(&self, start: &impl Fn(u32) -> Vector<D>, end: &impl Fn(u32) -> Vector<D>) -> Mover<D> {
+    fn mover(&self, start: &Positions<'_, D>, end: &Positions<'_, D>) -> Mover<D> {
         let places = self.nodes.iter().map(|(n, _)| [start(*n), end(*n)]).collect();
         Mover::new(places, self.least_cell)
     }

@@ -1,5 +1,6 @@
 //! Linear combinations of nodes.
 
+use crate::path::Positions;
 use carom_mesh::Vector;
 
 /// Weights of nodes, ascending by node: a point of the body where they sum to 1, a difference of points where they sum to 0.
@@ -40,7 +41,7 @@ impl Combination {
     }
 
     /// What it is where nodes are at `position` [m].
-    pub fn at<const D: usize>(&self, position: &impl Fn(u32) -> Vector<D>) -> Vector<D> {
+    pub fn at<const D: usize>(&self, position: &Positions<'_, D>) -> Vector<D> {
         self.0.iter().fold(Vector::zeros(), |sum, &(node, weight)| sum + position(node) * weight)
     }
 }

@@ -33,6 +33,7 @@ use self::tangents::Tangents;
 use self::tile::{Controls, Tile};
 use crate::closest::{Local, Parametric};
 use crate::patch::foot;
+use crate::path::Positions;
 use crate::project::{Projection, Reach, Weights, normal};
 use crate::tolerances::SEARCH;
 
@@ -46,7 +47,7 @@ pub struct Sheet {
 
 impl Sheet {
     /// The smooth surface through the nodes of `facets`, which are triangles and quadrilaterals. `reference` are the positions [m] without deformation.
-    pub fn through<const D: usize>(facets: &[Facet], reference: &impl Fn(u32) -> Vector<D>) -> Self {
+    pub fn through<const D: usize>(facets: &[Facet], reference: &Positions<'_, D>) -> Self {
         let network = Network::new(facets, reference);
         let tangents = Tangents::new(&network, reference);
         let is_flat = |t: u32| {
@@ -108,7 +109,7 @@ impl Sheet {
     pub fn control_points<const D: usize>(
         &self,
         facet: u32,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> impl Iterator<Item = Vector<D>> {
         let tiles = self.of_facet[facet as usize].clone();
         tiles.flat_map(move |t| {
@@ -126,7 +127,7 @@ impl Sheet {
         facet: u32,
         x: &Vector<D>,
         reach: Reach,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> Projection<'_, D> {
         let own = self.of_facet[facet as usize].clone();
         let mut t = self.nearest(own.clone(), x, position);
@@ -158,12 +159,7 @@ impl Sheet {
     }
 
     /// The tile whose corners are nearest to `x`.
-    fn nearest<const D: usize>(
-        &self,
-        tiles: Range<u32>,
-        x: &Vector<D>,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> u32 {
+    fn nearest<const D: usize>(&self, tiles: Range<u32>, x: &Vector<D>, position: &Positions<'_, D>) -> u32 {
         let first = tiles.start;
         if tiles.len() == 1 {
             return first;

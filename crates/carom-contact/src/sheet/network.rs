@@ -6,6 +6,7 @@ use carom_mesh::{Facet, Vector};
 use smallvec::SmallVec;
 
 use crate::parts::parts;
+use crate::path::Positions;
 use crate::project::area_normal;
 use crate::tolerances::{EDGES, SEARCH};
 
@@ -74,7 +75,7 @@ pub(crate) enum Passage {
 
 impl Network {
     /// The tiles of `facets`, which are triangles and quadrilaterals.
-    pub fn new<const D: usize>(facets: &[Facet], reference: &impl Fn(u32) -> Vector<D>) -> Self {
+    pub fn new<const D: usize>(facets: &[Facet], reference: &Positions<'_, D>) -> Self {
         let tiles: Vec<Cut> = (0..).zip(facets).flat_map(|(f, facet)| cut(f, facet)).collect();
         let neighbours = neighbours(&tiles, reference);
         let sharp = sharp_edges(&tiles, &neighbours, reference);
@@ -115,7 +116,7 @@ impl Network {
         [after, before]
     }
 
-    fn find_sectors<const D: usize>(&mut self, reference: &impl Fn(u32) -> Vector<D>) {
+    fn find_sectors<const D: usize>(&mut self, reference: &Positions<'_, D>) {
         const NONE: u32 = u32::MAX;
         let unknown = |tile: &Cut| tile.nodes.iter().map(|_| NONE).collect();
         self.sector_of = self.tiles.iter().map(unknown).collect();
@@ -151,7 +152,7 @@ impl Network {
     }
 
     /// Whether a sector is flat, and the sharp edges that bound it are straight, to 1°.
-    fn is_flat<const D: usize>(&self, sector: &Sector, reference: &impl Fn(u32) -> Vector<D>) -> bool {
+    fn is_flat<const D: usize>(&self, sector: &Sector, reference: &Positions<'_, D>) -> bool {
         let normal =
             |&(t, k): &CornerOf| corner_normal(&self.tiles[t as usize], k as usize, reference).normalize();
         let first = normal(&sector.corners[0]);
@@ -171,11 +172,7 @@ impl Network {
     }
 
     /// The mean outward normal of a sector.
-    pub fn normal<const D: usize>(
-        &self,
-        sector: &Sector,
-        reference: &impl Fn(u32) -> Vector<D>,
-    ) -> Vector<D> {
+    pub fn normal<const D: usize>(&self, sector: &Sector, reference: &Positions<'_, D>) -> Vector<D> {
         let normal =
             |&(t, k): &CornerOf| corner_normal(&self.tiles[t as usize], k as usize, reference).normalize();
         sector.corners.iter().map(normal).sum::<Vector<D>>().normalize()
@@ -219,11 +216,7 @@ fn cut(number: u32, facet: &Facet) -> impl Iterator<Item = Cut> {
 }
 
 /// Twice the area of the triangle at a corner as a vector, outwards.
-fn corner_normal<const D: usize>(
-    tile: &Cut,
-    corner: usize,
-    reference: &impl Fn(u32) -> Vector<D>,
-) -> Vector<D> {
+fn corner_normal<const D: usize>(tile: &Cut, corner: usize, reference: &Positions<'_, D>) -> Vector<D> {
     let count = tile.nodes.len();
     let x = |k: usize| reference(tile.nodes[k % count]);
     area_normal(&[x(corner + 1) - x(corner), x(corner + count - 1) - x(corner)])
@@ -231,7 +224,7 @@ fn corner_normal<const D: usize>(
 
 fn neighbours<const D: usize>(
     tiles: &[Cut],
-    reference: &impl Fn(u32) -> Vector<D>,
+    reference: &Positions<'_, D>,
 ) -> Vec<SmallVec<[Option<CornerOf>; 4]>> {
     let mut sides: BTreeMap<[u32; 2], SmallVec<[(CornerOf, u32); 2]>> = BTreeMap::new();
     for (t, tile) in (0..).zip(tiles) {
@@ -265,7 +258,7 @@ fn neighbours<const D: usize>(
 fn sharp_edges<const D: usize>(
     tiles: &[Cut],
     neighbours: &[SmallVec<[Option<CornerOf>; 4]>],
-    reference: &impl Fn(u32) -> Vector<D>,
+    reference: &Positions<'_, D>,
 ) -> BTreeMap<u32, SmallVec<[Sharp; 4]>> {
     let mut ends: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for (tile, neighbours) in tiles.iter().zip(neighbours) {

@@ -7,6 +7,7 @@ use carom_mesh::Vector;
 use super::combination::Combination;
 use super::fit::Slope;
 use super::network::{CornerOf, Half, Network, Passage, Sector};
+use crate::path::Positions;
 use crate::project::area_normal;
 
 /// The least sine of the angle between two sharp edges at a corner for them to span its tangent plane.
@@ -58,7 +59,7 @@ impl<const D: usize> TangentPlane<D> {
         normal: &Vector<D>,
         edge: Option<(Vector<D>, &Combination)>,
         around: &[u32],
-        reference: &impl Fn(u32) -> Vector<D>,
+        reference: &Positions<'_, D>,
     ) -> Option<(Self, bool)> {
         let first = match edge {
             Some((along, _)) => along.normalize(),
@@ -97,18 +98,18 @@ impl<const D: usize> TangentPlane<D> {
 }
 
 /// The tangents of a network of tiles.
-pub(super) struct Tangents<'a, const D: usize, R> {
+pub(super) struct Tangents<'a, const D: usize> {
     network: &'a Network,
-    reference: &'a R,
+    reference: &'a Positions<'a, D>,
     /// Those of the sectors that are not flat.
     planes: Vec<Option<TangentPlane<D>>>,
     /// The slopes at their first node of sharp edges, from there to the second, over the whole edge.
     edges: BTreeMap<[u32; 2], Combination>,
 }
 
-impl<'a, const D: usize, R: Fn(u32) -> Vector<D>> Tangents<'a, D, R> {
+impl<'a, const D: usize> Tangents<'a, D> {
     /// Those of a network.
-    pub fn new(network: &'a Network, reference: &'a R) -> Self {
+    pub fn new(network: &'a Network, reference: &'a Positions<'a, D>) -> Self {
         let mut tangents = Self { network, reference, planes: Vec::new(), edges: BTreeMap::new() };
         let closed = |sector: &Sector| sector.is_closed && !sector.is_flat;
         tangents.planes =

@@ -9,6 +9,7 @@ use super::network::{CornerOf, Network};
 use super::tangents::{IN_PLANE, TangentPlane, Tangents};
 use crate::closest::{Local, Parametric};
 use crate::domain::Domain;
+use crate::path::Positions;
 use crate::project::Weights;
 
 /// A tile.
@@ -27,11 +28,7 @@ pub(super) struct Tile {
 
 impl Tile {
     /// A tile of a network; its neighbours are still those of the network.
-    pub fn new<const D: usize, R: Fn(u32) -> Vector<D>>(
-        network: &Network,
-        number: u32,
-        tangents: &Tangents<'_, D, R>,
-    ) -> Self {
+    pub fn new<const D: usize>(network: &Network, number: u32, tangents: &Tangents<'_, D>) -> Self {
         let cut = &network.tiles[number as usize];
         let count = cut.nodes.len() as u32;
         let domain = if count == 3 { Domain::Triangle } else { Domain::Square };
@@ -71,11 +68,7 @@ impl Tile {
     }
 
     /// The control points, seen from `x` [m].
-    pub fn seen_from<const D: usize>(
-        &self,
-        x: &Vector<D>,
-        position: &impl Fn(u32) -> Vector<D>,
-    ) -> Controls<'_, D> {
+    pub fn seen_from<const D: usize>(&self, x: &Vector<D>, position: &Positions<'_, D>) -> Controls<'_, D> {
         let mut at = [Vector::zeros(); MAX_CONTROLS];
         let offsets: SmallVec<[Vector<D>; 32]> = self.nodes.iter().map(|&n| position(n) - x).collect();
         for (at, row) in at.iter_mut().zip(self.weights.chunks_exact(self.nodes.len())) {
@@ -154,10 +147,10 @@ impl<const D: usize> Parametric<D> for Controls<'_, D> {
 /// The slope is α d + β c′ with the slope c′ along the `curve`, and a direction d across it that both tiles there share; so their tangent planes are
 /// the same all along, however nodes move. At the ends d is c′ turned in the tangent plane by 90°, and α and β, which come from the reference
 /// configuration, make of both the slopes of the next sides. Between, all three are linear.
-fn across<const D: usize, R: Fn(u32) -> Vector<D>>(
+fn across<const D: usize>(
     ends: &[End<'_, D>; 2],
     curve: &[Combination; 4],
-    tangents: &Tangents<'_, D, R>,
+    tangents: &Tangents<'_, D>,
 ) -> [Combination; 2] {
     let third = 1.0 / 3.0;
     let [Some((d0, alpha0, beta0)), Some((d1, alpha1, beta1))] =
@@ -193,10 +186,7 @@ struct End<'a, const D: usize> {
 
 impl<const D: usize> End<'_, D> {
     /// The slope along the side turned by 90°, and how much of it and of that along the side makes the slope of the next side.
-    fn shares<R: Fn(u32) -> Vector<D>>(
-        &self,
-        tangents: &Tangents<'_, D, R>,
-    ) -> Option<(Combination, f64, f64)> {
+    fn shares(&self, tangents: &Tangents<'_, D>) -> Option<(Combination, f64, f64)> {
         let plane = self.plane?;
         let [along, off] = [self.along, &self.off].map(|slope| tangents.coordinates(plane, slope));
         let turned = [-along[1], along[0]];

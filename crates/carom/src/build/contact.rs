@@ -1,22 +1,23 @@
 use std::collections::BTreeMap;
 
 use carom_contact::{
-    ContactModel, ContactSurface, Directions, Discretisation, PairRule, PairRules, Pairs, Side, Solid,
+    ContactModel, ContactSurface, Directions, Discretisation, PairRule, PairRules, Pairs, Positions, Side,
+    Solid,
 };
 use carom_fem::Hypothesis;
-use carom_mesh::Vector;
 
 use super::cohesion;
 use super::friction_law::at_rest;
 use super::mortar::{discretisation, has_mortar};
 use super::obstacle::{Surfaces, obstacle};
+use super::roundness::Roundness;
 use super::side::{NamedSide, facet_width};
 use super::spare_mass::may_touch;
-use super::values::{place, vector};
+use super::values::place;
 use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::assembly::MANY_PAIRS;
-use crate::scenario::{BodyEntry, BodyKind, ContactSpec, MeshSpec, PairEntry, Scenario, Sources, Targets};
+use crate::scenario::{BodyEntry, BodyKind, ContactSpec, PairEntry, Scenario, Sources, Targets};
 
 /// Every pair of a body with another body or an obstacle, less the exceptions of the scenario.
 pub(super) fn contact<const D: usize>(
@@ -40,9 +41,8 @@ pub(super) fn contact<const D: usize>(
         if has_mortar(&scenario.contact) {
             surface = surface.sided(&reference);
         }
-        if entry.round {
-            let (centre, radius) = roundness(&format!("bodies.{i}"), entry)?;
-            surface = surface.round(&centre, radius, &reference);
+        if let Some(round) = Roundness::<D>::of(&format!("bodies.{i}"), entry)? {
+            surface = surface.round(&round.centre, round.radius, &reference);
         }
         let touches_itself = touches_itself(entry);
         model.surfaces.push(if touches_itself { surface.touching_itself(&reference) } else { surface });
@@ -162,35 +162,20 @@ fn rule(
     Ok(PairRule { friction, discretisation, directions })
 }
 
-/// The centre and the radius [m] of a body that is round.
-fn roundness<const D: usize>(key: &str, entry: &BodyEntry) -> Result<(Vector<D>, f64), InputError> {
-    let key = format!("{key}.round");
-    let (centre, radius): (&[f64], f64) = match &entry.mesh {
-        MeshSpec::Disc { centre, radius, .. } => (centre, *radius),
-        MeshSpec::Ball { centre, radius, .. } => (centre, *radius),
-        _ => {
-            let message =
-                format!("body {:?} is round with a disc or a ball as its mesh; leave it out", entry.name);
-            return Err(InputError::new(key, message));
-        }
-    };
-    if entry.kind != BodyKind::Rigid {
-        let message = format!("body {:?} deforms and is what its mesh makes it; leave it out", entry.name);
-        return Err(InputError::new(key, message));
-    }
-    Ok((vector(&key, centre)?, radius))
-}
-
 /// Whether a body may touch itself. What is rigid or deforms little cannot.
 fn touches_itself(entry: &BodyEntry) -> bool {
-    entry.self_contact != Some(false) && entry.kind == BodyKind::Deformable
+    match entry.kind {
+        BodyKind::Deformable => entry.self_contact != Some(false),
+        BodyKind::Foreign => entry.self_contact == Some(true),
+        BodyKind::Rigid | BodyKind::Reduced => false,
+    }
 }
 
 /// Refuses a surface that has no two sides everywhere.
 pub(crate) fn check_manifold<const D: usize>(
     key: &str,
     surface: &ContactSurface,
-    position: &impl Fn(u32) -> Vector<D>,
+    position: &Positions<'_, D>,
 ) -> Result<(), InputError> {
     let edges = surface.non_manifold_edges();
     let Some(ends) = edges.first() else { return Ok(()) };

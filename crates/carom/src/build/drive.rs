@@ -2,6 +2,7 @@
 
 use carom_mesh::{Facet, Surface};
 
+use super::foreign::refuse_foreign;
 use super::guide::{Course, guided, resultant};
 use super::signals::{signal, signals, starting_from_none};
 use super::support_name::support_name;
@@ -25,6 +26,7 @@ pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Res
             continue;
         }
         refuse_reduced(&format!("{key}.body"), body)?;
+        refuse_foreign(&format!("{key}.body"), body)?;
         if matches!(entry.motion, MotionSpec::Guided { .. }) {
             let message =
                 format!("body {:?} deforms and is guided by none; choose \"prescribed\"", entry.body);
@@ -56,6 +58,7 @@ pub(super) fn drive<const D: usize>(scenario: &Scenario, model: Model<D>) -> Res
         let key = format!("loads.{k}");
         let (index, body) = find_body(&model, &key, &entry.body)?;
         refuse_reduced(&format!("{key}.body"), body)?;
+        refuse_foreign(&format!("{key}.body"), body)?;
         let load = match &entry.load {
             LoadSpec::Resultant { force, moment, point } => {
                 let resultant = resultant(

@@ -13,6 +13,10 @@ pub(super) fn mesh<const D: usize>(
         let remedy = "pass the mesh of every body that comes from a file along with the scenario";
         return given.ok_or_else(|| InputError::mesh(format!("{key}.file"), format!("{file:?}: {remedy}")));
     }
+    if matches!(spec, MeshSpec::Given) {
+        let message = "the mesh of a body of another code comes along with it; give its cells";
+        return given.ok_or_else(|| InputError::mesh(key, message));
+    }
     let shape = spec.name();
     let wrong = || {
         let message = format!("a {shape} is no body in {D}D; choose another shape or set `dimension`");

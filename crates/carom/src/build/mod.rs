@@ -4,9 +4,11 @@ mod body;
 pub(crate) mod cohesion;
 pub(crate) mod contact;
 pub(crate) mod drive;
+pub(crate) mod foreign;
 pub(crate) mod friction_law;
 mod growth;
 mod guide;
+mod inputs;
 mod interference;
 mod masses;
 mod mesh;
@@ -20,6 +22,7 @@ mod reduced;
 mod regions;
 mod restitution;
 mod rigid;
+mod roundness;
 pub(crate) mod side;
 mod signals;
 mod spare_mass;
@@ -28,11 +31,10 @@ mod support_name;
 pub(crate) mod values;
 mod velocity;
 
-use std::collections::BTreeMap;
-
-use carom_mesh::{Mesh, Vector};
+use carom_mesh::Vector;
 
 use self::friction_law::friction_laws;
+pub use self::inputs::{Inputs, Laws, Meshes};
 pub use self::obstacle::Surfaces;
 use self::values::vector;
 pub(crate) use self::velocity::RigidMotion;
@@ -43,9 +45,6 @@ use crate::model::method::Method;
 use crate::scenario::{BodyKind, Scenario};
 use crate::{ContactCondition, Scheme, State};
 
-/// Meshes that a scenario takes from files, by the names of their bodies.
-pub type Meshes<const D: usize> = BTreeMap<String, Mesh<D>>;
-
 /// Builds what a scenario in D dimensions describes; `meshes` are those that it takes from files.
 ///
 /// # Errors
@@ -54,7 +53,7 @@ pub fn build<const D: usize>(
     scenario: &Scenario,
     meshes: Meshes<D>,
 ) -> Result<(Model<D>, Method<D>, State<D>), InputError> {
-    let Built { model, method, motions } = built(scenario, meshes, Surfaces::new())?;
+    let Built { model, method, motions } = built(scenario, meshes.into())?;
     let state = start(&model, &method, &motions, scenario.analysis.start_time)?;
     Ok((model, method, state))
 }
@@ -73,7 +72,7 @@ pub(crate) fn start<const D: usize>(
     let mut state = match method.scheme {
         Scheme::Static => model.state_at_rest(),
         _ => model.initial_state(
-            moving.flat_map(|(b, motion)| motion.velocities(&b.body, b.body.mesh().nodes())).collect(),
+            moving.flat_map(|(b, motion)| motion.velocities(b, b.body.mesh().nodes())).collect(),
         ),
     };
     state.time = time;
@@ -97,11 +96,8 @@ pub(crate) struct Built<const D: usize> {
 ///
 /// # Errors
 /// See [`build`].
-pub(crate) fn built<const D: usize>(
-    scenario: &Scenario,
-    mut meshes: Meshes<D>,
-    surfaces: Surfaces<D>,
-) -> Result<Built<D>, InputError> {
+pub(crate) fn built<const D: usize>(scenario: &Scenario, inputs: Inputs<D>) -> Result<Built<D>, InputError> {
+    let Inputs { mut meshes, surfaces, mut laws } = inputs;
     if scenario.dimension != D {
         return Err(InputError::new(
             "dimension",
@@ -115,11 +111,15 @@ pub(crate) fn built<const D: usize>(
         let first_node = bodies.last().map_or(0, |b| b.nodes().end);
         let given = meshes.remove(&entry.name);
         bodies.push(if entry.kind == BodyKind::Rigid {
-            let (body, inertia) = rigid::rigid_body(scenario, i, entry, given)?;
-            ModelBody::new(&entry.name, body, first_node).rigid(inertia)
+            let (body, spec) = rigid::rigid_body(scenario, i, entry, given)?;
+            ModelBody::new(&entry.name, body, first_node).rigid(&spec)
         } else if entry.kind == BodyKind::Reduced {
             let (body, part) = reduced::reduced_body(scenario, i, entry, given)?;
             ModelBody::new(&entry.name, body, first_node).reduced(part)
+        } else if entry.kind == BodyKind::Foreign {
+            let given = (given, laws.remove(&entry.name));
+            let (body, law) = foreign::foreign_body(scenario, i, entry, given)?;
+            ModelBody::new(&entry.name, body, first_node).foreign(law)
         } else {
             let body = body::body(scenario, i, entry, given)?;
             let growth = growth::growth(scenario, i, entry)?;

@@ -7,21 +7,22 @@ use carom_mesh::{Matrix, Mesh};
 use super::body::contact_surface;
 use super::masses::masses;
 use super::mesh::mesh;
+use super::roundness::Roundness;
 use super::values::number;
+use crate::body::rigid::shape::RigidSpec;
 use crate::error::InputError;
 use crate::scenario::{BodyEntry, BodyMass, Inertia, Scenario};
 
 /// Inertia may be short of what moments of real masses obey by so much of itself: that of a rod about its axis is none.
 const ROUND_OFF: f64 = 1e-12;
 
-/// Rigid body number `index`, whose cells make its mass, and its inertia about the centre where that is given; `given` is its mesh if that
-/// comes from a file.
+/// Rigid body number `index`, whose cells make its mass, and what of that is not theirs; `given` is its mesh if that comes from a file.
 pub(super) fn rigid_body<const D: usize>(
     scenario: &Scenario,
     index: usize,
     entry: &BodyEntry,
     given: Option<Mesh<D>>,
-) -> Result<(Body<D>, Option<Matrix<3>>), InputError> {
+) -> Result<(Body<D>, RigidSpec<D>), InputError> {
     let key = format!("bodies.{index}");
     if !entry.regions.is_empty() {
         let message = format!("body {:?} is rigid and of no material; leave its regions out", entry.name);
@@ -34,6 +35,7 @@ pub(super) fn rigid_body<const D: usize>(
     }
     let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
     let points = masses(scenario, entry, &mesh)?;
+    let round = Roundness::<D>::of(&key, entry)?;
     let made = |density: f64| {
         let spec = BodySpec {
             law: LawSpec::Unstressed,
@@ -63,7 +65,13 @@ pub(super) fn rigid_body<const D: usize>(
             let message = "a rigid body has a density or a mass, not both; leave one out";
             return Err(InputError::new(format!("{key}.mass"), message));
         }
-        (Some(density), None) => made(density)?,
+        (Some(density), None) => {
+            let body = made(density)?;
+            match &round {
+                Some(round) => made(density * (round.volume / body.volume()))?,
+                None => body,
+            }
+        }
         (None, Some(BodyMass::Given(mass))) => {
             number(&format!("{key}.mass"), mass, mass > 0.0, "the mass must be greater than 0 kg")?;
             made(mass / made(1.0)?.volume())?
@@ -73,11 +81,12 @@ pub(super) fn rigid_body<const D: usize>(
             return Err(InputError::new(format!("{key}.density"), message));
         }
     };
-    let inertia = match entry.inertia {
-        Some(given) => Some(inertia::<D>(&format!("{key}.inertia"), given)?),
-        None => None,
+    let inertia = match (entry.inertia, &round) {
+        (Some(given), _) => Some(inertia::<D>(&format!("{key}.inertia"), given)?),
+        (None, Some(round)) => Some(round.inertia(body.total_mass())),
+        (None, None) => None,
     };
-    Ok((body, inertia))
+    Ok((body, RigidSpec { centre: round.map(|round| round.centre_of_mass), inertia }))
 }
 
 /// The inertia tensor that is given.

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use carom_mesh::Vector;
 
+use super::foreign::refuse_foreign;
 use super::places;
 use super::values::vector;
 use crate::body::fe::part::ModelBody;
@@ -152,6 +153,7 @@ fn of_point<const D: usize>(
 
 /// Refuses nodes that cannot take the force of a spring.
 fn takes_forces<const D: usize>(key: &str, body: &ModelBody<D>, nodes: &[u32]) -> Result<(), InputError> {
+    refuse_foreign(key, body)?;
     let name = &body.name;
     let touches = body.body.surface().nodes();
     if let Some(node) = nodes.iter().find(|node| body.is_reduced() && touches.binary_search(node).is_err()) {

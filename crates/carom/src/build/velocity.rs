@@ -1,7 +1,7 @@
-use carom_fem::Body;
 use carom_mesh::{Vector, tensor};
 
 use super::values::{number, vector};
+use crate::body::fe::part::ModelBody;
 use crate::error::InputError;
 use crate::model::Model;
 use crate::scenario::{Scenario, Spin};
@@ -16,10 +16,14 @@ pub(crate) struct RigidMotion<const D: usize> {
 }
 
 impl<const D: usize> RigidMotion<D> {
-    /// The velocities [m/s] of the nodes of a `body` at these `positions` [m].
-    pub fn velocities(&self, body: &Body<D>, positions: &[Vector<D>]) -> impl Iterator<Item = Vector<D>> {
+    /// The velocities [m/s] of the nodes of a `body` at these `positions` [m]; of one of another code those that it came with.
+    pub fn velocities(&self, body: &ModelBody<D>, positions: &[Vector<D>]) -> Vec<Vector<D>> {
+        if let Some(law) = &body.foreign {
+            return law.velocity.clone();
+        }
         let centre = body.mean(positions);
-        positions.iter().map(move |x| self.drift + tensor::rotation_velocity(&self.spin, &(x - centre)))
+        let velocity = |x: &Vector<D>| self.drift + tensor::rotation_velocity(&self.spin, &(x - centre));
+        positions.iter().map(velocity).collect()
     }
 }
 

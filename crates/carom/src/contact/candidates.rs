@@ -1,6 +1,8 @@
 //! Which contacts there may be in a step.
 
-use carom_contact::{Candidate, Contact, Mortar, Pair, Pairs, Path, Search, Site, Solid, Target, Witness};
+use carom_contact::{
+    Candidate, Contact, Mortar, Pair, Pairs, Path, Positions, Search, Site, Solid, Target, Witness,
+};
 use carom_mesh::Vector;
 
 use super::active::ActiveSet;
@@ -184,7 +186,7 @@ impl<const D: usize> Finder<D> {
         given: &Given<'_, D>,
         body: usize,
         reach: f64,
-        position: &(impl Fn(u32) -> Vector<D> + Sync),
+        position: &Positions<'_, D>,
     ) -> bool {
         let Self { search, missed, .. } = self;
         given.assembly.contact.detect_itself(body, &Path::resting(position, reach), search, missed);

@@ -3,7 +3,7 @@
 //! The reactions of the reduced problem are in the cone; what acts on bodies is less by the adhesion. So the problem is that of Signorini and Coulomb
 //! whatever holds, and no solver knows of it.
 
-use carom_contact::Contact;
+use carom_contact::{Contact, Positions};
 use carom_friction::ContactProblem;
 use carom_mesh::Vector;
 
@@ -38,7 +38,7 @@ impl<const D: usize> ActiveSet<D> {
 
     /// Puts contacts that nothing breaks among `contacts` as they were made, where nodes are at `position`: their stencils do not change, so that what they
     /// tie stays where it was, and no momentum is lost.
-    pub fn tie(&self, contacts: &mut [Contact<D>], position: &impl Fn(u32) -> Vector<D>) {
+    pub fn tie(&self, contacts: &mut [Contact<D>], position: &Positions<'_, D>) {
         for (i, bond) in &self.bonds {
             contacts[*i] = bond.moved(position);
         }

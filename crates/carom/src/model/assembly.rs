@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use carom_contact::{Boundaries, Candidate, Contact, ContactModel, Pair, Site, Solid, Target};
+use carom_contact::{Boundaries, Candidate, Contact, ContactModel, Pair, Positions, Site, Solid, Target};
 use carom_mesh::{Surface, Vector};
 
 use crate::model::bearing::Bearing;
@@ -282,7 +282,7 @@ impl<const D: usize> Assembly<D> {
         &self,
         (pair, site): (u32, Site),
         contact: &Contact<D>,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> Option<f64> {
         let pair = self.contact.pairs.get(pair as usize);
         self.cohesions.adhesion((&pair, site), contact, &self.bearing, position)

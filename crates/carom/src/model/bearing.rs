@@ -1,3 +1,4 @@
+use carom_contact::Positions;
 use carom_mesh::{Facet, Vector};
 
 use crate::ModelBody;
@@ -45,7 +46,7 @@ impl Bearing {
         &self,
         node: usize,
         pushes: &Vector<D>,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> f64 {
         let facing = |number: &u32| {
             let normal = self.facets[*number as usize].0.area_vector_at(|n| position(n as u32));

@@ -1,5 +1,4 @@
-use carom_contact::{Contact, Pair, Site, Target};
-use carom_mesh::Vector;
+use carom_contact::{Contact, Pair, Positions, Site, Target};
 
 use crate::ledger::ByPair;
 use crate::model::bearing::Bearing;
@@ -73,7 +72,7 @@ impl Cohesions {
         (pair, site): (&Pair, Site),
         contact: &Contact<D>,
         bearing: &Bearing,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) -> Option<f64> {
         let area = || match site {
             Site::Node(node) => {

@@ -34,6 +34,7 @@ use crate::body::fe::FeBody;
 use crate::body::fe::load::Load;
 use crate::body::fe::part::ModelBody;
 use crate::body::fe::supports::{Motion, Supports};
+use crate::body::foreign::ForeignBody;
 use crate::body::reduced::ReducedBody;
 use crate::body::rigid::RigidBody;
 use crate::body::rigid::guide::{Guide, Resultant};
@@ -161,6 +162,10 @@ impl<const D: usize> Model<D> {
                 Box::new(RigidBody::new(Arc::clone(b)))
             } else if b.is_reduced() {
                 Box::new(ReducedBody::new(Arc::clone(b)))
+            } else if let Some(law) = &b.foreign {
+                let nodes = b.body.mesh().nodes().to_vec();
+                let body = ForeignBody::new(nodes, law, b.gravity);
+                Box::new(body.expect("the mass was positive definite when the model was built"))
             } else {
                 Box::new(FeBody::new(Arc::clone(b), connected))
             }

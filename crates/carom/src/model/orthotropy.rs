@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use carom_contact::{Contact, ContactModel};
+use carom_contact::{Contact, ContactModel, Positions};
 use carom_mesh::Vector;
 
 use crate::ledger::ByPair;
@@ -41,7 +41,7 @@ impl<const D: usize> Orthotropy<D> {
         &self,
         contact: &mut Contact<D>,
         lengths: Option<[f64; 2]>,
-        position: &impl Fn(u32) -> Vector<D>,
+        position: &Positions<'_, D>,
     ) {
         let direction = self.grain.at(contact, position);
         contact.stretch_frame(&direction, lengths.unwrap_or(self.lengths));
@@ -64,7 +64,7 @@ pub enum Grain<const D: usize> {
 
 impl<const D: usize> Grain<D> {
     /// At a contact, where nodes are at `position`; of any length.
-    fn at(&self, contact: &Contact<D>, position: &impl Fn(u32) -> Vector<D>) -> Vector<D> {
+    fn at(&self, contact: &Contact<D>, position: &Positions<'_, D>) -> Vector<D> {
         match self {
             Self::Fixed(direction) => *direction,
             Self::Carried { nodes, around } => {

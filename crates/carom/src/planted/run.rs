@@ -7,8 +7,9 @@ use serde::Deserialize;
 use super::build::{Outline, PlantedSpec, assembled, diameter, method, touching};
 use crate::body::Body;
 use crate::body::foreign::ForeignBody;
-use crate::body::foreign::code::{Blocks, ForeignCode};
+use crate::body::foreign::law::ForeignLaw;
 use crate::build::Surfaces;
+use crate::build::foreign::not_definite;
 use crate::contact::PosedProblem;
 use crate::error::{InputError, StepError};
 use crate::model::assembly::{Assembly, Member};
@@ -19,20 +20,14 @@ use crate::step::report::StepReport;
 use crate::step::step;
 use crate::step::workspace::Workspace;
 
-/// A body of somebody else's: its nodes [m] and their velocities [m/s], its boundary, its mass and its law.
+/// A body of somebody else's: its nodes, its boundary and its law.
 pub struct ForeignPart<const D: usize> {
     /// Name and boundary, by its own nodes.
     pub outline: Outline,
     /// Nodes without deformation [m].
     pub points: Vec<Vector<D>>,
-    /// Velocities at the start [m/s].
-    pub velocity: Vec<Vector<D>>,
-    /// Which components of the motion of every node are held; none if empty.
-    pub held: Vec<[bool; D]>,
-    /// Mass matrix [kg].
-    pub mass: Blocks<D>,
-    /// Its law.
-    pub code: Box<dyn ForeignCode<D>>,
+    /// Its mass and its law.
+    pub law: ForeignLaw<D>,
 }
 
 /// What is said beside the bodies.
@@ -75,27 +70,25 @@ impl<const D: usize> ForeignRun<D> {
         let (mut members, mut sides, mut model) = (Vec::new(), Vec::new(), ContactModel::default());
         let (mut bodies, mut velocities, mut first): (Vec<Box<dyn Body<D>>>, _, _) =
             (Vec::new(), Vec::new(), 0);
-        for ForeignPart { outline, points, velocity, held, mass, code } in parts {
+        for ForeignPart { outline, points, law } in parts {
             let key = format!("surfaces.{}.facets", outline.name);
             let own = Surface::from_facets(&points, &outline.facets)
                 .map_err(|e| InputError::mesh(key, e.to_string()))?;
             let (surface, mut side) = touching(&outline, &spec.planted.contact, &own, first, &points)?;
             model.surfaces.push(surface);
-            let total: f64 = mass.iter().map(|(_, _, block)| block.trace() / D as f64).sum();
-            side.side.mass = total;
+            side.side.mass = law.total_mass();
             sides.push(side);
-            let body = ForeignBody::new(points.clone(), &held, mass, code).map_err(|_| {
-                let message = format!("the mass of body {:?} is not positive definite", outline.name);
-                InputError::new(format!("bodies.{}.mass", outline.name), message + "; give every node a mass")
+            let body = ForeignBody::new(points.clone(), &law, Vector::zeros()).map_err(|_| {
+                InputError::new(format!("bodies.{}.mass", outline.name), not_definite(&outline.name))
             })?;
             first += points.len();
-            velocities.extend(velocity);
+            velocities.extend(law.velocity);
             members.push(Member {
                 name: outline.name,
                 diameter: diameter(&points),
                 reference: points,
                 boundary: if own.is_closed() { own } else { Surface::default() },
-                held,
+                held: law.held,
                 is_massless: false,
                 turns: true,
                 axis: Vec::new(),

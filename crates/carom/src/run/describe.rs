@@ -146,7 +146,11 @@ fn materials<const D: usize>(body: &ModelBody<D>) -> Vec<MaterialDescription> {
         mass: of.mass,
         wave_speed: of.wave_speed,
     };
-    if body.is_rigid() { Vec::new() } else { body.body.materials().iter().map(of).collect() }
+    if body.is_rigid() || body.is_foreign() {
+        Vec::new()
+    } else {
+        body.body.materials().iter().map(of).collect()
+    }
 }
 
 /// Time that a pressure wave needs through the smallest edge of a body [s], material by material.

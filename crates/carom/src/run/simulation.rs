@@ -5,7 +5,7 @@ use carom_mesh::Vector;
 use serde::Serialize;
 
 use super::error::RunError;
-use crate::build::{Meshes, Surfaces};
+use crate::build::{Inputs, Meshes};
 use crate::contact::PosedProblem;
 use crate::contact::cross_check::CrossCheckSummary;
 use crate::error::InputError;
@@ -133,19 +133,15 @@ impl<const D: usize> Simulation<D> {
     /// # Errors
     /// If the scenario cannot be run; see [`build`](crate::build).
     pub fn with_meshes(scenario: &Scenario, meshes: Meshes<D>) -> Result<Self, InputError> {
-        Self::with_files(scenario, meshes, Surfaces::new())
+        Self::with_inputs(scenario, meshes.into())
     }
 
-    /// Builds a run from its scenario and all that it takes from files: the `meshes` of bodies and the `surfaces` of obstacles.
+    /// Builds a run from its scenario and all that it takes from elsewhere.
     ///
     /// # Errors
     /// If the scenario cannot be run; see [`build`](crate::build).
-    pub fn with_files(
-        scenario: &Scenario,
-        meshes: Meshes<D>,
-        surfaces: Surfaces<D>,
-    ) -> Result<Self, InputError> {
-        let stages = Stage::all(scenario, meshes, surfaces)?;
+    pub fn with_inputs(scenario: &Scenario, inputs: Inputs<D>) -> Result<Self, InputError> {
+        let stages = Stage::all(scenario, inputs)?;
         let state = stages[0].start()?;
         let Stage { model, grid, merge, .. } = &stages[0];
         let steps = stages.iter().map(|stage| stage.grid.steps).sum();

@@ -2,11 +2,11 @@
 
 use carom_mesh::Vector;
 
-use crate::build::{Built, Meshes, RigidMotion, Surfaces, built, start};
+use crate::build::{Built, Inputs, RigidMotion, built, start};
 use crate::error::InputError;
 use crate::run::events::Merge;
 use crate::run::time_grid::TimeGrid;
-use crate::scenario::{Scenario, StageEntry};
+use crate::scenario::{BodyKind, Scenario, StageEntry};
 use crate::step::workspace::Workspace;
 use crate::{Method, Model, Scheme, State};
 
@@ -34,28 +34,24 @@ impl<const D: usize> Stage<D> {
     ///
     /// # Errors
     /// If one of them cannot be run; the key names the stage.
-    pub fn all(
-        scenario: &Scenario,
-        meshes: Meshes<D>,
-        surfaces: Surfaces<D>,
-    ) -> Result<Vec<Self>, InputError> {
+    pub fn all(scenario: &Scenario, inputs: Inputs<D>) -> Result<Vec<Self>, InputError> {
         if scenario.stages.is_empty() {
-            return Ok(vec![Self::new(scenario, None, meshes, surfaces)?]);
+            return Ok(vec![Self::new(scenario, None, inputs)?]);
+        }
+        if let Some(body) = scenario.bodies.iter().find(|body| body.kind == BodyKind::Foreign) {
+            let message =
+                format!("body {:?} is of another code, which knows of no stages; leave them out", body.name);
+            return Err(InputError::new("stages", message));
         }
         let stages = scenario.stages.iter().enumerate().map(|(i, entry)| {
-            let made = Self::new(&scenario.in_stage(i), Some(entry), meshes.clone(), surfaces.clone());
+            let made = Self::new(&scenario.in_stage(i), Some(entry), inputs.clone());
             made.map_err(|error| of_stage(i, error))
         });
         stages.collect()
     }
 
-    fn new(
-        scenario: &Scenario,
-        entry: Option<&StageEntry>,
-        meshes: Meshes<D>,
-        surfaces: Surfaces<D>,
-    ) -> Result<Self, InputError> {
-        let Built { model, method, motions } = built(scenario, meshes, surfaces)?;
+    fn new(scenario: &Scenario, entry: Option<&StageEntry>, inputs: Inputs<D>) -> Result<Self, InputError> {
+        let Built { model, method, motions } = built(scenario, inputs)?;
         let analysis = &scenario.analysis;
         for (key, every) in [
             ("output.history_every", scenario.output.history_every),
@@ -135,7 +131,7 @@ impl<const D: usize> Stage<D> {
         for i in given {
             let at = |n: usize| assembly.reference[n] + state.displacement[n];
             let positions: Vec<Vector<D>> = bodies[i].nodes().map(at).collect();
-            let velocity: Vec<Vector<D>> = self.motions[i].velocities(&bodies[i].body, &positions).collect();
+            let velocity = self.motions[i].velocities(&bodies[i], &positions);
             gained[i] = state.give_velocity(assembly, &stepping, i, &velocity);
         }
         gained

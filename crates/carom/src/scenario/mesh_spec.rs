@@ -128,6 +128,8 @@ pub enum MeshSpec {
         /// The file, for messages.
         file: String,
     },
+    /// A mesh that is given along with the scenario, of somebody else's code.
+    Given,
 }
 
 impl MeshSpec {
@@ -143,6 +145,7 @@ impl MeshSpec {
             MeshSpec::Cylinder { .. } => "cylinder",
             MeshSpec::Tube { .. } => "tube",
             MeshSpec::File { .. } => "file",
+            MeshSpec::Given => "given",
         }
     }
 }

@@ -14,6 +14,8 @@ pub enum BodyKind {
     Rigid,
     /// It moves as a rigid one, and vibrates in few shapes.
     Reduced,
+    /// Of somebody else's code.
+    Foreign,
 }
 
 /// The mass of a body.

@@ -119,6 +119,12 @@ impl Blend {
     pub fn rest(&mut self, body: usize) {
         self.forest.part(body);
         self.weight[body] = 0.0;
+        self.balances[body] = Balance::default();
+    }
+
+    /// What nodes without mass give way to of loads that set in [J].
+    pub fn onset(&self) -> f64 {
+        self.balances.iter().map(|balance| balance.onset).sum()
     }
 
     /// Keeps the weights of `bodies`, as far as they are those of stresses of a time within the step. What they leave over waits, or vibration has it.

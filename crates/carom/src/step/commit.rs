@@ -49,6 +49,7 @@ pub(super) fn commit<const D: usize>(
     keep_contacts(given, next, work, &mut report);
     if interval.is_blended {
         work.resting.resting().for_each(|i| work.blend.rest(i));
+        report.onset = work.blend.onset();
         report.blend = work.blend.largest_weight();
     }
     let obstacles = &mut next.velocity[assembly.node_count()..];

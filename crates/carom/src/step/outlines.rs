@@ -1,6 +1,6 @@
 //! Outlines of bodies that place their nodes at the end of a step alone, and where nothing is near by fewer numbers than it takes.
 
-use carom_contact::Boundaries;
+use carom_contact::{Boundaries, Positions};
 use carom_mesh::Vector;
 
 use super::control::WAKING;
@@ -68,7 +68,7 @@ pub(super) fn place_outlines<const D: usize>(
 fn way_of<const D: usize>(
     boundaries: &Boundaries<D>,
     body: usize,
-    position: &impl Fn(u32) -> Vector<D>,
+    position: &Positions<'_, D>,
     motion: &[Vector<D>],
 ) -> [Vector<D>; 2] {
     let empty = [Vector::<D>::repeat(f64::INFINITY), Vector::repeat(f64::NEG_INFINITY)];

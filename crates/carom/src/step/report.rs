@@ -73,7 +73,7 @@ pub struct Inside {
     pub between: [Solid; 2],
     /// How deep [m].
     pub depth: f64,
-    /// Diameter of the smaller facet that is there [m].
+    /// What is smaller there [m]: the diameter of a facet, or how thick the wall behind it or the obstacle is.
     pub cell: f64,
     /// How far the arcs that the facets there stand for are in front of them [m].
     pub arcs: f64,
@@ -98,6 +98,8 @@ pub struct StepReport {
     pub normal_force: f64,
     /// Largest blend |α| of start and end stresses: see the scheme `conserving` with `massless` contact.
     pub blend: f64,
+    /// What nodes without mass gave way to where loads set in or they started out of balance [J], of which blends may leave over any part.
+    pub onset: f64,
     /// What blends left over and vibration took or gave [J], without its sign.
     pub repaid: f64,
     /// Smallest dissipation by friction of a contact [J]; negative = friction did work on the bodies.

@@ -25,7 +25,7 @@ from carom.auditing.mesh.drawn import drawn, nodes_of, unknown
 from carom.auditing.mesh.facets import Facets
 from carom.auditing.mesh.kinds import kind_of
 from carom.auditing.mesh.stiffness import reference_stiffness
-from carom.case.body import AnyBody, ReducedBody, RigidBody
+from carom.case.body import DescribedBody, ReducedBody, RigidBody
 from carom.case.material import Material
 from carom.case.mesh import Rectangle
 from carom.case.point_mass import PointMass
@@ -67,7 +67,7 @@ class AuditBody(MovingBody):
 
     def __init__(
         self,
-        entry: AnyBody,
+        entry: DescribedBody,
         materials: Mapping[str, Material],
         *,
         vtk_type: int,
@@ -344,7 +344,7 @@ def _tensor(given: float | tuple[float, ...] | tuple[tuple[float, ...], ...]) ->
     return table.reshape(1, 1) if table.ndim == 0 else table
 
 
-def _density(entry: AnyBody, law: Composition, cells: Cells) -> Array:
+def _density(entry: DescribedBody, law: Composition, cells: Cells) -> Array:
     """Return the density of each cell [kg/m³]; the mass of a rigid body may be given."""
     if not isinstance(entry, RigidBody):
         return law.density
@@ -354,7 +354,7 @@ def _density(entry: AnyBody, law: Composition, cells: Cells) -> Array:
     return np.full(len(cells.nodes), entry.mass / float(cells.shared_volumes.sum()))
 
 
-def _masters(entry: AnyBody, points: Array) -> Indices:
+def _masters(entry: DescribedBody, points: Array) -> Indices:
     """Return the node that each moves with: on the right side of what repeats itself another."""
     masters = np.arange(len(points))
     if not isinstance(entry.mesh, Rectangle) or not entry.mesh.periodic:

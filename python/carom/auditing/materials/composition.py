@@ -12,7 +12,7 @@ from carom.auditing.materials.laws import Law
 from carom.auditing.materials.plane_stress import PlaneStress
 from carom.auditing.materials.tensors import IDENTITY, transposed
 from carom.auditing.mesh.drawn import Drawn
-from carom.case.body import AnyBody, Body, InitialStress, Region, RigidBody, materials_of
+from carom.case.body import Body, DescribedBody, InitialStress, Region, RigidBody, materials_of
 from carom.case.material import Damping, J2Plasticity, Material, Viscosity
 
 _Function = Callable[..., Array]
@@ -39,7 +39,7 @@ class Composition:
     """
 
     def __init__(
-        self, entry: AnyBody, known: Mapping[str, Material], middles: Array, mesh: Drawn
+        self, entry: DescribedBody, known: Mapping[str, Material], middles: Array, mesh: Drawn
     ) -> None:
         materials = [known[name] for name in materials_of(entry)]
         stress = entry.initial_stress if isinstance(entry, Body) else None

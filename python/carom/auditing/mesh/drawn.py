@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from carom.auditing.arrays import Array, Indices, Mask
-from carom.case.body import AnyBody
+from carom.case.body import DescribedBody
 from carom.case.mesh import Ball, Box, Cylinder, Disc, MeshFile, Rectangle, Ring
 from carom.errors import InputError
 from carom.mesh_file import read_body_mesh
@@ -39,7 +39,7 @@ class Drawn(Protocol):
         """Return the cells of a set."""
 
 
-def drawn(entry: AnyBody, dimension: int) -> Drawn:
+def drawn(entry: DescribedBody, dimension: int) -> Drawn:
     """Return the mesh of a body as the case draws it.
 
     Raises

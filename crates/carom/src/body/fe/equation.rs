@@ -231,6 +231,12 @@ impl<'a, const D: usize> Equation<'a, D> {
         self.drive.end.get(node).copied().unwrap_or_else(Vector::zeros)
     }
 
+    /// What a node starts the step with, under its load at the end and the contact forces so far [N].
+    #[inline]
+    pub fn imbalance(&self, node: usize) -> Vector<D> {
+        self.end_load(node) + self.contact_force[node] - self.internal_force[node]
+    }
+
     /// Calls `f` with node, component and v₊ of everything that is held.
     #[inline]
     fn each_held(&self, mut f: impl FnMut(usize, usize, f64)) {

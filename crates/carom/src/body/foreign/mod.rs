@@ -3,6 +3,7 @@
 //! With the scheme `conserving` its energy is kept whatever its law, by Gonzalez' discrete gradient of the body as a whole ([`mean_force`]).
 
 pub(crate) mod code;
+pub(crate) mod law;
 mod mean_force;
 
 use std::sync::Arc;
@@ -12,6 +13,7 @@ use carom_fem::sparse::{Inverse, NodalMatrix, NodeGraph, Precision};
 use carom_mesh::{Matrix, Vector, nodal};
 
 use self::code::{Blocks, ForeignCode};
+use self::law::ForeignLaw;
 use self::mean_force::MeanForce;
 use super::{Body, BodyEnd, BodyState, Forecast, Guess, Interval, Jolt};
 use crate::error::StepError;
@@ -20,7 +22,7 @@ use crate::scheme::StepMap;
 
 /// Such a body in a step.
 pub struct ForeignBody<const D: usize> {
-    code: Box<dyn ForeignCode<D>>,
+    code: Arc<dyn ForeignCode<D>>,
     mean_force: MeanForce<D>,
     held: Held,
     mass_blocks: Blocks<D>,
@@ -28,6 +30,9 @@ pub struct ForeignBody<const D: usize> {
     /// Sum of every row of the mass, in the mean of the directions [kg].
     nodal_mass: Vec<f64>,
     mass_inverse: Inverse<D>,
+    gravity: Vector<D>,
+    /// The force of gravity on its nodes [N].
+    weight: Vec<Vector<D>>,
     /// K̄⁻¹, for steps of this length [s].
     inverse: Inverse<D>,
     made_for: Option<f64>,
@@ -37,28 +42,31 @@ pub struct ForeignBody<const D: usize> {
 }
 
 impl<const D: usize> ForeignBody<D> {
-    /// A body with nodes at `reference` [m], of which these components are `held` (none if empty), and a mass matrix [kg] that is positive definite.
+    /// A body with nodes at `reference` [m] and this law, under `gravity` [m/s²].
     ///
     /// # Errors
-    /// If the mass is not positive definite.
+    /// If its mass is not positive definite.
     pub fn new(
         reference: Vec<Vector<D>>,
-        held: &[[bool; D]],
-        mass_blocks: Blocks<D>,
-        code: Box<dyn ForeignCode<D>>,
+        law: &ForeignLaw<D>,
+        gravity: Vector<D>,
     ) -> Result<Self, StepError> {
+        let ForeignLaw { mass: mass_blocks, held, code, .. } = law.clone();
         let count = reference.len();
         let graph = Arc::new(NodeGraph::of_pairs(count, mass_blocks.iter().map(|&(a, b, _)| (a, b))));
-        let (mass, held) = (filled(&graph, &mass_blocks), Held::of(held));
+        let (mass, held) = (filled(&graph, &mass_blocks), Held::of(&held));
         let mut mass_inverse = Inverse::new(&[]);
         let mut free_mass = mass.clone();
         held.uncouple(&mut free_mass);
         mass_inverse.make_exact(false, &free_mass)?;
-        let mut nodal_mass = vec![0.0; count];
-        mass_blocks.iter().for_each(|(a, _, block)| nodal_mass[*a as usize] += block.trace() / D as f64);
+        let nodal_mass = law.nodal_mass(count);
         let zeros = vec![Vector::zeros(); count];
+        let mut weight = zeros.clone();
+        mass.multiply(&vec![gravity; count], &mut weight);
         Ok(Self {
             code,
+            gravity,
+            weight,
             mean_force: MeanForce::new(reference),
             held,
             mass_blocks,
@@ -145,7 +153,7 @@ impl<const D: usize> Body<D> for ForeignBody<D> {
             self.factorise(&interval.map)?;
         }
         let speed = start.velocity.iter().map(Vector::norm_squared).fold(0.0, f64::max).sqrt();
-        Ok(Forecast { speed, is_factorised, ..Forecast::default() })
+        Ok(Forecast { speed, acceleration: self.gravity.norm(), is_factorised, ..Forecast::default() })
     }
 
     fn residual(&mut self, guess: &Guess<'_, D>, _blend: Option<f64>, out: &mut [Vector<D>]) {
@@ -153,7 +161,9 @@ impl<const D: usize> Body<D> for ForeignBody<D> {
         nodal::each(&mut self.middle, [v0, guess.motion], |jump, [v, d]| *jump = map.end_velocity(v, d) - v);
         self.mass.multiply(&self.middle, &mut self.scratch);
         self.mean_force.write(&*self.code, guess, out);
-        nodal::each(out, [&self.scratch], |r, [impulse]| *r = -*r - impulse / map.dt);
+        nodal::each(out, [&self.scratch, &self.weight], |r, [impulse, weight]| {
+            *r = weight - *r - impulse / map.dt
+        });
     }
 
     fn begin_solve(&mut self, residual: &[Vector<D>]) {
@@ -220,6 +230,7 @@ impl<const D: usize> Body<D> for ForeignBody<D> {
         let ledger = BodyLedger {
             kinetic: kinetic - start.energies.kinetic,
             strain: strain - start.energies.strain,
+            external: self.held.free_dot(guess.motion, &self.weight),
             scheme,
             contact: self.held.free_dot(guess.motion, end.mean_contact_force),
             ..BodyLedger::default()

@@ -6,7 +6,7 @@ use carom_mesh::{Matrix, Vector, nodal, tensor};
 use super::outline::Outline;
 use super::place::{Place, Rates};
 use crate::body::rigid::pose::{Pose, Twist, cayley, lift, lower};
-use crate::body::rigid::shape::RigidShape;
+use crate::body::rigid::shape::{RigidShape, RigidSpec};
 use crate::ledger::Energies;
 
 /// Frames are found after some of these; every one leaves as much of an error as there is strain.
@@ -68,7 +68,7 @@ impl<const D: usize> ReducedPart<D> {
         };
         let moved = joined(read, body.surface().nodes());
         let placed = joined(&moved, tracked);
-        let shape = RigidShape::new(body, None);
+        let shape = RigidShape::new(body, &RigidSpec::default());
         Ok(Self {
             outline: Outline::new(body, &shape, &reduction, &placed),
             shape,

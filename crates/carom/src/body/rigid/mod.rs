@@ -154,7 +154,7 @@ impl<const D: usize> Body<D> for RigidBody<D> {
     }
 
     fn mean_velocity(&self, velocity: &[Vector<D>]) -> Vector<D> {
-        self.body.body.mean(velocity)
+        self.part().shape.at_centre(velocity)
     }
 
     fn is_driven_alike(&self, [a, b]: [f64; 2]) -> bool {

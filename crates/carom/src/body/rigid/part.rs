@@ -1,8 +1,8 @@
 use carom_fem::Body;
-use carom_mesh::{Matrix, Vector};
+use carom_mesh::Vector;
 
 use super::guide::{Guide, Resultant};
-use super::shape::RigidShape;
+use super::shape::{RigidShape, RigidSpec};
 
 /// What makes a body of the model rigid.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,9 +16,9 @@ pub(crate) struct RigidPart<const D: usize> {
 }
 
 impl<const D: usize> RigidPart<D> {
-    /// Of a body that nothing drives, with this inertia about its centre [kg m²] if that is given.
-    pub fn new(body: &Body<D>, inertia: Option<Matrix<3>>) -> Self {
-        let shape = RigidShape::new(body, inertia);
+    /// Of a body that nothing drives, with the mass of its cells, but for what is said of it.
+    pub fn new(body: &Body<D>, spec: &RigidSpec<D>) -> Self {
+        let shape = RigidShape::new(body, spec);
         Self { shape, guide: None, resultants: Vec::new(), surroundings: 0.0 }
     }
 
@@ -48,6 +48,13 @@ impl<const D: usize> RigidPart<D> {
     /// Which displacements of all its nodes are prescribed.
     pub fn held(&self) -> [bool; D] {
         self.guide.as_ref().map_or([false; D], |guide| guide.holds(self.shape.turns_about))
+    }
+
+    /// Its centre of mass [m], the velocity of that [m/s] and its spin [rad/s].
+    pub fn drift(&self, u: &[Vector<D>], v: &[Vector<D>]) -> [[f64; 3]; 3] {
+        let pose = self.shape.pose(u);
+        let twist = self.shape.twist(&pose, v);
+        [(self.shape.centre + pose.shift).into(), twist.velocity.into(), twist.spin.into()]
     }
 
     /// Momentum [kg m/s] and angular momentum about the origin [kg m²/s] at these displacements [m] and velocities [m/s].

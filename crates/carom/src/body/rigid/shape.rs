@@ -3,6 +3,15 @@ use carom_mesh::{Matrix, Vector, nodal, tensor};
 
 use super::pose::{Displaced, Pose, Twist, cross_matrix, inverse_on, lift, lower};
 
+/// What is said of the mass of a rigid body that is not that of its cells.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct RigidSpec<const D: usize> {
+    /// Its centre [m].
+    pub centre: Option<Vector<D>>,
+    /// Its inertia about the centre [kg m²].
+    pub inertia: Option<Matrix<3>>,
+}
+
 /// A rigid body in the reference configuration: its mass, and the places of its nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RigidShape<const D: usize> {
@@ -32,10 +41,10 @@ fn inertia_of(moments: &Matrix<3>) -> Matrix<3> {
 }
 
 impl<const D: usize> RigidShape<D> {
-    /// Of a body with its mass, and with this inertia about its centre [kg m²] if that is given.
-    pub fn new(body: &Body<D>, inertia: Option<Matrix<3>>) -> Self {
+    /// Of a body with the mass of its cells, but for what is said of it.
+    pub fn new(body: &Body<D>, spec: &RigidSpec<D>) -> Self {
         let nodes = body.mesh().nodes();
-        let centre = body.mean(nodes);
+        let centre = spec.centre.unwrap_or_else(|| body.mean(nodes));
         let arms: Vec<Vector<D>> = nodes.iter().map(|x| x - centre).collect();
         let mut moved = vec![Vector::zeros(); arms.len()];
         body.mass().multiply(&arms, &mut moved);
@@ -49,7 +58,7 @@ impl<const D: usize> RigidShape<D> {
         let axial = body.is_axisymmetric();
         Self {
             mass: body.total_mass(),
-            inertia: inertia.unwrap_or_else(|| inertia_of(&in_space(&second))),
+            inertia: spec.inertia.unwrap_or_else(|| inertia_of(&in_space(&second))),
             moves_along: [!axial, true, D == 3],
             turns_about: [D == 3, D == 3, !axial],
             centre: lift(&centre),
@@ -69,6 +78,14 @@ impl<const D: usize> RigidShape<D> {
     /// That of a place in the reference configuration [m].
     pub fn arm_of(&self, place: &Vector<D>) -> Vector<3> {
         lift(place) - self.centre
+    }
+
+    /// What a nodal vector that is linear in the reference places is at the centre: of velocities that of the centre of mass.
+    pub fn at_centre(&self, v: &[Vector<D>]) -> Vector<D> {
+        let off: Vector<D> = lower(&self.off_mean);
+        let beside = self.fit.iter().zip(v).fold(Vector::zeros(), |sum, (fit, v)| sum + v * fit.dot(&off));
+        let at = nodal::total(v) / v.len() as f64 + beside;
+        lower(&super::pose::on(&self.moves_along, &lift(&at)))
     }
 
     /// J turned to a rotation [kg m²].
