@@ -199,9 +199,9 @@ def test_runs_that_do_not_complete_have_their_warnings_too(tmp_path, monkeypatch
         raise carom.Stop if status == "stopped" else KeyboardInterrupt
 
     if status == "uncertified":
-        monkeypatch.setattr("carom.running.run._violation", lambda _: "too far from the law")
+        monkeypatch.setattr("carom.running.run._violation", lambda *_: "too far from the law")
     if status == "intersecting":
-        monkeypatch.setattr("carom.running.run._intersection", lambda _: "too deep")
+        monkeypatch.setattr("carom.running.run._intersection", lambda *_: "too deep")
     observers = [carom.Observer(end)] if status in ("stopped", "interrupted") else []
     hard = ["analysis.newton.max_iterations=1", "analysis.max_halvings=0"]
     case = scenario(SOFT, *(hard if status == "failed" else []))
