@@ -44,7 +44,9 @@ def test_a_block_of_linear_elastic_that_turns_is_told_of_once(tmp_path, space):
     assert warning.allowed == 3.0
     # Symptom guarded against: a CaromWarning had no message, which the page on results promises.
     assert warning.message == str(warning)
-    assert warning.message.startswith("body b has turned by 3.4° at t = 0.03 s, which linear-elastic")
+    assert warning.message.startswith(
+        "body b has turned by 3.4° at t = 0.03 s, which linear-elastic"
+    )
     assert str(warning).endswith("which turns with the body")
     slow = {**more, "spin": [0.0, 0.2, 0.0] if space else 0.2}
     assert codes(case(**slow), tmp_path / "slow") == []
