@@ -92,7 +92,7 @@ def _middles_alone(blocks: Blocks, total: int) -> Indices:
         pairs = with_middles or (
             tuple((a, b) for a in range(4) for b in range(a))
             if name == "tetra"
-            else tuple({tuple(sorted((a, b))) for a, bs in enumerate(corners) for b in bs})
+            else tuple({(min(a, b), max(a, b)) for a, bs in enumerate(corners) for b in bs})
         )
         for number, pair in enumerate(pairs):
             edges.append(np.sort(nodes[:, pair], axis=1))
