@@ -128,6 +128,7 @@ class CaromWarning(UserWarning):
         allowed: float | None = None,
     ) -> None:
         super().__init__(message)
+        self.message = message
         self.code = code
         self.where = where
         self.value = value

@@ -14,6 +14,7 @@ from carom.doctor.mesh_quality import mesh_quality
 from carom.doctor.patient import Patient
 from carom.doctor.reduced import reduced
 from carom.doctor.time_step import time_step
+from carom.doctor.turning import turning
 from carom.doctor.units import units
 from carom.errors import InputError
 from carom.mesh_file import Note
@@ -26,6 +27,7 @@ CHECKS: tuple[Callable[[Patient], Iterator[Finding]], ...] = (
     meeting,
     contact_setup,
     reduced,
+    turning,
     time_step,
     cost,
 )
@@ -42,7 +44,10 @@ def examine(scenario: Scenario) -> Diagnosis:
         patient = Patient(scenario, build(scenario, notes))
     except InputError as error:
         return Diagnosis(scenario.title, (Finding("error", error.key or "", _what(error)),))
-    findings = [Finding("advice", note.where, note.message, note.remedy) for note in notes]
+    findings = [
+        Finding("warning" if note.is_grave else "advice", note.where, note.message, note.remedy)
+        for note in notes
+    ]
     findings += [finding for check in CHECKS for finding in check(patient)]
     return Diagnosis(scenario.title, tuple(findings))
 

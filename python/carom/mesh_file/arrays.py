@@ -29,6 +29,8 @@ class Note:
         The number that was met and the one that would have needed no note; None without a number.
     remedy
         What to do about it.
+    is_grave
+        Whether results are wrong if that was not meant.
     """
 
     code: str
@@ -37,6 +39,7 @@ class Note:
     value: float | None = None
     allowed: float | None = None
     remedy: str = ""
+    is_grave: bool = False
 
     def at(self, key: str, file: str) -> Note:
         """Return the note with its place, and the file there."""

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from carom.display.counting import count
 from carom.mesh_file.arrays import FileMesh, Indices, MeshArrays, Note, Refused, first_few
 from carom.mesh_file.cells import KINDS, dimension
+from carom.mesh_file.conformity import comes_apart
 from carom.mesh_file.formats import read_file
 from carom.mesh_file.precision import precision
 from carom.mesh_file.upright import Upright, upright
@@ -102,7 +103,11 @@ def _body(mesh: FileMesh, body: str | None, scale: float, space: int) -> MeshArr
         facet_sets=_facet_sets(mesh, number, space),
         cell_sets=_cell_sets(mesh, chosen),
         precision=scale * precision(mesh.points[used][:, :space]),
-        notes=[*mesh.notes, *_turned(right, backwards=mesh.backwards)],
+        notes=[
+            *mesh.notes,
+            *_turned(right, backwards=mesh.backwards),
+            *comes_apart(points, right.blocks),
+        ],
     )
 
 

@@ -82,8 +82,9 @@ def written_doubts(data: Mapping[str, Any]) -> list[Doubt]:
 
 
 def of_mesh(note: Note) -> Doubt:
-    """Return the doubt that something was done to a mesh out of a file."""
-    return Doubt(note.code, note.message, note.where, note.value, note.allowed)
+    """Return the doubt about something in a mesh out of a file, or that was done to it."""
+    what = f"{note.message}; {note.remedy}" if note.remedy else note.message
+    return Doubt(note.code, what, note.where, note.value, note.allowed)
 
 
 def warn(doubt: Doubt) -> None:

@@ -27,6 +27,7 @@ from carom.io.vtkhdf import SURFACE_CELL_FIELDS, SURFACE_POINT_FIELDS, FieldsWri
 from carom.results.doubts import Doubt, doubts, written_doubts
 from carom.results.fields import Fields, parts
 from carom.results.result import Result
+from carom.results.turning import Turning
 from carom.system.interrupt import uninterrupted
 from carom.system.progress import Progress
 
@@ -116,6 +117,7 @@ class Recorder:
         self._last_frame: float | None = written.get("last_frame")
         self._wall_before: float = written.get("wall", 0.0)
         self._doubts: list[Doubt] = []
+        self._turning = Turning(scenario, simulation, written_doubts(written))
         self._notify = notify
         self._start = perf_counter()
 
@@ -217,9 +219,10 @@ class Recorder:
             return
         wanted = with_step and self._queue.keeps_steps
         step = self._simulation.last_step() if wanted else None
-        self._queue.put(
-            Frame(time, self._simulation.fields(), self._simulation.surface_fields(), step)
-        )
+        fields = self._simulation.fields()
+        self._queue.put(Frame(time, fields, self._simulation.surface_fields(), step))
+        for doubt in self._turning.look(fields["displacement"], time):
+            self.doubt(doubt)
         self._last_frame = time
         self._frames += 1
         self._steps += step is not None

@@ -199,9 +199,9 @@ def test_runs_that_do_not_complete_have_their_warnings_too(tmp_path, monkeypatch
         raise carom.Stop if status == "stopped" else KeyboardInterrupt
 
     if status == "uncertified":
-        monkeypatch.setattr("carom.running.run._violation", lambda _: "too far from the law")
+        monkeypatch.setattr("carom.running.run._violation", lambda *_: "too far from the law")
     if status == "intersecting":
-        monkeypatch.setattr("carom.running.run._intersection", lambda _: "too deep")
+        monkeypatch.setattr("carom.running.run._intersection", lambda *_: "too deep")
     observers = [carom.Observer(end)] if status in ("stopped", "interrupted") else []
     hard = ["analysis.newton.max_iterations=1", "analysis.max_halvings=0"]
     case = scenario(SOFT, *(hard if status == "failed" else []))
@@ -393,7 +393,8 @@ def test_what_was_done_to_a_mesh_is_told_wherever_its_case_goes(tmp_path):
     (warning,) = [one for one in result.warnings if one.code == "turned-cells"]
     assert (warning.where, warning.value) == ("bodies.0.mesh.file", 2)
     assert str(warning) in carom.check(case).warnings
-    assert str(warning) in [finding.what for finding in examine(case).findings]
+    said = [f"{finding.what}; {finding.remedy}" for finding in examine(case).findings]
+    assert str(warning) in said
     (row,) = sweep(case, [axis("materials.e.poisson=0.3")], tmp_path / "study", jobs=1)
     assert "turned-cells" in row["warnings"].split()
     (tmp_path / "case.toml").write_text(case.to_toml())

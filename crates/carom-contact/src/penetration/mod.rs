@@ -53,7 +53,7 @@ pub struct Penetration<const D: usize> {
     pub at: Vector<D>,
     /// The two, bodies before obstacles.
     pub between: [Solid; 2],
-    /// What is smaller there [m]: the diameter of a facet, or how thick the wall behind it or the obstacle is.
+    /// What is smaller there [m]: the diameter of a facet, or how thick the wall behind it was first, or the obstacle is.
     pub cell: f64,
     /// How far the arcs that the facets there stand for are in front of them [m], those of both sides together; of a round obstacle how far it
     /// bulges into the facet.
@@ -172,10 +172,7 @@ impl<const D: usize> Boundaries<D> {
                 let diameters = bodies.clone().map(|(i, f)| shells[i].diameter(f));
                 let mut cell = diameters.fold(f64::INFINITY, f64::min);
                 if depth > MEASURE.witnessed * cell {
-                    for (i, facet) in bodies.clone() {
-                        shells[i].fit();
-                        cell = cell.min(shells[i].wall_behind(facet));
-                    }
+                    cell = bodies.clone().map(|(i, f)| shells[i].wall(f)).fold(cell, f64::min);
                     cell = between.iter().fold(cell, |cell, solid| match solid {
                         Solid::Obstacle(o) => cell.min(skins[*o].thickness),
                         Solid::Body(_) => cell,

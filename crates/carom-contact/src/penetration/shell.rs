@@ -33,6 +33,8 @@ pub(super) struct Shell<const D: usize> {
     pub largest_cell: f64,
     /// The arcs that its facets stand for where it was first [m].
     arcs: Vec<f64>,
+    /// How thick the wall behind each of its facets was there [m].
+    walls: Vec<f64>,
     /// Nodes at which the boundary ends: where a tied side begins.
     ends: BTreeSet<u32>,
     first: u32,
@@ -79,6 +81,7 @@ impl<const D: usize> Shell<D> {
             least_cell: f64::INFINITY,
             largest_cell: 0.0,
             arcs: Vec::new(),
+            walls: Vec::new(),
             ends,
             first,
             tree: Bvh::new(std::iter::empty()),
@@ -121,9 +124,11 @@ impl<const D: usize> Shell<D> {
         self.is_fitted = true;
     }
 
-    /// Takes note of how large and how round its facets are.
+    /// Takes note of how large and how round its facets are, and how thick the walls behind them.
     pub fn size_up(&mut self) {
+        self.fit();
         let facets = || 0..self.facets.len() as u32;
+        self.walls = facets().map(|f| self.thickness_behind(f)).collect();
         let cells: Vec<f64> = facets().map(|f| self.diameter(f)).collect();
         self.arcs = facets().map(|f| self.arc(f)).collect();
         let bounds = (f64::INFINITY, 0.0);
@@ -183,8 +188,13 @@ impl<const D: usize> Shell<D> {
         normal(&Patch::new(&self.facets[f as usize], &|n| self.at(n)).middle().tangents)
     }
 
+    /// How thick the wall behind the middle of a facet was where it was first [m]; infinite where nothing was behind it.
+    pub fn wall(&self, f: u32) -> f64 {
+        self.walls[f as usize]
+    }
+
     /// How thick the wall behind the middle of a facet is [m]; infinite where nothing is behind it.
-    pub fn wall_behind(&self, f: u32) -> f64 {
+    fn thickness_behind(&self, f: u32) -> f64 {
         let middle = Patch::new(&self.facets[f as usize], &|n| self.at(n)).middle();
         let reach = 2.0 * self.bounds.diameter();
         let ends = [middle.point, middle.point - normal(&middle.tangents) * reach];

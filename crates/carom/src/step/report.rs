@@ -73,7 +73,7 @@ pub struct Inside {
     pub between: [Solid; 2],
     /// How deep [m].
     pub depth: f64,
-    /// What is smaller there [m]: the diameter of a facet, or how thick the wall behind it or the obstacle is.
+    /// What is smaller there [m]: the diameter of a facet, or how thick the wall behind it was first, or the obstacle is.
     pub cell: f64,
     /// How far the arcs that the facets there stand for are in front of them [m].
     pub arcs: f64,
