@@ -208,5 +208,8 @@ def three(**given):
             },
             {"name": "soft", "material": "elastic", "mesh": {**square, "corner": [3.0, 0.0]}},
         ],
+        "contact": {
+            "pairs": [{"between": ["round", of], "enabled": False} for of in ("b", "soft")]
+        },
         **given,
     }

@@ -48,7 +48,8 @@ def open_steps(run):
 def test_a_load_may_set_in_on_a_body_at_rest(cells, pressure, impulse):
     """Symptom guarded against: any load on a block at rest failed in its first step."""
     run = simulate(pressed(cells, pressure))
-    assert run.summary["retried_steps"] == 0
+    # The step in which a load jumps may be halved, those of loads that begin with the run are not.
+    assert run.summary["retried_steps"] <= (10 if "step" in pressure else 0)
     sets_in = 50 if "step" in pressure else 0
     assert open_steps(run) < sets_in + 20
     # The load of a step is that of its middle: right at once where it does not jump within it.
@@ -66,7 +67,7 @@ def test_a_body_may_start_under_a_stress_that_nothing_holds(cells):
     assert total[-1] == pytest.approx(total[0], rel=1e-12)
 
 
-@pytest.mark.filterwarnings("ignore::carom.CaromWarning")
+@pytest.mark.filterwarnings("ignore:.*until vibrations had it")
 @pytest.mark.parametrize("cells", [3, 12])
 def test_what_was_pressed_may_be_let_go(cells, tmp_path):
     """Symptom guarded against: half of its energy was missing when the load was gone."""

@@ -11,7 +11,7 @@ use crate::{
 /// Starts cheaply and escalates where that does not converge; the default.
 ///
 /// A few accelerated Gauss–Seidel sweeps solve well-conditioned problems and improve the start of others. They go on while they promise
-/// to end soon. From a good start a few of Newton's iterations come next: what is left over is which of the contacts stick, slip and are open,
+/// to end soon. Of many contacts, from a good start, a few of Newton's iterations come next: what is left over is which of the contacts stick, slip and are open,
 /// and sweeps carry that through a pile one contact at a time. Else sweeps go on while they are a small part of what Newton's method would
 /// cost. Contacts that are densely coupled have full factors and make sweeps slow. There ADMM, which needs one factor and forgets its start, is
 /// tried instead, unless the contacts answer mostly to their own reactions.
@@ -36,6 +36,8 @@ struct Control {
     /// A residual below which a start is a good one, and the factors that Newton's iterations may take from there: they take one to four.
     good_start: f64,
     from_good_start: usize,
+    /// Contacts from which sweeps take long to carry what is left over from one end to the other.
+    pile: usize,
     /// Iterations of ADMM, with one factor or two, that are tried before Newton's method renews its factors again and again.
     directions: usize,
     /// Cost of the sweeps that are tried before Newton's method, in iterations of it.
@@ -54,6 +56,7 @@ const CONTROL: Control = Control {
     local: 4.0,
     good_start: 0.1,
     from_good_start: 6,
+    pile: 200,
     directions: 60,
     sweeps_worth: 5,
     fill: 8,
@@ -105,7 +108,8 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
             return (SolverKind::Uzawa, status.unwrap_or(SolveStatus::Stalled));
         }
     };
-    if monitor.residual() < CONTROL.good_start {
+    let is_near = monitor.residual() < CONTROL.good_start;
+    if is_near && problem.q.len() >= CONTROL.pile {
         let status = Strategy::NEWTON.run(monitor, &mut newton, r, CONTROL.from_good_start);
         if status != SolveStatus::IterationLimit {
             return (SolverKind::NewtonAlartCurnier, status);
@@ -114,6 +118,12 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
     let sweeps = CONTROL.sweeps_worth * newton.cost(problem) / gauss_seidel::cost(problem);
     if sweeps > 5 * CONTROL.first_sweeps {
         if dense {
+            if monitor.residual() < CONTROL.good_start {
+                let status = Strategy::NEWTON.run(monitor, &mut newton, r, CONTROL.from_good_start);
+                if status != SolveStatus::IterationLimit {
+                    return (SolverKind::NewtonAlartCurnier, status);
+                }
+            }
             match admm::run(monitor, r, CONTROL.directions) {
                 // A factor that would take longer than what is left of the time: others may use it.
                 Some(SolveStatus::TimeLimit) if !monitor.clock().is_over() => {}

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from carom.case.body import AnyBody
     from carom.case.scenario import Scenario
 
-TURNED = 3.0
-"""Angle from which a law of small strains sees a strain of 1 − cos 3° = 0.0014 in it [degrees]."""
+TURNED = 10.0
+"""Angle from which a law of small strains sees a strain of 1 − cos 10° = 0.015 in it [degrees]."""
 
 CODE = "linear-elastic-turned"
 REMEDY = "take saint-venant-kirchhoff, the same law for small strains, which turns with the body"

@@ -151,11 +151,12 @@ def test_what_another_run_has_pressed_down_goes_on_resting(tmp_path):
     )
     assert np.ptp(run.history["block.x"]) < 1e-14
     assert run.history["kinetic"].max() < 1e-20
-    # Without mass on its sides it weighs elsewhere, and no vibration pays for the jump.
+    # Without mass on its sides it weighs elsewhere: it gives way a little, and the books close.
     case["contact"] = carom.Contact(friction=0.6, condition="massless")
     elsewhere = carom.Scenario(analysis=goes_on, initial=start, **case)
-    with pytest.raises(carom.ConvergenceError, match="contact of massless nodes leaves"):
-        carom.run(elsewhere, out=tmp_path / "elsewhere")
+    moved = carom.run(elsewhere, out=tmp_path / "elsewhere")
+    assert np.ptp(moved.history["block.x"]) < 1e-3
+    assert abs(moved.history["defect"][-1]) < 1e-13 * moved.summary["energy"]["external"]
 
 
 def test_nothing_happens_at_the_border_of_stages():

@@ -148,8 +148,7 @@ pub struct Balance {
     pub available: f64,
     /// Energy of the motion of the step, ½ Σ m (d/Δt)² [J].
     pub motion: f64,
-    /// Work of the forces that nodes without mass start the step with and loads change in it, without its sign [J]: what they give way to where a
-    /// load sets in, or where they start out of balance. Next to nothing where both change little.
+    /// Work of the forces that set in on nodes without mass, without its sign [J]: of what their loads change by, and of what they start a run with.
     pub onset: f64,
 }
 

@@ -240,7 +240,7 @@ class AuditBody(MovingBody):
         np.add.at(folded, self.masters, values)
         return folded
 
-    def strain_energy(self, u: Array, grown: float) -> float:
+    def strain_energy(self, u: Array, grown: float = 0.0) -> float:
         """Return the strain energy [J] of what has grown by this strain."""
         if self.modes is not None:
             local = self._axes(u).own[self.cells.nodes]
@@ -283,12 +283,12 @@ class AuditBody(MovingBody):
         f0, f1 = (self.cells.deformation_gradient(u) for u in (u0, u1))
         return self.cells.divergence(self.law.viscous_stress(f0, f1, dt))
 
-    def internal_force(self, u: Array, grown: float) -> Array:
+    def internal_force(self, u: Array, grown: float = 0.0) -> Array:
         """Return ∂E/∂u [N], shape [node_count, D]."""
         stress = self.response.stress(self._elastic(u, grown))
         return self.cells.divergence(self.growth.factor(grown, 2) * stress)
 
-    def conserving_force(self, u0: Array, u1: Array, grown: float) -> Array:
+    def conserving_force(self, u0: Array, u1: Array, grown: float = 0.0) -> Array:
         """Return the force [N] whose work from u₀ to u₁ is the change of the strain energy."""
         f0, f1 = (self._elastic(u, grown) for u in (u0, u1))
         stress = self.response.discrete_stress(f0, f1)

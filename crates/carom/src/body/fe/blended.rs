@@ -50,7 +50,7 @@ impl<const D: usize> BlendedForces<D> {
             let (x0, x_mid) = (x1 - equation.motion[n], x1 - equation.motion[n] * 0.5);
             let balance_at_end =
                 end[n] + viscous[n] + equation.steadying_force(n, resistance) - equation.end_load(n);
-            balance.onset += (equation.imbalance(n) - viscous[n]).dot(&d).abs();
+            balance.onset += equation.set_in(n, &viscous[n]).dot(&d).abs();
             let [p0, p1] = [equation.contact_force[n], balance_at_end].map(|p| held.free_part(n, &p));
             let inner = [conserving[n] + viscous[n] - equation.mean_load(n), difference[n]]
                 .map(|f| held.free_part(n, &f));

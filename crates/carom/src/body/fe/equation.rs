@@ -53,6 +53,8 @@ pub(crate) struct Equation<'a, const D: usize> {
     pub motion: &'a [Vector<D>],
     /// u₊.
     pub displacement: &'a [Vector<D>],
+    /// Whether the run begins with this step.
+    begins: bool,
 }
 
 /// How a body stands and turns in a step.
@@ -148,6 +150,7 @@ impl<'a, const D: usize> Equation<'a, D> {
             contact_force: start.contact_force,
             motion: guess.motion,
             displacement: guess.displacement,
+            begins: guess.interval.start == 0.0,
         }
     }
 
@@ -231,10 +234,15 @@ impl<'a, const D: usize> Equation<'a, D> {
         self.drive.end.get(node).copied().unwrap_or_else(Vector::zeros)
     }
 
-    /// What a node starts the step with, under its load at the end and the contact forces so far [N].
+    /// The force [N] that sets in on a node in a step whose loads are weighed in its middle: the change of its load or, where nothing has moved or
+    /// pressed yet, what its load and the stresses that it starts with leave.
     #[inline]
-    pub fn imbalance(&self, node: usize) -> Vector<D> {
-        self.end_load(node) + self.contact_force[node] - self.internal_force[node]
+    pub fn set_in(&self, node: usize, viscous: &Vector<D>) -> Vector<D> {
+        let is_new = self.begins || self.velocity[node].amax() == 0.0;
+        if is_new && self.contact_force[node].amax() == 0.0 {
+            return self.end_load(node) - self.internal_force[node] - viscous;
+        }
+        (self.end_load(node) - self.mean_load(node)) * 2.0
     }
 
     /// Calls `f` with node, component and v₊ of everything that is held.
