@@ -11,10 +11,11 @@ use crate::{
 /// Starts cheaply and escalates where that does not converge; the default.
 ///
 /// A few accelerated Gauss–Seidel sweeps solve well-conditioned problems and improve the start of others. They go on while they promise
-/// to end soon. Of many contacts, from a good start, a few of Newton's iterations come next: what is left over is which of the contacts stick, slip and are open,
-/// and sweeps carry that through a pile one contact at a time. Else sweeps go on while they are a small part of what Newton's method would
-/// cost. Contacts that are densely coupled have full factors and make sweeps slow. There ADMM, which needs one factor and forgets its start, is
-/// tried instead, unless the contacts answer mostly to their own reactions.
+/// to end soon. Of many contacts, from a good start, a few of Newton's iterations come next: what is left over is which of the contacts
+/// stick, slip and are open, and sweeps carry that through a pile one contact at a time. Else sweeps go on while they are a small part of
+/// what Newton's method would cost. Contacts that are densely coupled have full factors and make sweeps slow. There ADMM, which needs one
+/// factor, is tried instead, unless the contacts answer mostly to their own reactions. It forgets its start: from a good one a few of
+/// Newton's iterations come first there, too.
 ///
 /// Then comes the proximal point method with Newton's iterations, and where that is trapped, sweeps again: in turn, until the problem is
 /// solved or the limits are reached. Where the factors would outgrow the problem, as those of large piles do, Uzawa's iteration takes
@@ -108,22 +109,17 @@ fn run<const D: usize>(monitor: &mut Monitor<'_, D>, r: &mut [Vector<D>]) -> (So
             return (SolverKind::Uzawa, status.unwrap_or(SolveStatus::Stalled));
         }
     };
+    let sweeps = CONTROL.sweeps_worth * newton.cost(problem) / gauss_seidel::cost(problem);
+    let are_slow = sweeps > 5 * CONTROL.first_sweeps;
     let is_near = monitor.residual() < CONTROL.good_start;
-    if is_near && problem.q.len() >= CONTROL.pile {
+    if is_near && (problem.len() >= CONTROL.pile || dense && are_slow) {
         let status = Strategy::NEWTON.run(monitor, &mut newton, r, CONTROL.from_good_start);
         if status != SolveStatus::IterationLimit {
             return (SolverKind::NewtonAlartCurnier, status);
         }
     }
-    let sweeps = CONTROL.sweeps_worth * newton.cost(problem) / gauss_seidel::cost(problem);
-    if sweeps > 5 * CONTROL.first_sweeps {
+    if are_slow {
         if dense {
-            if monitor.residual() < CONTROL.good_start {
-                let status = Strategy::NEWTON.run(monitor, &mut newton, r, CONTROL.from_good_start);
-                if status != SolveStatus::IterationLimit {
-                    return (SolverKind::NewtonAlartCurnier, status);
-                }
-            }
             match admm::run(monitor, r, CONTROL.directions) {
                 // A factor that would take longer than what is left of the time: others may use it.
                 Some(SolveStatus::TimeLimit) if !monitor.clock().is_over() => {}
