@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
-use carom_fem::material::{LawSpec, Mat3};
-use carom_fem::{Body, BodySpec, FemError, MassKind};
+use carom_fem::material::{LawSpec, Mat3, Viscosity};
+use carom_fem::{Body, BodySpec, FemError, Formulation, MassKind, PointMass, RayleighDamping};
 use carom_mesh::sets::facet_key;
 use carom_mesh::{Mesh, Surface};
 
@@ -101,6 +101,25 @@ fn initial_stress<const D: usize>(key: &str, given: Option<InitialStress>) -> Re
         number(&format!("{key}.{name}"), value, D == 3 || value == 0.0, remedy)?;
     }
     Ok(Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz))
+}
+
+/// What a body is made of whose cells carry mass and no stress: a rigid one, or that of another code.
+pub(super) fn unstressed(entry: &BodyEntry, density: f64, points: Vec<PointMass>) -> BodySpec {
+    BodySpec {
+        law: LawSpec::Unstressed,
+        density,
+        damping: RayleighDamping::default(),
+        viscosity: Viscosity::default(),
+        regions: Vec::new(),
+        mass: MassKind::Consistent,
+        hypothesis: entry.hypothesis,
+        formulation: Formulation::default(),
+        thickness: entry.thickness,
+        initial_stress: Mat3::zeros(),
+        grows: false,
+        points,
+        massless_contact: false,
+    }
 }
 
 /// The boundary of a body, or the sets of it that may touch others.

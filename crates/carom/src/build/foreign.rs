@@ -1,10 +1,9 @@
 //! Bodies of other codes in a scenario.
 
-use carom_fem::material::{LawSpec, Mat3, Viscosity};
-use carom_fem::{Body, BodySpec, Formulation, MassKind, RayleighDamping};
+use carom_fem::Body;
 use carom_mesh::{Mesh, Vector};
 
-use super::body::contact_surface;
+use super::body::{contact_surface, unstressed};
 use super::mesh::mesh;
 use crate::body::fe::part::ModelBody;
 use crate::body::foreign::ForeignBody;
@@ -46,21 +45,7 @@ pub(super) fn foreign_body<const D: usize>(
     }
     let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
     let made = |density: f64| {
-        let spec = BodySpec {
-            law: LawSpec::Unstressed,
-            density,
-            damping: RayleighDamping::default(),
-            viscosity: Viscosity::default(),
-            regions: Vec::new(),
-            mass: MassKind::Consistent,
-            hypothesis: entry.hypothesis,
-            formulation: Formulation::default(),
-            thickness: entry.thickness,
-            initial_stress: Mat3::zeros(),
-            grows: false,
-            points: Vec::new(),
-            massless_contact: false,
-        };
+        let spec = unstressed(entry, density, Vec::new());
         let made = Body::with_contact_surface(mesh.clone(), surface.clone(), &spec);
         made.map_err(|e| InputError::mesh(format!("{key}.mesh"), e.to_string()))
     };

@@ -1,10 +1,9 @@
 //! Rigid bodies of a scenario.
 
-use carom_fem::material::{LawSpec, Mat3, Viscosity};
-use carom_fem::{Body, BodySpec, FemError, Formulation, MassKind, RayleighDamping};
+use carom_fem::{Body, FemError};
 use carom_mesh::{Matrix, Mesh};
 
-use super::body::contact_surface;
+use super::body::{contact_surface, unstressed};
 use super::masses::masses;
 use super::mesh::mesh;
 use super::roundness::Roundness;
@@ -37,21 +36,7 @@ pub(super) fn rigid_body<const D: usize>(
     let points = masses(scenario, entry, &mesh)?;
     let round = Roundness::<D>::of(&key, entry)?;
     let made = |density: f64| {
-        let spec = BodySpec {
-            law: LawSpec::Unstressed,
-            density,
-            damping: RayleighDamping::default(),
-            viscosity: Viscosity::default(),
-            regions: Vec::new(),
-            mass: MassKind::Consistent,
-            hypothesis: entry.hypothesis,
-            formulation: Formulation::default(),
-            thickness: entry.thickness,
-            initial_stress: Mat3::zeros(),
-            grows: false,
-            points: points.clone(),
-            massless_contact: false,
-        };
+        let spec = unstressed(entry, density, points.clone());
         Body::with_contact_surface(mesh.clone(), surface.clone(), &spec).map_err(|e| match e {
             FemError::MaterialConstant { name, .. } => {
                 InputError::new(format!("{key}.{name}"), e.to_string())

@@ -27,12 +27,12 @@ const EASY: usize = 12;
 /// may leave as much as a long one.
 const LARGEST_DEBT: f64 = 1e-3;
 
-/// What waits for vibration may grow by this part of it in a step: nodes that have given way to a load come to rest only by and by.
-const GROWTH: f64 = 0.1;
-
 /// The same of a step that is no shorter than a part of a whole one: its halves may leave nothing over.
 const DEBT_OF_LONG_STEP: f64 = 1e-10;
 const LONG: f64 = 0.3;
+
+/// What waits for vibration may grow by this part of it in a step: nodes that have given way to a load come to rest only by and by.
+const GROWTH: f64 = 0.1;
 
 impl<const D: usize> Stepper<'_, D> {
     /// Takes the state over a nominal step, in substeps where it must be; `observe` is told of each that succeeds, with the states at both ends.
