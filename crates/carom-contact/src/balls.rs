@@ -5,7 +5,7 @@ use carom_mesh::Vector;
 use crate::ball::Ball;
 use crate::frame::frame;
 use crate::path::Positions;
-use crate::{Candidate, Contact, ContactModel, Obstacle, Path, Target};
+use crate::{Candidate, Contact, ContactModel, Obstacle, Pair, Path, Proximity, Target};
 
 /// The contact with an `obstacle` without corners.
 fn before_obstacle<const D: usize>(
@@ -21,14 +21,7 @@ fn before_obstacle<const D: usize>(
 
 /// The contact with another ball.
 fn before_ball<const D: usize>(ball: &Ball, other: &Ball, position: &Positions<'_, D>) -> Contact<D> {
-    let apart = ball.centre(position) - other.centre(position);
-    let distance = apart.norm();
-    // Two that have the same centre are pushed apart along the first axis.
-    let normal = if distance > 0.0 {
-        apart / distance
-    } else {
-        Vector::from_fn(|i, _| if i == 0 { 1.0 } else { 0.0 })
-    };
+    let (distance, normal) = apart(&ball.centre(position), &other.centre(position));
     let back = -normal;
     let targets = other.touching(&back, position).map(|(node, weight)| (node, -weight));
     let stencil = ball.touching(&normal, position).chain(targets);
@@ -36,17 +29,24 @@ fn before_ball<const D: usize>(ball: &Ball, other: &Ball, position: &Positions<'
     Contact::of_stencil(gap, frame(&normal), 0.0, stencil, D + 1)
 }
 
+/// How far a point is from another [m], and in which direction. Two in the same place are pushed apart along the first axis.
+pub(crate) fn apart<const D: usize>(from: &Vector<D>, other: &Vector<D>) -> (f64, Vector<D>) {
+    let way = from - other;
+    let distance = way.norm();
+    let first = || Vector::from_fn(|i, _| if i == 0 { 1.0 } else { 0.0 });
+    (distance, if distance > 0.0 { way / distance } else { first() })
+}
+
 impl<const D: usize> ContactModel<D> {
     /// The balls of a pair of bodies that are both round.
-    pub(crate) fn balls(&self, pair: usize) -> Option<[&Ball; 2]> {
-        let pair = self.pairs.get(pair);
+    pub(crate) fn balls(&self, pair: &Pair) -> Option<[&Ball; 2]> {
         let Target::Surface(target) = pair.target else { return None };
         Some([self.surfaces[pair.source].ball.as_ref()?, self.surfaces[target].ball.as_ref()?])
     }
 
     /// Adds to `out` a pair of balls that come near one another, once for both directions.
     pub(crate) fn detect_balls(&self, pair: usize, path: &Path<'_, D>, out: &mut Vec<Candidate>) {
-        let Some([ball, other]) = self.balls(pair) else { return };
+        let Some([ball, other]) = self.balls(&self.pairs.get(pair)) else { return };
         if self.pairs.directions(pair).start != pair {
             return;
         }
@@ -74,8 +74,30 @@ impl<const D: usize> ContactModel<D> {
 
     /// The contact of a pair of balls.
     pub(crate) fn between_balls(&self, pair: usize, position: &Positions<'_, D>) -> Option<Contact<D>> {
-        let [ball, other] = self.balls(pair)?;
+        let [ball, other] = self.balls(&self.pairs.get(pair))?;
         Some(before_ball(ball, other, position))
+    }
+
+    /// How far a ball of a pair is from another, or from an obstacle without corners, wherever their meshes are; none where a mesh is what touches.
+    #[must_use]
+    pub fn round_proximity(&self, pair: &Pair, position: &Positions<'_, D>) -> Option<Proximity<D>> {
+        let ball = self.surfaces[pair.source].ball.as_ref()?;
+        let centre = ball.centre(position);
+        let (gap, normal) = match pair.target {
+            Target::Obstacle(o) => {
+                let obstacle = &self.obstacles[o];
+                if obstacle.has_corners() {
+                    return None;
+                }
+                obstacle.gap(&centre, position)
+            }
+            Target::Surface(t) => {
+                let other = self.surfaces[t].ball.as_ref()?;
+                let (distance, normal) = apart(&centre, &other.centre(position));
+                (distance - other.radius, normal)
+            }
+        };
+        Some(Proximity { gap: gap - ball.radius, at: centre - normal * ball.radius })
     }
 
     /// The contact of a ball with an obstacle without corners.

@@ -113,7 +113,7 @@ impl<const D: usize> ContactModel<D> {
                     self.detect_faceted(p, &path, search, (scratch, out));
                 }
             },
-            Target::Surface(_) if self.balls(p).is_some() => self.detect_balls(p, path, out),
+            Target::Surface(_) if self.balls(&pair).is_some() => self.detect_balls(p, path, out),
             Target::Surface(_) => self.detect_faceted(p, path, search, (scratch, out)),
         }
     }

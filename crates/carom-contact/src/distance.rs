@@ -17,11 +17,13 @@ pub struct Proximity<const D: usize> {
 }
 
 impl<const D: usize> ContactModel<D> {
-    /// Where the source nodes of `pair` are closest to, or deepest inside, the target.
+    /// Where the source of `pair` is closest to, or deepest inside, the target: a node of it, or what is round.
     #[must_use]
     pub fn proximity(&self, pair: &Pair, position: &Positions<'_, D>) -> Option<Proximity<D>> {
-        let nodes = self.surfaces[pair.source].sources.iter().map(|&n| position(n));
-        self.closest(nodes, pair.target, position)
+        self.round_proximity(pair, position).or_else(|| {
+            let nodes = self.surfaces[pair.source].sources.iter().map(|&n| position(n));
+            self.closest(nodes, pair.target, position)
+        })
     }
 
     /// Which of these points [m] is closest to, or deepest inside, a target.
@@ -85,7 +87,7 @@ impl<const D: usize> ContactModel<D> {
     ) -> bool {
         let pair = candidate.pair as usize;
         let Pair { source, target, .. } = self.pairs.get(pair);
-        if self.is_mortar(pair) || self.is_self_contact(pair) || self.balls(pair).is_some() {
+        if self.is_mortar(pair) || self.is_self_contact(pair) || self.balls(&self.pairs.get(pair)).is_some() {
             return false;
         }
         let from = |x: &Vector<D>, solid: Solid, surface: &ContactSurface| {

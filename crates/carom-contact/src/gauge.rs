@@ -148,6 +148,9 @@ impl<const D: usize> Gauge<D> {
         gaps: &KnownGaps<'_, F>,
         position: &Positions<'_, D>,
     ) -> f64 {
+        if let Some(round) = model.round_proximity(pair, position) {
+            return round.gap;
+        }
         let sources = &model.surfaces[pair.source].sources;
         match pair.target {
             Target::Obstacle(o) => {

@@ -13,11 +13,6 @@ METHODS = [
     ("massless", "conserving"),
 ]
 
-# The row of the step in which a marble lands has the gap of another marble: -0.09 mm, not -1.5 mm.
-ROWS_MISS_LANDINGS = pytest.param(
-    *METHODS[2:3], marks=pytest.mark.xfail(reason="min_gap of a row misses a round body that lands")
-)
-
 
 def marble(name, centre, radius=0.1, **more):
     kind = "disc" if len(centre) == 2 else "ball"
@@ -62,7 +57,7 @@ def confirmed(directory):
     return {check.name: check for check in audit.checks}
 
 
-@pytest.mark.parametrize("method", [*METHODS[:2], ROWS_MISS_LANDINGS, METHODS[3]])
+@pytest.mark.parametrize("method", METHODS)
 def test_marbles_are_confirmed(tmp_path, method):
     result = carom.run(thrown(*method), out=tmp_path)
     touched = {tuple(event["pair"]) for event in result.summary["contacts"]}

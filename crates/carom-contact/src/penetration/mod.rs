@@ -10,6 +10,7 @@ mod deep;
 mod feature;
 mod in_obstacle;
 mod itself;
+mod round;
 mod shell;
 mod skin;
 mod way;
@@ -17,11 +18,11 @@ mod way;
 use carom_mesh::parallel::{SURFACES, each_group};
 use carom_mesh::{Surface, Vector};
 
-use crate::Obstacle;
 use crate::aabb::Aabb;
 use crate::neighbours::Neighbours;
 use crate::path::Positions;
 use crate::tolerances::MEASURE;
+use crate::{ContactSurface, Obstacle};
 use deep::Deep;
 pub use feature::Feature;
 use shell::Shell;
@@ -56,7 +57,7 @@ pub struct Penetration<const D: usize> {
     /// What is smaller there [m]: the diameter of a facet, or how thick the wall behind it was first, or the obstacle is.
     pub cell: f64,
     /// How far the arcs that the facets there stand for are in front of them [m], those of both sides together; of a round obstacle how far it
-    /// bulges into the facet.
+    /// bulges into the facet. None where both are round and no facet stands for them.
     pub arcs: f64,
 }
 
@@ -114,6 +115,15 @@ impl<const D: usize> Boundaries<D> {
         }
         let skins = obstacles.iter().map(|o| Skin::of(&o.shape)).collect();
         Self { shells, skins, ..Self::default() }
+    }
+
+    /// The same, of bodies that are round where these `surfaces` of theirs are.
+    #[must_use]
+    pub fn round_as(mut self, surfaces: &[ContactSurface]) -> Self {
+        for (shell, surface) in self.shells.iter_mut().zip(surfaces) {
+            shell.ball = surface.ball.clone().map(|ball| (ball, Vector::zeros()));
+        }
+        self
     }
 
     /// Diameter of the smallest facet of a body where it was first [m]; infinite without facets.
@@ -178,12 +188,17 @@ impl<const D: usize> Boundaries<D> {
                         Solid::Body(_) => cell,
                     });
                 }
+                let is_round = between.iter().all(|solid| match solid {
+                    Solid::Body(i) => shells[*i].ball.is_some(),
+                    Solid::Obstacle(o) => !obstacles[*o].has_corners(),
+                });
                 let facets = bodies.map(|(i, f)| (&shells[i], f));
                 let bulge = between.iter().map(|solid| match solid {
                     Solid::Obstacle(o) => obstacles[*o].shape.bulge(cell),
                     Solid::Body(_) => 0.0,
                 });
-                let arcs = facets.map(|(shell, f)| shell.arc(f)).chain(bulge).sum();
+                let arcs = facets.map(|(shell, f)| shell.arc(f)).chain(bulge);
+                let arcs = if is_round { 0.0 } else { arcs.sum() };
                 let [inner, outer] = between;
                 found(Penetration { depth, at, between: inner.pair(outer), cell, arcs });
             }
@@ -213,11 +228,16 @@ impl<const D: usize> Boundaries<D> {
             }
             for j in near.of(i).filter(|&j| counts([me, Solid::Body(j)])) {
                 let witness = |feature, depth| witnesses.push(Witness { of: i, inside: j, feature, depth });
-                note([me, Solid::Body(j)], shell.inside_of(&shells[j], witness));
+                let round = shell.round_inside_of(&shells[j]);
+                note([me, Solid::Body(j)], round.unwrap_or_else(|| shell.inside_of(&shells[j], witness)));
             }
             for (o, (skin, obstacle)) in skins.iter().zip(obstacles).enumerate() {
                 let other = Solid::Obstacle(o);
                 if counts([me, other]) {
+                    if let Some(round) = shell.round_inside_of_obstacle(obstacle, position) {
+                        note([me, other], round);
+                        continue;
+                    }
                     let shift = obstacle.shift(position);
                     note([me, other], shell.inside_of_obstacle(&obstacle.shape, &shift));
                     note([other, me], shell.deepest_of(skin, &shift));

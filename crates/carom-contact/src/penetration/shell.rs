@@ -8,6 +8,7 @@ use super::deep::Deep;
 use super::feature::Feature;
 use super::skin::Skin;
 use crate::aabb::Aabb;
+use crate::ball::Ball;
 use crate::bvh::Bvh;
 use crate::patch::{Patch, bows, foot, rim};
 use crate::path::Positions;
@@ -35,6 +36,8 @@ pub(super) struct Shell<const D: usize> {
     arcs: Vec<f64>,
     /// How thick the wall behind each of its facets was there [m].
     walls: Vec<f64>,
+    /// What it is before what has no corners, and before others that are round, if that is round; and where its centre is [m].
+    pub ball: Option<(Ball, Vector<D>)>,
     /// Nodes at which the boundary ends: where a tied side begins.
     ends: BTreeSet<u32>,
     first: u32,
@@ -82,6 +85,7 @@ impl<const D: usize> Shell<D> {
             largest_cell: 0.0,
             arcs: Vec::new(),
             walls: Vec::new(),
+            ball: None,
             ends,
             first,
             tree: Bvh::new(std::iter::empty()),
@@ -101,6 +105,10 @@ impl<const D: usize> Shell<D> {
         } else {
             Aabb::of(self.nodes.iter().map(|(n, _)| self.at(*n)))
         };
+        if let Some((ball, centre)) = &mut self.ball {
+            *centre = ball.centre(position);
+            self.bounds = self.bounds.union(&Aabb::of([*centre]).inflated(ball.radius));
+        }
     }
 
     /// A box around a facet.

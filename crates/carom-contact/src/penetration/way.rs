@@ -17,11 +17,13 @@ struct Mover<const D: usize> {
     /// The mean motion of its nodes, and how far theirs is from it at most [m].
     motion: Vector<D>,
     spread: f64,
+    /// How far what is round is in front of its facets at most [m].
+    arc: f64,
     thickness: f64,
 }
 
 impl<const D: usize> Mover<D> {
-    fn new(places: Vec<[Vector<D>; 2]>, thickness: f64) -> Self {
+    fn new(places: Vec<[Vector<D>; 2]>, arc: f64, thickness: f64) -> Self {
         let count = places.len().max(1) as f64;
         let centre = places.iter().map(|[a, b]| a + b).sum::<Vector<D>>() / (2.0 * count);
         let motion = places.iter().map(|[a, b]| b - a).sum::<Vector<D>>() / count;
@@ -29,7 +31,7 @@ impl<const D: usize> Mover<D> {
         let radius = all.map(|x| (x - centre).norm_squared()).fold(0.0, f64::max).sqrt();
         let beside = places.iter().map(|[a, b]| (b - a - motion).norm_squared());
         let spread = beside.fold(0.0, f64::max).sqrt();
-        Self { places, centre, radius, motion, spread, thickness }
+        Self { places, centre, radius, motion, spread, arc, thickness }
     }
 
     /// Whether no plane that is at right angles to the line of their middles, or to their motion against one another, is between their ways.
@@ -37,7 +39,8 @@ impl<const D: usize> Mover<D> {
         let axes = [other.centre - self.centre, other.motion - self.motion];
         axes.iter().all(|axis| {
             let [own, others] = [self, other].map(|mover| mover.extent(axis));
-            own[0] <= others[1] && others[0] <= own[1]
+            let arcs = (self.arc + other.arc) * axis.norm();
+            own[0] <= others[1] + arcs && others[0] <= own[1] + arcs
         })
     }
 
@@ -105,6 +108,8 @@ fn parts_of(motion: f64, thickness: f64) -> usize {
 impl<const D: usize> Shell<D> {
     fn mover(&self, start: &Positions<'_, D>, end: &Positions<'_, D>) -> Mover<D> {
         let places = self.nodes.iter().map(|(n, _)| [start(*n), end(*n)]).collect();
-        Mover::new(places, self.least_cell)
+        // The arc of a facet is in front of its middle; those of warped ones may be farther.
+        let arc = if self.ball.is_some() { 2.0 * self.largest_arc() } else { 0.0 };
+        Mover::new(places, arc, self.least_cell)
     }
 }

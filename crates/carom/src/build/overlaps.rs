@@ -39,10 +39,8 @@ pub(super) fn check_overlaps<const D: usize>(
             directions.push(Pair { source: b, target: Target::Surface(pair.source), ..pair });
         }
         for direction in directions {
-            let points = sample(&model.bodies[direction.source]);
-            let Some(closest) = model.assembly.contact.closest(points, direction.target, &at) else {
-                continue;
-            };
+            let of_mesh = || contact.closest(sample(&model.bodies[direction.source]), direction.target, &at);
+            let Some(closest) = contact.round_proximity(&direction, &at).or_else(of_mesh) else { continue };
             let source = &model.bodies[direction.source];
             let touching = TOUCHING * source.body.mesh().smallest_edge();
             if closest.gap >= least - touching {

@@ -153,7 +153,8 @@ impl<const D: usize> Assembly<D> {
         assembly.reference.resize(count + obstacles, Vector::zeros());
         let bodies = boundaries.iter().zip(assembly.nodes.iter().map(|nodes| nodes.start as u32));
         let position = |n: u32| assembly.reference[n as usize];
-        assembly.boundaries = Boundaries::new(bodies, &assembly.contact.obstacles, &position);
+        assembly.boundaries = Boundaries::new(bodies, &assembly.contact.obstacles, &position)
+            .round_as(&assembly.contact.surfaces);
         assembly.held.resize(count + obstacles, [true; D]);
         assembly
     }
