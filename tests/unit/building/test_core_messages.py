@@ -105,7 +105,7 @@ BAD = [
     (
         {"obstacles": [{**FLOOR, "point": [0.0, 2.0]}]},
         "bodies.0.mesh: ",
-        'lies outside, behind obstacle "floor" at the start: its node at (0.000000, 0.000000) is 2',
+        'lies outside, behind obstacle "floor" at the start: near (0.000000, 0.000000) it is 2',
     ),
     (
         {"obstacles": [{"name": "hole", "kind": "sphere", "centre": [0.5, 0.5], "radius": 2.0}]},
@@ -115,7 +115,7 @@ BAD = [
     (
         {"obstacles": [{"name": "step", "kind": "box", "corner": [0, 0.5], "size": [1, 1]}]},
         "bodies.0.mesh: ",
-        'body "block" overlaps obstacle "step" at the start: its node at ',
+        'body "block" overlaps obstacle "step" at the start: near ',
     ),
     (
         {"bodies.0.hypothesis": "axisymmetric", "analysis.gravity": [1.0, 0.0]},

@@ -77,7 +77,7 @@ pub(super) fn check_overlaps<const D: usize>(
                     InputError::new(
                         format!("bodies.{index}.mesh"),
                         format!(
-                            "body {a:?} {fact} obstacle {b:?} at the start: its node at {place} is {:.6} m behind it; \
+                            "body {a:?} {fact} obstacle {b:?} at the start: near {place} it is {:.6} m behind that; \
                              move the body or {free} obstacles.{} ({:?}){cure}",
                             -closest.gap, o, scenario.obstacles[o].name
                         ),
