@@ -74,6 +74,7 @@ class Simulation:
         meshes: Mapping[str, MeshArrays] | None = None,
         surfaces: Mapping[str, SurfaceArrays] | None = None,
         foreign: Mapping[str, object] | None = None,
+        engine: object | None = None,
     ) -> None: ...
     @property
     def time(self) -> float: ...

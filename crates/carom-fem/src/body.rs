@@ -8,9 +8,10 @@ use crate::held::{Held, HeldDof};
 use crate::massless::{followers, redistributed};
 use crate::material::{Mat3, PlasticState};
 use crate::point_mass::with_points;
+use crate::ranks::{Ranks, Summed};
 use crate::shape_table::{Depth, facet_area};
 use crate::sparse::{NodalMatrix, NodeGraph};
-use crate::{BodySpec, FemError, Growth, Hypothesis, MassKind, RayleighDamping};
+use crate::{BodySpec, FemError, Growth, Hypothesis, MassKind, PointMass, RayleighDamping};
 
 /// A node whose radius is below this, relative to the size of the body, is on the axis.
 const ON_THE_AXIS: f64 = 1e-9;
@@ -23,11 +24,18 @@ pub struct Body<const D: usize> {
     mesh: Mesh<D>,
     surface: Surface,
     massless_contact: bool,
+    /// The graph of the nodes, whoever has the cells between them.
     graph: Arc<NodeGraph>,
+    /// The processes that share the cells, if others have some of them.
+    pub(crate) ranks: Option<Arc<dyn Ranks>>,
+    /// The numbers of the cells that this one has, in the order of the elements; empty if it has all.
+    pub(crate) own_cells: Vec<u32>,
     elements: Vec<Box<dyn Elements<D>>>,
     dashpots: Vec<Box<dyn Dashpots<D>>>,
     /// Quadrature points that remember.
     memory: usize,
+    /// Whether a material of it is viscous, whoever has its cells.
+    is_viscous: bool,
     mass: NodalMatrix<f64>,
     nodal_mass: Vec<f64>,
     massless_stiffness: Vec<f64>,
@@ -70,8 +78,12 @@ impl<const D: usize> Body<D> {
         let objective = laws[0].is_objective();
         // What repeats itself along a line or around an axis cannot turn.
         let turns = objective && mesh.ties().is_empty() && depth != Depth::Revolution;
-        let (mass, massless_mass) = mass_matrix(&mesh, &surface, spec, depth)?;
+        // Whatever is wrong with a cell is seen by every rank.
+        let materials = materials_of(&mesh, depth, spec, &laws)?;
+        let whole = Arc::new(NodeGraph::of(&mesh));
+        let (mass, massless_mass) = mass_matrix(&mesh, &whole, &surface, spec, depth)?;
         let graph = Arc::clone(mass.shared_graph());
+        let ranks = spec.share.as_ref().map(|share| Arc::clone(&share.ranks));
         let (mut blocks, mut viscous, mut cells_in_order) = (Vec::new(), Vec::new(), Vec::new());
         for_each_piece(&mesh, depth, spec, |cells, spec| {
             blocks.push(elements(spec, cells, &graph)?);
@@ -81,13 +93,18 @@ impl<const D: usize> Body<D> {
             }
             Ok(())
         })?;
-        let nodal_mass = mass.row_sums();
+        let mut nodal_mass = mass.row_sums();
+        ranks.iter().for_each(|ranks| ranks.sum(&mut nodal_mass));
+        let (own_cells, cells_in_order) = match &ranks {
+            None => (Vec::new(), cells_in_order),
+            Some(_) => (cells_in_order, numbers_in_order(&mesh, depth, spec)?),
+        };
         let remembers = laws.iter().any(|law| law.remembers());
         let memory = if remembers { blocks.iter().map(|b| b.point_count()).sum() } else { 0 };
-        let materials = materials_of(&mesh, depth, spec, &laws)?;
         let mut body = Self {
             surface,
             memory,
+            is_viscous: spec.by_material().iter().any(|of| of.viscosity.is_active()),
             total_mass: nodal_mass.iter().sum(),
             depth,
             materials,
@@ -95,7 +112,9 @@ impl<const D: usize> Body<D> {
             damping_stiffness: None,
             cells_in_order: if spec.regions.is_empty() { Vec::new() } else { cells_in_order },
             mesh,
-            graph,
+            graph: if ranks.is_some() { whole } else { graph },
+            ranks,
+            own_cells,
             elements: blocks,
             dashpots: viscous,
             mass,
@@ -112,11 +131,9 @@ impl<const D: usize> Body<D> {
         body.hold(body.axis_nodes().into_iter().map(|node| HeldDof { node, component: 0 }));
         if spec.massless_contact {
             let stiffness = body.unstressed_stiffness(spec)?;
-            body.massless_stiffness = body
-                .massless()
-                .iter()
-                .map(|&n| stiffness.values[body.graph.entry(n, n)].trace() / D as f64)
-                .collect();
+            let own = |&n: &u32| stiffness.values[stiffness.graph().entry(n, n)].trace() / D as f64;
+            body.massless_stiffness = body.massless().iter().map(own).collect();
+            body.ranks.iter().for_each(|ranks| ranks.sum(&mut body.massless_stiffness));
         }
         body.damping_stiffness = body.stiffness_of_damping(spec)?;
         Ok(body)
@@ -140,7 +157,7 @@ impl<const D: usize> Body<D> {
         &self.surface
     }
 
-    /// The graph of the nodes.
+    /// The graph of the nodes, whoever has the cells between them; matrices are over that of the cells which are here.
     #[must_use]
     pub fn graph(&self) -> &Arc<NodeGraph> {
         &self.graph
@@ -171,7 +188,19 @@ impl<const D: usize> Body<D> {
         &self.held
     }
 
-    /// Mass matrix [kg], one number per pair of nodes (mass is isotropic).
+    /// The processes that share its cells, if others have some of them.
+    #[must_use]
+    pub fn ranks(&self) -> Option<&Arc<dyn Ranks>> {
+        self.ranks.as_ref()
+    }
+
+    /// Writes M v to `out`, of all ranks together.
+    pub fn multiply_mass(&self, v: &[Vector<D>], out: &mut [Vector<D>]) {
+        self.mass.multiply(v, out);
+        self.ranks.sum_up(out);
+    }
+
+    /// Mass matrix [kg], one number per pair of nodes (mass is isotropic); of a shared body its part of the cells that are here.
     #[must_use]
     pub fn mass(&self) -> &NodalMatrix<f64> {
         &self.mass
@@ -300,7 +329,12 @@ impl<const D: usize> Body<D> {
         vec![PlasticState::default(); self.memory]
     }
 
-    /// The stiffness ∂²E/∂u² [N/m] of the virgin body at `u`.
+    /// A matrix of zeros over the graph of the cells that are here.
+    fn no_stiffness(&self) -> NodalMatrix<Matrix<D>> {
+        NodalMatrix::filled(self.mass.shared_graph(), Matrix::zeros())
+    }
+
+    /// The stiffness ∂²E/∂u² [N/m] of the virgin body at `u`; of a shared body its part of the cells that are here.
     #[must_use]
     pub fn stiffness(&self, u: &[Vector<D>]) -> NodalMatrix<Matrix<D>> {
         self.stiffness_after(&[], Growth::default(), u)
@@ -313,7 +347,7 @@ impl<const D: usize> Body<D> {
         growth: Growth,
         u: &[Vector<D>],
     ) -> NodalMatrix<Matrix<D>> {
-        let mut k = NodalMatrix::filled(&self.graph, Matrix::zeros());
+        let mut k = self.no_stiffness();
         self.blocks(history).for_each(|(e, history)| e.add_stiffness(u, Past { history, growth }, &mut k));
         if growth.tangent() != 1.0 {
             k.values.iter_mut().for_each(|block| *block *= growth.tangent());
@@ -330,9 +364,9 @@ impl<const D: usize> Body<D> {
         }
         let spec = BodySpec { initial_stress: Mat3::zeros(), ..spec.clone() };
         let past = Past::none();
-        let mut k = NodalMatrix::filled(&self.graph, Matrix::zeros());
+        let mut k = self.no_stiffness();
         for_each_piece(&self.mesh, self.depth, &spec, |cells, spec| {
-            elements(spec, cells, &self.graph)?.add_stiffness(&rest, past, &mut k);
+            elements(spec, cells, self.mass.shared_graph())?.add_stiffness(&rest, past, &mut k);
             Ok(())
         })?;
         Ok(k)
@@ -348,9 +382,9 @@ impl<const D: usize> Body<D> {
             if factor == 0.0 {
                 continue;
             }
-            let mut k = NodalMatrix::filled(&self.graph, Matrix::zeros());
+            let mut k = self.no_stiffness();
             for_each_piece_of(index, &self.mesh, self.depth, &unstressed, |cells, spec| {
-                elements(spec, cells, &self.graph)?.add_stiffness(&rest, Past::none(), &mut k);
+                elements(spec, cells, self.mass.shared_graph())?.add_stiffness(&rest, Past::none(), &mut k);
                 Ok(())
             })?;
             k.values.iter_mut().for_each(|block| *block *= factor);
@@ -392,18 +426,30 @@ impl<const D: usize> Body<D> {
                 *f += mv * self.damping.mass;
             }
         }
+        if self.damping.mass > 0.0 || self.damping_stiffness.is_some() {
+            self.ranks.sum_up(f);
+        }
     }
 
     /// Whether anything resists velocities: damping or viscosity.
     #[must_use]
     pub fn is_damped(&self) -> bool {
-        self.damping.mass != 0.0 || self.damping_stiffness.is_some() || !self.dashpots.is_empty()
+        self.damping.mass != 0.0 || self.damping_stiffness.is_some() || self.is_viscous
     }
 
     /// Adds the force [N] of the material's viscosity in a step from `u0` to `u1` in `dt` [s] to `f`: its work is what the step
     /// dissipates.
     pub fn add_viscous_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], dt: f64, f: &mut [Vector<D>]) {
-        self.dashpots.iter().for_each(|d| d.add_force(u0, u1, dt, f));
+        if self.ranks.is_none() {
+            return self.dashpots.iter().for_each(|d| d.add_force(u0, u1, dt, f));
+        }
+        if !self.is_viscous {
+            return;
+        }
+        let mut own = vec![Vector::zeros(); f.len()];
+        self.dashpots.iter().for_each(|d| d.add_force(u0, u1, dt, &mut own));
+        self.ranks.sum_up(&mut own);
+        f.iter_mut().zip(&own).for_each(|(f, own)| *f += own);
     }
 
     /// The derivative of the viscous force by the velocities [N s/m] at `u`, if there is any viscosity.
@@ -412,7 +458,7 @@ impl<const D: usize> Body<D> {
         if self.dashpots.is_empty() {
             return None;
         }
-        let mut c = NodalMatrix::filled(&self.graph, Matrix::zeros());
+        let mut c = self.no_stiffness();
         self.dashpots.iter().for_each(|d| d.add_damping(u, &mut c));
         Some(c)
     }
@@ -453,11 +499,17 @@ fn depth<const D: usize>(mesh: &Mesh<D>, spec: &BodySpec) -> Result<Depth, FemEr
 /// The mass matrix on the graph of the body.
 fn mass_matrix<const D: usize>(
     mesh: &Mesh<D>,
+    whole: &Arc<NodeGraph>,
     surface: &Surface,
     spec: &BodySpec,
     depth: Depth,
 ) -> Result<(NodalMatrix<f64>, Vec<f64>), FemError> {
-    let graph = Arc::new(NodeGraph::of(mesh));
+    let ranks = spec.share.as_ref().map(|share| &share.ranks);
+    let graph = match &spec.share {
+        None => Arc::clone(whole),
+        Some(share) => Arc::new(NodeGraph::of_cells(mesh, |cell| share.owns[cell])),
+    };
+    let points: &[PointMass] = if ranks.is_none_or(|ranks| ranks.is_first()) { &spec.points } else { &[] };
     let mut mass = NodalMatrix::filled(&graph, 0.0);
     for_each_piece(mesh, depth, spec, |cells, spec| {
         if spec.mass == MassKind::Lumped && cells.block.kind.is_quadratic() {
@@ -475,11 +527,26 @@ fn mass_matrix<const D: usize>(
         }
     }
     if !spec.massless_contact {
-        return Ok((with_points(mass, &spec.points), Vec::new()));
+        return Ok((with_points(mass, points), Vec::new()));
     }
     // Row sums of corners of second order are negative.
     let size = |n: usize| graph.row(n).map(|(entry, _)| mass.values[entry].abs()).sum::<f64>();
-    let moved = surface.nodes().iter().map(|&n| size(n as usize)).collect();
-    let followers = followers(mesh, &graph, surface)?;
-    Ok((redistributed(&with_points(mass, &spec.points), surface.nodes(), &followers), moved))
+    let mut moved: Vec<f64> = surface.nodes().iter().map(|&n| size(n as usize)).collect();
+    ranks.iter().for_each(|ranks| ranks.sum(&mut moved));
+    let followers = followers(mesh, whole, surface)?;
+    Ok((redistributed(&with_points(mass, points), surface.nodes(), &followers), moved))
+}
+
+/// The numbers of the cells of all ranks in the order of the elements; none if that is their order.
+fn numbers_in_order<const D: usize>(
+    mesh: &Mesh<D>,
+    depth: Depth,
+    spec: &BodySpec,
+) -> Result<Vec<u32>, FemError> {
+    let mut numbers = Vec::new();
+    for_each_piece(mesh, depth, &BodySpec { share: None, ..spec.clone() }, |cells, _| {
+        numbers.extend_from_slice(cells.numbers);
+        Ok(())
+    })?;
+    Ok(numbers)
 }

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::material::{LawSpec, Mat3, PointLaw, Prestressed, Viscosity};
-use crate::{FemError, Formulation, Hypothesis, PointMass};
+use crate::{FemError, Formulation, Hypothesis, PointMass, Share};
 
 /// How the mass of a body is shared among its nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -79,6 +79,8 @@ pub struct BodySpec {
     pub points: Vec<PointMass>,
     /// Whether the mass of the nodes that may touch others moves inside; total mass, centre and inertia stay.
     pub massless_contact: bool,
+    /// Which of its cells this process has, where others have the rest.
+    pub share: Option<Share>,
 }
 
 impl BodySpec {

@@ -61,6 +61,8 @@ pub(crate) fn materials_of<const D: usize>(
     spec: &BodySpec,
     laws: &[Arc<dyn PointLaw<D>>],
 ) -> Result<Vec<OfMaterial>, FemError> {
+    // Of every rank's cells: what a body is does not depend on who has them.
+    let spec = &BodySpec { share: None, ..spec.clone() };
     let mut all = Vec::new();
     for (index, (of, law)) in spec.by_material().iter().zip(laws).enumerate() {
         let (_, tangent) = law.stress_and_tangent(&Matrix::identity());
@@ -114,7 +116,9 @@ pub(crate) fn for_each_piece_of<const D: usize>(
     for block in mesh.blocks() {
         let count = block.cells().len();
         let all = first as u32..(first + count) as u32;
-        let numbers: Vec<u32> = all.filter(|&cell| materials[cell as usize] == index).collect();
+        let is_own = |cell: u32| spec.share.as_ref().is_none_or(|share| share.owns[cell as usize]);
+        let numbers: Vec<u32> =
+            all.filter(|&cell| materials[cell as usize] == index && is_own(cell)).collect();
         let region = if numbers.len() == count {
             Cow::Borrowed(block)
         } else {

@@ -45,7 +45,7 @@ impl<const D: usize> MassSolver<D> {
                 .ties()
                 .iter()
                 .for_each(|t| direction[t.image as usize] = direction[t.master as usize]);
-            body.mass().multiply(direction, image);
+            body.multiply_mass(direction, image);
             restrict(body, image);
             let length = size / nodal::dot(direction, image);
             nodal::each(change, [direction], |x, [p]| *x += p * length);
@@ -62,8 +62,10 @@ impl<const D: usize> MassSolver<D> {
             return;
         }
         let (mass, nodes) = (body.mass(), body.node_count());
-        let diagonal = |n: usize| mass.values[mass.graph().entry(n as u32, n as u32)];
-        self.inverse_diagonal = (0..nodes).map(|n| diagonal(n).recip()).collect();
+        let own = |n: usize| mass.values[mass.graph().entry(n as u32, n as u32)];
+        let mut diagonal: Vec<f64> = (0..nodes).map(own).collect();
+        body.ranks().iter().for_each(|ranks| ranks.sum(&mut diagonal));
+        self.inverse_diagonal = diagonal.into_iter().map(f64::recip).collect();
         let zeros = vec![Vector::zeros(); nodes];
         (self.residual, self.direction, self.image) = (zeros.clone(), zeros.clone(), zeros);
     }

@@ -75,6 +75,7 @@ mod tests {
             grows: false,
             points: Vec::new(),
             massless_contact: false,
+            share: None,
         };
         let mesh = generate::grid([0.0; 3], [1.0; 3], [1, 1, 1]).expect("valid");
         let mut body = Body::new(mesh, &spec).expect("valid");

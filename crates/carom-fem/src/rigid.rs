@@ -3,6 +3,7 @@
 use carom_mesh::{Matrix, Vector, nodal, tensor};
 
 use crate::Body;
+use crate::ranks::Summed;
 
 impl<const D: usize> Body<D> {
     /// Centre of mass of the deformed body [m].
@@ -133,7 +134,7 @@ impl<const D: usize> Body<D> {
     #[must_use]
     pub fn momenta(&self, u: &[Vector<D>], v: &[Vector<D>]) -> Momenta<D> {
         let mut mv = vec![Vector::zeros(); v.len()];
-        self.mass().multiply(v, &mut mv);
+        self.multiply_mass(v, &mut mv);
         let whole = 0.5 * nodal::dot(v, &mv);
         let momentum = self.resultant(nodal::total(&mv));
         let translation = 0.5 * momentum.norm_squared() / self.total_mass();
@@ -181,13 +182,16 @@ impl<const D: usize> RigidMass<D> {
                 sum += (reference[neighbour] + u[neighbour] - centre) * body.mass().values[entry];
             }
             *arm = sum;
+        }
+        body.ranks.sum_up(arms);
+        for (node, sum) in arms.iter().enumerate() {
             let y = reference[node] + u[node] - centre;
             for i in 0..D {
                 for j in 0..D {
                     inertia[(i, j)] -= y[i] * sum[j];
                 }
             }
-            polar += y.dot(&sum);
+            polar += y.dot(sum);
         }
         inertia += Matrix::<3>::identity() * polar;
         Self { centre, mass: body.total_mass(), axial: body.is_axisymmetric(), inertia }

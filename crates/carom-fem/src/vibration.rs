@@ -32,7 +32,7 @@ impl<const D: usize> Vibration<D> {
             momentum.fill(Vector::zeros());
             return 0.0;
         }
-        body.mass().multiply(velocity, momentum);
+        body.multiply_mass(velocity, momentum);
         let resultant = body.resultant(nodal::total(momentum));
         field.copy_from_slice(velocity);
         if held.is_empty() {
@@ -55,7 +55,7 @@ impl<const D: usize> Vibration<D> {
             field.iter_mut().for_each(|w| *w -= drift);
         }
         body.massless().iter().for_each(|&n| field[n as usize] = Vector::zeros());
-        body.mass().multiply(field, momentum);
+        body.multiply_mass(field, momentum);
         0.5 * nodal::dot(field, momentum)
     }
 }

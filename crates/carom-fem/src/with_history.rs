@@ -2,6 +2,7 @@ use carom_mesh::{Matrix, Vector};
 
 use crate::elements::{CellState, Elements, Past, StepForces};
 use crate::material::PlasticState;
+use crate::ranks::{Ranks, Summed};
 use crate::sparse::NodalMatrix;
 use crate::{Body, Growth};
 
@@ -42,8 +43,9 @@ impl<'a, const D: usize> BodyWithHistory<'a, D> {
         self.body.blocks(self.history).map(move |(e, history)| (e, Past { history, growth }))
     }
 
-    /// What the law's stresses count in forces.
-    fn weigh(&self, f: &mut [Vector<D>]) {
+    /// Makes forces of the cells that are here those of all, weighed as the law's stresses count.
+    fn finish(&self, f: &mut [Vector<D>]) {
+        self.body.ranks.sum_up(f);
         let factor = self.growth.stress();
         if factor != 1.0 {
             f.iter_mut().for_each(|f| *f *= factor);
@@ -53,37 +55,38 @@ impl<'a, const D: usize> BodyWithHistory<'a, D> {
     /// Stored energy and plastic work of the step so far [J]. At the start of a step it is the stored energy alone.
     #[must_use]
     pub fn strain_energy(&self, u: &[Vector<D>]) -> f64 {
-        self.blocks().map(|(e, past)| e.energy(u, past)).sum::<f64>() * self.growth.energy()
+        let energy = self.blocks().map(|(e, past)| e.energy(u, past)).sum();
+        self.body.ranks.total(energy) * self.growth.energy()
     }
 
     /// Writes the internal force ∂E/∂u [N] to `f`.
     pub fn internal_force(&self, u: &[Vector<D>], f: &mut [Vector<D>]) {
         f.fill(Vector::zeros());
         self.blocks().for_each(|(e, past)| e.add_internal_force(u, past, f));
-        self.weigh(f);
+        self.finish(f);
     }
 
     /// Writes the internal force [N] to `f` and returns the [`Self::strain_energy`] [J].
     #[must_use]
     pub fn internal_force_and_energy(&self, u: &[Vector<D>], f: &mut [Vector<D>]) -> f64 {
         f.fill(Vector::zeros());
-        let energy: f64 = self.blocks().map(|(e, past)| e.add_internal_force_of_energy(u, past, f)).sum();
-        self.weigh(f);
-        energy * self.growth.energy()
+        let energy = self.blocks().map(|(e, past)| e.add_internal_force_of_energy(u, past, f)).sum();
+        self.finish(f);
+        self.body.ranks.total(energy) * self.growth.energy()
     }
 
     /// Writes the force [N] of a step from `u0` to `u1` whose work is the change of [`Self::strain_energy`] to `f`.
     pub fn conserving_force(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut [Vector<D>]) {
         f.fill(Vector::zeros());
         self.blocks().for_each(|(e, past)| e.add_conserving_force(u0, u1, past, f));
-        self.weigh(f);
+        self.finish(f);
     }
 
     /// Writes the forces [N] of a step from `u0` to `u1` that a blend of its stresses is made of.
     pub fn step_forces(&self, u0: &[Vector<D>], u1: &[Vector<D>], f: &mut StepForces<'_, D>) {
         f.fill_with_zeros();
         self.blocks().for_each(|(e, past)| e.add_step_forces(u0, u1, past, f));
-        [&mut *f.conserving, &mut *f.difference, &mut *f.end].into_iter().for_each(|f| self.weigh(f));
+        [&mut *f.conserving, &mut *f.difference, &mut *f.end].into_iter().for_each(|f| self.finish(f));
     }
 
     /// The stiffness ∂²E/∂u² [N/m] at `u`.
@@ -98,6 +101,9 @@ impl<'a, const D: usize> BodyWithHistory<'a, D> {
         let mut out = Vec::with_capacity(self.body.mesh().cell_count());
         self.blocks().for_each(|(e, past)| e.cell_states(u, past, &mut out));
         out.iter_mut().for_each(|cell| cell.energy_density *= self.growth.energy());
+        if let Some(ranks) = self.body.ranks() {
+            return of_all_ranks(&**ranks, self.body.mesh().cell_count(), &self.body.own_cells, &out);
+        }
         let order = &self.body.cells_in_order;
         if order.is_empty() {
             return out;
@@ -126,6 +132,15 @@ impl<'a, const D: usize> BodyWithHistory<'a, D> {
         }
         work * self.growth.energy()
     }
+}
+
+/// The states of so many cells, those of the cells that are here with these numbers.
+fn of_all_ranks(ranks: &dyn Ranks, count: usize, numbers: &[u32], own: &[CellState]) -> Vec<CellState> {
+    let mut all = vec![CellState::empty(0.0); count];
+    numbers.iter().zip(own).for_each(|(&cell, state)| all[cell as usize] = *state);
+    let mut rows: Vec<f64> = all.iter().flat_map(CellState::numbers).collect();
+    ranks.sum(&mut rows);
+    rows.chunks_exact(CellState::NUMBERS).map(CellState::of_numbers).collect()
 }
 
 impl<const D: usize> Body<D> {

@@ -17,7 +17,7 @@ use crate::planted::{facets_of, rows};
 use crate::{arrays, mesh};
 
 /// What a call of a law led to: the first exception, and the time of all calls [ns].
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Calls {
     failed: Mutex<Option<PyErr>>,
     time: AtomicU64,
@@ -36,7 +36,7 @@ impl Calls {
     }
 
     /// What a call returned, and its time; nothing after an exception, which is kept.
-    fn noting<T>(&self, call: impl FnOnce(Python<'_>) -> PyResult<T>) -> Option<T> {
+    pub fn noting<T>(&self, call: impl FnOnce(Python<'_>) -> PyResult<T>) -> Option<T> {
         let start = Instant::now();
         let answer = Python::attach(|py| if self.is_interrupted(py) { None } else { Some(call(py)) })?;
         self.time.fetch_add(start.elapsed().as_nanos() as u64, Ordering::Relaxed);

@@ -4,6 +4,7 @@
 mod arrays;
 mod checkpoint;
 mod dimension;
+mod engine;
 mod error;
 mod foreign;
 mod friction;

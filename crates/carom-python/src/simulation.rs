@@ -10,6 +10,7 @@ use pyo3::types::PyDict;
 use serde::Serialize;
 
 use crate::dimension::{Dimension, with};
+use crate::engine::PythonEngine;
 use crate::error::{input_error, run_error};
 use crate::foreign::{Calls, is_error, laws};
 use crate::{arrays, checkpoint, mesh};
@@ -36,13 +37,14 @@ fn to_python<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py
 #[pymethods]
 impl Simulation {
     #[new]
-    #[pyo3(signature = (scenario, meshes=None, surfaces=None, foreign=None))]
+    #[pyo3(signature = (scenario, meshes=None, surfaces=None, foreign=None, engine=None))]
     fn new(
         py: Python<'_>,
         scenario: &str,
         meshes: Option<&Bound<'_, PyDict>>,
         surfaces: Option<&Bound<'_, PyDict>>,
         foreign: Option<&Bound<'_, PyDict>>,
+        engine: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let scenario: Scenario = serde_json::from_str(scenario)
             .map_err(|e| input_error(py, &carom::InputError::new("", format!("not a scenario: {e}"))))?;
@@ -53,13 +55,15 @@ impl Simulation {
                     meshes: mesh::meshes(py, meshes)?,
                     surfaces: mesh::surfaces(surfaces)?,
                     laws: laws(foreign, &calls)?,
+                    engine: PythonEngine::of(engine, &calls),
                 };
                 py.detach(|| carom::Simulation::with_inputs(&scenario, inputs)).map(Dimension::Space)
             }
             // No surface is an obstacle of the plane: the build refuses what says so.
             _ => {
                 let (meshes, laws) = (mesh::meshes(py, meshes)?, laws(foreign, &calls)?);
-                let inputs = Inputs { laws, ..Inputs::from(meshes) };
+                let engine = PythonEngine::of(engine, &calls);
+                let inputs = Inputs { laws, engine, ..Inputs::from(meshes) };
                 py.detach(|| carom::Simulation::with_inputs(&scenario, inputs)).map(Dimension::Plane)
             }
         };

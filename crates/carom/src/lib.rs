@@ -38,7 +38,7 @@ pub use body::foreign::ForeignBody;
 pub use body::foreign::code::{Blocks, ForeignCode};
 pub use body::foreign::law::ForeignLaw;
 pub use body::{Balance, Body, BodyEnd, BodyState, ContactWeights, Forecast, Guess, Interval, Jolt, Tangent};
-pub use build::{Inputs, Laws, Meshes, Surfaces, build};
+pub use build::{Engine, Inputs, Laws, Meshes, Surfaces, build};
 pub use contact::PosedProblem;
 pub use contact::cross_check::{CrossCheck, CrossCheckSummary};
 pub use error::{InputError, StepError};

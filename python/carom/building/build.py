@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,8 +21,13 @@ from carom.errors import InputError
 from carom.mesh_file import MeshArrays, Note, SurfaceArrays, read_body_mesh, read_surface
 from carom.results.doubts import of_mesh, warn
 
+if TYPE_CHECKING:
+    from carom.ranks import Engine
 
-def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
+
+def build(
+    scenario: Scenario, notes: list[Note] | None = None, *, engine: Engine | None = None
+) -> Simulation:
     """Build meshes, matrices and the initial state.
 
     Parameters
@@ -32,6 +37,8 @@ def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
     notes
         A list that gets what was done to meshes out of files, such as cells that were turned. None
         warns of it.
+    engine
+        The ranks that share the bodies; None leaves them all to this process.
 
     Raises
     ------
@@ -44,7 +51,7 @@ def build(scenario: Scenario, notes: list[Note] | None = None) -> Simulation:
 
     def make(scenario: Scenario, meshes: Mapping[str, MeshArrays]) -> Simulation:
         try:
-            return Simulation(_json(scenario), dict(meshes), surfaces, foreign)
+            return Simulation(_json(scenario), dict(meshes), surfaces, foreign, engine)
         except InputError as error:
             raise _at_its_place(error, scenario) from None
 

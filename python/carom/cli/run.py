@@ -23,6 +23,8 @@ from carom.errors import (
 from carom.io import layout
 from carom.io.claim import claimed
 from carom.mesh_file import Note
+from carom.ranks.engine import Engine
+from carom.ranks.together import together
 from carom.results.doubts import Doubt
 from carom.results.result import Result
 from carom.running.restart import ended
@@ -52,11 +54,32 @@ def run(
             metavar="N", min=1, help="Threads that share large bodies; default all cores."
         ),
     ] = None,
+    engine: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="Share bodies among the processes of mpiexec, by this engine: petsc.",
+        ),
+    ] = None,
     quiet: Annotated[bool, typer.Option("--quiet", help="Print errors only.")] = False,
 ) -> None:
     """Run a case and write its results."""
-    console = Console(quiet=quiet)
     take_threads(threads)
+    with together(engine, threads=threads) as ranks:
+        _run(case, overrides, out, resume=resume, force=force, quiet=quiet, ranks=ranks)
+
+
+def _run(
+    case: Path,
+    overrides: Overrides,
+    out: Path | None,
+    *,
+    resume: bool,
+    force: bool,
+    quiet: bool,
+    ranks: Engine | None,
+) -> None:
+    console = Console(quiet=quiet or (ranks is not None and ranks.rank > 0))
 
     def tell(line: str) -> None:
         console.print(line, markup=False, highlight=False, soft_wrap=True)
@@ -79,7 +102,7 @@ def run(
             return
         with naming(case):
             notes: list[Note] = []
-            simulation = build(scenario, notes)
+            simulation = build(scenario, notes, engine=ranks)
         try:
             with shown_progress(console) as progress:
                 result = drive(
@@ -91,6 +114,7 @@ def run(
                     force=force,
                     notes=notes,
                     notify=tell_of,
+                    engine=ranks,
                 )
         except (CertificateError, ConvergenceError, PenetrationError, KeyboardInterrupt):
             if (directory / layout.SUMMARY).exists():

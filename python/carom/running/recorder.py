@@ -217,15 +217,13 @@ class Recorder:
         time = self._simulation.time
         if time == self._last_frame:
             return
-        wanted = with_step and self._queue.keeps_steps
-        step = self._simulation.last_step() if wanted else None
-        fields = self._simulation.fields()
-        self._queue.put(Frame(time, fields, self._simulation.surface_fields(), step))
-        for doubt in self._turning.look(fields["displacement"], time):
+        frame = taken(self._simulation, with_step=with_step and self._queue.keeps_steps)
+        self._queue.put(frame)
+        for doubt in self._turning.look(frame.fields["displacement"], time):
             self.doubt(doubt)
         self._last_frame = time
         self._frames += 1
-        self._steps += step is not None
+        self._steps += frame.step is not None
 
     @uninterrupted()
     def failed_problem(
@@ -309,6 +307,15 @@ class Recorder:
             self.doubt(Doubt("end-state-not-made", what, layout.END_STATE))
             return
         write_end_state(self._directory, end)
+
+
+def taken(simulation: _carom.Simulation, *, with_step: bool) -> Frame:
+    """Return the fields of the current state, and the step that led to it if it is wanted.
+
+    Of bodies that ranks share, all of them have a part in it.
+    """
+    step = simulation.last_step() if with_step else None
+    return Frame(simulation.time, simulation.fields(), simulation.surface_fields(), step)
 
 
 def draw(result: Result) -> None:

@@ -8,9 +8,10 @@ import re
 import shlex
 import shutil
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from time import perf_counter
+from typing import Any
 
 from carom._carom import Simulation
 from carom.building.build import build
@@ -26,8 +27,11 @@ from carom.errors import (
     StorageError,
 )
 from carom.io import layout
+from carom.io.checkpoint import Checkpoint
 from carom.io.claim import claimed
 from carom.mesh_file import Note
+from carom.ranks.engine import Engine, engine_named
+from carom.ranks.following import Following, Leading
 from carom.results.doubts import Doubt, warn, written_doubts
 from carom.results.penetration import depth_of, too_deep
 from carom.results.result import Result
@@ -51,6 +55,7 @@ def run(
     progress: ShowProgress | None = None,
     resume: bool = False,
     force: bool = False,
+    engine: str | None = None,
 ) -> Result:
     """Run a scenario and write its results.
 
@@ -71,6 +76,9 @@ def run(
         ended already its results are returned.
     force
         Whether results of an earlier run in the directory are replaced; otherwise they are refused.
+    engine
+        ``"petsc"`` shares the cells of bodies among all processes that ``mpiexec`` has started with
+        this script, which all call this; the first writes the results. None runs in this one.
 
     Raises
     ------
@@ -93,7 +101,8 @@ def run(
         checkpoint.
     """
     notes: list[Note] = []
-    simulation = build(scenario, notes)
+    ranks = None if engine is None else engine_named(engine)
+    simulation = build(scenario, notes, engine=ranks)
     directory = Path("results") / _slug(scenario.title) if out is None else Path(out)
     return drive(
         simulation,
@@ -104,6 +113,7 @@ def run(
         resume=resume,
         force=force,
         notes=notes,
+        engine=ranks,
     )
 
 
@@ -118,6 +128,7 @@ def drive(
     force: bool = False,
     notes: Sequence[Note] = (),
     notify: Notify = warn,
+    engine: Engine | None = None,
 ) -> Result:
     """Take a simulation to its end, recording as it goes; see `run`.
 
@@ -130,6 +141,8 @@ def drive(
     notify
         Told of every doubt as it arises, see `carom.results.doubts`; of those that the results give
         rise to after they are written.
+    engine
+        The ranks that share the bodies of the simulation; the first of them writes.
     """
     is_foreign = any(body.kind == "foreign" for body in scenario.bodies)
     if resume and is_foreign:
@@ -137,7 +150,8 @@ def drive(
             "resume: a run with a body of another code does not go on where it stopped, as no file "
             "holds its law; start again with force=True"
         )
-    with _storing(directory), claimed(directory):
+    leads = engine is None or engine.rank == 0
+    with _storing(directory), claimed(directory) if leads else nullcontext():
         has_results = layout.has_results(directory)
         case = identity(scenario, simulation)
         checkpoint = None
@@ -159,15 +173,24 @@ def drive(
         frames = 0 if checkpoint is None else checkpoint.record["frames_due"]
         schedule = Schedule(scenario, time=simulation.time, frames=frames)
         observing = Observing(observers, State(scenario, simulation)) if observers else None
-        with Recorder(
-            directory, scenario, simulation, case=case, checkpoint=checkpoint, notify=notify
+        if engine is not None:
+            # Before the first rank changes what the others have looked at.
+            engine.wait()
+        with _recorder(
+            directory, scenario, simulation, case=case, checkpoint=checkpoint, notify=notify, engine=engine
         ) as recorder:
             before = [] if checkpoint is None else written_doubts(checkpoint.record)
             first = first_doubts(scenario, simulation.describe(), notes)
             for doubt in (*before, *first, *noted):
                 recorder.doubt(doubt)
             wish = _take(
-                simulation, scenario, recorder, schedule, observing=observing, progress=progress
+                simulation,
+                scenario,
+                recorder,
+                schedule,
+                observing=observing,
+                progress=progress,
+                engine=engine,
             )
             if (reason := _violation(simulation)) is not None:
                 recorder.close(status="uncertified", reason=reason)
@@ -182,13 +205,42 @@ def drive(
             return recorder.close(status="completed")
 
 
+def _recorder(
+    directory: Path,
+    scenario: Scenario,
+    simulation: Simulation,
+    *,
+    case: dict[str, Any],
+    checkpoint: Checkpoint | None,
+    notify: Notify,
+    engine: Engine | None,
+) -> Recorder | Following:
+    """Return what writes the results, or follows the rank that does."""
+    if engine is None:
+        return Recorder(
+            directory, scenario, simulation, case=case, checkpoint=checkpoint, notify=notify
+        )
+    if engine.rank > 0:
+        last_frame = None if checkpoint is None else checkpoint.record["last_frame"]
+        return Following(
+            directory,
+            simulation,
+            engine,
+            keeps_steps=scenario.output.audit,
+            last_frame=last_frame,
+        )
+    return Leading(
+        directory, scenario, simulation, case=case, checkpoint=checkpoint, notify=notify, engine=engine
+    )
+
+
 class _Reporter:
     """Tells of a run how far it is: in its history, to other processes, to whoever asked."""
 
     def __init__(
         self,
         simulation: Simulation,
-        recorder: Recorder,
+        recorder: Recorder | Following,
         *,
         end_time: float,
         progress: ShowProgress | None,
@@ -222,11 +274,12 @@ class _Reporter:
 def _take(
     simulation: Simulation,
     scenario: Scenario,
-    recorder: Recorder,
+    recorder: Recorder | Following,
     schedule: Schedule,
     *,
     observing: Observing | None,
     progress: ShowProgress | None,
+    engine: Engine | None,
 ) -> Stop | None:
     """Go to the end or until an observer wants to stop, and keep what there is if that fails."""
 
@@ -238,7 +291,8 @@ def _take(
 
     reporter = _Reporter(simulation, recorder, end_time=scenario.end_time, progress=progress)
     try:
-        _go(simulation, recorder, schedule, reporter, observing)
+        with nullcontext() if engine is None else engine.listening():
+            _go(simulation, recorder, schedule, reporter, observing, engine)
     except ConvergenceError as error:
         if error.problem is not None:
             file = recorder.failed_problem(error.problem, guess=error.guess, reason=str(error))
@@ -264,10 +318,11 @@ def _take(
 
 def _go(
     simulation: Simulation,
-    recorder: Recorder,
+    recorder: Recorder | Following,
     schedule: Schedule,
     reporter: _Reporter,
     observing: Observing | None,
+    engine: Engine | None,
 ) -> None:
     """Go from frame to frame, from checkpoint to checkpoint and from look to look to the end."""
     if simulation.step == 0:
@@ -277,7 +332,10 @@ def _go(
     reporter.report()
     while not schedule.has_ended:
         until = schedule.next if observing is None else min(schedule.next, observing.next)
-        is_reached = simulation.advance(until, SLICE)
+        # Ranks stop to look at one another after the same steps, and not after the same time.
+        is_reached = simulation.advance(until, SLICE if engine is None else 0.0)
+        if engine is not None:
+            engine.look()
         has_frame = schedule.frame_is_due(simulation.time)
         if has_frame:
             recorder.frame()

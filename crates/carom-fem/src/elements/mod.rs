@@ -37,8 +37,23 @@ pub struct CellState {
 
 impl CellState {
     /// Nothing yet to be a mean of.
-    fn empty(plastic_strain: f64) -> Self {
+    pub(crate) fn empty(plastic_strain: f64) -> Self {
         Self { stress: Mat3::zeros(), strain: Mat3::zeros(), energy_density: 0.0, plastic_strain }
+    }
+
+    /// How many numbers it is.
+    pub(crate) const NUMBERS: usize = 20;
+
+    /// All of it, in a row.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
+        let tensors = self.stress.iter().chain(self.strain.iter()).copied();
+        tensors.chain([self.energy_density, self.plastic_strain]).collect::<Vec<_>>().into_iter()
+    }
+
+    /// What these [numbers](Self::numbers) say.
+    pub(crate) fn of_numbers(row: &[f64]) -> Self {
+        let tensor = |first: usize| Mat3::from_column_slice(&row[first..first + 9]);
+        Self { stress: tensor(0), strain: tensor(9), energy_density: row[18], plastic_strain: row[19] }
     }
 }
 

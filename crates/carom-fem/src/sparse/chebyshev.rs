@@ -6,6 +6,7 @@ use super::control::CONTROL;
 use super::region::Region;
 use super::scaled::Scaled;
 use super::semi_iteration::{Vectors, solve, solve_within, terms};
+use super::shared::Sharing;
 use super::spectrum::spectrum;
 use crate::FemError;
 
@@ -65,8 +66,8 @@ impl<const D: usize> Chebyshev<D> {
     ///
     /// # Errors
     /// If the matrix is seen not to be positive definite.
-    pub fn of(matrix: &NodalMatrix<Matrix<D>>) -> Result<Option<Self>, FemError> {
-        let matrix = Scaled::of(matrix).ok_or(FemError::NotPositiveDefinite)?;
+    pub fn of(matrix: &NodalMatrix<Matrix<D>>, sharing: Option<&Sharing>) -> Result<Option<Self>, FemError> {
+        let matrix = Scaled::of(matrix, sharing).ok_or(FemError::NotPositiveDefinite)?;
         let nodes = matrix.node_count();
         let [least, largest] = spectrum(&matrix);
         if least.is_nan() || least < -CONTROL.round_off * largest {
@@ -240,7 +241,7 @@ mod tests {
     }
 
     fn made(a: &NodalMatrix<Matrix<3>>) -> Chebyshev<3> {
-        Chebyshev::of(a).expect("positive definite").expect("few terms")
+        Chebyshev::of(a, None).expect("positive definite").expect("few terms")
     }
 
     fn rough(nodes: usize) -> Vec<Vector<3>> {
@@ -335,20 +336,20 @@ mod tests {
 
     #[test]
     fn stiff_and_indefinite_matrices_are_left_to_others() {
-        assert!(Chebyshev::of(&matrix(7, 100.0)).expect("positive definite").is_none());
+        assert!(Chebyshev::of(&matrix(7, 100.0), None).expect("positive definite").is_none());
         let mut indefinite = matrix(7, 0.3);
         indefinite.values.iter_mut().for_each(|block| *block = -*block);
-        assert!(Chebyshev::of(&indefinite).is_err());
+        assert!(Chebyshev::of(&indefinite, None).is_err());
         // Positive on the diagonal only.
         let mut indefinite = matrix(7, 0.3);
         for node in 0..512 {
             let own = indefinite.graph().entry(node, node);
             indefinite.values[own] *= 0.3;
         }
-        assert!(Chebyshev::of(&indefinite).is_err());
+        assert!(Chebyshev::of(&indefinite, None).is_err());
         let mut none = matrix(7, 0.3);
         none.values[5][(0, 0)] = f64::NAN;
-        assert!(Chebyshev::of(&none).is_err());
+        assert!(Chebyshev::of(&none, None).is_err());
     }
 
     #[test]

@@ -13,15 +13,38 @@ impl NodeGraph {
     /// The graph of `mesh`.
     #[must_use]
     pub fn of<const D: usize>(mesh: &Mesh<D>) -> Self {
-        let mut rows: Vec<Vec<u32>> = vec![Vec::new(); mesh.nodes().len()];
-        for block in mesh.blocks() {
-            for cell in block.cells() {
-                for &a in cell {
-                    rows[a as usize].extend_from_slice(cell);
-                }
+        Self::of_cells(mesh, |_| true)
+    }
+
+    /// The graph of some cells of `mesh`, named by their numbers, and of all its nodes with themselves.
+    #[must_use]
+    pub fn of_cells<const D: usize>(mesh: &Mesh<D>, counts: impl Fn(usize) -> bool) -> Self {
+        let cells = || mesh.blocks().iter().flat_map(|block| block.cells()).enumerate();
+        let own = || cells().filter(|(number, _)| counts(*number)).map(|(_, cell)| cell);
+        // The cells around every node, so that no row is longer than it will be for longer than it takes to sort it.
+        let count = mesh.nodes().len();
+        let mut ends = vec![0; count + 1];
+        own().flatten().for_each(|&n| ends[n as usize + 1] += 1);
+        (0..count).for_each(|n| ends[n + 1] += ends[n]);
+        let mut around: Vec<&[u32]> = vec![&[]; ends[count]];
+        let mut next = ends.clone();
+        for cell in own() {
+            for &n in cell {
+                around[next[n as usize]] = cell;
+                next[n as usize] += 1;
             }
         }
-        Self::of_rows(rows)
+        let (mut starts, mut neighbours, mut row) = (vec![0], Vec::new(), Vec::new());
+        for n in 0..count {
+            row.clear();
+            row.push(n as u32);
+            around[ends[n]..ends[n + 1]].iter().for_each(|cell| row.extend_from_slice(cell));
+            row.sort_unstable();
+            row.dedup();
+            neighbours.extend_from_slice(&row);
+            starts.push(neighbours.len());
+        }
+        Self { starts, neighbours }
     }
 
     /// The graph of so many nodes, each with itself, and of these `pairs`.
@@ -68,6 +91,16 @@ impl NodeGraph {
     #[must_use]
     pub fn node_count(&self) -> usize {
         self.starts.len() - 1
+    }
+
+    /// Where the entries of every row start, and where the last ones end.
+    pub(super) fn starts(&self) -> &[usize] {
+        &self.starts
+    }
+
+    /// The neighbours of all nodes, row by row.
+    pub(super) fn columns(&self) -> &[u32] {
+        &self.neighbours
     }
 
     /// Number of node pairs.

@@ -2,6 +2,7 @@ use carom_mesh::{Matrix, Tie, Vector};
 
 use super::chebyshev::Chebyshev;
 use super::control::CONTROL;
+use super::shared::{Shared, Sharing};
 use super::{Factor, NodalMatrix, Precision};
 use crate::FemError;
 
@@ -17,6 +18,8 @@ pub struct Inverse<const D: usize> {
     /// The nodes that a factor eliminates last, and those that the next one is to.
     last: Vec<u32>,
     next_last: Vec<u32>,
+    /// Who has the rest of the matrix, if others have.
+    sharing: Option<Sharing>,
     kind: Kind<D>,
 }
 
@@ -25,6 +28,7 @@ enum Kind<const D: usize> {
     None,
     Factor(Box<Factor<D>>),
     Polynomial(Box<Chebyshev<D>>),
+    Shared(Box<Shared<D>>),
 }
 
 impl<const D: usize> Inverse<D> {
@@ -36,8 +40,15 @@ impl<const D: usize> Inverse<D> {
             precision: Precision::default(),
             last: Vec::new(),
             next_last: Vec::new(),
+            sharing: None,
             kind: Kind::None,
         }
+    }
+
+    /// The same of matrices of which this process has a part: what is not a polynomial is left to what the ranks solve with.
+    #[must_use]
+    pub fn shared(self, sharing: Option<Sharing>) -> Self {
+        Self { sharing, ..self }
     }
 
     /// Names the `nodes`, ascending, that [responses](Self::respond) will be asked for of inverses made from now on. Where they are many but not
@@ -60,11 +71,15 @@ impl<const D: usize> Inverse<D> {
     pub fn make(&mut self, precision: Precision, matrix: &NodalMatrix<Matrix<D>>) -> Result<(), FemError> {
         self.precision = precision;
         let suits = precision == Precision::Single && self.ties.is_empty();
-        if suits && matrix.values.len() >= CONTROL.many {
-            if let Some(polynomial) = Chebyshev::of(matrix)? {
+        let entries = self.sharing.as_ref().map_or(matrix.values.len(), |s| s.graph.entry_count());
+        if suits && entries >= CONTROL.many {
+            if let Some(polynomial) = Chebyshev::of(matrix, self.sharing.as_ref())? {
                 self.kind = Kind::Polynomial(Box::new(polynomial));
                 return Ok(());
             }
+        }
+        if let Some(sharing) = &self.sharing {
+            return make_shared(&mut self.kind, sharing, precision == Precision::Double, matrix);
         }
         self.make_factor(matrix, |_| precision)
     }
@@ -75,6 +90,10 @@ impl<const D: usize> Inverse<D> {
     /// # Errors
     /// As [`Self::make`].
     pub fn make_exact(&mut self, economical: bool, matrix: &NodalMatrix<Matrix<D>>) -> Result<(), FemError> {
+        if let Some(sharing) = &self.sharing {
+            self.precision = Precision::Double;
+            return make_shared(&mut self.kind, sharing, true, matrix);
+        }
         let is_single = |values: usize| economical && values >= CONTROL.large;
         self.make_factor(
             matrix,
@@ -119,14 +138,18 @@ impl<const D: usize> Inverse<D> {
         match &self.kind {
             Kind::None => false,
             Kind::Factor(factor) => factor.is_factorized(),
-            Kind::Polynomial(_) => true,
+            Kind::Polynomial(_) | Kind::Shared(_) => true,
         }
     }
 
     /// Whether it is exact but for round-off.
     #[must_use]
     pub fn is_exact(&self) -> bool {
-        matches!(self.kind, Kind::Factor(_))
+        match &self.kind {
+            Kind::Factor(_) => true,
+            Kind::Shared(shared) => shared.is_exact(),
+            Kind::None | Kind::Polynomial(_) => false,
+        }
     }
 
     /// Whether making it takes far longer than many solves.
@@ -142,6 +165,7 @@ impl<const D: usize> Inverse<D> {
             Kind::None => 0,
             Kind::Factor(factor) => factor.bytes(),
             Kind::Polynomial(polynomial) => polynomial.bytes(),
+            Kind::Shared(shared) => shared.bytes(),
         }
     }
 
@@ -154,6 +178,7 @@ impl<const D: usize> Inverse<D> {
             Kind::None => not_made(),
             Kind::Factor(factor) => factor.begin(x),
             Kind::Polynomial(polynomial) => polynomial.begin(x),
+            Kind::Shared(shared) => shared.begin(x),
         }
     }
 
@@ -163,6 +188,7 @@ impl<const D: usize> Inverse<D> {
             Kind::None => not_made(),
             Kind::Factor(factor) => factor.end(x),
             Kind::Polynomial(polynomial) => polynomial.end(x),
+            Kind::Shared(shared) => shared.end(x),
         }
     }
 
@@ -172,6 +198,7 @@ impl<const D: usize> Inverse<D> {
             Kind::None => not_made(),
             Kind::Factor(factor) => factor.set_reach(nodes),
             Kind::Polynomial(polynomial) => polynomial.set_reach(nodes),
+            Kind::Shared(shared) => shared.set_reach(nodes),
         }
     }
 
@@ -181,6 +208,7 @@ impl<const D: usize> Inverse<D> {
             Kind::None => not_made(),
             Kind::Factor(factor) => factor.look(),
             Kind::Polynomial(polynomial) => polynomial.look(),
+            Kind::Shared(shared) => shared.look(),
         }
     }
 
@@ -191,6 +219,7 @@ impl<const D: usize> Inverse<D> {
             Kind::None => not_made(),
             Kind::Factor(factor) => factor.seen(node),
             Kind::Polynomial(polynomial) => polynomial.seen(node),
+            Kind::Shared(shared) => shared.seen(node),
         }
     }
 
@@ -203,6 +232,7 @@ impl<const D: usize> Inverse<D> {
             Kind::None => not_made(),
             Kind::Factor(factor) => factor.respond(nodes),
             Kind::Polynomial(polynomial) => polynomial.respond(nodes),
+            Kind::Shared(shared) => shared.respond(nodes),
         }
     }
 
@@ -213,6 +243,7 @@ impl<const D: usize> Inverse<D> {
             Kind::None => not_made(),
             Kind::Factor(factor) => factor.response(number, node),
             Kind::Polynomial(polynomial) => polynomial.response(number, node),
+            Kind::Shared(shared) => shared.response(number, node),
         }
     }
 
@@ -221,7 +252,7 @@ impl<const D: usize> Inverse<D> {
     pub fn order(&self, node: usize) -> usize {
         match &self.kind {
             Kind::Factor(factor) => factor.order(node),
-            Kind::None | Kind::Polynomial(_) => node,
+            Kind::None | Kind::Polynomial(_) | Kind::Shared(_) => node,
         }
     }
 
@@ -231,7 +262,24 @@ impl<const D: usize> Inverse<D> {
             Kind::None => not_made(),
             Kind::Factor(factor) => factor.add(forces),
             Kind::Polynomial(polynomial) => polynomial.add(forces),
+            Kind::Shared(shared) => shared.add(forces),
         }
+    }
+}
+
+/// Makes the inverse of a matrix that others have a part of.
+fn make_shared<const D: usize>(
+    kind: &mut Kind<D>,
+    sharing: &Sharing,
+    exact: bool,
+    matrix: &NodalMatrix<Matrix<D>>,
+) -> Result<(), FemError> {
+    if !matches!(kind, Kind::Shared(_)) {
+        *kind = Kind::Shared(Box::new(Shared::new(sharing)));
+    }
+    match kind {
+        Kind::Shared(shared) => shared.make(exact, matrix),
+        _ => unreachable!("one was put there"),
     }
 }
 

@@ -4,7 +4,9 @@ use carom_mesh::Matrix;
 use nalgebra::SMatrix;
 
 use super::control::CONTROL;
+use super::shared::Sharing;
 use super::{NodalMatrix, NodeGraph};
+use crate::ranks::Ranks;
 
 /// Numbers that are read at once: a column of a block, and what follows it.
 const LANES: usize = 4;
@@ -25,29 +27,29 @@ pub(super) struct Scaled<const D: usize> {
     scales: Vec<Matrix<D>>,
     /// The blocks of S by entry of the graph, column by column, times [`ONE`]; behind the last one what is read beyond it.
     values: Vec<i16>,
+    /// Who has the rest of the matrix, if others have.
+    sharing: Option<Sharing>,
 }
 
 impl<const D: usize> Scaled<D> {
     /// None if a block of the diagonal is not positive definite, or a number is not finite.
-    pub fn of(matrix: &NodalMatrix<Matrix<D>>) -> Option<Self> {
+    pub fn of(matrix: &NodalMatrix<Matrix<D>>, sharing: Option<&Sharing>) -> Option<Self> {
         let graph = Arc::clone(matrix.shared_graph());
-        let scale = |node: usize| {
-            let block = matrix.values[graph.entry(node as u32, node as u32)];
-            nalgebra::Cholesky::new(block)?.l().try_inverse()
-        };
-        let scales: Vec<Matrix<D>> = (0..graph.node_count()).map(scale).collect::<Option<_>>()?;
-        let mut values = Vec::with_capacity(graph.entry_count() * D * D + LANES);
-        for node in 0..graph.node_count() {
-            for (entry, neighbour) in graph.row(node) {
-                let block = scales[node] * matrix.values[entry] * scales[neighbour].transpose();
-                if !block.iter().all(|x| x.abs() <= CONTROL.largest) {
-                    return None;
-                }
-                values.extend(block.iter().map(|&x| (x * f64::from(ONE)).round() as i16));
-            }
+        let own = |node: usize| matrix.values[graph.entry(node as u32, node as u32)];
+        let mut diagonal: Vec<Matrix<D>> = (0..graph.node_count()).map(own).collect();
+        if let Some(sharing) = sharing {
+            sharing.ranks.sum(bytemuck::cast_slice_mut(&mut diagonal));
         }
-        values.extend([0; LANES]);
-        Some(Self { graph, scales, values })
+        let scale = |block: Matrix<D>| nalgebra::Cholesky::new(block)?.l().try_inverse();
+        let scales: Vec<Matrix<D>> = diagonal.into_iter().map(scale).collect::<Option<_>>()?;
+        let values = scaled_values(matrix, &scales);
+        // All ranks are to say the same.
+        let mut refused = [f64::from(u8::from(values.is_none()))];
+        sharing.iter().for_each(|sharing| sharing.ranks.sum(&mut refused));
+        if refused[0] > 0.0 {
+            return None;
+        }
+        Some(Self { graph, scales, values: values?, sharing: sharing.cloned() })
     }
 
     /// Number of nodes.
@@ -55,9 +57,14 @@ impl<const D: usize> Scaled<D> {
         self.scales.len()
     }
 
-    /// The graph of its nodes.
+    /// The graph of its nodes, whoever has the entries.
     pub fn graph(&self) -> &NodeGraph {
-        &self.graph
+        self.sharing.as_ref().map_or(&self.graph, |sharing| &sharing.graph)
+    }
+
+    /// Who has the rest of it, if others have.
+    pub fn ranks(&self) -> Option<&dyn Ranks> {
+        self.sharing.as_ref().map(|sharing| &*sharing.ranks)
     }
 
     /// Memory [bytes].
@@ -84,7 +91,7 @@ impl<const D: usize> Scaled<D> {
         std::array::from_fn(|i| [upper.row(i).sum() as f32])
     }
 
-    /// The row of a node of S x.
+    /// The row of a node of S x; of a shared matrix this process's part of it.
     #[inline(always)]
     pub fn row_times<const C: usize>(&self, node: usize, x: &[Columns<D, C>]) -> Columns<D, C> {
         let (range, neighbours) = self.graph.neighbours(node);
@@ -115,4 +122,21 @@ impl<const D: usize> Scaled<D> {
         let sum = std::hint::black_box(sum);
         std::array::from_fn(|i| std::array::from_fn(|c| sum[c][i] / ONE))
     }
+}
+
+/// The blocks of S where L⁻¹ of every node is known; none if one is too large or not finite.
+fn scaled_values<const D: usize>(matrix: &NodalMatrix<Matrix<D>>, scales: &[Matrix<D>]) -> Option<Vec<i16>> {
+    let graph = matrix.graph();
+    let mut values = Vec::with_capacity(graph.entry_count() * D * D + LANES);
+    for node in 0..graph.node_count() {
+        for (entry, neighbour) in graph.row(node) {
+            let block = scales[node] * matrix.values[entry] * scales[neighbour].transpose();
+            if !block.iter().all(|x| x.abs() <= CONTROL.largest) {
+                return None;
+            }
+            values.extend(block.iter().map(|&x| (x * f64::from(ONE)).round() as i16));
+        }
+    }
+    values.extend([0; LANES]);
+    Some(values)
 }

@@ -6,6 +6,7 @@ use pulp::{Arch, Simd, WithSimd};
 use super::control::CONTROL;
 use super::region::Region;
 use super::scaled::{Columns, Scaled};
+use crate::ranks::Ranks;
 
 /// The vectors of the semi-iteration: the right-hand side, the solution, and the one before it.
 #[derive(Debug)]
@@ -51,8 +52,13 @@ impl<const D: usize, const C: usize> Copy for Term<'_, D, C> {}
 impl<const D: usize, const C: usize> Term<'_, D, C> {
     #[inline(always)]
     fn apply(&self, node: usize, before: &mut Columns<D, C>) {
+        self.apply_product(node, &self.matrix.row_times(node, self.x), before);
+    }
+
+    /// The same where the row of S x is known.
+    #[inline(always)]
+    fn apply_product(&self, node: usize, product: &Columns<D, C>, before: &mut Columns<D, C>) {
         let [omega, alpha] = self.factors;
-        let product = self.matrix.row_times(node, self.x);
         let (b, x) = (&self.b[node], &self.x[node]);
         for i in 0..D {
             for c in 0..C {
@@ -63,6 +69,9 @@ impl<const D: usize, const C: usize> Term<'_, D, C> {
     }
 
     fn apply_to_all(self, before: &mut [Columns<D, C>]) {
+        if let Some(ranks) = self.matrix.ranks() {
+            return self.apply_shared(ranks, 0..before.len(), before);
+        }
         each_chunk(before, |first, before| Arch::new().dispatch(Chunk { term: self, first, before }));
     }
 
@@ -71,9 +80,45 @@ impl<const D: usize, const C: usize> Term<'_, D, C> {
         // In the order of the matrix more nodes cost less, and threads share them.
         if 2 * nodes.len() > before.len() {
             self.apply_to_all(before);
+        } else if let Some(ranks) = self.matrix.ranks() {
+            self.apply_shared(ranks, nodes.iter().map(|&node| node as usize), before);
         } else {
             Arch::new().dispatch(Scattered { term: self, nodes, before });
         }
+    }
+}
+
+impl<const D: usize, const C: usize> Term<'_, D, C> {
+    /// Where other ranks have parts of the matrix. Beside their message the memory that this takes anew is nothing.
+    fn apply_shared(
+        self,
+        ranks: &dyn Ranks,
+        nodes: impl Iterator<Item = usize> + Clone,
+        before: &mut [Columns<D, C>],
+    ) {
+        let mut products = Vec::new();
+        Arch::new().dispatch(Products { term: self, nodes: nodes.clone(), products: &mut products });
+        ranks.sum_single(products.as_flattened_mut().as_flattened_mut());
+        for (node, product) in nodes.zip(&products) {
+            self.apply_product(node, product, &mut before[node]);
+        }
+    }
+}
+
+/// The rows of S x of some nodes.
+struct Products<'a, const D: usize, const C: usize, N> {
+    term: Term<'a, D, C>,
+    nodes: N,
+    products: &'a mut Vec<Columns<D, C>>,
+}
+
+impl<const D: usize, const C: usize, N: Iterator<Item = usize>> WithSimd for Products<'_, D, C, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) {
+        let Self { term, nodes, products } = self;
+        products.extend(nodes.map(|node| term.matrix.row_times(node, term.x)));
     }
 }
 

@@ -19,8 +19,11 @@ pub(super) fn spectrum<const D: usize>(matrix: &Scaled<D>) -> [f64; 2] {
     for step in 0..CONTROL.steps.min(n * D) {
         // before ← (A v − before·β), then without its part along v.
         let beta = beside.last().copied().unwrap_or(0.0) as f32;
-        for (node, before) in before.iter_mut().enumerate() {
-            let product = matrix.row_times(node, &v);
+        let mut products: Vec<Columns<D, 1>> = (0..n).map(|node| matrix.row_times(node, &v)).collect();
+        if let Some(ranks) = matrix.ranks() {
+            ranks.sum_single(products.as_flattened_mut().as_flattened_mut());
+        }
+        for (before, product) in before.iter_mut().zip(products) {
             for (before, product) in before.iter_mut().zip(product) {
                 before[0] = product[0] - beta * before[0];
             }

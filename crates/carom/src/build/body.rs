@@ -1,10 +1,11 @@
 use std::collections::BTreeSet;
 
 use carom_fem::material::{LawSpec, Mat3, Viscosity};
-use carom_fem::{Body, BodySpec, FemError, Formulation, MassKind, PointMass, RayleighDamping};
+use carom_fem::{Body, BodySpec, FemError, Formulation, MassKind, PointMass, RayleighDamping, Share};
 use carom_mesh::sets::facet_key;
 use carom_mesh::{Mesh, Surface};
 
+use super::inputs::Engine;
 use super::masses::masses;
 use super::mesh::mesh;
 use super::regions::{material, regions};
@@ -19,6 +20,7 @@ pub(super) fn body<const D: usize>(
     index: usize,
     entry: &BodyEntry,
     given: Option<Mesh<D>>,
+    engine: Option<&dyn Engine>,
 ) -> Result<Body<D>, InputError> {
     let key = format!("bodies.{index}");
     let material =
@@ -28,6 +30,12 @@ pub(super) fn body<const D: usize>(
     let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
     let mut laws = std::iter::once(&material.law).chain(regions.iter().map(|region| &region.law));
     let flows = laws.any(|law| matches!(law, LawSpec::J2Plasticity(_)));
+    let share = match engine {
+        None => None,
+        Some(_) if flows => return Err(not_shared(&key, entry, "its material flows")),
+        Some(_) if !mesh.ties().is_empty() => return Err(not_shared(&key, entry, "its sides are tied")),
+        Some(engine) => Some(share(engine, &key, entry, &mesh)?),
+    };
     let massless_contact = !flows && spares_mass(scenario, entry, &mesh, &surface);
     let mut spec = BodySpec {
         law: material.law.clone(),
@@ -43,6 +51,7 @@ pub(super) fn body<const D: usize>(
         grows: entry.growth.is_some(),
         points: masses(scenario, entry, &mesh)?,
         massless_contact,
+        share,
     };
     let names = entry.material.iter().chain(entry.regions.iter().map(|region| &region.material));
     for (of, name) in spec.by_material().iter().zip(names) {
@@ -58,6 +67,26 @@ pub(super) fn body<const D: usize>(
         }
     }
     Body::with_contact_surface(mesh, surface, &spec).map_err(|e| refused(&key, name, &e))
+}
+
+/// This process's share of the body under `key`.
+fn share<const D: usize>(
+    engine: &dyn Engine,
+    key: &str,
+    entry: &BodyEntry,
+    mesh: &Mesh<D>,
+) -> Result<Share, InputError> {
+    let blocks: Vec<(usize, &[u32])> =
+        mesh.blocks().iter().map(|b| (b.kind.node_count(), &b.connectivity[..])).collect();
+    engine
+        .share(&entry.name, D, bytemuck::cast_slice(mesh.nodes()), &blocks)
+        .map_err(|why| not_shared(key, entry, &why))
+}
+
+fn not_shared(key: &str, entry: &BodyEntry, why: &str) -> InputError {
+    let message =
+        format!("body {:?} cannot be shared among processes: {why}; run without --engine", entry.name);
+    InputError::new(key.to_string(), message)
 }
 
 /// What is wrong with the body under `key`, or with its `material`.
@@ -119,6 +148,7 @@ pub(super) fn unstressed(entry: &BodyEntry, density: f64, points: Vec<PointMass>
         grows: false,
         points,
         massless_contact: false,
+        share: None,
     }
 }
 

@@ -1,7 +1,10 @@
 //! What a scenario takes from elsewhere.
 
 use std::collections::BTreeMap;
+use std::fmt::Debug;
+use std::sync::Arc;
 
+use carom_fem::Share;
 use carom_mesh::Mesh;
 
 use super::obstacle::Surfaces;
@@ -13,6 +16,22 @@ pub type Meshes<const D: usize> = BTreeMap<String, Mesh<D>>;
 /// What other codes say of their bodies, by their names.
 pub type Laws<const D: usize> = BTreeMap<String, ForeignLaw<D>>;
 
+/// Shares out the cells of bodies among processes.
+pub trait Engine: Debug + Send + Sync {
+    /// This process's share of a body of this name, whose nodes [m] follow one another in `nodes`, and of each block the nodes of its cells,
+    /// with how many each has.
+    ///
+    /// # Errors
+    /// If it cannot be shared; says why.
+    fn share(
+        &self,
+        body: &str,
+        dimension: usize,
+        nodes: &[f64],
+        blocks: &[(usize, &[u32])],
+    ) -> Result<Share, String>;
+}
+
 /// All of that; nothing by default.
 #[derive(Debug, Clone, Default)]
 pub struct Inputs<const D: usize> {
@@ -22,10 +41,12 @@ pub struct Inputs<const D: usize> {
     pub surfaces: Surfaces<D>,
     /// Laws of bodies of other codes.
     pub laws: Laws<D>,
+    /// Who shares out bodies among processes; none where this one has all of them.
+    pub engine: Option<Arc<dyn Engine>>,
 }
 
 impl<const D: usize> From<Meshes<D>> for Inputs<D> {
     fn from(meshes: Meshes<D>) -> Self {
-        Self { meshes, surfaces: Surfaces::new(), laws: Laws::new() }
+        Self { meshes, surfaces: Surfaces::new(), laws: Laws::new(), engine: None }
     }
 }

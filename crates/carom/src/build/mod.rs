@@ -34,7 +34,7 @@ mod velocity;
 use carom_mesh::Vector;
 
 use self::friction_law::friction_laws;
-pub use self::inputs::{Inputs, Laws, Meshes};
+pub use self::inputs::{Engine, Inputs, Laws, Meshes};
 pub use self::obstacle::Surfaces;
 use self::values::vector;
 pub(crate) use self::velocity::RigidMotion;
@@ -97,7 +97,7 @@ pub(crate) struct Built<const D: usize> {
 /// # Errors
 /// See [`build`].
 pub(crate) fn built<const D: usize>(scenario: &Scenario, inputs: Inputs<D>) -> Result<Built<D>, InputError> {
-    let Inputs { mut meshes, surfaces, mut laws } = inputs;
+    let Inputs { mut meshes, surfaces, mut laws, engine } = inputs;
     if scenario.dimension != D {
         return Err(InputError::new(
             "dimension",
@@ -121,7 +121,7 @@ pub(crate) fn built<const D: usize>(scenario: &Scenario, inputs: Inputs<D>) -> R
             let (body, law) = foreign::foreign_body(scenario, i, entry, given)?;
             ModelBody::new(&entry.name, body, first_node).foreign(law)
         } else {
-            let body = body::body(scenario, i, entry, given)?;
+            let body = body::body(scenario, i, entry, given, engine.as_deref())?;
             let growth = growth::growth(scenario, i, entry)?;
             ModelBody { growth, ..ModelBody::new(&entry.name, body, first_node) }
         });

@@ -75,7 +75,7 @@ pub(super) fn reduced_body<const D: usize>(
             return refused(at("damping.mass"), message);
         }
     }
-    let body = body(scenario, index, entry, given)?;
+    let body = body(scenario, index, entry, given, None)?;
     if !body.mesh().ties().is_empty() {
         let message = format!("body {name:?} is reduced and cannot be periodic; leave periodic out");
         return Err(InputError::mesh(format!("{key}.mesh.periodic"), message));

@@ -41,6 +41,7 @@ fn body<const D: usize>(mesh: Mesh<D>) -> Body<D> {
         grows: false,
         points: Vec::new(),
         massless_contact: false,
+        share: None,
     };
     Body::new(mesh, &spec).expect("valid")
 }

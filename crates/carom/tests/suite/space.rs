@@ -46,6 +46,7 @@ fn block_of(
         grows: false,
         points: Vec::new(),
         massless_contact: massless,
+        share: None,
     };
     let mesh = generate::Grid { corner, size: [1.0; 3], divisions: [cells; 3] }.mesh(kind).expect("valid");
     ModelBody::new(name, Body::new(mesh, &spec).expect("valid"), first_node)

@@ -37,6 +37,7 @@ pub fn spec(law: LawSpec) -> BodySpec {
         grows: false,
         points: Vec::new(),
         massless_contact: false,
+        share: None,
     }
 }
 

@@ -181,7 +181,7 @@ impl<'a, const D: usize> Equation<'a, D> {
     pub fn path_residual(&self, growth: f64, scratch: &mut ResidualScratch<D>, out: &mut [Vector<D>]) {
         self.with_history.grown(growth).conserving_force(self.start, self.displacement, &mut scratch.force);
         scratch.velocity.fill(*self.gravity);
-        self.body.mass().multiply(&scratch.velocity, out);
+        self.body.multiply_mass(&scratch.velocity, out);
         out.iter_mut().zip(&self.drive.mean).for_each(|(out, f)| *out += f);
         nodal::each(out, [&scratch.force], |out, [f]| *out -= f);
     }
@@ -199,7 +199,7 @@ impl<'a, const D: usize> Equation<'a, D> {
                 scratch.velocity[n][i] = self.gravity[i] - (rate - self.velocity[n][i]) / map.dt;
             });
         }
-        self.body.mass().multiply(&scratch.velocity, out);
+        self.body.multiply_mass(&scratch.velocity, out);
         out.iter_mut().zip(&self.drive.mean).for_each(|(out, f)| *out += f);
         if self.is_damped() {
             let viscous = self.viscous_force(scratch);

@@ -1,7 +1,9 @@
 //! The iteration matrix K̄ of each body.
 
 use carom_fem::material::PlasticState;
-use carom_fem::sparse::{Inverse, NodalMatrix, Precision};
+use std::sync::Arc;
+
+use carom_fem::sparse::{Inverse, NodalMatrix, Precision, Sharing};
 use carom_fem::{Body, BodyWithHistory, Held};
 use carom_mesh::{Matrix, Vector, nodal};
 
@@ -34,6 +36,16 @@ const WORTH: [i32; 2] = [3, 12];
 pub(super) fn sign(k: usize) -> f64 {
     // The bits of the golden ratio (Knuth, multiplicative hashing).
     if (k as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 63 == 0 { 1.0 } else { -1.0 }
+}
+
+/// Who has the rest of the matrices of a body, if others have.
+fn sharing<const D: usize>(body: &Body<D>) -> Option<Sharing> {
+    body.ranks().map(|ranks| Sharing { ranks: Arc::clone(ranks), graph: Arc::clone(body.graph()) })
+}
+
+/// Whether what is no sum over cells is counted here: by one rank it is.
+fn is_counted<const D: usize>(body: &Body<D>) -> bool {
+    body.ranks().is_none_or(|ranks| ranks.is_first())
 }
 
 /// The inverse of K̄ = ξ K + ξ/(θΔt) C + M/(θΔt²) (3) of one body: a factor or, for large bodies in short steps, a polynomial in
@@ -128,7 +140,7 @@ impl<const D: usize> IterationMatrix<D> {
     pub fn new(body: &Body<D>, connected: bool) -> Self {
         Self {
             light: if connected { Light::default() } else { Light::of(body) },
-            inverse: Inverse::new(body.mesh().ties()),
+            inverse: Inverse::new(body.mesh().ties()).shared(sharing(body)),
             coefficients: None,
             lowest_inertia: lowest_inertia(body),
             is_loose: body.is_loose(),
@@ -314,7 +326,10 @@ impl<const D: usize> IterationMatrix<D> {
         inertia: f64,
     ) {
         for &(n, block) in springs {
-            stiffness.values[body.graph().entry(n, n)] += block;
+            if is_counted(body) {
+                let own = stiffness.graph().entry(n, n);
+                stiffness.values[own] += block;
+            }
         }
         for (k, m) in stiffness.values.iter_mut().zip(&body.mass().values) {
             *k += Matrix::from_diagonal_element(m * inertia);
@@ -331,6 +346,9 @@ impl<const D: usize> IterationMatrix<D> {
     ) -> Result<(), StepError> {
         self.coefficients = None;
         self.note_noise(body, u, &stiffness);
+        if let Some(ranks) = body.ranks() {
+            ranks.sum(bytemuck::cast_slice_mut(&mut self.scratch));
+        }
         self.held.uncouple(&mut stiffness);
         self.inverse.make_exact(economical, &stiffness)?;
         self.held.clear(&mut self.scratch);
@@ -378,9 +396,9 @@ impl<const D: usize> IterationMatrix<D> {
         let body = with_history.body;
         let mut stiffness = with_history.stiffness(u);
         let [k, c, m, _] = Self::coefficients(map);
-        for (n, resistance) in steadied(body, map) {
-            stiffness.values[body.graph().entry(n as u32, n as u32)] +=
-                Matrix::from_diagonal_element(resistance);
+        for (n, resistance) in steadied(body, map).filter(|_| is_counted(body)) {
+            let own = stiffness.graph().entry(n as u32, n as u32);
+            stiffness.values[own] += Matrix::from_diagonal_element(resistance);
         }
         let damping = body.damping();
         let mass_coefficient = m + c * damping.mass;
@@ -406,7 +424,7 @@ impl<const D: usize> IterationMatrix<D> {
     fn note_noise(&mut self, body: &Body<D>, u: &[Vector<D>], stiffness: &NodalMatrix<Matrix<D>>) {
         let spacing = body.mesh().diameter() / (body.node_count() as f64).powf(1.0 / D as f64);
         for (n, (noise, u)) in self.scratch.iter_mut().zip(u).enumerate() {
-            let own = stiffness.values[body.graph().entry(n as u32, n as u32)];
+            let own = stiffness.values[stiffness.graph().entry(n as u32, n as u32)];
             let size = f64::EPSILON * (spacing + u.amax());
             *noise = Vector::from_fn(|i, _| sign(n * D + i) * own[(i, i)].abs() * size);
         }

@@ -141,7 +141,7 @@ impl<const D: usize> FeBody<D> {
             Some(weight) => blended.residual(&equation, weight, scratch, residual),
             None => equation.residual(scratch, residual),
         }
-        part.body.mass().multiply(jump, momentum);
+        part.body.multiply_mass(jump, momentum);
         let work = equation.support_work(residual, momentum);
         for (dof, k) in part.supports.driven(&part.body) {
             let (n, i) = (dof.node as usize, dof.component as usize);
@@ -171,7 +171,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         let with_history = body.after(state.history);
         with_history.internal_force(state.displacement, internal_force);
         let mut momentum = vec![Vector::zeros(); body.node_count()];
-        body.mass().multiply(state.velocity, &mut momentum);
+        body.multiply_mass(state.velocity, &mut momentum);
         Energies {
             strain: with_history.strain_energy(state.displacement),
             kinetic: 0.5 * nodal::dot(state.velocity, &momentum),
@@ -303,7 +303,10 @@ impl<const D: usize> Body<D> for FeBody<D> {
         for load in &self.part.loads {
             let value = |signal: &Signal| signal.at(guess.interval.end).value;
             load.add_stiffness(body, value, guess.displacement, |a, b, block| {
-                stiffness.values[body.graph().entry(a, b)] += block;
+                // Of a shared body no rank need have the entry, and the tangent goes without.
+                if body.ranks().is_none() {
+                    stiffness.values[body.graph().entry(a, b)] += block;
+                }
             });
         }
         self.matrix.linearise(body, stiffness, guess.displacement, tangent)
@@ -348,8 +351,9 @@ impl<const D: usize> Body<D> for FeBody<D> {
         if self.node_stiffness.is_empty() {
             let body = &self.part.body;
             let stiffness = body.stiffness(&vec![Vector::zeros(); body.node_count()]);
-            let own = |n: u32| stiffness.values[body.graph().entry(n, n)].trace() / D as f64;
+            let own = |n: u32| stiffness.values[stiffness.graph().entry(n, n)].trace() / D as f64;
             self.node_stiffness = (0..body.node_count() as u32).map(own).collect();
+            body.ranks().iter().for_each(|ranks| ranks.sum(&mut self.node_stiffness));
         }
         self.node_stiffness[node as usize]
     }
@@ -403,7 +407,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         let Self { part, pose, drive, scratch, jump, momentum, .. } = self;
         let equation = Equation::new(part, guess, pose, drive);
         let (body, held) = (&part.body, part.body.held());
-        body.mass().multiply(end.velocity, momentum);
+        body.multiply_mass(end.velocity, momentum);
         let kinetic = 0.5 * nodal::dot(end.velocity, momentum);
         let plastic = equation.with_history.grown(grown).update(guess.displacement, end.history);
         let strain =
@@ -411,7 +415,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         let (external, viscous) = equation.external_and_viscous_work(scratch);
         let mut scheme = 0.0;
         if map.kinetic_dissipation != 0.0 {
-            body.mass().multiply(jump, momentum);
+            body.multiply_mass(jump, momentum);
             // What is held moves as prescribed, not as the scheme would have it.
             held.clear(jump);
             scheme += map.kinetic_dissipation * nodal::dot(jump, momentum);
@@ -467,7 +471,7 @@ impl<const D: usize> Body<D> for FeBody<D> {
         let body = &part.body;
         mass_solver.solve(body, impulse, change);
         if !body.held().is_empty() {
-            body.mass().multiply(change, momentum);
+            body.multiply_mass(change, momentum);
             for (dof, k) in part.supports.driven(body) {
                 let (n, i) = (dof.node as usize, dof.component as usize);
                 support[k][i] += momentum[n][i] - impulse[n][i];

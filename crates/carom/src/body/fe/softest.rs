@@ -60,7 +60,7 @@ pub(super) fn find<const D: usize>(
 ) -> SoftestMotion<D> {
     let weigh = |x: &[Vector<D>]| {
         let mut weighed = vec![Vector::zeros(); x.len()];
-        body.mass().multiply(x, &mut weighed);
+        body.multiply_mass(x, &mut weighed);
         weighed
     };
     let mut known: Known<D> = Vec::with_capacity(neutral.len());
