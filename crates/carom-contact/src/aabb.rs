@@ -1,5 +1,8 @@
 use carom_mesh::Vector;
 
+/// What a place on a segment may be off by, relative to its length.
+const ROUND_OFF: f64 = 1e-9;
+
 /// An axis-aligned box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Aabb<const D: usize> {
@@ -47,6 +50,24 @@ impl<const D: usize> Aabb<D> {
 
     pub fn overlaps(&self, other: &Self) -> bool {
         (0..D).all(|i| self.low[i] <= other.high[i] && other.low[i] <= self.high[i])
+    }
+
+    /// Whether the segment between two points goes through it, or touches it but for round-off.
+    pub fn is_crossed(&self, ends: &[Vector<D>; 2]) -> bool {
+        let (mut first, mut last) = (-ROUND_OFF, 1.0 + ROUND_OFF);
+        for i in 0..D {
+            let (start, way) = (ends[0][i], ends[1][i] - ends[0][i]);
+            let [low, high] = self.side(i);
+            if way == 0.0 {
+                if start < low || start > high {
+                    return false;
+                }
+                continue;
+            }
+            let (a, b) = ((low - start) / way, (high - start) / way);
+            (first, last) = (f64::max(first, a.min(b) - ROUND_OFF), f64::min(last, a.max(b) + ROUND_OFF));
+        }
+        first <= last
     }
 
     pub fn contains(&self, x: &Vector<D>) -> bool {

@@ -96,15 +96,25 @@ impl<const D: usize> Bvh<D> {
 
     /// Calls `found` with every item whose box overlaps `query`, and with that box.
     #[inline]
-    pub fn overlapping(&self, query: &Aabb<D>, mut found: impl FnMut(u32, &Aabb<D>)) {
+    pub fn overlapping(&self, query: &Aabb<D>, found: impl FnMut(u32, &Aabb<D>)) {
+        self.each_that(|bounds| bounds.overlaps(query), found);
+    }
+
+    /// Calls `found` with every item whose box the segment between two points goes through, and with that box.
+    pub fn along(&self, ends: &[Vector<D>; 2], found: impl FnMut(u32, &Aabb<D>)) {
+        self.each_that(|bounds| bounds.is_crossed(ends), found);
+    }
+
+    #[inline]
+    fn each_that(&self, meets: impl Fn(&Aabb<D>) -> bool, mut found: impl FnMut(u32, &Aabb<D>)) {
         let mut k = 0;
         while let Some(branch) = self.branches.get(k) {
-            if !branch.bounds.overlaps(query) {
+            if !meets(&branch.bounds) {
                 k = branch.next as usize;
                 continue;
             }
             for (item, own) in &self.items[branch.items.start as usize..branch.items.end as usize] {
-                if own.overlaps(query) {
+                if meets(own) {
                     found(*item, own);
                 }
             }
@@ -194,6 +204,17 @@ mod tests {
                     found.sort_unstable();
                     let scan = (0..).zip(&all).filter(|(_, b)| b.overlaps(&query)).map(|(i, _)| i);
                     assert_eq!(found, scan.collect::<Vec<u32>>());
+                    let ends = [Vector::repeat(0.5), query.centre()];
+                    let mut crossed = Vec::new();
+                    tree.along(&ends, |item, _| crossed.push(item));
+                    crossed.sort_unstable();
+                    let is_on_the_way = |own: &Aabb<D>| {
+                        (0..=4000).any(|k| own.contains(&ends[0].lerp(&ends[1], f64::from(k) / 4000.0)))
+                    };
+                    let on_the_way = (0..).zip(&all).filter(|(_, own)| is_on_the_way(own));
+                    assert!(on_the_way.map(|(i, _)| i).all(|i| crossed.contains(&i)));
+                    let near = Aabb::of(ends);
+                    assert!(crossed.iter().all(|&i| all[i as usize].inflated(1e-6).overlaps(&near)));
                     let x = query.centre();
                     let mut best = f64::INFINITY;
                     tree.nearest(&x, |_, own| {

@@ -101,7 +101,7 @@ impl<const D: usize> Shell<D> {
         let far = 2.0 * self.bounds().diameter();
         let ray = [place.before, place.before + Vector::from_fn(|i, _| RAY[i]) * far];
         let mut winding = 0;
-        self.tree.overlapping(&Aabb::of(ray), |f, _| {
+        self.tree.along(&ray, |f, _| {
             self.crossings(f, &ray, &mut |_, leaves| winding += if leaves { 1 } else { -1 });
         });
         winding > 0

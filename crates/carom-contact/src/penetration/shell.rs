@@ -207,7 +207,7 @@ impl<const D: usize> Shell<D> {
         let reach = 2.0 * self.bounds.diameter();
         let ends = [middle.point, middle.point - normal(&middle.tangents) * reach];
         let mut thickness = f64::INFINITY;
-        self.tree.overlapping(&Aabb::of(ends), |g, _| {
+        self.tree.along(&ends, |g, _| {
             if g != f {
                 self.crossings(g, &ends, &mut |share, _| thickness = thickness.min(share * reach));
             }
