@@ -80,7 +80,11 @@ impl<const D: usize> Body<D> {
         let turns = objective && mesh.ties().is_empty() && depth != Depth::Revolution;
         // Whatever is wrong with a cell is seen by every rank.
         let materials = materials_of(&mesh, depth, spec, &laws)?;
-        let whole = Arc::new(NodeGraph::of(&mesh));
+        let mut whole = NodeGraph::of(&mesh);
+        if spec.share.is_some() && !spec.points.is_empty() {
+            whole = whole.extended(spec.points.iter().flat_map(PointMass::pairs));
+        }
+        let whole = Arc::new(whole);
         let (mass, massless_mass) = mass_matrix(&mesh, &whole, &surface, spec, depth)?;
         let graph = Arc::clone(mass.shared_graph());
         let ranks = spec.share.as_ref().map(|share| Arc::clone(&share.ranks));

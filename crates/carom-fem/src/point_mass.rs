@@ -13,6 +13,13 @@ pub struct PointMass {
     pub stencil: Vec<(u32, f64)>,
 }
 
+impl PointMass {
+    /// The nodes that couple by it.
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = (u32, u32)> {
+        self.stencil.iter().flat_map(|a| self.stencil.iter().map(move |b| (a.0, b.0)))
+    }
+}
+
 /// A mass matrix [kg] with m w ⊗ w of masses at points.
 pub(crate) fn with_points(mass: NodalMatrix<f64>, points: &[PointMass]) -> NodalMatrix<f64> {
     if points.is_empty() {

@@ -44,8 +44,9 @@ impl<T: Copy + Sync> NodalMatrix<T> {
         });
     }
 
+    /// The row of a node of A x.
     #[inline]
-    fn row_times<const D: usize>(&self, node: usize, x: &[Vector<D>]) -> Vector<D>
+    pub fn row_times<const D: usize>(&self, node: usize, x: &[Vector<D>]) -> Vector<D>
     where
         T: Mul<Vector<D>, Output = Vector<D>>,
     {

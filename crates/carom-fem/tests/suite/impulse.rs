@@ -13,7 +13,10 @@ fn body<const D: usize>(mesh: Mesh<D>, mass: MassKind) -> Body<D> {
 
 /// Largest component of M Δv − p where a node is free, relative to the largest impulse.
 fn lack<const D: usize>(body: &Body<D>) -> f64 {
-    let impulse = shaken::<D>(body.node_count(), 1.0, 0.3);
+    lack_of(body, shaken::<D>(body.node_count(), 1.0, 0.3))
+}
+
+fn lack_of<const D: usize>(body: &Body<D>, impulse: Vec<Vector<D>>) -> f64 {
     let (mut change, mut momentum) = (vec![Vector::zeros(); body.node_count()], impulse.clone());
     MassSolver::default().solve(body, &impulse, &mut change);
     assert!(body.held().dofs().iter().all(|d| change[d.node as usize][d.component as usize] == 0.0));
@@ -44,4 +47,19 @@ fn every_cell<const D: usize>(kinds: &[CellKind]) {
 fn impulses_are_the_momenta_that_they_make() {
     every_cell::<2>(&PLANE);
     every_cell::<3>(&SPATIAL);
+}
+
+/// A blow on one node goes no farther than it is felt, and the momentum is that of all.
+#[test]
+fn a_blow_on_a_node_is_felt_around_it() {
+    for kind in [CellKind::Hex8, CellKind::Tet4] {
+        let mesh = grid::<3>(kind, 14, |x| x + (distortion(x) - x) * 0.2);
+        let body = body(mesh, MassKind::Consistent);
+        for node in [0, body.node_count() / 2] {
+            let mut impulse = vec![Vector::zeros(); body.node_count()];
+            impulse[node] = Vector::<3>::new(0.3, -1.0, 0.7);
+            let lack = lack_of(&body, impulse);
+            assert!(lack < 1e-12, "{kind:?}, node {node}: {lack:e}");
+        }
+    }
 }
