@@ -143,10 +143,13 @@ impl<const D: usize, const N: usize> ShapeTable<D, N> {
                     }
                     continue 'cells;
                 }
-                let inverse_transposed = inverse.transpose();
-                table.gradients.push(std::array::from_fn(|a| {
-                    inverse_transposed * Vector::<D>::from_fn(|j, _| local[a][j])
-                }));
+                // Of a large body they are more than all the rest.
+                if integrand == Integrand::Gradients {
+                    let inverse_transposed = inverse.transpose();
+                    table.gradients.push(std::array::from_fn(|a| {
+                        inverse_transposed * Vector::<D>::from_fn(|j, _| local[a][j])
+                    }));
+                }
                 let at = nodes.iter().zip(values).map(|(&n, &value)| mesh.nodes()[n as usize] * value);
                 let at: Vector<D> = at.sum();
                 if depth == Depth::Revolution {
