@@ -63,7 +63,7 @@ pub fn run_error<const D: usize>(
     raised: Option<&PyErr>,
 ) -> PyErr {
     let message = match raised {
-        Some(raised) => format!("{error}; a body of another code raised {raised}"),
+        Some(raised) => format!("{error}; a body of another code, or the engine, raised {raised}"),
         None => error.to_string(),
     };
     let make = || {

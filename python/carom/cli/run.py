@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated
 
@@ -23,7 +24,7 @@ from carom.errors import (
 from carom.io import layout
 from carom.io.claim import claimed
 from carom.mesh_file import Note
-from carom.ranks.engine import Engine
+from carom.ranks.engine import Engine, in_turn
 from carom.ranks.together import together
 from carom.results.doubts import Doubt
 from carom.results.result import Result
@@ -95,7 +96,7 @@ def _run(
             raise InputError("--resume goes on with a run, --force replaces it; give one of them")
         scenario = load(case, overrides)
         _spare_the_case(case, directory)
-        if resume and (there := _ended(directory, scenario)) is not None:
+        if resume and (there := _ended(directory, scenario, ranks)) is not None:
             tell(
                 f"{directory}: the run has ended ({there.summary['status']}); nothing to go on with"
             )
@@ -123,12 +124,16 @@ def _run(
         console.print(result)
 
 
-def _ended(directory: Path, scenario: Scenario) -> Result | None:
+def _ended(directory: Path, scenario: Scenario, ranks: Engine | None) -> Result | None:
     """Return the results of a run that has ended, whose last files may have to be made."""
-    if not (directory / layout.PROGRESS).exists():
-        return ended(directory, scenario)
-    with claimed(directory):
-        return ended(directory, scenario)
+
+    def look() -> Result | None:
+        follows = ranks is not None and ranks.rank > 0
+        with claimed(directory) if is_open and not follows else nullcontext():
+            return ended(directory, scenario)
+
+    is_open = (directory / layout.PROGRESS).exists()
+    return in_turn(ranks, look)
 
 
 def _spare_the_case(case: Path, directory: Path) -> None:

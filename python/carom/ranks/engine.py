@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carom.errors import InputError
+
+T = TypeVar("T")
 
 ENGINES = ("petsc",)
 """Their names."""
@@ -28,7 +30,7 @@ class Solver(Protocol):
         starts: NDArray[np.int64],
         columns: NDArray[np.uint32],
         values: NDArray[np.float64],
-        exact: bool,  # noqa: FBT001 (called by the core)
+        exact: bool,
     ) -> bool:
         """Take the matrix; return whether it is positive definite.
 
@@ -112,6 +114,18 @@ class Engine(Protocol):
 
     def abort(self, status: int) -> None:
         """End the processes of all ranks."""
+
+
+def in_turn(engine: Engine | None, look: Callable[[], T]) -> T:
+    """Return what every rank sees once the first one has looked, which may change what there is."""
+    if engine is None:
+        return look()
+    if engine.rank > 0:
+        engine.wait()
+        return look()
+    seen = look()
+    engine.wait()
+    return seen
 
 
 def engine_named(name: str) -> Engine:

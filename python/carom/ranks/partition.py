@@ -13,8 +13,8 @@ def ranks_of_cells(
 ) -> NDArray[np.int64]:
     """Return the rank of every cell: as many cells each, and boxes that are not long.
 
-    By recursive coordinate bisection (Berger & Bokhari 1987): the box around the cells is cut across
-    its longest side, into parts with as many cells as ranks.
+    By recursive coordinate bisection (Berger & Bokhari 1987): the box around the cells is cut
+    across its longest side, into parts with as many cells as ranks.
     """
     centres = np.concatenate([nodes[cells].mean(axis=1) for cells in blocks])
     ranks = np.zeros(len(centres), dtype=np.int64)

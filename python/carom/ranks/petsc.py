@@ -6,6 +6,7 @@ import signal
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -152,7 +153,7 @@ class PetscSolver:
 
     def __init__(self, part: PetscPart) -> None:
         self._part = part
-        self._solver: PETSc.KSP | None = None
+        self._solver: Any = None
         self.bytes = 0
 
     def make(
@@ -161,7 +162,7 @@ class PetscSolver:
         starts: NDArray[np.int64],
         columns: NDArray[np.uint32],
         values: NDArray[np.float64],
-        exact: bool,  # noqa: FBT001 (called by the core)
+        exact: bool,
     ) -> bool:
         """Take the matrix; see `Solver.make`."""
         self._forget()
@@ -221,11 +222,11 @@ class PetscSolver:
             has = (place[rows] >= 0) & (place[columns] >= 0)
         else:
             local = part.local
-        rows, blocks, columns = place[rows[has]], blocks[has], place[columns[has]]
-        order = np.lexsort((columns, rows))
-        ends = np.searchsorted(rows[order], np.arange(len(local) + 1))
+        at, beside, blocks = place[rows[has]], place[columns[has]], blocks[has]
+        order = np.lexsort((beside, at))
+        ends = np.searchsorted(at[order], np.arange(len(local) + 1))
         size = d * len(local)
-        own = bsr_matrix((blocks[order], columns[order], ends), shape=(size, size)).tocsr()
+        own = bsr_matrix((blocks[order], beside[order], ends), shape=(size, size)).tocsr()
         numbering = PETSc.LGMap().create(part.number[local], bsize=d, comm=part.comm)
         sizes = (d * len(part.own), d * len(part.nodes))
         whole = PETSc.Mat().createIS((sizes, sizes), numbering, numbering, comm=part.comm)
@@ -236,7 +237,7 @@ class PetscSolver:
         whole.assemble()
         matrix = whole.convert("aij", PETSc.Mat())
         matrix.setBlockSize(d)
-        matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)  # noqa: FBT003 (not by keyword)
+        matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         whole.destroy()
         inner.destroy()
         return matrix

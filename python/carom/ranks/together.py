@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext, redirect_stderr
@@ -39,7 +40,8 @@ def together(name: str | None, *, threads: int | None) -> Iterator[Engine | None
         take_threads(1)
         engine = engine_named(name)
     except InputError as error:
-        typer.echo(f"error: {error}", err=True)
+        if _is_first():
+            typer.echo(f"error: {error}", err=True)
         raise typer.Exit(2) from error
     told = io.StringIO()
     try:
@@ -54,3 +56,9 @@ def together(name: str | None, *, threads: int | None) -> Iterator[Engine | None
             sys.stderr.flush()
             engine.abort(status)
         raise
+
+
+def _is_first() -> bool:
+    """Return whether this is the first rank, or the only one, before MPI can be asked."""
+    of_launchers = ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "SLURM_PROCID")
+    return next((os.environ[name] for name in of_launchers if name in os.environ), "0") == "0"

@@ -30,7 +30,7 @@ from carom.io import layout
 from carom.io.checkpoint import Checkpoint
 from carom.io.claim import claimed
 from carom.mesh_file import Note
-from carom.ranks.engine import Engine, engine_named
+from carom.ranks.engine import Engine, engine_named, in_turn
 from carom.ranks.following import Following, Leading
 from carom.results.doubts import Doubt, warn, written_doubts
 from carom.results.penetration import depth_of, too_deep
@@ -157,7 +157,8 @@ def drive(
         checkpoint = None
         noted: list[Doubt] = []
         if resume:
-            if (result := ended(directory, scenario)) is not None:
+            result = in_turn(engine, lambda: ended(directory, scenario))
+            if result is not None:
                 for doubt in written_doubts(result.summary):
                     notify(doubt)
                 return result
@@ -177,7 +178,13 @@ def drive(
             # Before the first rank changes what the others have looked at.
             engine.wait()
         with _recorder(
-            directory, scenario, simulation, case=case, checkpoint=checkpoint, notify=notify, engine=engine
+            directory,
+            scenario,
+            simulation,
+            case=case,
+            checkpoint=checkpoint,
+            notify=notify,
+            engine=engine,
         ) as recorder:
             before = [] if checkpoint is None else written_doubts(checkpoint.record)
             first = first_doubts(scenario, simulation.describe(), notes)
@@ -230,7 +237,13 @@ def _recorder(
             last_frame=last_frame,
         )
     return Leading(
-        directory, scenario, simulation, case=case, checkpoint=checkpoint, notify=notify, engine=engine
+        directory,
+        scenario,
+        simulation,
+        case=case,
+        checkpoint=checkpoint,
+        notify=notify,
+        engine=engine,
     )
 
 
@@ -292,7 +305,7 @@ def _take(
     reporter = _Reporter(simulation, recorder, end_time=scenario.end_time, progress=progress)
     try:
         with nullcontext() if engine is None else engine.listening():
-            _go(simulation, recorder, schedule, reporter, observing, engine)
+            _go(simulation, recorder, schedule, reporter, observing=observing, engine=engine)
     except ConvergenceError as error:
         if error.problem is not None:
             file = recorder.failed_problem(error.problem, guess=error.guess, reason=str(error))
@@ -321,6 +334,7 @@ def _go(
     recorder: Recorder | Following,
     schedule: Schedule,
     reporter: _Reporter,
+    *,
     observing: Observing | None,
     engine: Engine | None,
 ) -> None:
