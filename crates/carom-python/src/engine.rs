@@ -49,7 +49,7 @@ impl Engine for PythonEngine {
             Ok(Share { ranks: Arc::new(Part { part, calls, is_first, double, single }), owns })
         });
         // The exception itself is told in place of this.
-        made.ok_or_else(|| "the engine failed".to_string())
+        made.ok_or_else(String::new)
     }
 }
 

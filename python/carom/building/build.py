@@ -45,6 +45,11 @@ def build(
     InputError
         The scenario cannot be run, such as bodies that overlap at the start.
     """
+    if engine is not None and scenario.output.modes is not None:
+        raise InputError(
+            f"output.modes = {scenario.output.modes}: ranks have no modes of the bodies that they "
+            "share; leave it out, or run without --engine"
+        )
     foreign = _foreign(scenario)
     meshes = _meshes(scenario) | {name: code.mesh() for name, code in foreign.items()}
     surfaces = obstacle_surfaces(scenario.obstacles)

@@ -14,6 +14,7 @@ from carom.case.scenario import Scenario
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import failures
 from carom.cli.progress import shown_progress
+from carom.cli.together import together
 from carom.errors import (
     CertificateError,
     ConvergenceError,
@@ -25,7 +26,6 @@ from carom.io import layout
 from carom.io.claim import claimed
 from carom.mesh_file import Note
 from carom.ranks.engine import Engine, in_turn
-from carom.ranks.together import together
 from carom.results.doubts import Doubt
 from carom.results.result import Result
 from carom.running.restart import ended

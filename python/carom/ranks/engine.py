@@ -137,7 +137,7 @@ def engine_named(name: str) -> Engine:
         There is none, or what it needs is not installed.
     """
     if name not in ENGINES:
-        raise InputError(f"--engine {name}: no such engine; choose one of {', '.join(ENGINES)}")
+        raise InputError(f"engine {name}: no such engine; choose one of {', '.join(ENGINES)}")
     from carom.ranks.petsc import PetscEngine  # noqa: PLC0415 (MPI starts as it is imported)
 
     return PetscEngine()

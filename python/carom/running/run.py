@@ -31,10 +31,10 @@ from carom.io.checkpoint import Checkpoint
 from carom.io.claim import claimed
 from carom.mesh_file import Note
 from carom.ranks.engine import Engine, engine_named, in_turn
-from carom.ranks.following import Following, Leading
 from carom.results.doubts import Doubt, warn, written_doubts
 from carom.results.penetration import depth_of, too_deep
 from carom.results.result import Result
+from carom.running.following import Following, Leading
 from carom.running.observer import Observer, ObserverError, Observing, Stop
 from carom.running.recorder import Recorder
 from carom.running.restart import Notify, ended, latest, refuse_other_results
@@ -151,7 +151,11 @@ def drive(
             "holds its law; start again with force=True"
         )
     leads = engine is None or engine.rank == 0
+    # The others look at the directory before the first rank makes it, or once it has.
+    wait = engine.wait if engine is not None else lambda: None
+    wait()
     with _storing(directory), claimed(directory) if leads else nullcontext():
+        wait()
         has_results = layout.has_results(directory)
         case = identity(scenario, simulation)
         checkpoint = None
@@ -174,9 +178,7 @@ def drive(
         frames = 0 if checkpoint is None else checkpoint.record["frames_due"]
         schedule = Schedule(scenario, time=simulation.time, frames=frames)
         observing = Observing(observers, State(scenario, simulation)) if observers else None
-        if engine is not None:
-            # Before the first rank changes what the others have looked at.
-            engine.wait()
+        wait()
         with _recorder(
             directory,
             scenario,

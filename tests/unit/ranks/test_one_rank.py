@@ -3,10 +3,13 @@
 import cases
 import numpy as np
 import pytest
+import typer
 from one_rank import OneRank
 
 import carom
 from carom.building.build import build
+from carom.cli.together import together
+from carom.ranks import engine_named
 from carom.running.run import drive
 
 
@@ -30,6 +33,38 @@ def test_one_rank_makes_the_run_of_a_process(tmp_path, case):
     for name in ("displacement", "stress"):
         one, other = (r.fields[name][-1] for r in (alone, shared))
         assert np.abs(one - other).max() <= 1e-7 * np.abs(one).max(), name
+
+
+def test_modes_of_shared_bodies_are_refused():
+    with pytest.raises(carom.InputError, match="ranks have no modes of the bodies"):
+        build(cases.discs(output={"modes": 5}), engine=OneRank())
+
+
+def test_a_rank_has_one_thread(capsys):
+    with pytest.raises(typer.Exit), together("petsc", threads=4):
+        pass
+    assert "each rank has one thread" in capsys.readouterr().err
+
+
+def test_an_engine_that_fails_is_told(tmp_path):
+    class Broken(OneRank):
+        def share(self, body, nodes, blocks):
+            raise RuntimeError("no such body here")
+
+    with pytest.raises(RuntimeError, match="no such body here"):
+        build(cases.discs(), engine=Broken())
+
+
+def test_a_periodic_body_is_not_shared():
+    layer = {"kind": "rectangle", "corner": [0, 1], "size": [1, 1], "divisions": [3, 2]}
+    bodies = [{"name": "a", "material": "m", "mesh": {**layer, "periodic": True}}]
+    with pytest.raises(carom.InputError, match="its sides are tied"):
+        build(cases.discs(bodies=bodies), engine=OneRank())
+
+
+def test_an_engine_that_is_not_there_is_refused():
+    with pytest.raises(carom.InputError, match="no such engine; choose one of petsc"):
+        engine_named("pets")
 
 
 def test_a_body_that_flows_is_not_shared(tmp_path):

@@ -105,7 +105,7 @@ def test_what_all_ranks_refuse_is_said_once(tmp_path, run):
 
 ALONE = """
 import typer
-from carom.ranks.together import together
+from carom.cli.together import together
 
 with together("petsc", threads=None) as engine:
     if engine.rank == 1:
