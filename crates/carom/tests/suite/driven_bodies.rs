@@ -31,6 +31,7 @@ fn spec(law: LawSpec, density: f64, massless_contact: bool) -> BodySpec {
         grows: false,
         points: Vec::new(),
         massless_contact,
+        share: None,
     }
 }
 
