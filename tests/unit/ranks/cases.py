@@ -13,9 +13,9 @@ def discs(**changes):
         return {"name": name, "material": "m", "velocity": [speed, 0.0], "mesh": mesh}
 
     case = {
-        "analysis": {"end_time": 0.15, "time_step": 2e-3},
+        "analysis": {"end_time": 0.05, "time_step": 2e-3},
         "materials": {"m": SOFT},
-        "bodies": [disc("a", [0.0, 0.0], 2.0), disc("b", [1.1, 0.2], -2.0)],
+        "bodies": [disc("a", [0.0, 0.0], 2.0), disc("b", [1.0, 0.2], -2.0)],
         "contact": {"friction": 0.2},
     }
     return carom.Scenario.from_dict({**case, **changes})
@@ -26,7 +26,7 @@ def ball():
     mesh = {"kind": "ball", "centre": [0.0, 0.0, 0.51], "radius": 0.5, "divisions": 8}
     case = {
         "dimension": 3,
-        "analysis": {"end_time": 0.03, "time_step": 1e-3},
+        "analysis": {"end_time": 0.012, "time_step": 1e-3},
         "materials": {"m": {**SOFT, "young": 1e4}},
         "bodies": [{"name": "a", "material": "m", "velocity": [0.5, 0, -2], "mesh": mesh}],
         "obstacles": [{"kind": "plane", "name": "floor", "point": [0, 0, 0], "normal": [0, 0, 1]}],
@@ -40,7 +40,7 @@ def pressed():
     mesh = {"kind": "rectangle", "corner": [0.0, 0.0], "size": [2.0, 1.0], "divisions": [6, 4]}
     viscous = {**SOFT, "viscosity": {"shear": 20.0, "bulk": 10.0}}
     case = {
-        "analysis": {"end_time": 0.1, "time_step": 2e-3, "gravity": [0.0, -9.81]},
+        "analysis": {"end_time": 0.04, "time_step": 2e-3, "gravity": [0.0, -9.81]},
         "materials": {"m": {**viscous, "damping": {"mass": 0.5, "stiffness": 1e-4}}},
         "bodies": [{"name": "a", "material": "m", "mesh": mesh}],
         "masses": [{"body": "a", "on": "top", "mass": 3.0}],

@@ -22,8 +22,8 @@ def has_ranks(python):
 
 
 @pytest.fixture(scope="session")
-def ranks(tmp_path_factory):
-    """Return what starts Python with arguments on so many ranks, as a process."""
+def environment(tmp_path_factory):
+    """Return the Python that has MPI and PETSc, and the variables that it runs with."""
     python = next((python for python in INTERPRETERS if has_ranks(python)), None)
     if python is None:
         pytest.skip("no mpi4py and petsc4py: tools/make_ranks_environment.sh brings them on Debian")
@@ -40,16 +40,31 @@ def ranks(tmp_path_factory):
         "TERM": "dumb",
     }
 
+    return python, os.environ | variables
+
+
+@pytest.fixture
+def ranks(environment):
+    """Return what starts Python with arguments on so many ranks, as a process."""
+    python, variables = environment
+    started = []
+
     def start(count, *arguments):
-        return subprocess.Popen(
+        process = subprocess.Popen(
             ["mpiexec", "-n", str(count), str(python), *map(str, arguments)],
-            env=os.environ | variables,
+            env=variables,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
         )
+        started.append(process)
+        return process
 
-    return start
+    yield start
+    for process in started:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
 
 
 @pytest.fixture
@@ -58,7 +73,7 @@ def run(ranks):
 
     def run(count, *arguments):
         process = ranks(count, *arguments)
-        said, complained = process.communicate(timeout=120)
+        said, complained = process.communicate(timeout=300)
         return process.returncode, said, complained
 
     return run
