@@ -12,7 +12,6 @@ import typer
 
 from carom.errors import InputError
 from carom.ranks.engine import Engine, engine_named
-from carom.system.threads import take_threads
 
 
 @contextmanager
@@ -36,8 +35,6 @@ def together(name: str | None, *, threads: int | None) -> Iterator[Engine | None
                 f"--threads {threads}: each rank has one thread; start as many ranks as there are "
                 "cores"
             )
-        # Bodies that threads share are summed over ranks in an order that no two ranks have alike.
-        take_threads(1)
         engine = engine_named(name)
     except InputError as error:
         if _is_first():

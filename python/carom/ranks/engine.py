@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.errors import InputError
+from carom.system.threads import take_threads
 
 T = TypeVar("T")
 
@@ -129,7 +130,7 @@ def in_turn(engine: Engine | None, look: Callable[[], T]) -> T:
 
 
 def engine_named(name: str) -> Engine:
-    """Return the engine of this name, for all ranks of this process's run.
+    """Return the engine of this name; this process has one thread from then on.
 
     Raises
     ------
@@ -138,6 +139,8 @@ def engine_named(name: str) -> Engine:
     """
     if name not in ENGINES:
         raise InputError(f"engine {name}: no such engine; choose one of {', '.join(ENGINES)}")
+    # Bodies that threads share would be summed over ranks in an order that no two ranks have alike.
+    take_threads(1)
     from carom.ranks.petsc import PetscEngine  # noqa: PLC0415 (MPI starts as it is imported)
 
     return PetscEngine()

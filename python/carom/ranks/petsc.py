@@ -59,7 +59,7 @@ class PetscEngine:
         self, body: str, nodes: NDArray[np.float64], blocks: Sequence[NDArray[np.uint32]]
     ) -> PetscPart:
         """Share a body; see `Engine.share`."""
-        return PetscPart(self._comm, body, nodes, blocks)
+        return PetscPart(self._comm, nodes, blocks)
 
     def wait(self) -> None:
         """Wait until all are here."""
@@ -113,13 +113,12 @@ class PetscPart:
     def __init__(
         self,
         comm: MPI.Comm,
-        body: str,
         nodes: NDArray[np.float64],
         blocks: Sequence[NDArray[np.uint32]],
     ) -> None:
         cells = ranks_of_cells(nodes, blocks, comm.size)
         of_nodes = ranks_of_nodes(len(nodes), blocks, cells)
-        self.comm, self.body, self.nodes = comm, body, nodes
+        self.comm, self.nodes = comm, nodes
         self.owns: NDArray[np.bool_] = cells == comm.rank
         self.is_first = comm.rank == 0
         self.order = np.argsort(of_nodes, kind="stable")
@@ -258,9 +257,7 @@ class PetscSolver:
     def _is_definite(self) -> bool:
         """Return whether conjugate gradients meet no direction that is not positive."""
         random = np.random.default_rng(1)
-        self._b.array[:] = random.standard_normal(len(self._part.nodes) * self._dimension)[
-            : len(self._b.array)
-        ]
+        self._b.array[:] = random.standard_normal(len(self._b.array))
         self._solver.solve(self._b, self._x)
         indefinite = (
             PETSc.KSP.ConvergedReason.DIVERGED_INDEFINITE_MAT,

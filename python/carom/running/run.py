@@ -9,6 +9,7 @@ import shlex
 import shutil
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -225,28 +226,16 @@ def _recorder(
     engine: Engine | None,
 ) -> Recorder | Following:
     """Return what writes the results, or follows the rank that does."""
-    if engine is None:
-        return Recorder(
-            directory, scenario, simulation, case=case, checkpoint=checkpoint, notify=notify
-        )
-    if engine.rank > 0:
-        last_frame = None if checkpoint is None else checkpoint.record["last_frame"]
+    if engine is not None and engine.rank > 0:
         return Following(
             directory,
             simulation,
             engine,
             keeps_steps=scenario.output.audit,
-            last_frame=last_frame,
+            last_frame=None if checkpoint is None else checkpoint.record["last_frame"],
         )
-    return Leading(
-        directory,
-        scenario,
-        simulation,
-        case=case,
-        checkpoint=checkpoint,
-        notify=notify,
-        engine=engine,
-    )
+    writer = Recorder if engine is None else partial(Leading, engine=engine)
+    return writer(directory, scenario, simulation, case=case, checkpoint=checkpoint, notify=notify)
 
 
 class _Reporter:

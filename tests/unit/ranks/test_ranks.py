@@ -44,6 +44,28 @@ def test_ranks_make_the_run_of_one_process(tmp_path, run, case, counts):
         same(alone, carom.Result.open(out).summary)
 
 
+MULTIGRID = """
+import runpy, sys
+from carom.ranks import petsc
+
+petsc.FACTORED = {2: 0, 3: 0}
+sys.argv = ["carom", *sys.argv[1:]]
+runpy.run_module("carom", run_name="__main__")
+"""
+
+
+def test_multigrid_takes_the_place_of_a_factor(tmp_path, run):
+    scenario = cases.squeezed()
+    file, out = written(scenario, tmp_path / "case.toml"), tmp_path / "out"
+    script = tmp_path / "multigrid.py"
+    script.write_text(MULTIGRID, encoding="utf-8")
+    status, _, complained = run(
+        2, script, "run", file, "--out", out, "--engine", "petsc", "--quiet"
+    )
+    assert status == 0, complained
+    same(carom.run(scenario, out=tmp_path / "alone").summary, carom.Result.open(out).summary)
+
+
 def test_a_run_goes_on_with_another_number_of_ranks(tmp_path, run):
     scenario = cases.discs()
     file, out = written(scenario, tmp_path / "case.toml"), tmp_path / "out"
