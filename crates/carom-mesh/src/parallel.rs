@@ -19,10 +19,16 @@ pub const BODIES: usize = 2 * CHUNK;
 /// Surfaces of bodies that a thread takes at a time.
 pub const SURFACES: usize = 32;
 
+/// How many threads may work.
+#[must_use]
+pub fn thread_count() -> usize {
+    rayon::current_num_threads()
+}
+
 /// Whether more than one thread may work.
 #[must_use]
 pub fn has_threads() -> bool {
-    rayon::current_num_threads() > 1
+    thread_count() > 1
 }
 
 /// Does `work` on so many nodes in one of the threads that share them, if there are any. From another thread, each sharing would have to wake

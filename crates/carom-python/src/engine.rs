@@ -32,7 +32,7 @@ impl Engine for PythonEngine {
         dimension: usize,
         nodes: &[f64],
         blocks: &[(usize, &[u32])],
-    ) -> Result<Share, String> {
+    ) -> Result<Option<Share>, String> {
         let made = self.calls.noting(|py| {
             let nodes = PyArray1::from_slice(py, nodes).reshape([nodes.len() / dimension, dimension])?;
             let cells = PyList::empty(py);
@@ -41,12 +41,16 @@ impl Engine for PythonEngine {
                 cells.append(PyArray1::from_slice(py, connectivity).reshape([rows, width])?)?;
             }
             let part = self.engine.bind(py).call_method1("share", (body, nodes, cells))?;
+            if part.is_none() {
+                return Ok(None);
+            }
             let owns: PyReadonlyArray1<'_, bool> = part.getattr("owns")?.extract()?;
             let owns: Arc<[bool]> = owns.as_array().iter().copied().collect();
             let is_first = part.getattr("is_first")?.extract()?;
             let (part, calls) = (part.unbind(), Arc::clone(&self.calls));
             let (double, single) = (Buffers::default(), Buffers::default());
-            Ok(Share { ranks: Arc::new(Part { part, calls, is_first, double, single }), owns })
+            let ranks = Arc::new(Part { part, calls, is_first, double, single });
+            Ok(Some(Share { ranks, owns }))
         });
         // The exception itself is told in place of this.
         made.ok_or_else(String::new)

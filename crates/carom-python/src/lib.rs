@@ -16,6 +16,12 @@ mod simulation;
 
 use pyo3::prelude::*;
 
+/// How many threads share the work of this process from its first step on.
+#[pyfunction]
+fn thread_count() -> usize {
+    carom_mesh::parallel::thread_count()
+}
+
 #[pymodule]
 fn _carom(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
@@ -23,6 +29,7 @@ fn _carom(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<simulation::Simulation>()?;
     module.add_class::<planted::PlantedContact>()?;
     module.add_class::<foreign::ForeignRun>()?;
+    module.add_function(wrap_pyfunction!(thread_count, module)?)?;
     module.add_function(wrap_pyfunction!(signal::signal_values, module)?)?;
     module.add_function(wrap_pyfunction!(friction::friction_solvers, module)?)?;
     module.add_function(wrap_pyfunction!(friction::solve_friction, module)?)?;

@@ -9,6 +9,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from carom._carom import thread_count
 from carom.errors import InputError
 from carom.system.threads import take_threads
 
@@ -88,8 +89,8 @@ class Engine(Protocol):
 
     def share(
         self, body: str, nodes: NDArray[np.float64], blocks: Sequence[NDArray[np.uint32]]
-    ) -> Part:
-        """Share a body.
+    ) -> Part | None:
+        """Share a body; None if every rank is to have the whole of it, and to do the same.
 
         Parameters
         ----------
@@ -141,6 +142,12 @@ def engine_named(name: str) -> Engine:
         raise InputError(f"engine {name}: no such engine; choose one of {', '.join(ENGINES)}")
     # Bodies that threads share would be summed over ranks in an order that no two ranks have alike.
     take_threads(1)
+    count = thread_count()
+    if count > 1:
+        raise InputError(
+            f"engine {name}: this process has {count} threads by now, and a rank has one; "
+            "start it with RAYON_NUM_THREADS=1"
+        )
     from carom.ranks.petsc import PetscEngine  # noqa: PLC0415 (MPI starts as it is imported)
 
     return PetscEngine()

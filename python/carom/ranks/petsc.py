@@ -19,6 +19,9 @@ from carom.system.interrupt import Terminated
 PATIENCE = 3.0
 """How long one that has failed waits for the others to fail, too [s]."""
 
+SHARED = 5000
+"""Unknowns from which a body is shared: a smaller one is done with before ranks have agreed."""
+
 FACTORED = {2: 2_000_000, 3: 60_000}
 """Unknowns up to which a body is factorised, by dimension: by nested dissection a factor has
 n log n values in the plane and n^(4/3) in space."""
@@ -57,8 +60,10 @@ class PetscEngine:
 
     def share(
         self, body: str, nodes: NDArray[np.float64], blocks: Sequence[NDArray[np.uint32]]
-    ) -> PetscPart:
+    ) -> PetscPart | None:
         """Share a body; see `Engine.share`."""
+        if nodes.size < SHARED:
+            return None
         return PetscPart(self._comm, nodes, blocks)
 
     def wait(self) -> None:

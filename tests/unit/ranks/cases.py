@@ -13,7 +13,7 @@ def discs(**changes):
         return {"name": name, "material": "m", "velocity": [speed, 0.0], "mesh": mesh}
 
     case = {
-        "analysis": {"end_time": 0.05, "time_step": 2e-3},
+        "analysis": {"end_time": 0.024, "time_step": 2e-3},
         "materials": {"m": SOFT},
         "bodies": [disc("a", [0.0, 0.0], 2.0), disc("b", [1.0, 0.2], -2.0)],
         "contact": {"friction": 0.2},
@@ -26,7 +26,7 @@ def ball():
     mesh = {"kind": "ball", "centre": [0.0, 0.0, 0.51], "radius": 0.5, "divisions": 8}
     case = {
         "dimension": 3,
-        "analysis": {"end_time": 0.012, "time_step": 1e-3},
+        "analysis": {"end_time": 0.007, "time_step": 1e-3},
         "materials": {"m": {**SOFT, "young": 1e4}},
         "bodies": [{"name": "a", "material": "m", "velocity": [0.5, 0, -2], "mesh": mesh}],
         "obstacles": [{"kind": "plane", "name": "floor", "point": [0, 0, 0], "normal": [0, 0, 1]}],
@@ -40,7 +40,7 @@ def pressed():
     mesh = {"kind": "rectangle", "corner": [0.0, 0.0], "size": [2.0, 1.0], "divisions": [6, 4]}
     viscous = {**SOFT, "viscosity": {"shear": 20.0, "bulk": 10.0}}
     case = {
-        "analysis": {"end_time": 0.04, "time_step": 2e-3, "gravity": [0.0, -9.81]},
+        "analysis": {"end_time": 0.02, "time_step": 2e-3, "gravity": [0.0, -9.81]},
         "materials": {"m": {**viscous, "damping": {"mass": 0.5, "stiffness": 1e-4}}},
         "bodies": [{"name": "a", "material": "m", "mesh": mesh}],
         "masses": [{"body": "a", "on": "top", "mass": 3.0}],
@@ -56,7 +56,7 @@ def squeezed():
     mesh = {"kind": "box", "corner": [0.0, 0.0, 0.0], "size": [1, 1, 1], "divisions": [3, 3, 3]}
     case = {
         "dimension": 3,
-        "analysis": {"kind": "static", "end_time": 1.0, "time_step": 0.25},
+        "analysis": {"kind": "static", "end_time": 1.0, "time_step": 0.5},
         "materials": {"m": {"kind": "neo-hookean", "young": 1e4, "poisson": 0.3, "density": 10.0}},
         "bodies": [{"name": "a", "material": "m", "mesh": mesh}],
         "motions": [

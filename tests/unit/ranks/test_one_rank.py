@@ -55,11 +55,23 @@ def test_an_engine_that_fails_is_told(tmp_path):
         build(cases.discs(), engine=Broken())
 
 
-def test_a_periodic_body_is_not_shared():
+def periodic():
     layer = {"kind": "rectangle", "corner": [0, 1], "size": [1, 1], "divisions": [3, 2]}
-    bodies = [{"name": "a", "material": "m", "mesh": {**layer, "periodic": True}}]
-    with pytest.raises(carom.InputError, match="its sides are tied"):
-        build(cases.discs(bodies=bodies), engine=OneRank())
+    mesh = {**layer, "periodic": True}
+    return cases.discs(bodies=[{"name": "a", "material": "m", "velocity": [1, 0], "mesh": mesh}])
+
+
+def flowing():
+    flows = {"kind": "j2-plasticity", "young": 2e4, "poisson": 0.3, "yield_stress": 50.0}
+    return cases.discs(materials={"m": {**flows, "density": 10.0, "hardening": 100.0}})
+
+
+@pytest.mark.parametrize("case", [periodic, flowing])
+def test_what_ranks_cannot_share_each_has_whole(tmp_path, case):
+    engine = OneRank()
+    shared = drive(build(case(), engine=engine), case(), tmp_path / "whole", engine=engine)
+    assert engine.summed == 0
+    assert shared.summary["energy"] == carom.run(case(), out=tmp_path / "alone").summary["energy"]
 
 
 def test_an_engine_that_is_not_there_is_refused():
@@ -67,8 +79,7 @@ def test_an_engine_that_is_not_there_is_refused():
         engine_named("pets")
 
 
-def test_a_body_that_flows_is_not_shared(tmp_path):
-    flows = {"kind": "j2-plasticity", "young": 2e4, "poisson": 0.3, "yield_stress": 50.0}
-    scenario = cases.discs(materials={"m": {**flows, "density": 10.0, "hardening": 100.0}})
-    with pytest.raises(carom.InputError, match="cannot be shared among processes: its material"):
-        build(scenario, engine=OneRank())
+def test_a_process_with_threads_has_no_ranks(monkeypatch):
+    monkeypatch.setattr("carom.ranks.engine.thread_count", lambda: 4)
+    with pytest.raises(carom.InputError, match="has 4 threads by now, and a rank has one; start"):
+        engine_named("petsc")

@@ -30,11 +30,10 @@ pub(super) fn body<const D: usize>(
     let surface = contact_surface(&format!("{key}.contact_sets"), entry, &mesh)?;
     let mut laws = std::iter::once(&material.law).chain(regions.iter().map(|region| &region.law));
     let flows = laws.any(|law| matches!(law, LawSpec::J2Plasticity(_)));
+    // What metal remembers, and sides that are tied, are not shared: all processes have the whole body.
     let share = match engine {
-        None => None,
-        Some(_) if flows => return Err(not_shared(&key, entry, "its material flows")),
-        Some(_) if !mesh.ties().is_empty() => return Err(not_shared(&key, entry, "its sides are tied")),
-        Some(engine) => Some(share(engine, &key, entry, &mesh)?),
+        Some(engine) if !flows && mesh.ties().is_empty() => share(engine, &key, entry, &mesh)?,
+        _ => None,
     };
     let massless_contact = !flows && spares_mass(scenario, entry, &mesh, &surface);
     let mut spec = BodySpec {
@@ -69,24 +68,20 @@ pub(super) fn body<const D: usize>(
     Body::with_contact_surface(mesh, surface, &spec).map_err(|e| refused(&key, name, &e))
 }
 
-/// This process's share of the body under `key`.
+/// This process's share of the body under `key`, if it is shared.
 fn share<const D: usize>(
     engine: &dyn Engine,
     key: &str,
     entry: &BodyEntry,
     mesh: &Mesh<D>,
-) -> Result<Share, InputError> {
+) -> Result<Option<Share>, InputError> {
     let blocks: Vec<(usize, &[u32])> =
         mesh.blocks().iter().map(|b| (b.kind.node_count(), &b.connectivity[..])).collect();
-    engine
-        .share(&entry.name, D, bytemuck::cast_slice(mesh.nodes()), &blocks)
-        .map_err(|why| not_shared(key, entry, &why))
-}
-
-fn not_shared(key: &str, entry: &BodyEntry, why: &str) -> InputError {
-    let message =
-        format!("body {:?} cannot be shared among processes: {why}; run without --engine", entry.name);
-    InputError::new(key.to_string(), message)
+    engine.share(&entry.name, D, bytemuck::cast_slice(mesh.nodes()), &blocks).map_err(|why| {
+        let message =
+            format!("body {:?} cannot be shared among processes: {why}; run without --engine", entry.name);
+        InputError::new(key.to_string(), message)
+    })
 }
 
 /// What is wrong with the body under `key`, or with its `material`.

@@ -19,17 +19,17 @@ pub type Laws<const D: usize> = BTreeMap<String, ForeignLaw<D>>;
 /// Shares out the cells of bodies among processes.
 pub trait Engine: Debug + Send + Sync {
     /// This process's share of a body of this name, whose nodes [m] follow one another in `nodes`, and of each block the nodes of its cells,
-    /// with how many each has.
+    /// with how many each has. None if all processes are to have the whole of it, and to do the same.
     ///
     /// # Errors
-    /// If it cannot be shared; says why.
+    /// If there is none; says why.
     fn share(
         &self,
         body: &str,
         dimension: usize,
         nodes: &[f64],
         blocks: &[(usize, &[u32])],
-    ) -> Result<Share, String>;
+    ) -> Result<Option<Share>, String>;
 }
 
 /// All of that; nothing by default.
