@@ -39,8 +39,19 @@ class CertificateSummary(TypedDict):
     tolerance_joule: float
 
 
+class Crushed(TypedDict):
+    """Cells of a body that were compressed to less than half their volume, the worst to ``least``."""
+
+    body: str
+    cells: int
+    least: float
+
+
 class WorstPenetration(TypedDict):
-    """Where two solids, or a body and itself, were deepest in terms of what is allowed [m, s]."""
+    """Where two solids, or a body and itself, were deepest in terms of what is allowed [m, s].
+
+    Where that was more than is allowed, ``crushed`` may be behind it.
+    """
 
     between: list[str]
     depth: float
@@ -48,6 +59,7 @@ class WorstPenetration(TypedDict):
     cell: float
     time: float
     at: list[float]
+    crushed: Crushed | None
 
 
 class PenetrationSummary(TypedDict):

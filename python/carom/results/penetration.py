@@ -28,7 +28,7 @@ def depth_of(worst: Mapping[str, Any], scenario: Scenario) -> str:
     stage = next(s for s in reversed(scenario.full_stages()) if s.start_time <= worst["time"])
     fact = (
         f"{who} up to {worst['depth']:.2g} m inside {whom} at t = {worst['time']:.3g} s, more than "
-        f"the {worst['allowed']:.2g} m of contact.penetration_tolerance"
+        f"the {worst['allowed']:.2g} m of contact.penetration_tolerance{_crushed(worst)}"
     )
     sides = [_Side(name, scenario, stage) for name in dict.fromkeys(worst["between"])]
     driven = [key for side in sides for key in side.moves]
@@ -41,6 +41,18 @@ def depth_of(worst: Mapping[str, Any], scenario: Scenario) -> str:
     step = f"take a smaller {stage.key}analysis.time_step"
     remedies = ["mesh more finely", step, *_remedies(sides, scenario)]
     return f"{fact}: {', '.join(remedies[:-1])}, or {remedies[-1]}"
+
+
+def _crushed(worst: Mapping[str, Any]) -> str:
+    """Return what of the two was crushed as they went in; nothing in old results."""
+    crushed = worst.get("crushed")
+    if crushed is None:
+        return ""
+    cells = f"{crushed['cells']} cell{'s' if crushed['cells'] > 1 else ''}"
+    return (
+        f", with {cells} of {crushed['body']} crushed to less than half, the worst to "
+        f"{crushed['least']:.2f} of what it was"
+    )
 
 
 class _Side:

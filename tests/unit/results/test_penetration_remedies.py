@@ -36,6 +36,16 @@ def advice(scenario, *between):
     return depth_of(worst, scenario).partition("penetration_tolerance: ")[2]
 
 
+def test_crushed_cells_are_told_where_they_may_be_behind_it():
+    worst = {"between": ["a", "b"], "depth": 0.02, "allowed": 0.01, "time": 0.5}
+    told = depth_of({**worst, "crushed": {"body": "a", "cells": 1, "least": 0.156}}, case())
+    assert "tolerance, with 1 cell of a crushed to less than half, the worst to 0.16 of" in told
+    assert told.endswith(f"of what it was: {PLAIN}")
+    told = depth_of({**worst, "crushed": {"body": "b", "cells": 2, "least": 0.3}}, case())
+    assert "with 2 cells of b crushed" in told
+    assert "crushed" not in depth_of({**worst, "crushed": None}, case())
+
+
 FINER = "mesh more finely, take a smaller analysis.time_step"
 PLAIN = "mesh more finely, or take a smaller analysis.time_step"
 

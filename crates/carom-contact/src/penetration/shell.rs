@@ -32,7 +32,9 @@ pub(super) struct Shell<const D: usize> {
     cells: Vec<f64>,
     pub least_cell: f64,
     pub largest_cell: f64,
-    /// The arcs that its facets stand for where it was first [m].
+    /// The normals of its facets where it was first: where they turn by more than that of a round side there is a corner, for ever.
+    normals: Vec<Vector<D>>,
+    /// The arcs that its facets stood for there [m].
     arcs: Vec<f64>,
     /// How thick the wall behind each of its facets was there [m].
     walls: Vec<f64>,
@@ -83,6 +85,7 @@ impl<const D: usize> Shell<D> {
             cells: Vec::new(),
             least_cell: f64::INFINITY,
             largest_cell: 0.0,
+            normals: Vec::new(),
             arcs: Vec::new(),
             walls: Vec::new(),
             ball: None,
@@ -138,6 +141,7 @@ impl<const D: usize> Shell<D> {
         let facets = || 0..self.facets.len() as u32;
         self.walls = facets().map(|f| self.thickness_behind(f)).collect();
         let cells: Vec<f64> = facets().map(|f| self.diameter(f)).collect();
+        self.normals = facets().map(|f| self.normal(f)).collect();
         self.arcs = facets().map(|f| self.arc(f)).collect();
         let bounds = (f64::INFINITY, 0.0);
         (self.least_cell, self.largest_cell) =
@@ -174,10 +178,11 @@ impl<const D: usize> Shell<D> {
 
     /// How far the arc through a facet, whose neighbours are turned against it, is in front of its middle [m]; not at corners.
     pub fn arc(&self, facet: u32) -> f64 {
-        let own = self.normal(facet);
+        let (own, first) = (self.normal(facet), self.normals[facet as usize]);
         let around = self.facets[facet as usize].nodes.iter().flat_map(|n| self.around(*n));
-        let turns = around.map(|&f| own.dot(&self.normal(f))).filter(|cosine| *cosine > SEARCH.corner);
-        self.diameter(facet) * turns.fold(1.0, f64::min).acos() / 8.0
+        let smooth = around.filter(|f| first.dot(&self.normals[**f as usize]) > SEARCH.corner);
+        let turn = smooth.map(|&f| own.dot(&self.normal(f))).fold(1.0, f64::min).max(-1.0);
+        self.diameter(facet) * turn.acos() / 8.0
     }
 
     /// The edges that are straight, each with the smaller of its facets.

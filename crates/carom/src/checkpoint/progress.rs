@@ -8,6 +8,7 @@ use crate::contact::cross_check::CrossCheckSummary;
 use crate::ledger::ByPair;
 use crate::model::assembly::Assembly;
 use crate::run::account::Account;
+use crate::run::crushed::CrushedCells;
 use crate::run::events::{ContactEvent, EventLog};
 use crate::run::history::History;
 use crate::run::impact::Impact;
@@ -125,8 +126,9 @@ fn penetration(archive: &mut Archive<'_>, t: &mut Totals) -> Done {
     archive.numbers("totals/penetration", [&mut t.max_travel, &mut t.max_penetration])?;
     // Without depth there is none.
     let nowhere = Inside { between: [Solid::Body(0); 2], depth: 0.0, cell: 0.0, arcs: 0.0, at: [0.0; 3] };
-    let mut worst = t.worst_penetration.unwrap_or(Worst { inside: nowhere, allowed: 0.0, time: 0.0 });
-    let Worst { inside: Inside { between, depth, cell, arcs, at }, allowed, time } = &mut worst;
+    let nothing = Worst { inside: nowhere, allowed: 0.0, time: 0.0, crushed: None };
+    let mut worst = t.worst_penetration.unwrap_or(nothing);
+    let Worst { inside: Inside { between, depth, cell, arcs, at }, allowed, time, crushed } = &mut worst;
     let mut who = between.map(|solid| match solid {
         Solid::Body(i) => [0, i],
         Solid::Obstacle(i) => [1, i],
@@ -134,6 +136,10 @@ fn penetration(archive: &mut Archive<'_>, t: &mut Totals) -> Done {
     archive.integers("totals/worst_penetration", who.iter_mut().flatten())?;
     *between = who.map(|[kind, i]| if kind == 0 { Solid::Body(i) } else { Solid::Obstacle(i) });
     archive.numbers("totals/worst_place", [depth, cell, arcs, allowed, time].into_iter().chain(at))?;
+    let mut cells = crushed.unwrap_or(CrushedCells { body: 0, cells: 0, least: 0.0 });
+    archive.integers("totals/crushed", [&mut cells.body, &mut cells.cells])?;
+    archive.numbers("totals/crushed_least", [&mut cells.least])?;
+    *crushed = (cells.cells > 0).then_some(cells);
     t.worst_penetration = (worst.inside.depth > 0.0).then_some(worst);
     Ok(())
 }

@@ -1,8 +1,9 @@
-//! What a step that failed had to do with: cells that are compressed to a small part of their volume.
+//! What a step that failed, or bodies inside one another, had to do with: cells that are compressed to a small part of their volume.
 
 use std::fmt;
 
 use carom_mesh::Matrix;
+use serde::Serialize;
 
 use crate::{Model, State};
 
@@ -10,7 +11,7 @@ use crate::{Model, State};
 const CRUSHED: f64 = 0.5;
 
 /// The body whose cells are compressed the most, where any are crushed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Crushed {
     /// Its name.
     pub body: String,
@@ -20,10 +21,23 @@ pub struct Crushed {
     pub least: f64,
 }
 
-impl Crushed {
-    /// Looks for crushed cells in a state.
-    pub(crate) fn find<const D: usize>(model: &Model<D>, state: &State<D>) -> Option<Self> {
-        let crushed = model.bodies.iter().zip(&state.history).map(|(b, history)| {
+/// The same, by the number of the body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CrushedCells {
+    pub body: usize,
+    pub cells: usize,
+    pub least: f64,
+}
+
+impl CrushedCells {
+    /// Looks for crushed cells, in a state, of the bodies that `count`.
+    pub fn find<const D: usize>(
+        model: &Model<D>,
+        state: &State<D>,
+        counts: impl Fn(usize) -> bool,
+    ) -> Option<Self> {
+        let bodies = model.bodies.iter().zip(&state.history).enumerate().filter(|(body, _)| counts(*body));
+        let crushed = bodies.map(|(body, (b, history))| {
             let cells = b
                 .body
                 .after(history)
@@ -31,7 +45,7 @@ impl Crushed {
                 .cell_states(&state.displacement[b.nodes()]);
             let volumes =
                 cells.iter().map(|cell| (Matrix::<3>::identity() + cell.strain * 2.0).determinant().sqrt());
-            let mut crushed = Self { body: b.name.clone(), cells: 0, least: f64::INFINITY };
+            let mut crushed = Self { body, cells: 0, least: f64::INFINITY };
             for volume in volumes.filter(|&volume| volume < CRUSHED) {
                 crushed.cells += 1;
                 crushed.least = crushed.least.min(volume);
@@ -39,6 +53,12 @@ impl Crushed {
             crushed
         });
         crushed.filter(|crushed| crushed.cells > 0).min_by(|a, b| a.least.total_cmp(&b.least))
+    }
+
+    /// The same with the name of the body.
+    pub fn of<const D: usize>(self, model: &Model<D>) -> Crushed {
+        let Self { body, cells, least } = self;
+        Crushed { body: model.bodies[body].name.clone(), cells, least }
     }
 }
 

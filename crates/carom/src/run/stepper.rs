@@ -2,8 +2,9 @@
 
 use super::error::RunError;
 use crate::error::StepError;
+use crate::run::crushed::CrushedCells;
 use crate::step::workspace::Workspace;
-use crate::{Crushed, Method, Model, State};
+use crate::{Method, Model, State};
 
 /// A nominal step: one of the time grid.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +39,8 @@ impl<const D: usize> Stepper<'_, D> {
             time_step: length,
             halvings: self.method.max_halvings,
             reason,
-            crushed: Crushed::find(self.model, self.state).map(Box::new),
+            crushed: CrushedCells::find(self.model, self.state, |_| true)
+                .map(|cells| Box::new(cells.of(self.model))),
         }
     }
 }

@@ -6,6 +6,7 @@ use serde::Serialize;
 use crate::contact::cross_check::CrossCheckSummary;
 use crate::model::assembly::Assembly;
 use crate::run::account::Account;
+use crate::run::crushed::Crushed;
 use crate::run::events::ContactEvent;
 use crate::run::stage::Stage;
 use crate::run::totals::Worst;
@@ -87,6 +88,8 @@ pub struct WorstPenetration {
     pub time: f64,
     /// Where [m]; the third coordinate is zero in the plane.
     pub at: [f64; 3],
+    /// What may be behind it, where it is more than is allowed.
+    pub crushed: Option<Crushed>,
 }
 
 /// A motion of a body that neither supports nor contacts resist, that next to nothing drives, and that static steps left undone.
@@ -212,10 +215,11 @@ impl<const D: usize> Simulation<D> {
     }
 
     fn penetration(&self) -> PenetrationSummary {
-        let worst = self.totals.worst_penetration.map(|Worst { inside, allowed, time }| {
+        let worst = self.totals.worst_penetration.map(|Worst { inside, allowed, time, crushed }| {
             let Inside { between, depth, cell, at, .. } = inside;
             let between = between.map(|solid| self.model().assembly.solid_name(solid).to_string());
-            WorstPenetration { between, depth, allowed, cell, time, at }
+            let crushed = crushed.map(|cells| cells.of(self.model()));
+            WorstPenetration { between, depth, allowed, cell, time, at, crushed }
         });
         PenetrationSummary { max_depth: self.totals.max_penetration, worst }
     }

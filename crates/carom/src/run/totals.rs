@@ -1,6 +1,9 @@
+use carom_contact::Solid;
+
+use super::crushed::CrushedCells;
 use crate::step::free_motion::FreeMotion;
 use crate::step::report::{Inside, StepReport};
-use crate::{Books, Energies, Method};
+use crate::{Books, Energies, Method, Model, State};
 
 /// Extremes and counts over the run.
 #[derive(Debug, Clone, Copy)]
@@ -43,6 +46,8 @@ pub(crate) struct Worst {
     pub allowed: f64,
     /// When [s].
     pub time: f64,
+    /// What may be behind it, where it is more than is allowed: cells of the two that are crushed.
+    pub crushed: Option<CrushedCells>,
 }
 
 impl Worst {
@@ -108,12 +113,22 @@ impl Totals {
         }
     }
 
-    /// Takes note of how deep solids were in one another at a `time` [s], by what the `method` allows.
-    pub fn note_penetration<const D: usize>(&mut self, report: &StepReport, time: f64, method: &Method<D>) {
+    /// Takes note of how deep solids were in one another in a `state`, by what the `method` allows.
+    pub fn note_penetration<const D: usize>(
+        &mut self,
+        report: &StepReport,
+        state: &State<D>,
+        model: &Model<D>,
+        method: &Method<D>,
+    ) {
         let Some(inside) = report.penetration.worst else { return };
         let allowed = method.allowed_penetration(inside.cell, inside.arcs, self.max_travel);
-        let worst = Worst { inside, allowed, time };
+        let mut worst = Worst { inside, allowed, time: state.time, crushed: None };
         if self.worst_penetration.is_none_or(|known| worst.excess() > known.excess()) {
+            if worst.excess() > 1.0 {
+                let counts = |body| inside.between.contains(&Solid::Body(body));
+                worst.crushed = CrushedCells::find(model, state, counts);
+            }
             self.worst_penetration = Some(worst);
         }
     }
