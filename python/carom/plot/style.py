@@ -48,6 +48,9 @@ WIDTH = 7.0
 INCH = 25.4
 """[mm]"""
 
+NARROWEST_PAGE, WIDEST_PAGE = 15.0, 2000.0
+"""Of pictures for papers [mm]."""
+
 DOTS = 300
 """Dots per inch of images on paper, and of what is an image in vector files."""
 
@@ -87,6 +90,29 @@ def positive(option: str, value: float) -> float:
     if not (math.isfinite(value) and value > 0.0):
         raise InputError(f"{option} {value:g}: must be a number greater than 0")
     return value
+
+
+def page_width(width: float | None, usual: float) -> float:
+    """Return how wide a picture for a paper is [inch].
+
+    Parameters
+    ----------
+    width
+        What was asked for [mm]; None is what is usual.
+    usual
+        See `width` [mm].
+
+    Raises
+    ------
+    InputError
+        No page has that width.
+    """
+    taken = usual if width is None else width
+    if not NARROWEST_PAGE <= taken <= WIDEST_PAGE:
+        raise InputError(
+            f"--width {taken:g}: must be {NARROWEST_PAGE:g} to {WIDEST_PAGE:g} millimetres"
+        )
+    return taken / INCH
 
 
 def write(figure: Figure, path: Path, *, dots: int = RESOLUTION) -> Path:
