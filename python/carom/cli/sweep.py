@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import prod
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -19,6 +20,7 @@ from carom.sweep import PICTURE, TABLE, Axis, Done, axis
 from carom.sweep import sweep as run_all
 from carom.sweep.figure import sweep_figure
 from carom.sweep.table import shown_cells
+from carom.system.interrupt import terminable
 
 Vary = Annotated[
     list[str],
@@ -92,15 +94,32 @@ def run_told(
     force: bool,
 ) -> list[dict[str, Any]]:
     """Run a study, see `carom.sweep`, and tell of every run that is done."""
-    return run_all(
-        scenario,
-        axes,
-        directory,
-        jobs=jobs,
-        scheduler=scheduler,
-        force=force,
-        done=_teller(console, [one.key for one in axes]),
-    )
+    ended = 0
+    tell = _teller(console, [one.key for one in axes])
+
+    def done(count: int, of: int, row: dict[str, Any]) -> None:
+        nonlocal ended
+        ended = count
+        tell(count, of, row)
+
+    try:
+        with terminable():
+            return run_all(
+                scenario,
+                axes,
+                directory,
+                jobs=jobs,
+                scheduler=scheduler,
+                force=force,
+                done=done,
+            )
+    except KeyboardInterrupt:
+        typer.echo(
+            f"{ended} of {prod(len(one.values) for one in axes)} runs have ended and are kept in "
+            f"{directory}; the same command, without --force, goes on",
+            err=True,
+        )
+        raise
 
 
 def _teller(console: Console, keys: Sequence[str]) -> Done:
