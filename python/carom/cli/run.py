@@ -65,7 +65,8 @@ def run(
     quiet: Annotated[bool, typer.Option("--quiet", help="Print errors only.")] = False,
 ) -> None:
     """Run a case and write its results."""
-    take_threads(threads)
+    with failures(case):
+        take_threads(threads)
     with together(engine, threads=threads) as ranks:
         _run(case, overrides, out, resume=resume, force=force, quiet=quiet, ranks=ranks)
 

@@ -176,3 +176,14 @@ def test_threads_are_passed_on_to_the_native_core(capsys, monkeypatch, tmp_path,
     status, _, error = in_process(capsys, "run", case, "--threads", 0)
     assert status == 2
     assert "--threads" in error
+
+
+def test_threads_that_no_machine_has_are_refused(capsys, monkeypatch, tmp_path, examples):
+    monkeypatch.setenv("RAYON_NUM_THREADS", "7")
+    case = examples / "two_cylinders.toml"
+    arguments = ("--out", tmp_path / "out", "--threads", 100_000_000)
+    status, _, error = in_process(capsys, "run", case, *arguments)
+    assert (status, error.count("\n")) == (2, 1)
+    assert error.startswith(f"error: --threads 100000000: there are {os.cpu_count()} cores; take")
+    assert os.environ["RAYON_NUM_THREADS"] == "7"
+    assert not (tmp_path / "out").exists()

@@ -399,8 +399,14 @@ def test_a_case_file_that_cannot_be_read_is_named(tmp_path):
         Scenario.from_toml(tmp_path / "absent.toml")
     binary = tmp_path / "binary.toml"
     binary.write_bytes(b"title = '\xff'")
-    with pytest.raises(InputError, match=r"binary\.toml: not UTF-8 text, at byte 9"):
+    with pytest.raises(InputError, match=r"binary\.toml: not UTF-8 text, at byte 9; save it"):
         Scenario.from_toml(binary)
+
+
+def test_a_case_file_of_a_windows_editor_is_read(tmp_path, scenario):
+    case = tmp_path / "case.toml"
+    case.write_bytes(b"\xef\xbb\xbf" + scenario.to_toml().replace("\n", "\r\n").encode())
+    assert Scenario.from_toml(case) == scenario
 
 
 def test_errors_in_a_case_file_name_it(tmp_path, scenario):
