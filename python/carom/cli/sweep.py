@@ -13,6 +13,7 @@ from rich.console import Console
 from carom.case.scenario import Scenario
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import NOT_CONVERGED, failures
+from carom.cli.lasting import lasting
 from carom.display.sheet import Sheet, print_whole
 from carom.errors import naming
 from carom.plot.style import save
@@ -61,7 +62,7 @@ def sweep(
     Points that are finished are not run again. A run that fails is a row with its reason, and the
     exit status is then 3.
     """
-    console = Console(quiet=quiet)
+    console = Console(quiet=quiet, file=lasting())
     directory = Path("results") / f"{case.stem}-sweep" if out is None else out
     with failures(case):
         scenario = load(case, overrides)
