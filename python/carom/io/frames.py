@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from numbers import Real
 from pathlib import Path
 
 import h5py
@@ -86,9 +87,11 @@ class Frames:
             return len(self.times) - 1
         first, last = float(self.times[0]), float(self.times[-1])
         apart = float(np.diff(self.times).max(initial=0.0))
+        if not isinstance(time, Real):
+            raise InputError(f"time {time!r}: must be a number of seconds")
         if not first - apart <= time <= last + apart:
             raise InputError(
-                f"time {time:g} s: no frame is near; those of the run are from {first:g} to "
+                f"time {time} s: no frame is near; those of the run are from {first:g} to "
                 f"{last:g} s"
             )
         return int(np.abs(self.times - time).argmin())

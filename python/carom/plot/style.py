@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -92,6 +93,29 @@ def positive(option: str, value: float) -> float:
     return value
 
 
+def several(option: str, values: Any, names: str) -> tuple[float, ...]:  # noqa: ANN401 (checked here)
+    """Return numbers that belong together, or say which they are.
+
+    Parameters
+    ----------
+    option
+        What they were given as.
+    values
+        What was given.
+    names
+        One word for each number, such as "START END".
+
+    Raises
+    ------
+    InputError
+        There are more or fewer of them, or something that is no number.
+    """
+    given = tuple(values) if isinstance(values, Iterable) else (values,)
+    if len(given) != len(names.split()) or not all(isinstance(one, Real) for one in given):
+        raise InputError(f"{option} {values!r}: give numbers, {names}")
+    return given
+
+
 def page_width(width: float | None, usual: float) -> float:
     """Return how wide a picture for a paper is [inch].
 
@@ -108,9 +132,9 @@ def page_width(width: float | None, usual: float) -> float:
         No page has that width.
     """
     taken = usual if width is None else width
-    if not NARROWEST_PAGE <= taken <= WIDEST_PAGE:
+    if not (isinstance(taken, Real) and NARROWEST_PAGE <= taken <= WIDEST_PAGE):
         raise InputError(
-            f"--width {taken:g}: must be {NARROWEST_PAGE:g} to {WIDEST_PAGE:g} millimetres"
+            f"--width {taken}: must be {NARROWEST_PAGE:g} to {WIDEST_PAGE:g} millimetres"
         )
     return taken / INCH
 

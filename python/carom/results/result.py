@@ -148,6 +148,9 @@ class Result:
         """
         return data_frame(self, table)
 
+    def __fspath__(self) -> str:
+        return str(self.path)
+
     def __repr__(self) -> str:
         summary = self.summary
         return (

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.errors import InputError
-from carom.plot.style import positive
+from carom.plot.style import positive, several
 
 RATE = 25.0
 """Pictures per second of a film that shows every frame of a run once."""
@@ -92,6 +92,7 @@ def pace(
         raise InputError("--duration and --speed: each says how fast time runs; give one of them")
     taken = np.arange(len(times))
     if between is not None:
+        several("--between", between, "START END")
         if not between[0] <= between[1]:
             raise InputError(
                 f"--between {between[0]:g} {between[1]:g}: give START END in seconds, END not less "

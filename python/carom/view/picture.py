@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 
 from carom.display.colours import INK
 from carom.errors import InputError
-from carom.plot.style import DOTS, INCH, PAPER, page_width, paper_file, write
+from carom.plot.style import DOTS, INCH, PAPER, page_width, paper_file, several, write
 from carom.results.result import Result
 from carom.view.arrows import LONGEST
 from carom.view.camera import AZIMUTH, ELEVATION, Sight
@@ -94,10 +94,11 @@ class Look:
 
     def __post_init__(self) -> None:
         if self.limits is not None:
-            _in_order("--range", *self.limits)
+            _in_order("--range", *several("--range", self.limits, "LOW HIGH"))
         if self.window is not None:
+            several("--window", self.window, "LEFT BOTTOM RIGHT TOP")
             _a_part_of_the_plane(self.window)
-        if not np.isfinite(self.camera).all():
+        if not np.isfinite(several("--camera", self.camera, "AZIMUTH ELEVATION")).all():
             azimuth, elevation = self.camera
             raise InputError(f"--camera {azimuth:g} {elevation:g}: give two angles in degrees")
 
@@ -189,7 +190,7 @@ def picture(
         reactions=reactions,
         smooth=smooth,
     )
-    instants = [times] if times is None or isinstance(times, (int, float)) else list(times)
+    instants = [times] if times is None or np.ndim(times) == 0 else list(times)
     frames = [what.frames.nearest(time) for time in instants]
     if not frames:
         raise InputError("times: name an instant, or none for the last")

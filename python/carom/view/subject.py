@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Real
 from pathlib import Path
 
 import numpy as np
@@ -163,9 +164,9 @@ def subject(
         There are no fields, or there is no such field among them, or displacements cannot be
         multiplied by such a number.
     """
-    if not abs(magnification) <= MOST_MAGNIFIED:
+    if not (isinstance(magnification, Real) and abs(magnification) <= MOST_MAGNIFIED):
         raise InputError(
-            f"--magnification {magnification:g}: must be a number of {MOST_MAGNIFIED:g} at most"
+            f"--magnification {magnification}: must be a number of {MOST_MAGNIFIED:g} at most"
         )
     directory = results.path if isinstance(results, Result) else Path(results)
     frames = Frames(directory / layout.FIELDS)
