@@ -83,8 +83,10 @@ FilePath = Annotated[str, AfterValidator(lambda file: str(Path(file).absolute())
 
 def _plain(value: object) -> object:
     """Return numbers and arrays of NumPy, also in lists, as those of Python."""
-    if type(value) in (list, tuple):
-        return type(value)(_plain(member) for member in value)
+    if type(value) is list:
+        return [_plain(member) for member in value]
+    if type(value) is tuple:
+        return tuple(_plain(member) for member in value)
     return value.tolist() if hasattr(value, "dtype") and hasattr(value, "tolist") else value
 
 

@@ -190,7 +190,7 @@ def picture(
         reactions=reactions,
         smooth=smooth,
     )
-    instants = [times] if times is None or np.ndim(times) == 0 else list(times)
+    instants = list(times) if np.iterable(times) and not isinstance(times, str) else [times]
     frames = [what.frames.nearest(time) for time in instants]
     if not frames:
         raise InputError("times: name an instant, or none for the last")
