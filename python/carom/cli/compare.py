@@ -63,6 +63,7 @@ def compare(
         if out is not None:
             spare_file(out, force=force)
         both = compared(first, second)
+        _ = both.case  # is read here: what is wrong with a case is told before anything is written
         asked = [name.strip() for name in columns.split(",")] if columns else None
         for name in asked or ():
             both.over_time(name)

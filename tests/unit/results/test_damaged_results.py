@@ -85,6 +85,18 @@ def test_a_file_in_the_place_of_results_is_bad_input(results, command, message):
     assert "Errno" not in answer.output
 
 
+@pytest.mark.parametrize("text", ['title = "cut short"', None])
+def test_runs_without_their_case_are_not_compared(run, results, tmp_path, text):
+    (results / "case.toml").unlink()
+    if text is not None:
+        (results / "case.toml").write_text(text)
+    drawn = tmp_path / "a.png"
+    answer = CliRunner().invoke(cli.app, ["compare", str(run), str(results), "--out", str(drawn)])
+    assert answer.exit_code == 2
+    assert f"error: {results / 'case.toml'}: " in answer.output
+    assert not drawn.exists()
+
+
 def test_fields_at_a_time_that_the_run_does_not_have_are_refused(run):
     stress = carom.Result.open(run).fields["stress"]
     assert stress.at(0.0201).shape == stress[-1].shape  # no farther away than frames are apart
