@@ -6,6 +6,7 @@ computed here with NumPy alone, from the case and the stored states. docs/audit.
 
 from __future__ import annotations
 
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
@@ -29,14 +30,15 @@ from carom.errors import InputError
 __all__ = ["Audit", "Check", "Unchecked", "audit"]
 
 
-def audit(directory: str | Path) -> Audit:
+def audit(directory: str | PathLike[str]) -> Audit:
     """Check the results of a run.
 
     Parameters
     ----------
     directory
-        A results directory. With ``output.audit = true`` in its case the equations of the stored
-        steps are checked, without it the states at output times and the books.
+        A results directory, or the `Result` of one. With ``output.audit = true`` in its case the
+        equations of the stored steps are checked, without it the states at output times and the
+        books.
 
     Raises
     ------

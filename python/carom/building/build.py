@@ -45,6 +45,11 @@ def build(
     InputError
         The scenario cannot be run, such as bodies that overlap at the start.
     """
+    if not isinstance(scenario, Scenario):
+        raise InputError(
+            f"{scenario!r:.40}: is no Scenario; carom.Scenario.from_toml reads a case file, "
+            "from_dict a dictionary"
+        )
     if engine is not None and scenario.output.modes is not None:
         raise InputError(
             f"output.modes = {scenario.output.modes}: ranks have no modes of the bodies that they "

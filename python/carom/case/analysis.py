@@ -50,12 +50,13 @@ class Newton(Description):
     ----------
     tolerance
         Largest correction of a displacement in the last iteration, relative to the largest motion
-        of a node in the step.
+        of a node in the step. With a larger one than 1e-3 a step would be no solution of its
+        equation, and nothing else of the run would tell.
     max_iterations
         Iterations before the step counts as failed.
     """
 
-    tolerance: Positive = 1e-10
+    tolerance: Annotated[Number, Field(gt=0, le=1e-3)] = 1e-10
     max_iterations: Count = 50
 
 

@@ -24,11 +24,12 @@ def read(path: Path) -> dict[str, Any]:
         The file cannot be read, or is not TOML; the message gives the line and the column.
     """
     try:
-        return tomlkit.parse(path.read_text(encoding="utf-8")).unwrap()
+        # Editors of Windows put a mark in front of UTF-8, which "-sig" takes away.
+        return tomlkit.parse(path.read_text(encoding="utf-8-sig")).unwrap()
     except OSError as error:
         raise InputError(f"cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
-        raise InputError(f"not UTF-8 text, at byte {error.start}") from error
+        raise InputError(f"not UTF-8 text, at byte {error.start}; save it as UTF-8") from error
     except ParseError as error:
         what = str(error).removesuffix(f" at line {error.line} col {error.col}")
         place = f"line {error.line}, column {error.col + 1}"  # tomlkit counts columns from 0

@@ -81,6 +81,15 @@ FilePath = Annotated[str, AfterValidator(lambda file: str(Path(file).absolute())
 """A file, kept as an absolute path: a results directory has a case file too, which must find it."""
 
 
+def _plain(value: object) -> object:
+    """Return numbers and arrays of NumPy, also in lists, as those of Python."""
+    if type(value) is list:
+        return [_plain(member) for member in value]
+    if type(value) is tuple:
+        return tuple(_plain(member) for member in value)
+    return value.tolist() if hasattr(value, "dtype") and hasattr(value, "tolist") else value
+
+
 class Description(BaseModel):
     """Base of every part of a scenario.
 
@@ -102,10 +111,12 @@ class Description(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _refuse_unknown_keys(cls, data: object) -> object:
-        for key in data if isinstance(data, Mapping) else ():
+        if not isinstance(data, Mapping):
+            return data
+        for key in data:
             if key not in cls.model_fields:
                 raise problem(f"unknown key; {known(str(key), cls.model_fields)}", key=str(key))
-        return data
+        return {key: _plain(value) for key, value in data.items()}
 
     def given(self, key: str) -> Any:  # noqa: ANN401 (of any field)
         """Return the value of a field as the case file gives it."""

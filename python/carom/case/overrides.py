@@ -71,6 +71,8 @@ def _place(parent: object, part: str, *, key: str, where: str) -> str | int:
     """Return the key or the index that `part` stands for in `parent`."""
     if isinstance(parent, dict):
         return part
+    if parent is None:
+        raise InputError(f"{key}: the case has no {where}; give all of it, as {where}=…", key)
     if not isinstance(parent, list):
         raise InputError(f"{key}: {where} is a single value and has no {part!r} in it", key)
     if not (part.isdecimal() and int(part) < len(parent)):

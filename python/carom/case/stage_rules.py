@@ -12,6 +12,9 @@ from carom.messages import known, problem
 if TYPE_CHECKING:
     from carom.case.scenario import Scenario
 
+MOST_STEPS = 1e10
+"""Steps of an analysis, at most; a computer takes them in years."""
+
 SLACK = 1e-6
 """Part of a time step that is round-off of its end."""
 
@@ -93,7 +96,7 @@ def _resolving(scenario: Scenario) -> bool:
 
 
 def _check_clock(scenario: Scenario) -> None:
-    """Refuse analyses that end before their first step does."""
+    """Refuse analyses that end before their first step does, or never."""
     where = "the case starts" if scenario.initial is None else "the result ends"
     for full in full_stages(scenario):
         least = full.start_time + full.analysis.time_step
@@ -104,6 +107,14 @@ def _check_clock(scenario: Scenario) -> None:
                 f"for a duration of {full.end_time:g} s give {full.start_time + full.end_time:g}",
                 key=f"{full.key}analysis.end_time",
                 value=full.end_time,
+            )
+        lasts = full.end_time - full.start_time
+        if lasts / MOST_STEPS > full.analysis.time_step:
+            raise problem(
+                f"more than {MOST_STEPS:g} steps of that length go into {lasts:g} s; take a "
+                "longer one, or an earlier end_time",
+                key=f"{full.key}analysis.time_step",
+                value=full.analysis.time_step,
             )
         where = f"stage {full.name!r} ends"
 

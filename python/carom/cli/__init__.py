@@ -97,4 +97,9 @@ def _options(
 
 def main() -> None:
     """Run the command line."""
-    app(prog_name="carom")
+    try:
+        app(prog_name="carom")
+    except OSError as error:  # of what a command does all others are told by the command
+        where = error.filename or "standard output"
+        typer.echo(f"error: {where}: {error.strerror or error}", err=True)
+        raise SystemExit(1) from error

@@ -15,8 +15,8 @@ from carom.comparing.comparison import Comparison
 from carom.comparing.comparison import compare as compared
 from carom.comparing.figure import comparison_figure
 from carom.display.sheet import Sheet, print_whole
+from carom.io.sparing import spare_file
 from carom.plot.style import save
-from carom.system.existing import spare_existing
 
 SHOWN = 12
 """Columns of the history that are told of without being asked for."""
@@ -61,8 +61,9 @@ def compare(
     console = Console()
     with failures(first):
         if out is not None:
-            spare_existing(out, force=force)
+            spare_file(out, force=force)
         both = compared(first, second)
+        _ = both.case  # is read here: what is wrong with a case is told before anything is written
         asked = [name.strip() for name in columns.split(",")] if columns else None
         for name in asked or ():
             both.over_time(name)

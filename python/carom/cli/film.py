@@ -12,7 +12,7 @@ from rich.progress import Progress
 from carom.cli import drawing
 from carom.cli.case import Force, ResultsDirectory
 from carom.cli.failures import failures
-from carom.system.existing import spare_existing
+from carom.io.sparing import spare_file
 from carom.view.film import film as make
 
 
@@ -67,7 +67,7 @@ def film(
     """
     console = Console(stderr=True)
     with failures(directory):
-        spare_existing(out, force=force)
+        spare_file(out, force=force)
         with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
             task = bar.add_task(f"{out.name}", total=1.0)
             make(

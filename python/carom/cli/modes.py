@@ -12,13 +12,13 @@ from carom.cli import complete
 from carom.cli.failures import failures
 from carom.display.sheet import Sheet, print_whole
 from carom.io.atomic import write_whole
+from carom.io.sparing import spare_file
 from carom.modes.energies import Array, ModalEnergies
 from carom.modes.figure import modes_figure
 from carom.modes.split import modal_energies
 from carom.modes.table import modes_csv
 from carom.plot.style import paper_file, write
 from carom.results.result import Result
-from carom.system.existing import spare_existing
 
 
 def modes(
@@ -54,7 +54,7 @@ def modes(
     with failures(directory):
         for file in (out, csv):
             if file is not None:
-                spare_existing(file, force=force)
+                spare_file(file, force=force)
         picture = None if out is None else paper_file(out)
         found = list(modal_energies(Result.open(directory), count=count, bodies=body).values())
         if picture is not None:

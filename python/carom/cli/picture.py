@@ -10,9 +10,9 @@ import typer
 from carom.cli import drawing
 from carom.cli.case import Force, ResultsDirectory
 from carom.cli.failures import failures
+from carom.io.sparing import spare_file
 from carom.plot.flow_figure import energy_flow
 from carom.results.result import Result
-from carom.system.existing import spare_existing
 from carom.view.picture import picture as draw
 
 
@@ -61,7 +61,7 @@ def picture(
     Bodies in space are drawn by PyVista, the extra view of carom. No display is needed.
     """
     with failures(directory):
-        spare_existing(out, force=force)
+        spare_file(out, force=force)
         if what == "energy":
             energy_flow(Result.open(directory), out, width=width)
             typer.echo(out)

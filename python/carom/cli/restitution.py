@@ -11,6 +11,7 @@ from rich.console import Console
 
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import failures
+from carom.cli.lasting import lasting
 from carom.cli.sweep import Force, Jobs, Quiet, Scheduler, Vary, refuse_failed, run_told
 from carom.display.sheet import Sheet, print_whole
 from carom.errors import naming
@@ -61,7 +62,7 @@ def restitution(
     It is a study as of carom sweep, with its files, and a table and a picture of the impacts beside
     them. Runs without that impact have empty cells.
     """
-    console = Console(quiet=quiet)
+    console = Console(quiet=quiet, file=lasting())
     directory = Path("results") / f"{case.stem}-restitution" if out is None else out
     with failures(case):
         scenario = load(case, overrides)

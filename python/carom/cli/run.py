@@ -13,6 +13,7 @@ from carom.building.build import build
 from carom.case.scenario import Scenario
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import failures
+from carom.cli.lasting import lasting
 from carom.cli.progress import shown_progress
 from carom.cli.together import together
 from carom.errors import (
@@ -65,7 +66,8 @@ def run(
     quiet: Annotated[bool, typer.Option("--quiet", help="Print errors only.")] = False,
 ) -> None:
     """Run a case and write its results."""
-    take_threads(threads)
+    with failures(case):
+        take_threads(threads)
     with together(engine, threads=threads) as ranks:
         _run(case, overrides, out, resume=resume, force=force, quiet=quiet, ranks=ranks)
 
@@ -80,7 +82,8 @@ def _run(
     quiet: bool,
     ranks: Engine | None,
 ) -> None:
-    console = Console(quiet=quiet or (ranks is not None and ranks.rank > 0))
+    is_mute = quiet or (ranks is not None and ranks.rank > 0)
+    console = Console(quiet=is_mute, file=lasting())
 
     def tell(line: str) -> None:
         console.print(line, markup=False, highlight=False, soft_wrap=True)

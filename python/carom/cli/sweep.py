@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import prod
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,6 +13,7 @@ from rich.console import Console
 from carom.case.scenario import Scenario
 from carom.cli.case import CaseFile, Overrides, load
 from carom.cli.failures import NOT_CONVERGED, failures
+from carom.cli.lasting import lasting
 from carom.display.sheet import Sheet, print_whole
 from carom.errors import naming
 from carom.plot.style import save
@@ -19,6 +21,7 @@ from carom.sweep import PICTURE, TABLE, Axis, Done, axis
 from carom.sweep import sweep as run_all
 from carom.sweep.figure import sweep_figure
 from carom.sweep.table import shown_cells
+from carom.system.interrupt import terminable
 
 Vary = Annotated[
     list[str],
@@ -59,7 +62,7 @@ def sweep(
     Points that are finished are not run again. A run that fails is a row with its reason, and the
     exit status is then 3.
     """
-    console = Console(quiet=quiet)
+    console = Console(quiet=quiet, file=lasting())
     directory = Path("results") / f"{case.stem}-sweep" if out is None else out
     with failures(case):
         scenario = load(case, overrides)
@@ -92,15 +95,32 @@ def run_told(
     force: bool,
 ) -> list[dict[str, Any]]:
     """Run a study, see `carom.sweep`, and tell of every run that is done."""
-    return run_all(
-        scenario,
-        axes,
-        directory,
-        jobs=jobs,
-        scheduler=scheduler,
-        force=force,
-        done=_teller(console, [one.key for one in axes]),
-    )
+    ended = 0
+    tell = _teller(console, [one.key for one in axes])
+
+    def done(count: int, of: int, row: dict[str, Any]) -> None:
+        nonlocal ended
+        ended = count
+        tell(count, of, row)
+
+    try:
+        with terminable():
+            return run_all(
+                scenario,
+                axes,
+                directory,
+                jobs=jobs,
+                scheduler=scheduler,
+                force=force,
+                done=done,
+            )
+    except KeyboardInterrupt:
+        typer.echo(
+            f"{ended} of {prod(len(one.values) for one in axes)} runs have ended and are kept in "
+            f"{directory}; the same command, without --force, goes on",
+            err=True,
+        )
+        raise
 
 
 def _teller(console: Console, keys: Sequence[str]) -> Done:

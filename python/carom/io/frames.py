@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from numbers import Real
 from pathlib import Path
 
 import h5py
@@ -55,7 +56,7 @@ class Frames:
                     for group in ("PointData", "CellData")
                     for name, entry in root[group].items()
                 }
-        except FileNotFoundError:
+        except (FileNotFoundError, NotADirectoryError):
             raise InputError(
                 f"{path}: no such file; name a results directory of `carom run`"
             ) from None
@@ -74,9 +75,25 @@ class Frames:
         return name in self._point_fields
 
     def nearest(self, time: float | None) -> int:
-        """Return the frame nearest to a time [s]; the last if that is None."""
+        """Return the frame nearest to a time [s]; the last if that is None.
+
+        Raises
+        ------
+        InputError
+            The time is none of the run: farther before its first frame, or after its last one, than
+            frames are apart.
+        """
         if time is None:
             return len(self.times) - 1
+        first, last = float(self.times[0]), float(self.times[-1])
+        apart = float(np.diff(self.times).max(initial=0.0))
+        if not isinstance(time, Real):
+            raise InputError(f"time {time!r}: must be a number of seconds")
+        if not first - apart <= time <= last + apart:
+            raise InputError(
+                f"time {time} s: no frame is near; those of the run are from {first:g} to "
+                f"{last:g} s"
+            )
         return int(np.abs(self.times - time).argmin())
 
     def width(self, name: str) -> int:

@@ -18,6 +18,9 @@ from carom.mesh_file.gmsh41 import any_number_of_groups
 NASTRAN = (".bdf", ".fem", ".nas")
 """Endings of Nastran's files."""
 
+NOTHING_TO_JOIN = "need at least one array to concatenate"
+"""What NumPy says where meshio's readers find no cells."""
+
 _MANY = 1000
 """Distinct values above which integer data of cells are no sets."""
 
@@ -66,6 +69,8 @@ def _by_meshio(path: Path) -> FileMesh:
         reason = (
             " ".join(said) if isinstance(error, SystemExit) else f"{error or type(error).__name__}"
         )
+        if reason == NOTHING_TO_JOIN:
+            raise Refused("holds no cells; mesh the part, and save its cells with it") from None
         raise Refused(f"cannot be read: {' '.join(reason.split())}") from None
     if any(block.type.startswith("polyhedron") for block in mesh.cells):
         raise Refused("has polyhedra, which carom does not know; mesh with tetrahedra or hexahedra")

@@ -7,8 +7,8 @@ from pathlib import Path
 from types import MappingProxyType
 
 from carom.errors import InputError
+from carom.io.sparing import spare_file
 from carom.messages import known
-from carom.system.existing import spare_existing
 
 TEMPLATES = MappingProxyType(
     {
@@ -61,5 +61,5 @@ def place(text: str, file: Path, *, force: bool = False) -> None:
     InputError
         There is such a file already, and `force` does not say to replace it; or it cannot be there.
     """
-    spare_existing(file, force=force)
+    spare_file(file, force=force)
     file.write_text(text, encoding="utf-8")

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from carom.display.colours import FAINT, INK, NAMED
 from carom.display.si_prefix import prefixed
 from carom.plot.flow import Band, Share, bands, flow
-from carom.plot.style import DOTS, INCH, PAPER, paper_file, positive, write
+from carom.plot.style import DOTS, PAPER, page_width, paper_file, write
 from carom.results.result import Result
 
 TRUNK = 0.36
@@ -58,17 +58,16 @@ def energy_flow(
         The file has another ending, or the width is none that can be.
     """
     file = None if out is None else paper_file(out)
-    drawn = _drawn(result, positive("--width", width or WIDTH))
+    drawn = _drawn(result, page_width(width, WIDTH))
     if file is not None:
         with mpl.rc_context(PAPER):
             write(drawn, file, dots=DOTS)
     return drawn
 
 
-def _drawn(result: Result, width: float) -> Figure:
+def _drawn(result: Result, across: float) -> Figure:
     what = flow(result.history, result.ledger)
     with mpl.rc_context(PAPER):
-        across = width / INCH
         if not what.total > 0.0:
             figure, axes = _blank(across, _LINE)
             axes.text(across / 2, _LINE / 2, "no energy", ha="center", va="center", color=FAINT)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -48,6 +49,9 @@ WIDTH = 7.0
 INCH = 25.4
 """[mm]"""
 
+NARROWEST_PAGE, WIDEST_PAGE = 15.0, 2000.0
+"""Of pictures for papers [mm]."""
+
 DOTS = 300
 """Dots per inch of images on paper, and of what is an image in vector files."""
 
@@ -87,6 +91,52 @@ def positive(option: str, value: float) -> float:
     if not (math.isfinite(value) and value > 0.0):
         raise InputError(f"{option} {value:g}: must be a number greater than 0")
     return value
+
+
+def several(option: str, values: Any, names: str) -> tuple[float, ...]:  # noqa: ANN401 (checked here)
+    """Return numbers that belong together, or say which they are.
+
+    Parameters
+    ----------
+    option
+        What they were given as.
+    values
+        What was given.
+    names
+        One word for each number, such as "START END".
+
+    Raises
+    ------
+    InputError
+        There are more or fewer of them, or something that is no number.
+    """
+    given = tuple(values) if isinstance(values, Iterable) else (values,)
+    if len(given) != len(names.split()) or not all(isinstance(one, Real) for one in given):
+        raise InputError(f"{option} {values!r}: give numbers, {names}")
+    return given
+
+
+def page_width(width: float | None, usual: float) -> float:
+    """Return how wide a picture for a paper is [inch].
+
+    Parameters
+    ----------
+    width
+        What was asked for [mm]; None is what is usual.
+    usual
+        See `width` [mm].
+
+    Raises
+    ------
+    InputError
+        No page has that width.
+    """
+    taken = usual if width is None else width
+    if not (isinstance(taken, Real) and NARROWEST_PAGE <= taken <= WIDEST_PAGE):
+        raise InputError(
+            f"--width {taken}: must be {NARROWEST_PAGE:g} to {WIDEST_PAGE:g} millimetres"
+        )
+    return taken / INCH
 
 
 def write(figure: Figure, path: Path, *, dots: int = RESOLUTION) -> Path:

@@ -6,9 +6,9 @@ from pathlib import Path
 
 from carom.io import layout
 from carom.io.atomic import write_whole
+from carom.io.sparing import spare_file
 from carom.report.page import page
 from carom.report.source import read_source
-from carom.system.existing import spare_existing
 
 GENERATOR = '<meta name="generator" content="carom report'
 """By which a report is recognised."""
@@ -43,7 +43,7 @@ def write_page(
     """Write a page about a directory and return its path; see `write_report`."""
     own = directory / layout.REPORT
     file = own if out is None else Path(out)
-    spare_existing(file, force=force or (_is_same(file, own) and _is_report(file)))
+    spare_file(file, force=force or (_is_same(file, own) and _is_report(file)))
     write_whole(file, text.encode())
     return file
 

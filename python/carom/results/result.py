@@ -65,7 +65,7 @@ class Result:
                 summary=cast(Summary, read_summary(path / layout.SUMMARY)),
                 history=read_history(path / layout.HISTORY),
             )
-        except FileNotFoundError as error:
+        except (FileNotFoundError, NotADirectoryError) as error:
             missing = Path(error.filename).name
             raise InputError(
                 f"{path}: has no {missing}; name a directory that `carom run` has finished"
@@ -147,6 +147,9 @@ class Result:
             There is no such table, or pandas is not installed.
         """
         return data_frame(self, table)
+
+    def __fspath__(self) -> str:
+        return str(self.path)
 
     def __repr__(self) -> str:
         summary = self.summary

@@ -271,7 +271,12 @@ class _Reporter:
         )
         self._recorder.progress(now)
         if self._progress is not None:
-            self._progress(now)
+            try:
+                self._progress(now)
+            except Stop:
+                raise
+            except Exception as error:  # as of an observer: what there is of the run is kept
+                raise ObserverError(error) from error
         self._last = perf_counter()
 
 
@@ -313,7 +318,7 @@ def _take(
         raised = failure.error
         what = f"an observer raised {type(raised).__name__} at t = {simulation.time:g} s: {raised}"
         recorder.close(status="interrupted", reason=what)
-        raise raised from raised.__cause__
+        raise
     except Stop as stop:
         keep()
         return stop
@@ -361,9 +366,11 @@ _LITTLE = 2**20
 
 @contextmanager
 def _storing(directory: Path) -> Iterator[None]:
-    """Say of a file that could not be written how to go on."""
+    """Say of a file that could not be written how to go on; those of observers are their own."""
     try:
         yield
+    except ObserverError as failure:
+        raise failure.error from failure.error.__cause__
     except OSError as error:
         what = f"{error.filename or directory}: {error.strerror or error}"
         mend = "make room" if _is_full(error, directory) else "see to it"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -99,8 +100,9 @@ def sweep(
         if scheduler is None
         else on_cluster(tasks, scheduler=scheduler)
     )
-    for index, summary in outcomes if tasks else ():
-        finish(left[index], summary)
+    with closing(outcomes):
+        for index, summary in outcomes if tasks else ():
+            finish(left[index], summary)
     made = [one for one in rows if one is not None]
     write_table(out / TABLE, made)
     return made

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import multiprocessing
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from importlib import import_module
 from typing import Any
 
 from carom.errors import InputError
+from carom.sweep.stopping import deaf, hold, line
 from carom.sweep.worker import Task, refused, work
 from carom.system.threads import THREADS
 
@@ -25,10 +26,11 @@ ONE_EACH = (THREADS, "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS
 """Variables by which carom and the libraries are told to take one thread each."""
 
 
-def here(tasks: Sequence[Task], *, jobs: int) -> Iterator[Outcome]:
+def here(tasks: Sequence[Task], *, jobs: int) -> Generator[Outcome]:
     """Work on tasks in some processes; yield the outcomes as they come.
 
     A task whose process dies, for want of memory for example, is `failed`; the others go on.
+    Where this generator is closed, or Ctrl-C strikes, the runs that are under way stop.
     """
     again: list[int] = []
     for index, future in _pooled(tasks, range(len(tasks)), jobs):
@@ -48,8 +50,16 @@ def _pooled(
     tasks: Sequence[Task], indices: Sequence[int], jobs: int
 ) -> Iterator[tuple[int, Future[dict[str, Any]]]]:
     context = multiprocessing.get_context(START)
-    with _one_thread_each(), ProcessPoolExecutor(jobs, mp_context=context) as pool:
-        waiting = {pool.submit(work, tasks[index]): index for index in indices}
+    stopped = ExitStack()
+    end = stopped.enter_context(line())
+    # The line is cut before the pool waits for its processes, whatever they still work on.
+    with (
+        _one_thread_each(),
+        ProcessPoolExecutor(jobs, context, initializer=hold, initargs=(end,)) as pool,
+        stopped,
+    ):
+        with deaf():
+            waiting = {pool.submit(work, tasks[index]): index for index in indices}
         try:
             while waiting:
                 for future in wait(waiting, return_when=FIRST_COMPLETED).done:
@@ -74,7 +84,7 @@ def _one_thread_each() -> Iterator[None]:
                 os.environ[name] = value
 
 
-def on_cluster(tasks: Sequence[Task], *, scheduler: str) -> Iterator[Outcome]:
+def on_cluster(tasks: Sequence[Task], *, scheduler: str) -> Generator[Outcome]:
     """Work on tasks through a Dask scheduler, whose workers see the same files.
 
     Raises

@@ -14,6 +14,11 @@ from carom.io.summary import read_summary
 from carom.mesh_file import Note
 from carom.results.doubts import Doubt
 from carom.running.run import drive
+from carom.sweep.stopping import is_cut
+from carom.system.interrupt import Terminated, terminable
+
+STOPPED = ("interrupted", "the study was stopped")
+"""What becomes of a run whose study ends before it."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +39,16 @@ class Task:
 
 def work(task: Task) -> dict[str, Any]:
     """Run a point; return its summary, or a status and a reason where there is none."""
+    with terminable():
+        try:
+            return refused(*STOPPED) if is_cut() else _run(task)
+        except Terminated:
+            if not is_cut():
+                raise
+            return refused(*STOPPED)
+
+
+def _run(task: Task) -> dict[str, Any]:
     directory = Path(task.directory)
     try:
         scenario = Scenario.from_dict(task.case)

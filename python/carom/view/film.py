@@ -19,7 +19,7 @@ from carom.errors import InputError
 from carom.io import layout
 from carom.io.history import read_history
 from carom.plot.books import Books, rows
-from carom.plot.style import FILM
+from carom.plot.style import FILM, several
 from carom.results.result import Result
 from carom.view.camera import AZIMUTH, ELEVATION
 from carom.view.encoding import encoder, ending
@@ -273,6 +273,7 @@ def _is_dynamic(scenario: Scenario) -> list[bool]:
 
 
 def _checked(size: tuple[int, int]) -> tuple[int, int]:
+    several("--size", size, "WIDTH HEIGHT")
     if any(side % 2 or not LEAST <= side <= MOST for side in size):
         raise InputError(
             f"--size {size[0]}x{size[1]}: width and height are even numbers of pixels, "

@@ -8,13 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.errors import InputError
-from carom.plot.style import positive
+from carom.plot.style import positive, several
 
 RATE = 25.0
 """Pictures per second of a film that shows every frame of a run once."""
 
 FASTEST, SLOWEST = 60.0, 0.5
 """Pictures per second that are taken from the run's own frames, at most and at least."""
+
+LEAST_RATE, MOST_RATE = 0.02, 1000.0
+"""Pictures per second that can be asked for; a GIF knows none that stays a minute longer."""
 
 MOST = 20_000
 """Pictures of a film."""
@@ -78,34 +81,43 @@ def pace(
     InputError
         A number is none that can be, or the film would be too long.
     """
-    for option, value in (("--fps", rate), ("--duration", duration), ("--speed", speed)):
+    for option, value in (("--duration", duration), ("--speed", speed)):
         if value is not None:
             positive(option, value)
+    if rate is not None and not LEAST_RATE <= rate <= MOST_RATE:
+        raise InputError(
+            f"--fps {rate:g}: must be {LEAST_RATE:g} to {MOST_RATE:g} pictures per second"
+        )
     if duration is not None and speed is not None:
         raise InputError("--duration and --speed: each says how fast time runs; give one of them")
     taken = np.arange(len(times))
     if between is not None:
+        several("--between", between, "START END")
+        if not between[0] <= between[1]:
+            raise InputError(
+                f"--between {between[0]:g} {between[1]:g}: give START END in seconds, END not less "
+                "than START"
+            )
         taken = np.flatnonzero((times >= between[0]) & (times <= between[1]))
         if not len(taken):
             raise InputError(
                 f"--between {between[0]:g} {between[1]:g}: no frame of the run is there, whose "
-                f"times are from {times[0]:g} to {times[-1]:g} s"
+                f"times are from {times[0]:g} to {times[-1]:g} s, at most "
+                f"{np.diff(times).max(initial=0.0):g} s apart"
             )
     here = times[taken]
     span = float(here[-1] - here[0])
-    if duration is not None:
-        speed = span / duration
-    if speed is None or span == 0.0:
+    length = duration if speed is None else span / speed
+    if length is None or span == 0.0:
         made = rate or RATE
         _not_too_long(len(taken))
         return Pace(taken, made, _paces(here, made))
-    length = span / speed
     made = rate or float(np.clip((len(taken) - 1) / length, SLOWEST, FASTEST))
     _not_too_long(length * made)
     count = max(round(length * made), 1)
     wanted = here[0] + span * np.arange(count + 1) / count
     nearest = np.abs(np.searchsorted((here[1:] + here[:-1]) / 2, wanted))
-    return Pace(taken[nearest], made, np.full(len(wanted), speed))
+    return Pace(taken[nearest], made, np.full(len(wanted), span / length))
 
 
 def said(seconds: float) -> str:
@@ -143,6 +155,6 @@ def _paces(times: NDArray[np.float64], rate: float) -> NDArray[np.float64]:
 def _not_too_long(count: float) -> None:
     if count > MOST:
         raise InputError(
-            f"the film would have {count:.0f} pictures, and {MOST} at most can be; "
+            f"the film would have {count:.6g} pictures, and {MOST} at most can be; "
             "choose a larger --speed, a shorter --duration or a part by --between"
         )

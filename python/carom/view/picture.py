@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 
 from carom.display.colours import INK
 from carom.errors import InputError
-from carom.plot.style import DOTS, INCH, PAPER, paper_file, positive, write
+from carom.plot.style import DOTS, INCH, PAPER, page_width, paper_file, several, write
 from carom.results.result import Result
 from carom.view.arrows import LONGEST
 from carom.view.camera import AZIMUTH, ELEVATION, Sight
@@ -28,6 +28,15 @@ from carom.view.subject import Subject, subject
 
 SINGLE, WHOLE = 85.0, 170.0
 """Widths of one column of a paper, and of two [mm]."""
+
+NARROWEST = 8.0
+"""Room for an instant beside others, at least [mm]."""
+
+THINNEST = 1000.0
+"""Of a window: its longer side in its shorter one, at most."""
+
+LARGEST = 1e12
+"""Of a window: its sides, at most [m]."""
 
 TALLEST = 90.0
 """Height of a scene, at most [mm]."""
@@ -74,7 +83,7 @@ class Look:
     Raises
     ------
     InputError
-        The limits, or the sides of the window, are not in order.
+        The limits, or the sides of the window, are not in order, or an angle is no number.
     """
 
     limits: tuple[float, float] | None
@@ -85,11 +94,13 @@ class Look:
 
     def __post_init__(self) -> None:
         if self.limits is not None:
-            _in_order("--range", *self.limits)
+            _in_order("--range", *several("--range", self.limits, "LOW HIGH"))
         if self.window is not None:
-            left, bottom, right, top = self.window
-            _in_order("--window", left, right)
-            _in_order("--window", bottom, top)
+            several("--window", self.window, "LEFT BOTTOM RIGHT TOP")
+            _a_part_of_the_plane(self.window)
+        if not np.isfinite(several("--camera", self.camera, "AZIMUTH ELEVATION")).all():
+            azimuth, elevation = self.camera
+            raise InputError(f"--camera {azimuth:g} {elevation:g}: give two angles in degrees")
 
     @property
     def sight(self) -> Sight:
@@ -179,7 +190,7 @@ def picture(
         reactions=reactions,
         smooth=smooth,
     )
-    instants = [times] if times is None or isinstance(times, (int, float)) else list(times)
+    instants = list(times) if np.iterable(times) and not isinstance(times, str) else [times]
     frames = [what.frames.nearest(time) for time in instants]
     if not frames:
         raise InputError("times: name an instant, or none for the last")
@@ -204,7 +215,7 @@ def _drawn(
     seen = window_of(what, frames, look) if what.is_flat else None
     aspect = seen.aspect if seen else sight.aspect(reached(what, frames))
 
-    page = positive("--width", width or (SINGLE if len(frames) == 1 else WHOLE)) / INCH
+    page = _page(width, len(frames))
     across = (page - 2 * _PAD - _GAP * (len(frames) - 1)) / len(frames)
     up = min(across / aspect, TALLEST / INCH)
     across = up * aspect
@@ -256,6 +267,17 @@ def _drawn(
     return figure
 
 
+def _page(width: float | None, count: int) -> float:
+    """Return how wide a picture of so many instants is [inch]."""
+    page = page_width(width, SINGLE if count == 1 else WHOLE)
+    if page < count * NARROWEST / INCH:
+        raise InputError(
+            f"--time: {count} instants side by side take a --width of {count * NARROWEST:g} mm "
+            "or more"
+        )
+    return page
+
+
 def _axes(figure: Figure, left: float, bottom: float, width: float, height: float) -> Axes:
     """Return axes at a place of the page [inch]."""
     page, up = figure.get_size_inches()
@@ -287,6 +309,22 @@ def window_of(what: Subject, frames: Sequence[int], look: Look) -> Window:
     grown = np.maximum(high - low + 2 * MARGIN * size, 0.2 * size)
     middle = (low + high) / 2
     return Window(tuple(middle - grown / 2), tuple(middle + grown / 2))
+
+
+def _a_part_of_the_plane(window: tuple[float, float, float, float]) -> None:
+    left, bottom, right, top = window
+    given = f"--window {left:g} {bottom:g} {right:g} {top:g}"
+    if not (np.isfinite(window).all() and left < right and bottom < top):
+        raise InputError(
+            f"{given}: give LEFT BOTTOM RIGHT TOP in metres, LEFT less than RIGHT and BOTTOM less "
+            "than TOP"
+        )
+    wide, tall = right - left, top - bottom
+    if max(wide, tall) > min(THINNEST * min(wide, tall), LARGEST):
+        raise InputError(
+            f"{given}: this part of the plane is {wide:g} m wide and {tall:g} m high; neither can "
+            f"be more than {THINNEST:g} times the other, nor more than {LARGEST:g} m"
+        )
 
 
 def _in_order(option: str, first: float, second: float) -> None:

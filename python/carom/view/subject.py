@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Real
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from carom.case.scenario import Scenario
 from carom.display.time_unit import TimeUnit, time_unit
+from carom.errors import InputError
 from carom.io import layout
 from carom.io.frames import Frames
 from carom.results.result import Result, read_case
@@ -21,6 +23,10 @@ from carom.view.outline import Outline, outline
 
 LEAST_FORCE = 2e-3
 """Of the largest force that is drawn: smaller ones are none."""
+
+
+MOST_MAGNIFIED = 1e15
+"""By what displacements can be multiplied; beyond it nothing of the bodies can be made out."""
 
 
 @dataclass(frozen=True)
@@ -155,8 +161,13 @@ def subject(
     Raises
     ------
     InputError
-        There are no fields, or there is no such field among them.
+        There are no fields, or there is no such field among them, or displacements cannot be
+        multiplied by such a number.
     """
+    if not (isinstance(magnification, Real) and abs(magnification) <= MOST_MAGNIFIED):
+        raise InputError(
+            f"--magnification {magnification}: must be a number of {MOST_MAGNIFIED:g} at most"
+        )
     directory = results.path if isinstance(results, Result) else Path(results)
     frames = Frames(directory / layout.FIELDS)
     surface = directory / layout.SURFACE

@@ -171,3 +171,21 @@ def test_the_condition_suits_the_scheme(scheme, condition):
     assert of_a_stage.full_stages()[0].contact.condition == condition
     named = carom.Scenario(analysis=analysis, contact=carom.Contact(condition="gap"), **given)
     assert named.contact.condition == "gap"
+
+
+def test_numbers_of_numpy_are_numbers():
+    disc = carom.Disc(centre=np.zeros(2), radius=np.float32(0.5), divisions=np.int64(4))
+    assert disc == carom.Disc(centre=[0.0, 0.0], radius=0.5, divisions=4)
+    box = carom.Rectangle(corner=[np.int64(0), 0], size=np.ones(2), divisions=np.array([2, 3]))
+    assert box.divisions == (2, 3)
+    with pytest.raises(carom.InputError, match=r"divisions = 4\.0: must be an integer"):
+        carom.Disc(centre=[0, 0], radius=1, divisions=np.float64(4))
+    with pytest.raises(carom.InputError, match=r"centre\.0 = \[0\.0, 0\.0\]: must be a number"):
+        carom.Disc(centre=np.zeros((2, 2)), radius=1, divisions=4)
+
+
+@pytest.mark.parametrize("given", ["case.toml", {"bodies": []}, None])
+def test_what_is_no_scenario_is_told_how_to_become_one(given, tmp_path):
+    with pytest.raises(carom.InputError, match=r"is no Scenario; carom\.Scenario\.from_toml reads"):
+        carom.run(given, out=tmp_path / "out")
+    assert not (tmp_path / "out").exists()

@@ -1,3 +1,5 @@
+import errno
+import io
 import os
 import signal
 import subprocess
@@ -176,3 +178,46 @@ def test_threads_are_passed_on_to_the_native_core(capsys, monkeypatch, tmp_path,
     status, _, error = in_process(capsys, "run", case, "--threads", 0)
     assert status == 2
     assert "--threads" in error
+
+
+class Refusing(io.StringIO):
+    """Standard output on a full disk, or in a pipe that nobody reads."""
+
+    def __init__(self, number):
+        super().__init__()
+        self._number = number
+
+    def write(self, text):
+        raise OSError(self._number, os.strerror(self._number))
+
+
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EPIPE])
+def test_a_run_goes_on_where_nobody_can_read_of_it(capsys, monkeypatch, tmp_path, examples, number):
+    monkeypatch.setattr(sys, "stdout", Refusing(number))
+    options = ("--set", "analysis.end_time=0.02", "--out", tmp_path / "out")
+    with pytest.raises(SystemExit) as caught:
+        cli.app(["run", str(examples / "two_cylinders.toml"), *map(str, options)])
+    assert caught.value.code in (0, None)
+    told = "standard output: No space left on device; the work goes on, untold\n"
+    assert capsys.readouterr().err == (told if number == errno.ENOSPC else "")
+    assert carom.Result.open(tmp_path / "out").summary["status"] == "completed"
+
+
+def test_what_cannot_be_printed_is_no_traceback(capsys, monkeypatch, examples):
+    monkeypatch.setattr(sys, "stdout", Refusing(errno.ENOSPC))
+    monkeypatch.setattr(sys, "argv", ["carom", "check", str(examples / "two_cylinders.toml")])
+    with pytest.raises(SystemExit) as caught:
+        cli.main()
+    assert caught.value.code == 1
+    assert capsys.readouterr().err == "error: standard output: No space left on device\n"
+
+
+def test_threads_that_no_machine_has_are_refused(capsys, monkeypatch, tmp_path, examples):
+    monkeypatch.setenv("RAYON_NUM_THREADS", "7")
+    case = examples / "two_cylinders.toml"
+    arguments = ("--out", tmp_path / "out", "--threads", 100_000_000)
+    status, _, error = in_process(capsys, "run", case, *arguments)
+    assert (status, error.count("\n")) == (2, 1)
+    assert error.startswith(f"error: --threads 100000000: there are {os.cpu_count()} cores; take")
+    assert os.environ["RAYON_NUM_THREADS"] == "7"
+    assert not (tmp_path / "out").exists()

@@ -278,3 +278,10 @@ def test_a_surface_out_of_a_file_without_triangles_is_refused(tmp_path):
     meshio.write(file, meshio.Mesh(POINTS, [("tetra", TETS)]))
     with pytest.raises(MeshError, match="has no triangles, but tetra; save the surface as triangl"):
         read_surface(file, scale=1.0, key="obstacles.0")
+
+
+def test_a_file_without_cells_is_no_riddle(tmp_path):
+    (tmp_path / "empty.msh").touch()
+    nothing = meshio.Mesh(POINTS, [("tetra", np.zeros((0, 4), dtype=int))])
+    for mesh, name in ((None, "empty.msh"), (nothing, "part.vtu")):
+        assert "holds no cells; mesh the part" in refusal(mesh, tmp_path, name=name)

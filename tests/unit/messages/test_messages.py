@@ -84,6 +84,14 @@ BAD = [
     ("analysis.time_step", 0.0, "analysis.time_step = 0.0: must be greater than 0"),
     ("analysis.time_step", -1e-3, "analysis.time_step = -0.001: must be greater than 0"),
     ("analysis.time_step", 2.0, "analysis.end_time = 1.0: must be at least one time_step (2 s)"),
+    (
+        "analysis.time_step",
+        1e-300,
+        "analysis.time_step = 1e-300: more than 1e+10 steps of that length go into 1 s; take a",
+    ),
+    ("analysis.time_step", 5e-324, "analysis.time_step = 5e-324: more than 1e+10 steps"),
+    ("analysis.end_time", 1e308, "steps of that length go into 1e+308 s"),
+    ("analysis.newton", {"tolerance": 0.1}, "analysis.newton.tolerance = 0.1: must be at most"),
     ("analysis.kind", "modal", "analysis.kind = \"modal\": must be one of 'dynamic', 'static'"),
     ("analysis.max_halvings", 1.5, "analysis.max_halvings = 1.5: must be an integer"),
     ("analysis.gravity", [0, -9.81, 0], "must have 2 components, not 3"),
@@ -391,8 +399,14 @@ def test_a_case_file_that_cannot_be_read_is_named(tmp_path):
         Scenario.from_toml(tmp_path / "absent.toml")
     binary = tmp_path / "binary.toml"
     binary.write_bytes(b"title = '\xff'")
-    with pytest.raises(InputError, match=r"binary\.toml: not UTF-8 text, at byte 9"):
+    with pytest.raises(InputError, match=r"binary\.toml: not UTF-8 text, at byte 9; save it"):
         Scenario.from_toml(binary)
+
+
+def test_a_case_file_of_a_windows_editor_is_read(tmp_path, scenario):
+    case = tmp_path / "case.toml"
+    case.write_bytes(b"\xef\xbb\xbf" + scenario.to_toml().replace("\n", "\r\n").encode())
+    assert Scenario.from_toml(case) == scenario
 
 
 def test_errors_in_a_case_file_name_it(tmp_path, scenario):

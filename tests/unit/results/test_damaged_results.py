@@ -66,6 +66,45 @@ def test_results_without_a_summary_or_with_a_broken_one_are_named(results):
             read(results)
 
 
+@pytest.mark.parametrize(
+    ("command", "message"),
+    [
+        (("plot",), "has no summary.json; name a directory"),
+        (("modes",), "has no summary.json; name a directory"),
+        (("compare",), "has no summary.json; name a directory"),
+        (("picture", "--out", "a.png"), "no such file; name a results directory of `carom run`"),
+        (("film", "--out", "a.gif"), "no such file; name a results directory of `carom run`"),
+    ],
+)
+def test_a_file_in_the_place_of_results_is_bad_input(results, command, message):
+    case = str(results / "case.toml")
+    given = [case, case] if command == ("compare",) else [case]
+    answer = CliRunner().invoke(cli.app, [*command, *given])
+    assert answer.exit_code == 2, answer.output
+    assert message in answer.output
+    assert "Errno" not in answer.output
+
+
+@pytest.mark.parametrize("text", ['title = "cut short"', None])
+def test_runs_without_their_case_are_not_compared(run, results, tmp_path, text):
+    (results / "case.toml").unlink()
+    if text is not None:
+        (results / "case.toml").write_text(text)
+    drawn = tmp_path / "a.png"
+    answer = CliRunner().invoke(cli.app, ["compare", str(run), str(results), "--out", str(drawn)])
+    assert answer.exit_code == 2
+    assert f"error: {results / 'case.toml'}: " in answer.output
+    assert not drawn.exists()
+
+
+def test_fields_at_a_time_that_the_run_does_not_have_are_refused(run):
+    stress = carom.Result.open(run).fields["stress"]
+    assert stress.at(0.0201).shape == stress[-1].shape  # no farther away than frames are apart
+    for time in (np.nan, np.inf, -1.0, 5.0):
+        with pytest.raises(InputError, match="no frame is near; those of the run are from 0 to"):
+            stress.at(time)
+
+
 def test_fields_that_are_none_are_named(results):
     fields = results / "fields.vtkhdf"
     erased(results, "fields.vtkhdf", "VTKHDF/PointData")

@@ -1,5 +1,7 @@
 """The tables of a run as data frames."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -49,6 +51,10 @@ def test_a_run_without_contact_has_an_empty_table(scenario, tmp_path):
     contacts = result.to_pandas("contacts")
     assert len(contacts) == 0
     assert contacts["peak_force"].sum() == 0.0
+
+
+def test_a_result_stands_for_its_directory(impact):
+    assert Path(impact) == impact.path
 
 
 def test_another_table_is_refused(impact):

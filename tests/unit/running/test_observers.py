@@ -115,6 +115,17 @@ def test_an_observer_that_fails_leaves_a_run_that_can_go_on(whole, tmp_path):
     restarting.assert_same_results(tmp_path, whole.path)
 
 
+def test_a_progress_that_cannot_be_shown_leaves_a_run_that_can_go_on(whole, tmp_path):
+    def fail(progress):
+        raise BrokenPipeError(32, "nobody reads")
+
+    with pytest.raises(BrokenPipeError, match="nobody reads"):
+        carom.run(restarting.scenario(), out=tmp_path, progress=fail)
+    assert carom.Result.open(tmp_path).summary["status"] == "interrupted"
+    carom.run(restarting.scenario(), out=tmp_path, resume=True)
+    restarting.assert_same_results(tmp_path, whole.path)
+
+
 def test_an_error_of_an_observer_is_no_failed_step(tmp_path):
     def fail(_):
         raise carom.ConvergenceError("of another run", {})

@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import sys
+import time
 from types import SimpleNamespace
 
 import pytest
@@ -11,11 +12,14 @@ import pytest
 import carom
 from carom import cli
 from carom.errors import InputError
+from carom.io import layout
+from carom.io.progress import read_progress
 from carom.sweep import axis, processes, sweep
 from carom.sweep.figure import sweep_figure
 from carom.sweep.study import folder, points
 from carom.sweep.table import row, shown_cells
 from carom.sweep.worker import Task, work
+from carom.system.interrupt import Terminated
 
 CASE = {
     "title": "Bounce",
@@ -363,6 +367,59 @@ def test_a_process_that_dies_is_a_row_and_the_others_go_on(monkeypatch, scenario
     outcomes = dict(processes.here(tasks, jobs=2))
     assert [outcomes[n]["status"] for n in range(3)] == ["completed", "failed", "completed"]
     assert "died" in outcomes[1]["reason"]
+
+
+def takes_steps(directory):
+    running = read_progress(directory)
+    return running is not None and running.progress is not None
+
+
+def test_a_study_that_is_stopped_stops_its_runs(scenario, tmp_path):
+    endless = scenario.with_values({"analysis.end_time": 1e6, "output.history_every": 1.0})
+    tasks = [Task(endless.model_dump(mode="json"), str(tmp_path / name)) for name in "ab"]
+    outcomes = processes.here([Task({}, str(tmp_path / "none")), *tasks], jobs=2)
+    assert next(outcomes)[1]["status"] == "refused"
+    while not all(takes_steps(tmp_path / name) for name in "ab"):
+        time.sleep(0.05)
+    outcomes.close()  # as Ctrl-C does; it returns when the processes have ended
+    for name in "ab":
+        summary = json.loads((tmp_path / name / layout.SUMMARY).read_text())
+        assert summary["status"] == "interrupted"
+        assert (tmp_path / name / layout.CHECKPOINT).exists()
+
+
+def test_a_process_whose_study_has_stopped_begins_no_run(monkeypatch, scenario, tmp_path):
+    monkeypatch.setattr("carom.sweep.worker.is_cut", lambda: True)
+    task = Task(scenario.model_dump(mode="json"), str(tmp_path / "run"))
+    assert work(task) == {"status": "interrupted", "reason": "the study was stopped"}
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.fixture
+def study(capsys, monkeypatch, tmp_path, case):
+    """Run the command with something else in the place of its processes."""
+
+    def run(instead):
+        monkeypatch.setattr("carom.sweep.here", instead)
+        options = ["--vary", "contact.friction=0,0.3", "--out", tmp_path / "out"]
+        status, _, err = command(capsys, case, *options)
+        return status, tmp_path / "out", err
+
+    return run
+
+
+@pytest.mark.parametrize(("stop", "status"), [(KeyboardInterrupt, 130), (Terminated, 143)])
+def test_ctrl_c_tells_how_a_study_goes_on(study, stop, status):
+    def interrupted(tasks, *, jobs):
+        yield 0, work(tasks[0])
+        raise stop
+
+    found, out, err = study(interrupted)
+    assert found == status
+    assert err.startswith(
+        f"1 of 2 runs have ended and are kept in {out}; the same command, without "
+        "--force, goes on\n"
+    )
 
 
 def test_without_dask_a_scheduler_is_refused_with_the_remedy(monkeypatch, scenario, tmp_path):

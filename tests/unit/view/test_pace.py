@@ -73,11 +73,17 @@ def test_the_pace_is_told_in_words(seconds, words):
 @pytest.mark.parametrize(
     ("wish", "message"),
     [
-        ({"rate": 0.0}, "--fps 0: must be a number greater than 0"),
+        ({"rate": 0.0}, "--fps 0: must be 0.02 to 1000 pictures per second"),
+        ({"rate": 1e-9}, "--fps 1e-09: must be 0.02 to 1000 pictures per second"),
+        ({"rate": np.nan}, "--fps nan: must be 0.02"),
+        ({"speed": 5e-324}, "the film would have inf pictures, and 20000 at most can be"),
+        ({"duration": 1e308}, "the film would have 5e"),
         ({"duration": -1.0}, "--duration -1: must be"),
         ({"speed": float("nan")}, "--speed nan: must be"),
         ({"speed": 1.0, "duration": 1.0}, "give one of them"),
-        ({"between": (20.0, 30.0)}, "no frame of the run is there, whose times are from 0 to 15 s"),
+        ({"between": (20.0, 30.0)}, "whose times are from 0 to 15 s, at most 0.05 s apart"),
+        ({"between": (1.0, 0.5)}, "--between 1 0.5: give START END in seconds, END not less than"),
+        ({"between": (np.nan, 0.5)}, "--between nan 0.5: give START END in seconds"),
         ({"speed": 1e-9, "rate": 25.0}, "20000 at most can be"),
     ],
 )

@@ -170,13 +170,54 @@ def test_a_hole_is_cut_into_what_is_solid(tmp_path):
     assert at(0.55, 0.75).max() < 0.95  # solid
 
 
+def test_what_is_no_number_is_named_and_numbers_of_numpy_are_numbers(disc):
+    for options, message in (
+        ({"times": "0.1"}, "time '0.1': must be a number of seconds"),
+        ({"times": ["start"]}, "time 'start': must be a number of seconds"),
+        ({"window": (0, 0, 1)}, "--window (0, 0, 1): give numbers, LEFT BOTTOM RIGHT TOP"),
+        ({"window": "abcd"}, "--window 'abcd': give numbers, LEFT BOTTOM RIGHT TOP"),
+        ({"limits": (1,)}, "--range (1,): give numbers, LOW HIGH"),
+        ({"camera": 3}, "--camera 3: give numbers, AZIMUTH ELEVATION"),
+        ({"width": "8"}, "--width 8: must be 15 to 2000 millimetres"),
+        ({"magnification": "8"}, "--magnification 8: must be a number"),
+    ):
+        with pytest.raises(carom.InputError) as caught:
+            carom.picture(disc, **options)
+        assert str(caught.value).startswith(message)
+    assert carom.picture(disc, times=np.float32(0.1))
+    assert carom.picture(disc, times=np.array([0.0, 0.1]))
+
+
+@pytest.mark.parametrize("file", ["case.toml", "history.csv", "fields.vtkhdf"])
+def test_files_of_a_run_are_not_replaced_even_by_force(disc, file):
+    before = (disc / file).read_bytes()
+    answer = CliRunner().invoke(app, ["report", str(disc), "--out", str(disc / file), "--force"])
+    assert answer.exit_code == 2
+    assert f"{disc / file}: is of the results of a run; name another file" in answer.output
+    assert (disc / file).read_bytes() == before
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [
         (("--field", "velocty"), '--field velocty: no such field; did you mean "velocity"? (known'),
         (("--range", 3, 3), "--range 3 3: give two numbers, the second larger than the first"),
-        (("--window", 0, 0, -1, 1), "--window 0 -1: give two numbers"),
-        (("--width", -5), "--width -5: must be a number greater than 0"),
+        (("--window", 1, 1, 0, 0), "--window 1 1 0 0: give LEFT BOTTOM RIGHT TOP in metres"),
+        (("--window", 0, 0, 0, 0), "--window 0 0 0 0: give LEFT BOTTOM RIGHT TOP in metres"),
+        (("--window", 0, 0, "nan", 1), "--window 0 0 nan 1: give LEFT BOTTOM RIGHT TOP"),
+        (("--window", 0, 0, 1e-300, 1), "neither can be more than 1000 times the other"),
+        (("--window", 0, 0, 1e308, 1e308), "nor more than 1e+12 m"),
+        (("--camera", "nan", 0), "--camera nan 0: give two angles in degrees"),
+        (("--magnification", "inf"), "--magnification inf: must be a number of 1e+15 at most"),
+        (("--magnification", "nan"), "--magnification nan: must be a number of 1e+15 at most"),
+        (("--time", "nan"), "time nan s: no frame is near; those of the run are from 0 to"),
+        (("--time", 100), "time 100.0 s: no frame is near; those of the run are from 0 to"),
+        (("--time", -1), "time -1.0 s: no frame is near"),
+        (("--time", ",".join(["0"] * 30)), "30 instants side by side take a --width of 240 mm"),
+        (("--width", -5), "--width -5.0: must be 15 to 2000 millimetres"),
+        (("--width", 0), "--width 0.0: must be 15 to 2000 millimetres"),
+        (("--width", 1e9), "--width 1000000000.0: must be 15 to 2000 millimetres"),
+        (("--what", "energy", "--width", 0), "--width 0.0: must be 15 to 2000 millimetres"),
         (("--colours", "virdis"), "--colours virdis: no colour map of matplotlib"),
         (("--time", "0,x"), "--time 0,x: give a number, or several with commas between them"),
     ],

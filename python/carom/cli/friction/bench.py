@@ -13,8 +13,9 @@ from carom.cli.case import Force
 from carom.cli.failures import failures
 from carom.display.sheet import Sheet, print_whole
 from carom.errors import InputError
+from carom.io.sparing import spare_file
 from carom.messages import known
-from carom.system.existing import entries, spare_existing
+from carom.system.existing import entries
 
 if TYPE_CHECKING:
     from carom.friction.bench import Run
@@ -61,7 +62,7 @@ def bench(
 
         if out is not None and entries(out):
             for name in friction_bench.FILES:
-                spare_existing(out / name, force=force)
+                spare_file(out / name, force=force)
         names = _solvers(solvers)
         if against is not None and against not in PEERS:
             raise InputError(f"--against {against}: {known(against, PEERS)}")

@@ -11,7 +11,7 @@ import carom
 from carom.cli.case import Force
 from carom.cli.failures import failures
 from carom.cli.friction.problem_file import ProblemFile, warnings_named
-from carom.system.existing import spare_existing
+from carom.io.sparing import spare_file
 
 
 def convert(
@@ -31,7 +31,7 @@ def convert(
     """Write a contact problem in another format."""
     with failures(file):
         carom.friction.check_suffix(out)
-        spare_existing(out, force=force)
+        spare_file(out, force=force)
         with warnings_named(file):
             record = carom.friction.read_record(file)
         if condense:

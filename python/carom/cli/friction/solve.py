@@ -16,7 +16,7 @@ from carom.cli.friction.problem_file import ProblemFile, warnings_named
 from carom.cli.plain import json_text
 from carom.display.tables import add, two_columns
 from carom.errors import InputError
-from carom.system.existing import spare_existing
+from carom.io.sparing import spare_file
 
 if TYPE_CHECKING:
     from carom.friction import Record
@@ -56,7 +56,7 @@ def solve(
     with failures(file):
         if out is not None:
             carom.friction.check_suffix(out, carom.friction.FCLIB_SUFFIXES)
-            spare_existing(out, force=force)
+            spare_file(out, force=force)
         with warnings_named(file):
             record = carom.friction.read_record(file)
         guess = _guess(record, file) if warm else None

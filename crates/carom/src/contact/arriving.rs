@@ -1,0 +1,67 @@
+//! What comes so near to its target that it has to be stopped now, where velocities are ruled.
+
+use carom_contact::{Candidate, Contact, Site};
+use carom_mesh::Vector;
+
+use super::active::ActiveSet;
+use super::candidates::Finder;
+use crate::model::given::Given;
+use crate::model::state::{Reaction, State};
+
+/// The way that a contact goes in steps that it flies through and in the one that stops it, in steps at the velocity that it flies with.
+const WAY: f64 = 1.5;
+
+impl<const D: usize> Finder<D> {
+    /// Whether the step, which ended at `next` after this `motion`, let a contact come so near that the next one could not keep it out. If so, it takes
+    /// part from now on.
+    ///
+    /// What is stopped goes on in that step: with v₊ = a v + b d by (a + e) v/b, at θ = ½ and without restitution by half of its way. So it
+    /// stops before it arrives, and never goes in. Rows of mortar pairs, which cannot be recalled, do that once they have arrived.
+    pub fn lets_arrive(
+        &mut self,
+        given: &Given<'_, D>,
+        motion: &[Vector<D>],
+        active: &ActiveSet<D>,
+        next: &State<D>,
+    ) -> bool {
+        let Given { assembly, state, interval, .. } = *given;
+        let map = &interval.map;
+        let Self { found, needed, missed, missed_contacts, missed_mortar, .. } = self;
+        let is_open = |c: &&Candidate| {
+            !c.redundant
+                && !matches!(c.site, Site::Multiplier(..))
+                && active.candidates.binary_search_by_key(&c.key(), Candidate::key).is_err()
+        };
+        missed.clear();
+        missed.extend(found.iter().filter(is_open).filter(|c| !needed.contains(&c.key())));
+        let end = |n: u32| assembly.reference[n as usize] + next.displacement[n as usize];
+        assembly.contact.evaluate_all(missed, &end, missed_mortar, missed_contacts);
+        let velocity = |n: usize| map.end_velocity(&state.velocity[n], &motion[n]);
+        let known = needed.len();
+        for (candidate, contact) in missed.iter().zip(&*missed_contacts) {
+            let [before, after] = given.interference(candidate.key());
+            let closing = contact.relative(velocity)[0] - (after - before) / map.dt;
+            let pair = assembly.contact.pairs.get(candidate.pair as usize);
+            let restitution = assembly.restitutions.of(&pair).unwrap_or(0.0);
+            let goes_on =
+                (map.velocity_of_velocity + restitution) * closing.min(0.0) / map.velocity_of_motion;
+            if contact.gap - after < goes_on.max(0.0) - assembly.round_off() {
+                needed.push(candidate.key());
+            }
+        }
+        needed.len() > known
+    }
+}
+
+/// Whether a contact that pressed in the last step, was `at_start` with this `gap` [m] and falls no faster than by `fall` [m/s] in a step would have to be
+/// stopped again.
+pub(super) fn goes_on_pressing<const D: usize>(
+    given: &Given<'_, D>,
+    known: Option<&Reaction<D>>,
+    at_start: &Contact<D>,
+    gap: f64,
+    fall: f64,
+) -> bool {
+    let closing = || (-at_start.relative(|n| given.state.velocity[n])[0]).max(0.0) + fall;
+    known.is_some_and(|r| r.force[0] > 0.0) && gap < WAY * closing() * given.interval.map.dt
+}
