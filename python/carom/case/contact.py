@@ -164,8 +164,8 @@ class Contact(Description):
     penetration_tolerance
         How deep bodies and obstacles that may touch may be inside one another, or bodies inside
         themselves, at the end of a step. It is relative to the diameter of the facet that is there.
-        ``endpoint``, which acts once a node has arrived, is allowed the farthest motion of a node
-        in a step besides, up to half that diameter. So are the arcs that the facets of a round side
+        ``endpoint``, which stops what arrives and may see too late what others push, is allowed
+        the farthest motion of a node in a step besides, up to half that diameter. So are the arcs that the facets of a round side
         stand for, and how far a round obstacle bulges into a facet no larger than its radius. A run
         that goes deeper is not completed.
     resolve_overlap

@@ -1,8 +1,10 @@
 //! Which contacts take part in a step, and the reactions known of them.
 
-use carom_contact::{Candidate, Contact, Mortar, Pair, Search, Target};
+use carom_contact::{Candidate, Contact, Mortar, Pair, Target};
 use carom_mesh::{Matrix, Vector};
 
+use super::arriving::goes_on_pressing;
+use super::candidates::Finder;
 use super::control::CONTROL;
 use super::pressing::Pressing;
 use super::slider::{Slider, slider_of};
@@ -68,7 +70,9 @@ impl<const D: usize> ActiveSet<D> {
     /// of the other side saw. It is kept from going deeper, until the bodies part: to push it out at once, the faster the shorter the step,
     /// would create energy. In a static analysis it is pushed out: there bodies may be meant to be pressed into one another. So is in its first
     /// step whatever is inside: nothing has come there.
-    pub fn select(&mut self, given: &Given<'_, D>, search: &Search<D>, at_rest: &AtRest) {
+    ///
+    /// Bodies become no faster than by `fall` [m/s] in free flight.
+    pub fn select(&mut self, given: &Given<'_, D>, finder: &Finder<D>, at_rest: &AtRest, fall: f64) {
         let Given { assembly, method, state, interval } = *given;
         let (contact, map) = (&assembly.contact, &interval.map);
         let start = |n: u32| given.position(n);
@@ -96,10 +100,15 @@ impl<const D: usize> ActiveSet<D> {
             let gap = at_start.gap - interference[0];
             let is_beyond = || {
                 let inside = inside(c);
-                at_start.gap < -inside && contact.is_beyond(c, at_start, inside, &start, search)
+                at_start.gap < -inside && contact.is_beyond(c, at_start, inside, &start, &finder.search)
             };
             let closed = closed(c);
-            let takes_part = || !c.redundant && method.condition.is_active(gap, closed) && !is_beyond();
+            let is_stopped = || {
+                let known = state.reaction(c.key());
+                finder.needs(c.key()) || goes_on_pressing(given, known, at_start, gap, fall)
+            };
+            let is_active = || method.condition.is_active(gap, closed, is_stopped);
+            let takes_part = || !c.redundant && is_active() && !is_beyond();
             let active = answers(assembly, at_start) && (state.is_bond(c.key(), assembly) || takes_part());
             if active {
                 let stays = gap < 0.0

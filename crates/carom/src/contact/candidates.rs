@@ -20,12 +20,12 @@ pub(crate) struct Finder<const D: usize> {
     /// All that the search found, ascending.
     pub found: Vec<Candidate>,
     /// Those of the step that say what no other does, as the measure has shown.
-    needed: Vec<(u32, Site)>,
+    pub(super) needed: Vec<(u32, Site)>,
     /// Whether the last step has looked at its end for what it did not find.
     has_looked: bool,
-    missed: Vec<Candidate>,
-    missed_contacts: Vec<Contact<D>>,
-    missed_mortar: Mortar<D>,
+    pub(super) missed: Vec<Candidate>,
+    pub(super) missed_contacts: Vec<Contact<D>>,
+    pub(super) missed_mortar: Mortar<D>,
 }
 
 impl<const D: usize> Finder<D> {
@@ -127,6 +127,11 @@ impl<const D: usize> Finder<D> {
             found.sort_unstable();
         }
         missed_one || needed.len() > known
+    }
+
+    /// Whether a candidate has to take part, as the last attempt at the step has shown.
+    pub fn needs(&self, key: (u32, Site)) -> bool {
+        self.needed.contains(&key)
     }
 
     /// Takes note that the step has come to nothing.

@@ -1,6 +1,7 @@
 //! The contacts of a step: which there may be, which take part, their reduced problem and its reactions, what they do to the energy.
 
 pub(crate) mod active;
+mod arriving;
 pub(crate) mod candidates;
 pub(crate) mod closing;
 pub(crate) mod cohering;

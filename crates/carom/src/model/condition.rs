@@ -28,7 +28,8 @@ pub enum ContactCondition {
     /// The normal relative motion of the step, less the gap that is open at its start: what is closed comes no closer, what closes lands
     /// on its target. The work that normal reactions do on landing is given back, so that they do none.
     Midpoint,
-    /// The normal relative velocity at the end of the step, of contacts closed at its start (Moreau): a plastic impact.
+    /// The normal relative velocity at the end of the step, of contacts closed at its start and of those that arrive before the next one could
+    /// stop them (Moreau): a plastic impact, or one with restitution.
     Endpoint,
     /// The gap at the end of the step, between nodes without mass that are in static balance there. It never penetrates,
     /// and nothing can bounce (Khenous, Laborde & Renard 2008). One side without mass is enough; pairs that have none are ruled as
@@ -63,11 +64,11 @@ impl ContactCondition {
         }
     }
 
-    /// Whether a contact takes part in a step that it starts with this gap [m]. If that is decided at the start, the contact must be closed there,
-    /// up to what is as good as `closed` [m].
+    /// Whether a contact takes part in a step that it starts with this gap [m]. If velocities are ruled, the contact must be closed there,
+    /// up to what is as good as `closed` [m], or it is one that `is_stopped` before it arrives.
     #[must_use]
-    pub fn is_active(self, start_gap: f64, closed: f64) -> bool {
-        self.rules_the_end() || start_gap <= closed
+    pub fn is_active(self, start_gap: f64, closed: f64, is_stopped: impl FnOnce() -> bool) -> bool {
+        self.rules_the_end() || start_gap <= closed || is_stopped()
     }
 
     /// The part of the gap at the start [m] that has a part in the condition: what is open there and may be closed, or the penetration, negative,
@@ -83,7 +84,7 @@ impl ContactCondition {
     }
 
     /// Whether contacts that were missed are found by what has gone through its target at the end of the step. With `Endpoint` they are
-    /// chosen at the start.
+    /// those that arrive.
     #[must_use]
     pub fn rules_the_end(self) -> bool {
         self != ContactCondition::Endpoint

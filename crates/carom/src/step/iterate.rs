@@ -27,8 +27,10 @@ pub(super) fn iterate<const D: usize>(
     work: &mut Workspace<D>,
 ) -> Result<usize, StepError> {
     let everyone = &given.assembly.everyone;
-    let Workspace { contacts, newton, motion, resting, .. } = work;
-    contacts.active.select(given, &contacts.finder.search, &resting.who);
+    let Workspace { contacts, newton, motion, resting, forecasts, .. } = work;
+    let acceleration = forecasts.iter().map(|forecast| forecast.acceleration).fold(0.0, f64::max);
+    let fall = acceleration * given.interval.map.dt;
+    contacts.active.select(given, &contacts.finder, &resting.who, fall);
     contacts.on_masses.begin(given);
     if !given.interval.map.is_static() {
         // The guess that softened contacts would go back to may be of other contacts, where the step is repeated.

@@ -40,6 +40,7 @@ use self::stability::check_jump;
 use self::waking::wake;
 use self::workspace::Workspace;
 use crate::body::{Forecast, Interval};
+use crate::contact::Contacts;
 use crate::contact::cross_check::cross_check;
 use crate::error::StepError;
 use crate::model::assembly::Assembly;
@@ -140,7 +141,14 @@ fn looked_at<const D: usize>(
     repetition: usize,
     work: &mut Workspace<D>,
 ) -> Result<Option<PenetrationReport>, StepError> {
-    if work.contacts.finder.missed_one(given, &work.resting.who, next) {
+    let Workspace { contacts, motion, resting, .. } = work;
+    let Contacts { finder, active, .. } = contacts;
+    let rules_the_end = given.method.condition.rules_the_end();
+    if finder.missed_one(given, &resting.who, next)
+        || !rules_the_end
+            && repetition + 1 < SEARCH.repetitions
+            && finder.lets_arrive(given, motion, active, next)
+    {
         return Ok(None);
     }
     let penetration = measure(given, next, work)?;
