@@ -46,7 +46,7 @@ class AuditModel:
     cells
         Nodes of each cell, by body.
     types
-        VTK's type of the cells, by body.
+        VTK's types of the cells, by body.
 
     Raises
     ------
@@ -60,7 +60,7 @@ class AuditModel:
         stage: FullStage,
         points: Array,
         cells: list[Indices],
-        types: list[int],
+        types: list[Indices],
     ) -> None:
         _refuse_what_is_driven(scenario, stage)
         self.scenario, self.stage = scenario, stage
@@ -269,9 +269,9 @@ class AuditModel:
             tracks.append((track.name, int(distance.argmin()) + body.span.start))
         return tracks
 
-    def _build_bodies(self, cells: list[Indices], types: list[int]) -> Iterator[AuditBody]:
+    def _build_bodies(self, cells: list[Indices], types: list[Indices]) -> Iterator[AuditBody]:
         first = 0
-        for entry, nodes, vtk_type in zip(self.scenario.bodies, cells, types, strict=True):
+        for entry, nodes, own in zip(self.scenario.bodies, cells, types, strict=True):
             if isinstance(entry, ForeignEntry):
                 raise InputError("cannot audit a body of another code, whose law no file holds")
             last = int(nodes.max()) + 1
@@ -281,7 +281,7 @@ class AuditModel:
                 AuditBody,
                 entry,
                 self.scenario.materials,
-                vtk_type=vtk_type,
+                types=own,
                 nodes=nodes - first,
                 points=self.points[first:last],
                 first_node=first,
@@ -344,12 +344,7 @@ class AuditModel:
 def _target(body: AuditBody, *, smooth: bool) -> Target:
     if body.dimension == 2:
         return Curve(body.facets, body.points, smooth=smooth)
-    kind = body.cells.kind.facet
-    if not smooth:
-        return Sheet(body.facets, FlatPatches(kind, body.facets))
-    if kind.degree > 1:
-        raise InputError("cannot audit smooth targets over facets of second order in space yet")
-    return Sheet(body.facets, GregoryPatches(kind, body.facets, body.points))
+    return Sheet(GregoryPatches(body.facets, body.points) if smooth else FlatPatches(body.facets))
 
 
 def _diameter(points: Array) -> float:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import combinations
 from typing import Any
 
 import numpy as np
 
 from carom.auditing.arrays import Array, einsum, sizes
 from carom.auditing.bodies.body import AuditBody
+from carom.auditing.mesh.facets import grouped
 from carom.auditing.model import AuditModel
 from carom.auditing.report import Findings
 from carom.auditing.steps.contacts import Contacts, all_forces
@@ -128,7 +130,10 @@ def _shortest(body: AuditBody) -> float:
     """Return the shortest distance between nodes of a facet that may touch [m]."""
     if not len(body.facets):
         return np.inf
-    nodes = body.points[body.facets]
-    count = nodes.shape[1]
-    pairs = [(a, b) for a in range(count) for b in range(a)]
-    return float(min(np.linalg.norm(nodes[:, a] - nodes[:, b], axis=1).min() for a, b in pairs))
+    shortest = np.inf
+    for _, _, facets in grouped(body.facets, body.dimension):
+        nodes = body.points[facets]
+        for a, b in combinations(range(nodes.shape[1]), 2):
+            apart = np.linalg.norm(nodes[:, a] - nodes[:, b], axis=1)
+            shortest = min(shortest, float(apart.min()))
+    return shortest

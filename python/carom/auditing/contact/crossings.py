@@ -8,6 +8,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Indices, cross, einsum
 from carom.auditing.bodies.body import AuditBody
+from carom.auditing.mesh.facets import grouped
 from carom.auditing.targets.feet import BEYOND
 
 
@@ -39,11 +40,11 @@ class Crossings:
 
 def edges(body: AuditBody) -> Indices:
     """Return the straight lines from node to node around the facets that may touch, [count, 2]."""
-    kind = body.cells.kind.facet
     lines: list[Indices] = []
-    for side in kind.facets:
-        ends = [side[:2]] if len(side) == 2 else [side[[0, 2]], side[[2, 1]]]
-        lines += [body.facets[:, pair] for pair in ends]
+    for kind, _, facets in grouped(body.facets, body.dimension):
+        for side in kind.facets:
+            ends = [side[:2]] if len(side) == 2 else [side[[0, 2]], side[[2, 1]]]
+            lines += [facets[:, pair] for pair in ends]
     every: Indices = np.unique(np.sort(np.concatenate(lines), axis=1), axis=0)
     return every + body.span.start
 

@@ -64,7 +64,7 @@ def nearest_places(
     if known is not None:
         around = body.facets[np.isin(body.facets, known).all(axis=1)]
     for facet in around:
-        sheet = Sheet(facet[None], FlatPatches(body.cells.kind.facet, facet[None]))
+        sheet = Sheet(FlatPatches(facet[None]))
         weights = sheet.closest_weights(shape.centre, position)
         stencil = [(int(n), float(w)) for n, w in zip(facet, weights, strict=True)]
         yield _at(shape, weights @ position[facet], stencil)

@@ -148,16 +148,14 @@ class Files:
             points = root["Points"][:, : self.scenario.dimension]
             connectivity, offsets = root["Connectivity"][:], root["Offsets"][:]
             types, body = root["Types"][:], root["CellData/body"][:]
+        nodes = _even(connectivity, offsets)
         cells, kinds = [], []
         for index, entry in enumerate(self.scenario.bodies):
             mine = np.flatnonzero(body == index)
-            sizes, kind = np.diff(offsets)[mine], np.unique(types[mine])
-            if len(mine) == 0 or len(kind) != 1 or len(np.unique(sizes)) != 1:
-                raise InputError(
-                    f"{self.path}: body {entry.name!r} has no mesh of one kind of cell"
-                )
-            cells.append(connectivity[offsets[mine][:, None] + np.arange(sizes[0])])
-            kinds.append(int(kind[0]))
+            if len(mine) == 0:
+                raise InputError(f"{self.path}: body {entry.name!r} has no cells")
+            cells.append(nodes[mine, : int(np.diff(offsets)[mine].max())])
+            kinds.append(types[mine].astype(np.int64))
         models = [
             AuditModel(self.scenario, stage, points, cells, kinds)
             for stage in self.scenario.full_stages()

@@ -6,6 +6,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Indices, cross, einsum
 from carom.auditing.bodies.body import AuditBody
+from carom.auditing.mesh.facets import corners_of
 from carom.auditing.model import AuditModel
 from carom.auditing.targets.sheet import FlatPatches, Sheet
 
@@ -58,9 +59,9 @@ def _depths(points: Array, position: Array, body: AuditBody) -> Array:
     if len(near) and body.dimension == 2:
         depths[near] = _in_outline(points[near], outline)
     elif len(near):
-        sheet = Sheet(body.outline, FlatPatches(body.cells.kind.facet, body.outline))
+        sheet = Sheet(FlatPatches(body.outline))
         behind = np.maximum(-sheet.signed_distance(points[near], position), 0.0)
-        inside = _windings(points[near], outline[:, : body.cells.kind.facet.corner_count]) > HALF
+        inside = _windings(points[near], position[corners_of(body.outline, 3)]) > HALF
         depths[near] = np.where(inside, behind, 0.0)
     return depths
 

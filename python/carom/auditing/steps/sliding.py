@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.auditing.arrays import Array, Mask, sizes
 from carom.auditing.contact.friction import Law, Slide
+from carom.auditing.mesh.facets import node_counts
 from carom.auditing.model import AuditModel
 from carom.auditing.steps.contacts import BEARS, Contacts
 from carom.auditing.steps.ruled import Ruled
@@ -195,7 +196,8 @@ def _bearing(model: AuditModel, source: int, node: int, pushes: Array, position:
     facing = -body.faces(body.facets[around]).normals(position[body.span]) @ pushes
     best = facing.max()
     bears = (facing >= BEARS * best) | (best <= 0.0)
-    return float(body.facet_areas[around][bears].sum() / body.facets.shape[1])
+    shares = body.facet_areas[around] / node_counts(body.facets[around])
+    return float(shares[bears].sum())
 
 
 def _by_law(found: Contacts) -> Iterator[tuple[Law, Mask]]:
