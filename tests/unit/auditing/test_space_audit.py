@@ -337,12 +337,3 @@ def test_cells_of_second_order_are_confirmed(tmp_path):
     refuted, checks = audited(carom.Scenario.from_dict(case), tmp_path)
     assert refuted == []
     assert checks["Coulomb: cone"].count > 0
-
-
-def test_friction_that_depends_on_the_direction_is_not_audited(results, tmp_path):
-    directory = tmp_path / "results"
-    shutil.copytree(results, directory)
-    law = '{ along = 0.1, across = 0.3, direction = [1, 0, 0], of = "floor" }'
-    in_case("friction = 0.2", f"friction = {law}")(directory)
-    with pytest.raises(carom.InputError, match="cannot audit friction that depends on the direc"):
-        carom.audit(directory)

@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.auditing.bodies.body import AuditBody
 from carom.auditing.contact.friction import Law
+from carom.auditing.contact.grain import Grain
 from carom.auditing.contact.interference import Interference
 from carom.case.contact import Pair
 from carom.case.full_stage import FullStage
@@ -39,6 +40,8 @@ class Side:
         Whether nodes of either body are without mass.
     interference
         By how much their surfaces are pushed apart.
+    grain
+        The direction that friction depends on; None where it is the same in all.
     """
 
     source: int
@@ -48,6 +51,7 @@ class Side:
     restitution: float | None = None
     massless: bool = False
     interference: Interference = field(default_factory=Interference)
+    grain: Grain | None = None
 
 
 class Pairs:
@@ -133,9 +137,11 @@ def build_sides(pairs: Pairs, bodies: Sequence[AuditBody], *, impacts: bool) -> 
         a, b = number[first], number[second]
         met = [bodies[index] for index in (a, b) if index >= 0]
         ruled = impacts and all(body.rigid for body in met)
+        law = pairs.law(first, second)
         make = partial(
             Side,
-            law=pairs.law(first, second),
+            law=law,
+            grain=_grain(law, met),
             restitution=pairs.restitution(first, second) if ruled else None,
             massless=any(len(body.massless) > 0 for body in met),
             interference=pairs.interference(first, second),
@@ -155,6 +161,14 @@ def build_sides(pairs: Pairs, bodies: Sequence[AuditBody], *, impacts: bool) -> 
             yield make(a, b, two_sided=both)
         if backward:
             yield make(b, a, two_sided=both)
+
+
+def _grain(law: Law, met: Sequence[AuditBody]) -> Grain | None:
+    """Return the direction that the friction of bodies depends on, or of one and an obstacle."""
+    if law.grain is None:
+        return None
+    carrier = next((body for body in met if body.name == law.grain.of), None)
+    return Grain(np.array(law.grain.direction), carrier)
 
 
 def _is_finer(body: AuditBody, other: AuditBody) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom.auditing.arrays import Array, Indices, einsum
+from carom.auditing.contact.friction import Law
 from carom.auditing.contact.pairs import Side
 from carom.auditing.model import AuditModel
+from carom.auditing.steps.ellipse import Ellipse
 
 BEARS = 0.5
 """Facets bear a contact at their node that face it at least this well, relative to the best."""
@@ -50,6 +52,9 @@ class Contacts:
         By how much surfaces are pushed apart at start and end of the step [m], shape [count, 2].
     gap_error, normal_error
         What was stored less that, shape [count].
+    grain
+        Unit vectors in the tangent plane that friction depends on, zero of what is alike in all
+        directions, shape [count, D].
     side
         The pairs they belong to; None where the case has no such pair.
     """
@@ -71,6 +76,7 @@ class Contacts:
     interference: Array
     gap_error: Array
     normal_error: Array
+    grain: Array
     side: tuple[Side | None, ...]
 
     @property
@@ -104,7 +110,7 @@ class Contacts:
         """Return the same contacts where they are if chosen, and else where `others` are."""
         geometry = (
             *("site", "gap", "normal", "sources", "shares", "followed", "weights", "facet"),
-            *("gap_error", "normal_error"),
+            *("gap_error", "normal_error", "grain"),
         )
         found: dict[str, Any] = {}
         for name in geometry:
@@ -113,14 +119,25 @@ class Contacts:
         return replace(self, **found)
 
     @property
-    def friction(self) -> Array:
-        """Coulomb's coefficients, shape [count]; NaN where friction is a law."""
-        return np.array([0.0 if side is None else side.law.fixed for side in self.side])
+    def friction(self) -> Ellipse:
+        """Their cones by coefficients; these are NaN where friction is a law."""
+        return self.cone(self._by_direction(lambda law: law.fixed))
 
     @property
     def most_friction(self) -> Array:
-        """The largest that μ can be, shape [count]."""
-        return np.array([0.0 if side is None else side.law.most for side in self.side])
+        """The largest that both μ can be, shape [count, 2]."""
+        return self._by_direction(lambda law: law.most)
+
+    def cone(self, coefficients: Array) -> Ellipse:
+        """Return their cones with these coefficients, shape [count, 2]."""
+        return Ellipse(self.grain, self.normal, coefficients)
+
+    def _by_direction(self, value: Callable[[Law], float]) -> Array:
+        out = np.zeros((len(self), 2))
+        for k, side in enumerate(self.side):
+            if side is not None:
+                out[k] = [value(law) for law in side.law.directions]
+        return out
 
     @property
     def normal_force(self) -> Array:

@@ -389,8 +389,18 @@ class _Finder:
             interference=self._interference,
             gap_error=self._gap - gap,
             normal_error=np.linalg.norm(self._normal - normal, axis=1),
+            grain=self._grain(),
             side=self._sides,
         )
+
+    def _grain(self) -> Array:
+        """Return the directions that friction depends on, shape [count, D]."""
+        grain = np.zeros((len(self._places), self._model.dimension))
+        for k, (side, place) in enumerate(zip(self._sides, self._places, strict=True)):
+            if side is not None and side.grain is not None:
+                stencil = (*place.sources, *place.followed)
+                grain[k] = side.grain.on(place.normal, stencil, self._position)
+        return grain
 
 
 def _padded(stencils: list[list[tuple[int, float]]]) -> tuple[Indices, Array]:

@@ -38,7 +38,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Coefficients:
-    """Between what μ of each contact is, each of shape [count].
+    """Between what both μ of each contact are, each of shape [count, 2].
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class Coefficients:
     @property
     def fixed(self) -> Mask:
         """Where μ is a number, [count]."""
-        fixed: Mask = (self.doubt == 0.0) & (self.least == self.most)
+        fixed: Mask = ((self.doubt == 0.0) & (self.least == self.most)).all(axis=1)
         return fixed
 
 
@@ -89,15 +89,16 @@ class Sliding:
         """Return the coefficients in a step, which follows the one before that was asked about."""
         self.known = self.known and float(step.start["time"]) == self._time
         found = step.touching.pressed
-        out = Coefficients(*(np.zeros(len(found)) for _ in range(4)))
+        out = Coefficients(*(np.zeros((len(found), 2)) for _ in range(4)))
         for law, mine in _by_law(found):
-            if law.constant:
-                for coefficient in (out.least, out.most, out.whole):
-                    coefficient[mine] = law.fixed
-                continue
-            parts = (out.least, out.most, out.whole, out.doubt)
-            for part, values in zip(parts, self._of_law(law, step, ruled, mine), strict=True):
-                part[mine] = values
+            for direction, own in enumerate(law.directions):
+                if own.constant:
+                    for coefficient in (out.least, out.most, out.whole):
+                        coefficient[mine, direction] = own.fixed
+                    continue
+                parts = (out.least, out.most, out.whole, out.doubt)
+                for part, values in zip(parts, self._of_law(own, step, ruled, mine), strict=True):
+                    part[mine, direction] = values
         self._follow(step, ruled)
         return out
 
