@@ -76,7 +76,9 @@ class FrameChecks:
             self._check("smallest gap", above, off, where)
         deepest = deepest_node(self._model, self._model.points + frame.displacement, frame.time)
         off = self._round_off_of_places()
-        self._check("penetration", max(deepest - row["penetration"], 0.0), off, where)
+        # Rows say how deep steps have let nodes in, and the first has none.
+        deeper = max(deepest - row["penetration"], 0.0) if frame.time > 0.0 else 0.0
+        self._check("penetration", deeper, off, where)
         pressed = float(np.abs(frame.reaction).sum())
         if frame.time > self._model.stage.start_time:
             # A run that goes on from another starts with reactions of no step of its own.

@@ -30,6 +30,11 @@ class NearestPlace:
     normal: Array
     stencil: list[tuple[int, float]]
 
+    @property
+    def nodes(self) -> Indices:
+        """Nodes of the facet or the edge that it is on."""
+        return np.array([node for node, _ in self.stencil])
+
 
 def nearest_places(
     shape: Shape, body: AuditBody, node: int, position: Array, known: Indices | None

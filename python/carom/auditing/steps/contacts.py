@@ -251,7 +251,7 @@ def smallest_gaps(model: AuditModel, position: Array, time: float) -> list[float
 
 
 def _smallest_of_overlapping(model: AuditModel, side: Side, position: Array, time: float) -> float:
-    """Return the same where nodes have clearances of their own."""
+    """Return the same where contacts have clearances of their own: less that of the deepest."""
     body = model.bodies[side.source]
     x = position[body.span][body.sources]
     if model.is_round(side.source, side.target):
@@ -261,8 +261,9 @@ def _smallest_of_overlapping(model: AuditModel, side: Side, position: Array, tim
     else:
         nodes = position[model.bodies[side.target].span]
         gaps = model.targets[side.target].signed_distance(x, nodes)
-    depths = model.drawn_depths(side.source, side.target)[body.sources]
-    return float((gaps - side.interference.as_state(time, depths)).min())
+    # What overlaps is taken up by no more than that of the deepest contact.
+    deepest = model.deepest(side.source, side.target)
+    return float(gaps.min() - side.interference.as_state(time, deepest))
 
 
 def _smallest_gap(model: AuditModel, side: Side, position: Array, time: float) -> float:

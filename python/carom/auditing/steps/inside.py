@@ -46,7 +46,7 @@ def _clearance(model: AuditModel, pair: tuple[str, str], time: float) -> float:
     if interference.left(time) > 0.0:
         between = [(side.source, side.target) for side in model.sides]
         sides = [key for key in between if {model.name(n) for n in key} == set(pair)]
-        most = max(float(model.drawn_depths(*key).max()) for key in sides)
+        most = max(model.deepest(*key) for key in sides)
     return max(-float(interference.at(time, most)), 0.0)
 
 
