@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from functools import cached_property, partial
 
 import numpy as np
@@ -23,7 +23,7 @@ from carom.auditing.targets.feet import Target
 from carom.auditing.targets.gregory import GregoryPatches
 from carom.auditing.targets.sheet import FlatPatches, Sheet
 from carom.case.analysis import Conserving, Static, Theta
-from carom.case.body import DescribedBody, ReducedBody, RigidBody
+from carom.case.body import Body, DescribedBody, ReducedBody, RigidBody
 from carom.case.cohesion import holds
 from carom.case.foreign_body import ForeignEntry
 from carom.case.full_stage import FullStage
@@ -48,6 +48,8 @@ class AuditModel:
         Nodes of each cell, by body.
     types
         VTK's types of the cells, by body.
+    touching_themselves
+        Names of the bodies that have touched themselves.
 
     Raises
     ------
@@ -62,12 +64,14 @@ class AuditModel:
         points: Array,
         cells: list[Indices],
         types: list[Indices],
+        *,
+        touching_themselves: Collection[str] = (),
     ) -> None:
         _refuse(scenario)
         self.scenario, self.stage = scenario, stage
         self.dimension = scenario.dimension
         """2 in the plane, 3 in space."""
-        self._pairs = Pairs(scenario, stage)
+        self._pairs = Pairs(scenario, stage, touching_themselves)
         self.analysis, self.contact = stage.analysis, stage.contact
         self.points = points
         condition = self.contact.condition
@@ -346,7 +350,8 @@ class AuditModel:
         places = [body.places(at) for at in attached if at.body == entry.name]
         nodes = [place.nodes for several in places for place in several]
         touched = np.isin(np.concatenate([[-1], *nodes]), body.surface)
-        return self._pairs.may_touch(entry.name) and not touched.any()
+        is_named = isinstance(entry, Body) and entry.self_contact is True
+        return (is_named or self._pairs.may_touch_others(entry.name)) and not touched.any()
 
     @property
     def impacts(self) -> bool:

@@ -186,15 +186,6 @@ def test_what_the_auditor_does_not_know_is_named(results, override, message):
     assert str(caught.value) == message
 
 
-def test_a_body_that_touched_itself_cannot_be_audited(results):
-    path = results / "summary.json"
-    summary = json.loads(path.read_text())
-    summary["pairs"].append({**summary["pairs"][0], "between": ["left", "left"]})
-    path.write_text(json.dumps(summary))
-    with pytest.raises(InputError, match="cannot audit a body in contact with itself yet"):
-        carom.audit(results)
-
-
 def test_a_report_is_a_file(results):
     with pytest.raises(InputError, match=r"^.*: is a directory; name a file in it$"):
         write_report(results, out=results)

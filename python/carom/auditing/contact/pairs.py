@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -12,6 +12,7 @@ from carom.auditing.bodies.body import AuditBody
 from carom.auditing.contact.friction import Law
 from carom.auditing.contact.grain import Grain
 from carom.auditing.contact.interference import Interference
+from carom.case.body import Body
 from carom.case.contact import Pair
 from carom.case.full_stage import FullStage
 from carom.case.scenario import Scenario
@@ -63,17 +64,27 @@ class Pairs:
         The case.
     stage
         The analysis of it whose law of contact holds.
+    touching_themselves
+        Names of the bodies that have touched themselves, of those that deform.
     """
 
-    def __init__(self, scenario: Scenario, stage: FullStage) -> None:
+    def __init__(
+        self, scenario: Scenario, stage: FullStage, touching_themselves: Collection[str] = ()
+    ) -> None:
         self._scenario, self._stage = scenario, stage
         self._contact = stage.contact
         names = [body.name for body in scenario.bodies]
         planes = [obstacle.name for obstacle in scenario.obstacles]
+        own = {
+            body.name
+            for body in scenario.bodies
+            if isinstance(body, Body) and body.self_contact is not False
+        }
+        own &= set(touching_themselves)
         self.names = [
             (first, second)
             for a, first in enumerate(names)
-            for second in (*names[a + 1 :], *planes)
+            for second in (*([first] if first in own else []), *names[a + 1 :], *planes)
             if self.enabled(first, second)
         ]
         """The names of all that may touch, two and two, in the order of the case."""
@@ -87,9 +98,9 @@ class Pairs:
         entry = self.of(a, b)
         return entry is None or entry.enabled
 
-    def may_touch(self, name: str) -> bool:
-        """Return whether there is anything that a body may touch."""
-        return any(name in pair for pair in self.names)
+    def may_touch_others(self, name: str) -> bool:
+        """Return whether there is anything else that a body may touch."""
+        return any(name in pair and set(pair) != {name} for pair in self.names)
 
     def obstacle(self, name: str) -> int:
         """Return the number of an obstacle."""
@@ -148,6 +159,10 @@ def build_sides(pairs: Pairs, bodies: Sequence[AuditBody], *, impacts: bool) -> 
         )
         if b < 0:
             yield make(a, b, two_sided=False)
+            continue
+        if a == b:
+            # Its nodes are checked against its facets: both sides at once.
+            yield make(a, a, two_sided=True)
             continue
         sources, swapped = pairs.sources(first, second)
         if sources == "finer":

@@ -156,8 +156,11 @@ class Files:
                 raise InputError(f"{self.path}: body {entry.name!r} has no cells")
             cells.append(nodes[mine, : int(np.diff(offsets)[mine].max())])
             kinds.append(types[mine].astype(np.int64))
+        # Every body may touch itself, and few do: these alone have books for it.
+        pairs = [pair["between"] for pair in self.summary["pairs"]]
+        own = {a for a, b in pairs if a == b}
         models = [
-            AuditModel(self.scenario, stage, points, cells, kinds)
+            AuditModel(self.scenario, stage, points, cells, kinds, touching_themselves=own)
             for stage in self.scenario.full_stages()
         ]
         for before, model in pairwise(models):

@@ -238,10 +238,14 @@ def all_forces(parts: Sequence[Contacts], node_count: int) -> Array:
 def smallest_gaps(model: AuditModel, position: Array, time: float) -> list[float]:
     """Return for every side the smallest gap of its nodes [m].
 
-    It is the signed distance from the target less the interference.
+    It is the signed distance from the target less the interference. What touches itself is on its
+    own boundary everywhere, and has none.
     """
     gaps = []
     for side in model.sides:
+        if side.source == side.target:
+            gaps.append(np.inf)
+            continue
         if side.interference.left(time) > 0.0:
             gaps.append(_smallest_of_overlapping(model, side, position, time))
             continue

@@ -269,6 +269,9 @@ class _Finder:
         feet = target.feet(self._position[self._node[at]], self._position[span])
         for k, contact in enumerate(at):
             mine = np.flatnonzero(feet.point == k)
+            if int(self._source[contact]) == number:
+                own = int(self._node[contact]) - span.start
+                mine = mine[~np.isin(feet.facet[mine], _around(target.facets, own))]
             if len(mine):
                 self._at_node(feet, mine, int(contact), number)
             if model.dimension == 3 and self._may_be(AT_EDGES, contact):
@@ -386,6 +389,10 @@ class _Finder:
             mine = self._like.sources[contact : contact + 1, :2]
             theirs = self._like.followed[contact : contact + 1, :2]
         found = crossings(self._position, mine, theirs, self._normal[contact])
+        if source == number:
+            # Edges with a node in common meet there.
+            ends = (found.source[:, :, None] == found.target[:, None]).any(axis=(1, 2))
+            found = replace(found, gap=np.where(ends, np.inf, found.gap))
         depths: list[float | None] = [None] * len(found.gap)
         misfit = self._misfit(contact, found.gap, found.normal)
         if self._resolves[contact]:
@@ -460,6 +467,13 @@ class _Finder:
                 stencil = (*place.sources, *place.followed)
                 grain[k] = side.grain.on(place.normal, stencil, self._position)
         return grain
+
+
+def _around(facets: Indices, node: int) -> Indices:
+    """Return the facets around a node and those that share a node with one of these."""
+    around = np.unique(facets[(facets == node).any(axis=1)])
+    near: Indices = np.flatnonzero(np.isin(facets, around).any(axis=1))
+    return near
 
 
 def _padded(stencils: list[list[tuple[int, float]]]) -> tuple[Indices, Array]:

@@ -25,7 +25,7 @@ def deepest_node(model: AuditModel, position: Array, time: float) -> float:
     deepest = 0.0
     for a, b in model.pairs():
         for mine, other in ((a, b), (b, a)):
-            if mine not in bodies:
+            if mine not in bodies or mine == other:
                 continue
             body, depth = bodies[mine], np.zeros(1)
             nodes = position[body.span][np.unique(body.outline)]
