@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from itertools import combinations, product
 from typing import Any
 
 import numpy as np
@@ -14,6 +13,7 @@ from carom.auditing.contact.crossings import crossings, drawn_depths, edges
 from carom.auditing.contact.obstacles import Cornered
 from carom.auditing.contact.rounding import nearest_places
 from carom.auditing.model import AuditModel
+from carom.auditing.steps.choosing import settle
 from carom.auditing.steps.contacts import AT_EDGES, BEFORE_ROUND, Contacts
 from carom.auditing.steps.cornered import ON_END, at_corners, at_edges, on_obstacle
 from carom.auditing.steps.place import Place, weighted
@@ -21,15 +21,6 @@ from carom.auditing.targets.feet import BEYOND, CORNER, Feet, Target
 
 SAME = 1e-7
 """Feet whose gap [model size] and normal differ by no more are equally good: at edges of facets."""
-
-BALANCED = 1e-9
-"""What is left of forces on nodes below this part of all reactions needs no other feet."""
-
-SWEEPS = 6
-"""As often contacts are placed again in turn, each as the others leave it."""
-
-MOST_AT_ONCE = 12
-"""Of no more contacts that are not yet placed well every two are placed together."""
 
 NOT_AT_NODE = 1e-5
 """Contacts whose node has no foot as near to what is stored as this are not at a node."""
@@ -122,7 +113,7 @@ class _Finder:
             elif t < 0 and -1 - t < len(self._model.obstacles):
                 self._before_obstacle(int(-1 - t), at)
         if self._like is None:
-            self._settle()
+            settle(self._state, self._places, self._alike, self._other_places)
         return self._gathered()
 
     def _is_round(self, contact: int) -> bool:
@@ -307,33 +298,6 @@ class _Finder:
         if len(alike) > 1:
             self._alike[contact] = alike
 
-    def _settle(self) -> None:
-        """Choose among places that are alike, as on flat sides, by the stored forces on nodes."""
-        left = self._state["contact_force"].copy()
-        for contact, place in enumerate(self._places):
-            self._press(contact, place, left, -1.0)
-        total = float(np.abs(self._state["contact_reaction"]).sum())
-        # Faces that lie on one another touch with edges where nodes would do as well.
-        for sweep in range(SWEEPS):
-            if not np.abs(left).max(initial=0.0) > BALANCED * total:
-                return
-            if sweep == 1:
-                for contact, place in enumerate(self._places):
-                    found = self._other_places(contact)
-                    self._alike.setdefault(contact, [place]).extend(found)
-            chosen = [contact for contact in self._alike if self._leaves(contact, left, total)]
-            for contact in chosen:
-                self._choose([contact], left)
-            if sweep > 1 and len(chosen) <= MOST_AT_ONCE:
-                # Two that lie on the same edge may have changed places.
-                for pair in combinations(chosen, 2):
-                    self._choose(list(pair), left)
-
-    def _leaves(self, contact: int, left: Array, total: float) -> bool:
-        """Return whether forces are left on nodes where a contact may be."""
-        nodes = {n for place in self._alike[contact] for n, _ in (*place.sources, *place.followed)}
-        return bool(np.abs(left[sorted(nodes)]).max() > BALANCED * total)
-
     def _other_places(self, contact: int) -> list[Place]:
         """Return where edges cross, or corners are, that fit a contact as well as its node does."""
         target = int(self._target[contact])
@@ -347,34 +311,6 @@ class _Finder:
         found = self._at_its_corners(number, contact)
         most = self._places[contact].misfit + SAME
         return [place for place in found if place.misfit <= most]
-
-    def _choose(self, contacts: list[int], left: Array) -> None:
-        """Choose the places of contacts together that leave least of the forces [N] on nodes."""
-        alike = [self._alike[contact] for contact in contacts]
-        for contact in contacts:
-            self._press(contact, self._places[contact], left, 1.0)
-        every = [place for places in alike for place in places]
-        nodes = sorted({n for place in every for n, _ in (*place.sources, *place.followed)})
-        choices = list(product(*alike))
-        errors = []
-        for places in choices:
-            for contact, place in zip(contacts, places, strict=True):
-                self._press(contact, place, left, -1.0)
-            errors.append(float((left[nodes] ** 2).sum()))
-            for contact, place in zip(contacts, places, strict=True):
-                self._press(contact, place, left, 1.0)
-        best = choices[int(np.argmin(errors))]
-        for contact, place in zip(contacts, best, strict=True):
-            self._places[contact] = place
-            self._press(contact, place, left, -1.0)
-
-    def _press(self, contact: int, place: Place, force: Array, sign: float) -> None:
-        """Add the reaction of a contact at a place to forces on nodes [N], or take it off."""
-        reaction = sign * self._state["contact_reaction"][contact]
-        for node, weight in place.sources:
-            force[node] += weight * reaction
-        for node, weight in place.followed:
-            force[node] -= weight * reaction
 
     def _at_edges(self, number: int, contact: int) -> list[Place]:
         """Return where edges around the node cross edges of the target, all that fit best."""
